@@ -5,7 +5,7 @@
 mod random;
 
 use lie_codegen::compile::{compile_spec, with_options};
-use lie_codegen::methods::{Choice, Lift, Retraction};
+use lie_codegen::methods::{Choice, Lift, Retraction, Tensor};
 use lie_codegen::plan::plan;
 use lie_dynamic::{Dynamic, Engine, Interpreted, method};
 use lie_jit::Jit;
@@ -22,21 +22,22 @@ const STEP: f64 = 0.05;
 /// The choice under a label.
 fn choice_of(label: &str) -> Choice {
     let id = label.split(" --").next().unwrap_or(label);
-    let Choice::Collective(order, _) = Choice::from_id(id).unwrap() else {
-        return match label.ends_with("--retraction cayley") {
-            true => Choice::LieMidpoint(Retraction::Cayley),
-            false => Choice::from_id(id).unwrap(),
-        };
-    };
-    let hopf = label.ends_with("--lift hopf");
-    Choice::Collective(
-        order,
-        if hopf {
-            Lift::Hopf
-        } else {
-            Lift::Representation
-        },
-    )
+    let choice = Choice::from_id(id).unwrap();
+    match (&choice, label.rsplit(' ').next()) {
+        (Choice::LieMidpoint(_), Some("cayley")) => Choice::LieMidpoint(Retraction::Cayley),
+        (Choice::DiscreteGradient(gradient, _), Some("mean")) => {
+            Choice::DiscreteGradient(*gradient, Tensor::Mean)
+        }
+        (Choice::Collective(order, _), Some("hopf")) => Choice::Collective(*order, Lift::Hopf),
+        (Choice::Collective(order, _), Some("quaternion")) => {
+            Choice::Collective(*order, Lift::Quaternion)
+        }
+        (Choice::Collective(order, _), Some("smallest")) => {
+            Choice::Collective(*order, Lift::Smallest)
+        }
+        (Choice::Collective(order, _), _) => Choice::Collective(*order, Lift::Representation),
+        _ => choice,
+    }
 }
 
 /// A spec as a system made at run time, by an engine.
@@ -210,6 +211,8 @@ macro_rules! each {
             "generating4" m::Generating4::exp(), "generating-second-kind2" m::GeneratingSecondKind2,
             "rk4" m::Rk4, "dopri5" m::Dopri5 { rtol: 1e-6, atol: 1e-9 },
             "compose4(lie-midpoint)" m::Compose4::new(m::LieMidpoint::exp()),
+            "taylor" m::Taylor::with_tolerance(1e-6), "lie-taylor" m::LieTaylor::with_tolerance(1e-6),
+            "cf4" m::CommutatorFree4, "compose8(midpoint)" m::Compose8::new(m::ImplicitMidpoint),
             $($id $method),*
         ]);)+
     };
@@ -221,7 +224,9 @@ fn rigid_bodies_and_spins() {
     each! { differences, algebra
         so3_free_rigid_body FreeRigidBody [
             "splitting2" m::Splitting2::new(), "spherical-midpoint" m::SphericalMidpoint,
-            "moser-veselov" m::MoserVeselov, "exact" m::Exact, "collective4" m::Collective4::representation(),
+            "moser-veselov" m::MoserVeselov, "exact" m::Exact, "isospectral2" m::Isospectral2::new(),
+            "isospectral12" m::Isospectral12::new(), "collective8 --lift hopf" m::Collective8::hopf(),
+            "gonzalez --tensor mean" m::WithTensor::new(m::Gonzalez, m::MeanTensor), "collective4" m::Collective4::representation(),
             "isospectral6" m::Isospectral6::new(), "collective6 --lift hopf" m::Collective6::hopf(),
             "lie-midpoint --retraction cayley" m::LieMidpoint::cayley(),
         ];
@@ -240,7 +245,8 @@ fn other_algebras() {
     each! { differences, algebra
         se3_heavy_top HeavyTop [
             "splitting2" m::Splitting2::new(), "lie-midpoint --retraction cayley" m::LieMidpoint::cayley(),
-            "isospectral4" m::Isospectral4::new(),
+            "isospectral4" m::Isospectral4::new(), "collective8 --lift quaternion" m::Collective8::quaternion(),
+            "collective10 --lift smallest" m::Collective10::smallest(),
         ];
         se3_kirchhoff KirchhoffBody ["splitting4" m::Splitting4::new()];
         e2_pendulum Pendulum ["splitting2" m::Splitting2::new()];
@@ -254,7 +260,8 @@ fn other_algebras() {
 fn large_algebras() {
     let mut differences = Differences::default();
     each! { differences, algebra
-        so4_manakov ManakovTop ["isospectral4" m::Isospectral4::new()];
+        so4_manakov ManakovTop ["isospectral4" m::Isospectral4::new(), "moser-veselov" m::MoserVeselov];
+        so3_cotangent_group CotangentBody ["euler-arnold2" m::EulerArnold2];
         su3_quadratic Su3Quadratic ["isospectral4" m::Isospectral4::new()];
     }
     assert!(differences.0.is_empty(), "{}", differences.0.join("\n"));

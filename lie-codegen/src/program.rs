@@ -95,8 +95,8 @@ pub fn program(model: &Model, choices: &[Choice], purpose: Purpose) -> String {
 
 /// The same system without fused equations, and the methods that are compared on it: those that are fused, once each.
 fn plain(model: &Model, choices: &[Choice]) -> Option<(TokenStream, TokenStream)> {
-    let fused: Vec<&Choice> = choices.iter().filter(|choice| is_fused(choice)).collect();
-    if fused.is_empty() || model.energy.expression().is_none() || model.family.is_some() {
+    let fused = compared(model, choices);
+    if fused.is_empty() {
         return None;
     }
     let system = generate(model, &[]);
@@ -120,6 +120,14 @@ fn plain(model: &Model, choices: &[Choice]) -> Option<(TokenStream, TokenStream)
     };
     let entries = quote! { #(#entries)* };
     Some((module, entries))
+}
+
+/// The methods whose steps are compared with those of their generic equations.
+pub fn compared<'a>(model: &Model, choices: &'a [Choice]) -> Vec<&'a Choice> {
+    if model.energy.expression().is_none() || model.family.is_some() {
+        return Vec::new();
+    }
+    choices.iter().filter(|choice| is_fused(choice)).collect()
 }
 
 /// Whether the steps of a method are compared: those with fused code of their own, one number of stages of each. Generic

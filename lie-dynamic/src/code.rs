@@ -1,9 +1,9 @@
 //! Programs of a plan as code over registers.
 
-use lie_codegen::derive::{Argument, Shape};
+use lie_codegen::derive::{Argument, Quantity, Shape};
 use lie_codegen::exact::Rational;
 use lie_codegen::plan::{Code as Program, Constant, Function as Kernel};
-use lie_codegen::schedule::{Operation, Value};
+use lie_codegen::schedule::{self, Operation, Value};
 use lie_codegen::symbolic::{Function, Symbol};
 use std::collections::HashMap;
 
@@ -126,13 +126,14 @@ fn number(value: &Rational) -> Number {
 const PI: Number = Number::Parts(std::f64::consts::PI, 1.2246467991473532e-16);
 
 /// What a program is lowered with.
-struct Lowering<'a> {
-    arguments: &'a [Argument],
+struct Lowering<'a, P> {
+    /// The source of a value that is not a temporary.
+    source_of: &'a dyn Fn(&Value<P>) -> Source,
     code: Code,
     known: HashMap<String, Register>,
 }
 
-impl Lowering<'_> {
+impl<P> Lowering<'_, P> {
     fn source(&mut self, source: Source) -> Register {
         let key = format!("{source:?}");
         if let Some(register) = self.known.get(&key) {
@@ -144,43 +145,86 @@ impl Lowering<'_> {
         register
     }
 
-    fn symbol(&self, symbol: Symbol) -> Source {
-        match symbol {
-            Symbol::Parameter(index) => Source::Parameter(index as u32),
-            Symbol::Step => Source::Step,
-            Symbol::Time => Source::Time,
-            Symbol::Coordinate(_) | Symbol::Input(_) => {
-                for (argument, known) in self.arguments.iter().enumerate() {
-                    let mut symbols = known.symbols.iter();
-                    if let Some(entry) = symbols.position(|known| *known == symbol) {
-                        return Source::Argument(argument as u8, entry as u32);
-                    }
+    /// The register of a value that is not a temporary.
+    fn leaf(&mut self, value: &Value<P>) -> Register {
+        self.source((self.source_of)(value))
+    }
+}
+
+/// The source of a constant.
+fn source_of_constant(constant: Constant) -> Source {
+    match constant {
+        Constant::Pi => Source::Number(PI),
+        Constant::Step => Source::Step,
+        Constant::System(position) => Source::System(position as u32),
+        Constant::OfStep(position) => Source::OfStep(position as u32),
+    }
+}
+
+/// The source of a symbol among these arguments.
+fn source_of_symbol(symbol: Symbol, arguments: &[Argument]) -> Source {
+    match symbol {
+        Symbol::Parameter(index) => Source::Parameter(index as u32),
+        Symbol::Step => Source::Step,
+        Symbol::Time => Source::Time,
+        Symbol::Coordinate(_) | Symbol::Input(_) => {
+            for (argument, known) in positions(arguments) {
+                let mut symbols = known.symbols.iter();
+                if let Some(entry) = symbols.position(|known| *known == symbol) {
+                    return Source::Argument(argument, entry as u32);
                 }
-                unreachable!("every symbol of a kernel is one of its arguments")
             }
+            unreachable!("every symbol of a kernel is one of its arguments")
         }
     }
+}
 
-    /// The source of a value that is not a temporary.
-    fn leaf(&mut self, value: &Value<Constant>) -> Register {
-        let source = match value {
-            Value::Symbol(symbol) => self.symbol(*symbol),
-            Value::Number(value) => Source::Number(number(value)),
-            Value::Prepared(Constant::Pi) => Source::Number(PI),
-            Value::Prepared(Constant::Step) => Source::Step,
-            Value::Prepared(Constant::System(position)) => Source::System(*position as u32),
-            Value::Prepared(Constant::OfStep(position)) => Source::OfStep(*position as u32),
-            Value::Temporary(_) => unreachable!("temporaries are no leaves"),
-        };
-        self.source(source)
+fn positions(arguments: &[Argument]) -> impl Iterator<Item = (u8, &Argument)> {
+    (0..).zip(arguments)
+}
+
+/// The source of a value of a kernel.
+fn source_of_value(value: &Value<Constant>, arguments: &[Argument]) -> Source {
+    match value {
+        Value::Symbol(symbol) => source_of_symbol(*symbol, arguments),
+        Value::Number(value) => Source::Number(number(value)),
+        Value::Prepared(constant) => source_of_constant(*constant),
+        Value::Temporary(_) => unreachable!("temporaries are no leaves"),
+    }
+}
+
+/// What the program for order k of a recurrence reads: the coefficients, the rests of sums, what was kept, k and 1/k are its
+/// arguments.
+fn source_of_quantity(value: &Value<Quantity<Constant>>) -> Source {
+    match value {
+        Value::Symbol(Symbol::Coordinate(index)) => Source::Argument(0, *index as u32),
+        Value::Symbol(symbol) => source_of_symbol(*symbol, &[]),
+        Value::Number(value) => Source::Number(number(value)),
+        Value::Prepared(Quantity::Constant(constant)) => source_of_constant(*constant),
+        Value::Prepared(Quantity::Rest(pair)) => Source::Argument(1, *pair as u32),
+        Value::Prepared(Quantity::Kept(place)) => Source::Argument(2, *place as u32),
+        Value::Prepared(Quantity::Order) => Source::Argument(3, 0),
+        Value::Prepared(Quantity::InverseOrder) => Source::Argument(3, 1),
+        Value::Temporary(_) => unreachable!("temporaries are no leaves"),
+    }
+}
+
+/// What the program for order 0 of a recurrence reads: the state is its argument.
+fn source_of_state(value: &Value<Constant>) -> Source {
+    match value {
+        Value::Symbol(Symbol::Coordinate(index)) => Source::Argument(0, *index as u32),
+        other => source_of_value(other, &[]),
     }
 }
 
 impl Code {
-    /// The code of a program over these arguments; its results are not stored yet.
-    fn lowered(program: &Program, arguments: &[Argument]) -> (Self, Vec<Register>) {
+    /// The code of a program; its results are not stored yet.
+    fn lowered<P: PartialEq>(
+        program: &schedule::Program<P>,
+        source_of: &dyn Fn(&Value<P>) -> Source,
+    ) -> (Self, Vec<Register>) {
         let mut lowering = Lowering {
-            arguments,
+            source_of,
             code: Self::default(),
             known: HashMap::new(),
         };
@@ -224,7 +268,7 @@ impl Code {
                 places.push(start + u32::from(k));
                 continue;
             }
-            let mut at = |value: &Value<Constant>| match value {
+            let mut at = |value: &Value<P>| match value {
                 Value::Temporary(index) => places[*index],
                 other => lowering.leaf(other),
             };
@@ -264,7 +308,9 @@ impl Code {
 
     /// The code of a kernel; vectors have so many entries, matrices the square of it.
     pub fn of_kernel(kernel: &Kernel, size: usize) -> Self {
-        let (mut code, outputs) = Self::lowered(&kernel.program, &kernel.arguments);
+        let (mut code, outputs) = Self::lowered(&kernel.program, &|value| {
+            source_of_value(value, &kernel.arguments)
+        });
         let all = [size, size * size].map(|count| count as u32);
         let (vector, matrix): (Vec<u32>, Vec<u32>) = match &kernel.shape {
             Shape::Scalar => (vec![0], Vec::new()),
@@ -293,7 +339,26 @@ impl Code {
 
     /// The code of a program without arguments whose results follow one another.
     pub fn of_program(program: &Program) -> Self {
-        let (mut code, outputs) = Self::lowered(program, &[]);
+        Self::in_order(program, &|value| source_of_value(value, &[]))
+    }
+
+    /// The code for order 0 of a recurrence, whose argument is the state.
+    pub fn of_beginning(program: &Program) -> Self {
+        Self::in_order(program, &source_of_state)
+    }
+
+    /// The code for order k of a recurrence, whose arguments are the coefficients, the rests of sums, what was kept, and k
+    /// with 1/k.
+    pub fn of_advance(program: &schedule::Program<Quantity<Constant>>) -> Self {
+        Self::in_order(program, &source_of_quantity)
+    }
+
+    /// The code of a program whose results follow one another.
+    fn in_order<P: PartialEq>(
+        program: &schedule::Program<P>,
+        source_of: &dyn Fn(&Value<P>) -> Source,
+    ) -> Self {
+        let (mut code, outputs) = Self::lowered(program, source_of);
         let outputs = (0..).zip(outputs);
         code.stores = outputs
             .map(|(entry, register)| Store {
@@ -365,9 +430,9 @@ fn partial(written: &[u32], all: u32) -> Option<u32> {
 }
 
 /// The functions of closed forms with one argument, and one more than the largest index among them.
-type Families<'a> = Vec<(bool, &'a Value<Constant>, u8)>;
+type Families<'a, P> = Vec<(bool, &'a Value<P>, u8)>;
 
-fn of_closed_form(operation: &Operation<Constant>) -> Option<(bool, u8, &Value<Constant>)> {
+fn of_closed_form<P>(operation: &Operation<P>) -> Option<(bool, u8, &Value<P>)> {
     match operation {
         Operation::Call(Function::Stumpff(k), arguments) => Some((true, *k, &arguments[0])),
         Operation::Call(Function::Phi(k), arguments) => Some((false, *k, &arguments[0])),
@@ -375,8 +440,8 @@ fn of_closed_form(operation: &Operation<Constant>) -> Option<(bool, u8, &Value<C
     }
 }
 
-fn families(program: &Program) -> Families<'_> {
-    let mut families: Families<'_> = Vec::new();
+fn families<P: PartialEq>(program: &schedule::Program<P>) -> Families<'_, P> {
+    let mut families: Families<'_, P> = Vec::new();
     for (stumpff, k, argument) in program.operations.iter().filter_map(of_closed_form) {
         let mut known = families.iter_mut();
         match known.find(|family| (family.0, family.1) == (stumpff, argument)) {
@@ -388,10 +453,10 @@ fn families(program: &Program) -> Families<'_> {
 }
 
 /// The position of the family of an operation, the size of the family, the index in it, the argument.
-fn member<'a>(
-    operation: &'a Operation<Constant>,
-    families: &Families<'_>,
-) -> Option<(usize, u8, u8, &'a Value<Constant>)> {
+fn member<'a, P: PartialEq>(
+    operation: &'a Operation<P>,
+    families: &Families<'_, P>,
+) -> Option<(usize, u8, u8, &'a Value<P>)> {
     let (stumpff, k, argument) = of_closed_form(operation)?;
     let mut known = families.iter();
     let position = known.position(|family| (family.0, family.1) == (stumpff, argument))?;

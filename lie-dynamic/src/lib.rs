@@ -42,6 +42,7 @@ mod kernels;
 mod matrix;
 mod methods;
 mod names;
+mod series;
 mod structure;
 mod system;
 
@@ -49,5 +50,5 @@ pub use code::{Code, Instruction, Number, Register, Source, Store};
 pub use interpreter::{Interpreted, Interpreter, phi, stumpff};
 pub use kernels::{Engine, Frame, Machine, Targets};
 pub use matrix::Matrix;
-pub use methods::{Method, Tolerances, method};
+pub use methods::{Method, Tolerances, at_defaults, method};
 pub use system::{Declared, Dynamic};

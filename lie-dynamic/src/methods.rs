@@ -8,6 +8,7 @@ use crate::matrix::Matrix;
 use crate::system::Dynamic;
 use lie_codegen::methods::{Choice, Gradient, Lift, Pieces, Retraction, Scheme, Tensor};
 use lie_codegen::plan::{Partner, Solver};
+use lie_codegen::structure::lifts::Smallest;
 use lie_core::generic;
 use lie_runtime::diagnostics::{AnyMethod, AnyStepper, Claims, Forgotten, ForgottenStepper};
 use lie_runtime::methods::{self as m, Facts, Preserves};
@@ -86,13 +87,14 @@ macro_rules! cohen_hairer {
 }
 cohen_hairer!(2 3);
 
+/// With one stage it is the method of the mean value gradient.
 impl<S: Scalar> Implicit<S, m::CohenHairer<1>> for Dynamic<S> {
     type Equation<'a>
-        = Planned<'a, S, generic::CohenHairerStep<'a, S, Self, 1>>
+        = <Self as Implicit<S, m::MeanValue>>::Equation<'a>
     where
         Self: 'a;
     fn equation<'a>(&'a self, _method: &m::CohenHairer<1>, h: S) -> Self::Equation<'a> {
-        let equation = generic::CohenHairerStep::new(self, h);
+        let equation = generic::DiscreteGradientStep::new(self, h);
         Planned::new(self, &Choice::CohenHairer(2), h, equation)
     }
 }
@@ -192,16 +194,19 @@ orbit_energy!(Gonzalez MeanValue ItohAbe);
 
 impl<S: Scalar> Implicit<S, m::MoserVeselov> for Dynamic<S> {
     type Equation<'a>
-        = Planned<'a, S, generic::DiscreteTop<'a, S, Self>>
+        = Planned<
+        'a,
+        S,
+        Either<generic::DiscreteTop<'a, S, Self>, generic::DiscreteBody<'a, S, Self>>,
+    >
     where
         Self: 'a;
     fn equation<'a>(&'a self, _method: &m::MoserVeselov, h: S) -> Self::Equation<'a> {
-        Planned::new(
-            self,
-            &Choice::MoserVeselov,
-            h,
-            generic::DiscreteTop::new(self, h),
-        )
+        let equation = match self.compiled.structure.is_body_of_many() {
+            false => Either::First(generic::DiscreteTop::new(self, h)),
+            true => Either::Second(generic::DiscreteBody::new(self, h)),
+        };
+        Planned::new(self, &Choice::MoserVeselov, h, equation)
     }
 }
 
@@ -228,12 +233,12 @@ impl<S: Scalar> Implicit<S, m::GeneratingSecondKind2> for Dynamic<S> {
 }
 
 /// A method whose type is forgotten.
-pub type Method = Box<dyn AnyMethod<f64, Dynamic<f64>>>;
+pub type Method<S = f64> = Box<dyn AnyMethod<S, Dynamic<S>>>;
 
 /// A symmetric method of order 2 as the base of compositions.
-struct Base(Method);
+struct Base<S: Scalar>(Method<S>);
 
-impl Facts for Base {
+impl<S: Scalar> Facts for Base<S> {
     const ID: &'static str = "";
     const ORDER: u32 = 2;
     const SYMMETRIC: bool = true;
@@ -241,43 +246,41 @@ impl Facts for Base {
     const PRESERVES: Preserves = Preserves::NOTHING;
 }
 
-impl lie_runtime::methods::Method<f64, Dynamic<f64>> for Base {
-    type Stepper<'a> = ForgottenStepper<'a, Vec<f64>>;
+impl<S: Scalar> m::Method<S, Dynamic<S>> for Base<S> {
+    type Stepper<'a> = ForgottenStepper<'a, Vec<S>, S>;
 
     fn stepper<'a>(
         &self,
-        system: &'a Dynamic<f64>,
-        h: f64,
+        system: &'a Dynamic<S>,
+        h: S,
         newton: &NewtonOptions,
     ) -> Self::Stepper<'a> {
         Forgotten(self.0.as_ref()).stepper(system, h, newton)
     }
 }
 
-/// A composition, which claims what its base does but for the order.
-struct Composed {
-    composition: Method,
+/// A method that claims what another does: a composition of its base, or one of several by the system.
+struct Claiming<S: Scalar> {
     claims: Claims,
+    choose: Box<dyn Fn(&Dynamic<S>) -> Method<S>>,
 }
 
-impl AnyMethod<f64, Dynamic<f64>> for Composed {
+impl<S: Scalar> AnyMethod<S, Dynamic<S>> for Claiming<S> {
     fn claims(&self) -> Claims {
         self.claims
     }
 
     fn any_stepper<'a>(
         &self,
-        system: &'a Dynamic<f64>,
-        h: f64,
+        system: &'a Dynamic<S>,
+        h: S,
         newton: &NewtonOptions,
-    ) -> Box<dyn AnyStepper<f64, Vec<f64>> + 'a> {
-        self.composition.any_stepper(system, h, newton)
+    ) -> Box<dyn AnyStepper<S, Vec<S>> + 'a> {
+        (self.choose)(system).any_stepper(system, h, newton)
     }
 }
 
-fn boxed<M: lie_runtime::methods::Method<f64, Dynamic<f64>> + 'static>(
-    method: M,
-) -> Option<Method> {
+fn boxed<S: Scalar, M: m::Method<S, Dynamic<S>> + 'static>(method: M) -> Option<Method<S>> {
     Some(Box::new(method))
 }
 
@@ -298,9 +301,18 @@ fn scheme_of(scheme: Scheme) -> m::Scheme {
     }
 }
 
+/// The method of a choice with its own defaults: series at the tolerance at which they are exact on every grid.
+pub fn at_defaults<S: Scalar>(choice: &Choice) -> Option<Method<S>> {
+    match choice {
+        Choice::Taylor => boxed(m::Taylor::default()),
+        Choice::LieTaylor => boxed(m::LieTaylor::default()),
+        other => method(other, Tolerances::default()),
+    }
+}
+
 /// The method of a choice; none where it needs what systems made at run time do not have yet. Whether it applies to a system is
 /// for the catalogue to say.
-pub fn method(choice: &Choice, tolerances: Tolerances) -> Option<Method> {
+pub fn method<S: Scalar>(choice: &Choice, tolerances: Tolerances) -> Option<Method<S>> {
     match choice {
         Choice::Midpoint => boxed(m::ImplicitMidpoint),
         Choice::Gauss(stages) => gauss(*stages),
@@ -322,8 +334,7 @@ pub fn method(choice: &Choice, tolerances: Tolerances) -> Option<Method> {
         Choice::Generating(4, Retraction::Cayley) => boxed(m::Generating4::cayley()),
         Choice::GeneratingSecondKind2 => boxed(m::GeneratingSecondKind2),
         Choice::Collective(order, lift) => collective(*order, *lift),
-        Choice::Isospectral(4) => boxed(m::Isospectral4::new()),
-        Choice::Isospectral(6) => boxed(m::Isospectral6::new()),
+        Choice::Isospectral(order) => isospectral(*order),
         Choice::SphericalMidpoint => boxed(m::SphericalMidpoint),
         Choice::Splitting(order, scheme, pieces) => splitting(*order, *scheme, *pieces),
         Choice::DiscreteGradient(gradient, Tensor::Midpoint) => match gradient {
@@ -337,6 +348,14 @@ pub fn method(choice: &Choice, tolerances: Tolerances) -> Option<Method> {
             Gradient::ItohAbe => boxed(m::OrbitEnergy::itoh_abe()),
         },
         Choice::CohenHairer(order) => cohen_hairer(*order),
+        Choice::DiscreteGradient(gradient, Tensor::Mean) => match gradient {
+            Gradient::Gonzalez => boxed(m::WithTensor::new(m::Gonzalez, m::MeanTensor)),
+            Gradient::MeanValue => boxed(m::WithTensor::new(m::MeanValue, m::MeanTensor)),
+            Gradient::ItohAbe => boxed(m::WithTensor::new(m::ItohAbe, m::MeanTensor)),
+        },
+        Choice::EulerArnold2 => boxed(m::EulerArnold2),
+        Choice::Taylor => boxed(m::Taylor::with_tolerance(tolerances.rtol)),
+        Choice::LieTaylor => boxed(m::LieTaylor::with_tolerance(tolerances.rtol)),
         Choice::Exact => boxed(m::Exact),
         Choice::Rk4 => boxed(m::Rk4),
         Choice::Dopri5 => boxed(m::Dopri5 {
@@ -347,7 +366,7 @@ pub fn method(choice: &Choice, tolerances: Tolerances) -> Option<Method> {
     }
 }
 
-fn gauss(stages: usize) -> Option<Method> {
+fn gauss<S: Scalar>(stages: usize) -> Option<Method<S>> {
     match stages {
         2 => boxed(m::Gauss4),
         3 => boxed(m::Gauss6),
@@ -360,7 +379,7 @@ fn gauss(stages: usize) -> Option<Method> {
     }
 }
 
-fn cohen_hairer(order: u32) -> Option<Method> {
+fn cohen_hairer<S: Scalar>(order: u32) -> Option<Method<S>> {
     match order {
         2 => boxed(m::CohenHairer2::new()),
         4 => boxed(m::CohenHairer4::new()),
@@ -374,37 +393,107 @@ fn cohen_hairer(order: u32) -> Option<Method> {
     }
 }
 
-fn collective(order: u32, lift: Lift) -> Option<Method> {
+fn collective<S: Scalar>(order: u32, lift: Lift) -> Option<Method<S>> {
+    macro_rules! by_order {
+        ($($order:literal $name:ident)+) => {
+            match (order, lift) {
+                $(
+                    ($order, Lift::Hopf) => boxed(m::$name::hopf()),
+                    ($order, Lift::Quaternion) => boxed(m::$name::quaternion()),
+                    ($order, Lift::Representation) => boxed(m::$name::representation()),
+                )+
+                (2, Lift::Hopf) => boxed(m::Collective2::hopf()),
+                (4, Lift::Hopf) => boxed(m::Collective4::hopf()),
+                (6, Lift::Hopf) => boxed(m::Collective6::hopf()),
+                (4, Lift::Representation) => boxed(m::Collective4::representation()),
+                (6, Lift::Representation) => boxed(m::Collective6::representation()),
+                _ => None,
+            }
+        };
+    }
     match (order, lift) {
-        (2, Lift::Hopf) => boxed(m::Collective2::hopf()),
-        (4, Lift::Hopf) => boxed(m::Collective4::hopf()),
-        (6, Lift::Hopf) => boxed(m::Collective6::hopf()),
-        (4, Lift::Representation) => boxed(m::Collective4::representation()),
-        (6, Lift::Representation) => boxed(m::Collective6::representation()),
+        (2, Lift::Representation) => {
+            isospectral2(Claims::of::<m::Collective2<m::Representation>>())
+        }
+        (8.., Lift::Smallest) => smallest(order),
+        _ => {
+            by_order!(8 Collective8 10 Collective10 12 Collective12 14 Collective14 16 Collective16)
+        }
+    }
+}
+
+/// Over the smallest space that the system has.
+fn smallest<S: Scalar>(order: u32) -> Option<Method<S>> {
+    let claims = collective::<S>(order, Lift::Hopf)?.claims();
+    let choose = move |system: &Dynamic<S>| {
+        let lift = match system.plan().structure.smallest {
+            Some(Smallest::Hopf) => Lift::Hopf,
+            Some(Smallest::Quaternion) => Lift::Quaternion,
+            Some(Smallest::Representation) | None => Lift::Representation,
+        };
+        collective(order, lift).unwrap_or_else(|| unreachable!("there is a method of this order"))
+    };
+    Some(Box::new(Claiming {
+        claims,
+        choose: Box::new(choose),
+    }))
+}
+
+/// With one stage over a closed representation it is the retraction method with the Cayley map.
+fn isospectral2<S: Scalar>(claims: Claims) -> Option<Method<S>> {
+    let choose = |system: &Dynamic<S>| -> Method<S> {
+        match system.plan().system.triple {
+            Some(_) => Box::new(m::LieMidpoint::cayley()),
+            None => Box::new(m::Isospectral2::new()),
+        }
+    };
+    Some(Box::new(Claiming {
+        claims,
+        choose: Box::new(choose),
+    }))
+}
+
+fn isospectral<S: Scalar>(order: u32) -> Option<Method<S>> {
+    match order {
+        2 => isospectral2(Claims::of::<m::Isospectral2>()),
+        4 => boxed(m::Isospectral4::new()),
+        6 => boxed(m::Isospectral6::new()),
+        8 => boxed(m::Isospectral8::new()),
+        10 => boxed(m::Isospectral10::new()),
+        12 => boxed(m::Isospectral12::new()),
+        14 => boxed(m::Isospectral14::new()),
+        16 => boxed(m::Isospectral16::new()),
         _ => None,
     }
 }
 
-fn compose(order: u32, scheme: Scheme, base: &Choice, tolerances: Tolerances) -> Option<Method> {
-    let base = method(base, tolerances)?;
+fn compose<S: Scalar>(
+    order: u32,
+    scheme: Scheme,
+    base: &Choice,
+    tolerances: Tolerances,
+) -> Option<Method<S>> {
     let claims = Claims {
         order,
-        ..base.claims()
+        ..method::<S>(base, tolerances)?.claims()
     };
-    let (base, scheme) = (Base(base), scheme_of(scheme));
-    let composition = match order {
-        4 => boxed(m::Compose4::new(base).scheme(scheme)),
-        6 => boxed(m::Compose6::new(base).scheme(scheme)),
-        8 => boxed(m::Compose8::new(base).scheme(scheme)),
-        _ => None,
-    }?;
-    Some(Box::new(Composed {
-        composition,
+    let (base, scheme) = (base.clone(), scheme_of(scheme));
+    let choose = move |_: &Dynamic<S>| -> Method<S> {
+        let base = method(&base, tolerances);
+        let base = Base(base.unwrap_or_else(|| unreachable!("the base was there before")));
+        match order {
+            4 => Box::new(m::Compose4::new(base).scheme(scheme)),
+            6 => Box::new(m::Compose6::new(base).scheme(scheme)),
+            _ => Box::new(m::Compose8::new(base).scheme(scheme)),
+        }
+    };
+    Some(Box::new(Claiming {
         claims,
+        choose: Box::new(choose),
     }))
 }
 
-fn splitting(order: u32, scheme: Scheme, pieces: Pieces) -> Option<Method> {
+fn splitting<S: Scalar>(order: u32, scheme: Scheme, pieces: Pieces) -> Option<Method<S>> {
     macro_rules! of {
         ($splitting:expr) => {{
             let splitting = $splitting;

@@ -5,10 +5,14 @@ use crate::matrix::Matrix;
 use crate::names;
 use crate::system::{Dynamic, Making};
 use lie_codegen::exact::Rational;
-use lie_codegen::plan::{self, Plan};
+use lie_codegen::plan::{self, Function, Plan};
 use lie_codegen::structure::integrable::Motion;
-use lie_core::structure::{Entry, Representation};
-use lie_runtime::{IntegrablePoisson, MatrixPoisson, Scalar, Spectrum, SpinPoisson};
+use lie_core::generic::{flow_over_columns, flow_over_quaternions, flow_over_spins};
+use lie_core::structure::{Columns, Entry, Group, Plane, Representation};
+use lie_runtime::{
+    ColumnPoisson, CotangentPoisson, InertiaPoisson, IntegrablePoisson, MatrixGroup, MatrixPoisson,
+    Scalar, Spectrum, SpinPoisson, VectorPoisson,
+};
 
 /// Tables, and codes of constants.
 #[derive(Debug)]
@@ -22,6 +26,18 @@ pub struct Codes {
     bounds: Option<Vec<f64>>,
     imaginary: bool,
     motion: Option<Motion>,
+    indices: Vec<u16>,
+    covectors: &'static [&'static [Entry]],
+    rotation: [usize; 3],
+    vectors: Vec<[Entry; 3]>,
+    scale: Option<usize>,
+    planes: Vec<Plane>,
+    moments: Vec<usize>,
+    momenta: usize,
+    group: Option<Group<'static>>,
+    spinor_flow: Option<usize>,
+    column_flow: Option<usize>,
+    quaternion_flow: Option<usize>,
 }
 
 /// The nonzero entries of a matrix.
@@ -33,15 +49,31 @@ fn entries(matrix: &[Vec<Rational>]) -> Vec<Entry> {
             .enumerate()
             .filter(|(_, value)| !value.is_zero())
         {
-            let high = value.to_f64();
-            let low = Rational::from_f64(high).map_or(0.0, |high| (value - &high).to_f64());
-            list.push(Entry::parts(row as u16, column as u16, high, low));
+            list.push(entry(row, column, value));
         }
     }
     list
 }
 
+/// The components of a vector.
+fn components(components: &[(usize, Rational); 3]) -> [Entry; 3] {
+    components
+        .each_ref()
+        .map(|(k, factor)| entry(*k, 0, factor))
+}
+
+fn entry(row: usize, column: usize, value: &Rational) -> Entry {
+    let high = value.to_f64();
+    let low = Rational::from_f64(high).map_or(0.0, |high| (value - &high).to_f64());
+    Entry::parts(row as u16, column as u16, high, low)
+}
+
 impl Codes {
+    /// Whether the rigid body has four dimensions or more.
+    pub fn is_body_of_many(&self) -> bool {
+        !self.planes.is_empty()
+    }
+
     pub(crate) fn new(plan: &Plan, making: &mut Making) -> Self {
         let structure = &plan.structure;
         let spins = structure.spins.as_ref();
@@ -54,6 +86,20 @@ impl Codes {
             names::matrices(&all)
         };
         let spectrum = representation.map(|representation| &representation.spectrum);
+        let columns = representation.and_then(|known| known.columns.as_ref());
+        let vectors = structure.vectors.as_ref();
+        let inertia = structure.inertia.as_ref();
+        let points = |count: usize, function: Option<&Function>, making: &mut Making| {
+            function.map(|function| making.push(Code::of_kernel(function, count)))
+        };
+        let size = representation.map_or(0, |known| known.size);
+        let of_columns = 2 * size * columns.map_or(0, |known| known.indices.len());
+        let flow = spins.and_then(|spins| spins.flow.as_ref());
+        let spinor_flow = points(4 * scales.len(), flow, making);
+        let flow = representation.and_then(|known| known.flow.as_ref());
+        let column_flow = points(of_columns, flow, making);
+        let flow = vectors.and_then(|vectors| vectors.flow.as_ref());
+        let quaternion_flow = points(8, flow, making);
         Self {
             spins: spins
                 .map(|spins| spins.coordinates.clone())
@@ -74,6 +120,44 @@ impl Codes {
             },
             imaginary: matches!(spectrum, Some(plan::Spectrum::Imaginary)),
             motion: structure.motion,
+            indices: columns
+                .map(|known| known.indices.iter().map(|k| *k as u16).collect())
+                .unwrap_or_default(),
+            covectors: columns.map_or(&[], |known| tables(&known.covectors)),
+            rotation: vectors.map_or([0; 3], |vectors| vectors.rotation),
+            vectors: vectors
+                .map(|vectors| vectors.vectors.iter().map(components).collect())
+                .unwrap_or_default(),
+            scale: vectors.map(|vectors| making.push(Code::of_program(&vectors.scale))),
+            planes: inertia
+                .map(|inertia| {
+                    inertia
+                        .planes
+                        .iter()
+                        .map(|(from, to)| Plane::new(*from as u16, *to as u16))
+                        .collect()
+                })
+                .unwrap_or_default(),
+            moments: inertia
+                .map(|inertia| {
+                    inertia
+                        .moments
+                        .iter()
+                        .map(|moment| making.push(Code::of_program(moment)))
+                        .collect()
+                })
+                .unwrap_or_default(),
+            momenta: structure.momenta.unwrap_or(0),
+            group: structure.group.as_ref().map(|group| Group {
+                size: group.size,
+                matrices: tables(&group.matrices),
+                closed: group.closed,
+                orthogonal: group.orthogonal,
+                right: group.right,
+            }),
+            spinor_flow,
+            column_flow,
+            quaternion_flow,
         }
     }
 
@@ -98,6 +182,12 @@ impl<S: Scalar> SpinPoisson<S> for Dynamic<S> {
     }
     fn zero_spinors(&self) -> Vec<S> {
         vec![S::zero(); 4 * self.compiled.structure.spins.len()]
+    }
+    fn spinor_flow(&self, point: &Vec<S>, out: &mut Vec<S>) {
+        match self.compiled.structure.spinor_flow {
+            Some(code) => self.call(code, [point, &[]], out, &mut []),
+            None => flow_over_spins(self, point, out),
+        }
     }
 }
 
@@ -135,8 +225,108 @@ impl<S: Scalar> IntegrablePoisson<S> for Dynamic<S> {
     }
     fn body_scale(&self, body: usize) -> S {
         match self.compiled.structure.motion {
-            Some(Motion::Bodies) => self.scale(body),
+            Some(Motion::Bodies) => SpinPoisson::scale(self, body),
             _ => S::one(),
         }
+    }
+}
+
+impl<S: Scalar> ColumnPoisson<S> for Dynamic<S> {
+    type Columns = Vec<S>;
+
+    fn zero_columns(&self) -> Vec<S> {
+        let structure = &self.compiled.structure;
+        vec![S::zero(); 2 * structure.size * structure.indices.len()]
+    }
+    fn representation_size(&self) -> usize {
+        self.compiled.structure.size
+    }
+    fn columns(&self) -> Columns<'_> {
+        Columns {
+            indices: &self.compiled.structure.indices,
+            covectors: self.compiled.structure.covectors,
+        }
+    }
+    fn column_flow(&self, point: &Vec<S>, out: &mut Vec<S>) {
+        match self.compiled.structure.column_flow {
+            Some(code) => self.call(code, [point, &[]], out, &mut []),
+            None => flow_over_columns(self, point, out),
+        }
+    }
+}
+
+impl<S: Scalar> VectorPoisson<S> for Dynamic<S> {
+    type Labels = Vec<S>;
+    type Quaternions = Vec<S>;
+
+    fn rotation(&self) -> [usize; 3] {
+        self.compiled.structure.rotation
+    }
+    fn vectors(&self) -> &[[Entry; 3]] {
+        &self.compiled.structure.vectors
+    }
+    fn scale(&self) -> S {
+        self.compiled
+            .structure
+            .scale
+            .map_or_else(S::one, |scale| self.value(scale))
+    }
+    fn zero_labels(&self) -> Vec<S> {
+        let labels = match self.compiled.structure.vectors.len() {
+            1 => 1,
+            count => 3 * count,
+        };
+        vec![S::zero(); labels]
+    }
+    fn zero_quaternions(&self) -> Vec<S> {
+        vec![S::zero(); 8]
+    }
+    fn quaternion_flow(&self, labels: &Vec<S>, point: &Vec<S>, out: &mut Vec<S>) {
+        match self.compiled.structure.quaternion_flow {
+            Some(code) => self.call(code, [labels, point], out, &mut []),
+            None => flow_over_quaternions(self, labels, point, out),
+        }
+    }
+}
+
+impl<S: Scalar> InertiaPoisson<S> for Dynamic<S> {
+    type Matrix = Matrix<S>;
+
+    fn planes(&self) -> &[Plane] {
+        &self.compiled.structure.planes
+    }
+    fn zero_matrix(&self) -> Matrix<S> {
+        Matrix::zero(self.compiled.structure.moments.len())
+    }
+    fn moment(&self, axis: usize) -> S {
+        self.value(self.compiled.structure.moments[axis])
+    }
+}
+
+impl<S: Scalar> CotangentPoisson<S> for Dynamic<S> {
+    type Momentum = Vec<S>;
+    type MomentumMatrix = Matrix<S>;
+
+    fn momenta(&self) -> usize {
+        self.compiled.structure.momenta
+    }
+    fn zero_momentum(&self) -> Vec<S> {
+        vec![S::zero(); self.compiled.structure.momenta]
+    }
+    fn zero_momentum_matrix(&self) -> Matrix<S> {
+        Matrix::zero(self.compiled.structure.momenta)
+    }
+}
+
+impl<S: Scalar> MatrixGroup<S> for Dynamic<S> {
+    fn group(&self) -> Group<'_> {
+        const NONE: Group<'static> = Group {
+            size: 0,
+            matrices: &[],
+            closed: false,
+            orthogonal: false,
+            right: false,
+        };
+        self.compiled.structure.group.unwrap_or(NONE)
     }
 }

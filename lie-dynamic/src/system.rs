@@ -91,6 +91,8 @@ pub(crate) struct Compiled {
     pub eliminations: HashMap<String, Table>,
     /// The equation of each method.
     pub solvers: HashMap<Choice, Solver>,
+    pub taylor: Option<crate::series::Codes>,
+    pub lie_taylor: Option<crate::series::Codes>,
     pub flows: crate::flows::Codes,
     pub structure: crate::structure::Codes,
     casimir_degrees: Vec<Option<u32>>,
@@ -196,6 +198,7 @@ impl Compiled {
         let (mut fused, mut generating) = (HashMap::new(), HashMap::new());
         let (mut eliminations, mut solvers) = (HashMap::new(), HashMap::new());
         let mut gradients = HashMap::new();
+        let (mut taylor, mut lie_taylor) = (None, None);
         for (place, item) in plan.items.iter().enumerate() {
             match item {
                 Item::Fused(equation) => {
@@ -221,7 +224,14 @@ impl Compiled {
                         .collect();
                     gradients.insert(gradient.gradient, (codes, functions));
                 }
-                Item::Collective(_) | Item::Recurrence(_) | Item::Method(Method::Own(_), _) => {}
+                Item::Recurrence(recurrence) => {
+                    let codes = crate::series::Codes::new(recurrence, &mut making);
+                    match recurrence.gradient {
+                        None => taylor = Some(codes),
+                        Some(_) => lie_taylor = Some(codes),
+                    }
+                }
+                Item::Collective(_) | Item::Method(Method::Own(_), _) => {}
             }
         }
         let flows = crate::flows::Codes::new(&plan, &mut making);
@@ -237,6 +247,8 @@ impl Compiled {
             gradients,
             eliminations,
             solvers,
+            taylor,
+            lie_taylor,
             flows,
             structure,
             casimir_degrees,

@@ -118,6 +118,30 @@ impl<P: Poisson<f64>> Program<P> {
         self
     }
 
+    /// The same of a method whose type is forgotten.
+    #[must_use]
+    pub fn any_on_group(
+        mut self,
+        id: &str,
+        chart: Chart,
+        make: impl Fn(&Tolerances) -> Box<dyn AnyMethod<f64, P>> + 'static,
+    ) -> Self
+    where
+        P: MatrixGroup<f64>,
+    {
+        let run: Box<Integrate<P>> = Box::new(move |tolerances, problem, options, rows| {
+            let reconstruction = Reconstruction::new(&problem.system, chart);
+            let mut rows = OnGroup {
+                reconstruction,
+                rows,
+            };
+            let method = make(tolerances);
+            integrate(problem, Forgotten(method.as_ref()), options, &mut rows)
+        });
+        self.methods.push((id.to_owned(), run));
+        self
+    }
+
     /// Serves the request on standard input.
     pub fn main(&self) -> ExitCode {
         session::main(GRACE, &|line, session| self.run(line, session))

@@ -1,45 +1,142 @@
-//! The work of a run in this program, without a compiler of Rust.
+//! The work of a command in this program, without a compiler of Rust.
 
 use lie_codegen::methods::Choice;
 use lie_codegen::model::Model;
-use lie_codegen::plan::plan;
-use lie_dynamic::{Declared, Dynamic, method};
+use lie_codegen::plan::{Plan, plan};
+use lie_codegen::program::{Chart, Purpose, compared};
+use lie_dynamic::{Declared, Dynamic, Method, at_defaults, method};
 use lie_jit::Jit;
-use lie_program::protocol::Tolerances;
-use lie_program::{Program, protocol::End, session::Session};
+use lie_measure::Verify;
+use lie_measure::verify::Kind;
+use lie_program::Program;
+use lie_program::protocol::{End, Tolerances};
+use lie_program::session::Session;
+use lie_runtime::{ParameterError, Scalar, driver};
 
 use super::talk::Worker;
 
-/// What runs a method on a system in this program; none where that has to be built.
-pub fn here(model: &Model, choice: &Choice) -> Option<Worker> {
-    let plan = plan(model, std::slice::from_ref(choice));
-    let made = |tolerances: &Tolerances| {
-        let (rtol, atol) = (tolerances.rtol, tolerances.atol);
-        method(choice, lie_dynamic::Tolerances { rtol, atol })
-    };
-    if !Dynamic::supports(&plan) || made(&Tolerances::default()).is_none() {
+/// What serves requests for methods on a system in this program; none where a program has to be built.
+pub fn here(model: &Model, choices: &[Choice], purpose: Purpose) -> Option<Worker> {
+    let plan = plan(model, choices);
+    let there =
+        |choice: &Choice| method::<f64>(choice, lie_dynamic::Tolerances::default()).is_some();
+    if !Dynamic::supports(&plan) || !choices.iter().all(there) {
         return None;
     }
     let parameters = model.parameters.iter();
     let parameters = parameters.map(|p| (p.name.clone(), p.default_value));
-    let parameters: Vec<(String, f64)> = parameters.collect();
-    let (choice, label) = (choice.clone(), choice.label());
-    let work = move |line: &str, session: &mut Session<'_>| -> Result<(), End> {
-        let declared = Declared::new(plan.clone(), &Jit);
-        let parameters = parameters
-            .iter()
-            .map(|(name, value)| (name.as_str(), *value));
-        let parameters: Vec<(&str, f64)> = parameters.collect();
-        let program = Program::new(&parameters, move |values| declared.system(values));
-        let choice = choice.clone();
-        let make = move |tolerances: &Tolerances| {
-            let (rtol, atol) = (tolerances.rtol, tolerances.atol);
-            let made = method(&choice, lie_dynamic::Tolerances { rtol, atol });
-            made.unwrap_or_else(|| {
-                unreachable!("whether there is the method does not depend on tolerances")
-            })
-        };
-        program.any_method(&label, make).run(line, session)
+    let declared = Declaration {
+        plain: (purpose == Purpose::Verify).then(|| lie_codegen::plan::plan(model, &[])),
+        plan,
+        choices: choices.to_vec(),
+        parameters: parameters.collect(),
+        compared: compared(model, choices).into_iter().cloned().collect(),
+        orbits: model.is_lie_poisson(),
     };
-    Some(Worker::Here(Box::new(work)))
+    let work: Box<super::talk::Work> = match purpose {
+        Purpose::Run => Box::new(move |line, session| declared.run(None, line, session)),
+        Purpose::OnGroup(chart) => {
+            Box::new(move |line, session| declared.run(Some(chart), line, session))
+        }
+        Purpose::Verify => Box::new(move |line, session| declared.verify(line, session)),
+        // what is timed is what users build, and runs of many million steps take a program of their own
+        Purpose::Bench | Purpose::Stress => return None,
+    };
+    Some(Worker::Here(work))
+}
+
+/// What a thread needs of a declaration.
+struct Declaration {
+    plan: Plan,
+    /// Without fused equations, where steps are compared.
+    plain: Option<Plan>,
+    choices: Vec<Choice>,
+    parameters: Vec<(String, f64)>,
+    compared: Vec<Choice>,
+    orbits: bool,
+}
+
+/// A method that is known to be there.
+fn made<S: Scalar>(choice: &Choice, tolerances: &Tolerances) -> Method<S> {
+    let (rtol, atol) = (tolerances.rtol, tolerances.atol);
+    let made = method(choice, lie_dynamic::Tolerances { rtol, atol });
+    made.unwrap_or_else(|| unreachable!("whether there is a method does not depend on tolerances"))
+}
+
+/// The same at its defaults.
+fn of_defaults<S: Scalar>(choice: &Choice) -> Method<S> {
+    at_defaults(choice).unwrap_or_else(|| unreachable!("the method was there before"))
+}
+
+impl Declaration {
+    fn parameters(&self) -> Vec<(&str, f64)> {
+        let parameters = self.parameters.iter();
+        parameters
+            .map(|(name, value)| (name.as_str(), *value))
+            .collect()
+    }
+
+    /// Makes the system of values of the parameters.
+    fn build(
+        plan: &Plan,
+    ) -> impl Fn(&[f64]) -> Result<Dynamic<f64>, ParameterError> + Send + Sync + use<> {
+        let declared = Declared::new(plan.clone(), &Jit);
+        move |values| declared.system(values)
+    }
+
+    fn run(&self, chart: Option<Chart>, line: &str, session: &mut Session<'_>) -> Result<(), End> {
+        let mut program = Program::new(&self.parameters(), Self::build(&self.plan));
+        for choice in self.choices.iter().cloned() {
+            let label = choice.label();
+            let make = move |tolerances: &Tolerances| made(&choice, tolerances);
+            program = match chart {
+                None => program.any_method(&label, make),
+                Some(chart) => program.any_on_group(&label, of_driver(chart), make),
+            };
+        }
+        program.run(line, session)
+    }
+
+    fn verify(&self, line: &str, session: &mut Session<'_>) -> Result<(), End> {
+        let mut program = Verify::new(&self.parameters(), Self::build(&self.plan));
+        for choice in self.choices.iter().cloned() {
+            let label = choice.label();
+            let series = matches!(choice, Choice::Taylor | Choice::LieTaylor);
+            let kind = if choice.solved() != &choice {
+                Kind::Composed
+            } else if choice.is_adaptive() && !series {
+                Kind::Adaptive
+            } else {
+                Kind::Plain
+            };
+            program = program.any_method(&label, kind, move |tolerances| match series {
+                true => (of_defaults(&choice), of_defaults(&choice)),
+                false => (made(&choice, tolerances), made(&choice, tolerances)),
+            });
+        }
+        for choice in self.compared.iter().cloned() {
+            let Some(plain) = &self.plain else { break };
+            let (label, build) = (choice.label(), Self::build(plain));
+            let make = move |tolerances: &Tolerances| made(&choice, tolerances);
+            program = program.any_plain(&label, build, make);
+        }
+        if self.orbits {
+            program = program.with_orbits();
+        }
+        if self.plan.structure.group.is_some() {
+            program = program.with_group();
+        }
+        if self.plan.system.triple.is_some() {
+            program = program.with_cayley();
+        }
+        program.work(line, session)
+    }
+}
+
+/// The chart of the driver.
+fn of_driver(chart: Chart) -> driver::Chart {
+    match chart {
+        Chart::Matrix => driver::Chart::Matrix,
+        Chart::Quaternion => driver::Chart::Quaternion,
+    }
 }

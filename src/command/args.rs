@@ -272,9 +272,12 @@ pub struct Measured {
     /// Says nothing on stderr unless something fails
     #[arg(long)]
     pub quiet: bool,
-    /// Which processor to compile for (the results are the same, bit for bit)
-    #[arg(long, value_enum, default_value_t)]
-    pub cpu: Cpu,
+    /// Build a program with cargo and measure that, in place of machine code made here (bench always does)
+    #[arg(long)]
+    pub compile: bool,
+    /// Which processor to compile for (the results are the same, bit for bit); as --fma, implies --compile
+    #[arg(long, value_enum)]
+    pub cpu: Option<Cpu>,
     /// Rounds a product and its sum once (faster; other digits than on a processor without it)
     #[arg(long)]
     pub fma: bool,

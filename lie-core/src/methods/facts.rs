@@ -87,4 +87,17 @@ pub trait Facts {
     const OWN_STEPS: bool = false;
     /// What is kept.
     const PRESERVES: Preserves;
+
+    /// [`Facts::ORDER`]; of a method whose type is forgotten, that of the method.
+    fn order(&self) -> u32 {
+        Self::ORDER
+    }
+    /// The same of [`Facts::FIXED_POINT`].
+    fn fixed_point(&self) -> bool {
+        Self::FIXED_POINT
+    }
+    /// The same of [`Facts::OWN_STEPS`].
+    fn own_steps(&self) -> bool {
+        Self::OWN_STEPS
+    }
 }

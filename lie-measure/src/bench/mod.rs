@@ -83,7 +83,7 @@ pub struct Bench<P: Poisson<f64>> {
 impl<P: Implicit<f64, Gauss6> + 'static> Bench<P> {
     /// A program from the parameters with their defaults and the function that makes a system of their values.
     pub fn new(
-        parameters: &[(&'static str, f64)],
+        parameters: &[(&str, f64)],
         build: impl Fn(&[f64]) -> Result<P, ParameterError> + Send + Sync + 'static,
     ) -> Self {
         Self {

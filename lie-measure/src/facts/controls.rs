@@ -81,6 +81,7 @@ impl<S: Scalar, P: Poisson<S>> AnyMethod<S, P> for Spoiled<'_, S, P> {
             symmetric: true,
             explicit: true,
             fixed_point: false,
+            own_steps: false,
             preserves: Preserves {
                 energy: true,
                 casimirs: true,

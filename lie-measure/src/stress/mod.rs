@@ -47,7 +47,7 @@ talk!(Options, Found);
 /// A program that takes methods to their limits.
 pub struct Stress<P: Poisson<f64>> {
     blueprint: Blueprint<P>,
-    methods: Vec<(&'static str, Make<P>)>,
+    methods: Vec<(String, Make<P>)>,
 }
 
 /// What is done with a method.
@@ -72,7 +72,7 @@ struct Job<'a, P> {
 impl<P: Poisson<f64> + Sync> Stress<P> {
     /// A program from the parameters with their defaults and the function that makes a system of their values.
     pub fn new(
-        parameters: &[(&'static str, f64)],
+        parameters: &[(&str, f64)],
         build: impl Fn(&[f64]) -> Result<P, ParameterError> + Send + Sync + 'static,
     ) -> Self {
         Self {
@@ -85,11 +85,22 @@ impl<P: Poisson<f64> + Sync> Stress<P> {
     #[must_use]
     pub fn method<M: Method<f64, P> + 'static>(
         mut self,
-        label: &'static str,
+        label: &str,
         make: impl Fn(&Tolerances) -> M + Send + Sync + 'static,
     ) -> Self {
         let make = move || -> Made<P> { Box::new(make(&Tolerances::default())) };
-        self.methods.push((label, Box::new(make)));
+        self.methods.push((label.to_owned(), Box::new(make)));
+        self
+    }
+
+    /// Adds a method whose type is forgotten.
+    #[must_use]
+    pub fn any_method(
+        mut self,
+        label: &str,
+        make: impl Fn() -> Box<dyn AnyMethod<f64, P>> + Send + Sync + 'static,
+    ) -> Self {
+        self.methods.push((label.to_owned(), Box::new(make)));
         self
     }
 
@@ -97,7 +108,7 @@ impl<P: Poisson<f64> + Sync> Stress<P> {
     #[must_use]
     pub fn adaptive<M: Method<f64, P> + 'static>(
         self,
-        label: &'static str,
+        label: &str,
         make: impl Fn(&Tolerances) -> M + Send + Sync + 'static,
     ) -> Self {
         self.method(label, make)
@@ -108,7 +119,11 @@ impl<P: Poisson<f64> + Sync> Stress<P> {
         session::main(GRACE, &|line, session| self.work(line, session))
     }
 
-    fn work(&self, line: &str, session: &mut Session<'_>) -> Result<(), End> {
+    /// Does what a line asks for.
+    ///
+    /// # Errors
+    /// Why not everything was measured.
+    pub fn work(&self, line: &str, session: &mut Session<'_>) -> Result<(), End> {
         let request = request(line)?;
         let Built { system, mu } = self.blueprint.build(&request.start)?;
         let long = request.options.steps;

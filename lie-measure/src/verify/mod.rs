@@ -47,20 +47,37 @@ talk!(Options, Found);
 type MakeSubject<P> = Box<dyn Fn() -> Subject<P>>;
 type MakePlain = Box<dyn Fn(&[f64]) -> Option<Box<PlainSteps>>>;
 
+/// A method over numbers and over dual numbers.
+pub type AnyPair<P> = (
+    Box<dyn AnyMethod<f64, P>>,
+    Box<dyn AnyMethod<Dual<f64>, <P as Lift<f64>>::Lifted>>,
+);
+
+/// What a method is made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Steps of its own, of the size that is asked for.
+    Plain,
+    /// Steps of another method.
+    Composed,
+    /// Steps that it chooses.
+    Adaptive,
+}
+
 /// A program that verifies methods on one system.
 pub struct Verify<P: Lift<f64>> {
     blueprint: Blueprint<P>,
     grounds: Vec<fn(Ground<P>) -> Ground<P>>,
     kernels: Vec<Kernels<P>>,
-    subjects: Vec<(&'static str, MakeSubject<P>)>,
-    plain: Vec<(&'static str, MakePlain)>,
-    beside: Vec<&'static str>,
+    subjects: Vec<(String, MakeSubject<P>)>,
+    plain: Vec<(String, MakePlain)>,
+    beside: Vec<String>,
 }
 
 impl<P: Lift<f64> + Clone + 'static> Verify<P> {
     /// A program from the parameters with their defaults and the function that makes a system of their values.
     pub fn new(
-        parameters: &[(&'static str, f64)],
+        parameters: &[(&str, f64)],
         build: impl Fn(&[f64]) -> Result<P, ParameterError> + Send + Sync + 'static,
     ) -> Self {
         Self {
@@ -137,8 +154,8 @@ impl<P: Lift<f64> + Clone + 'static> Verify<P> {
     /// Compares the steps of a method with those on another system, the same one without fused equations.
     #[must_use]
     pub fn plain<Q, M>(
-        mut self,
-        label: &'static str,
+        self,
+        label: &str,
         build: impl Fn(&[f64]) -> Result<Q, ParameterError> + 'static,
         make: impl Fn(&Tolerances) -> M + Copy + 'static,
     ) -> Self
@@ -146,9 +163,20 @@ impl<P: Lift<f64> + Clone + 'static> Verify<P> {
         Q: Poisson<f64> + 'static,
         M: Method<f64, Q> + 'static,
     {
+        self.any_plain(label, build, move |tolerances| Box::new(make(tolerances)))
+    }
+
+    /// The same with a method whose type is forgotten.
+    #[must_use]
+    pub fn any_plain<Q: Poisson<f64> + 'static>(
+        mut self,
+        label: &str,
+        build: impl Fn(&[f64]) -> Result<Q, ParameterError> + 'static,
+        make: impl Fn(&Tolerances) -> Box<dyn AnyMethod<f64, Q>> + 'static,
+    ) -> Self {
         let steps = move |parameters: &[f64]| -> Option<Box<PlainSteps>> {
             let system = build(parameters).ok()?;
-            let method: Box<dyn AnyMethod<f64, Q>> = Box::new(make(&Tolerances::default()));
+            let method = make(&Tolerances::default());
             Some(Box::new(move |start, h, steps| {
                 let mut mu = system.zero_state();
                 mu.as_mut_slice().copy_from_slice(start);
@@ -160,13 +188,37 @@ impl<P: Lift<f64> + Clone + 'static> Verify<P> {
                 Ok((mu.as_slice().to_vec(), iterations))
             }))
         };
-        self.plain.push((label, Box::new(steps)));
+        self.plain.push((label.to_owned(), Box::new(steps)));
         self
+    }
+
+    /// Adds a method whose type is forgotten, over numbers and over dual numbers.
+    #[must_use]
+    pub fn any_method(
+        self,
+        label: &str,
+        kind: Kind,
+        make: impl Fn(&Tolerances) -> AnyPair<P> + Clone + 'static,
+    ) -> Self {
+        self.add(label, move || {
+            let (method, lifted) = make(&Tolerances::default());
+            let make = make.clone();
+            let with_tolerance = move |tolerance| make(&Tolerances::both(tolerance)).0;
+            Subject {
+                method,
+                lifted,
+                composed: kind == Kind::Composed,
+                with_tolerance: (kind == Kind::Adaptive)
+                    .then(|| -> Box<dyn Fn(f64) -> _> { Box::new(with_tolerance) }),
+                plain: None,
+                beside: false,
+            }
+        })
     }
 
     /// Adds a method under the name by which requests ask for it.
     #[must_use]
-    pub fn method<M>(self, label: &'static str, make: impl Fn(&Tolerances) -> M + 'static) -> Self
+    pub fn method<M>(self, label: &str, make: impl Fn(&Tolerances) -> M + 'static) -> Self
     where
         M: Method<f64, P> + Method<Dual<f64>, P::Lifted> + 'static,
     {
@@ -175,7 +227,7 @@ impl<P: Lift<f64> + Clone + 'static> Verify<P> {
 
     /// Adds a method whose step consists of steps of another.
     #[must_use]
-    pub fn composed<M>(self, label: &'static str, make: impl Fn(&Tolerances) -> M + 'static) -> Self
+    pub fn composed<M>(self, label: &str, make: impl Fn(&Tolerances) -> M + 'static) -> Self
     where
         M: Method<f64, P> + Method<Dual<f64>, P::Lifted> + 'static,
     {
@@ -184,11 +236,7 @@ impl<P: Lift<f64> + Clone + 'static> Verify<P> {
 
     /// Adds a method that chooses its own steps.
     #[must_use]
-    pub fn adaptive<M>(
-        self,
-        label: &'static str,
-        make: impl Fn(&Tolerances) -> M + Copy + 'static,
-    ) -> Self
+    pub fn adaptive<M>(self, label: &str, make: impl Fn(&Tolerances) -> M + Copy + 'static) -> Self
     where
         M: Method<f64, P> + Method<Dual<f64>, P::Lifted> + 'static,
     {
@@ -205,13 +253,13 @@ impl<P: Lift<f64> + Clone + 'static> Verify<P> {
 
     /// Says of a method that the group element goes along with its steps to their order, not exactly.
     #[must_use]
-    pub fn beside(mut self, label: &'static str) -> Self {
-        self.beside.push(label);
+    pub fn beside(mut self, label: &str) -> Self {
+        self.beside.push(label.to_owned());
         self
     }
 
-    fn add(mut self, label: &'static str, make: impl Fn() -> Subject<P> + 'static) -> Self {
-        self.subjects.push((label, Box::new(make)));
+    fn add(mut self, label: &str, make: impl Fn() -> Subject<P> + 'static) -> Self {
+        self.subjects.push((label.to_owned(), Box::new(make)));
         self
     }
 
@@ -226,7 +274,11 @@ impl<P: Lift<f64> + Clone + 'static> Verify<P> {
         session::serve(None, Box::new(input), output, &work)
     }
 
-    fn work(&self, line: &str, session: &mut Session<'_>) -> Result<(), End> {
+    /// Does what a line asks for.
+    ///
+    /// # Errors
+    /// Why not everything was measured.
+    pub fn work(&self, line: &str, session: &mut Session<'_>) -> Result<(), End> {
         let request = request(line)?;
         let Built { system, mu } = self.blueprint.build(&request.start)?;
         let Options { seed, step, reach } = request.options;
@@ -283,12 +335,12 @@ impl<P: Lift<f64> + Clone + 'static> Verify<P> {
 
     /// A method by its label, for these parameters.
     fn subject(&self, label: &str, values: &[f64]) -> Result<Subject<P>, End> {
-        let known = self.subjects.iter().find(|(known, _)| *known == label);
+        let known = self.subjects.iter().find(|(known, _)| known == label);
         let (_, make) = known.ok_or_else(|| session::no_method(label))?;
-        let plain = self.plain.iter().find(|(known, _)| *known == label);
+        let plain = self.plain.iter().find(|(known, _)| known == label);
         Ok(Subject {
             plain: plain.and_then(|(_, make)| make(values)),
-            beside: self.beside.contains(&label),
+            beside: self.beside.iter().any(|known| known == label),
             ..make()
         })
     }

@@ -21,6 +21,8 @@ pub struct Claims {
     pub explicit: bool,
     /// Whether a step is solved by fixed-point iteration, which has no order.
     pub fixed_point: bool,
+    /// Whether a step is made of steps that the method chooses itself.
+    pub own_steps: bool,
     /// What is kept.
     pub preserves: Preserves,
 }
@@ -33,6 +35,7 @@ impl Claims {
             symmetric: M::SYMMETRIC,
             explicit: M::EXPLICIT,
             fixed_point: M::FIXED_POINT,
+            own_steps: M::OWN_STEPS,
             preserves: M::PRESERVES,
         }
     }
@@ -149,30 +152,41 @@ impl<S: Scalar, P: Poisson<S>, M: Method<S, P> + 'static> AnyMethod<S, P> for M 
     }
 }
 
-/// A method whose type is forgotten, as a method again: the driver runs it. Its constants say nothing.
-pub struct Forgotten<'m, P: Poisson<f64>>(pub &'m dyn AnyMethod<f64, P>);
+/// A method whose type is forgotten, as a method again: the driver runs it. Its constants say
+/// nothing; what the driver asks is asked of the method.
+pub struct Forgotten<'m, P: Poisson<S>, S: Scalar = f64>(pub &'m dyn AnyMethod<S, P>);
 
 /// The stepper of a [`Forgotten`] method.
-pub struct ForgottenStepper<'a, V> {
-    stepper: Box<dyn AnyStepper<f64, V> + 'a>,
+pub struct ForgottenStepper<'a, V, S = f64> {
+    stepper: Box<dyn AnyStepper<S, V> + 'a>,
     motions: Motions<V>,
 }
 
-impl<P: Poisson<f64>> Facts for Forgotten<'_, P> {
+impl<S: Scalar, P: Poisson<S>> Facts for Forgotten<'_, P, S> {
     const ID: &'static str = "";
     const ORDER: u32 = 0;
     const SYMMETRIC: bool = false;
     const EXPLICIT: bool = false;
     const PRESERVES: Preserves = Preserves::NOTHING;
+
+    fn order(&self) -> u32 {
+        self.0.claims().order
+    }
+    fn fixed_point(&self) -> bool {
+        self.0.claims().fixed_point
+    }
+    fn own_steps(&self) -> bool {
+        self.0.claims().own_steps
+    }
 }
 
-impl<P: Poisson<f64>> Method<f64, P> for Forgotten<'_, P> {
+impl<S: Scalar, P: Poisson<S>> Method<S, P> for Forgotten<'_, P, S> {
     type Stepper<'a>
-        = ForgottenStepper<'a, P::State>
+        = ForgottenStepper<'a, P::State, S>
     where
         P: 'a;
 
-    fn stepper<'a>(&self, system: &'a P, h: f64, newton: &NewtonOptions) -> Self::Stepper<'a> {
+    fn stepper<'a>(&self, system: &'a P, h: S, newton: &NewtonOptions) -> Self::Stepper<'a> {
         ForgottenStepper {
             stepper: self.0.any_stepper(system, h, newton),
             motions: Motions(Vec::new()),
@@ -180,7 +194,7 @@ impl<P: Poisson<f64>> Method<f64, P> for Forgotten<'_, P> {
     }
 }
 
-impl<V: State<f64>> Stepper<f64> for ForgottenStepper<'_, V> {
+impl<S: Scalar, V: State<S>> Stepper<S> for ForgottenStepper<'_, V, S> {
     type State = V;
 
     fn step<K: FactorSink<V>>(

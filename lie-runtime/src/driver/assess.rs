@@ -44,12 +44,12 @@ pub(super) fn assess<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
     loop {
         attempt += 1;
         let error = error_of(problem, method, options, step);
-        let large = error.filter(|error| *error > AIM.0 * tolerance && !M::OWN_STEPS);
+        let large = error.filter(|error| *error > AIM.0 * tolerance && !method.own_steps());
         let assessed = Assessed { tolerance, error };
         let Some(large) = large.filter(|_| attempt < ATTEMPTS) else {
             return Ok((step, assessed));
         };
-        let order = f64::from(M::ORDER.max(1));
+        let order = f64::from(method.order().max(1));
         let factor = (large / (AIM.1 * tolerance))
             .powf(1.0 / order)
             .min(SHORTENED);
@@ -75,7 +75,7 @@ fn error_of<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
     let (_, settled) = settle(problem, method, options).ok()?;
     let settled = settled?;
     let tolerance = settled.chosen.tolerance;
-    let divides = Course::<M>::may_divide::<S, P>();
+    let divides = Course::<M>::may_divide::<S, P>(method);
     let newton = settled.newton(step);
     let mut course = Course::new(&grid, method, newton, step).dividing(divides);
     let start = problem.mu0.clone();
@@ -117,7 +117,7 @@ impl<S: Scalar, P: Poisson<S>, M: Method<S, P>> Ended<'_, S, P, M> {
     fn error(&self) -> Option<f64> {
         let (start, end) = self.problem.span;
         let mut mu = self.problem.mu0.clone();
-        let (steps, left) = if M::OWN_STEPS {
+        let (steps, left) = if self.method.own_steps() {
             let by = mu.max_norm() * S::from_f64(CHANGE * self.tolerance);
             for (k, entry) in mu.as_mut_slice().iter_mut().enumerate() {
                 *entry += by * S::from_f64((1.0 + 1.7 * k as f64).cos());
@@ -125,7 +125,7 @@ impl<S: Scalar, P: Poisson<S>, M: Method<S, P>> Ended<'_, S, P, M> {
             (self.steps, 0.0)
         } else {
             let steps = (self.steps / SHORTER).ceil();
-            (steps, (self.steps / steps).powi(M::ORDER as i32))
+            (steps, (self.steps / steps).powi(self.method.order() as i32))
         };
         if steps > MOST_STEPS {
             return None;
@@ -133,7 +133,7 @@ impl<S: Scalar, P: Poisson<S>, M: Method<S, P>> Ended<'_, S, P, M> {
         let mut last = Last(mu.clone());
         let step = (end - start) / steps;
         let grid = Grid::new((start, end), step).ok()?;
-        let divides = Course::<M>::may_divide::<S, P>();
+        let divides = Course::<M>::may_divide::<S, P>(self.method);
         let mut course = Course::new(&grid, self.method, self.newton, step).dividing(divides);
         course
             .run(&self.problem.system, mu, None, &Save::Ends, &mut last)

@@ -47,11 +47,11 @@ pub(super) struct Course<'r, M> {
 
 impl<'r, M> Course<'r, M> {
     /// Whether steps of a method may be divided: of one trajectory, and those that it does not choose itself.
-    pub(super) fn may_divide<S: Scalar, P: Poisson<S>>() -> bool
+    pub(super) fn may_divide<S: Scalar, P: Poisson<S>>(method: &M) -> bool
     where
         M: Method<S, P>,
     {
-        !M::OWN_STEPS && S::LANES == 1
+        !method.own_steps() && S::LANES == 1
     }
 
     /// In how many parts the last steps were made.
@@ -127,7 +127,7 @@ impl<'r, M> Course<'r, M> {
     {
         let size = S::from_f64(self.step / f64::from(self.parts));
         let newton = match self.divides_rather(1) {
-            true => Trial::<S, P, M>::cheap(self.newton),
+            true => Trial::<S, P, M>::cheap(self.method, self.newton),
             false => self.newton,
         };
         let mut stepper = self.method.stepper(system, size, &newton);
@@ -159,7 +159,7 @@ impl<'r, M> Course<'r, M> {
                     Err(failure) => return self.divided(system, failure, mu),
                 }
                 self.done += 1;
-                if M::FIXED_POINT && self.divides && self.is_slow() {
+                if self.method.fixed_point() && self.divides && self.is_slow() {
                     return Ok(Left::Divided);
                 }
             }

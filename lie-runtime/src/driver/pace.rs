@@ -135,7 +135,7 @@ fn chosen_by<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>>(
         return Err(OptionError::Span(start, end).into());
     }
     let trial = Trial::new(problem, method, *newton, tolerance);
-    let (size, error, seen) = if M::OWN_STEPS {
+    let (size, error, seen) = if method.own_steps() {
         (trial.own_steps(span)?, tolerance, None)
     } else {
         let (size, estimates, gauge) = trial.run_in(span)?;

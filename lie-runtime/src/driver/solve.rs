@@ -111,7 +111,7 @@ pub fn integrate<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
         observer.chosen(&settled.chosen);
     }
     let grid = Grid::new(problem.span, step)?;
-    let divides = settled.is_some() && Course::<M>::may_divide::<S, P>();
+    let divides = settled.is_some() && Course::<M>::may_divide::<S, P>(&method);
     let newton = settled
         .as_ref()
         .map_or(options.newton, |settled| settled.newton(step));

@@ -99,17 +99,22 @@ impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'a, S, P, M> {
         (self.tolerance * part).max(least_tolerance::<S>())
     }
 
+    /// The method.
+    pub(super) fn method(&self) -> &'a M {
+        self.method
+    }
+
     /// A step whose error is too small to be seen, from one whose error is round-off, by the order of the method.
     pub(super) fn below_round_off(&self, h: f64) -> f64 {
         let asked = self.tolerance * h / self.span.max(h);
         let part = (asked / least_tolerance::<S>()).clamp(SMALLEST, 1.0);
-        h * part.powf(1.0 / f64::from(M::ORDER.max(1)))
+        h * part.powf(1.0 / f64::from(self.method.order().max(1)))
     }
 
     /// The solver without a Jacobian where that is worth a try: shorter steps cost less than one that needs a Jacobian.
-    pub(super) fn cheap(newton: NewtonOptions) -> NewtonOptions {
+    pub(super) fn cheap(method: &M, newton: NewtonOptions) -> NewtonOptions {
         let iteration = match newton.iteration {
-            Iteration::Automatic if M::FIXED_POINT => Iteration::FixedPoint,
+            Iteration::Automatic if method.fixed_point() => Iteration::FixedPoint,
             other => other,
         };
         NewtonOptions {
@@ -120,7 +125,7 @@ impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'a, S, P, M> {
 
     /// The solver for a trial of a size: where each digit costs an iteration, no more exact than the estimate needs.
     fn newton_of(&self, h: f64) -> NewtonOptions {
-        if !M::FIXED_POINT {
+        if !self.method.fixed_point() {
             return self.newton;
         }
         let enough = SOLVER * self.target(h) / largest(S::epsilon());
@@ -147,7 +152,7 @@ impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'a, S, P, M> {
         let mut mu = self.problem.mu0.clone();
         let mut followed = self.problem.system.following(&mu);
         let system = followed.as_ref().unwrap_or(&self.problem.system);
-        let mut gauge = Gauge::new(system, &mu, M::ORDER);
+        let mut gauge = Gauge::new(system, &mu, self.method.order());
         let start = gauge.at(system, &mu);
         let mut h = self.first(&mu);
         let (mut reached, mut estimates) = (0.0, Estimates::NONE);
@@ -175,7 +180,7 @@ impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'a, S, P, M> {
                     }
                     Ok(found) => found,
                     Err(failed) => {
-                        if M::FIXED_POINT && cheap {
+                        if self.method.fixed_point() && cheap {
                             contracting = f64::max(contracting, h / SLOWER);
                         }
                         failure = Some(failed);
@@ -185,7 +190,7 @@ impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'a, S, P, M> {
                     }
                 };
             let target = self.target(h);
-            let ratio = (target / error).powf(1.0 / f64::from(M::ORDER.max(1)));
+            let ratio = (target / error).powf(1.0 / f64::from(self.method.order().max(1)));
             let kept = error <= 3.0 * target;
             if !kept {
                 h *= (0.9 * ratio).clamp(0.1, 0.9);
@@ -247,7 +252,7 @@ impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'a, S, P, M> {
         let mut field = self.problem.system.zero_state();
         self.problem.system.vector_field(mu, &mut field);
         let time = largest(mu.max_norm()) / largest(field.max_norm());
-        let order = f64::from(M::ORDER.max(1));
+        let order = f64::from(self.method.order().max(1));
         let part = f64::max(0.15 * order, 2.0) * self.target(0.3 * time).powf(1.0 / order);
         let size = part.min(1.0) * time;
         if size.is_finite() && size > 0.0 {
@@ -268,7 +273,7 @@ impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'a, S, P, M> {
     ) -> Result<Found<P::State>, StepFailure> {
         let mut newton = self.newton_of(h.abs());
         if cheap {
-            newton = Self::cheap(newton);
+            newton = Self::cheap(self.method, newton);
         }
         let digits = -(newton.tolerance * largest(S::epsilon())).ln();
         let (mut slow, most) = (false, digits / CONTRACTION.ln());
@@ -277,7 +282,7 @@ impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'a, S, P, M> {
             let mut end = mu.clone();
             for _ in 0..count {
                 let report = stepper.step(&mut end, &mut ())?;
-                slow |= M::FIXED_POINT
+                slow |= self.method.fixed_point()
                     && (report.factorizations > 0 || f64::from(report.iterations) > most);
             }
             Ok(end)
@@ -287,7 +292,7 @@ impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'a, S, P, M> {
         let size = mu.max_norm().max(halves.max_norm());
         let resting = size.less_equal(S::zero());
         let error = S::select(resting, S::zero(), whole.max_norm() / size);
-        let part = 1.0 - 0.5_f64.powi(M::ORDER as i32);
+        let part = 1.0 - 0.5_f64.powi(self.method.order() as i32);
         Ok(Found {
             error: largest(error.max(S::epsilon())) / part,
             end: halves,

@@ -163,7 +163,7 @@ impl<S: Scalar, P: Poisson<S>> Watch<S, P> {
         (h, parts): (f64, u32),
         number: f64,
     ) -> u32 {
-        let order = f64::from(M::ORDER.max(1));
+        let order = f64::from(trial.method().order().max(1));
         let (mut now, mut first) = (parts, true);
         let number = number.max(self.gauge.at(system, &self.before));
         loop {

@@ -124,7 +124,7 @@ impl Bed {
         Err(Message::option("SPEC", text).help(help).into())
     }
 
-    /// The built program of these methods.
+    /// What measures these methods: this program, or one that is built.
     ///
     /// # Errors
     /// The surroundings fail.
@@ -134,10 +134,14 @@ impl Bed {
         purpose: Purpose,
         interrupt: &Interrupt,
     ) -> Result<Worker, Failure> {
+        let compiled = flags.compile || flags.fma || flags.cpu.is_some();
+        if !compiled && let Some(worker) = build::here(&self.spec.model, &self.choices, purpose) {
+            return Ok(worker);
+        }
         let request = Request {
             name: &self.spec.model.name,
             source: &program(&self.spec.model, &self.choices, purpose),
-            processor: Processor::of(flags.cpu, flags.fma)?,
+            processor: Processor::of(flags.cpu.unwrap_or_default(), flags.fma)?,
             quiet: flags.quiet,
             purpose,
         };

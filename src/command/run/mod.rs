@@ -60,14 +60,15 @@ fn worker(
     interrupt: &Interrupt,
 ) -> Result<Worker, Failure> {
     let processor = Processor::of(flags.cpu.unwrap_or_default(), flags.fma)?;
-    let compiled = flags.compile || flags.fma || flags.cpu.is_some() || plan.chart.is_some();
-    if !compiled && let Some(worker) = build::here(&spec.model, &plan.method) {
+    let purpose = plan.chart.map_or(Purpose::Run, Purpose::OnGroup);
+    let methods = std::slice::from_ref(&plan.method);
+    let compiled = flags.compile || flags.fma || flags.cpu.is_some();
+    if !compiled && let Some(worker) = build::here(&spec.model, methods, purpose) {
         return Ok(worker);
     }
-    let purpose = plan.chart.map_or(Purpose::Run, Purpose::OnGroup);
     let request = Request {
         name: &spec.model.name,
-        source: &program(&spec.model, std::slice::from_ref(&plan.method), purpose),
+        source: &program(&spec.model, methods, purpose),
         processor,
         quiet: flags.quiet,
         purpose,

@@ -1,0 +1,174 @@
+//! Taylor coefficients by the recurrence of the plan.
+
+use crate::code::Code;
+use crate::kernels::ARGUMENTS;
+use crate::system::{Dynamic, Making};
+use lie_codegen::plan;
+use lie_core::generic::PowerSeries;
+use lie_runtime::recurrence::MOST_ORDERS;
+use lie_runtime::{GradientRecurrence, GradientSeries, Poisson, Recurrence, Scalar, Series};
+
+/// A recurrence in code.
+#[derive(Debug)]
+pub struct Codes {
+    begin: usize,
+    advance: usize,
+    field: Vec<usize>,
+    gradient: Vec<usize>,
+    pairs: usize,
+    kept: usize,
+}
+
+impl Codes {
+    pub(crate) fn new(recurrence: &plan::Recurrence, making: &mut Making) -> Self {
+        Self {
+            begin: making.push(Code::of_beginning(&recurrence.begin)),
+            advance: making.push(Code::of_advance(&recurrence.advance)),
+            field: recurrence.field.clone(),
+            gradient: recurrence.gradient.clone().unwrap_or_default(),
+            pairs: recurrence.pairs,
+            kept: recurrence.kept,
+        }
+    }
+
+    fn entries(&self) -> usize {
+        self.field.len() + self.gradient.len()
+    }
+}
+
+/// The recurrence of a system; where the plan has none, the field over truncated series.
+pub struct Coefficients<'a, S: Scalar> {
+    system: &'a Dynamic<S>,
+    codes: Option<&'a Codes>,
+    power: Option<PowerSeries<S, Dynamic<S>>>,
+    /// What the code of an order writes.
+    results: Vec<S>,
+    kept: Vec<S>,
+    /// The pairs of series, order after order.
+    left: Vec<S>,
+    right: Vec<S>,
+    /// The sums of the next order without their first and last terms.
+    rest: Vec<S>,
+    gradient: Vec<S>,
+}
+
+impl<'a, S: Scalar> Coefficients<'a, S> {
+    fn new(system: &'a Dynamic<S>, codes: Option<&'a Codes>) -> Self {
+        let zeros = |count: usize| vec![S::zero(); count];
+        let (pairs, kept, entries) = codes.map_or((0, 0, 0), |codes| {
+            (codes.pairs, codes.kept, codes.entries())
+        });
+        Self {
+            system,
+            codes,
+            power: codes.is_none().then(|| PowerSeries::new(system)),
+            results: zeros(entries + kept.max(2 * pairs)),
+            kept: zeros(kept),
+            left: zeros(MOST_ORDERS * pairs),
+            right: zeros(MOST_ORDERS * pairs),
+            rest: zeros(pairs),
+            gradient: system.zero_state(),
+        }
+    }
+
+    /// Runs the code of an order; the entries go to the field and the gradient.
+    fn run(&mut self, code: usize, state: &[S], k: Option<usize>, field: &mut [S]) {
+        let Some(codes) = self.codes else { return };
+        let order = k.map_or([S::zero(); 2], |k| {
+            [S::from_f64(k as f64), S::ratio(1.0, k as f64)]
+        });
+        let places: [&[S]; ARGUMENTS] = [state, &self.rest, &self.kept, &order];
+        let frame = self.system.frame(places, &[], [S::zero(); 2]);
+        self.system.run(code, &frame, [&mut self.results, &mut []]);
+        field.fill(S::zero());
+        let (of_field, others) = self.results.split_at(codes.field.len());
+        for (place, value) in codes.field.iter().zip(of_field) {
+            field[*place] = *value;
+        }
+        for (place, value) in codes.gradient.iter().zip(others) {
+            self.gradient[*place] = *value;
+        }
+    }
+
+    /// Takes the coefficients of order k of all pairs and sums those of the next, as generated code does: the even and the odd
+    /// terms in chains of their own.
+    fn push(&mut self, k: usize, codes: &Codes) {
+        let pairs = codes.pairs;
+        let (left, right) = self.results[codes.entries()..][..2 * pairs].split_at(pairs);
+        self.left[k * pairs..][..pairs].copy_from_slice(left);
+        self.right[k * pairs..][..pairs].copy_from_slice(right);
+        for m in 0..pairs {
+            let u = |j: usize| self.left[j * pairs + m];
+            let v = |j: usize| self.right[j * pairs + m];
+            if k == 1 {
+                self.rest[m] = u(1) * v(1);
+                continue;
+            }
+            // the terms j = 2 … k - 1 of order k + 1
+            let (mut even, mut odd) = (S::zero(), S::zero());
+            let count = k - 2;
+            if count % 2 == 1 {
+                even += u(k - 1) * v(2);
+            }
+            for pair in 0..count / 2 {
+                let j = 2 + 2 * pair;
+                even += u(j) * v(k + 1 - j);
+                odd += u(j + 1) * v(k - j);
+            }
+            let newest = u(1) * v(k) + u(k) * v(1);
+            self.rest[m] = newest + (even + odd);
+        }
+    }
+}
+
+impl<S: Scalar> Recurrence<S> for Coefficients<'_, S> {
+    type State = Vec<S>;
+    type Carry = ();
+
+    fn begin(&mut self, mu: &Vec<S>, field: &mut Vec<S>) {
+        let Some(codes) = self.codes else {
+            if let Some(power) = &mut self.power {
+                let () = power.begin(mu, field);
+            }
+            return;
+        };
+        self.run(codes.begin, mu, None, field);
+        let kept = &self.results[codes.entries()..][..codes.kept];
+        self.kept.copy_from_slice(kept);
+        self.rest.fill(S::zero());
+    }
+
+    fn advance(&mut self, k: usize, (): (), coefficient: &Vec<S>, field: &mut Vec<S>) {
+        let Some(codes) = self.codes else {
+            if let Some(power) = &mut self.power {
+                let () = power.advance(k, (), coefficient, field);
+            }
+            return;
+        };
+        self.run(codes.advance, coefficient, Some(k), field);
+        self.push(k, codes);
+    }
+}
+
+impl<S: Scalar> GradientRecurrence<S> for Coefficients<'_, S> {
+    fn gradient(&self) -> &Vec<S> {
+        match &self.power {
+            Some(power) => power.gradient(),
+            None => &self.gradient,
+        }
+    }
+}
+
+impl<S: Scalar> Series<S> for Dynamic<S> {
+    type Recurrence<'a> = Coefficients<'a, S>;
+    fn series(&self) -> Coefficients<'_, S> {
+        Coefficients::new(self, self.compiled.taylor.as_ref())
+    }
+}
+
+impl<S: Scalar> GradientSeries<S> for Dynamic<S> {
+    type Recurrence<'a> = Coefficients<'a, S>;
+    fn gradient_series(&self) -> Coefficients<'_, S> {
+        Coefficients::new(self, self.compiled.lie_taylor.as_ref())
+    }
+}
