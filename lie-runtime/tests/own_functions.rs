@@ -1,5 +1,7 @@
 //! Functions of Rust in a Hamiltonian: generated code is that of the formula, methods have their orders, wrong derivatives are
 //! found.
+// declared by a macro within a macro, operators stand on lines of their own in clippy's eyes
+#![allow(clippy::possible_missing_comma)]
 
 use lie_runtime::prelude::*;
 use lie_runtime::scalar::Dual;
