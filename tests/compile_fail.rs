@@ -7,6 +7,8 @@
 fn errors_stand_at_their_tokens() {
     let cases = trybuild::TestCases::new();
     cases.compile_fail("tests/compile_fail/*.rs");
+    // what only rustc can find, at the token of the declaration
+    cases.compile_fail("tests/compile_fail/of_rustc/*.rs");
 }
 
 /// What the cases have in common is sound: their `main` is no source of errors.

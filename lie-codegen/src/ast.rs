@@ -6,6 +6,7 @@
 
 use crate::diagnostic::Origin;
 use crate::exact::Rational;
+use crate::symbolic::Opaque;
 
 /// A name and its place.
 #[derive(Clone, Debug)]
@@ -306,6 +307,8 @@ pub struct Declaration {
     pub family: Option<Family>,
     /// The parameters.
     pub parameters: Vec<Parameter>,
+    /// Functions of Rust.
+    pub functions: Vec<OwnFunction>,
     /// Abbreviations, each may use the earlier ones.
     pub lets: Vec<(Name, Expr)>,
     /// The Hamiltonian or the Lagrangian.
@@ -324,6 +327,17 @@ pub struct Declaration {
     pub initial_origin: Option<Origin>,
     /// Defaults of `lie run`.
     pub run: Vec<RunOption>,
+}
+
+/// A function that is written in Rust.
+#[derive(Clone, Debug)]
+pub struct OwnFunction {
+    /// Its name in expressions.
+    pub name: Name,
+    /// What is known of it.
+    pub function: Opaque,
+    /// Its paths, each as text and as tokens at their places.
+    pub paths: Vec<(String, proc_macro2::TokenStream)>,
 }
 
 impl Declaration {

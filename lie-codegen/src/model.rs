@@ -8,7 +8,7 @@ mod splitting;
 use proc_macro2::TokenStream;
 
 use crate::algebra::{Representation, StructureConstants};
-use crate::ast::{Invariance, Name, RunOption};
+use crate::ast::{Invariance, Name, OwnFunction, RunOption};
 use crate::check::configuration::Configuration;
 use crate::diagnostic::{Diagnostic, Origin};
 use crate::exact::{Fraction, Rational};
@@ -210,6 +210,8 @@ pub struct Model {
     pub description: Vec<String>,
     /// References, for people, as Markdown within a line.
     pub references: Vec<String>,
+    /// Functions of Rust that expressions call.
+    pub functions: Vec<OwnFunction>,
     /// The arena of all expressions.
     pub graph: Graph,
     /// What the bracket is.

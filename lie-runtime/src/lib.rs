@@ -131,7 +131,7 @@ pub mod __private_0_1 {
     pub use crate::parameter::{ParameterError, all_finite, all_positive};
     pub use crate::pieces::{FoundPoisson, PieceFlows, SeparablePoisson};
     pub use crate::poisson::{CayleyPoisson, LiePoisson, Lift, Poisson, Widen};
-    pub use crate::scalar::{Mask, Scalar};
+    pub use crate::scalar::{Mask, Scalar, declared_derivative, partial};
     pub use crate::state::{Stages, State, Unknown};
     pub use crate::structure::{
         CollectivePoisson, ColumnPoisson, Columns, CotangentPoisson, Entry, Group, InertiaPoisson,

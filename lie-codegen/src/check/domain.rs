@@ -76,7 +76,9 @@ pub fn fault(model: &Model, mu: &[f64], parameters: &[f64]) -> Option<Fault> {
         Symbol::Input(i) => xi.get(i).copied().unwrap_or(f64::NAN),
         _ => f64::NAN,
     };
-    let functions = functions(model, &mut scratch);
+    let mut functions = functions(model, &mut scratch);
+    // what a function of the user is at a state is known at run time
+    functions.retain(|(id, _)| scratch.own_functions(*id).is_empty());
     let roots: Vec<ExprId> = functions.iter().map(|(id, _)| *id).collect();
     let values = scratch.evaluate_all(&roots, &value);
     let bad = values.iter().position(|v| !v.is_finite())?;

@@ -2,12 +2,12 @@
 
 use std::collections::HashMap;
 
-use crate::ast::{Declaration, Name, Realization};
+use crate::ast::{Declaration, Name, OwnFunction, Realization};
 use crate::diagnostic::{Diagnostic, Kind, Origin};
 use crate::front::habits;
 use crate::model::CANONICAL;
 use crate::suggest::{listed, misspelt, series};
-use crate::symbolic::{ExprId, Function, Symbol};
+use crate::symbolic::{ExprId, Function, Opaque, Symbol};
 
 /// What a name stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,9 +44,15 @@ pub enum Allowed {
 #[derive(Debug, Default)]
 pub struct Environment<'a> {
     bindings: HashMap<&'a str, Binding>,
+    functions: &'a [OwnFunction],
 }
 
 impl Allowed {
+    /// Whether functions of the user may stand.
+    pub fn has_own_functions(self) -> bool {
+        matches!(self, Self::State | Self::Velocity(_) | Self::Everything)
+    }
+
     /// Whether a symbol may stand.
     pub fn permits(self, symbol: Symbol) -> bool {
         match symbol {
@@ -106,7 +112,10 @@ impl<'a> Environment<'a> {
         for name in declaration.basis() {
             bindings.entry(name.text.as_str()).or_insert(Binding::Basis);
         }
-        Self { bindings }
+        Self {
+            bindings,
+            functions: &declaration.functions,
+        }
     }
 
     /// Gives an abbreviation its meaning.
@@ -114,6 +123,13 @@ impl<'a> Environment<'a> {
         if let Some(binding @ Binding::Later) = self.bindings.get_mut(name) {
             *binding = Binding::Let(value);
         }
+    }
+
+    /// The function of the user that has this name.
+    pub fn function(&self, name: &str) -> Option<Opaque> {
+        let mut functions = self.functions.iter();
+        let found = functions.find(|own| own.name.text == name)?;
+        Some(found.function)
     }
 
     /// What a name stands for.

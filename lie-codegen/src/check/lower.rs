@@ -269,7 +269,21 @@ impl Lower for Lowering<'_, '_> {
         arguments: Operands<Lowered>,
         origin: Origin,
     ) -> Option<Lowered> {
-        let known = Function::from_name(&function.text);
+        let own = self.environment.function(&function.text);
+        if own.is_some() && !self.allowed.has_own_functions() {
+            let message = format!(
+                "`{}` is a function of Rust, whose values are not known here",
+                function.text
+            );
+            return self.fail(
+                Kind::UnknownFunction,
+                origin,
+                message,
+                "write a value or a formula",
+            );
+        }
+        let own = own.map(Function::Own);
+        let known = own.or_else(|| Function::from_name(&function.text));
         let arity = match known {
             Some(known) => known.arity(),
             None if matches!(&*function.text, "sqrt" | "abs") => 1,

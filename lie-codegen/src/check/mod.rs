@@ -35,6 +35,7 @@ pub mod motions;
 mod names;
 mod naming;
 pub(crate) mod normal;
+mod opaque;
 mod parameters;
 mod poisson;
 mod proof;

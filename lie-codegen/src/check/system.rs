@@ -8,7 +8,7 @@ use super::environment::{Allowed, Environment};
 use super::lower::Lowering;
 use super::{
     Effort, breadth, cocycle, defaults, degree, domain, energy, found, initial, lets, matrix,
-    methods, naming, parameters, poisson, realization, sign, size,
+    methods, naming, opaque, parameters, poisson, realization, sign, size,
 };
 use crate::algebra::rank as algebra_rank;
 use crate::ast::{self, Declaration};
@@ -120,6 +120,7 @@ fn lowered(
     let realization =
         realization::lower(declaration, configuration, &mut graph, &environment, report);
     let initial = initial::check(declaration, &mut graph, &environment, report);
+    opaque::check(declaration, &graph, brackets.as_deref(), energy, report);
     if report.has_errors() {
         return None;
     }
@@ -373,6 +374,7 @@ impl<'a> System<'a> {
             runtime: Runtime::default(),
             description: declaration.description.clone(),
             references: declaration.references.clone(),
+            functions: declaration.functions.clone(),
             graph,
             bracket,
             coordinates: declaration.state.clone(),

@@ -149,6 +149,12 @@ impl Source {
         }
     }
 
+    /// Whether H calls functions of Rust.
+    pub(crate) fn has_own_functions(&mut self) -> bool {
+        let function = self.function();
+        !self.graph.own_functions(function).is_empty()
+    }
+
     /// `dH/dmu_i`
     pub(crate) fn gradient_of_h(&mut self) -> Vec<ExprId> {
         let function = self.function();

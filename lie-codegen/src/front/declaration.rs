@@ -3,6 +3,8 @@
 mod block;
 mod entry;
 mod family;
+mod functions;
+mod lists;
 mod statement;
 mod tables;
 mod vectors;
@@ -10,14 +12,14 @@ mod vectors;
 use proc_macro2::{Span, TokenStream};
 
 use self::block::{algebra, is_named, names, parameters, realization};
-use self::entry::{Entry, compact, inside};
+use self::entry::Entry;
 use self::statement::{Statement, statements};
 use super::reader::{self, Entries, Line, Read};
 use super::tables::Read as Table;
 use super::token::{Delimiter, Token, TokenKind, render, span, split_commas};
 use super::vectors::Declared;
 use super::{Body, Names, Parsed, item, rust};
-use crate::ast::{Expr, Name, Realization, RunOption, Start};
+use crate::ast::{Expr, Name, OwnFunction, Realization, RunOption, Start};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::print::{NoPath, Runtime};
 
@@ -279,7 +281,7 @@ impl Entries for Parts<'_> {
 
     fn methods(&self, report: &mut Report) -> Vec<Name> {
         let statement = self.first("methods");
-        statement.map_or_else(Vec::new, |s| methods(s, report))
+        statement.map_or_else(Vec::new, |s| lists::methods(s, report))
     }
 
     fn invariance(&self, report: &mut Report) -> Option<(String, Origin)> {
@@ -310,9 +312,17 @@ impl Entries for Parts<'_> {
         tables::read(&block.unwrap_or_default(), report)
     }
 
+    fn own_functions(&self, report: &mut Report) -> Vec<OwnFunction> {
+        let mut again = Report::new();
+        let block = self.first("functions").and_then(|s| s.block(&mut again));
+        // what is no block was reported where tables were read
+        again.into_diagnostics();
+        functions::read(&block.unwrap_or_default(), report)
+    }
+
     fn initial(&self, _: &[Name], names: &Names, report: &mut Report) -> Vec<Expr> {
         let statement = self.first("initial");
-        statement.map_or_else(Vec::new, |s| initial(s, names, report))
+        statement.map_or_else(Vec::new, |s| lists::initial(s, names, report))
     }
 
     fn start(&self, report: &mut Report) -> Option<Start> {
@@ -327,71 +337,4 @@ impl Entries for Parts<'_> {
     fn run(&self, _: &mut Report) -> Vec<RunOption> {
         Vec::new()
     }
-}
-
-/// The parts of `= [a, b]`.
-fn bracketed<'a>(
-    statement: &Statement<'a>,
-    example: &str,
-    report: &mut Report,
-) -> Vec<&'a [Token]> {
-    let Some(value) = statement.value(report) else {
-        return Vec::new();
-    };
-    let list = inside(value, Delimiter::Bracket);
-    if list.is_none() {
-        let place = span(value).unwrap_or(statement.origin);
-        let message = format!("`{}` is a list in brackets", statement.keyword);
-        report
-            .push(Diagnostic::new(Kind::Syntax, place, message).help(format!("write `{example}`")));
-    }
-    split_commas(list.unwrap_or_default())
-}
-
-/// Ids such as `lie-midpoint` or `compose4(midpoint)`: words, dashes and parentheses.
-fn methods(statement: &Statement<'_>, report: &mut Report) -> Vec<Name> {
-    let parts = bracketed(statement, "methods = [lie-midpoint, gauss4];", report);
-    let method = |part: &[Token]| {
-        let place = span(part).unwrap_or(statement.origin);
-        let word = |t: &Token| {
-            t.identifier().is_some()
-                || t.is('-')
-                || matches!(
-                    t.kind,
-                    TokenKind::Open(Delimiter::Parenthesis)
-                        | TokenKind::Close(Delimiter::Parenthesis)
-                )
-        };
-        if part.is_empty() || !part.iter().all(word) {
-            report.push(
-                Diagnostic::new(
-                    Kind::Syntax,
-                    place,
-                    format!("`{}` is not a method id", render(part)),
-                )
-                .help("ids are like lie-midpoint or gauss4, without quotes"),
-            );
-            return None;
-        }
-        Some(Name {
-            text: compact(part),
-            origin: place,
-        })
-    };
-    parts.into_iter().filter_map(method).collect()
-}
-
-/// Exact expressions in parameters.
-fn initial(statement: &Statement<'_>, names: &Names, report: &mut Report) -> Vec<Expr> {
-    let parts = bracketed(statement, "initial = [0.3, -1/2];", report);
-    let value = |part: &[Token]| {
-        item::formula(
-            part,
-            ("an initial value", "cos(11/10)"),
-            statement.origin,
-            names,
-            report,
-        )
-    };
-    parts.into_iter().filter_map(value).collect()
 }

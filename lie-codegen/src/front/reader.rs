@@ -9,8 +9,8 @@ use super::token::Token;
 use super::vectors::{self, Declared};
 use super::{Body, Names, Parsed, expression, item};
 use crate::ast::{
-    Algebra, Declaration, Energy, Expr, Family, Invariance, Name, Parameter, Realization,
-    RunOption, Size, Start, Structure,
+    Algebra, Declaration, Energy, Expr, Family, Invariance, Name, OwnFunction, Parameter,
+    Realization, RunOption, Size, Start, Structure,
 };
 use crate::diagnostic::{Kind, Origin, Report};
 
@@ -76,6 +76,8 @@ pub trait Entries {
     fn vectors(&self, names: &Names, report: &mut Report) -> Vec<Declared>;
     /// The functions by tables.
     fn tables(&self, report: &mut Report) -> Vec<tables::Read>;
+    /// The functions of Rust.
+    fn own_functions(&self, report: &mut Report) -> Vec<OwnFunction>;
     /// The initial state in these names.
     fn initial(&self, state: &[Name], names: &Names, report: &mut Report) -> Vec<Expr>;
     /// The initial state of a family.
@@ -141,6 +143,8 @@ fn remainder<E: Entries>(
         .with_elsewhere(basis.flat_map(|algebra| texts(&algebra.basis)));
     let names = with_vectors(entries, parsed, names, report);
     let tables = Tables::new(entries.tables(report), &names, report);
+    let functions = entries.own_functions(report);
+    let tables = tables.with_own(&functions, &names, report);
     let names = names.with_tables(tables);
     let structure = structure(entries, algebra, &names, report);
     let lets = lets.iter();
@@ -176,6 +180,7 @@ fn remainder<E: Entries>(
         state: parsed.state.clone(),
         family: None,
         parameters,
+        functions,
         lets,
         energy: energy?,
         realization: without_mistake(realization)?,

@@ -17,7 +17,7 @@ use super::schema::Spec;
 use super::tables::Read as Table;
 use super::vectors::Declared;
 use super::{Names, Parsed, expression, families, file, item, number, prose};
-use crate::ast::{Expr, ExprKind, Name, Realization, RunOption, Start};
+use crate::ast::{Expr, ExprKind, Name, OwnFunction, Realization, RunOption, Start};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 
 /// The only version of the format.
@@ -176,6 +176,10 @@ impl Entries for Object<'_> {
     fn tables(&self, report: &mut Report) -> Vec<Table> {
         let value = self.get("functions");
         value.map_or_else(Vec::new, |v| tables::read(v, report))
+    }
+
+    fn own_functions(&self, _: &mut Report) -> Vec<OwnFunction> {
+        Vec::new()
     }
 
     fn initial(&self, state: &[Name], names: &Names, report: &mut Report) -> Vec<Expr> {

@@ -124,7 +124,7 @@ impl Number for Rounded {
             Function::Stumpff(_) | Function::Phi(_) => {
                 function.slope_of_closed(x).unwrap_or(f64::NAN)
             }
-            Function::Atan2 | Function::Below => f64::NAN,
+            Function::Atan2 | Function::Below | Function::Own(_) => f64::NAN,
         };
         Self::of(value, slope.abs() * self.error + value.abs())
     }
@@ -229,9 +229,11 @@ impl<T: Number> Number for Jet<T> {
             Function::Acosh => one.div(&x.mul(x).sub(&one).power(0.5)),
             Function::Atanh => one.div(&one.sub(&x.mul(x))),
             // not in the grammar
-            Function::Stumpff(_) | Function::Phi(_) | Function::Atan2 | Function::Below => {
-                T::rounded(f64::NAN, 0.0)
-            }
+            Function::Stumpff(_)
+            | Function::Phi(_)
+            | Function::Atan2
+            | Function::Below
+            | Function::Own(_) => T::rounded(f64::NAN, 0.0),
         };
         self.chain(at, &slope)
     }

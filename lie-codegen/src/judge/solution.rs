@@ -126,9 +126,11 @@ impl Number for Series {
             }
             Function::Atanh => self.integral(first, &Self::one().div(&Self::one().sub(&square()))),
             // not in the grammar
-            Function::Stumpff(_) | Function::Phi(_) | Function::Atan2 | Function::Below => {
-                Self::rounded(f64::NAN, 0.0)
-            }
+            Function::Stumpff(_)
+            | Function::Phi(_)
+            | Function::Atan2
+            | Function::Below
+            | Function::Own(_) => Self::rounded(f64::NAN, 0.0),
         }
     }
     fn atan2(&self, other: &Self) -> Self {

@@ -99,7 +99,7 @@ impl Planner<'_> {
             methods.push((Choice::LieTaylor, "lie_taylor"));
         }
         for (choice, key) in methods {
-            if self.asked(&choice) {
+            if self.asked(&choice) && !self.source.has_own_functions() {
                 let recurrence = self.recurrence(choice == Choice::LieTaylor);
                 self.items.push(Item::Recurrence(Box::new(recurrence)));
             } else {

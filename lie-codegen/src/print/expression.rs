@@ -74,7 +74,18 @@ impl Printer<'_> {
                         });
                         continue;
                     }
-                    None => write(operation, &mut get),
+                    None => match operation {
+                        Operation::Call(Function::Own(own), arguments) => {
+                            let arguments: Vec<Text> = arguments.iter().map(get).collect();
+                            let tokens = arguments.iter().map(|text| text.tokens.clone());
+                            Text {
+                                tokens: self.own_function(*own, &tokens.collect::<Vec<_>>()),
+                                binding: Binding::Atom,
+                                length: 1 + arguments.iter().map(|text| text.length).sum::<usize>(),
+                            }
+                        }
+                        _ => write(operation, &mut get),
+                    },
                 }
             };
             if uses[position] > 1 || (inner[position] && text.length > LONGEST) {

@@ -12,6 +12,7 @@ mod gradient;
 mod lifts;
 mod method;
 mod names;
+mod own_function;
 mod parameters;
 mod partner;
 mod realization;

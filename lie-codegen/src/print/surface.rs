@@ -19,6 +19,8 @@ pub struct Surface {
     pub coordinates: Vec<Span>,
     /// Where the parameters are declared.
     pub parameters: Vec<Span>,
+    /// The paths of functions of the user.
+    pub functions: Vec<(String, TokenStream)>,
 }
 
 impl Surface {
@@ -36,6 +38,11 @@ impl Surface {
                 Some(family) => vec![Span::call_site(); family.names.len() + family.sums.len()],
                 None => model.coordinates.iter().map(|c| span(c.origin)).collect(),
             },
+            functions: model
+                .functions
+                .iter()
+                .flat_map(|f| f.paths.clone())
+                .collect(),
             parameters: model.parameters.iter().map(|p| span(p.origin)).collect(),
         }
     }

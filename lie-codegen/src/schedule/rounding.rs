@@ -122,6 +122,14 @@ impl Rounded {
             Function::Stumpff(_) | Function::Phi(_) => {
                 function.slope_of_closed(x).unwrap_or(f64::NAN)
             }
+            Function::Own(own) => {
+                let parts = arguments.iter().enumerate();
+                let errors = parts.map(|(place, argument)| {
+                    own.derivative(place).stand_in(&values).abs() * argument.error
+                });
+                let error = errors.sum::<f64>() + value.abs();
+                return Self { value, error };
+            }
             Function::Atan2 => {
                 let [y, x] = [arguments[0], arguments[1]];
                 let square = y.value * y.value + x.value * x.value;

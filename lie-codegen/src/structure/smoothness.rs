@@ -11,7 +11,7 @@ use crate::check::confirmation::Finding;
 use crate::check::normal::{NormalForm, Verdict};
 use crate::exact::{Budget, Rational};
 use crate::model::{Family, Model};
-use crate::symbolic::{ExprId, Function, Graph, Node, Symbol};
+use crate::symbolic::{Declared, ExprId, Function, Graph, Node, Symbol};
 
 /// Derivatives that are looked at: as many as the highest order of a method asks for.
 const MOST_DERIVATIVES: u32 = 16;
@@ -75,6 +75,30 @@ fn of_family(model: &Model, family: &Family) -> Vec<Joint> {
 
 /// The joints of a function of the coordinates, with names of symbols.
 pub fn of_function(graph: &Graph, function: ExprId, name: &dyn Fn(Symbol) -> String) -> Vec<Joint> {
+    let mut joints = in_own_functions(graph, function);
+    joints.extend(of_branches(graph, function, name));
+    joints
+}
+
+/// What functions of the user are said to have, wherever it is.
+fn in_own_functions(graph: &Graph, function: ExprId) -> Vec<Joint> {
+    let mut all: Vec<Joint> = Vec::new();
+    for own in graph.own_functions(function) {
+        let Declared { name, smooth, .. } = own.declared();
+        let Some(smooth) = smooth else { continue };
+        let joint = Joint {
+            place: format!("somewhere in {name}"),
+            jump: Some(smooth + 1),
+        };
+        if !all.contains(&joint) {
+            all.push(joint);
+        }
+    }
+    all
+}
+
+/// Where branches meet.
+fn of_branches(graph: &Graph, function: ExprId, name: &dyn Fn(Symbol) -> String) -> Vec<Joint> {
     let conditions = conditions(graph, function);
     if conditions.is_empty() {
         return Vec::new();
@@ -280,6 +304,8 @@ fn vanishes(graph: &Graph, id: ExprId, budget: &Budget) -> Option<bool> {
     let mut normal = NormalForm::new(graph, budget);
     match normal.verdict(id) {
         Verdict::Zero => Some(true),
+        // another function of the user may vanish there
+        _ if !graph.own_functions(id).is_empty() => None,
         Verdict::Nonzero(_) => Some(false),
         Verdict::Undecided | Verdict::Contradicted => {
             (normal.finding(id) == Finding::Nonzero).then_some(false)

@@ -3,7 +3,7 @@
 use rustc_hash::FxHashMap as HashMap;
 
 use super::graph::{ExprId, Graph, Node, Symbol};
-use super::{Function, chosen};
+use super::{Function, Opaque, chosen};
 use crate::exact::Rational;
 
 impl Graph {
@@ -96,6 +96,11 @@ impl Graph {
                 let [a, b] = [1, 2].map(|branch| self.slope(arguments[branch], symbol, zero));
                 self.call(Function::Below, &[arguments[0], a, b])
             }
+            Node::Call(Function::Own(own), arguments) => {
+                let inner = arguments.iter().map(|a| self.slope(*a, symbol, zero));
+                let inner: Vec<ExprId> = inner.collect();
+                self.chain(own, &arguments, &inner)
+            }
             Node::Call(function, arguments) => {
                 let inner = self.slope(arguments[0], symbol, zero);
                 if function == Function::Atan2 {
@@ -110,6 +115,18 @@ impl Graph {
                 self.mul(outer, inner)
             }
         }
+    }
+
+    /// `d f(a, …) = sum_i f_i(a, …) da_i`
+    fn chain(&mut self, own: Opaque, arguments: &[ExprId], inner: &[ExprId]) -> ExprId {
+        let mut terms = Vec::new();
+        for (place, inner) in inner.iter().enumerate() {
+            if !self.is_zero(*inner) {
+                let outer = self.call(Function::Own(own.derivative(place)), arguments);
+                terms.push(self.mul(outer, *inner));
+            }
+        }
+        self.sum(&terms)
     }
 
     /// `d atan2(y, x) = (x dy - y dx) / (x^2 + y^2)`.
@@ -195,7 +212,7 @@ impl Graph {
                     (next, Rational::from(-i64::from(k))),
                 ])
             }
-            Function::Atan2 | Function::Below => {
+            Function::Atan2 | Function::Below | Function::Own(_) => {
                 unreachable!("functions of several arguments have rules of their own")
             }
         }

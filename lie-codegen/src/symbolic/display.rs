@@ -68,10 +68,11 @@ impl Graph {
             }
             Node::Call(function, arguments) => {
                 let arguments: Vec<_> = arguments.iter().map(|a| inside(a, Binding::Sum)).collect();
-                (
-                    format!("{}({})", function.name(), arguments.join(", ")),
-                    Binding::Atom,
-                )
+                let name = match function {
+                    Function::Own(own) => own.label(),
+                    known => known.name().to_owned(),
+                };
+                (format!("{name}({})", arguments.join(", ")), Binding::Atom)
             }
             Node::Product(factors) => product(&Rational::ONE, factors, &inside),
             Node::Written(terms) => self.display_sum(&Rational::ZERO, terms, &inside),

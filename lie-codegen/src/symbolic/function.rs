@@ -3,6 +3,8 @@
 
 use lie_core::closed;
 
+use super::Opaque;
+
 macro_rules! functions {
     ($($name:ident $text:literal $arity:literal),+ $(,)?) => {
         /// An elementary function.
@@ -16,6 +18,8 @@ macro_rules! functions {
             /// `below(g, a, b)`: a where g is negative, b elsewhere. In the grammar these are `abs`, `min`, `max` and
             /// `piecewise`.
             Below,
+            /// A function of the user, or a derivative of it.
+            Own(Opaque),
         }
         impl Function {
             /// Every function of the grammar.
@@ -27,6 +31,7 @@ macro_rules! functions {
                     Function::Stumpff(k) => STUMPFF[usize::from(k)],
                     Function::Phi(k) => PHI[usize::from(k)],
                     Function::Below => "below",
+                    Function::Own(own) => &own.declared().name,
                 }
             }
             /// The number of its arguments.
@@ -35,6 +40,7 @@ macro_rules! functions {
                     $(Function::$name => $arity,)+
                     Function::Stumpff(_) | Function::Phi(_) => 1,
                     Function::Below => 3,
+                    Function::Own(own) => own.declared().arity,
                 }
             }
         }
@@ -94,7 +100,7 @@ impl Function {
     }
 
     /// The function in double precision, by the library that generated code uses: the same on every
-    /// machine.
+    /// machine. Of a function of the user it is that of another one, which stands in.
     pub fn evaluate(self, arguments: &[f64]) -> f64 {
         let x = arguments[0];
         match self {
@@ -119,6 +125,7 @@ impl Function {
             Function::Stumpff(k) => closed::stumpff_of(k.into(), x),
             Function::Phi(k) => closed::phi_of(k.into(), x),
             Function::Below => arguments[chosen(x < 0.0)],
+            Function::Own(own) => own.stand_in(arguments),
         }
     }
 }

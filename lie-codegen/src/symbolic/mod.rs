@@ -5,6 +5,7 @@ mod display;
 mod evaluate;
 mod function;
 mod graph;
+mod opaque;
 mod parts;
 mod power;
 mod written;
@@ -14,3 +15,4 @@ mod tests;
 
 pub use function::{Function, chosen};
 pub use graph::{ExprId, Graph, Node, Symbol};
+pub use opaque::{Declared, MOST_ARGUMENTS, Opaque};

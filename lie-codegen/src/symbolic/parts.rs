@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use rustc_hash::FxHashSet;
 
 use super::graph::{ExprId, Graph, Node, Symbol};
-use super::{Function, chosen};
+use super::{Function, Opaque, chosen};
 
 impl Graph {
     /// The children of a node.
@@ -37,6 +37,16 @@ impl Graph {
     /// Whether some expression of the arena is a choice.
     pub fn has_choices(&self) -> bool {
         self.choices
+    }
+
+    /// The functions of the user that an expression calls, in the order of the arena.
+    pub fn own_functions(&self, id: ExprId) -> Vec<Opaque> {
+        let parts = self.dependencies(&[id]).into_iter();
+        let own = parts.filter_map(|part| match self.node(part) {
+            Node::Call(Function::Own(own), _) => Some(*own),
+            _ => None,
+        });
+        own.collect()
     }
 
     /// What the values of the roots depend on where the conditions have these signs, in ascending order: of a choice one

@@ -11,6 +11,7 @@ mod float;
 mod lanes;
 mod mask;
 mod pack;
+mod partial;
 #[cfg(feature = "lanes")]
 mod registers;
 mod truncated;
@@ -20,6 +21,7 @@ pub use dual::Dual;
 pub use lanes::{F32x8, F64x4, F64x8, Mask32x8, Mask64x4, Mask64x8};
 pub use mask::Mask;
 pub use pack::{Pack, PackMask};
+pub use partial::{declared_derivative, partial};
 pub use truncated::Truncated;
 
 use core::fmt::Debug;

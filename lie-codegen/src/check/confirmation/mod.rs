@@ -13,7 +13,7 @@ use std::sync::OnceLock;
 
 use super::sample::{Sample, Samples};
 use crate::exact::{Ball, Precision, Rational};
-use crate::symbolic::{ExprId, Function, Graph, Node, Symbol, chosen};
+use crate::symbolic::{ExprId, Function, Graph, Node, Opaque, Symbol, chosen};
 use points::Points;
 use residues::Residues;
 
@@ -220,11 +220,30 @@ fn value(
             let negative = of(&arguments[0])?.sign()? < 0;
             of(&arguments[chosen(negative)]).cloned()
         }
+        Node::Call(Function::Own(own), arguments) => {
+            let arguments: Option<Vec<&Ball>> = arguments.iter().map(of).collect();
+            stand_in(*own, &arguments?)
+        }
         Node::Call(function, arguments) => {
             let x = of(&arguments[0])?;
             call(*function, x, arguments.get(1).and_then(of))
         }
     }
+}
+
+/// What holds for every function of a user holds for the one that stands in.
+fn stand_in(own: Opaque, arguments: &[&Ball]) -> Option<Ball> {
+    let precision = precision();
+    let (phase, turns) = own.phase();
+    let mut angle = precision.rational(&phase);
+    for (place, argument) in arguments.iter().enumerate() {
+        let part = argument.mul(&precision.rational(&Opaque::weight(place)), precision);
+        angle = angle.add(&part, precision);
+    }
+    let (sine, cosine) = angle.sin_cos(precision)?;
+    let turned = [sine.clone(), cosine.clone(), sine.neg(), cosine.neg()];
+    let amplitude = precision.rational(&own.amplitude());
+    Some(turned[usize::from(turns)].mul(&amplitude, precision))
 }
 
 fn call(function: Function, x: &Ball, second: Option<&Ball>) -> Option<Ball> {
@@ -254,7 +273,7 @@ fn call(function: Function, x: &Ball, second: Option<&Ball>) -> Option<Ball> {
         Function::Acosh => x.acosh(precision),
         Function::Atanh => x.atanh(precision),
         Function::Atan2 => x.atan2(second?, precision),
-        Function::Stumpff(_) | Function::Phi(_) | Function::Below => None,
+        Function::Stumpff(_) | Function::Phi(_) | Function::Below | Function::Own(_) => None,
     }
 }
 

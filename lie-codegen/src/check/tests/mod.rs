@@ -11,6 +11,7 @@ mod idle;
 mod legendre;
 mod limits;
 mod names;
+mod own_functions;
 mod poisson;
 mod random;
 mod realization;

@@ -40,6 +40,7 @@ impl Lowering {
             }
             Function::Atan2 => self.angle(u, &arguments[1]),
             Function::Below => self.choice(arguments),
+            Function::Own(_) => unreachable!("such fields have no recurrence of their own"),
             Function::Stumpff(_) | Function::Phi(_) => {
                 unreachable!(
                     "functions of closed forms of the exponential stand in no vector field"

@@ -1,6 +1,7 @@
 //! The block `functions`.
 
 use super::entry::{Entry, inside};
+use super::functions::is_own;
 use crate::ast::{Expr, ExprKind, Name};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::exact::Rational;
@@ -11,7 +12,7 @@ use crate::front::token::{Delimiter, Token, render, span, split_commas};
 /// `{ drag = table [(0, 0), (1, 1/2)], degree 3, outside linear; }`
 pub fn read(block: &[Entry<'_>], report: &mut Report) -> Vec<Read> {
     let mut read = Vec::new();
-    for entry in block {
+    for entry in block.iter().filter(|entry| !is_own(entry)) {
         let parts = item::definition(entry.tokens, "a function", entry.origin(), report);
         read.extend(parts.map(|(name, value)| {
             let written = table(&name, value, report);
@@ -78,8 +79,8 @@ fn cubic(origin: Origin) -> Expr {
 fn malformed<T>(name: &Name, place: Origin, report: &mut Report) -> Option<T> {
     let message = format!("`{}` is no table", name.text);
     let help = format!(
-        "write `{} = table [(0, 0), (1, 1/2)], degree 1;`, and `outside constant` or `outside linear` behind it if the table is to be continued",
-        name.text
+        "write `{} = table [(0, 0), (1, 1/2)], degree 1;`, and `outside constant` or `outside linear` behind it if the table is to be continued; a function of Rust is `{}(x) = crate::function;`",
+        name.text, name.text
     );
     report.push(Diagnostic::new(Kind::Syntax, place, message).help(help));
     None

@@ -107,7 +107,7 @@ impl<'a> Parser<'a> {
             }
         }
         let origin = token.origin.to(self.close(open, Delimiter::Parenthesis)?);
-        let of_table = || self.names.tables().knows(function).then_some(1);
+        let of_table = || self.names.tables().arity(function);
         let expected = arity(function).or_else(|| vectors::arity(function));
         match expected.or_else(of_table) {
             None => self.fail(mistakes::unknown_function(

@@ -2,7 +2,7 @@
 
 use super::quantity;
 use crate::ast::{Expr, ExprKind};
-use crate::diagnostic::{Origin, Report};
+use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::exact::Rational;
 use crate::front::item;
 use crate::front::json::{Type, Value};
@@ -26,6 +26,12 @@ pub fn read(value: Value<'_>, report: &mut Report) -> Vec<Read> {
 }
 
 fn table(value: Value<'_>, report: &mut Report) -> Option<Written> {
+    if value.kind() == Type::String {
+        let message = "a function of Rust cannot stand in a spec";
+        let help = "give a table, as in `{\"table\": [[0, 0], [1, \"1/2\"]], \"degree\": 1}`, or declare the system with the macro `lie_poisson!`";
+        report.push(Diagnostic::new(Kind::Schema, value.origin(), message).help(help));
+        return None;
+    }
     let object = Object::read(value, "a function", TableFunction::KEYS, report)?;
     object.require("a function", TableFunction::REQUIRED, report);
     let points = list(object.get("table")?, "`table`", report)?;

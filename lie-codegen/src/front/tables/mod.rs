@@ -2,14 +2,16 @@
 //! coefficient is a choice by `v`. It is written out as soon as it is read, so that every stage sees a formula.
 
 mod spline;
+mod writer;
 
-use super::names::{Names, PIECEWISE};
+use super::names::Names;
 use super::vectors;
-use crate::ast::{Expr, ExprKind, Name};
+use crate::ast::{Expr, ExprKind, Name, OwnFunction};
 use crate::check::is_reserved;
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::exact::Rational;
 use spline::Piece;
+use writer::Writer;
 
 /// The largest number of points.
 const MOST_POINTS: usize = 200;
@@ -80,6 +82,8 @@ pub struct Tables {
     tables: Vec<Table>,
     /// Names of tables with mistakes.
     broken: Vec<String>,
+    /// Functions of Rust with their numbers of arguments.
+    own: Vec<(String, usize)>,
 }
 
 impl Tables {
@@ -97,6 +101,26 @@ impl Tables {
         tables
     }
 
+    /// Adds functions of Rust; mistakes are reported.
+    #[must_use]
+    pub fn with_own(mut self, own: &[OwnFunction], names: &Names, report: &mut Report) -> Self {
+        for OwnFunction { name, function, .. } in own {
+            if self.takes(name, names, report) {
+                self.own
+                    .push((name.text.clone(), function.declared().arity));
+            }
+        }
+        self
+    }
+
+    /// The number of arguments of a declared function.
+    pub fn arity(&self, function: &str) -> Option<usize> {
+        let mut own = self.own.iter();
+        let own = own.find(|(name, _)| name == function);
+        own.map(|(_, arity)| *arity)
+            .or(self.knows(function).then_some(1))
+    }
+
     /// Reports a name that is another's.
     fn takes(&self, name: &Name, names: &Names, report: &mut Report) -> bool {
         let text = &name.text;
@@ -105,7 +129,7 @@ impl Tables {
                 Kind::ReservedName,
                 format!("`{text}` is a word of the language"),
             )
-        } else if names.declares(text) || self.knows(text) {
+        } else if names.declares(text) || self.arity(text).is_some() {
             (Kind::DuplicateName, format!("`{text}` is declared twice"))
         } else {
             return true;
@@ -252,107 +276,6 @@ impl Table {
     /// How often the argument is written, about.
     fn size(&self) -> usize {
         self.pieces.len() * (self.pieces[0].coefficients.len() + 1) + 8
-    }
-}
-
-/// Writes a table at an argument.
-struct Writer {
-    argument: Expr,
-    origin: Origin,
-}
-
-impl Writer {
-    fn number(&self, value: &Rational) -> Expr {
-        self.expression(ExprKind::Number(value.clone()))
-    }
-
-    fn expression(&self, kind: ExprKind) -> Expr {
-        Expr {
-            kind,
-            origin: self.origin,
-        }
-    }
-
-    fn sum(&self, a: Expr, b: Expr) -> Expr {
-        self.expression(ExprKind::Sum(vec![(false, a), (false, b)]))
-    }
-
-    fn difference(&self, a: Expr, b: Expr) -> Expr {
-        self.expression(ExprKind::Sum(vec![(false, a), (true, b)]))
-    }
-
-    fn product(&self, a: Expr, b: Expr) -> Expr {
-        self.expression(ExprKind::Product(vec![(false, a), (false, b)]))
-    }
-
-    fn call(&self, function: &str, arguments: Vec<Expr>) -> Expr {
-        let function = Name {
-            text: function.to_owned(),
-            origin: self.origin,
-        };
-        self.expression(ExprKind::Call {
-            function,
-            arguments,
-        })
-    }
-
-    /// One of numbers, by the piece in which the argument lies.
-    fn choice(&self, pieces: &[Piece], of: &dyn Fn(&Piece) -> Rational) -> Expr {
-        if let [only] = pieces {
-            return self.number(&of(only));
-        }
-        let (left, right) = pieces.split_at(pieces.len() / 2);
-        let knot = self.number(&right[0].center);
-        let parts = vec![
-            self.argument.clone(),
-            knot,
-            self.choice(left, of),
-            self.choice(right, of),
-        ];
-        self.call(PIECEWISE, parts)
-    }
-
-    /// The spline, by Horner's rule.
-    fn spline(&self, pieces: &[Piece]) -> Expr {
-        let center = self.choice(pieces, &|piece| piece.center.clone());
-        let distance = self.difference(self.argument.clone(), center);
-        let degree = pieces[0].coefficients.len() - 1;
-        let coefficient = |k: usize| self.choice(pieces, &|piece| piece.coefficients[k].clone());
-        let orders = (0..degree).rev();
-        orders.fold(coefficient(degree), |sum, k| {
-            self.sum(coefficient(k), self.product(distance.clone(), sum))
-        })
-    }
-
-    fn table(&self, table: &Table) -> Expr {
-        let [first, last] = [0, table.pieces.len() - 1].map(|k| &table.pieces[k]);
-        let [below, above] = [(0, first), (1, last)].map(|(end, piece)| {
-            let place = &table.ends[end];
-            let [value, slope] = piece.at(place);
-            let place = self.number(place);
-            match table.outside {
-                // not a number beyond the end, with all its derivatives
-                Outside::Refuse if end == 0 => {
-                    let inside = self.difference(self.argument.clone(), place);
-                    self.call("sqrt", vec![inside])
-                }
-                Outside::Refuse => {
-                    let inside = self.difference(place, self.argument.clone());
-                    self.call("sqrt", vec![inside])
-                }
-                Outside::Constant => self.number(&value),
-                Outside::Linear => {
-                    let distance = self.difference(self.argument.clone(), place);
-                    let rise = self.product(self.number(&slope), distance);
-                    self.sum(self.number(&value), rise)
-                }
-            }
-        });
-        let [from, to] = [0, 1].map(|end| self.number(&table.ends[end]));
-        let argument = || self.argument.clone();
-        let inside = self.spline(&table.pieces);
-        let inside = self.call(PIECEWISE, vec![to, argument(), above, inside]);
-        self.call(PIECEWISE, vec![argument(), from, below, inside])
     }
 }
 
