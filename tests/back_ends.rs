@@ -164,7 +164,8 @@ macro_rules! compare {
             let mut random = Random(2018);
             for _ in 0..STATES {
                 let near = |random: &mut Random| -> Vec<f64> {
-                    start.iter().map(|x| x + 0.5 * random.number()).collect()
+                    let shifts = random.numbers(start.len());
+                    start.iter().zip(shifts).map(|(x, shift)| x + 0.5 * shift).collect()
                 };
                 let mu = near(&mut random);
                 for ((what, a), (_, b)) in kernels(&printed, &mu).iter().zip(kernels(&made, &mu)) {

@@ -10,7 +10,8 @@ use lie_codegen::methods::{Choice, Gradient};
 use lie_codegen::plan::{
     Constants, Energy, Function, Fused, Generating, Item, Method, Plan, Solver,
 };
-use lie_codegen::symbolic::Symbol;
+use lie_codegen::schedule::Operation;
+use lie_codegen::symbolic::{self, Symbol};
 use lie_core::generic;
 use lie_core::parameter::{ParameterError, all_finite, all_positive};
 use lie_runtime::scalar::Truncated;
@@ -314,10 +315,16 @@ impl Declared {
 }
 
 impl Dynamic<f64> {
-    /// Whether systems can be made of a plan: not of a family, nor where H is the Legendre transform of a Lagrangian, nor over a
-    /// realization.
+    /// Whether systems can be made of a plan: not of a family, nor where H is the Legendre transform of a Lagrangian or calls a
+    /// function of Rust, nor over a realization.
     pub fn supports(plan: &Plan) -> bool {
-        plan.family.is_none()
+        let own = |operation: &Operation<_>| {
+            matches!(operation, Operation::Call(symbolic::Function::Own(_), _))
+        };
+        let mut functions = plan.system.functions();
+        let calls_rust = functions.any(|function| function.program.operations.iter().any(own));
+        !calls_rust
+            && plan.family.is_none()
             && plan.system.energy == Energy::Expression
             && plan.system.discrete.is_empty()
             && plan.structure.realization.is_none()
