@@ -10,6 +10,10 @@ use std::io;
 use std::process::{Command, Output, Stdio};
 use std::sync::atomic::{AtomicBool, AtomicU8, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+/// How long a thread may take after a signal.
+const GRACE: Duration = Duration::from_secs(10);
 
 /// Remembers the signal, and holds what it is to end.
 #[derive(Clone, Default)]
@@ -23,6 +27,8 @@ struct Inner {
     busy: AtomicBool,
     /// What works stops when this end of its input is closed.
     lifeline: Mutex<Option<Box<dyn Send>>>,
+    /// Whether a thread of this process works, which cannot be ended alone.
+    here: AtomicBool,
     /// The leader of the group of processes that builds.
     builder: Mutex<Option<u32>>,
 }
@@ -44,6 +50,12 @@ impl Interrupt {
             std::process::exit(i32::from(code));
         }
         self.stop();
+        if self.0.here.load(Ordering::SeqCst) {
+            std::thread::spawn(move || {
+                std::thread::sleep(GRACE);
+                std::process::exit(i32::from(code));
+            });
+        }
     }
 
     /// The exit code that a signal asks for, if there was one.
@@ -59,6 +71,12 @@ impl Interrupt {
         if self.seen().is_some() {
             self.stop();
         }
+    }
+
+    /// The same of a thread of this process; one that does not stop in time ends with the process.
+    pub fn watch_here(&self, input: Box<dyn Send>) {
+        self.0.here.store(true, Ordering::SeqCst);
+        self.watch(input);
     }
 
     /// Asks the program to stop.

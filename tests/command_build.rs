@@ -1,4 +1,4 @@
-//! How `lie run` builds: once, offline first, safely beside others, and what it says if it cannot.
+//! How `lie run --compile` builds: once, offline first, safely beside others, and what it says if it cannot.
 #![cfg(unix)]
 
 mod common;
@@ -8,7 +8,15 @@ use std::path::{Path, PathBuf};
 
 use common::{Run, command, folder, lie, spec};
 
-const FLAGS: [&str; 6] = ["--method", "rk4", "--step", "0.1", "--until", "0.2"];
+const FLAGS: [&str; 7] = [
+    "--compile",
+    "--method",
+    "rk4",
+    "--step",
+    "0.1",
+    "--until",
+    "0.2",
+];
 
 fn run(path: &Path, environment: &[(&str, &Path)]) -> Run {
     let mut command = command(["run".as_ref(), path.as_os_str()]);
@@ -47,6 +55,31 @@ fn the_second_run_needs_no_cargo() {
     assert_eq!(run(&other, &[("CARGO", &broken)]).code, Some(1));
 }
 
+/// Without `--compile` nothing is built: neither cargo nor a compiler is asked for.
+#[test]
+fn a_run_needs_no_toolchain() {
+    let folder = folder();
+    let nothing = Path::new("/nonexistent/tool");
+    for call in [
+        "run specs/so3_free_rigid_body.json --until 0.2",
+        "verify specs/so3_free_rigid_body.json --methods rk4",
+    ] {
+        let mut here = command(call.split(' '));
+        here.env("CARGO", nothing)
+            .env("RUSTC", nothing)
+            .env("PATH", nothing);
+        here.env("LIE_CACHE_DIR", folder.path().join("cache"));
+        let run: Run = here.output().expect("lie starts").into();
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+    }
+    let bits = |flags: &str| {
+        let call = format!("run specs/se3_heavy_top.json --until 5 --quiet {flags}");
+        lie(&call).ok().stdout
+    };
+    assert_eq!(bits(""), bits("--compile"), "both ways have the same bits");
+    assert_ne!(bits(""), bits("--step 0.02"));
+}
+
 #[test]
 fn no_cargo_and_no_compiler() {
     let folder = folder();
@@ -57,6 +90,7 @@ fn no_cargo_and_no_compiler() {
         let mut call = command([
             "run".as_ref(),
             path.as_os_str(),
+            "--compile".as_ref(),
             "--out".as_ref(),
             out.as_os_str(),
         ]);
@@ -412,7 +446,8 @@ fn the_lock_file_has_the_versions_of_the_workspace() {
 
 #[test]
 fn ordinary_runs_leave_no_drafts_behind() {
-    lie("run specs/so3_free_rigid_body.json --quiet --method rk4 --step 0.1 --until 0.2").ok();
+    lie("run specs/so3_free_rigid_body.json --compile --quiet --method rk4 --step 0.1 --until 0.2")
+        .ok();
     for folder in ["", "runtime"] {
         for entry in std::fs::read_dir(common::cache().join(folder))
             .into_iter()

@@ -251,8 +251,9 @@ fn gone(programs: &[String]) -> bool {
 #[test]
 #[cfg(target_os = "linux")]
 fn measuring_programs_end_with_the_command() {
-    let body = "specs/so3_free_rigid_body.json --quiet --methods gonzalez";
-    let methods = "specs/so3_nonpolynomial.json --quiet --methods midpoint,lie-midpoint,rk4,dopri5";
+    let body = "specs/so3_free_rigid_body.json --compile --quiet --methods gonzalez";
+    let methods =
+        "specs/so3_nonpolynomial.json --compile --quiet --methods midpoint,lie-midpoint,rk4,dopri5";
     for (call, spec, short, long) in [
         ("stress", body, "--steps 1", "--steps 1e15"),
         (
@@ -305,6 +306,7 @@ fn a_signal_ends_the_build() {
     let arguments = [
         "run".as_ref(),
         spec.as_os_str(),
+        "--compile".as_ref(),
         "--out".as_ref(),
         out.as_os_str(),
     ];

@@ -7,7 +7,7 @@ use common::{command, folder, lie, spec};
 #[test]
 fn all_claims_of_a_few_methods_hold() {
     let run = lie(
-        "verify specs/so3_nonpolynomial.json --methods midpoint,lie-midpoint,rk4,dopri5 --quiet",
+        "verify specs/so3_nonpolynomial.json --compile --methods midpoint,lie-midpoint,rk4,dopri5 --quiet",
     )
     .ok();
     assert!(run.stderr.is_empty(), "{}", run.stderr);
@@ -171,6 +171,7 @@ fn with_program(found: &[serde_json::Value]) -> common::Run {
     command([
         "verify".as_ref(),
         path.as_os_str(),
+        "--compile".as_ref(),
         "--methods".as_ref(),
         "rk4".as_ref(),
     ])

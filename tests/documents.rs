@@ -317,10 +317,20 @@ fn no_arrow_between_crates_points_back() {
         ["lie-program", "lie-runtime"]
     );
     assert_eq!(
+        dependencies("lie-dynamic/Cargo.toml"),
+        ["lie-codegen", "lie-core", "lie-runtime"]
+    );
+    assert_eq!(
+        dependencies("lie-jit/Cargo.toml"),
+        ["lie-codegen", "lie-dynamic", "lie-runtime"]
+    );
+    assert_eq!(
         dependencies("Cargo.toml"),
         [
             "lie-codegen",
             "lie-core",
+            "lie-dynamic",
+            "lie-jit",
             "lie-measure",
             "lie-program",
             "lie-runtime"

@@ -114,7 +114,7 @@ fn talk_here<R: DeserializeOwned>(
             serve(None, Box::new(BufReader::new(questions)), &mut output, work)
         });
         let _ = asks.write_all(&line);
-        interrupt.watch(Box::new(asks));
+        interrupt.watch_here(Box::new(asks));
         let heard = hear(answers, found, progress);
         interrupt.stop();
         (heard, served.join().ok())

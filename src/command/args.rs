@@ -181,7 +181,7 @@ pub struct Run {
     #[arg(long)]
     pub quiet: bool,
     /// Build a program with cargo and run that, in place of machine code made here: for very long runs (the results are the
-    /// same, bit for bit; systems by a Lagrangian, families, --group and some methods are always built)
+    /// same, bit for bit; systems by a Lagrangian, families and few methods are always built)
     #[arg(long)]
     pub compile: bool,
     /// Which processor to compile for (the results are the same, bit for bit); as --fma, implies --compile
@@ -272,7 +272,7 @@ pub struct Measured {
     /// Says nothing on stderr unless something fails
     #[arg(long)]
     pub quiet: bool,
-    /// Build a program with cargo and measure that, in place of machine code made here (bench always does)
+    /// Build a program with cargo and measure that, in place of machine code made here (bench and stress always do)
     #[arg(long)]
     pub compile: bool,
     /// Which processor to compile for (the results are the same, bit for bit); as --fma, implies --compile
