@@ -1,0 +1,507 @@
+"""Structure-preserving integrators for Lie–Poisson systems.
+
+A system is declared by an algebra, a state and a Hamiltonian; the compiler checks the algebra exactly, derives everything
+else and makes machine code of it.
+
+>>> import liepoisson as lp
+>>> body = lp.System(algebra="so(3)", state=["x", "y", "z"], parameters={"I1": 2, "I2": 1, "I3": "2/3"},
+...                  hamiltonian="x^2/(2*I1) + y^2/(2*I2) + z^2/(2*I3)")
+>>> run = body.run("lie-midpoint", h=0.1, t=10, x0=[0.8, 0.1, 0.6])
+>>> run.mu.shape
+(101, 3)
+>>> bool(abs(run.casimirs["C1"] - run.casimirs["C1"][0]).max() < 1e-14)
+True
+"""
+
+from __future__ import annotations
+
+import difflib
+import json
+import os
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, Optional, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from ._errors import DeclarationError, IntegrationError, MethodError
+
+__all__ = [
+    "DeclarationError",
+    "Ensemble",
+    "IntegrationError",
+    "MethodError",
+    "Solution",
+    "System",
+    "load",
+]
+__version__ = "0.1.0"
+
+Array = npt.NDArray[np.float64]
+Number = Union[float, int, str]
+
+#: What people write from habit, and what it is called here.
+_SLIPS = {
+    "dt": "h",
+    "step": "h",
+    "stepsize": "h",
+    "max_step": "h",
+    "y0": "x0",
+    "mu0": "x0",
+    "initial": "x0",
+    "u0": "x0",
+    "t_end": "t",
+    "until": "t",
+    "tmax": "t",
+    "t_span": "t",
+    "t_eval": "at",
+    "tolerance": "tol",
+    "params": "the parameters by their names",
+}
+_FUNCTIONS = ("vector_field", "jacobian", "hamiltonian", "gradient", "hessian", "poisson_matrix", "casimirs")
+#: The step where neither the call nor the declaration gives one.
+_STEP = 0.01
+#: The time until which a system runs where neither says it.
+_UNTIL = 10.0
+
+
+def _hint(name: str, known: Sequence[str]) -> str:
+    close = difflib.get_close_matches(name, known, n=1)
+    return f"; did you mean `{close[0]}`?" if close else ""
+
+
+def _number(value: Number, what: str) -> float:
+    """A number, or an exact constant as text."""
+    if isinstance(value, str):
+        return _core.constant(value)
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise TypeError(f"{what} must be a number or text such as '1/7', not {value!r}") from None
+
+
+class Solution:
+    """What a run has saved, as numpy arrays.
+
+    ``t``: the times, shape (m,). ``mu``: the states, shape (m, n). ``energy``: H at each row, shape (m,).
+    ``casimirs``: a dictionary of arrays of shape (m,). ``run["Pi1"]``, ``run["energy"]`` and ``run["C1"]`` are columns.
+    ``method``, ``step``, ``steps``: what was done.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        coordinates: Sequence[str],
+        t: Array,
+        mu: Array,
+        energy: Array,
+        casimirs: Mapping[str, Array],
+        method: str,
+        step: float,
+        steps: int,
+    ) -> None:
+        self.name = name
+        self.coordinates = list(coordinates)
+        self.t = t
+        self.mu = mu
+        self.energy = energy
+        self.casimirs = dict(casimirs)
+        self.method = method
+        self.step = step
+        self.steps = steps
+
+    def __getitem__(self, name: str) -> Array:
+        if name in self.coordinates:
+            column: Array = self.mu[:, self.coordinates.index(name)]
+            return column
+        if name == "t":
+            return self.t
+        if name == "energy":
+            return self.energy
+        if name in self.casimirs:
+            return self.casimirs[name]
+        known = ["t", *self.coordinates, "energy", *self.casimirs]
+        raise KeyError(f"no column {name!r}{_hint(str(name), known)} There are: {', '.join(known)}")
+
+    def __len__(self) -> int:
+        return len(self.t)
+
+    @property
+    def drift(self) -> dict[str, float]:
+        """The largest change of energy and Casimirs over the rows, relative to their first values (absolute where these are 0)."""
+        found = {}
+        for name, values in [("energy", self.energy), *self.casimirs.items()]:
+            change = float(np.max(np.abs(values - values[0]))) if len(values) else 0.0
+            scale = abs(float(values[0])) if len(values) else 0.0
+            found[name] = change / scale if scale > 0 else change
+        return found
+
+    def __repr__(self) -> str:
+        drift = ", ".join(f"{name} {value:.1e}" for name, value in self.drift.items())
+        end = f"t = {self.t[-1]:g}" if len(self.t) else "nothing"
+        return (
+            f"<{self.name}, {self.method}, step {self.step:g}: {len(self.t)} rows to {end}; "
+            f"largest relative error: {drift}>"
+        )
+
+    def plot(self, *, show: bool = False) -> Any:
+        """Draws the components and the errors of the invariants with matplotlib; returns the figure."""
+        try:
+            import matplotlib.pyplot as plt
+        except ImportError:
+            raise ImportError(
+                "plot() needs matplotlib: pip install matplotlib (or pip install 'liepoisson[plot]')"
+            ) from None
+        figure, (above, below) = plt.subplots(
+            2, 1, sharex=True, figsize=(8, 6), height_ratios=[2, 1], layout="constrained"
+        )
+        for name in self.coordinates:
+            above.plot(self.t, self[name], label=name, linewidth=1)
+        above.set_title(f"{self.name}, {self.method}, step {self.step:g}")
+        above.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)
+        for name, values in [("energy", self.energy), *self.casimirs.items()]:
+            scale = abs(values[0]) or 1.0
+            errors = np.maximum(np.abs(values - values[0]) / scale, 1e-17)
+            below.semilogy(self.t, errors, label=name, linewidth=1)
+        below.set_ylabel("relative error")
+        below.set_xlabel("t")
+        below.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)
+        if show:
+            plt.show()
+        return figure
+
+
+class Ensemble:
+    """The ends of many trajectories.
+
+    ``mu``: the final states, shape (m, n); rows of failed members are not numbers. ``failures``: (member, time, reason).
+    """
+
+    def __init__(self, mu: Array, failures: list[tuple[int, float, str]]) -> None:
+        self.mu = mu
+        self.failures = failures
+
+    def __repr__(self) -> str:
+        return f"<{len(self.mu)} members, {len(self.failures)} failed>"
+
+
+class System:
+    """A Lie–Poisson system, by the text of a spec, a dictionary, or the keys of a spec as keywords.
+
+    >>> top = System(name="Top", algebra="se(3)", state=["m1", "m2", "m3", "g1", "g2", "g3"],
+    ...              hamiltonian="m1^2/2 + m2^2/2 + m3^2 + g3", initial=[0.1, 0.2, 0.9, 0, 0.6, 0.8])
+    >>> top.casimirs
+    ['C1', 'C2']
+
+    Errors: :class:`DeclarationError` lists every mistake with its place and remedy.
+    """
+
+    def __init__(
+        self, spec: Union[str, Mapping[str, Any], None] = None, /, **keys: Any
+    ) -> None:
+        if isinstance(spec, str):
+            if keys:
+                raise TypeError("give the text of a spec or its keys, not both")
+            text = spec
+        else:
+            declaration = {"format": 1, "name": "System", **dict(spec or {}), **keys}
+            algebra = declaration.get("algebra")
+            if "hamiltonian" in declaration and "**" in str(declaration["hamiltonian"]):
+                raise DeclarationError(
+                    "syntax: powers are written `^`\n  help: "
+                    + str(declaration["hamiltonian"]).replace("**", "^"),
+                    "syntax",
+                )
+            if algebra is None and "poisson" not in declaration:
+                raise DeclarationError(
+                    "schema: the algebra is missing\n  help: algebra=\"so(3)\", or "
+                    'algebra={"basis": ["e1", "e2", "e3"], "brackets": ["[e1, e2] = e3", …]}',
+                    "schema",
+                )
+            text = json.dumps(declaration, indent=2, ensure_ascii=False, default=_plain)
+        self._core = _core.Core(text)
+
+    # a system is its text: other processes compile it again
+    def __reduce__(self) -> tuple[object, ...]:
+        return type(self), (self._core.text,)
+
+    @property
+    def name(self) -> str:
+        """The name of the system."""
+        return self._core.name
+
+    @property
+    def text(self) -> str:
+        """The declaration as JSON."""
+        return self._core.text
+
+    @property
+    def dimension(self) -> int:
+        """The number of coordinates."""
+        return len(self._core.coordinates)
+
+    @property
+    def coordinates(self) -> list[str]:
+        """The names of the coordinates."""
+        return self._core.coordinates
+
+    @property
+    def parameters(self) -> dict[str, float]:
+        """The parameters with their defaults."""
+        values = self._core.parameters
+        return {name: values[name] for name in self._core.parameter_names()}
+
+    @property
+    def casimirs(self) -> list[str]:
+        """The names of the Casimirs, declared and found."""
+        return self._core.casimirs
+
+    @property
+    def initial(self) -> Optional[Array]:
+        """The declared initial state at the default parameters."""
+        return self._core.initial(list(self.parameters.values()))
+
+    def __repr__(self) -> str:
+        return f"<System {self.name}: {', '.join(self.coordinates)}>"
+
+    def _repr_markdown_(self) -> str:
+        return f"**{self.name}**\n\n$$\n{self.latex()}\n$$"
+
+    def _values(self, given: Mapping[str, Any]) -> list[float]:
+        values = self.parameters
+        for name, value in given.items():
+            if name not in values:
+                if name in _SLIPS:
+                    raise TypeError(f"no argument `{name}`; here it is `{_SLIPS[name]}`")
+                known = ", ".join(values) or "none"
+                raise TypeError(
+                    f"{self.name} has no parameter `{name}`{_hint(name, list(values))} (parameters: {known})"
+                )
+            values[name] = _number(value, f"the parameter {name}")
+        return list(values.values())
+
+    def _start(self, x0: Any, values: list[float]) -> list[float]:
+        if x0 is None:
+            found = self._core.initial(values)
+            if found is None:
+                raise ValueError(
+                    f"the initial state is missing: give x0=[…] with {self.dimension} numbers "
+                    f"({', '.join(self.coordinates)})"
+                )
+            return [float(value) for value in found]
+        if isinstance(x0, Mapping):
+            unknown = [name for name in x0 if name not in self.coordinates]
+            if unknown:
+                raise ValueError(f"no coordinate `{unknown[0]}`{_hint(unknown[0], self.coordinates)}")
+            missing = [name for name in self.coordinates if name not in x0]
+            if missing:
+                raise ValueError(f"x0 lacks {', '.join(missing)}")
+            x0 = [x0[name] for name in self.coordinates]
+        start = [_number(value, "an entry of x0") for value in x0]
+        if len(start) != self.dimension:
+            raise ValueError(
+                f"x0 has {len(start)} numbers, {self.name} has {self.dimension} coordinates: "
+                f"{', '.join(self.coordinates)}"
+            )
+        return start
+
+    def _method(self, method: Optional[str], options: Mapping[str, list[str]], tol: Any) -> str:
+        if method is None:
+            if tol is not None:
+                return "gauss16"
+            method = options["method"][0] if "method" in options else self._core.usual_method()
+            for name in ("retraction", "lift", "gradient", "composition", "pieces", "tensor"):
+                if name in options:
+                    method += f" --{name} {options[name][0]}"
+        if not isinstance(method, str):
+            raise TypeError(f"the method is its id as text, such as 'lie-midpoint', not {method!r}")
+        return method
+
+    def run(
+        self,
+        method: Optional[str] = None,
+        *,
+        h: Optional[Number] = None,
+        tol: Optional[float] = None,
+        t: Optional[Number] = None,
+        x0: Any = None,
+        every: int = 1,
+        at: Optional[Sequence[float]] = None,
+        rtol: float = 1e-6,
+        atol: float = 1e-9,
+        **parameters: Number,
+    ) -> Solution:
+        """Integrates from time 0 until ``t``.
+
+        ``h`` is the step; ``tol``, in its place, the relative error wanted at the end. ``x0`` is the initial state, a
+        sequence or a dictionary; ``every`` saves each so-manyth step, ``at`` saves these times. Parameters are given by
+        name. What is left out comes from the declaration. ``rtol`` and ``atol`` are those of dopri5.
+
+        Errors: :class:`MethodError` for a method that does not apply, :class:`IntegrationError` with ``partial`` for a
+        run that stopped early, :class:`ValueError` and :class:`TypeError` for arguments.
+        """
+        values = self._values(parameters)
+        start = self._start(x0, values)
+        options = self._core.run_options()
+        label = self._method(method, options, tol)
+        if h is not None and tol is not None:
+            raise TypeError("give h or tol, not both")
+        if h is None and tol is None:
+            step = options.get("step")
+            h = _core.constant(step[0]) if step else _STEP
+        times = None if at is None else sorted(float(time) for time in at)
+        if times is not None:
+            if t is not None:
+                raise TypeError("give t or at, not both")
+            end = max(times, key=abs, default=0.0)
+        elif t is not None:
+            end = _number(t, "t")
+        else:
+            until = options.get("until")
+            end = _core.constant(until[0]) if until else _UNTIL
+        pace = (None if h is None else _number(h, "h"), None if tol is None else float(tol))
+        tolerance = float(tol) if tol is not None else rtol
+        tolerances = (tolerance, float(tol) if tol is not None else atol)
+        rows, found = self._core.run(label, values, start, pace, end, every, times, tolerances)
+        t_rows, mu, energy, casimirs = rows
+        columns = {name: casimirs[:, index] for index, name in enumerate(self.casimirs)}
+        solution = Solution(
+            self.name,
+            self.coordinates,
+            t_rows,
+            mu,
+            energy,
+            columns,
+            label,
+            float(str(found["step"])),
+            int(str(found["steps"])),
+        )
+        if "why" in found:
+            number, time = int(str(found["step_number"])), float(str(found["time"]))
+            message = (
+                f"the integration stopped in step {number} at t = {time!r}: {found['why']}\n"
+                f"  help: {found['remedy']}; the rows so far are in `partial`"
+            )
+            raise IntegrationError(message, solution, number, time)
+        return solution
+
+    def ensemble(
+        self,
+        x0: npt.ArrayLike,
+        method: Optional[str] = None,
+        *,
+        h: Optional[Number] = None,
+        t: Number,
+        threads: Optional[int] = None,
+        rtol: float = 1e-6,
+        atol: float = 1e-9,
+        **parameters: Any,
+    ) -> Ensemble:
+        """The ends of many trajectories, from the rows of ``x0`` (shape (m, n)); parameters may be arrays of length m.
+
+        The bits do not depend on the number of threads (all processors by default). A member that fails is a row
+        of not-a-number, and is named in ``failures``.
+        """
+        starts = np.ascontiguousarray(np.atleast_2d(np.asarray(x0, dtype=np.float64)))
+        if starts.ndim != 2 or starts.shape[1] != self.dimension:
+            raise ValueError(
+                f"x0 has the shape {np.shape(x0)}, not (members, {self.dimension})"
+            )
+        lengths = {name: np.size(value) for name, value in parameters.items()}
+        if any(length not in (1, len(starts)) for length in lengths.values()):
+            raise ValueError(f"parameters have lengths {lengths}, x0 has {len(starts)} members")
+        varied = any(length > 1 for length in lengths.values())
+        count = len(starts) if varied else 1
+        scalars = self._values({name: np.ravel(value)[0] for name, value in parameters.items()})
+        table = np.tile(np.asarray(scalars, dtype=np.float64), (count, 1))
+        for name, value in parameters.items():
+            table[:, list(self.parameters).index(name)] = np.broadcast_to(np.ravel(value), (count,))
+        options = self._core.run_options()
+        label = self._method(method, options, None)
+        if h is None:
+            h = _core.constant(options["step"][0]) if "step" in options else _STEP
+        workers = threads if threads is not None else (os.cpu_count() or 1)
+        ends, failures = self._core.ensemble(
+            label, table, starts, _number(h, "h"), _number(t, "t"), workers, (rtol, atol)
+        )
+        return Ensemble(ends, failures)
+
+    def function(self, name: str, **parameters: Number) -> Callable[..., Array]:
+        """A function of the state, vectorised over leading axes: of shape (…, n).
+
+        ``vector_field``, ``gradient``: (…, n). ``jacobian``, ``hessian``, ``poisson_matrix``: (…, n, n).
+        ``hamiltonian``: (…). ``casimirs``: (…, number of Casimirs).
+
+        >>> body = System(algebra="so(3)", state=["x", "y", "z"], hamiltonian="x^2/2 + y^2/4 + z^2/6")
+        >>> f = body.function("vector_field")
+        >>> f([1.0, 1.0, 1.0]).tolist()
+        [-0.16666666666666669, 0.6666666666666667, -0.5]
+
+        For SciPy: ``solve_ivp(lambda t, y: f(y), …)``.
+        """
+        if name not in _FUNCTIONS:
+            raise ValueError(
+                f"no function `{name}`{_hint(name, _FUNCTIONS)} There are: {', '.join(_FUNCTIONS)}"
+            )
+        values, n = self._values(parameters), self.dimension
+        core, count = self._core, len(self.casimirs)
+
+        def evaluate(mu: npt.ArrayLike) -> Array:
+            states = np.asarray(mu, dtype=np.float64)
+            if states.shape[-1:] != (n,):
+                raise ValueError(f"the last axis of the state has {states.shape[-1:]} entries, not {n}")
+            leading = states.shape[:-1]
+            flat = np.ascontiguousarray(states.reshape(-1, n))
+            found = core.evaluate(name, values, flat)
+            shapes: dict[str, tuple[int, ...]] = {
+                "hamiltonian": (),
+                "vector_field": (n,),
+                "gradient": (n,),
+                "casimirs": (count,),
+            }
+            result: Array = found.reshape(leading + shapes.get(name, (n, n)))
+            return result
+
+        evaluate.__name__ = name
+        return evaluate
+
+    def methods(self) -> dict[str, Optional[str]]:
+        """Every method by its id, with the reason where it does not apply, else ``None``."""
+        return dict(self._core.methods())
+
+    def rust(self, *methods: str) -> str:
+        """The generated Rust, with fused code of these methods."""
+        return self._core.rust(list(methods))
+
+    def latex(self) -> str:
+        """The Hamiltonian and the equations of motion for LaTeX."""
+        lines = [line for line in self._core.equations()]
+        body = r" \\ ".join(_latex(line).replace("=", "&=", 1) for line in lines)
+        return r"\begin{aligned}" + body + r"\end{aligned}"
+
+
+def _plain(value: Any) -> Any:
+    """numpy's numbers and arrays as JSON."""
+    if isinstance(value, np.ndarray):
+        return value.tolist()
+    if isinstance(value, np.generic):
+        return value.item()
+    raise TypeError(f"{value!r} cannot stand in a declaration")
+
+
+def _latex(text: str) -> str:
+    import re
+
+    text = re.sub(r"([A-Za-z]+)_?(\d+)(?![\d^])", r"\1_{\2}", text)
+    text = re.sub(r"\^(\d+)", r"^{\1}", text)
+    text = re.sub(r"\b(sqrt|exp|log|sin|cos|tan)\(", r"\\\1(", text)
+    return text.replace("*", r"\,")
+
+
+def load(path: Union[str, "os.PathLike[str]"]) -> System:
+    """The system of a spec file."""
+    with open(path, encoding="utf-8-sig") as file:
+        return System(file.read())
+
+

@@ -1,0 +1,46 @@
+from typing import Optional
+
+import numpy as np
+import numpy.typing as npt
+
+Array = npt.NDArray[np.float64]
+
+class Core:
+    text: str
+    name: str
+    coordinates: list[str]
+    parameters: dict[str, float]
+    casimirs: list[str]
+    def __init__(self, text: str) -> None: ...
+    def initial(self, parameters: list[float]) -> Optional[Array]: ...
+    def run_options(self) -> dict[str, list[str]]: ...
+    def usual_method(self) -> str: ...
+    def methods(self) -> list[tuple[str, Optional[str]]]: ...
+    def rust(self, methods: list[str]) -> str: ...
+    def equations(self) -> list[str]: ...
+    def parameter_names(self) -> list[str]: ...
+    def run(
+        self,
+        label: str,
+        parameters: list[float],
+        start: list[float],
+        pace: tuple[Optional[float], Optional[float]],
+        end: float,
+        every: int,
+        at: Optional[list[float]],
+        tolerances: tuple[float, float],
+    ) -> tuple[tuple[Array, Array, Array, Array], dict[str, object]]: ...
+    def evaluate(self, kernel: str, parameters: list[float], states: Array) -> Array: ...
+    def ensemble(
+        self,
+        label: str,
+        parameters: Array,
+        starts: Array,
+        step: float,
+        end: float,
+        threads: int,
+        tolerances: tuple[float, float],
+    ) -> tuple[Array, list[tuple[int, float, str]]]: ...
+
+def constant(text: str) -> float: ...
+def catalogue() -> list[tuple[str, int]]: ...

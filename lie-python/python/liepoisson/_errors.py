@@ -1,0 +1,50 @@
+"""The exceptions of the package."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Optional
+
+if TYPE_CHECKING:
+    from . import Solution
+
+__all__ = ["DeclarationError", "IntegrationError", "MethodError"]
+
+
+class DeclarationError(ValueError):
+    """A declaration with a mistake.
+
+    ``kind`` is the kind of the first mistake, ``line`` and ``column`` are its place in the JSON text, counted from 1.
+    The message lists all mistakes, each with its remedy.
+    """
+
+    def __init__(
+        self, message: str, kind: str, line: Optional[int] = None, column: Optional[int] = None
+    ) -> None:
+        super().__init__(message)
+        self.kind = kind
+        self.line = line
+        self.column = column
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return type(self), (str(self), self.kind, self.line, self.column)
+
+
+class MethodError(ValueError):
+    """A method that there is not, or that does not apply to the system."""
+
+
+class IntegrationError(RuntimeError):
+    """A run that stopped early.
+
+    ``partial`` is the :class:`Solution` up to there, ``step`` the number of the step that failed, ``time`` the
+    time before it.
+    """
+
+    def __init__(self, message: str, partial: "Solution", step: int, time: float) -> None:
+        super().__init__(message)
+        self.partial = partial
+        self.step = step
+        self.time = time
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return type(self), (str(self), self.partial, self.step, self.time)
