@@ -86,7 +86,7 @@ fn control_c_keeps_the_rows() {
 fn a_kill_keeps_whole_rows_and_ends_the_program() {
     let folder = folder();
     let out = folder.path().join("rows.csv");
-    let mut child = start(&out, "");
+    let mut child = start(&out, "--compile");
     let programs = children(child.id());
     assert_eq!(programs.len(), 1, "the built program runs");
     signal(&child, "-KILL");

@@ -157,7 +157,7 @@ fn files_and_tools_that_are_missing() {
         spec["hamiltonian"] = "x^2/17/I1 + y^4/(2*I2) + z^2/I3".into();
     });
     let cache = folder.path().join("cache");
-    let run = command(["run".as_ref(), path.as_os_str()])
+    let run = command(["run".as_ref(), path.as_os_str(), "--compile".as_ref()])
         .env("PATH", folder.path())
         .env("HOME", folder.path())
         .env_remove("CARGO")

@@ -96,6 +96,22 @@ fn fault(how: &str) -> crate::message::Message {
     )
 }
 
+/// An output that nobody may listen to any more: why is known on the other side, which also ends the work.
+struct Unheard<W>(W);
+
+impl<W: io::Write> io::Write for Unheard<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        match self.0.write(bytes) {
+            Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(bytes.len()),
+            written => written,
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.0.flush()
+    }
+}
+
 /// Has a thread serve a request, by pipes: what is said, and how it is ended, is as with a program.
 fn talk_here<R: DeserializeOwned>(
     work: &Work,
@@ -110,7 +126,7 @@ fn talk_here<R: DeserializeOwned>(
     let (answers, says) = io::pipe()?;
     let (heard, code) = std::thread::scope(|scope| {
         let served = scope.spawn(move || {
-            let mut output = BufWriter::with_capacity(1 << 16, says);
+            let mut output = BufWriter::with_capacity(1 << 16, Unheard(says));
             serve(None, Box::new(BufReader::new(questions)), &mut output, work)
         });
         let _ = asks.write_all(&line);

@@ -19,7 +19,7 @@ import difflib
 import json
 import os
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, Optional, Union
+from typing import Any, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -59,7 +59,15 @@ _SLIPS = {
     "tolerance": "tol",
     "params": "the parameters by their names",
 }
-_FUNCTIONS = ("vector_field", "jacobian", "hamiltonian", "gradient", "hessian", "poisson_matrix", "casimirs")
+_FUNCTIONS = (
+    "vector_field",
+    "jacobian",
+    "hamiltonian",
+    "gradient",
+    "hessian",
+    "poisson_matrix",
+    "casimirs",
+)
 #: The step where neither the call nor the declaration gives one.
 _STEP = 0.01
 #: The time until which a system runs where neither says it.
@@ -197,9 +205,7 @@ class System:
     Errors: :class:`DeclarationError` lists every mistake with its place and remedy.
     """
 
-    def __init__(
-        self, spec: Union[str, Mapping[str, Any], None] = None, /, **keys: Any
-    ) -> None:
+    def __init__(self, spec: str | Mapping[str, Any] | None = None, /, **keys: Any) -> None:
         if isinstance(spec, str):
             if keys:
                 raise TypeError("give the text of a spec or its keys, not both")
@@ -215,7 +221,7 @@ class System:
                 )
             if algebra is None and "poisson" not in declaration:
                 raise DeclarationError(
-                    "schema: the algebra is missing\n  help: algebra=\"so(3)\", or "
+                    'schema: the algebra is missing\n  help: algebra="so(3)", or '
                     'algebra={"basis": ["e1", "e2", "e3"], "brackets": ["[e1, e2] = e3", …]}',
                     "schema",
                 )
@@ -258,7 +264,7 @@ class System:
         return self._core.casimirs
 
     @property
-    def initial(self) -> Optional[Array]:
+    def initial(self) -> Array | None:
         """The declared initial state at the default parameters."""
         return self._core.initial(list(self.parameters.values()))
 
@@ -293,7 +299,9 @@ class System:
         if isinstance(x0, Mapping):
             unknown = [name for name in x0 if name not in self.coordinates]
             if unknown:
-                raise ValueError(f"no coordinate `{unknown[0]}`{_hint(unknown[0], self.coordinates)}")
+                raise ValueError(
+                    f"no coordinate `{unknown[0]}`{_hint(unknown[0], self.coordinates)}"
+                )
             missing = [name for name in self.coordinates if name not in x0]
             if missing:
                 raise ValueError(f"x0 lacks {', '.join(missing)}")
@@ -306,7 +314,7 @@ class System:
             )
         return start
 
-    def _method(self, method: Optional[str], options: Mapping[str, list[str]], tol: Any) -> str:
+    def _method(self, method: str | None, options: Mapping[str, list[str]], tol: Any) -> str:
         if method is None:
             if tol is not None:
                 return "gauss16"
@@ -320,14 +328,14 @@ class System:
 
     def run(
         self,
-        method: Optional[str] = None,
+        method: str | None = None,
         *,
-        h: Optional[Number] = None,
-        tol: Optional[float] = None,
-        t: Optional[Number] = None,
+        h: Number | None = None,
+        tol: float | None = None,
+        t: Number | None = None,
         x0: Any = None,
         every: int = 1,
-        at: Optional[Sequence[float]] = None,
+        at: Sequence[float] | None = None,
         rtol: float = 1e-6,
         atol: float = 1e-9,
         **parameters: Number,
@@ -389,11 +397,11 @@ class System:
     def ensemble(
         self,
         x0: npt.ArrayLike,
-        method: Optional[str] = None,
+        method: str | None = None,
         *,
-        h: Optional[Number] = None,
+        h: Number | None = None,
         t: Number,
-        threads: Optional[int] = None,
+        threads: int | None = None,
         rtol: float = 1e-6,
         atol: float = 1e-9,
         **parameters: Any,
@@ -405,9 +413,7 @@ class System:
         """
         starts = np.ascontiguousarray(np.atleast_2d(np.asarray(x0, dtype=np.float64)))
         if starts.ndim != 2 or starts.shape[1] != self.dimension:
-            raise ValueError(
-                f"x0 has the shape {np.shape(x0)}, not (members, {self.dimension})"
-            )
+            raise ValueError(f"x0 has the shape {np.shape(x0)}, not (members, {self.dimension})")
         lengths = {name: np.size(value) for name, value in parameters.items()}
         if any(length not in (1, len(starts)) for length in lengths.values()):
             raise ValueError(f"parameters have lengths {lengths}, x0 has {len(starts)} members")
@@ -450,7 +456,9 @@ class System:
         def evaluate(mu: npt.ArrayLike) -> Array:
             states = np.asarray(mu, dtype=np.float64)
             if states.shape[-1:] != (n,):
-                raise ValueError(f"the last axis of the state has {states.shape[-1:]} entries, not {n}")
+                raise ValueError(
+                    f"the last axis of the state has {states.shape[-1:]} entries, not {n}"
+                )
             leading = states.shape[:-1]
             flat = np.ascontiguousarray(states.reshape(-1, n))
             found = core.evaluate(name, values, flat)
@@ -466,7 +474,7 @@ class System:
         evaluate.__name__ = name
         return evaluate
 
-    def methods(self) -> dict[str, Optional[str]]:
+    def methods(self) -> dict[str, str | None]:
         """Every method by its id, with the reason where it does not apply, else ``None``."""
         return dict(self._core.methods())
 
@@ -499,9 +507,7 @@ def _latex(text: str) -> str:
     return text.replace("*", r"\,")
 
 
-def load(path: Union[str, "os.PathLike[str]"]) -> System:
+def load(path: str | os.PathLike[str]) -> System:
     """The system of a spec file."""
     with open(path, encoding="utf-8-sig") as file:
         return System(file.read())
-
-

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Optional
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from . import Solution
@@ -18,7 +18,7 @@ class DeclarationError(ValueError):
     """
 
     def __init__(
-        self, message: str, kind: str, line: Optional[int] = None, column: Optional[int] = None
+        self, message: str, kind: str, line: int | None = None, column: int | None = None
     ) -> None:
         super().__init__(message)
         self.kind = kind
@@ -40,7 +40,7 @@ class IntegrationError(RuntimeError):
     time before it.
     """
 
-    def __init__(self, message: str, partial: "Solution", step: int, time: float) -> None:
+    def __init__(self, message: str, partial: Solution, step: int, time: float) -> None:
         super().__init__(message)
         self.partial = partial
         self.step = step

@@ -1,0 +1,197 @@
+"""The package from the outside. Each comparison has a control that fails."""
+
+from __future__ import annotations
+
+import doctest
+import pickle
+from concurrent.futures import ProcessPoolExecutor
+
+import liepoisson as lp
+import numpy as np
+import pytest
+
+BODY = {
+    "algebra": "so(3)",
+    "state": ["x", "y", "z"],
+    "parameters": {"I1": 2, "I2": 1, "I3": "2/3"},
+    "hamiltonian": "x^2/(2*I1) + y^2/(2*I2) + z^2/(2*I3)",
+}
+START = [0.8, 0.1, 0.6]
+
+
+def body() -> lp.System:
+    return lp.System(BODY)
+
+
+def euler(mu: np.ndarray) -> np.ndarray:
+    """Euler's equations by hand."""
+    return np.cross(mu, mu / np.array([2.0, 1.0, 2.0 / 3.0]))
+
+
+def rk4(mu: np.ndarray, h: float, steps: int) -> np.ndarray:
+    for _ in range(steps):
+        a = euler(mu)
+        b = euler(mu + h / 2 * a)
+        c = euler(mu + h / 2 * b)
+        d = euler(mu + h * c)
+        mu = mu + h / 6 * (a + 2 * b + 2 * c + d)
+    return mu
+
+
+def test_a_run_is_the_solution() -> None:
+    run = body().run("gauss16", h=0.1, t=5, x0=START)
+    assert run.t.shape == (51,) and run.mu.shape == (51, 3)
+    exact = rk4(np.array(START), 1e-3, 5000)
+    assert np.abs(run.mu[-1] - exact).max() < 1e-11
+    rough = body().run("midpoint", h=0.1, t=5, x0=START)
+    assert np.abs(rough.mu[-1] - exact).max() > 1e-5
+
+
+def test_columns_and_drift() -> None:
+    run = body().run("lie-midpoint", h=0.1, t=50, x0=START)
+    assert np.array_equal(run["y"], run.mu[:, 1])
+    assert np.array_equal(run["C1"], run.casimirs["C1"])
+    assert run.drift["C1"] < 1e-13
+    assert body().run("rk4", h=0.5, t=50, x0=START).drift["C1"] > 1e-6
+    with pytest.raises(KeyError, match="There are"):
+        run["w"]
+
+
+def test_a_tolerance_chooses_the_step() -> None:
+    run = body().run(tol=1e-10, t=5, x0=START)
+    exact = rk4(np.array(START), 1e-3, 5000)
+    assert run.method == "gauss16"
+    assert np.abs(run.mu[-1] - exact).max() < 1e-9
+    loose = body().run("gauss4", tol=1e-3, t=5, x0=START)
+    assert loose.step > 3 * body().run("gauss4", tol=1e-8, t=5, x0=START).step
+
+
+def test_times_parameters_and_states_by_name() -> None:
+    run = body().run("rk4", h=0.1, at=[0.25, 1.0], x0=dict(zip("xyz", START)), I2="1/2")
+    assert run.t.tolist() == [0.25, 1.0]
+    other = body().run("rk4", h=0.1, at=[0.25, 1.0], x0=START)
+    assert not np.array_equal(run.mu, other.mu)
+
+
+def test_functions_over_leading_axes() -> None:
+    states = np.random.default_rng(2018).normal(size=(4, 5, 3))
+    f, jacobian = body().function("vector_field"), body().function("jacobian")
+    assert np.allclose(f(states), euler(states), atol=1e-14)
+    assert not np.allclose(f(states), euler(states + 0.01), atol=1e-14)
+    assert jacobian(states).shape == (4, 5, 3, 3)
+    e = 1e-6
+    difference = (f(states + [e, 0, 0]) - f(states - [e, 0, 0])) / (2 * e)
+    assert np.allclose(jacobian(states)[..., 0], difference, atol=1e-8)
+    assert body().function("hamiltonian")(START).shape == ()
+    with pytest.raises(ValueError, match="did you mean `jacobian`"):
+        body().function("jacobean")
+
+
+def test_an_ensemble_has_the_bits_of_single_runs() -> None:
+    starts = np.random.default_rng(7).normal(size=(200, 3))
+    masses = np.linspace(1.0, 3.0, 200)
+    one = body().ensemble(starts, "gauss4", h=0.1, t=2, threads=1, I1=masses)
+    three = body().ensemble(starts, "gauss4", h=0.1, t=2, threads=3, I1=masses)
+    assert np.array_equal(one.mu, three.mu) and one.failures == []
+    alone = body().run("gauss4", h=0.1, t=2, x0=starts[17], I1=masses[17])
+    assert np.array_equal(one.mu[17], alone.mu[-1])
+    assert not np.array_equal(one.mu, body().ensemble(starts, "gauss4", h=0.1, t=2).mu)
+
+
+def test_failed_members_do_not_disturb_the_others() -> None:
+    starts = np.array([START, [np.inf, 0, 0], START])
+    found = body().ensemble(starts, "midpoint", h=0.1, t=1)
+    assert [failure[0] for failure in found.failures] == [1]
+    assert np.isnan(found.mu[1]).all() and np.array_equal(found.mu[0], found.mu[2])
+
+
+def test_a_run_that_stops_keeps_its_rows() -> None:
+    top = lp.System(
+        algebra="se(3)",
+        state=["m1", "m2", "m3", "g1", "g2", "g3"],
+        hamiltonian="(m1^2 + m2^2)/2 + m3^2 + g3",
+    )
+    start = [0.4, 0.3, 0.9, 0.36, 0.48, 0.8]
+    with pytest.raises(lp.IntegrationError, match="help: take a smaller step") as caught:
+        top.run("midpoint", h=100, t=1000, x0=start)
+    assert caught.value.step >= 1 and caught.value.time == 100.0 * (caught.value.step - 1)
+    assert caught.value.partial.mu.shape == (caught.value.step, 6)
+    assert len(top.run("midpoint", h=0.1, t=1, x0=start)) == 11
+
+
+def test_mistakes_have_a_kind_a_place_and_a_remedy() -> None:
+    with pytest.raises(lp.DeclarationError, match="declare `w` as a parameter") as caught:
+        lp.System({**BODY, "hamiltonian": "x^2 + w"})
+    assert caught.value.kind == "unknown-symbol"
+    assert caught.value.line is not None and caught.value.column is not None
+    with pytest.raises(lp.DeclarationError) as caught:
+        basis = {"basis": ["a", "b", "c"], "brackets": ["[a, b] = c", "[b, c] = a", "[a, c] = a"]}
+        lp.System(algebra=basis, state=["x", "y", "z"], hamiltonian="x^2")
+    assert caught.value.kind == "jacobi"
+
+
+@pytest.mark.parametrize(
+    ("wrong", "hint"),
+    [
+        (lambda: body().run(dt=0.1), "here it is `h`"),
+        (lambda: body().run(**{"y0": START}), "here it is `x0`"),
+        (lambda: body().run(t_end=1), "here it is `t`"),
+        (lambda: body().run(I_1=2), "did you mean `I1`"),
+        (lambda: body().run(x0=[1, 2]), "2 numbers, System has 3 coordinates: x, y, z"),
+        (lambda: body().run(), "give x0="),
+        (lambda: body().run("midpont", x0=START), "did you mean `midpoint`"),
+        (lambda: body().run("midpoint", h=0.1, tol=1e-3, x0=START), "not both"),
+        (lambda: lp.System({**BODY, "hamiltonian": "x**2"}), r"help: x\^2"),
+        (lambda: lp.System({**BODY, "hamiltonian": "np.sin(x)"}), "write `sin\\(x\\)`"),
+        (lambda: lp.System(state=["x"], hamiltonian="x"), 'algebra="so\\(3\\)"'),
+        (lambda: lp.System({**BODY, "hamiltonin": "x"}), "hamiltonian"),
+    ],
+)
+def test_slips_are_answered_with_what_works(wrong: object, hint: str) -> None:
+    with pytest.raises((ValueError, TypeError), match=hint):
+        wrong()  # type: ignore[operator]
+
+
+def test_a_method_that_does_not_apply_says_why() -> None:
+    assert body().methods()["midpoint"] is None
+    reason = body().methods()["euler-arnold2"]
+    assert reason is not None
+    with pytest.raises(lp.MethodError, match="does not apply"):
+        body().run("euler-arnold2", x0=START)
+
+
+def end_of(system: lp.System, start: list[float]) -> list[float]:
+    end: list[float] = system.run("gauss4", h=0.1, t=1, x0=start).mu[-1].tolist()
+    return end
+
+
+def test_systems_travel_to_other_processes() -> None:
+    system = pickle.loads(pickle.dumps(body()))
+    assert system.text == body().text
+    starts = [[1.0, 0.1 * k, 0.3] for k in range(6)]
+    with ProcessPoolExecutor(2) as pool:
+        found = list(pool.map(end_of, [system] * 6, starts))
+    assert found == [end_of(system, start) for start in starts]
+    run = pickle.loads(pickle.dumps(system.run("rk4", h=0.1, t=1, x0=START)))
+    assert run.mu.shape == (11, 3)
+
+
+def test_the_declaration_gives_what_the_call_leaves_out() -> None:
+    system = lp.System(BODY, initial=START, run={"method": "gauss4", "step": "1/5", "until": 2})
+    run = system.run()
+    assert (run.method, run.step, len(run)) == ("gauss4", 0.2, 11)
+    assert system.initial is not None and system.initial.tolist() == START
+
+
+def test_the_examples_of_the_documentation() -> None:
+    assert doctest.testmod(lp).failed == 0
+    assert doctest.testmod(lp).attempted > 5
+
+
+def test_pictures_and_text() -> None:
+    pytest.importorskip("matplotlib").use("Agg")
+    run = body().run("gauss4", h=0.1, t=5, x0=START)
+    assert len(run.plot().axes) == 2
+    assert "dot" not in body().latex() and r"\begin{aligned}" in body().latex()
+    assert "fn vector_field" in body().rust("midpoint")
+    assert "gauss4" in repr(run)
