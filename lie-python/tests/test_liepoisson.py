@@ -134,7 +134,7 @@ def test_mistakes_have_a_kind_a_place_and_a_remedy() -> None:
     ("wrong", "hint"),
     [
         (lambda: body().run(dt=0.1), "here it is `h`"),
-        (lambda: body().run(**{"y0": START}), "here it is `x0`"),
+        (lambda: body().run(y0=1.0), "here it is `x0`"),
         (lambda: body().run(t_end=1), "here it is `t`"),
         (lambda: body().run(I_1=2), "did you mean `I1`"),
         (lambda: body().run(x0=[1, 2]), "2 numbers, System has 3 coordinates: x, y, z"),

@@ -441,8 +441,8 @@ class System:
 
         >>> body = System(algebra="so(3)", state=["x", "y", "z"], hamiltonian="x^2/2 + y^2/4 + z^2/6")
         >>> f = body.function("vector_field")
-        >>> f([1.0, 1.0, 1.0]).tolist()
-        [-0.16666666666666669, 0.6666666666666667, -0.5]
+        >>> f([1.0, 2.0, 6.0]).tolist()
+        [-2.0, 4.0, -1.0]
 
         For SciPy: ``solve_ivp(lambda t, y: f(y), …)``.
         """
