@@ -38,6 +38,10 @@ pub enum Command {
     Methods(Methods),
     /// Prints the JSON Schema of spec files
     Schema,
+    /// Writes a spec that runs, for an algebra by its name
+    New(New),
+    /// Shows where built programs are kept, or removes them
+    Cache(Cache),
     #[command(flatten)]
     Later(Later),
 }
@@ -71,6 +75,25 @@ impl Later {
             Later::Equilibria(_) => "equilibria",
         }
     }
+}
+
+/// `lie new`.
+#[derive(Args, Debug)]
+pub struct New {
+    /// The name of the file, without `.json`
+    #[arg(value_name = "NAME")]
+    pub name: String,
+    /// The algebra, as in `"algebra"` of a spec
+    #[arg(long, value_name = "ALGEBRA", default_value = "so(3)")]
+    pub algebra: String,
+}
+
+/// `lie cache`.
+#[derive(Args, Debug)]
+pub struct Cache {
+    /// Removes all that is in it
+    #[arg(long)]
+    pub clear: bool,
 }
 
 /// Whatever follows the name of a command that does not exist yet.

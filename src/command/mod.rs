@@ -1,11 +1,13 @@
 //! The commands, one module each.
 
 pub mod args;
+mod cache;
 mod check;
 mod expand;
 mod measure;
 pub mod method;
 mod methods;
+mod new;
 mod run;
 mod schema;
 pub mod usage;
@@ -31,13 +33,15 @@ pub fn run(command: &Command) -> Result<u8, Failure> {
         Command::Verify(arguments) => measure::verify::run(arguments),
         Command::Methods(arguments) => methods::run(arguments),
         Command::Schema => schema::run(),
+        Command::New(arguments) => new::run(arguments),
+        Command::Cache(arguments) => cache::run(arguments),
         Command::Later(later) => Err(not_built(later)),
     }
 }
 
 /// The commands that are built.
-pub const BUILT: [&str; 8] = [
-    "check", "expand", "run", "verify", "bench", "stress", "methods", "schema",
+pub const BUILT: [&str; 10] = [
+    "check", "expand", "run", "verify", "bench", "stress", "methods", "schema", "new", "cache",
 ];
 
 fn not_built(later: &Later) -> Failure {

@@ -1,0 +1,134 @@
+//! `lie new`: writes a spec that runs.
+
+use std::fs::OpenOptions;
+use std::io::Write as _;
+use std::path::PathBuf;
+
+use lie_codegen::compile::compile_spec;
+use lie_codegen::diagnostic::Diagnostic;
+
+use super::{args, print};
+use crate::message::{Failure, Message};
+
+/// Moments of inertia that are all different: without that some motions rest.
+const FIRST: u32 = 3;
+/// Beyond so many coordinates numbers stand in place of parameters.
+const MOST_PARAMETERS: usize = 12;
+
+/// Writes the spec.
+///
+/// # Errors
+/// `option` for an algebra or a name that is none, `io` where the file is there already or cannot be written.
+pub fn run(arguments: &args::New) -> Result<u8, Failure> {
+    let algebra = arguments.algebra.trim();
+    let name = type_name(&arguments.name)?;
+    let coordinates = coordinates(&name, algebra)?;
+    let text = spec(&name, algebra, &coordinates);
+    let path = PathBuf::from(format!("{}.json", arguments.name.trim_end_matches(".json")));
+    let file = OpenOptions::new().write(true).create_new(true).open(&path);
+    let written = file.and_then(|mut file| file.write_all(text.as_bytes()));
+    written.map_err(|error| {
+        let message = Message::io(
+            &path,
+            format!("{} cannot be written: {error}", path.display()),
+        );
+        let help = match error.kind() {
+            std::io::ErrorKind::AlreadyExists => "choose another name, or remove the file first",
+            _ => "choose a folder that can be written",
+        };
+        Failure::surroundings(message.help(help))
+    })?;
+    let path = path.display();
+    print(&format!(
+        "{path}: {} coordinates of {algebra}, with a kinetic energy\nnext: lie run {path} --plot {}.svg\n",
+        coordinates.len(),
+        arguments.name.trim_end_matches(".json")
+    ))?;
+    Ok(0)
+}
+
+/// The name of a system from that of a file: its words with capitals, nothing else.
+fn type_name(file: &str) -> Result<String, Failure> {
+    let stem = PathBuf::from(file.trim_end_matches(".json"));
+    let stem = stem
+        .file_name()
+        .map(|stem| stem.to_string_lossy().into_owned());
+    let stem = stem.unwrap_or_default();
+    let words = stem.split(|c: char| !c.is_alphanumeric());
+    let capital = |word: &str| {
+        let mut letters = word.chars();
+        let first = letters.next().map(|first| first.to_uppercase().to_string());
+        first.unwrap_or_default() + letters.as_str()
+    };
+    let name: String = words.map(capital).collect();
+    if name.starts_with(char::is_alphabetic) {
+        return Ok(name);
+    }
+    let message = Message::option("NAME", format!("`{file}` begins with no letter"));
+    Err(message.help("take a name such as `spinning_top`").into())
+}
+
+/// The standard names of the coordinates of an algebra.
+fn coordinates(name: &str, algebra: &str) -> Result<Vec<String>, Failure> {
+    let draft = serde_json::json!({
+        "format": 1, "name": name, "algebra": algebra, "hamiltonian": "0",
+    });
+    match compile_spec(&draft.to_string()) {
+        Ok(model) => Ok(model
+            .coordinates
+            .into_iter()
+            .map(|name| name.text)
+            .collect()),
+        Err(mistakes) => Err(refused(algebra, mistakes.into_iter().next())),
+    }
+}
+
+/// Why the name of an algebra is none.
+fn refused(algebra: &str, mistake: Option<Diagnostic>) -> Failure {
+    let Some(mistake) = mistake else {
+        return Message::option("--algebra", format!("`{algebra}` is no algebra")).into();
+    };
+    let message = Message::new(mistake.kind, mistake.message).at_option("--algebra");
+    let help = mistake
+        .help
+        .unwrap_or_else(|| "the names are in docs/algebras.md".to_owned());
+    message.help(help).into()
+}
+
+/// A free body: the kinetic energy with different moments, begun off its axes.
+fn spec(name: &str, algebra: &str, coordinates: &[String]) -> String {
+    let few = coordinates.len() <= MOST_PARAMETERS;
+    let (mut parameters, mut terms) = (Vec::new(), Vec::new());
+    for (place, coordinate) in (0_u32..).zip(coordinates) {
+        // 1, 4/3, 5/3, … in thirds
+        let (above, below) = (FIRST + place, FIRST);
+        if few {
+            parameters.push(format!(r#""I{}": "{above}/{below}""#, place + 1));
+            terms.push(format!("{coordinate}^2/(2*I{})", place + 1));
+        } else {
+            terms.push(format!("{below}*{coordinate}^2/{}", 2 * above));
+        }
+    }
+    let initial = (0_i32..).zip(coordinates).map(|(place, _)| {
+        let sign = if place % 2 == 0 { "" } else { "-" };
+        format!(r#""{sign}{}/10""#, 5 - place % 4)
+    });
+    let initial: Vec<String> = initial.collect();
+    let state: Vec<String> = coordinates.iter().map(|name| format!("{name:?}")).collect();
+    let mut lines = vec![
+        r#""format": 1"#.to_owned(),
+        format!(r#""name": "{name}""#),
+        format!(r#""description": "A free body on the dual of {algebra}""#),
+        format!(r#""algebra": "{algebra}""#),
+        format!(r#""state": [{}]"#, state.join(", ")),
+    ];
+    if few {
+        lines.push(format!(r#""parameters": {{ {} }}"#, parameters.join(", ")));
+    }
+    lines.extend([
+        format!(r#""hamiltonian": "{}""#, terms.join(" + ")),
+        format!(r#""initial": [{}]"#, initial.join(", ")),
+        r#""run": { "method": "lie-midpoint", "step": "1/50", "until": 20 }"#.to_owned(),
+    ]);
+    format!("{{\n  {}\n}}\n", lines.join(",\n  "))
+}
