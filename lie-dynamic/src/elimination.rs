@@ -67,7 +67,7 @@ impl Table {
             for &row in below {
                 let mut multiplier = matrix.get(row, index);
                 if !keeps_one {
-                    multiplier = multiplier * matrix.get(index, index);
+                    multiplier *= matrix.get(index, index);
                     matrix.set(row, index, multiplier);
                 }
                 for &column in right {

@@ -259,10 +259,13 @@ impl<S: Scalar> m::Method<S, Dynamic<S>> for Base<S> {
     }
 }
 
+/// Which method steps of a system are made by.
+type Choose<S> = dyn Fn(&Dynamic<S>) -> Method<S>;
+
 /// A method that claims what another does: a composition of its base, or one of several by the system.
 struct Claiming<S: Scalar> {
     claims: Claims,
-    choose: Box<dyn Fn(&Dynamic<S>) -> Method<S>>,
+    choose: Box<Choose<S>>,
 }
 
 impl<S: Scalar> AnyMethod<S, Dynamic<S>> for Claiming<S> {

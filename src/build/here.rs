@@ -86,8 +86,8 @@ impl Declaration {
 
     fn run(&self, chart: Option<Chart>, line: &str, session: &mut Session<'_>) -> Result<(), End> {
         let mut program = Program::new(&self.parameters(), Self::build(&self.plan));
-        for choice in self.choices.iter().cloned() {
-            let label = choice.label();
+        for choice in &self.choices {
+            let (label, choice) = (choice.label(), choice.clone());
             let make = move |tolerances: &Tolerances| made(&choice, tolerances);
             program = match chart {
                 None => program.any_method(&label, make),
@@ -99,8 +99,8 @@ impl Declaration {
 
     fn verify(&self, line: &str, session: &mut Session<'_>) -> Result<(), End> {
         let mut program = Verify::new(&self.parameters(), Self::build(&self.plan));
-        for choice in self.choices.iter().cloned() {
-            let label = choice.label();
+        for choice in &self.choices {
+            let (label, choice) = (choice.label(), choice.clone());
             let series = matches!(choice, Choice::Taylor | Choice::LieTaylor);
             let kind = if choice.solved() != &choice {
                 Kind::Composed
@@ -114,9 +114,10 @@ impl Declaration {
                 false => (made(&choice, tolerances), made(&choice, tolerances)),
             });
         }
-        for choice in self.compared.iter().cloned() {
+        for choice in &self.compared {
             let Some(plain) = &self.plain else { break };
             let (label, build) = (choice.label(), Self::build(plain));
+            let choice = choice.clone();
             let make = move |tolerances: &Tolerances| made(&choice, tolerances);
             program = program.any_plain(&label, build, make);
         }
