@@ -9,8 +9,11 @@
 //! ring (Gauss). The mean is a loop, for which the grammar has no word. Its derivatives come from dual numbers.
 
 use std::error::Error;
+use std::path::PathBuf;
 
-use lie_runtime::diagnostics::{Drift, DriftMonitor};
+use lie_poisson::plot::Plot;
+use lie_runtime::diagnostics::DriftMonitor;
+use lie_runtime::driver::Solution;
 use lie_runtime::prelude::*;
 
 /// The arithmetic-geometric mean: each turn doubles the digits.
@@ -42,26 +45,59 @@ lie_poisson! {
 
 const START: [f64; 6] = [0.3, 0.2, 1.1, 0.6, 0.0, 0.8];
 
-fn drift<M: Method<f64, RingTopSystem>>(method: M) -> Result<Drift, Box<dyn Error>> {
-    let problem = Problem::new(RingTop::new().system()?, START, (0.0, 500.0));
+const END: f64 = 500.0;
+
+/// The solution, and how far energy and Casimirs move over all steps.
+fn run<M: Method<f64, RingTopSystem>>(
+    name: &str,
+    method: M,
+) -> Result<Solution<f64, <RingTopSystem as Poisson<f64>>::State>, Box<dyn Error>> {
+    let problem = Problem::new(RingTop::new().system()?, START, (0.0, END));
     let mut monitor = DriftMonitor::new();
-    solve_observed(&problem, method, &Options::new(0.1), &mut monitor)?;
-    Ok(monitor.drift().clone())
+    let solution = solve_observed(&problem, method, &Options::new(0.1), &mut monitor)?;
+    let drift = monitor.drift();
+    let casimirs = drift.casimirs.iter().map(|casimir| casimir.max);
+    let casimirs: Vec<String> = casimirs.map(|max| format!("{max:.1e}")).collect();
+    let growth = drift.energy.growth().unwrap_or(1.0);
+    println!(
+        "{name:<13} energy {:.1e} (last tenth over first {growth:.1}), Casimirs {}",
+        drift.energy.max,
+        casimirs.join(", ")
+    );
+    Ok(solution)
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    for (name, drift) in [
-        ("lie-midpoint", drift(LieMidpoint::exp())?),
-        ("rk4", drift(Rk4)?),
-    ] {
-        let casimirs = drift.casimirs.iter().map(|casimir| casimir.max);
-        let casimirs: Vec<String> = casimirs.map(|max| format!("{max:.1e}")).collect();
-        let growth = drift.energy.growth().unwrap_or(1.0);
-        println!(
-            "{name:<13} energy {:.1e} (last tenth over first {growth:.1}), Casimirs {}",
-            drift.energy.max,
-            casimirs.join(", ")
-        );
+    let kept = run("lie-midpoint", LieMidpoint::exp())?;
+    let lost = run("rk4", Rk4)?;
+    let columns = [
+        "t",
+        "Gamma1",
+        "Gamma2",
+        "Gamma3",
+        "energy, lie-midpoint",
+        "length, lie-midpoint",
+        "energy, rk4",
+        "length, rk4",
+    ];
+    let mut plot = Plot::new("A top drawn to a ring", &columns, 3, (0.0, END))
+        .subtitle("lie-midpoint and rk4, h = 0.1; the components are those of lie-midpoint");
+    for (row, (t, mu)) in kept.t.iter().zip(&kept.mu).enumerate() {
+        plot.push(&[
+            *t,
+            mu[3],
+            mu[4],
+            mu[5],
+            kept.energy[row],
+            kept.casimirs[row][0],
+            lost.energy[row],
+            lost.casimirs[row][0],
+        ]);
     }
+    let path = std::env::args_os()
+        .nth(1)
+        .map_or_else(|| PathBuf::from("10_own_function.svg"), PathBuf::from);
+    plot.write_svg(&path)?;
+    println!("\nThe picture is in {}.", path.display());
     Ok(())
 }
