@@ -12,7 +12,7 @@ use lie_codegen::model::Model;
 use lie_dynamic::{Declared, Dynamic, Tolerances};
 use lie_jit::Jit;
 use lie_runtime::diagnostics::Forgotten;
-use lie_runtime::driver::{Options, Pace, Problem, Save, SolveError, Solution, solve_observed};
+use lie_runtime::driver::{Options, Pace, Problem, Save, Solution, SolveError, solve_observed};
 use lie_runtime::newton::NewtonOptions;
 use lie_runtime::{Poisson, SquareMatrix};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
@@ -64,9 +64,19 @@ impl Core {
             (option.name.text.clone(), values.collect())
         });
         Ok(Self {
-            names: model.coordinates.iter().map(|name| name.text.clone()).collect(),
-            parameters: parameters.map(|p| (p.name.clone(), p.default_value)).collect(),
-            casimirs: model.casimirs.iter().map(|casimir| casimir.name.clone()).collect(),
+            names: model
+                .coordinates
+                .iter()
+                .map(|name| name.text.clone())
+                .collect(),
+            parameters: parameters
+                .map(|p| (p.name.clone(), p.default_value))
+                .collect(),
+            casimirs: model
+                .casimirs
+                .iter()
+                .map(|casimir| casimir.name.clone())
+                .collect(),
             system: model.name.clone(),
             lie_poisson: model.is_lie_poisson(),
             run: run.collect(),
@@ -98,7 +108,10 @@ impl Core {
 
     /// The names of the parameters, in order.
     fn parameter_names(&self) -> Vec<String> {
-        self.parameters.iter().map(|(name, _)| name.clone()).collect()
+        self.parameters
+            .iter()
+            .map(|(name, _)| name.clone())
+            .collect()
     }
 
     /// The declared initial state for these parameters.
@@ -128,7 +141,10 @@ impl Core {
     fn methods(&self) -> Vec<(String, Option<String>)> {
         let model = self.model();
         let known = lie_codegen::methods::applicability(&model);
-        known.into_iter().map(|(id, why)| (id.to_owned(), why)).collect()
+        known
+            .into_iter()
+            .map(|(id, why)| (id.to_owned(), why))
+            .collect()
     }
 
     /// The generated Rust.
@@ -148,7 +164,10 @@ impl Core {
     }
 
     /// One trajectory: times, states, energies and Casimirs; the step; what ended it early.
-    #[expect(clippy::too_many_arguments, reason = "the names are given on the side of Python")]
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "the names are given on the side of Python"
+    )]
     fn run<'py>(
         &self,
         py: Python<'py>,
@@ -268,7 +287,10 @@ impl Core {
     }
 
     /// The ends of many trajectories, and why some ended early: member, time, reason.
-    #[expect(clippy::too_many_arguments, reason = "the names are given on the side of Python")]
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "the names are given on the side of Python"
+    )]
     fn ensemble<'py>(
         &self,
         py: Python<'py>,
@@ -298,7 +320,9 @@ impl Core {
             end,
         };
         let (ends, failures) = py.detach(|| members.run(threads))?;
-        let ends = ends.into_pyarray(py).reshape([starts.as_array().nrows(), self.names.len()])?;
+        let ends = ends
+            .into_pyarray(py)
+            .reshape([starts.as_array().nrows(), self.names.len()])?;
         Ok((ends, failures))
     }
 }
@@ -335,7 +359,8 @@ impl Core {
         };
         let plan = lie_codegen::plan::plan(&model, choice.as_slice());
         if !Dynamic::supports(&plan) {
-            let text = "a system by a Lagrangian, a realization or a family does not run in Python yet";
+            let text =
+                "a system by a Lagrangian, a realization or a family does not run in Python yet";
             let help = "`lie run` integrates it: write the declaration to a file";
             return Err(method_error(py, text, help));
         }
@@ -353,7 +378,11 @@ impl Core {
 /// A method that only the command has.
 fn unsupported(py: Python<'_>, label: &str) -> PyErr {
     let text = format!("`{label}` does not run in Python yet");
-    method_error(py, &text, "`lie run` has it; or take another method, see System.methods()")
+    method_error(
+        py,
+        &text,
+        "`lie run` has it; or take another method, see System.methods()",
+    )
 }
 
 /// The rows of a run as arrays.
@@ -367,9 +396,13 @@ fn rows<'py>(
     let flat = |rows: Vec<Vec<f64>>| -> Vec<f64> { rows.into_iter().flatten().collect() };
     Ok((
         solution.t.into_pyarray(py),
-        flat(solution.mu).into_pyarray(py).reshape([count, dimension])?,
+        flat(solution.mu)
+            .into_pyarray(py)
+            .reshape([count, dimension])?,
         solution.energy.into_pyarray(py),
-        flat(solution.casimirs).into_pyarray(py).reshape([count, casimirs])?,
+        flat(solution.casimirs)
+            .into_pyarray(py)
+            .reshape([count, casimirs])?,
     ))
 }
 
