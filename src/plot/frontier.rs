@@ -20,7 +20,7 @@
 
 mod front;
 
-use super::svg::{INK, Place, Svg};
+use super::svg::{FAINT, INK, Place, Svg, width_of};
 use front::{fastest, front};
 
 const WIDTH: f64 = 1160.0;
@@ -31,7 +31,10 @@ const PANEL: (f64, f64) = (300.0, 330.0);
 const LEFT: f64 = 66.0;
 const STRIDE: f64 = 364.0;
 const TITLE: f64 = 26.0;
-const BELOW: f64 = 44.0;
+const BELOW: f64 = 54.0;
+/// Where the second column of a legend begins at the earliest, and what a name begins with.
+const COLUMN: f64 = 172.0;
+const SAMPLE: f64 = 31.0;
 const LINE: f64 = 15.0;
 /// Curves of a panel at most, unless one family has more.
 const CURVES: usize = 12;
@@ -101,6 +104,22 @@ struct Panel<'a> {
     curves: Vec<&'a Curve>,
 }
 
+impl Panel<'_> {
+    /// The rows of the legend, and how far apart its columns are: one column where two have no room.
+    fn legend(&self) -> (usize, f64) {
+        let rows = self.curves.len().div_ceil(2);
+        // any name may be bold
+        let entry = |curve: &&Curve| SAMPLE + width_of(&curve.name, 11.0, true) + 10.0;
+        let widest = |curves: &[&Curve]| curves.iter().map(entry).fold(0.0, f64::max);
+        let (first, second) = self.curves.split_at(rows);
+        let column = widest(first).max(COLUMN);
+        match column + widest(second) <= STRIDE {
+            true => (rows.max(1), column),
+            false => (self.curves.len(), 0.0),
+        }
+    }
+}
+
 impl Frontier {
     /// The picture as SVG.
     pub fn to_svg(&self) -> String {
@@ -116,14 +135,14 @@ impl Frontier {
                 let corner = (LEFT + STRIDE * column as f64, top + TITLE);
                 self.panel(&mut body, &Scale { x, y, corner }, panel, &curves);
             }
-            let longest = row
-                .iter()
-                .map(|panel| panel.curves.len())
-                .max()
-                .unwrap_or(0);
-            top += TITLE + PANEL.1 + BELOW + LINE * longest.div_ceil(2) as f64 + 22.0;
+            let longest = row.iter().map(|panel| panel.legend().0).max().unwrap_or(0);
+            top += TITLE + PANEL.1 + BELOW + LINE * longest as f64 + 22.0;
         }
-        body.page((WIDTH, top), &self.title, &self.subtitle)
+        let subtitle = match self.subtitle.as_str() {
+            "" => "grey: the others".to_owned(),
+            text => format!("{text}; grey: the others"),
+        };
+        body.page((WIDTH, top), &self.title, &subtitle)
     }
 
     fn panel(&self, svg: &mut Svg, scale: &Scale, panel: &Panel<'_>, all: &[Curve]) {
@@ -154,9 +173,10 @@ impl Frontier {
                 }
             }
         }
-        let rows = panel.curves.len().div_ceil(2);
+        self.say_floor(svg, scale);
+        let (rows, column) = panel.legend();
         for (index, (curve, on_front)) in panel.curves.iter().zip(&front).enumerate() {
-            let x = x - 34.0 + 172.0 * (index / rows) as f64;
+            let x = x - 34.0 + column * (index / rows) as f64;
             let y = y + PANEL.1 + BELOW + LINE * (index % rows) as f64;
             legend(svg, (x, y), curve, colour(curve), *on_front);
         }
@@ -201,13 +221,6 @@ impl Frontier {
         if self.floor.log10() > scale.y.0 {
             let (_, y) = scale.place((1.0, self.floor));
             svg.rectangle((left, y), (PANEL.0, bottom - y), "fill=\"#f0f0f0\"", "");
-            let place = (left + 5.0, bottom - 4.0);
-            svg.text(
-                place,
-                10.0,
-                "fill=\"#888\"",
-                "below the error of the reference",
-            );
         }
         let anchored = |anchor: &str| format!("text-anchor=\"{anchor}\" fill=\"{INK}\"");
         for k in across {
@@ -220,6 +233,21 @@ impl Frontier {
         }
         for k in up {
             svg.power_of_ten((left - 6.0, row(k) + 4.0), 12.0, &anchored("end"), k);
+        }
+        let faint = format!("text-anchor=\"middle\" fill=\"{FAINT}\"");
+        let below = (left + 0.5 * PANEL.0, bottom + 32.0);
+        svg.text(below, 12.0, &faint, "run time");
+        let side = (left - 48.0, top + 0.5 * PANEL.1);
+        svg.turned_text(side, -90.0, 12.0, &faint, "error");
+    }
+
+    /// Names the band below the error of the reference, over the curves that end in it.
+    fn say_floor(&self, svg: &mut Svg, scale: &Scale) {
+        if self.floor.log10() > scale.y.0 {
+            let place = (scale.corner.0 + 5.0, scale.corner.1 + PANEL.1 - 4.0);
+            let halo = "stroke=\"#f0f0f0\" stroke-width=\"4\" paint-order=\"stroke\"";
+            let style = format!("fill=\"{FAINT}\" {halo}");
+            svg.text(place, 10.0, &style, "below the error of the reference");
         }
     }
 }
@@ -364,5 +392,5 @@ fn legend(svg: &mut Svg, (x, y): Place, curve: &Curve, colour: &str, on_front: b
     svg.line((x, y), (x + 26.0, y), &stroke(curve, colour, width));
     marker(svg, (x + 13.0, y), curve.order, 3.0, colour);
     let style = format!("font-weight=\"{weight}\" fill=\"{INK}\"");
-    svg.text((x + 31.0, y + 4.0), 11.0, &style, &curve.name);
+    svg.text((x + SAMPLE, y + 4.0), 11.0, &style, &curve.name);
 }

@@ -11,11 +11,16 @@
 //! assert!(map.to_svg().contains("rk4"));
 //! ```
 
-use super::svg::{INK, Svg};
+use super::svg::{INK, Svg, width_of};
 
 const CELL: f64 = 17.0;
 const ROW: f64 = 17.0;
-const TOP: f64 = 176.0;
+/// Height of the labels of columns, and of the title with its second line.
+const LABELS: f64 = 66.0;
+const TITLE: f64 = 68.0;
+/// Size of the names of groups, and the degrees by which they rise.
+const HEAD: f64 = 12.5;
+const RISE: f64 = 30.0;
 const GAP: f64 = 8.0;
 
 /// What happened.
@@ -95,13 +100,15 @@ impl Map {
             places.push(x);
             x += CELL;
         }
-        let width = f64::max(x + 60.0, 1010.0);
-        let height = TOP + ROW * self.rows.len() as f64 + 64.0;
+        let (right, rise) = self.room(&places);
+        let top = TITLE + LABELS + rise + HEAD;
+        let width = f64::max(x.max(right) + 20.0, 1010.0);
+        let below = top + ROW * self.rows.len() as f64;
         let mut svg = Svg::default();
-        self.heads(&mut svg, &places);
+        self.heads(&mut svg, &places, top);
         let name_style = format!("text-anchor=\"end\" fill=\"{INK}\"");
         for (row, (name, cells)) in self.rows.iter().enumerate() {
-            let y = TOP + ROW * row as f64;
+            let y = top + ROW * row as f64;
             svg.text((left - 8.0, y + 12.5), 12.5, &name_style, name);
             for (cell, x) in cells.iter().zip(&places) {
                 let Some(cell) = cell else { continue };
@@ -109,38 +116,65 @@ impl Map {
                 svg.rectangle((*x, y), (CELL - 1.0, ROW - 1.0), &fill, &cell.text);
             }
         }
-        legend(&mut svg, TOP + ROW * self.rows.len() as f64 + 26.0);
-        svg.page((width, height), &self.title, &self.subtitle)
+        legend(&mut svg, below + 26.0);
+        svg.page((width, below + 92.0), &self.title, &self.subtitle)
     }
 
-    fn heads(&self, svg: &mut Svg, places: &[f64]) {
+    /// Where the names of groups end at the right, and how high the longest rises.
+    fn room(&self, places: &[f64]) -> (f64, f64) {
+        let (sine, cosine) = RISE.to_radians().sin_cos();
+        let columns = self.columns.iter().zip(places);
+        columns.fold((0.0, 0.0), |(right, rise), (column, x)| {
+            let length = width_of(&column.group, HEAD, true);
+            let end = x + 6.0 + cosine * length;
+            (f64::max(right, end), f64::max(rise, sine * length))
+        })
+    }
+
+    fn heads(&self, svg: &mut Svg, places: &[f64], top: f64) {
         let bold = format!("font-weight=\"bold\" fill=\"{INK}\"");
         for (index, (column, x)) in self.columns.iter().zip(places).enumerate() {
-            let place = (x + 12.0, TOP - 6.0);
+            let place = (x + 12.0, top - 6.0);
             svg.turned_text(place, -90.0, 11.0, "fill=\"#444\"", &column.label);
             let first = index == 0 || self.columns[index - 1].group != column.group;
             if first {
-                svg.turned_text((x + 6.0, TOP - 66.0), -30.0, 12.5, &bold, &column.group);
+                svg.turned_text((x + 6.0, top - LABELS), -RISE, HEAD, &bold, &column.group);
             }
         }
     }
 }
 
+/// The two scales of colour with their ends and middle, and below them what has one colour.
 fn legend(svg: &mut Svg, y: f64) {
+    let ink = format!("fill=\"{INK}\"");
+    let mut x = 20.0;
+    for (kind, text) in [
+        (Outcome::Drift as fn(f64) -> Outcome, "largest energy error"),
+        (Outcome::Growing, "energy error that grows"),
+    ] {
+        svg.text((x, y + 11.5), 11.5, &ink, text);
+        x += width_of(text, 11.5, false) + 8.0;
+        for step in 0..=16 {
+            let at = x + 10.0 * f64::from(step);
+            let fill = format!("fill=\"{}\"", colour(kind(f64::from(step) - 16.0)));
+            svg.rectangle((at, y), (10.5, 14.0), &fill, "");
+            if step % 8 == 0 {
+                let middle = format!("text-anchor=\"middle\" {ink}");
+                svg.power_of_ten((at + 5.0, y + 28.0), 10.0, &middle, step - 16);
+            }
+        }
+        x += 17.0 * 10.0 + 40.0;
+    }
     let entries = [
-        (Outcome::Drift(-16.0), "energy to round-off"),
-        (Outcome::Drift(-8.0), "energy to 1e-8"),
-        (Outcome::Drift(-1.0), "energy to 1e-1"),
-        (Outcome::Growing(-8.0), "energy error grows"),
         (Outcome::Stopped, "stopped with a message"),
         (Outcome::Lost, "claim lost in silence"),
         (Outcome::Domain, "outside the domain"),
     ];
-    let mut x = 20.0;
+    let (mut x, y) = (20.0, y + 40.0);
     for (outcome, text) in entries {
         let fill = format!("fill=\"{}\" stroke=\"#ccc\"", colour(outcome));
         svg.rectangle((x, y), (14.0, 14.0), &fill, "");
-        svg.text((x + 18.0, y + 11.5), 11.5, &format!("fill=\"{INK}\""), text);
-        x += 28.0 + 6.0 * text.chars().count() as f64;
+        svg.text((x + 20.0, y + 11.5), 11.5, &ink, text);
+        x += 44.0 + width_of(text, 11.5, false);
     }
 }

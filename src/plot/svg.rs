@@ -142,6 +142,12 @@ impl Svg {
     }
 }
 
+/// How wide a text is at most, about, in a common sans-serif font; bold ones are wider.
+pub fn width_of(text: &str, size: f64, bold: bool) -> f64 {
+    let letter = if bold { 0.70 } else { 0.62 };
+    letter * size * text.chars().count() as f64
+}
+
 fn escaped(text: &str) -> String {
     text.replace('&', "&amp;")
         .replace('<', "&lt;")

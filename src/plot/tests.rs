@@ -97,3 +97,130 @@ fn an_invariant_that_is_zero_is_drawn_absolutely() {
     let svg = drawn(4, 1, rows());
     assert!(svg.contains("c2 (absolute)") && !svg.contains("c3 (absolute)"));
 }
+
+/// The `x`, `y` and words of texts of a size.
+fn texts(svg: &str, size: &str) -> Vec<(f64, f64, String)> {
+    let lines = svg
+        .lines()
+        .filter(|line| line.contains(&format!("font-size=\"{size}\"")));
+    let number = |line: &str, key: &str| -> f64 {
+        let rest = line.split(key).nth(1).expect("a place");
+        rest.split('"')
+            .next()
+            .expect("a number")
+            .parse()
+            .expect("a number")
+    };
+    let words = |line: &str| {
+        line.split('>')
+            .nth(1)
+            .expect("words")
+            .trim_end_matches("</text")
+            .to_owned()
+    };
+    lines
+        .map(|line| (number(line, " x=\""), number(line, " y=\""), words(line)))
+        .collect()
+}
+
+/// Whether texts of one line run into the sample before the next, so many pixels wide, or out of the picture.
+fn collide(texts: &[(f64, f64, String)], size: f64, sample: f64, width: f64) -> bool {
+    texts.iter().any(|(x, y, text)| {
+        let end = x + svg::width_of(text, size, false);
+        end > width
+            || texts
+                .iter()
+                .any(|(other, line, _)| line == y && other > x && end > *other - sample)
+    })
+}
+
+#[test]
+fn legends_of_error_against_time_do_not_collide() {
+    use frontier::{Curve, Frontier};
+    let names = [
+        "orbit-energy (mean-value)",
+        "compose4(orbit-energy)",
+        "orbit-energy",
+        "rk4",
+    ];
+    let curve = |name: &str, class: &str| Curve {
+        name: name.to_owned(),
+        class: class.to_owned(),
+        family: name.to_owned(),
+        order: 2,
+        control: false,
+        points: vec![(1e-6, 1e-3), (2e-6, 6e-5)],
+    };
+    let curves = ["orbit", "energy", "Poisson"].iter();
+    let curves = curves.flat_map(|class| names.map(|name| curve(name, class)));
+    let picture = Frontier {
+        title: String::new(),
+        subtitle: String::new(),
+        floor: 1e-14,
+        curves: curves.collect(),
+    };
+    let svg = picture.to_svg();
+    let mut names = texts(&svg, "11");
+    names.retain(|(.., text)| text.contains("orbit") || text == "rk4");
+    assert_eq!(names.len(), 12);
+    assert!(!collide(&names, 11.0, 31.0, 1160.0), "{names:?}");
+    // the control: in two columns, as they stood before, they do
+    let before = |(index, name): (usize, &(f64, f64, String))| {
+        let (x, y) = (172.0 * (index % 2) as f64, (index / 2) as f64);
+        (x, y, name.2.clone())
+    };
+    let before: Vec<_> = names[..4].iter().enumerate().map(before).collect();
+    assert!(collide(&before, 11.0, 31.0, 1160.0));
+    for text in ["run time", ">error<", "grey: the others"] {
+        assert!(svg.contains(text), "{text}");
+    }
+}
+
+#[test]
+fn heads_of_a_map_are_inside_and_its_colours_explained() {
+    use map::{Cell, Column, Map, Outcome};
+    let groups = [
+        "step over h0",
+        "a_very_long_name_of_a_casimir_function times",
+    ];
+    let column = |group: &str| Column {
+        group: group.to_owned(),
+        label: "1".to_owned(),
+    };
+    let many = (0..80)
+        .map(|_| column(groups[0]))
+        .chain([column(groups[1])]);
+    let cell = Cell {
+        outcome: Outcome::Drift(-6.0),
+        text: String::new(),
+    };
+    let picture = Map {
+        title: "Top".into(),
+        subtitle: String::new(),
+        columns: many.collect(),
+        rows: vec![("rk4".into(), vec![Some(cell); 81])],
+    };
+    let svg = picture.to_svg();
+    let number = |key: &str| -> f64 {
+        let rest = svg.split(key).nth(1).expect("an attribute");
+        rest.split('"')
+            .next()
+            .expect("a number")
+            .parse()
+            .expect("a number")
+    };
+    let (width, length) = (number(" width=\""), svg::width_of(groups[1], 12.5, true));
+    let heads = texts(&svg, "12.5");
+    let (x, y, _) = heads
+        .iter()
+        .find(|head| head.2 == groups[1])
+        .expect("the head");
+    let (sine, cosine) = 30_f64.to_radians().sin_cos();
+    assert!(x + cosine * length < width && y - sine * length > 55.0);
+    // the control: 60 pixels beyond the last column, as before, were too few
+    assert!(x + cosine * length > x + 60.0);
+    let words = texts(&svg, "11.5");
+    assert!(!collide(&words, 11.5, 20.0, width), "{words:?}");
+    assert!(words.iter().any(|text| text.2 == "energy error that grows"));
+    assert!(svg.contains("10<tspan dy=\"-5\" font-size=\"7.5\">−16</tspan>"));
+}
