@@ -2,14 +2,32 @@
 
 use lie_codegen::methods::Choice;
 use lie_dynamic::{Declared, Tolerances, method};
+use lie_runtime::Poisson;
 use lie_runtime::diagnostics::Forgotten;
-use lie_runtime::driver::{Options, Problem, Save, SolveError, solve};
-use pyo3::exceptions::PyValueError;
+use lie_runtime::driver::{
+    Grid, Observer, Options, Problem, Progress, Save, SolveError, solve_observed,
+};
+use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
+use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-/// Members that a thread takes at a time.
+/// The most members that a thread takes at a time.
 const SHARE: usize = 64;
+/// Shares of each thread, so that none waits long for another.
+const SHARES: usize = 8;
+
+/// Ends a member where the whole is to end.
+struct Stop<'a>(&'a AtomicBool);
+
+impl<P: Poisson<f64>> Observer<f64, P> for Stop<'_> {
+    fn step(&mut self, _system: &P, _progress: Progress, _mu: &P::State) -> ControlFlow<()> {
+        match self.0.load(Ordering::Relaxed) {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        }
+    }
+}
 
 /// A member that ended early: its number, the time, why.
 type Failed = (usize, f64, String);
@@ -29,21 +47,31 @@ pub struct Members<'a> {
 impl Members<'_> {
     /// The ends one after the other, not numbers where a member failed, and the failures in order.
     pub fn run(&self, threads: usize) -> PyResult<(Vec<f64>, Vec<Failed>)> {
+        Grid::new((0.0, self.end), self.step)
+            .map_err(|error| PyValueError::new_err(error.to_string()))?;
+        let threads = threads.clamp(1, self.starts.len().max(1));
+        let share = (self.starts.len() / (threads * SHARES)).clamp(1, SHARE);
         let (next, stop) = (AtomicUsize::new(0), AtomicBool::new(false));
         let work = || {
             let mut done: Vec<(usize, Result<Vec<f64>, Failed>)> = Vec::new();
             loop {
-                let first = next.fetch_add(SHARE, Ordering::Relaxed);
+                let first = next.fetch_add(share, Ordering::Relaxed);
                 if first >= self.starts.len() || stop.load(Ordering::Relaxed) {
                     return done;
                 }
-                for member in first..(first + SHARE).min(self.starts.len()) {
-                    done.push((member, self.member(member)));
+                for member in first..(first + share).min(self.starts.len()) {
+                    done.push((member, self.member(member, &stop)));
                 }
             }
         };
         let (found, interrupted) = std::thread::scope(|scope| {
-            let threads: Vec<_> = (0..threads.max(1)).map(|_| scope.spawn(work)).collect();
+            // where the machine gives fewer threads, these do it all
+            let spawn = |_| std::thread::Builder::new().spawn_scoped(scope, work).ok();
+            let threads: Vec<_> = (0..threads).map_while(spawn).collect();
+            if threads.is_empty() {
+                let error = PyRuntimeError::new_err("the machine gives no thread");
+                return (Ok(Vec::new()), Err(error));
+            }
             let mut interrupted = Ok(());
             while threads.iter().any(|thread| !thread.is_finished()) {
                 std::thread::sleep(std::time::Duration::from_millis(1));
@@ -73,7 +101,7 @@ impl Members<'_> {
         Ok((ends, failures))
     }
 
-    fn member(&self, member: usize) -> Result<Vec<f64>, Failed> {
+    fn member(&self, member: usize, stop: &AtomicBool) -> Result<Vec<f64>, Failed> {
         let failed = |time: f64, why: String| (member, time, why);
         let parameters = match self.parameters.as_slice() {
             [only] => only,
@@ -90,7 +118,7 @@ impl Members<'_> {
             span: (0.0, self.end),
         };
         let options = Options::new(self.step).save(Save::Ends);
-        match solve(&problem, Forgotten(method.as_ref()), &options) {
+        match solve_observed(&problem, Forgotten(method.as_ref()), &options, Stop(stop)) {
             Ok(mut solution) => solution
                 .mu
                 .pop()

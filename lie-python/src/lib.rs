@@ -9,7 +9,7 @@ use choice::wanted;
 use errors::{declaration, method_error};
 use lie_codegen::methods::Choice;
 use lie_codegen::model::Model;
-use lie_dynamic::{Declared, Dynamic, Tolerances};
+use lie_dynamic::{Declared, Dynamic};
 use lie_jit::Jit;
 use lie_runtime::diagnostics::Forgotten;
 use lie_runtime::driver::{Options, Pace, Problem, Save, Solution, SolveError, solve_observed};
@@ -124,6 +124,20 @@ impl Core {
         Ok(system.initial_state().map(|state| state.into_pyarray(py)))
     }
 
+    /// The state for the values that a user gives: all, or without what carries the time; none where there are more or fewer.
+    fn complete(&self, given: Vec<f64>) -> Option<Vec<f64>> {
+        match given.len() == self.names.len() {
+            true => Some(given),
+            false => self.model().complete_state(&given),
+        }
+    }
+
+    /// The names of the coordinates that users give.
+    fn shown(&self) -> Vec<String> {
+        let shown = self.model().shown_coordinates();
+        shown.into_iter().map(|i| self.names[i].clone()).collect()
+    }
+
     /// What the declaration says of a run, as it was written.
     fn run_options(&self) -> HashMap<String, Vec<String>> {
         self.run.clone()
@@ -178,12 +192,11 @@ impl Core {
         end: f64,
         every: u64,
         at: Option<Vec<f64>>,
-        tolerances: (f64, f64),
+        tolerances: (Option<f64>, Option<f64>),
     ) -> PyResult<(Rows<'py>, Bound<'py, PyDict>)> {
         let (choice, declared) = self.method(py, label)?;
         let system = made(&declared, &parameters)?;
-        let (rtol, atol) = tolerances;
-        let tolerances = Tolerances { rtol, atol };
+        let tolerances = choice::tolerances(py, &choice, tolerances, pace.1)?;
         lie_dynamic::method::<f64>(&choice, tolerances).ok_or_else(|| unsupported(py, label))?;
         let options = Options {
             pace: match pace {
@@ -300,11 +313,10 @@ impl Core {
         step: f64,
         end: f64,
         threads: usize,
-        tolerances: (f64, f64),
+        tolerances: (Option<f64>, Option<f64>),
     ) -> PyResult<(Bound<'py, PyArray2<f64>>, Vec<(usize, f64, String)>)> {
         let (choice, declared) = self.method(py, label)?;
-        let (rtol, atol) = tolerances;
-        let tolerances = Tolerances { rtol, atol };
+        let tolerances = choice::tolerances(py, &choice, tolerances, None)?;
         lie_dynamic::method::<f64>(&choice, tolerances).ok_or_else(|| unsupported(py, label))?;
         let rows = |array: &PyReadonlyArray2<'py, f64>| -> Vec<Vec<f64>> {
             let rows = array.as_array();
@@ -342,6 +354,10 @@ impl Core {
 
     /// A method with what is compiled for it, once.
     fn method(&self, py: Python<'_>, label: &str) -> PyResult<(Choice, Arc<Declared>)> {
+        if label.trim().is_empty() {
+            let help = "name one, such as \"lie-midpoint\", or leave it out";
+            return Err(method_error(py, "the method is empty", help));
+        }
         let Compiled { choice, declared } = self.compiled(py, label)?;
         let choice = choice.unwrap_or_else(|| unreachable!("a method has a label"));
         Ok((choice, declared))

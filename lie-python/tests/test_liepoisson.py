@@ -195,3 +195,87 @@ def test_pictures_and_text() -> None:
     assert "dot" not in body().latex() and r"\begin{aligned}" in body().latex()
     assert "fn vector_field" in body().rust("midpoint")
     assert "gauss4" in repr(run)
+
+
+def test_every_key_of_a_run_in_the_declaration_counts() -> None:
+    def run(**keys: object) -> lp.Solution:
+        return lp.System(BODY, initial=START, run=keys).run()
+
+    assert len(run(step=0.1, until=2, every=5)) == 5 and len(run(step=0.1, until=2)) == 21
+    assert run(step=0.1, at=[0.5, "1/3"]).t.tolist() == [1 / 3, 0.5]
+    chosen = run(tol=1e-6, until=2)
+    assert (chosen.method, chosen.drift["energy"] < 1e-12) == ("gauss16", True)
+    assert run(method="gauss4", tol=1e-6, until=2).method == "gauss4"
+    tight = run(method="dopri5", step=1, until=20, rtol=1e-13, atol=1e-13)
+    assert tight.drift["energy"] < 1e-11 < run(method="dopri5", step=1, until=20).drift["energy"]
+    times = lp.System(BODY, initial=START, run={"step": 0.1, "at": [0.5]}).run(t=1)
+    assert len(times) == 11
+
+
+def test_series_are_as_exact_as_those_of_the_command() -> None:
+    assert body().run("taylor", h=0.1, t=10, x0=START).drift["energy"] < 1e-13
+    assert body().run("taylor", h=0.1, t=10, x0=START, rtol=1e-6).drift["energy"] > 1e-9
+    with pytest.raises(lp.MethodError, match="give `rtol` and `atol`"):
+        body().run("dopri5", tol=1e-8, x0=START)
+    with pytest.raises(lp.MethodError, match="not an option of rk4"):
+        body().run("rk4", rtol=1e-8, x0=START)
+
+
+def test_time_runs_backwards_without_a_step() -> None:
+    run = body().run("gauss4", t=-1, x0=START)
+    assert run.t[-1] == -1 and run.step == -0.01
+    assert np.allclose(body().run("gauss4", t=1, x0=run.mu[-1]).mu[-1], START, atol=1e-10)
+
+
+def test_states_of_systems_with_time_are_given_without_it() -> None:
+    driven = lp.System({**BODY, "hamiltonian": "x^2/2 + y^2 + z^2/3 + cos(t)*x", "parameters": {}})
+
+    def field(mu: np.ndarray, t: float) -> np.ndarray:
+        return np.cross(mu, [mu[0] + np.cos(t), 2 * mu[1], 2 * mu[2] / 3])
+
+    mu, h = np.array(START), 1e-3
+    for k in range(1000):
+        t = k * h
+        a = field(mu, t)
+        b = field(mu + h / 2 * a, t + h / 2)
+        c = field(mu + h / 2 * b, t + h / 2)
+        mu = mu + h / 6 * (a + 2 * b + 2 * c + field(mu + h * c, t + h))
+    for x0 in (START, dict(zip("xyz", START))):
+        end = driven.run("gauss16", h=0.1, t=1, x0=x0).mu[-1, :3]
+        assert np.abs(end - mu).max() < 1e-10
+    with pytest.raises(ValueError, match="has 3 coordinates: x, y, z"):
+        driven.run(x0=[1, 2])
+
+
+def test_few_long_members_share_the_threads_and_stop_at_once() -> None:
+    import os
+    import signal
+    import threading
+    import time
+
+    starts = np.tile(START, (4, 1))
+    threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+    begun = time.perf_counter()
+    with pytest.raises(KeyboardInterrupt):
+        body().ensemble(starts, "gauss4", h=1e-6, t=100, threads=2)
+    assert time.perf_counter() - begun < 3
+
+
+@pytest.mark.parametrize(
+    ("wrong", "hint"),
+    [
+        (lambda: body().run("", x0=START), "the method is empty"),
+        (lambda: body().run("RK45", x0=START), r"System.methods\(\)"),
+        (lambda: body().run(x0=START, at=[]), "`at` is empty"),
+        (lambda: body().run(x0=START, at=[1], every=2), "leave out t and every"),
+        (lambda: body().run(x0=START, every=-1), "1, 2, 3"),
+        (lambda: body().run(x0=START, params={"I1": 1}), "I1=…"),
+        (lambda: body().run(x0=START, retraction="cayley"), "--retraction cayley"),
+        (lambda: body().ensemble([START], h=0, t=1), "other than zero"),
+        (lambda: body().ensemble([START], h=-0.1, t=1), "away from"),
+        (lambda: body().ensemble([START], h=0.1, t=1, threads=-1), "1, 2, 3"),
+    ],
+)
+def test_more_slips(wrong: object, hint: str) -> None:
+    with pytest.raises((ValueError, TypeError), match=hint):
+        wrong()  # type: ignore[operator]

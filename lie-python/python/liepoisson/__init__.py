@@ -57,8 +57,14 @@ _SLIPS = {
     "t_span": "t",
     "t_eval": "at",
     "tolerance": "tol",
-    "params": "the parameters by their names",
+    "T": "t",
+    "tf": "t",
+    "tspan": "t",
+    "times": "at",
+    "initial_state": "x0",
 }
+#: What chooses a variant of a method.
+_VARIANTS = ("retraction", "lift", "gradient", "composition", "pieces", "tensor")
 _FUNCTIONS = (
     "vector_field",
     "jacobian",
@@ -87,6 +93,35 @@ def _number(value: Number, what: str) -> float:
         return float(value)
     except (TypeError, ValueError):
         raise TypeError(f"{what} must be a number or text such as '1/7', not {value!r}") from None
+
+
+def _given(value: float | None, name: str, options: Mapping[str, list[str]]) -> float | None:
+    """What the call says, else what the declaration says."""
+    if value is None and name in options:
+        return _core.constant(options[name][0])
+    return None if value is None else float(value)
+
+
+def _times(
+    t: Number | None, at: Any, every: int | None, options: Mapping[str, list[str]]
+) -> tuple[float, int, list[float] | None]:
+    """The end, each so-manyth step that is saved, and the times that are saved in its place."""
+    if at is not None and (t is not None or every is not None):
+        raise TypeError("with `at` there is a row for each of its times: leave out t and every")
+    if every is not None and every < 1:
+        raise ValueError(f"every must be 1, 2, 3, …, not {every}")
+    if at is None and t is None and every is None:
+        at = options.get("at")
+    if at is not None:
+        times = [_number(time, "a time of at") for time in np.atleast_1d(at).tolist()]
+        if not times:
+            raise ValueError("`at` is empty: give it times, such as at=[0, 1, 2]")
+        times.sort(key=abs)
+        return times[-1], 1, times
+    until = options.get("until", [str(_UNTIL)])
+    end = _core.constant(until[0]) if t is None else _number(t, "t")
+    count = every if every is not None else int(options.get("every", ["1"])[0])
+    return end, count, None
 
 
 class Solution:
@@ -278,6 +313,13 @@ class System:
         values = self.parameters
         for name, value in given.items():
             if name not in values:
+                if name in ("params", "parameters", "args"):
+                    example = next(iter(values), "k")
+                    raise TypeError(f"parameters are given by their names: {example}=…")
+                if name in _VARIANTS:
+                    raise TypeError(
+                        f'`{name}` stands with the method: run("METHOD --{name} {value}")'
+                    )
                 if name in _SLIPS:
                     raise TypeError(f"no argument `{name}`; here it is `{_SLIPS[name]}`")
                 known = ", ".join(values) or "none"
@@ -297,29 +339,32 @@ class System:
                 )
             return [float(value) for value in found]
         if isinstance(x0, Mapping):
-            unknown = [name for name in x0 if name not in self.coordinates]
+            names = self._core.shown()
+            if any(name not in names for name in x0):
+                names = self.coordinates
+            unknown = [name for name in x0 if name not in names]
             if unknown:
-                raise ValueError(
-                    f"no coordinate `{unknown[0]}`{_hint(unknown[0], self.coordinates)}"
-                )
-            missing = [name for name in self.coordinates if name not in x0]
+                raise ValueError(f"no coordinate `{unknown[0]}`{_hint(unknown[0], names)}")
+            missing = [name for name in names if name not in x0]
             if missing:
                 raise ValueError(f"x0 lacks {', '.join(missing)}")
-            x0 = [x0[name] for name in self.coordinates]
-        start = [_number(value, "an entry of x0") for value in x0]
-        if len(start) != self.dimension:
+            x0 = [x0[name] for name in names]
+        start = [_number(value, "an entry of x0") for value in np.atleast_1d(x0).tolist()]
+        complete = self._core.complete(start)
+        if complete is None:
+            names = self._core.shown()
             raise ValueError(
-                f"x0 has {len(start)} numbers, {self.name} has {self.dimension} coordinates: "
-                f"{', '.join(self.coordinates)}"
+                f"x0 has {len(start)} numbers, {self.name} has {len(names)} coordinates: "
+                f"{', '.join(names)}"
             )
-        return start
+        return complete
 
     def _method(self, method: str | None, options: Mapping[str, list[str]], tol: Any) -> str:
         if method is None:
-            if tol is not None:
+            if tol is not None and "method" not in options:
                 return "gauss16"
             method = options["method"][0] if "method" in options else self._core.usual_method()
-            for name in ("retraction", "lift", "gradient", "composition", "pieces", "tensor"):
+            for name in _VARIANTS:
                 if name in options:
                     method += f" --{name} {options[name][0]}"
         if not isinstance(method, str):
@@ -334,16 +379,16 @@ class System:
         tol: float | None = None,
         t: Number | None = None,
         x0: Any = None,
-        every: int = 1,
+        every: int | None = None,
         at: Sequence[float] | None = None,
-        rtol: float = 1e-6,
-        atol: float = 1e-9,
+        rtol: float | None = None,
+        atol: float | None = None,
         **parameters: Number,
     ) -> Solution:
         """Integrates from time 0 until ``t``.
 
         ``h`` is the step; ``tol``, in its place, the relative error wanted at the end. ``x0`` is the initial state, a
-        sequence or a dictionary; ``every`` saves each so-manyth step, ``at`` saves these times. Parameters are given by
+        sequence or a dictionary; ``every`` saves each so-manyth step, ``at`` saves these times alone. Parameters are given by
         name. What is left out comes from the declaration. ``rtol`` and ``atol`` are those of dopri5.
 
         Errors: :class:`MethodError` for a method that does not apply, :class:`IntegrationError` with ``partial`` for a
@@ -352,25 +397,23 @@ class System:
         values = self._values(parameters)
         start = self._start(x0, values)
         options = self._core.run_options()
-        label = self._method(method, options, tol)
         if h is not None and tol is not None:
             raise TypeError("give h or tol, not both")
+        if method is None and tol is not None:
+            options.pop("method", None)  # a tolerance takes a method of its own
+            options.pop("rtol", None)
+            options.pop("atol", None)
+        if h is None:
+            tol = _given(tol, "tol", options)
+        label = self._method(method, options, tol)
+        end, every, times = _times(t, at, every, options)
         if h is None and tol is None:
             step = options.get("step")
-            h = _core.constant(step[0]) if step else _STEP
-        times = None if at is None else sorted(float(time) for time in at)
-        if times is not None:
-            if t is not None:
-                raise TypeError("give t or at, not both")
-            end = max(times, key=abs, default=0.0)
-        elif t is not None:
-            end = _number(t, "t")
-        else:
-            until = options.get("until")
-            end = _core.constant(until[0]) if until else _UNTIL
+            h = _core.constant(step[0]) if step else np.copysign(_STEP, end)
         pace = (None if h is None else _number(h, "h"), None if tol is None else float(tol))
-        tolerance = float(tol) if tol is not None else rtol
-        tolerances = (tolerance, float(tol) if tol is not None else atol)
+        tolerances = (rtol, atol)
+        if method is None:  # of the declaration's method
+            tolerances = (_given(rtol, "rtol", options), _given(atol, "atol", options))
         rows, found = self._core.run(label, values, start, pace, end, every, times, tolerances)
         t_rows, mu, energy, casimirs = rows
         columns = {name: casimirs[:, index] for index, name in enumerate(self.casimirs)}
@@ -402,8 +445,8 @@ class System:
         h: Number | None = None,
         t: Number,
         threads: int | None = None,
-        rtol: float = 1e-6,
-        atol: float = 1e-9,
+        rtol: float | None = None,
+        atol: float | None = None,
         **parameters: Any,
     ) -> Ensemble:
         """The ends of many trajectories, from the rows of ``x0`` (shape (m, n)); parameters may be arrays of length m.
@@ -425,15 +468,23 @@ class System:
             table[:, list(self.parameters).index(name)] = np.broadcast_to(np.ravel(value), (count,))
         options = self._core.run_options()
         label = self._method(method, options, None)
+        end = _number(t, "t")
         if h is None:
-            h = _core.constant(options["step"][0]) if "step" in options else _STEP
+            if "tol" in options:
+                raise TypeError("an ensemble has a step, not a tolerance: give h")
+            h = _core.constant(options["step"][0]) if "step" in options else np.copysign(_STEP, end)
+        if threads is not None and threads < 1:
+            raise ValueError(f"threads must be 1, 2, 3, …, not {threads}")
+        tolerances = (rtol, atol)
+        if method is None:
+            tolerances = (_given(rtol, "rtol", options), _given(atol, "atol", options))
         workers = threads if threads is not None else (os.cpu_count() or 1)
         ends, failures = self._core.ensemble(
-            label, table, starts, _number(h, "h"), _number(t, "t"), workers, (rtol, atol)
+            label, table, starts, _number(h, "h"), end, workers, tolerances
         )
         return Ensemble(ends, failures)
 
-    def function(self, name: str, **parameters: Number) -> Callable[..., Array]:
+    def function(self, name: str, /, **parameters: Number) -> Callable[..., Array]:
         """A function of the state, vectorised over leading axes: of shape (…, n).
 
         ``vector_field``, ``gradient``: (…, n). ``jacobian``, ``hessian``, ``poisson_matrix``: (…, n, n).
