@@ -62,7 +62,23 @@ fn children(of: u32) -> Vec<String> {
 fn whole_rows(out: &Path) -> usize {
     let text = std::fs::read_to_string(out).expect("the rows are there");
     assert!(text.ends_with('\n'), "half a row at the end");
-    let (header, rows) = csv(&text);
+    count_rows(&text)
+}
+
+/// As [`whole_rows`], after a kill: a row that lies across two pages of the file is written by one call, within which
+/// the kernel may end the process after the first page. A row that ends anywhere else was cut by us.
+#[track_caller]
+fn rows_after_a_kill(out: &Path) -> usize {
+    let text = std::fs::read_to_string(out).expect("the rows are there");
+    let whole = text.rfind('\n').map_or(0, |end| end + 1);
+    let cut = text.len() - whole;
+    assert!(cut == 0 || text.len().is_multiple_of(4096), "a row is cut");
+    count_rows(&text[..whole])
+}
+
+#[track_caller]
+fn count_rows(text: &str) -> usize {
+    let (header, rows) = csv(text);
     assert!(rows.iter().all(|row| row.len() == header.len()));
     assert!(rows.windows(2).all(|pair| pair[1][0] > pair[0][0]));
     rows.len()
@@ -92,7 +108,7 @@ fn a_kill_keeps_whole_rows_and_ends_the_program() {
     signal(&child, "-KILL");
     child.wait().expect("lie ends");
     wait("end of the program", || gone(&programs));
-    assert!(whole_rows(&out) > 10);
+    assert!(rows_after_a_kill(&out) > 10);
 }
 
 /// The rows that an array's header counts and the bytes behind it.

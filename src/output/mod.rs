@@ -18,7 +18,8 @@ use crate::command::args::Format;
 ///
 /// A kill interrupts a call of the system between two pages of a file. So every call writes whole
 /// rows within one page; the row across the end of a page goes alone, and only a kill in the
-/// nanoseconds between its two parts leaves a part of it. A count at the start of the file is brought
+/// nanoseconds between its two parts (longer where a busy disk makes the kernel hold the writer back there) leaves a
+/// part of it. A count at the start of the file is brought
 /// up to date after the rows that it counts, in one call: whenever the kill comes, those are there.
 ///
 /// Where the disk is full, the file is cut back to whole rows, and ends as it does otherwise.
