@@ -280,6 +280,7 @@ impl<S: Scalar> Clone for Dynamic<S> {
 }
 
 /// A plan whose codes are ready to run, before its parameters have values.
+#[derive(Clone)]
 pub struct Declared {
     compiled: Arc<Compiled>,
     machine: Arc<dyn Machine<f64>>,

@@ -2,7 +2,7 @@
 
 use lie_codegen::methods::Choice;
 use lie_codegen::model::Model;
-use lie_codegen::plan::{Plan, plan};
+use lie_codegen::plan::plan;
 use lie_codegen::program::{Chart, Purpose, compared};
 use lie_dynamic::{Declared, Dynamic, Method, at_defaults, method};
 use lie_jit::Jit;
@@ -26,8 +26,11 @@ pub fn here(model: &Model, choices: &[Choice], purpose: Purpose) -> Option<Worke
     let parameters = model.parameters.iter();
     let parameters = parameters.map(|p| (p.name.clone(), p.default_value));
     let declared = Declaration {
-        plain: (purpose == Purpose::Verify).then(|| lie_codegen::plan::plan(model, &[])),
-        plan,
+        plain: (purpose == Purpose::Verify)
+            .then(|| Declared::new(lie_codegen::plan::plan(model, &[]), &Jit)),
+        with_group: plan.structure.group.is_some(),
+        with_cayley: plan.system.triple.is_some(),
+        declared: Declared::new(plan, &Jit),
         choices: choices.to_vec(),
         parameters: parameters.collect(),
         compared: compared(model, choices).into_iter().cloned().collect(),
@@ -47,9 +50,11 @@ pub fn here(model: &Model, choices: &[Choice], purpose: Purpose) -> Option<Worke
 
 /// What a thread needs of a declaration.
 struct Declaration {
-    plan: Plan,
+    declared: Declared,
     /// Without fused equations, where steps are compared.
-    plain: Option<Plan>,
+    plain: Option<Declared>,
+    with_group: bool,
+    with_cayley: bool,
     choices: Vec<Choice>,
     parameters: Vec<(String, f64)>,
     compared: Vec<Choice>,
@@ -68,6 +73,14 @@ fn of_defaults<S: Scalar>(choice: &Choice) -> Method<S> {
     at_defaults(choice).unwrap_or_else(|| unreachable!("the method was there before"))
 }
 
+/// Makes the system of values of the parameters.
+fn maker(
+    declared: &Declared,
+) -> impl Fn(&[f64]) -> Result<Dynamic<f64>, ParameterError> + Send + Sync + use<> {
+    let declared = declared.clone();
+    move |values| declared.system(values)
+}
+
 impl Declaration {
     fn parameters(&self) -> Vec<(&str, f64)> {
         let parameters = self.parameters.iter();
@@ -76,16 +89,8 @@ impl Declaration {
             .collect()
     }
 
-    /// Makes the system of values of the parameters.
-    fn build(
-        plan: &Plan,
-    ) -> impl Fn(&[f64]) -> Result<Dynamic<f64>, ParameterError> + Send + Sync + use<> {
-        let declared = Declared::new(plan.clone(), &Jit);
-        move |values| declared.system(values)
-    }
-
     fn run(&self, chart: Option<Chart>, line: &str, session: &mut Session<'_>) -> Result<(), End> {
-        let mut program = Program::new(&self.parameters(), Self::build(&self.plan));
+        let mut program = Program::new(&self.parameters(), maker(&self.declared));
         for choice in &self.choices {
             let (label, choice) = (choice.label(), choice.clone());
             let make = move |tolerances: &Tolerances| made(&choice, tolerances);
@@ -98,7 +103,7 @@ impl Declaration {
     }
 
     fn verify(&self, line: &str, session: &mut Session<'_>) -> Result<(), End> {
-        let mut program = Verify::new(&self.parameters(), Self::build(&self.plan));
+        let mut program = Verify::new(&self.parameters(), maker(&self.declared));
         for choice in &self.choices {
             let (label, choice) = (choice.label(), choice.clone());
             let series = matches!(choice, Choice::Taylor | Choice::LieTaylor);
@@ -116,7 +121,7 @@ impl Declaration {
         }
         for choice in &self.compared {
             let Some(plain) = &self.plain else { break };
-            let (label, build) = (choice.label(), Self::build(plain));
+            let (label, build) = (choice.label(), maker(plain));
             let choice = choice.clone();
             let make = move |tolerances: &Tolerances| made(&choice, tolerances);
             program = program.any_plain(&label, build, make);
@@ -124,10 +129,10 @@ impl Declaration {
         if self.orbits {
             program = program.with_orbits();
         }
-        if self.plan.structure.group.is_some() {
+        if self.with_group {
             program = program.with_group();
         }
-        if self.plan.system.triple.is_some() {
+        if self.with_cayley {
             program = program.with_cayley();
         }
         program.work(line, session)

@@ -143,7 +143,7 @@ pub struct Methods {
 }
 
 /// `lie run`.
-#[derive(Args, Debug, Default)]
+#[derive(Args, Clone, Debug, Default)]
 #[command(after_help = "Numbers may be exact constants: 1/7, -1/2, cos(11/10).
 Flags override the `run` keys of the spec; without either: --method lie-midpoint (midpoint
 if the bracket is not the Lie–Poisson bracket of an algebra) --step 0.01 --until 10.
@@ -153,9 +153,10 @@ pub struct Run {
     /// The spec file
     #[arg(value_name = "SPEC", required = true)]
     pub specs: Vec<PathBuf>,
-    /// The method, see `lie methods`
+    /// The method, see `lie methods`; given several times, one run for each, possibly with options of its own:
+    /// --method rk4 --method "lie-midpoint --retraction cayley"
     #[arg(long, value_name = "ID")]
-    pub method: Option<String>,
+    pub method: Vec<String>,
     /// Step size; negative to go backwards. dopri5, taylor and lie-taylor choose their own steps, but land on every
     /// multiple of this
     #[arg(long, value_name = "H", allow_hyphen_values = true)]
@@ -172,12 +173,17 @@ pub struct Run {
     /// Writes the state at these times only, separated by commas; excludes --until and --every
     #[arg(long, value_name = "T1,T2,…", allow_hyphen_values = true)]
     pub at: Option<String>,
-    /// Sets a parameter (repeatable)
+    /// Sets a parameter (repeatable); NAME=FROM:TO:COUNT makes a run for each of COUNT values at equal distances, both ends
+    /// among them
     #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]
     pub param: Vec<String>,
     /// Initial state, separated by commas
     #[arg(long, value_name = "V1,V2,…", allow_hyphen_values = true)]
     pub initial: Option<String>,
+    /// Makes a run for each initial state of a file: CSV, a state in each line, possibly below a line with the names of the
+    /// coordinates; or NPY, a row for each state
+    #[arg(long, value_name = "FILE", conflicts_with = "initial")]
+    pub initial_file: Option<PathBuf>,
     #[command(flatten)]
     pub method_options: MethodOptions,
     /// Writes the group element beside mu, from the identity on: matrix, or quaternion for rotations

@@ -17,7 +17,7 @@ use lie_codegen::structure::smoothness::{self, Joint};
 use lie_codegen::structure::{algebra, lifts};
 use serde_json::{Value, json};
 
-use super::run::plan::plan;
+use super::run::plan::several;
 use super::{args, print};
 use crate::compiler::{self, Spec};
 use crate::message::{Failure, INVALID, Message, SURROUNDINGS};
@@ -86,7 +86,7 @@ fn defaults_of_run(spec: &Spec) -> Result<(), Vec<Message>> {
     if spec.model.run.is_empty() || (spec.model.initial.is_none() && !start) {
         return Ok(());
     }
-    plan(spec, &args::Run::default()).map(|_| ())
+    several(spec, &args::Run::default()).map(|_| ())
 }
 
 /// What is asked of the compiler besides the model.

@@ -25,6 +25,18 @@ pub fn find(id: &str) -> Result<Choice, Message> {
         .map_err(|unusable| Message::new(Kind::Method, unusable.message).help(unusable.help))
 }
 
+/// The method of an id, possibly with options behind it: `lie-midpoint --retraction cayley`.
+///
+/// # Errors
+/// As of [`find`], and an option that it does not have.
+pub fn labelled(text: &str) -> Result<Choice, Message> {
+    if !text.contains("--") {
+        return find(text);
+    }
+    Choice::from_label(text.trim())
+        .map_err(|unusable| Message::new(Kind::Method, unusable.message).help(unusable.help))
+}
+
 /// Whether a method has an option of this name.
 pub fn takes(choice: &Choice, option: &str) -> bool {
     choice.options().iter().any(|(name, _)| *name == option)

@@ -2,27 +2,53 @@
 
 use std::io::Write as _;
 
-/// What stands before the rows.
+/// What the rows of all runs have in common.
 #[derive(Clone, Debug, Default)]
 pub struct Header {
     /// Name of the system.
     pub system: String,
-    /// Id of the method.
+    /// `t`, the state, `energy`, the Casimirs.
+    pub columns: Vec<String>,
+    /// What tells runs apart; nothing for one run alone.
+    pub labels: Option<Labels>,
+}
+
+/// The names of what tells runs apart, which stand before the columns.
+#[derive(Clone, Debug, Default)]
+pub struct Labels {
+    /// The number of the run, from 0 on.
+    pub run: String,
+    /// The method, where there are several. Its column is text: an array has none.
+    pub method: Option<String>,
+    /// Parameters with several values.
+    pub parameters: Vec<String>,
+}
+
+/// One run.
+#[derive(Clone, Debug, Default)]
+pub struct Run {
+    /// Its number, from 0 on.
+    pub number: usize,
+    /// The method with its options.
     pub method: String,
     /// Step size.
     pub step: f64,
-    /// `t`, the state, `energy`, the Casimirs.
-    pub columns: Vec<String>,
+    /// The values of the parameters that have several.
+    pub parameters: Vec<f64>,
 }
 
 /// One form of output; it appends to a buffer, which takes everything.
 pub trait Form {
-    /// What stands before the rows.
+    /// What stands before all rows.
     fn begin(&mut self, header: &Header, out: &mut Vec<u8>);
+    /// What stands before the rows of a run.
+    fn open(&mut self, header: &Header, run: &Run, out: &mut Vec<u8>);
     /// One row.
     fn row(&mut self, row: &[f64], out: &mut Vec<u8>);
-    /// What stands behind the rows.
-    fn end(&mut self, _status: &str, _out: &mut Vec<u8>) {}
+    /// What stands behind the rows of a run; `status` is a word about how it ended.
+    fn close(&mut self, _status: &str, _out: &mut Vec<u8>) {}
+    /// What stands behind all rows.
+    fn end(&mut self, _out: &mut Vec<u8>) {}
     /// The first bytes of a file with so many rows, where they depend on it.
     fn start(&self, _rows: u64) -> Option<Vec<u8>> {
         None
@@ -33,64 +59,140 @@ pub trait Form {
     }
 }
 
-/// A header line, then one line per row. Names are identifiers: nothing needs quotes.
-pub struct Csv;
+/// A header line, then one line per row. Names are identifiers, and methods have no comma: nothing needs quotes.
+#[derive(Default)]
+pub struct Csv {
+    /// What tells the run apart, with a comma behind each.
+    prefix: Vec<u8>,
+}
 
 impl Form for Csv {
     fn begin(&mut self, header: &Header, out: &mut Vec<u8>) {
-        out.extend_from_slice(header.columns.join(",").as_bytes());
+        let mut names: Vec<&str> = Vec::new();
+        if let Some(labels) = &header.labels {
+            names.push(&labels.run);
+            names.extend(labels.method.as_deref());
+            names.extend(labels.parameters.iter().map(String::as_str));
+        }
+        names.extend(header.columns.iter().map(String::as_str));
+        out.extend_from_slice(names.join(",").as_bytes());
         out.push(b'\n');
     }
 
-    fn row(&mut self, row: &[f64], out: &mut Vec<u8>) {
-        for (index, value) in row.iter().enumerate() {
-            if index > 0 {
-                out.push(b',');
-            }
-            number(*value, out);
+    fn open(&mut self, header: &Header, run: &Run, _out: &mut Vec<u8>) {
+        self.prefix.clear();
+        let Some(labels) = &header.labels else { return };
+        let _ = write!(self.prefix, "{},", run.number);
+        if labels.method.is_some() {
+            let _ = write!(self.prefix, "{},", run.method);
         }
+        for value in &run.parameters {
+            number(*value, &mut self.prefix);
+            self.prefix.push(b',');
+        }
+    }
+
+    fn row(&mut self, row: &[f64], out: &mut Vec<u8>) {
+        out.extend_from_slice(&self.prefix);
+        numbers(row, false, out);
         out.push(b'\n');
     }
 }
 
-/// One object; non-finite numbers are null, since JSON has none.
+/// One object, of several runs with a list of them; non-finite numbers are null, since JSON has none.
 #[derive(Default)]
 pub struct Json {
+    /// Whether there are several runs, and one was opened.
+    several: bool,
+    opened: bool,
+    /// Whether the run has a row.
     started: bool,
+}
+
+impl Json {
+    fn text(text: &str) -> String {
+        serde_json::Value::from(text).to_string()
+    }
 }
 
 impl Form for Json {
     fn begin(&mut self, header: &Header, out: &mut Vec<u8>) {
-        let text = |text: &str| serde_json::Value::from(text).to_string();
         let columns = serde_json::Value::from(header.columns.clone());
-        let (system, method) = (text(&header.system), text(&header.method));
-        let _ = write!(out, "{{\"system\":{system},\"method\":{method},\"step\":");
-        if header.step.is_finite() {
-            number(header.step, out);
-        } else {
-            out.extend_from_slice(b"null");
+        let _ = write!(out, "{{\"system\":{},", Self::text(&header.system));
+        self.several = header.labels.is_some();
+        if self.several {
+            let _ = write!(out, "\"columns\":{columns},\"runs\":[");
         }
-        let _ = write!(out, ",\"columns\":{columns},\"rows\":[");
+    }
+
+    fn open(&mut self, header: &Header, run: &Run, out: &mut Vec<u8>) {
+        self.started = false;
+        if self.several {
+            out.extend_from_slice(if self.opened { b",\n{" } else { b"\n{" });
+            let _ = write!(out, "\"run\":{},", run.number);
+        }
+        self.opened = true;
+        let _ = write!(out, "\"method\":{},\"step\":", Self::text(&run.method));
+        json_number(run.step, out);
+        match &header.labels {
+            Some(labels) => {
+                out.extend_from_slice(b",\"parameters\":{");
+                for (k, (name, value)) in labels.parameters.iter().zip(&run.parameters).enumerate()
+                {
+                    let comma = if k > 0 { "," } else { "" };
+                    let _ = write!(out, "{comma}{}:", Self::text(name));
+                    json_number(*value, out);
+                }
+                out.push(b'}');
+            }
+            None => {
+                let columns = serde_json::Value::from(header.columns.clone());
+                let _ = write!(out, ",\"columns\":{columns}");
+            }
+        }
+        out.extend_from_slice(b",\"rows\":[");
     }
 
     fn row(&mut self, row: &[f64], out: &mut Vec<u8>) {
         out.extend_from_slice(if self.started { b",\n[" } else { b"\n[" });
         self.started = true;
-        for (index, value) in row.iter().enumerate() {
-            if index > 0 {
-                out.push(b',');
-            }
-            if value.is_finite() {
-                number(*value, out);
-            } else {
-                out.extend_from_slice(b"null");
-            }
-        }
+        numbers(row, true, out);
         out.push(b']');
     }
 
-    fn end(&mut self, status: &str, out: &mut Vec<u8>) {
-        let _ = writeln!(out, "\n],\"status\":{}}}", serde_json::Value::from(status));
+    fn close(&mut self, status: &str, out: &mut Vec<u8>) {
+        let _ = write!(out, "\n],\"status\":{}}}", Self::text(status));
+        if !self.several {
+            out.push(b'\n');
+        }
+    }
+
+    fn end(&mut self, out: &mut Vec<u8>) {
+        if self.several {
+            out.extend_from_slice(b"\n]}\n");
+        }
+    }
+}
+
+/// Numbers between commas.
+fn numbers(row: &[f64], json: bool, out: &mut Vec<u8>) {
+    for (index, value) in row.iter().enumerate() {
+        if index > 0 {
+            out.push(b',');
+        }
+        if json {
+            json_number(*value, out);
+        } else {
+            number(*value, out);
+        }
+    }
+}
+
+fn json_number(value: f64, out: &mut Vec<u8>) {
+    if value.is_finite() {
+        number(value, out);
+    } else {
+        out.extend_from_slice(b"null");
     }
 }
 

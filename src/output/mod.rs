@@ -8,13 +8,13 @@ use std::collections::VecDeque;
 use std::io;
 
 pub use destination::Destination;
-pub use form::Header;
 use form::{Csv, Form, Json};
+pub use form::{Header, Labels, Run};
 use npy::Npy;
 
 use crate::command::args::Format;
 
-/// The rows of one run on their way out.
+/// The rows of runs on their way out.
 ///
 /// A kill interrupts a call of the system between two pages of a file. So every call writes whole
 /// rows within one page; the row across the end of a page goes alone, and only a kill in the
@@ -26,7 +26,9 @@ use crate::command::args::Format;
 pub struct Rows {
     destination: Destination,
     form: Box<dyn Form>,
-    width: usize,
+    header: Header,
+    /// Whether the destination was emptied, and what stands before all rows is on its way.
+    begun: bool,
     buffer: Vec<u8>,
     /// Rows in the buffer, and rows that have arrived.
     waiting: u64,
@@ -39,31 +41,64 @@ pub struct Rows {
 const SPARE: usize = 1024;
 
 impl Rows {
-    /// Writes what stands before the rows.
-    ///
-    /// # Errors
-    /// The destination cannot be written.
-    pub fn start(destination: Destination, format: Format, header: &Header) -> io::Result<Self> {
-        let width = header.columns.len();
+    /// Rows of such a form; nothing is written before the first run is opened.
+    pub fn new(destination: Destination, format: Format, header: Header) -> Self {
         let form: Box<dyn Form> = match format {
-            Format::Csv => Box::new(Csv),
+            Format::Csv => Box::new(Csv::default()),
             Format::Json => Box::new(Json::default()),
-            Format::Npy => Box::new(Npy::new(width)),
+            Format::Npy => Box::new(Npy::new(&header)),
         };
-        let mut rows = Self {
+        Self {
             destination,
             form,
-            width,
+            header,
+            begun: false,
             buffer: Vec::new(),
             waiting: 0,
             arrived: 0,
             ends: VecDeque::new(),
-        };
-        rows.destination.begin(rows.form.patches_its_start())?;
-        rows.form.begin(header, &mut rows.buffer);
-        rows.send(None)?;
-        rows.ends.push_back(rows.destination.length());
-        Ok(rows)
+        }
+    }
+
+    fn begin(&mut self) -> io::Result<()> {
+        if !std::mem::replace(&mut self.begun, true) {
+            self.destination.begin(self.form.patches_its_start())?;
+            self.form.begin(&self.header, &mut self.buffer);
+        }
+        Ok(())
+    }
+
+    /// Writes what stands before the rows of a run.
+    ///
+    /// # Errors
+    /// The destination cannot be written; the rows before these are kept.
+    pub fn open(&mut self, run: &Run) -> io::Result<()> {
+        self.begin()?;
+        self.form.open(&self.header, run, &mut self.buffer);
+        self.sent_or_settled()?;
+        self.ends.push_back(self.destination.length());
+        Ok(())
+    }
+
+    /// Writes what stands behind the rows of a run; `status` is a word about how it ended.
+    ///
+    /// # Errors
+    /// The destination cannot be written; the rows are kept.
+    pub fn close(&mut self, status: &str) -> io::Result<()> {
+        self.form.close(status, &mut self.buffer);
+        // of one run alone, the end of the file goes with it
+        match self.header.labels {
+            Some(_) => self.sent_or_settled(),
+            None => Ok(()),
+        }
+    }
+
+    fn sent_or_settled(&mut self) -> io::Result<()> {
+        let sent = self.send(None);
+        if sent.is_err() {
+            let _ = self.settle();
+        }
+        sent
     }
 
     /// Writes rows that lie one behind the other.
@@ -80,7 +115,7 @@ impl Rows {
     }
 
     fn try_push(&mut self, numbers: &[f64]) -> io::Result<()> {
-        for row in numbers.chunks_exact(self.width) {
+        for row in numbers.chunks_exact(self.header.columns.len()) {
             let whole = self.buffer.len();
             self.form.row(row, &mut self.buffer);
             if whole > 0 && self.destination.room_in_page() < self.buffer.len() {
@@ -109,7 +144,8 @@ impl Rows {
         self.destination.cut(whole.unwrap_or(good));
         self.count()?;
         let mut end = Vec::new();
-        self.form.end("failed", &mut end);
+        self.form.close("failed", &mut end);
+        self.form.end(&mut end);
         let length = self.destination.length();
         let fits = |from: &&u64| **from + end.len() as u64 <= length;
         if !end.is_empty()
@@ -120,12 +156,13 @@ impl Rows {
         self.destination.finish()
     }
 
-    /// Writes what stands behind the rows; `status` is a word about how the run ended.
+    /// Writes what stands behind all rows.
     ///
     /// # Errors
     /// The destination cannot be written; the rows are kept.
-    pub fn finish(mut self, status: &str) -> io::Result<()> {
-        self.form.end(status, &mut self.buffer);
+    pub fn finish(mut self) -> io::Result<()> {
+        self.begin()?;
+        self.form.end(&mut self.buffer);
         let finished = self
             .send(None)
             .and_then(|()| self.count())

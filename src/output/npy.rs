@@ -1,6 +1,6 @@
 //! NumPy's array file, version 1.0: float64, little-endian, rows one behind the other.
 
-use super::form::{Form, Header};
+use super::form::{Form, Header, Run};
 
 /// Length of the header. The row count has room for 20 digits, so that it can be patched.
 const LENGTH: usize = 128;
@@ -8,12 +8,18 @@ const LENGTH: usize = 128;
 /// A two-dimensional array that grows row by row.
 pub struct Npy {
     width: usize,
+    /// What tells the run apart: its number and the values of its parameters.
+    prefix: Vec<f64>,
 }
 
 impl Npy {
-    /// An array with so many columns.
-    pub fn new(width: usize) -> Self {
-        Self { width }
+    /// An array with the columns of numbers that the header names.
+    pub fn new(header: &Header) -> Self {
+        let labels = header.labels.as_ref();
+        let before = labels.map_or(0, |labels| 1 + labels.parameters.len());
+        let width = before + header.columns.len();
+        let prefix = Vec::new();
+        Self { width, prefix }
     }
 
     fn header(&self, rows: u64) -> Vec<u8> {
@@ -33,9 +39,17 @@ impl Form for Npy {
         out.extend_from_slice(&self.header(0));
     }
 
+    fn open(&mut self, header: &Header, run: &Run, _out: &mut Vec<u8>) {
+        self.prefix.clear();
+        if header.labels.is_some() {
+            self.prefix.push(run.number as f64);
+            self.prefix.extend_from_slice(&run.parameters);
+        }
+    }
+
     fn row(&mut self, row: &[f64], out: &mut Vec<u8>) {
-        row.iter()
-            .for_each(|value| out.extend_from_slice(&value.to_le_bytes()));
+        let numbers = self.prefix.iter().chain(row);
+        numbers.for_each(|value| out.extend_from_slice(&value.to_le_bytes()));
     }
 
     fn start(&self, rows: u64) -> Option<Vec<u8>> {

@@ -5,10 +5,24 @@ use super::*;
 fn header() -> Header {
     Header {
         system: "Rigid\"Body".to_owned(),
+        columns: ["t", "x", "energy"].map(str::to_owned).to_vec(),
+        labels: None,
+    }
+}
+
+fn run() -> Run {
+    Run {
         method: "midpoint".to_owned(),
         step: 0.1,
-        columns: ["t", "x", "energy"].map(str::to_owned).to_vec(),
+        ..Run::default()
     }
+}
+
+/// Rows of one run that has begun.
+fn opened(destination: Destination, format: Format) -> Rows {
+    let mut rows = Rows::new(destination, format, header());
+    rows.open(&run()).unwrap();
+    rows
 }
 
 const NUMBERS: [f64; 9] = [
@@ -27,11 +41,12 @@ fn written(format: Format, finish: bool) -> Vec<u8> {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("out");
     std::fs::write(&path, "an older and longer file ".repeat(100)).unwrap();
-    let mut rows = Rows::start(Destination::file(&path).unwrap(), format, &header()).unwrap();
+    let mut rows = opened(Destination::file(&path).unwrap(), format);
     rows.push(&NUMBERS[..6]).unwrap();
     rows.push(&NUMBERS[6..]).unwrap();
     if finish {
-        rows.finish("done").unwrap();
+        rows.close("done").unwrap();
+        rows.finish().unwrap();
     }
     std::fs::read(&path).unwrap()
 }
@@ -125,8 +140,55 @@ fn an_old_file_survives_until_rows_come_and_a_new_one_does_not_stay() {
 #[cfg(target_os = "linux")]
 fn a_full_disk_is_an_error() {
     let destination = Destination::file(std::path::Path::new("/dev/full")).unwrap();
-    let error = Rows::start(destination, Format::Csv, &header())
-        .err()
-        .unwrap();
+    let mut rows = Rows::new(destination, Format::Csv, header());
+    let error = rows.open(&run()).err().unwrap();
     assert_eq!(error.kind(), io::ErrorKind::StorageFull);
+}
+
+/// Two runs of two rows and of none, told apart by all there is.
+fn several(format: Format) -> Vec<u8> {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("out");
+    let mut header = header();
+    header.labels = Some(Labels {
+        run: "run".to_owned(),
+        method: Some("method".to_owned()),
+        parameters: vec!["k".to_owned()],
+    });
+    let mut rows = Rows::new(Destination::file(&path).unwrap(), format, header);
+    for (number, k) in [0.5, 2.0].into_iter().enumerate() {
+        let run = Run {
+            number,
+            parameters: vec![k],
+            ..run()
+        };
+        rows.open(&run).unwrap();
+        rows.push(&NUMBERS[..6 * (1 - number)]).unwrap();
+        rows.close(["done", "stopped"][number]).unwrap();
+    }
+    rows.finish().unwrap();
+    std::fs::read(&path).unwrap()
+}
+
+#[test]
+fn several_runs_are_told_apart() {
+    let text = String::from_utf8(several(Format::Csv)).unwrap();
+    let expected = "run,method,k,t,x,energy\n0,midpoint,0.5,0.0,0.30000000000000004,-1e-300\n\
+                    0,midpoint,0.5,0.1,NaN,inf\n";
+    assert_eq!(text, expected);
+    let value: serde_json::Value = serde_json::from_slice(&several(Format::Json)).unwrap();
+    assert_eq!(value["columns"], serde_json::json!(["t", "x", "energy"]));
+    let (first, second) = (&value["runs"][0], &value["runs"][1]);
+    assert_eq!(first["parameters"], serde_json::json!({"k": 0.5}));
+    assert_eq!(first["rows"][1], serde_json::json!([0.1, null, null]));
+    assert_eq!(second["run"], 1);
+    assert_eq!(second["status"], "stopped");
+    assert_eq!(second["rows"], serde_json::json!([]));
+    let bytes = several(Format::Npy);
+    assert!(String::from_utf8_lossy(&bytes[..128]).contains("'shape': (2, 5)"));
+    let number = |at: usize| f64::from_le_bytes(bytes[128 + 8 * at..][..8].try_into().unwrap());
+    assert_eq!(
+        [0, 1, 2, 5, 6, 7].map(number),
+        [0.0, 0.5, 0.0, 0.0, 0.5, 0.1]
+    );
 }

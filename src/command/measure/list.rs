@@ -1,7 +1,6 @@
 //! Lists of methods: `midpoint,lie-midpoint --retraction cayley,compose4(midpoint)`.
 
 use lie_codegen::compile::with_options;
-use lie_codegen::diagnostic::Kind;
 use lie_codegen::methods::{CATALOGUE, Choice, Lift, Method, refusal};
 use lie_codegen::model::Model;
 
@@ -19,19 +18,17 @@ pub fn parse(text: &str, model: &Model) -> Result<Vec<Choice>, Vec<Message>> {
     let mut mistakes = Vec::new();
     for given in whole.split() {
         let place = given.wrong("").place;
-        let chosen = Choice::from_label(&given.text)
-            .map_err(|e| Message::new(Kind::Method, e.message).help(e.help))
-            .and_then(|choice| {
-                let all = if given.text.contains("--") {
-                    Vec::new()
-                } else {
-                    with_options(model, std::slice::from_ref(&choice))
-                };
-                match all.is_empty() {
-                    true => method::applies(choice, model).map(|choice| vec![choice]),
-                    false => Ok(all),
-                }
-            });
+        let chosen = method::labelled(given.text.trim()).and_then(|choice| {
+            let all = if given.text.contains("--") {
+                Vec::new()
+            } else {
+                with_options(model, std::slice::from_ref(&choice))
+            };
+            match all.is_empty() {
+                true => method::applies(choice, model).map(|choice| vec![choice]),
+                false => Ok(all),
+            }
+        });
         match chosen {
             Ok(chosen) => {
                 for choice in chosen {

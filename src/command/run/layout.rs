@@ -21,8 +21,16 @@ pub struct Layout {
 }
 
 impl Layout {
+    /// The columns of a run.
+    pub fn of(model: &Model, chart: Option<Chart>, parameters: &BTreeMap<String, f64>) -> Self {
+        match &model.family {
+            Some(family) => Self::of_family(model, family, parameters),
+            None => Self::new(model, chart),
+        }
+    }
+
     /// The columns of a system, with those of a group element.
-    pub fn new(model: &Model, chart: Option<Chart>) -> Self {
+    fn new(model: &Model, chart: Option<Chart>) -> Self {
         let states = model.shown_coordinates();
         let coordinates = states.iter().map(|&i| model.coordinates[i].text.clone());
         let casimirs = model.casimirs.iter().map(|casimir| casimir.name.clone());
@@ -41,7 +49,7 @@ impl Layout {
     }
 
     /// The columns of a family with these values of its parameters.
-    pub fn of_family(model: &Model, family: &Family, values: &BTreeMap<String, f64>) -> Self {
+    fn of_family(model: &Model, family: &Family, values: &BTreeMap<String, f64>) -> Self {
         let parameters = model.parameters.iter();
         let value = |p: &Parameter| values.get(&p.name).copied().unwrap_or(p.default_value);
         let parameters: Vec<f64> = parameters.map(value).collect();

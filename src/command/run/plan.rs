@@ -1,5 +1,6 @@
 //! What to run: flags over the spec's `run` over defaults, everything validated.
 
+mod members;
 mod npy;
 mod sites;
 mod solver;
@@ -12,6 +13,8 @@ use lie_codegen::structure::group;
 use lie_program::protocol::{Start, Times, Tolerances};
 use lie_runtime::driver::Pace;
 use lie_runtime::newton::NewtonOptions;
+
+pub use members::{Member, Several, several};
 
 use super::values::Given;
 use crate::command::args;
@@ -27,7 +30,7 @@ const OF_TOLERANCE: &str = "gauss16";
 const DISCRETE: &str = "discrete-euler-poincare";
 
 /// Everything about a run that does not depend on where its rows go.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Plan {
     /// The method and its options.
     pub method: Choice,
@@ -37,8 +40,6 @@ pub struct Plan {
     pub picked: bool,
     /// When rows are wanted.
     pub times: Times,
-    /// Where it starts.
-    pub start: Start,
     /// How the group element is written, if it is.
     pub chart: Option<Chart>,
     /// Tolerances of an adaptive method.
@@ -57,16 +58,18 @@ impl Plan {
     }
 }
 
-/// Finds the mistakes of all options, then answers.
-///
-/// # Errors
-/// Every mistake.
-pub fn plan(spec: &Spec, flags: &args::Run) -> Result<Plan, Vec<Message>> {
-    let mut planner = Planner {
-        spec,
-        flags,
-        mistakes: Vec::new(),
-    };
+/// What is found for one method.
+struct Planned {
+    /// The plan, where there are no mistakes.
+    plan: Option<Plan>,
+    mistakes: Vec<Message>,
+    /// Options that the method does not have, which may belong to another one.
+    foreign: Vec<(String, Message)>,
+}
+
+/// Finds the mistakes of all options but those of the start, for the first method that is given.
+fn plan(spec: &Spec, flags: &args::Run) -> Planned {
+    let mut planner = Planner::new(spec, flags);
     let method = planner.method();
     let pace = planner.pace();
     let times = planner.times(pace.as_ref());
@@ -78,23 +81,26 @@ pub fn plan(spec: &Spec, flags: &args::Run) -> Result<Plan, Vec<Message>> {
     let tolerances = solved.map(|method| planner.tolerances(method, overall));
     let newton = solved.map(|method| planner.newton(method, overall));
     let chart = planner.chart();
-    let start = planner.start();
-    match (method, pace, times, start) {
-        (Some(method), Some((pace, given)), Some(times), Some(start))
-            if planner.mistakes.is_empty() =>
-        {
-            Ok(Plan {
-                method,
-                pace: (pace, given.text),
-                picked: planner.picks(),
-                times,
-                start: start.named(spec),
-                chart,
-                tolerances: tolerances.unwrap_or_default(),
-                newton: newton.unwrap_or_default(),
-            })
-        }
-        _ => Err(planner.mistakes),
+    let picked = planner.picks();
+    let plan = match (method, pace, times) {
+        (Some(method), Some((pace, given)), Some(times)) => Some(Plan {
+            method,
+            pace: (pace, given.text),
+            picked,
+            times,
+            chart,
+            tolerances: tolerances.unwrap_or_default(),
+            newton: newton.unwrap_or_default(),
+        }),
+        _ => None,
+    };
+    let Planner {
+        mistakes, foreign, ..
+    } = planner;
+    Planned {
+        plan: plan.filter(|_| mistakes.is_empty()),
+        mistakes,
+        foreign,
     }
 }
 
@@ -123,11 +129,7 @@ impl Point {
 /// # Errors
 /// Every mistake.
 pub fn start(spec: &Spec, flags: &args::Run) -> Result<Point, Vec<Message>> {
-    let mut planner = Planner {
-        spec,
-        flags,
-        mistakes: Vec::new(),
-    };
+    let mut planner = Planner::new(spec, flags);
     match planner.start() {
         Some(start) if planner.mistakes.is_empty() => Ok(start),
         _ => Err(planner.mistakes),
@@ -138,9 +140,20 @@ struct Planner<'a> {
     spec: &'a Spec,
     flags: &'a args::Run,
     mistakes: Vec<Message>,
+    /// Options that the method does not have: their names, and what is to be said if no other method has them.
+    foreign: Vec<(String, Message)>,
 }
 
-impl Planner<'_> {
+impl<'a> Planner<'a> {
+    fn new(spec: &'a Spec, flags: &'a args::Run) -> Self {
+        Self {
+            spec,
+            flags,
+            mistakes: Vec::new(),
+            foreign: Vec::new(),
+        }
+    }
+
     /// What the spec's `run` says under a name.
     fn in_spec(&self, name: &str) -> Vec<Given> {
         let options = self
@@ -173,12 +186,12 @@ impl Planner<'_> {
     /// Whether a tolerance is given without a method, which is picked then: on the command line, or in the spec.
     fn picks(&self) -> bool {
         let in_spec = self.flags.tol.is_none() && !self.in_spec("method").is_empty();
-        self.wants_tolerance() && self.flags.method.is_none() && !in_spec
+        self.wants_tolerance() && self.flags.method.is_empty() && !in_spec
     }
 
     fn method(&mut self) -> Option<Choice> {
         let given = self
-            .given("--method", self.flags.method.as_ref())
+            .given("--method", self.flags.method.first())
             .filter(|_| !self.picks());
         let id = given.unwrap_or_else(|| {
             let model = &self.spec.model;
@@ -193,9 +206,12 @@ impl Planner<'_> {
             Given::flag("--method", method)
         });
         let place = id.wrong("").place;
-        let found = method::find(&id.text).map_err(|message| message.at(place.clone()));
+        let found = method::labelled(&id.text).map_err(|message| message.at(place.clone()));
         let mut choice = self.keep(found)?;
         for name in method::OPTIONS {
+            if id.text.contains(&format!("--{name}")) {
+                continue;
+            }
             let flag = self.flags.method_options.get(name);
             let given = match flag {
                 Some((flag, text)) => Some(Given::flag(flag, text)),
@@ -205,7 +221,7 @@ impl Planner<'_> {
                 continue;
             };
             // The spec's option belongs to the spec's method; a flag may have replaced that.
-            let belongs = flag.is_some() || (self.flags.method.is_none() && !self.picks());
+            let belongs = flag.is_some() || (self.flags.method.is_empty() && !self.picks());
             match choice.clone().with_option(name, &given.text) {
                 Ok(chosen) => choice = chosen,
                 Err(OptionError::Foreign) => {
@@ -245,7 +261,7 @@ impl Planner<'_> {
 
     fn foreign(&mut self, name: &str, given: &Given, choice: &Choice) {
         let text = format!("`{name}` is not an option of {}", choice.id());
-        self.mistakes
-            .push(given.wrong(text).help(method::help_on_options(choice)));
+        let message = given.wrong(text).help(method::help_on_options(choice));
+        self.foreign.push((name.to_owned(), message));
     }
 }

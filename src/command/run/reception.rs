@@ -10,15 +10,14 @@ use lie_runtime::driver::Pace;
 use super::layout::Layout;
 use super::plan::Plan;
 use super::summary::Drift;
-use crate::command::args::Format;
 use crate::compiler::Spec;
-use crate::output::{Destination, Header, Rows};
+use crate::output::{Rows, Run};
 
 /// Takes what the program of a run finds.
-pub struct Reception {
+pub struct Reception<'a> {
+    rows: &'a mut Rows,
     /// What the output needs to begin, until the step is known.
-    waiting: Option<(Destination, Format, Header)>,
-    rows: Option<Rows>,
+    waiting: Option<Run>,
     received: Received,
     layout: Layout,
     /// Where the columns that are shown stand in a row of the program, and how wide that is.
@@ -46,33 +45,32 @@ pub struct Received {
     pub assessed: Option<(f64, bool)>,
 }
 
-impl Reception {
-    /// Writes what stands before the rows.
+impl Received {
+    /// Whether the error at the end may be larger than the tolerance.
+    pub fn missed(&self) -> bool {
+        self.assessed.is_some_and(|(_, missed)| missed)
+    }
+}
+
+impl<'a> Reception<'a> {
+    /// Writes what stands before the rows of a run.
     ///
     /// # Errors
     /// The destination cannot be written.
     pub fn start(
         spec: &Spec,
         plan: &Plan,
-        format: Format,
-        destination: Destination,
+        layout: Layout,
+        mut run: Run,
+        rows: &'a mut Rows,
         draws: bool,
     ) -> io::Result<Self> {
         let model = &spec.model;
-        let layout = match &model.family {
-            Some(family) => Layout::of_family(model, family, &plan.start.parameters),
-            None => Layout::new(model, plan.chart),
-        };
         let step = match plan.pace.0 {
             Pace::Step(step) => step,
             Pace::Tolerance(_) => f64::NAN,
         };
-        let header = Header {
-            system: model.name.clone(),
-            method: plan.method.id().to_owned(),
-            step,
-            columns: layout.columns.clone(),
-        };
+        run.step = step;
         let plot = draws.then(|| {
             let (method, written) = (plan.method.title(), plan.pace.1.trim());
             let subtitle = match plan.pace.0 {
@@ -89,8 +87,8 @@ impl Reception {
             drift.leave_out(&casimir.name);
         }
         let mut reception = Self {
-            waiting: Some((destination, format, header)),
-            rows: None,
+            rows,
+            waiting: Some(run),
             received: Received {
                 plot,
                 drift,
@@ -113,13 +111,11 @@ impl Reception {
 
     /// The output, begun with the step as it is known now.
     fn begin(&mut self) -> io::Result<&mut Rows> {
-        if let Some((destination, format, mut header)) = self.waiting.take() {
-            header.step = self.received.step;
-            self.rows = Some(Rows::start(destination, format, &header)?);
+        if let Some(mut run) = self.waiting.take() {
+            run.step = self.received.step;
+            self.rows.open(&run)?;
         }
-        self.rows
-            .as_mut()
-            .ok_or_else(|| io::Error::other("the output could not be started"))
+        Ok(self.rows)
     }
 
     /// The times at which rows are asked for: errors are taken against the initial state, also where it is not shown.
@@ -189,10 +185,7 @@ impl Reception {
     /// # Errors
     /// The destination cannot be written.
     pub fn finish(mut self, word: &'static str) -> io::Result<Received> {
-        self.begin()?;
-        if let Some(rows) = self.rows {
-            rows.finish(word)?;
-        }
+        self.begin()?.close(word)?;
         Ok(self.received)
     }
 }

@@ -56,21 +56,28 @@ impl Drift {
         self.left_out.push(name.to_owned());
     }
 
-    /// `energy 1.2e-6, C 3e-16 (absolute)`: relative wherever the invariant is not zero.
+    /// The error of each invariant by its name: relative wherever the invariant is not zero, which is said behind it.
+    pub fn errors(&self) -> impl Iterator<Item = (&str, f64, bool)> {
+        let shown = self.invariants.iter();
+        let shown = shown.filter(|drift| !self.left_out.contains(&drift.name));
+        shown.map(|drift| match reference(drift.initial, self.scale) {
+            Some(first) => (drift.name.as_str(), drift.max / first, true),
+            None => (drift.name.as_str(), drift.max, false),
+        })
+    }
+
+    /// `energy 1.2e-6, C 3e-16 (absolute)`.
     fn text(&self) -> String {
-        let shown = self
-            .invariants
-            .iter()
-            .filter(|drift| !self.left_out.contains(&drift.name));
-        let one = |drift: &InvariantDrift| match reference(drift.initial, self.scale) {
-            Some(first) => format!("{} {}", drift.name, short(drift.max / first)),
-            None => format!("{} {} (absolute)", drift.name, short(drift.max)),
+        let one = |(name, error, relative): (&str, f64, bool)| match relative {
+            true => format!("{name} {}", short(error)),
+            false => format!("{name} {} (absolute)", short(error)),
         };
-        shown.map(one).collect::<Vec<_>>().join(", ")
+        self.errors().map(one).collect::<Vec<_>>().join(", ")
     }
 }
 
-fn short(error: f64) -> String {
+/// Two digits.
+pub fn short(error: f64) -> String {
     if error == 0.0 {
         "0".to_owned()
     } else {
@@ -93,12 +100,8 @@ fn iterations(work: &Work) -> String {
 /// What was done, and how well the invariants were kept; for a method that chooses its own steps, how many those
 /// were, and whether it had a choice.
 pub fn text(title: &str, work: &Work, adaptive: bool, drift: &Drift, time: Duration) -> String {
+    let mut text = steps(title, work, drift, time);
     let steps = work.steps;
-    let mut text = format!(
-        "{title}: {steps} steps to t = {:?} in {:.3} s",
-        drift.time,
-        time.as_secs_f64()
-    );
     if work.newton > 0 && steps > 0 {
         text.push_str(&iterations(work));
     }
@@ -122,6 +125,22 @@ pub fn text(title: &str, work: &Work, adaptive: bool, drift: &Drift, time: Durat
     }
     text.push('\n');
     text
+}
+
+/// The same of one of several runs, in a line.
+pub fn line(title: &str, work: &Work, drift: &Drift, time: Duration) -> String {
+    let mut text = steps(title, work, drift, time);
+    if !drift.invariants.is_empty() {
+        text.push_str("; ");
+        text.push_str(&drift.text());
+    }
+    text.push('\n');
+    text
+}
+
+fn steps(title: &str, work: &Work, drift: &Drift, time: Duration) -> String {
+    let (steps, end, seconds) = (work.steps, drift.time, time.as_secs_f64());
+    format!("{title}: {steps} steps to t = {end:?} in {seconds:.3} s")
 }
 
 #[cfg(test)]

@@ -40,7 +40,7 @@ impl Planner<'_> {
                 };
                 let text = format!("`{}` is an option of {of} alone", name(flag));
                 let help = "add `--method dopri5`, or leave it out";
-                self.out_of_place(value.is_some(), given.wrong(text).help(help));
+                self.out_of_place(flag, value.is_some(), given.wrong(text).help(help));
                 continue;
             }
             let positive = given.number().and_then(|value| match value > 0.0 {
@@ -59,9 +59,9 @@ impl Planner<'_> {
 
     /// An option that the method does not have: a mistake where it was given with the method, of no importance where the
     /// spec gives it and another method was asked for.
-    fn out_of_place(&mut self, is_flag: bool, message: Message) {
-        if is_flag || (self.flags.method.is_none() && !self.picks()) {
-            self.mistakes.push(message);
+    fn out_of_place(&mut self, flag: &str, is_flag: bool, message: Message) {
+        if is_flag || (self.flags.method.is_empty() && !self.picks()) {
+            self.foreign.push((name(flag).to_owned(), message));
         }
     }
 
@@ -85,7 +85,7 @@ impl Planner<'_> {
                 let text =
                     format!("`{name}` is an option of implicit methods, and {id} is explicit");
                 let help = "leave it out, or take an implicit method such as `--method midpoint`";
-                self.out_of_place(value.is_some(), given.wrong(text).help(help));
+                self.out_of_place(flag, value.is_some(), given.wrong(text).help(help));
                 continue;
             }
             let together = solved.is_some_and(|method| method.fixed_point);
@@ -95,7 +95,7 @@ impl Planner<'_> {
                     "`converge` is an option of methods that evaluate their stages together, and {id} does not"
                 );
                 let help = "leave it out, or take a method such as `--method gauss16`";
-                self.out_of_place(value.is_some(), given.wrong(text).help(help));
+                self.out_of_place(flag, value.is_some(), given.wrong(text).help(help));
                 continue;
             }
             let set = match flag {

@@ -6,8 +6,9 @@ use lie_codegen::front::names::normalised;
 use lie_codegen::suggest::did_you_mean;
 
 use super::super::values::Given;
+use super::members::States;
 use super::{Planner, Point};
-use crate::message::Message;
+use crate::message::{Message, Place};
 
 impl Planner<'_> {
     pub(super) fn start(&mut self) -> Option<Point> {
@@ -17,6 +18,66 @@ impl Planner<'_> {
             parameters,
             initial,
         })
+    }
+
+    /// The same for each initial state of a file.
+    pub(super) fn starts(&mut self, states: &States) -> Vec<Point> {
+        let Some(parameters) = self.parameters() else {
+            return Vec::new();
+        };
+        let mut points = Vec::new();
+        for (values, place) in &states.all {
+            if let Some(initial) = self.of_file(values, place, &parameters) {
+                let parameters = parameters.clone();
+                points.push(Point {
+                    parameters,
+                    initial,
+                });
+            }
+        }
+        points
+    }
+
+    fn of_file(&mut self, values: &[f64], place: &Place, parameters: &[f64]) -> Option<Vec<f64>> {
+        let model = &self.spec.model;
+        let (wanted, state) = match &model.family {
+            Some(family) => {
+                let [rows, columns] = family.sites(parameters).unwrap_or([1, 1]);
+                let wanted = rows * columns * model.dimension();
+                (wanted, (values.len() == wanted).then(|| values.to_vec()))
+            }
+            None => {
+                let wanted = model.shown_coordinates().len();
+                (wanted, model.complete_state(values))
+            }
+        };
+        let Some(state) = state else {
+            let text = format!("{} values for a state of {wanted}", values.len());
+            let message = Message::new(Kind::StateLength, text).at(place.clone());
+            let names = self.shown().join(", ");
+            self.mistakes
+                .push(message.help(format!("give the values of {names}")));
+            return None;
+        };
+        if model.family.is_some() {
+            return Some(state);
+        }
+        let fault = domain::fault(model, &state, parameters);
+        if let Some(fault) = fault {
+            let text = format!("{} at this initial state", fault.message);
+            let message = Message::new(Kind::Domain, text).at(place.clone());
+            let help = "start at a state where it is defined, or change the parameters";
+            self.mistakes.push(message.help(help));
+            return None;
+        }
+        Some(state)
+    }
+
+    /// The names of the coordinates of which values are given.
+    fn shown(&self) -> Vec<&str> {
+        let model = &self.spec.model;
+        let shown = model.shown_coordinates().into_iter();
+        shown.map(|i| model.coordinates[i].text.as_str()).collect()
     }
 
     fn parameters(&mut self) -> Option<Vec<f64>> {
@@ -105,13 +166,7 @@ impl Planner<'_> {
     }
 
     fn example(&self) -> String {
-        let names: Vec<&str> = self
-            .spec
-            .model
-            .shown_coordinates()
-            .into_iter()
-            .map(|i| self.spec.model.coordinates[i].text.as_str())
-            .collect();
+        let names = self.shown();
         let zeros: Vec<String> = (1..=names.len()).map(|k| format!("0.{k}")).collect();
         let zeros = zeros.join(",");
         format!(

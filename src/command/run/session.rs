@@ -1,0 +1,291 @@
+//! Runs on the way, one behind the other.
+
+use std::io::{self, IsTerminal as _};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use lie_program::protocol::{Obstacle, Stop};
+use lie_runtime::driver::Pace;
+
+use super::bar::Bar;
+use super::layout::Layout;
+use super::plan::{Member, Plan, Several};
+use super::reception::{Received, Reception};
+use super::summary::{self, Drift};
+use super::tally::{MOST_LINES, Tally};
+use super::{impossible, outputs};
+use crate::build::talk::{Outcome, Worker};
+use crate::command::args;
+use crate::compiler::Spec;
+use crate::interrupt::Interrupt;
+use crate::message::{Failure, Message, STOPPED};
+use crate::output::{Destination, Rows, Run};
+use crate::render;
+
+/// What all runs have in common.
+pub struct Session<'a> {
+    pub spec: &'a Spec,
+    pub several: &'a Several,
+    pub flags: &'a args::Run,
+    pub workers: &'a [Arc<Worker>],
+    pub interrupt: &'a Interrupt,
+}
+
+impl Session<'_> {
+    /// Makes all runs: one that stops early does not keep the others from theirs.
+    ///
+    /// # Errors
+    /// As of `lie run`.
+    pub fn all(&self, mut rows: Rows, picture: Option<Destination>) -> Result<u8, Failure> {
+        let clock = Instant::now();
+        let mut tally = Tally::new(self.several);
+        let mut plot = None;
+        let mut ended = Ok(0);
+        // Rows that scroll by on the same terminal say enough.
+        let scrolls = self.flags.out.is_none() && io::stdout().is_terminal();
+        let bar = Bar::new(!self.flags.quiet && !scrolls);
+        for (number, member) in self.several.members.iter().enumerate() {
+            let start = Instant::now();
+            let (outcome, received) = self.one(number, member, &mut rows, &bar)?;
+            let goes_on = matches!(outcome, Outcome::Done | Outcome::Stopped(_));
+            let done = matches!(outcome, Outcome::Done);
+            if !self.flags.quiet && done {
+                self.say(number, member, &received, start.elapsed(), &mut tally);
+            }
+            let code = self.ended(number, member, outcome, &received.drift, &mut tally);
+            plot = received.plot;
+            match code {
+                Ok(0) => {}
+                other => ended = other,
+            }
+            if !goes_on {
+                break;
+            }
+        }
+        bar.clear();
+        rows.finish().map_err(|error| self.lost(error))?;
+        let plot = plot.zip(picture);
+        if let Some(((plot, destination), path)) = plot.zip(self.flags.plot.as_ref()) {
+            destination
+                .replace(plot.to_svg().as_bytes())
+                .map_err(|error| outputs::unwritable(path, &error))?;
+        }
+        if !self.flags.quiet {
+            eprint!("{}", tally.text(clock.elapsed()));
+        }
+        ended
+    }
+
+    fn lost(&self, error: io::Error) -> Failure {
+        match (error.kind(), &self.flags.out) {
+            (io::ErrorKind::BrokenPipe, None) => Failure::quiet(),
+            (_, out) => outputs::writing_failed(out.as_deref(), &error),
+        }
+    }
+
+    /// Makes one run.
+    fn one(
+        &self,
+        number: usize,
+        member: &Member,
+        rows: &mut Rows,
+        bar: &Bar,
+    ) -> Result<(Outcome, Received), Failure> {
+        let plan = &self.several.plans[member.plan];
+        let run = Run {
+            number,
+            method: match self.several.labels {
+                Some(_) => plan.method.label(),
+                None => plan.method.id().to_owned(),
+            },
+            parameters: member.parameters.clone(),
+            step: f64::NAN,
+        };
+        let layout = Layout::of(&self.spec.model, plan.chart, &member.start.parameters);
+        let draws = self.flags.plot.is_some();
+        let mut reception = Reception::start(self.spec, plan, layout, run, rows, draws)
+            .map_err(|error| self.lost(error))?;
+        let request = request(plan, member, &reception);
+        let (before, all) = (number as u64, self.several.members.len() as u64);
+        let worker = &self.workers[member.plan];
+        let outcome = worker.talk(
+            &request,
+            self.interrupt,
+            &mut |found, rest| reception.take(found, rest),
+            &mut |progress| bar.show(before * progress.all + progress.done, all * progress.all),
+        );
+        let outcome = match outcome {
+            Ok(Outcome::NotTaken(error)) if error.kind() == io::ErrorKind::InvalidData => {
+                Outcome::Broken(error.to_string())
+            }
+            Ok(Outcome::NotTaken(error)) => return Err(self.lost(error)),
+            Ok(outcome) => outcome,
+            Err(error) => {
+                reception
+                    .finish("failed")
+                    .map_err(|error| self.lost(error))?;
+                return Err(worker.not_started(&error));
+            }
+        };
+        let received = reception.finish(word(&outcome));
+        Ok((outcome, received.map_err(|error| self.lost(error))?))
+    }
+
+    /// Says what a run has done.
+    fn say(
+        &self,
+        number: usize,
+        member: &Member,
+        received: &Received,
+        time: Duration,
+        tally: &mut Tally,
+    ) {
+        let plan = &self.several.plans[member.plan];
+        let (work, drift) = (&received.work, &received.drift);
+        tally.take(member.plan, number, work, drift);
+        if self.several.labels.is_none() {
+            say_of_tolerance(plan, received);
+            let title = title(self.spec, plan, received.step);
+            let adaptive = plan.method.is_adaptive();
+            eprint!("{}", summary::text(&title, work, adaptive, drift, time));
+        } else {
+            if received.missed() {
+                let run = self.named(number, member);
+                eprintln!("warning: {run} may miss the tolerance");
+            }
+            if self.several.members.len() <= MOST_LINES {
+                let title = self.named(number, member);
+                eprint!("{}", summary::line(&title, work, drift, time));
+            }
+        }
+    }
+
+    /// `run 3, midpoint, k = 1.2`.
+    fn named(&self, number: usize, member: &Member) -> String {
+        let mut name = format!("run {number}");
+        let Some(labels) = &self.several.labels else {
+            return name;
+        };
+        if labels.method.is_some() {
+            name += &format!(", {}", self.several.plans[member.plan].method.title());
+        }
+        for (parameter, value) in labels.parameters.iter().zip(&member.parameters) {
+            name += &format!(", {parameter} = {value:?}");
+        }
+        name
+    }
+
+    /// Says how a run ended, if not at its end; answers the exit code.
+    fn ended(
+        &self,
+        number: usize,
+        member: &Member,
+        outcome: Outcome,
+        drift: &Drift,
+        tally: &mut Tally,
+    ) -> Result<u8, Failure> {
+        let plan = &self.several.plans[member.plan];
+        let by_tolerance = matches!(plan.pace.0, Pace::Tolerance(_));
+        let worker = &self.workers[member.plan];
+        match outcome {
+            Outcome::Done => Ok(0),
+            Outcome::Interrupted(code) => {
+                if !self.flags.quiet {
+                    let time = drift.time();
+                    eprintln!("Interrupted at t = {time:?}; the rows so far are written.");
+                }
+                Ok(code)
+            }
+            Outcome::Stopped(stop) => {
+                if tally.stopped(member.plan) {
+                    let who = match self.several.labels {
+                        Some(_) => format!("{}: ", self.named(number, member)),
+                        None => String::new(),
+                    };
+                    render::stopped(&format!("{who}{}", stopped_text(&stop)), &stop.remedy);
+                }
+                Ok(STOPPED)
+            }
+            Outcome::Refused(Obstacle::Option, why) if by_tolerance => {
+                let help = "give a step by `--step`, or another tolerance";
+                Err(Message::option("--tol", why).help(help).into())
+            }
+            Outcome::Parameter(name, why) => Err(impossible(&name, &why)),
+            Outcome::Refused(what, why) => Err(worker.broken(&format!("{what:?}: {why}"))),
+            Outcome::Broken(how) => Err(worker.broken(&how)),
+            Outcome::NotTaken(error) => Err(worker.broken(&error.to_string())),
+        }
+    }
+}
+
+/// What the built program is asked for.
+fn request(plan: &Plan, member: &Member, reception: &Reception) -> lie_program::protocol::Run {
+    lie_program::protocol::Run {
+        method: plan.method.label(),
+        start: member.start.clone(),
+        pace: plan.pace.0,
+        times: reception.times(plan),
+        tolerances: plan.tolerances,
+        newton: plan.newton,
+    }
+}
+
+fn title(spec: &Spec, plan: &Plan, step: f64) -> String {
+    let (name, method) = (&spec.model.name, plan.method.title());
+    let written = plan.pace.1.trim();
+    match plan.pace.0 {
+        Pace::Step(_) => format!("{name}, {method}, step {written}"),
+        Pace::Tolerance(_) => format!("{name}, {method}, tolerance {written}, step {step:.4e}"),
+    }
+}
+
+/// Why the method is the one it is, and what the tolerance may miss.
+fn say_of_tolerance(plan: &Plan, received: &Received) {
+    if plan.picked {
+        eprintln!(
+            "{} was picked: it applies to every system, has order 16, and keeps quadratic Casimirs and a quadratic energy to \
+             round-off; --method chooses another",
+            plan.method.id()
+        );
+    }
+    if received.at_round_off {
+        eprintln!("the round-off of this many steps may exceed the tolerance");
+    }
+    if let Some((parts, time)) = received.divided {
+        eprintln!(
+            "from t = {time:.6} on each step was made in {parts} parts: the motion is faster there than at the start"
+        );
+    }
+    match received.assessed {
+        Some((error, true)) if error.is_nan() => {
+            eprintln!(
+                "warning: the error at the end is not known: telling it takes too many steps, or failed"
+            );
+        }
+        Some((error, true)) => eprintln!(
+            "warning: the error at the end is about {error:.1e} of the state, more than the tolerance: errors grow on this orbit, \
+             or the method cannot keep it"
+        ),
+        _ => {}
+    }
+}
+
+/// How the run ended, for the output.
+fn word(outcome: &Outcome) -> &'static str {
+    match outcome {
+        Outcome::Done => "done",
+        Outcome::Interrupted(_) => "interrupted",
+        Outcome::Stopped(_) => "stopped",
+        Outcome::Parameter(..)
+        | Outcome::Refused(..)
+        | Outcome::Broken(_)
+        | Outcome::NotTaken(_) => "failed",
+    }
+}
+
+fn stopped_text(stop: &Stop) -> String {
+    format!(
+        "the integration stopped in step {} at t = {:?}: {} ({} iterations, residual {:?})\nthe rows so far are written",
+        stop.step, stop.time, stop.reason, stop.iterations, stop.residual
+    )
+}
