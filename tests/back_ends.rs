@@ -12,7 +12,7 @@ use lie_jit::Jit;
 use lie_runtime::diagnostics::AnyMethod;
 use lie_runtime::methods as m;
 use lie_runtime::newton::NewtonOptions;
-use lie_runtime::{LiePoisson, Poisson, SquareMatrix, State};
+use lie_runtime::{LiePoisson, Poisson, Scalar, SquareMatrix, State, Widen};
 use random::Random;
 
 const STATES: usize = 50;
@@ -272,6 +272,56 @@ fn large_algebras() {
 fn brackets_without_an_algebra() {
     let mut differences = Differences::default();
     each! { differences, canonical_pendulum CanonicalPendulum; lotka_volterra LotkaVolterra; se2_circulation BodyWithCirculation; }
+    assert!(differences.0.is_empty(), "{}", differences.0.join("\n"));
+}
+
+/// What machine code for lanes computes in each of them is what the code for numbers does.
+#[test]
+fn lanes_are_numbers_side_by_side() {
+    type Wide = <f64 as Scalar>::Wide;
+    let mut differences = Differences::default();
+    let piecewise = r#"{"format": 1, "name": "Pieces", "algebra": "so(3)",
+        "hamiltonian": "piecewise(x < 0: sin(x)*y, cbrt(x) + atan2(y, z)) + max(y, z)^2 + exp(z)^(1/3)"}"#;
+    let specs = ["so3_nonpolynomial", "se3_heavy_top", "su3_quadratic"];
+    let texts = specs.map(|spec| {
+        let path = format!("{}/specs/{spec}.json", env!("CARGO_MANIFEST_DIR"));
+        std::fs::read_to_string(path).unwrap()
+    });
+    for text in texts.iter().map(String::as_str).chain([piecewise]) {
+        let model = compile_spec(text).unwrap();
+        let system = Dynamic::new(plan(&model, &[]), &[], &Jit).unwrap();
+        let (n, wide) = (system.dimension(), system.widen());
+        let mut random = Random(2018);
+        for _ in 0..STATES {
+            let lanes: Vec<Vec<f64>> = (0..Wide::LANES).map(|_| random.numbers(2 * n)).collect();
+            let pack = |from: usize| -> Vec<Wide> {
+                let of = |k: usize| {
+                    let mut number = Wide::zero();
+                    for (lane, values) in lanes.iter().enumerate() {
+                        number = number.with_lane(lane, values[from + k]);
+                    }
+                    number
+                };
+                (0..n).map(of).collect()
+            };
+            let (mu, xi) = (pack(0), pack(n));
+            let mut all = [wide.zero_state(), wide.zero_state(), wide.zero_state()];
+            wide.vector_field(&mu, &mut all[0]);
+            wide.coadjoint_action(&xi, &mu, &mut all[1]);
+            wide.dexp_dual(&xi, &mu, &mut all[2]);
+            for (lane, values) in lanes.iter().enumerate() {
+                let (mu, xi) = (values[..n].to_vec(), values[n..].to_vec());
+                let mut expected = [vec![0.0; n], vec![0.0; n], vec![0.0; n]];
+                system.vector_field(&mu, &mut expected[0]);
+                system.coadjoint_action(&xi, &mu, &mut expected[1]);
+                system.dexp_dual(&xi, &mu, &mut expected[2]);
+                for (wide, expected) in all.iter().zip(&expected) {
+                    let own: Vec<f64> = wide.iter().map(|number| number.lane(lane)).collect();
+                    differences.compare(&model.name, expected, &own);
+                }
+            }
+        }
+    }
     assert!(differences.0.is_empty(), "{}", differences.0.join("\n"));
 }
 

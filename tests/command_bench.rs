@@ -15,7 +15,7 @@ fn points_picture_and_table() {
     );
     let run = lie(&format!(
         "bench specs/so3_nonpolynomial.json --methods midpoint,gauss4,rk4,dopri5 --until 2 --budget 0.002 --quiet \
-         --out {} --plot {}",
+         --compile --out {} --plot {}",
         out.display(),
         plot.display()
     ))
@@ -62,6 +62,21 @@ fn points_picture_and_table() {
     );
 }
 
+#[test]
+fn it_says_what_it_measures() {
+    let call = "bench specs/so3_nonpolynomial.json --methods rk4 --until 2 --budget 0.0001 --quiet";
+    let here = lie(call).ok().stdout;
+    assert!(
+        here.contains("measured: machine code made by this command"),
+        "{here}"
+    );
+    let built = lie(&format!("{call} --compile")).ok().stdout;
+    assert!(
+        built.contains("measured: a program built by cargo"),
+        "{built}"
+    );
+}
+
 /// One method of each kind of step: the processor changes the time of a run and no bit of it.
 #[test]
 fn every_processor_gives_the_same_errors() {
@@ -87,17 +102,19 @@ fn every_processor_gives_the_same_errors() {
             .filter(|(run, _)| !run.starts_with("ode_solvers"))
             .collect()
     };
-    let native = measured("native.csv", "");
-    let portable = measured("portable.csv", "--cpu portable");
-    let mut compared = 0;
-    for (run, result) in &native {
-        // how many step sizes fit the budget depends on the machine's hour
-        if let Some(other) = portable.get(run) {
-            assert_eq!(result, other, "{run}");
-            compared += 1;
+    let native = measured("native.csv", "--cpu native");
+    for (name, flags) in [("portable.csv", "--cpu portable"), ("here.csv", "")] {
+        let others = measured(name, flags);
+        let mut compared = 0;
+        for (run, result) in &native {
+            // how many step sizes fit the budget depends on the machine's hour
+            if let Some(other) = others.get(run) {
+                assert_eq!(result, other, "{run}");
+                compared += 1;
+            }
         }
+        assert!(compared > 50, "{name}: {compared}");
     }
-    assert!(compared > 50, "{compared}");
 }
 
 #[test]
@@ -182,7 +199,7 @@ fn falls_by(errors: &[f64], order: i32) -> bool {
 fn invariants_against_run_time() {
     let casimirs = errors(
         "so3_nonpolynomial",
-        &format!("{NONPOLYNOMIAL} --measure casimirs"),
+        &format!("{NONPOLYNOMIAL} --measure casimirs --compile"),
         3,
     );
     // both keep quadratic invariants at every step, the control at none

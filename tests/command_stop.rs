@@ -308,6 +308,28 @@ fn measuring_programs_end_with_the_command() {
     }
 }
 
+/// The same where the command measures by itself.
+#[test]
+fn measurements_end_with_the_command() {
+    let body = "specs/so3_free_rigid_body.json --methods gonzalez";
+    for (call, long) in [
+        ("stress", "--steps 1e15"),
+        ("bench", "--until 1e4 --budget 1e6"),
+    ] {
+        let mut command = command(format!("{call} {body} {long}").split_whitespace());
+        let command = command.stdout(Stdio::piped()).stderr(Stdio::piped());
+        let child = command.spawn().expect("lie starts");
+        std::thread::sleep(Duration::from_secs(2));
+        signal(&child, "-TERM");
+        let ended = Instant::now();
+        let output = child.wait_with_output().expect("lie ends");
+        let stderr = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(143), "{call}: {stderr}");
+        assert!(ended.elapsed() < Duration::from_secs(20), "{call}");
+        assert!(stderr.contains("Interrupted"), "{call}: {stderr}");
+    }
+}
+
 #[test]
 #[cfg(target_os = "linux")]
 fn a_signal_ends_the_build() {

@@ -1,6 +1,7 @@
 //! What runs code, and what it runs on.
 
 use crate::code::Code;
+use lie_runtime::Scalar;
 use std::sync::Arc;
 
 /// More vector arguments a kernel does not have.
@@ -31,6 +32,14 @@ pub trait Machine<S>: Send + Sync {
     /// # Panics
     /// A slice is shorter than the code needs.
     fn run(&self, code: usize, frame: &Frame<'_, S>, targets: Targets<'_, S>);
+
+    /// The same codes over the lanes of the scalar; none where there is nothing better than the interpreter.
+    fn wide(&self) -> Option<Arc<dyn Machine<S::Wide>>>
+    where
+        S: Scalar,
+    {
+        None
+    }
 }
 
 /// Makes codes ready to run.

@@ -480,11 +480,16 @@ impl<S: Scalar> Dynamic<S> {
     }
 
     /// The same with its constants as other scalars.
-    fn over<T: Scalar>(&self, constant: impl Fn(S) -> T) -> Dynamic<T> {
+    fn over<T: Scalar>(
+        &self,
+        constant: impl Fn(S) -> T,
+        machine: Option<Arc<dyn Machine<T>>>,
+    ) -> Dynamic<T> {
         let all = |values: &[S]| values.iter().map(|value| constant(*value)).collect();
+        let interpreter = || Arc::new(Interpreter::new(Arc::clone(&self.compiled.codes)));
         Dynamic {
             compiled: Arc::clone(&self.compiled),
-            machine: Arc::new(Interpreter::new(Arc::clone(&self.compiled.codes))),
+            machine: machine.unwrap_or_else(|| interpreter()),
             parameters: all(&self.parameters),
             constants: all(&self.constants),
         }
@@ -660,20 +665,20 @@ impl<S: Scalar> CayleyPoisson<S> for Dynamic<S> {
 impl<S: Scalar> Lift<S> for Dynamic<S> {
     type Lifted = Dynamic<Dual<S>>;
     fn lift(&self) -> Self::Lifted {
-        self.over(Dual::constant_of)
+        self.over(Dual::constant_of, None)
     }
 }
 
 impl<S: Scalar> Widen<S> for Dynamic<S> {
     type Widened = Dynamic<S::Wide>;
     fn widen(&self) -> Self::Widened {
-        self.over(S::widen)
+        self.over(S::widen, self.machine.wide())
     }
 }
 
 impl<S: Scalar> Expand<S> for Dynamic<S> {
     type Expanded = Dynamic<Truncated<S>>;
     fn expand(&self) -> Self::Expanded {
-        self.over(Truncated::constant_of)
+        self.over(Truncated::constant_of, None)
     }
 }

@@ -5,7 +5,7 @@ use crate::input;
 use cranelift_codegen::Context;
 use cranelift_codegen::ir::condcodes::FloatCC;
 use cranelift_codegen::ir::{
-    AbiParam, FuncRef, InstBuilder, MemFlags, StackSlotData, StackSlotKind, Value, types,
+    AbiParam, FuncRef, InstBuilder, MemFlags, StackSlotData, StackSlotKind, Type, Value, types,
 };
 use cranelift_codegen::settings::{self, Configurable};
 use cranelift_frontend::{FunctionBuilder, FunctionBuilderContext};
@@ -24,18 +24,28 @@ pub struct Compiler {
     builder: FunctionBuilderContext,
 }
 
-/// Compiled functions in their memory.
-pub struct Finished(JITModule);
+/// What a register of a code is.
+#[derive(Clone, Copy, Debug)]
+pub struct Shape {
+    /// A number, or the numbers of two lanes.
+    number: Type,
+    /// Bytes from a number of a slice to the next.
+    stride: i32,
+}
 
-impl Finished {
-    /// The address of a function.
-    pub fn get_finalized_function(&self, function: FuncId) -> *const u8 {
-        self.0.get_finalized_function(function)
-    }
+impl Shape {
+    /// One number.
+    pub const ONE: Self = Self {
+        number: types::F64,
+        stride: WORD,
+    };
 
-    /// The memory.
-    pub fn into_inner(self) -> JITModule {
-        self.0
+    /// Two neighbours of so many lanes.
+    pub const fn two_of(lanes: usize) -> Self {
+        Self {
+            number: types::F64X2,
+            stride: WORD * lanes as i32,
+        }
     }
 }
 
@@ -53,6 +63,7 @@ struct Body<'a, 'b> {
     builder: &'a mut FunctionBuilder<'b>,
     called: HashMap<String, FuncRef>,
     registers: Vec<Value>,
+    shape: Shape,
 }
 
 impl Compiler {
@@ -82,7 +93,7 @@ impl Compiler {
     }
 
     /// Compiles a code.
-    pub fn add(&mut self, code: &Code) -> Option<FuncId> {
+    pub fn add(&mut self, code: &Code, shape: Shape) -> Option<FuncId> {
         let pointer = self.module.target_config().pointer_type();
         let signature = &mut self.context.func.signature;
         signature.params.extend([AbiParam::new(pointer); 3]);
@@ -97,6 +108,7 @@ impl Compiler {
             builder: &mut builder,
             called: HashMap::new(),
             registers: Vec::with_capacity(code.registers as usize),
+            shape,
         };
         body.load(code, parameters[0]);
         for instruction in &code.instructions {
@@ -105,7 +117,7 @@ impl Compiler {
         for store in &code.stores {
             let value = body.registers[store.register as usize];
             let place = parameters[1 + usize::from(store.target)];
-            let offset = i32::try_from(store.entry).ok()?.checked_mul(WORD)?;
+            let offset = i32::try_from(store.entry).ok()?.checked_mul(shape.stride)?;
             body.builder
                 .ins()
                 .store(MemFlags::trusted(), value, place, offset);
@@ -122,9 +134,9 @@ impl Compiler {
     }
 
     /// Makes all functions ready to be called.
-    pub fn finish(mut self) -> Option<Finished> {
+    pub fn finish(mut self) -> Option<JITModule> {
         self.module.finalize_definitions().ok()?;
-        Some(Finished(self.module))
+        Some(self.module)
     }
 }
 
@@ -142,10 +154,11 @@ impl Body<'_, '_> {
                             .ins()
                             .load(types::I64, MemFlags::trusted(), table, offset)
                     });
-                    let offset = entry as i32 * WORD;
+                    let offset = entry as i32 * self.shape.stride;
+                    let number = self.shape.number;
                     self.builder
                         .ins()
-                        .load(types::F64, MemFlags::trusted(), base, offset)
+                        .load(number, MemFlags::trusted(), base, offset)
                 }
                 (None, Source::Number(number)) => self.number(*number),
                 (None, _) => unreachable!("only numbers are not read"),
@@ -155,7 +168,45 @@ impl Body<'_, '_> {
     }
 
     fn number(&mut self, number: Number) -> Value {
-        self.builder.ins().f64const(number.value::<f64>())
+        self.constant(number.value::<f64>())
+    }
+
+    fn constant(&mut self, value: f64) -> Value {
+        let value = self.builder.ins().f64const(value);
+        match self.shape.number.is_vector() {
+            true => self.builder.ins().splat(self.shape.number, value),
+            false => value,
+        }
+    }
+
+    /// Does something with numbers: in each lane.
+    fn in_lanes(
+        &mut self,
+        arguments: &[Value],
+        work: &mut dyn FnMut(&mut Self, &[Value]) -> Option<Value>,
+    ) -> Option<Value> {
+        if !self.shape.number.is_vector() {
+            return work(self, arguments);
+        }
+        let mut lanes = [None; 2];
+        for (lane, place) in lanes.iter_mut().enumerate() {
+            let builder = &mut self.builder;
+            let all = arguments.iter();
+            let arguments: Vec<Value> = all
+                .map(|&all| builder.ins().extractlane(all, lane as u8))
+                .collect();
+            *place = work(self, &arguments);
+        }
+        Some(self.both(lanes[0]?, lanes[1]?))
+    }
+
+    /// Both lanes of a vector.
+    fn both(&mut self, first: Value, second: Value) -> Value {
+        let first = self
+            .builder
+            .ins()
+            .scalar_to_vector(self.shape.number, first);
+        self.builder.ins().insertlane(first, second, 1)
     }
 
     fn instruction(&mut self, instruction: &Instruction) -> Option<()> {
@@ -187,21 +238,28 @@ impl Body<'_, '_> {
             }
             Instruction::Power(a, b) => {
                 let arguments = [at(a), at(b)];
-                self.call(&functions::name("powf"), Kind::Binary, &arguments)?
+                self.function(&functions::name("powf"), Kind::Binary, &arguments)?
             }
             Instruction::Atan2(a, b) => {
                 let arguments = [at(a), at(b)];
-                self.call(&functions::name("atan2"), Kind::Binary, &arguments)?
+                self.function(&functions::name("atan2"), Kind::Binary, &arguments)?
             }
             Instruction::Call(function, a) => {
                 let arguments = [at(a)];
-                self.call(&functions::symbol(function), Kind::Unary, &arguments)?
+                self.function(&functions::symbol(function), Kind::Unary, &arguments)?
             }
             Instruction::Below(a, b, c) => {
                 let (a, b, c) = (at(a), at(b), at(c));
-                let zero = self.builder.ins().f64const(0.0);
+                let zero = self.constant(0.0);
                 let negative = self.builder.ins().fcmp(FloatCC::LessThan, a, zero);
-                self.builder.ins().select(negative, b, c)
+                if self.shape.number.is_vector() {
+                    let flags = MemFlags::new();
+                    let builder = &mut self.builder;
+                    let negative = builder.ins().bitcast(self.shape.number, flags, negative);
+                    builder.ins().bitselect(negative, b, c)
+                } else {
+                    self.builder.ins().select(negative, b, c)
+                }
             }
             Instruction::Stumpff(count, a) => {
                 let a = at(a);
@@ -216,19 +274,37 @@ impl Body<'_, '_> {
         Some(())
     }
 
+    /// A function of numbers.
+    fn function(&mut self, name: &str, kind: Kind, arguments: &[Value]) -> Option<Value> {
+        self.in_lanes(arguments, &mut |body, arguments| {
+            body.call(name, kind, arguments)
+        })
+    }
+
     /// All functions of a family below an index, each in a register.
     fn family(&mut self, name: &str, count: u8, argument: Value) -> Option<()> {
         let bytes = u32::from(count) * WORD as u32;
-        let slot = StackSlotData::new(StackSlotKind::ExplicitSlot, bytes, 3);
-        let slot = self.builder.create_sized_stack_slot(slot);
-        let place = self.builder.ins().stack_addr(types::I64, slot, 0);
         let number = self.builder.ins().iconst(types::I64, i64::from(count));
-        self.call(name, Kind::Family, &[number, argument, place]);
+        let mut slots = Vec::new();
+        let mut fill = |body: &mut Self, arguments: &[Value]| {
+            let slot = StackSlotData::new(StackSlotKind::ExplicitSlot, bytes, 3);
+            let slot = body.builder.create_sized_stack_slot(slot);
+            let place = body.builder.ins().stack_addr(types::I64, slot, 0);
+            body.call(name, Kind::Family, &[number, arguments[0], place]);
+            slots.push(slot);
+            Some(arguments[0])
+        };
+        self.in_lanes(&[argument], &mut fill)?;
         for index in 0..i32::from(count) {
-            let value = self
-                .builder
-                .ins()
-                .stack_load(types::F64, slot, index * WORD);
+            let builder = &mut self.builder;
+            let values: Vec<Value> = slots
+                .iter()
+                .map(|slot| builder.ins().stack_load(types::F64, *slot, index * WORD))
+                .collect();
+            let value = match values[..] {
+                [first, second] => self.both(first, second),
+                _ => values[0],
+            };
             self.registers.push(value);
         }
         Some(())

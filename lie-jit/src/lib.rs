@@ -9,11 +9,13 @@
 mod compile;
 mod functions;
 
-use compile::Compiler;
+use compile::{Compiler, Shape};
 use cranelift_jit::JITModule;
-use lie_dynamic::{Code, Engine, Frame, Interpreted, Machine, Source, Targets};
+use cranelift_module::FuncId;
+use lie_dynamic::{Code, Engine, Frame, Interpreted, Interpreter, Machine, Source, Targets};
+use lie_runtime::Scalar;
 use std::mem::ManuallyDrop;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// The engine of Cranelift. Where the processor is none that it knows, codes are interpreted.
 #[derive(Clone, Copy, Debug, Default)]
@@ -52,51 +54,65 @@ struct Entry {
     clear: [usize; 2],
 }
 
+/// The memory of compiled functions.
+struct Memory(ManuallyDrop<JITModule>);
+
+// SAFETY: functions read nothing but their arguments, and the memory they are in is not changed once they are complete.
+unsafe impl Send for Memory {}
+// SAFETY: as above.
+unsafe impl Sync for Memory {}
+
+impl Drop for Memory {
+    fn drop(&mut self) {
+        // SAFETY: the module is taken once, here; its functions are called only by the machines that own the memory.
+        unsafe { ManuallyDrop::take(&mut self.0).free_memory() }
+    }
+}
+
+impl Memory {
+    fn new(compiler: Compiler) -> Option<Self> {
+        Some(Self(ManuallyDrop::new(compiler.finish()?)))
+    }
+
+    fn function(&self, place: FuncId) -> Function {
+        let pointer = self.0.get_finalized_function(place);
+        // SAFETY: the pointer is that of a function which was compiled with this signature.
+        unsafe { std::mem::transmute::<*const u8, Function>(pointer) }
+    }
+}
+
 /// Compiled codes with the memory that they are in.
 struct Compiled {
     entries: Vec<Entry>,
     interpreted: Arc<dyn Machine<f64>>,
-    memory: ManuallyDrop<JITModule>,
-}
-
-// SAFETY: the functions read nothing but their arguments, and the memory they are in is not changed once they are complete.
-unsafe impl Send for Compiled {}
-// SAFETY: as above.
-unsafe impl Sync for Compiled {}
-
-impl Drop for Compiled {
-    fn drop(&mut self) {
-        // SAFETY: the module is taken once, here; its functions are called only by `run`, which borrows what is being dropped.
-        unsafe { ManuallyDrop::take(&mut self.memory).free_memory() }
-    }
+    codes: Arc<[Code]>,
+    wide: OnceLock<Arc<Lanes>>,
+    _memory: Memory,
 }
 
 impl Compiled {
-    fn new(codes: &[Code], interpreted: Arc<dyn Machine<f64>>) -> Option<Self> {
+    fn new(codes: &Arc<[Code]>, interpreted: Arc<dyn Machine<f64>>) -> Option<Self> {
         let mut compiler = Compiler::new()?;
         let mut places = Vec::with_capacity(codes.len());
-        for code in codes {
+        for code in codes.iter() {
             let short = code.instructions.len() <= LONGEST;
             places.push(if short {
-                Some(compiler.add(code)?)
+                Some(compiler.add(code, Shape::ONE)?)
             } else {
                 None
             });
         }
-        let module = compiler.finish()?;
-        let entries = codes.iter().zip(places).map(|(code, place)| {
-            let function = place.map(|place| {
-                let pointer = module.get_finalized_function(place);
-                // SAFETY: the pointer is that of a function which was compiled with this signature.
-                unsafe { std::mem::transmute::<*const u8, Function>(pointer) }
-            });
-            Entry::new(code, function)
-        });
-        let entries = entries.collect();
+        let memory = Memory::new(compiler)?;
+        let entries = codes
+            .iter()
+            .zip(places)
+            .map(|(code, place)| Entry::new(code, place.map(|place| memory.function(place))));
         Some(Self {
-            entries,
+            entries: entries.collect(),
             interpreted,
-            memory: ManuallyDrop::new(module.into_inner()),
+            codes: Arc::clone(codes),
+            wide: OnceLock::new(),
+            _memory: memory,
         })
     }
 }
@@ -136,12 +152,12 @@ fn input(source: &Source) -> Option<(usize, usize)> {
     })
 }
 
-impl Machine<f64> for Compiled {
-    fn run(&self, code: usize, frame: &Frame<'_, f64>, targets: Targets<'_, f64>) {
-        let entry = &self.entries[code];
-        let Some(function) = entry.function else {
-            return self.interpreted.run(code, frame, targets);
-        };
+impl Entry {
+    /// Calls the function over lanes, two by two; over numbers, once.
+    ///
+    /// # Panics
+    /// A slice is shorter than the code needs.
+    fn call<S: Scalar>(&self, function: Function, frame: &Frame<'_, S>, targets: Targets<'_, S>) {
         let [a, b, c, d] = frame.arguments;
         let slices = [
             a,
@@ -153,17 +169,90 @@ impl Machine<f64> for Compiled {
             frame.parameters,
             &frame.scalars,
         ];
-        for (slice, least) in slices.iter().zip(entry.inputs) {
+        for (slice, least) in slices.iter().zip(self.inputs) {
             assert!(slice.len() >= least, "a slice is too short for its code");
         }
         let [vector, matrix] = targets;
-        for (target, least) in [vector.len(), matrix.len()].iter().zip(entry.outputs) {
+        for (target, least) in [vector.len(), matrix.len()].iter().zip(self.outputs) {
             assert!(*target >= least, "a target is too short for its code");
         }
-        vector[..entry.clear[0]].fill(0.0);
-        matrix[..entry.clear[1]].fill(0.0);
-        let table = slices.map(<[f64]>::as_ptr);
-        // SAFETY: every slice is as long as the code needs, and what is written is borrowed for writing.
-        unsafe { function(table.as_ptr(), vector.as_mut_ptr(), matrix.as_mut_ptr()) }
+        vector[..self.clear[0]].fill(S::zero());
+        matrix[..self.clear[1]].fill(S::zero());
+        let mut table = slices.map(|slice| slice.as_ptr().cast::<f64>());
+        let mut vector = vector.as_mut_ptr().cast::<f64>();
+        let mut matrix = matrix.as_mut_ptr().cast::<f64>();
+        let lanes = size_of::<S>() / size_of::<f64>();
+        for pair in 0..lanes.div_ceil(2) {
+            if pair > 0 {
+                table = table.map(|slice| slice.wrapping_add(2));
+                vector = vector.wrapping_add(2);
+                matrix = matrix.wrapping_add(2);
+            }
+            // SAFETY: every slice is as long as the code needs, what is written is borrowed for writing, and a number is
+            // its lanes one behind the other, of which the function takes the first two, or the only one.
+            unsafe { function(table.as_ptr(), vector, matrix) }
+        }
+    }
+}
+
+impl Machine<f64> for Compiled {
+    fn run(&self, code: usize, frame: &Frame<'_, f64>, targets: Targets<'_, f64>) {
+        let entry = &self.entries[code];
+        match entry.function {
+            Some(function) => entry.call(function, frame, targets),
+            None => self.interpreted.run(code, frame, targets),
+        }
+    }
+
+    fn wide(&self) -> Option<Arc<dyn Machine<Wide>>> {
+        let lanes = || Arc::new(Lanes::new(&self.codes));
+        Some(Arc::clone(self.wide.get_or_init(lanes)) as Arc<dyn Machine<Wide>>)
+    }
+}
+
+/// Lanes of double precision.
+type Wide = <f64 as Scalar>::Wide;
+
+const LANES: usize = size_of::<Wide>() / size_of::<f64>();
+const _: () = assert!(
+    LANES.is_multiple_of(2) && LANES == <Wide as Scalar>::LANES,
+    "lanes are numbers one behind the other, and come in pairs"
+);
+
+/// Codes over lanes, each compiled when it is first run.
+struct Lanes {
+    entries: Vec<OnceLock<Option<(Entry, Function, Memory)>>>,
+    codes: Arc<[Code]>,
+    interpreted: Interpreter,
+}
+
+impl Lanes {
+    fn new(codes: &Arc<[Code]>) -> Self {
+        Self {
+            entries: codes.iter().map(|_| OnceLock::new()).collect(),
+            codes: Arc::clone(codes),
+            interpreted: Interpreter::new(Arc::clone(codes)),
+        }
+    }
+
+    fn compile(code: &Code) -> Option<(Entry, Function, Memory)> {
+        if code.instructions.len() > LONGEST {
+            return None;
+        }
+        let mut compiler = Compiler::new()?;
+        let place = compiler.add(code, Shape::two_of(LANES))?;
+        let memory = Memory::new(compiler)?;
+        let function = memory.function(place);
+        Some((Entry::new(code, Some(function)), function, memory))
+    }
+}
+
+impl Machine<Wide> for Lanes {
+    fn run(&self, code: usize, frame: &Frame<'_, Wide>, targets: Targets<'_, Wide>) {
+        let compiled = self.entries[code].get_or_init(|| Self::compile(&self.codes[code]));
+        match compiled {
+            Some((entry, function, _)) => entry.call(*function, frame, targets),
+            None => self.interpreted.run(code, frame, targets),
+        }
     }
 }

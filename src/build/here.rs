@@ -6,13 +6,14 @@ use lie_codegen::plan::plan;
 use lie_codegen::program::{Chart, Purpose, compared};
 use lie_dynamic::{Declared, Dynamic, Method, at_defaults, method};
 use lie_jit::Jit;
-use lie_measure::Verify;
 use lie_measure::verify::Kind;
+use lie_measure::{Bench, Stress, Verify};
 use lie_program::Program;
 use lie_program::protocol::{End, Tolerances};
 use lie_program::session::Session;
 use lie_runtime::{ParameterError, Scalar, driver};
 
+use super::clock;
 use super::talk::Worker;
 
 /// What serves requests for methods on a system in this program; none where a program has to be built.
@@ -42,8 +43,8 @@ pub fn here(model: &Model, choices: &[Choice], purpose: Purpose) -> Option<Worke
             Box::new(move |line, session| declared.run(Some(chart), line, session))
         }
         Purpose::Verify => Box::new(move |line, session| declared.verify(line, session)),
-        // what is timed is what users build, and runs of many million steps take a program of their own
-        Purpose::Bench | Purpose::Stress => return None,
+        Purpose::Bench => Box::new(move |line, session| declared.bench(line, session)),
+        Purpose::Stress => Box::new(move |line, session| declared.stress(line, session)),
     };
     Some(Worker::Here(work))
 }
@@ -134,6 +135,28 @@ impl Declaration {
         }
         if self.with_cayley {
             program = program.with_cayley();
+        }
+        program.work(line, session)
+    }
+
+    fn bench(&self, line: &str, session: &mut Session<'_>) -> Result<(), End> {
+        let program = Bench::new(&self.parameters(), maker(&self.declared));
+        let mut program = program.clock(clock::processor);
+        for choice in &self.choices {
+            let (label, choice) = (choice.label(), choice.clone());
+            program = match choice.is_adaptive() {
+                true => program.any_adaptive(&label, move |tolerances| made(&choice, tolerances)),
+                false => program.any_method(&label, move || made(&choice, &Tolerances::default())),
+            };
+        }
+        program.work(line, session)
+    }
+
+    fn stress(&self, line: &str, session: &mut Session<'_>) -> Result<(), End> {
+        let mut program = Stress::new(&self.parameters(), maker(&self.declared));
+        for choice in &self.choices {
+            let (label, choice) = (choice.label(), choice.clone());
+            program = program.any_method(&label, move || made(&choice, &Tolerances::default()));
         }
         program.work(line, session)
     }

@@ -9,6 +9,8 @@
 
 mod cache;
 mod cause;
+#[path = "template/bench/clock.rs"]
+mod clock;
 mod entry;
 mod here;
 mod key;

@@ -71,6 +71,16 @@ impl Worker {
         }
     }
 
+    /// What it is, for those who read times.
+    pub fn engine(&self) -> &'static str {
+        match self {
+            Self::Program(_) => "a program built by cargo",
+            Self::Here(_) => {
+                "machine code made by this command; --compile measures what cargo builds"
+            }
+        }
+    }
+
     /// It does what it should not.
     pub fn broken(&self, how: &str) -> Failure {
         match self {

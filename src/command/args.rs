@@ -301,7 +301,8 @@ pub struct Measured {
     /// Says nothing on stderr unless something fails
     #[arg(long)]
     pub quiet: bool,
-    /// Build a program with cargo and measure that, in place of machine code made here (bench and stress always do)
+    /// Build a program with cargo and measure that, in place of machine code made here (bench then compares with the crate
+    /// ode_solvers too)
     #[arg(long)]
     pub compile: bool,
     /// Which processor to compile for (the results are the same, bit for bit); as --fma, implies --compile

@@ -9,6 +9,9 @@ use crate::model::CANONICAL;
 use crate::suggest::{listed, misspelt, series};
 use crate::symbolic::{ExprId, Function, Opaque, Symbol};
 
+/// So many names are listed.
+const MOST_LISTED: usize = 12;
+
 /// What a name stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Binding {
@@ -185,7 +188,10 @@ impl<'a> Environment<'a> {
             None if allowed == Allowed::Constants => {
                 "only numbers and `pi` may stand here".to_owned()
             }
-            None if others.is_empty() => declare,
+            None if others.is_empty() => match self.coordinates(allowed).as_slice() {
+                [] => declare,
+                names => format!("the coordinates are {}; {declare}", listed(names)),
+            },
             None => format!(
                 "{declare}; in this series there {} {}",
                 if others.len() == 1 { "is" } else { "are" },
@@ -193,6 +199,23 @@ impl<'a> Environment<'a> {
             ),
         };
         (format!("unknown symbol `{name}`"), help)
+    }
+
+    /// The names of the coordinates that may stand, in their order; none where they are too many to read.
+    fn coordinates(&self, allowed: Allowed) -> Vec<&str> {
+        let mut names: Vec<(Symbol, &str)> = Vec::new();
+        for (name, binding) in &self.bindings {
+            if let Binding::Symbol(symbol @ Symbol::Coordinate(_)) = binding
+                && allowed.permits(*symbol)
+            {
+                names.push((*symbol, name));
+            }
+        }
+        names.sort_unstable();
+        match names.len() {
+            0..=MOST_LISTED => names.into_iter().map(|(_, name)| name).collect(),
+            _ => Vec::new(),
+        }
     }
 }
 

@@ -76,7 +76,7 @@ enum Entry<P> {
 /// A program that compares methods on one system.
 pub struct Bench<P: Poisson<f64>> {
     blueprint: Blueprint<P>,
-    entries: Vec<(&'static str, Entry<P>)>,
+    entries: Vec<(String, Entry<P>)>,
     clock: Clock,
 }
 
@@ -103,24 +103,45 @@ impl<P: Implicit<f64, Gauss6> + 'static> Bench<P> {
     /// Adds a method under the name by which requests ask for it.
     #[must_use]
     pub fn method<M: Method<f64, P> + 'static>(
-        mut self,
-        label: &'static str,
+        self,
+        label: &str,
         make: impl Fn(&Tolerances) -> M + 'static,
     ) -> Self {
-        let make = move || -> Made<P> { Box::new(make(&Tolerances::default())) };
-        self.entries.push((label, Entry::Method(Box::new(make))));
+        self.any_method(label, move || Box::new(make(&Tolerances::default())))
+    }
+
+    /// Adds a method whose type is forgotten.
+    #[must_use]
+    pub fn any_method(
+        mut self,
+        label: &str,
+        make: impl Fn() -> Box<dyn AnyMethod<f64, P>> + 'static,
+    ) -> Self {
+        let entry = Entry::Method(Box::new(make));
+        self.entries.push((label.to_owned(), entry));
         self
     }
 
     /// Adds a method that chooses its own steps.
     #[must_use]
     pub fn adaptive<M: Method<f64, P> + 'static>(
-        mut self,
-        label: &'static str,
+        self,
+        label: &str,
         make: impl Fn(&Tolerances) -> M + 'static,
     ) -> Self {
-        let make = move |tolerance| -> Made<P> { Box::new(make(&Tolerances::both(tolerance))) };
-        self.entries.push((label, Entry::Adaptive(Box::new(make))));
+        self.any_adaptive(label, move |tolerances| Box::new(make(tolerances)))
+    }
+
+    /// Adds a method that chooses its own steps, whose type is forgotten.
+    #[must_use]
+    pub fn any_adaptive(
+        mut self,
+        label: &str,
+        make: impl Fn(&Tolerances) -> Box<dyn AnyMethod<f64, P>> + 'static,
+    ) -> Self {
+        let make = move |tolerance| make(&Tolerances::both(tolerance));
+        let entry = Entry::Adaptive(Box::new(make));
+        self.entries.push((label.to_owned(), entry));
         self
     }
 
@@ -129,7 +150,7 @@ impl<P: Implicit<f64, Gauss6> + 'static> Bench<P> {
     pub fn controls(mut self, controls: Vec<Control<P>>) -> Self {
         for control in controls {
             self.entries
-                .push((control.label, Entry::Control(control.run)));
+                .push((control.label.to_owned(), Entry::Control(control.run)));
         }
         self
     }
@@ -139,13 +160,17 @@ impl<P: Implicit<f64, Gauss6> + 'static> Bench<P> {
         session::main(GRACE, &|line, session| self.work(line, session))
     }
 
-    fn work(&self, line: &str, session: &mut Session<'_>) -> Result<(), End> {
+    /// Does what a line asks for.
+    ///
+    /// # Errors
+    /// Why not everything was measured.
+    pub fn work(&self, line: &str, session: &mut Session<'_>) -> Result<(), End> {
         let request = request(line)?;
         let Built { system, mu } = self.blueprint.build(&request.start)?;
         let Options { until, budget, .. } = request.options;
         let (judge, floor) = judge(&system, &mu, &request.options, session)?;
         tell(session, Found::Clock(self.clock.kind()));
-        let asked_for = |(label, entry): &&(&str, Entry<P>)| {
+        let asked_for = |(label, entry): &&(String, Entry<P>)| {
             matches!(entry, Entry::Control(_)) || request.methods.iter().any(|m| m == label)
         };
         let wanted: Vec<_> = self.entries.iter().filter(asked_for).collect();

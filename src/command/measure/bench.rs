@@ -92,7 +92,7 @@ pub fn run(arguments: &args::Bench) -> Result<u8, Failure> {
     )?;
     files::write(plot, arguments.plot.as_deref(), wanted.then(picture))?;
     let quiet = Quiet::of(points, results.clock);
-    print(&report(&bed, &options, &results, &quiet))?;
+    print(&report(&bed, &options, &results, &quiet, program.engine()))?;
     if let (Some(warning), false) = (quiet.warning(), flags.quiet) {
         eprintln!("warning: {warning}");
     }
@@ -304,7 +304,7 @@ fn basis(bed: &Bed, results: &Results) -> String {
     text
 }
 
-fn report(bed: &Bed, options: &Options, results: &Results, quiet: &Quiet) -> String {
+fn report(bed: &Bed, options: &Options, results: &Results, quiet: &Quiet, engine: &str) -> String {
     let Options { until, measure, .. } = *options;
     let mut text = format!(
         "{}, to t = {until}: microseconds per unit of time to {}\n{}\n{}",
@@ -314,6 +314,7 @@ fn report(bed: &Bed, options: &Options, results: &Results, quiet: &Quiet) -> Str
         table::text(&cells(&lines(bed, &results.points), measure)),
     );
     text.push_str(&format!("\n* the fastest\n{}\n", quiet.text()));
+    text.push_str(&format!("measured: {engine}\n"));
     if !results.stopped.is_empty() {
         let count = results.stopped.len();
         text.push_str(&format!("\n{count} runs did not come to their end:\n"));
