@@ -16,6 +16,12 @@ use lie_runtime::{ParameterError, Scalar, driver};
 use super::clock;
 use super::talk::Worker;
 
+/// The system of a spec before its parameters have values; none where a program would have to be built.
+pub fn declared(model: &Model) -> Option<Declared> {
+    let plan = plan(model, &[]);
+    Dynamic::supports(&plan).then(|| Declared::new(plan, &Jit))
+}
+
 /// What serves requests for methods on a system in this program; none where a program has to be built.
 pub fn here(model: &Model, choices: &[Choice], purpose: Purpose) -> Option<Worker> {
     let plan = plan(model, choices);

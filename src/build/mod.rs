@@ -31,7 +31,7 @@ use crate::message::{Failure, Message};
 pub use cache::{failure as cache_failure, root as cache_root};
 use cause::Cause;
 use entry::Entry;
-pub use here::here;
+pub use here::{declared, here};
 use key::Key;
 pub use processor::Processor;
 use toolchain::Toolchain;

@@ -203,9 +203,14 @@ pub struct Run {
     /// Writes to a file instead of stdout
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-    /// Draws the trajectory and the errors of the invariants
-    #[arg(long, value_name = "FILE.svg")]
+    /// Draws the runs: .svg, .png or .pdf
+    #[arg(long, value_name = "FILE")]
     pub plot: Option<PathBuf>,
+    /// What --plot draws: components (over time, with the errors of the invariants; default of one run), orbit (the coadjoint
+    /// orbit of a three-dimensional algebra), phase or phase:X,Y, section or section:X=VALUE, attitude (with --group), compare
+    /// (runs side by side; default of several)
+    #[arg(long, value_name = "KIND")]
+    pub picture: Option<String>,
     /// Says nothing on stderr unless something fails
     #[arg(long)]
     pub quiet: bool,

@@ -21,8 +21,11 @@ const STRIDE: Place = (396.0, 344.0);
 const HEAD: f64 = 102.0;
 const LINE: f64 = 17.0;
 
+/// Dots that are so few are larger.
+const FEW_DOTS: usize = 400;
+
 /// Colours of series; the last ones of long lists repeat the first.
-const COLOURS: [&str; 14] = [
+pub(super) const COLOURS: [&str; 14] = [
     "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#332288", "#882255", "#44aa99",
     "#999933", "#56b4e9", "#aa4466", "#117733", "#b8860b", "#7f3fbf",
 ];
@@ -70,6 +73,10 @@ pub enum Stroke {
     Line,
     /// The same, dashed.
     Dashed,
+    /// A line without marks; a point that is not finite leaves a gap.
+    Curve,
+    /// The same, thin and grey, behind the others.
+    Level,
     /// Dots alone.
     Dots,
     /// Pale dots behind the others.
@@ -102,7 +109,7 @@ impl Series {
 
     fn paint(&self) -> &'static str {
         match self.stroke {
-            Stroke::Behind => "#c4c4c4",
+            Stroke::Behind | Stroke::Level => "#c4c4c4",
             _ => COLOURS[self.colour % COLOURS.len()],
         }
     }
@@ -138,6 +145,7 @@ pub struct Chart {
 struct Frame<'a> {
     panel: &'a Panel,
     corner: Place,
+    size: Place,
     x: Ticks,
     y: Ticks,
 }
@@ -145,19 +153,25 @@ struct Frame<'a> {
 impl Chart {
     /// The picture as SVG; names are explained below all panels.
     pub fn to_svg(&self) -> String {
+        self.with_panels_of(PANEL)
+    }
+
+    /// The same with panels of another width and height.
+    pub fn with_panels_of(&self, size: Place) -> String {
         let across = self.across.max(1);
+        let stride = (STRIDE.0 - PANEL.0 + size.0, STRIDE.1 - PANEL.1 + size.1);
         let mut svg = Svg::default();
         for (place, panel) in self.panels.iter().enumerate() {
             let (row, column) = (place / across, place % across);
             let corner = (
-                LEFT + STRIDE.0 * column as f64,
-                HEAD + STRIDE.1 * row as f64,
+                LEFT + stride.0 * column as f64,
+                HEAD + stride.1 * row as f64,
             );
-            Frame::new(panel, corner).draw(&mut svg);
+            Frame::new(panel, corner, size).draw(&mut svg);
         }
         let columns = self.panels.len().min(across);
-        let width = (STRIDE.0 * columns as f64).max(780.0) + 24.0;
-        let top = HEAD + STRIDE.1 * self.panels.len().div_ceil(across) as f64 - 18.0;
+        let width = (stride.0 * columns as f64).max(780.0) + 24.0;
+        let top = HEAD + stride.1 * self.panels.len().div_ceil(across) as f64 - 18.0;
         let rows = self.legend(&mut svg, top, width);
         let height = top + LINE * rows as f64 + 10.0;
         svg.page((width, height), &self.title, &self.subtitle)
@@ -193,8 +207,15 @@ fn mark(svg: &mut Svg, series: &Series, places: &[Place]) {
     let paint = series.paint();
     let dashes = match series.stroke {
         Stroke::Line => "",
+        Stroke::Curve | Stroke::Level => {
+            let stroke = format!("stroke=\"{paint}\" stroke-width=\"2\"");
+            return svg.polyline(places.iter().copied(), &stroke);
+        }
         Stroke::Dashed => "stroke-dasharray=\"5 3\"",
-        Stroke::Dots | Stroke::Behind => return svg.discs(places, 0.9, paint),
+        Stroke::Dots | Stroke::Behind => {
+            let radius = if places.len() < FEW_DOTS { 2.0 } else { 0.9 };
+            return svg.discs(places, radius, paint);
+        }
     };
     let stroke = format!("stroke=\"{paint}\" stroke-width=\"1.5\" {dashes}");
     svg.polyline(places.iter().copied(), &stroke);
@@ -204,7 +225,7 @@ fn mark(svg: &mut Svg, series: &Series, places: &[Place]) {
 }
 
 impl<'a> Frame<'a> {
-    fn new(panel: &'a Panel, corner: Place) -> Self {
+    fn new(panel: &'a Panel, corner: Place, size: Place) -> Self {
         let axis = |axis: &Axis, of: fn(&(f64, f64)) -> f64| {
             let points = panel.series.iter().flat_map(|series| &series.points);
             let values = points.filter_map(|point| axis.value(of(point)));
@@ -221,6 +242,7 @@ impl<'a> Frame<'a> {
         Self {
             panel,
             corner,
+            size,
             x: axis(&panel.x, |p| p.0),
             y: axis(&panel.y, |p| p.1),
         }
@@ -229,8 +251,8 @@ impl<'a> Frame<'a> {
     fn place(&self, (x, y): (f64, f64)) -> Option<Place> {
         let (x, y) = (self.panel.x.value(x)?, self.panel.y.value(y)?);
         Some((
-            self.corner.0 + PANEL.0 * self.x.part(x),
-            self.corner.1 + PANEL.1 * (1.0 - self.y.part(y)),
+            self.corner.0 + self.size.0 * self.x.part(x),
+            self.corner.1 + self.size.1 * (1.0 - self.y.part(y)),
         ))
     }
 
@@ -239,26 +261,39 @@ impl<'a> Frame<'a> {
         let title = format!("font-weight=\"bold\" fill=\"{INK}\"");
         svg.text((left, top - 9.0), 13.0, &title, &self.panel.title);
         self.axes(svg);
-        let behind = |series: &&Series| series.stroke == Stroke::Behind;
+        let behind = |series: &&Series| matches!(series.stroke, Stroke::Behind | Stroke::Level);
         let (back, front): (Vec<&Series>, Vec<&Series>) =
             self.panel.series.iter().partition(behind);
         for series in back.into_iter().chain(front) {
-            let places: Vec<Place> = series
-                .points
-                .iter()
-                .filter_map(|point| self.place(*point))
-                .collect();
+            let places = series.points.iter().map(|point| self.place(*point));
+            let places: Vec<Option<Place>> = places.collect();
+            if let Stroke::Curve | Stroke::Level = series.stroke {
+                let width = if series.stroke == Stroke::Curve {
+                    1.3
+                } else {
+                    0.8
+                };
+                let stroke = format!("stroke=\"{}\" stroke-width=\"{width}\"", series.paint());
+                for piece in places
+                    .split(Option::is_none)
+                    .filter(|piece| piece.len() > 1)
+                {
+                    svg.polyline(piece.iter().flatten().copied(), &stroke);
+                }
+                continue;
+            }
+            let places: Vec<Place> = places.into_iter().flatten().collect();
             mark(svg, series, &places);
         }
     }
 
     fn axes(&self, svg: &mut Svg) {
         let (left, top) = self.corner;
-        let (right, bottom) = (left + PANEL.0, top + PANEL.1);
+        let (right, bottom) = (left + self.size.0, top + self.size.1);
         let (grid, axis) = ("stroke=\"#eeeeee\"", "stroke=\"#777\"");
         let anchored = |anchor: &str| format!("text-anchor=\"{anchor}\" fill=\"{INK}\"");
         for &tick in &self.x.ticks {
-            let x = left + PANEL.0 * self.x.part(tick);
+            let x = left + self.size.0 * self.x.part(tick);
             svg.line((x, top), (x, bottom), grid);
             let at = (x, bottom + 16.0);
             match self.panel.x.logarithmic {
@@ -267,7 +302,7 @@ impl<'a> Frame<'a> {
             }
         }
         for &tick in &self.y.ticks {
-            let y = bottom - PANEL.1 * self.y.part(tick);
+            let y = bottom - self.size.1 * self.y.part(tick);
             svg.line((left, y), (right, y), grid);
             let at = (left - 6.0, y + 4.0);
             match self.panel.y.logarithmic {
@@ -278,9 +313,9 @@ impl<'a> Frame<'a> {
         svg.line((left, bottom), (right, bottom), axis);
         svg.line((left, top), (left, bottom), axis);
         let faint = format!("text-anchor=\"middle\" fill=\"{FAINT}\"");
-        let middle = (left + 0.5 * PANEL.0, bottom + 34.0);
+        let middle = (left + 0.5 * self.size.0, bottom + 34.0);
         svg.text(middle, 12.0, &faint, &self.panel.x.label);
-        let side = (left - 62.0, top + 0.5 * PANEL.1);
+        let side = (left - 62.0, top + 0.5 * self.size.1);
         svg.turned_text(side, -90.0, 12.0, &faint, &self.panel.y.label);
     }
 }

@@ -15,6 +15,9 @@ const RIGHT: f64 = 14.0;
 const ABOVE: f64 = 26.0;
 const BELOW: f64 = 40.0;
 const SMALL: f64 = 15.0;
+/// So many components share a panel; up to so many have one each.
+const FEW: usize = 6;
+const MANY: usize = 36;
 
 /// Colours that stay apart for colour-blind readers on white (after Okabe and Ito, and Tol).
 const COLOURS: [&str; 12] = [
@@ -62,7 +65,11 @@ struct Frame {
 }
 
 pub fn svg(plot: &Plot) -> String {
-    let mut panels = vec![trajectory(plot)];
+    let multiples = (FEW + 1..=MANY).contains(&plot.states.len());
+    let mut panels = match multiples {
+        true => Vec::new(),
+        false => vec![trajectory(plot)],
+    };
     if !plot.element.is_empty() {
         panels.push(element(plot));
     }
@@ -72,6 +79,9 @@ pub fn svg(plot: &Plot) -> String {
     let legend = (widest.unwrap_or(0) as f64 * 8.0 + 50.0).clamp(90.0, 260.0);
     let mut svg = Svg::default();
     let mut top = HEAD;
+    if multiples {
+        top = small_multiples(&mut svg, plot, top);
+    }
     for (place, panel) in panels.iter().enumerate() {
         let last = place + 1 == panels.len();
         let height = if last { LAST } else { PANEL };
@@ -86,6 +96,28 @@ pub fn svg(plot: &Plot) -> String {
         top += height;
     }
     svg.page((WIDTH, top), &plot.title, &plot.subtitle)
+}
+
+/// A frame for each component, three in a row; answers where the next panel begins.
+fn small_multiples(svg: &mut Svg, plot: &Plot, top: f64) -> f64 {
+    let stride = ((WIDTH - RIGHT) / 3.0, 170.0);
+    for (place, curve) in plot.states.iter().enumerate() {
+        let (row, column) = (place / 3, place % 3);
+        let left = stride.0 * column as f64;
+        let above = top + stride.1 * row as f64;
+        let mut panel = components(plot, std::slice::from_ref(curve), &curve.name, "");
+        panel.x = Axis::linear(plot.range.0, plot.range.1, 4.0, 0.0);
+        let (low, high) = (panel.y.low, panel.y.high);
+        panel.y = Axis::linear(low, high, 3.0, 0.0);
+        let frame = Frame {
+            left: left + LEFT,
+            right: left + stride.0 - 8.0,
+            top: above + ABOVE,
+            bottom: above + stride.1 - BELOW,
+        };
+        draw(svg, &panel, &frame);
+    }
+    top + stride.1 * plot.states.len().div_ceil(3) as f64
 }
 
 fn time_axis(plot: &Plot) -> Axis {
@@ -191,7 +223,7 @@ impl Frame {
 
 fn draw(svg: &mut Svg, panel: &Panel, frame: &Frame) {
     let ink = format!("fill=\"{INK}\"");
-    svg.text((LEFT, frame.top - 11.0), 16.0, &ink, &panel.title);
+    svg.text((frame.left, frame.top - 11.0), 16.0, &ink, &panel.title);
     axes(svg, panel, frame);
     for (index, line) in panel.lines.iter().enumerate() {
         let Colour { name, opacity } = (panel.colour)(index);

@@ -19,11 +19,16 @@
 
 mod bins;
 pub mod chart;
+pub mod compare;
 mod draw;
 pub mod frontier;
 pub mod map;
+pub mod phase;
+pub mod surface;
 mod svg;
 mod ticks;
+pub mod trace;
+pub mod view;
 
 use std::io;
 use std::path::Path;

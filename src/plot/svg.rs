@@ -142,6 +142,20 @@ impl Svg {
     }
 }
 
+/// A line without the places that lie nearer than a distance to the one before; its ends stay.
+pub fn thinned(places: &[Place], distance: f64) -> Vec<Place> {
+    let mut kept: Vec<Place> = Vec::new();
+    for (index, &(x, y)) in places.iter().enumerate() {
+        let near = kept
+            .last()
+            .is_some_and(|&(a, b)| (x - a).hypot(y - b) < distance);
+        if !near || index + 1 == places.len() {
+            kept.push((x, y));
+        }
+    }
+    kept
+}
+
 /// How wide a text is at most, about, in a common sans-serif font; bold ones are wider.
 pub fn width_of(text: &str, size: f64, bold: bool) -> f64 {
     let letter = if bold { 0.70 } else { 0.62 };

@@ -3,6 +3,7 @@
 pub mod bar;
 mod layout;
 pub mod outputs;
+mod picture;
 pub mod plan;
 mod reception;
 mod session;
@@ -26,6 +27,7 @@ use crate::output::{Header, Rows};
 use crate::render;
 use layout::Layout;
 use outputs::Outputs;
+use picture::Picture;
 use plan::{Plan, Several};
 use session::Session;
 
@@ -42,8 +44,9 @@ pub fn run(flags: &args::Run) -> Result<u8, Failure> {
     Processor::of(flags.cpu.unwrap_or_default(), flags.fma)?;
     let spec = compiler::load(path)?;
     let several = plan::several(&spec, flags).map_err(Failure::invalid)?;
-    let columns = columns(&spec, &several)?;
+    let layout = layout(&spec, &several)?;
     let format = outputs::format(flags, path)?;
+    let kind = picture::kind(&spec, flags, &several, &layout)?;
     if !flags.quiet {
         render::print(&spec.warnings());
     }
@@ -52,9 +55,13 @@ pub fn run(flags: &args::Run) -> Result<u8, Failure> {
     let workers = workers(&spec, &several.plans, flags, &interrupt)?;
     let header = Header {
         system: spec.model.name.clone(),
-        columns,
+        columns: layout.columns.clone(),
         labels: several.labels.clone(),
     };
+    let picture = kind.zip(outputs.plot).map(|(kind, (form, destination))| {
+        let picture = Picture::new(&spec, layout, kind, several.members.len());
+        (picture, form, destination)
+    });
     Session {
         spec: &spec,
         several: &several,
@@ -62,21 +69,24 @@ pub fn run(flags: &args::Run) -> Result<u8, Failure> {
         workers: &workers,
         interrupt: &interrupt,
     }
-    .all(Rows::new(outputs.rows, format, header), outputs.plot)
+    .all(Rows::new(outputs.rows, format, header), picture)
 }
 
 /// The columns, which all runs have in common.
-fn columns(spec: &Spec, several: &Several) -> Result<Vec<String>, Failure> {
-    let members = match spec.model.family {
-        Some(_) => &several.members[..],
-        None => &several.members[..1],
-    };
-    let mut layouts = members.iter().map(|member| {
+fn layout(spec: &Spec, several: &Several) -> Result<Layout, Failure> {
+    let of = |member: &plan::Member| {
         let chart = several.plans[member.plan].chart;
-        Layout::of(&spec.model, chart, &member.start.parameters).columns
-    });
-    let first = layouts.next().unwrap_or_default();
-    if layouts.any(|columns| columns != first) {
+        Layout::of(&spec.model, chart, &member.start.parameters)
+    };
+    let first = of(&several.members[0]);
+    let members = match spec.model.family {
+        Some(_) => &several.members[1..],
+        None => &[],
+    };
+    if members
+        .iter()
+        .any(|member| of(member).columns != first.columns)
+    {
         let text = "the runs have different numbers of sites, and so different columns";
         let help = "make a run of its own for each number of sites";
         return Err(Message::option("--param", text).help(help).into());

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use clap::ValueEnum as _;
 
+use super::picture::Form;
 use crate::command::args::{self, Format};
 use crate::message::{Failure, Message};
 use crate::output::Destination;
@@ -29,7 +30,9 @@ pub fn format(flags: &args::Run, spec: &Path) -> Result<Format, Failure> {
         let message = Message::option("--plot", "rows and picture cannot go to the same file");
         return Err(message.help("give another file").into());
     }
-    picture("--plot", flags.plot.as_deref())?;
+    if let Some(plot) = &flags.plot {
+        super::picture::form("--plot", plot)?;
+    }
     let format = match (flags.format, flags.out.as_deref()) {
         (Some(format), _) => format,
         (None, Some(out)) => by_name(out)?,
@@ -85,7 +88,7 @@ pub fn table(flag: &str, path: &Path) -> Result<(), Failure> {
     }
 }
 
-/// Pictures are SVG, whatever the name says.
+/// Pictures of measurements are SVG, whatever the name says.
 ///
 /// # Errors
 /// `option` for a name of another format.
@@ -111,7 +114,7 @@ pub struct Outputs {
     /// Takes the rows.
     pub rows: Destination,
     /// Takes the picture.
-    pub plot: Option<Destination>,
+    pub plot: Option<(Form, Destination)>,
 }
 
 impl Outputs {
@@ -120,12 +123,16 @@ impl Outputs {
     /// # Errors
     /// `io`, with exit code 1.
     pub fn open(flags: &args::Run) -> Result<Self, Failure> {
+        let form = super::picture::form;
         let open = |path: &Path| Destination::file(path).map_err(|error| unwritable(path, &error));
         let rows = match &flags.out {
             Some(path) => open(path)?,
             None => Destination::stdout(),
         };
-        let plot = flags.plot.as_deref().map(open).transpose()?;
+        let plot = match flags.plot.as_deref() {
+            Some(path) => Some((form("--plot", path)?, open(path)?)),
+            None => None,
+        };
         Ok(Self { rows, plot })
     }
 }

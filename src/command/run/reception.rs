@@ -2,20 +2,22 @@
 
 use std::io::{self, BufRead};
 
-use lie_poisson::plot::Plot;
 use lie_program::listen;
 use lie_program::protocol::{Found, Times, Work};
 use lie_runtime::driver::Pace;
 
 use super::layout::Layout;
+use super::picture::Picture;
 use super::plan::Plan;
 use super::summary::Drift;
 use crate::compiler::Spec;
 use crate::output::{Rows, Run};
 
 /// Takes what the program of a run finds.
-pub struct Reception<'a> {
+pub struct Reception<'a, 'p> {
     rows: &'a mut Rows,
+    /// Where one is wanted.
+    picture: Option<&'a mut Picture<'p>>,
     /// What the output needs to begin, until the step is known.
     waiting: Option<Run>,
     received: Received,
@@ -29,8 +31,6 @@ pub struct Reception<'a> {
 
 /// What is left of the rows.
 pub struct Received {
-    /// The picture, if one is wanted.
-    pub plot: Option<Plot>,
     /// The errors of the invariants.
     pub drift: Drift,
     /// What was counted.
@@ -52,7 +52,7 @@ impl Received {
     }
 }
 
-impl<'a> Reception<'a> {
+impl<'a, 'p> Reception<'a, 'p> {
     /// Writes what stands before the rows of a run.
     ///
     /// # Errors
@@ -63,7 +63,7 @@ impl<'a> Reception<'a> {
         layout: Layout,
         mut run: Run,
         rows: &'a mut Rows,
-        draws: bool,
+        picture: Option<&'a mut Picture<'p>>,
     ) -> io::Result<Self> {
         let model = &spec.model;
         let step = match plan.pace.0 {
@@ -71,17 +71,6 @@ impl<'a> Reception<'a> {
             Pace::Tolerance(_) => f64::NAN,
         };
         run.step = step;
-        let plot = draws.then(|| {
-            let (method, written) = (plan.method.title(), plan.pace.1.trim());
-            let subtitle = match plan.pace.0 {
-                Pace::Step(_) => format!("{method}, h = {written}"),
-                Pace::Tolerance(_) => format!("{method}, tolerance {written}"),
-            };
-            let (own, element) = layout.columns.split_at(layout.invariants.end);
-            Plot::new(&*model.name, own, layout.states, (0.0, plan.end()))
-                .subtitle(subtitle)
-                .element(element)
-        });
         let mut drift = Drift::new(&layout.columns[layout.invariants.clone()]);
         for casimir in model.casimirs.iter().filter(|c| c.multivalued) {
             drift.leave_out(&casimir.name);
@@ -89,8 +78,8 @@ impl<'a> Reception<'a> {
         let mut reception = Self {
             rows,
             waiting: Some(run),
+            picture,
             received: Received {
-                plot,
                 drift,
                 work: Work::default(),
                 step,
@@ -171,8 +160,8 @@ impl<'a> Reception<'a> {
             self.received
                 .drift
                 .push(&row[..invariants.end], invariants.start);
-            if let Some(plot) = &mut self.received.plot {
-                plot.push(row);
+            if let Some(picture) = &mut self.picture {
+                picture.push(row);
             }
         }
         let from = if self.hidden { columns } else { 0 };

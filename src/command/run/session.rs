@@ -9,6 +9,7 @@ use lie_runtime::driver::Pace;
 
 use super::bar::Bar;
 use super::layout::Layout;
+use super::picture::{Form, Picture};
 use super::plan::{Member, Plan, Several};
 use super::reception::{Received, Reception};
 use super::summary::{self, Drift};
@@ -36,24 +37,27 @@ impl Session<'_> {
     ///
     /// # Errors
     /// As of `lie run`.
-    pub fn all(&self, mut rows: Rows, picture: Option<Destination>) -> Result<u8, Failure> {
+    pub fn all(
+        &self,
+        mut rows: Rows,
+        mut picture: Option<(Picture<'_>, Form, Destination)>,
+    ) -> Result<u8, Failure> {
         let clock = Instant::now();
         let mut tally = Tally::new(self.several);
-        let mut plot = None;
         let mut ended = Ok(0);
         // Rows that scroll by on the same terminal say enough.
         let scrolls = self.flags.out.is_none() && io::stdout().is_terminal();
         let bar = Bar::new(!self.flags.quiet && !scrolls);
         for (number, member) in self.several.members.iter().enumerate() {
             let start = Instant::now();
-            let (outcome, received) = self.one(number, member, &mut rows, &bar)?;
+            let drawn = picture.as_mut().map(|(picture, ..)| picture);
+            let (outcome, received) = self.one(number, member, &mut rows, drawn, &bar)?;
             let goes_on = matches!(outcome, Outcome::Done | Outcome::Stopped(_));
             let done = matches!(outcome, Outcome::Done);
             if !self.flags.quiet && done {
                 self.say(number, member, &received, start.elapsed(), &mut tally);
             }
             let code = self.ended(number, member, outcome, &received.drift, &mut tally);
-            plot = received.plot;
             match code {
                 Ok(0) => {}
                 other => ended = other,
@@ -64,11 +68,17 @@ impl Session<'_> {
         }
         bar.clear();
         rows.finish().map_err(|error| self.lost(error))?;
-        let plot = plot.zip(picture);
-        if let Some(((plot, destination), path)) = plot.zip(self.flags.plot.as_ref()) {
-            destination
-                .replace(plot.to_svg().as_bytes())
-                .map_err(|error| outputs::unwritable(path, &error))?;
+        if let Some((picture, form, destination)) = picture {
+            let (svg, note) = picture.finish();
+            let written = form.bytes(&svg)?;
+            if let Some(path) = &self.flags.plot {
+                destination
+                    .replace(&written)
+                    .map_err(|error| outputs::unwritable(path, &error))?;
+            }
+            if let Some(note) = note.filter(|_| !self.flags.quiet) {
+                eprintln!("warning: {note}");
+            }
         }
         if !self.flags.quiet {
             eprint!("{}", tally.text(clock.elapsed()));
@@ -84,11 +94,12 @@ impl Session<'_> {
     }
 
     /// Makes one run.
-    fn one(
+    fn one<'a>(
         &self,
         number: usize,
         member: &Member,
         rows: &mut Rows,
+        mut picture: Option<&mut Picture<'a>>,
         bar: &Bar,
     ) -> Result<(Outcome, Received), Failure> {
         let plan = &self.several.plans[member.plan];
@@ -102,8 +113,10 @@ impl Session<'_> {
             step: f64::NAN,
         };
         let layout = Layout::of(&self.spec.model, plan.chart, &member.start.parameters);
-        let draws = self.flags.plot.is_some();
-        let mut reception = Reception::start(self.spec, plan, layout, run, rows, draws)
+        if let Some(picture) = &mut picture {
+            picture.begin(&self.short_name(number, member), plan, &member.start);
+        }
+        let mut reception = Reception::start(self.spec, plan, layout, run, rows, picture)
             .map_err(|error| self.lost(error))?;
         let request = request(plan, member, &reception);
         let (before, all) = (number as u64, self.several.members.len() as u64);
@@ -162,17 +175,40 @@ impl Session<'_> {
 
     /// `run 3, midpoint, k = 1.2`.
     fn named(&self, number: usize, member: &Member) -> String {
-        let mut name = format!("run {number}");
+        let mut parts = vec![format!("run {number}")];
+        parts.extend(self.parts(member));
+        parts.join(", ")
+    }
+
+    /// `midpoint, k = 1.2`, where that tells it apart.
+    fn short_name(&self, number: usize, member: &Member) -> String {
+        let parts = self.parts(member);
+        let with =
+            |other: &Member| other.plan == member.plan && other.parameters == member.parameters;
+        let alone = self
+            .several
+            .members
+            .iter()
+            .take(MOST_LINES)
+            .filter(|m| with(m))
+            .count()
+            < 2;
+        match parts.is_empty() || !alone {
+            true => self.named(number, member),
+            false => parts.join(", "),
+        }
+    }
+
+    /// What tells the run apart, beside its number.
+    fn parts(&self, member: &Member) -> Vec<String> {
         let Some(labels) = &self.several.labels else {
-            return name;
+            return Vec::new();
         };
-        if labels.method.is_some() {
-            name += &format!(", {}", self.several.plans[member.plan].method.title());
-        }
-        for (parameter, value) in labels.parameters.iter().zip(&member.parameters) {
-            name += &format!(", {parameter} = {value:?}");
-        }
-        name
+        let method = labels.method.as_ref();
+        let method = method.map(|_| self.several.plans[member.plan].method.title());
+        let values = labels.parameters.iter().zip(&member.parameters);
+        let values = values.map(|(parameter, value)| format!("{parameter} = {value:?}"));
+        method.into_iter().chain(values).collect()
     }
 
     /// Says how a run ended, if not at its end; answers the exit code.
@@ -219,7 +255,11 @@ impl Session<'_> {
 }
 
 /// What the built program is asked for.
-fn request(plan: &Plan, member: &Member, reception: &Reception) -> lie_program::protocol::Run {
+fn request(
+    plan: &Plan,
+    member: &Member,
+    reception: &Reception<'_, '_>,
+) -> lie_program::protocol::Run {
     lie_program::protocol::Run {
         method: plan.method.label(),
         start: member.start.clone(),

@@ -1,0 +1,228 @@
+//! `--picture`: components, orbit, phase, section, attitude, compare.
+
+use lie_codegen::structure::group;
+use lie_codegen::suggest::did_you_mean;
+
+use super::section::Chosen;
+use crate::build;
+use crate::command::args;
+use crate::command::run::layout::Layout;
+use crate::command::run::plan::Several;
+use crate::command::run::values::Given;
+use crate::compiler::Spec;
+use crate::message::Message;
+
+const FLAG: &str = "--picture";
+const NAMES: [&str; 6] = [
+    "components",
+    "orbit",
+    "phase",
+    "section",
+    "attitude",
+    "compare",
+];
+
+/// What is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Kind {
+    /// Coordinates and errors of invariants over time.
+    Components,
+    /// The coadjoint orbit of a three-dimensional algebra, with level curves of H.
+    Orbit,
+    /// One coordinate against another.
+    Phase([usize; 2]),
+    /// The points in which a coordinate rises through a value.
+    Section(Chosen),
+    /// The third axis of a rotation.
+    Attitude,
+    /// Several runs side by side.
+    Compare,
+}
+
+/// What the flags ask for; none where nothing is drawn.
+///
+/// # Errors
+/// `option`: there is no such picture, or none of this system.
+pub fn kind(
+    spec: &Spec,
+    flags: &args::Run,
+    several: &Several,
+    layout: &Layout,
+) -> Result<Option<Kind>, Message> {
+    let Some(text) = &flags.picture else {
+        let kind = match several.members.len() {
+            1 => Kind::Components,
+            _ => Kind::Compare,
+        };
+        return match flags.plot.is_some() {
+            true => few(kind, several).map(Some),
+            false => Ok(None),
+        };
+    };
+    let given = Given::flag(FLAG, text);
+    if flags.plot.is_none() {
+        let message = given.wrong("there is no file for the picture");
+        return Err(message.help(format!(
+            "add `--plot {}.svg`",
+            spec.model.name.to_lowercase()
+        )));
+    }
+    let (name, rest) = match text.split_once(':') {
+        Some((name, rest)) => (name, Some(given.part(text.len() - rest.len()..text.len()))),
+        None => (text.as_str(), None),
+    };
+    if let (Some(rest), false) = (&rest, matches!(name, "phase" | "section")) {
+        let message = rest.wrong(format!("`{name}` takes no choice"));
+        return Err(message.help(format!("write `--picture {name}`")));
+    }
+    let kind = match name {
+        "components" => Kind::Components,
+        "compare" => Kind::Compare,
+        "orbit" => orbit(spec, &given)?,
+        "attitude" => attitude(spec, several, &given)?,
+        "phase" => Kind::Phase(axes(layout, rest.as_ref(), &given)?),
+        "section" => section(spec, layout, rest.as_ref(), &given)?,
+        other => {
+            let message = given.wrong(format!("there is no picture `{other}`"));
+            let help = match did_you_mean(other, NAMES.iter().copied()) {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => format!("the pictures are {}", NAMES.join(", ")),
+            };
+            return Err(message.help(help));
+        }
+    };
+    few(kind, several).map(Some)
+}
+
+/// The most runs that colours tell apart.
+const MOST: usize = 14;
+
+fn few(kind: Kind, several: &Several) -> Result<Kind, Message> {
+    let runs = several.members.len();
+    let most = match kind {
+        Kind::Components => 1,
+        Kind::Phase(_) | Kind::Section(_) => usize::MAX,
+        _ => MOST,
+    };
+    if runs <= most {
+        return Ok(kind);
+    }
+    let text = format!("{runs} runs are too many for this picture, which takes {most}");
+    let help = match kind {
+        Kind::Components => "take `--picture compare`, `phase` or `section`",
+        _ => "take fewer runs, or `--picture phase`, which takes any number",
+    };
+    Err(Message::option("--plot", text).help(help))
+}
+
+fn orbit(spec: &Spec, given: &Given) -> Result<Kind, Message> {
+    let model = &spec.model;
+    let n = model.dimension();
+    let other = "`--picture phase` draws one coordinate against another for every system";
+    let refuse = |text: String| Err(given.wrong(text).help(other));
+    if n != 3 {
+        return refuse(format!(
+            "{} has {n} coordinates, and orbits are drawn of systems with 3",
+            model.name
+        ));
+    }
+    if model.casimirs.len() != 1 {
+        return refuse(format!(
+            "{} has {} Casimirs, and an orbit that is a surface has one",
+            model.name,
+            model.casimirs.len()
+        ));
+    }
+    if build::declared(model).is_none() {
+        return refuse(format!(
+            "the Hamiltonian of {} is not known to the command as an expression",
+            model.name
+        ));
+    }
+    Ok(Kind::Orbit)
+}
+
+fn attitude(spec: &Spec, several: &Several, given: &Given) -> Result<Kind, Message> {
+    let followed = several.plans.iter().all(|plan| plan.chart.is_some());
+    let size = group::group(&spec.model).map(|group| group.size);
+    if size.is_none_or(|size| size < 3) {
+        let text = format!("{} has no group of rotations", spec.model.name);
+        return Err(given.wrong(text).help("`--picture phase` draws any system"));
+    }
+    match followed {
+        true => Ok(Kind::Attitude),
+        false => {
+            let message = given.wrong("the group element is not followed");
+            Err(message.help("add `--group matrix`, or `--group quaternion` for rotations"))
+        }
+    }
+}
+
+fn coordinate(layout: &Layout, given: &Given) -> Result<usize, Message> {
+    let names = &layout.columns[1..=layout.states];
+    let name = given.text.trim();
+    names.iter().position(|known| known == name).ok_or_else(|| {
+        let message = given.wrong(format!("unknown coordinate `{name}`"));
+        let known = names.iter().map(String::as_str);
+        message.help(match did_you_mean(name, known) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => format!(
+                "the coordinates are {}",
+                names[..names.len().min(12)].join(", ")
+            ),
+        })
+    })
+}
+
+fn axes(layout: &Layout, rest: Option<&Given>, given: &Given) -> Result<[usize; 2], Message> {
+    if layout.states < 2 {
+        return Err(given
+            .wrong("there is one coordinate alone")
+            .help("take `--picture components`"));
+    }
+    let Some(rest) = rest else { return Ok([0, 1]) };
+    match rest.split().as_slice() {
+        [x, y] => Ok([coordinate(layout, x)?, coordinate(layout, y)?]),
+        _ => {
+            let names = &layout.columns[1..=2];
+            let message = rest.wrong("a phase portrait has two coordinates");
+            Err(message.help(format!(
+                "write it like `--picture phase:{}`",
+                names.join(",")
+            )))
+        }
+    }
+}
+
+fn section(
+    spec: &Spec,
+    layout: &Layout,
+    rest: Option<&Given>,
+    given: &Given,
+) -> Result<Kind, Message> {
+    let n = spec.model.dimension();
+    if n < 3 || layout.states != n || build::declared(&spec.model).is_none() {
+        let text = match n {
+            0..3 => "a section needs three coordinates",
+            _ => "sections are drawn of systems that the command runs itself, without time",
+        };
+        return Err(given.wrong(text).help("take `--picture phase`"));
+    }
+    let (place, value) = match rest {
+        None => (0, 0.0),
+        Some(rest) => match rest.text.split_once('=') {
+            None => (coordinate(layout, rest)?, 0.0),
+            Some((name, _)) => {
+                let value = rest.part(name.len() + 1..rest.text.len()).number()?;
+                (coordinate(layout, &rest.part(0..name.len()))?, value)
+            }
+        },
+    };
+    let mut others = (0..n).filter(|k| *k != place);
+    let axes = [(); 2].map(|()| others.next().unwrap_or(0));
+    Ok(Kind::Section(Chosen {
+        coordinate: place,
+        value,
+        axes,
+    }))
+}

@@ -1,0 +1,270 @@
+//! What `--plot` draws of runs, as `--picture` says.
+
+mod choice;
+mod file;
+mod section;
+
+use lie_dynamic::Dynamic;
+use lie_poisson::plot::Plot;
+use lie_poisson::plot::compare::Compare;
+use lie_poisson::plot::phase::Phase;
+use lie_poisson::plot::surface::Point;
+use lie_poisson::plot::view::{OnSurface, View};
+use lie_program::protocol::Start;
+use lie_runtime::Poisson as _;
+use lie_runtime::driver::Pace;
+
+pub use choice::{Kind, kind};
+pub use file::{Form, form};
+use section::Section;
+
+use super::layout::Layout;
+use super::plan::Plan;
+use crate::build;
+use crate::compiler::Spec;
+
+/// A picture in the making.
+pub struct Picture<'a> {
+    spec: &'a Spec,
+    layout: Layout,
+    /// How many runs there are.
+    runs: usize,
+    subtitle: String,
+    drawn: Drawn,
+}
+
+enum Drawn {
+    /// Nothing before the first run.
+    Nothing(Kind),
+    Components(Box<Plot>),
+    Compare(Compare),
+    Phase(Phase, [usize; 2], Option<Dynamic<f64>>),
+    Section(Phase, Box<Section>),
+    Orbit(Vec<OnSurface>, Box<Dynamic<f64>>),
+    Attitude(Vec<OnSurface>),
+}
+
+/// The system of a run, where the command has it.
+fn system(spec: &Spec, start: &Start) -> Option<Dynamic<f64>> {
+    let values = spec.model.parameters.iter();
+    let values = values.map(|p| start.parameters.get(&p.name).copied());
+    let values: Option<Vec<f64>> = values.collect();
+    build::declared(&spec.model)?.system(&values?).ok()
+}
+
+impl<'a> Picture<'a> {
+    /// A picture of so many runs, the rows of which have this layout.
+    pub fn new(spec: &'a Spec, layout: Layout, kind: Kind, runs: usize) -> Self {
+        Self {
+            spec,
+            layout,
+            runs,
+            subtitle: String::new(),
+            drawn: Drawn::Nothing(kind),
+        }
+    }
+
+    /// Begins a further run.
+    pub fn begin(&mut self, name: &str, plan: &Plan, start: &Start) {
+        if let Drawn::Nothing(kind) = self.drawn {
+            self.subtitle = self.second_line(plan);
+            self.drawn = self.first(kind, plan, start);
+        }
+        match &mut self.drawn {
+            Drawn::Nothing(_) | Drawn::Components(_) => {}
+            Drawn::Compare(compare) => compare.begin(name, (0.0, plan.end())),
+            Drawn::Phase(phase, ..) => phase.begin(name),
+            Drawn::Section(phase, section) => {
+                phase.begin(name);
+                section.begin(system(self.spec, start));
+            }
+            Drawn::Orbit(curves, _) | Drawn::Attitude(curves) => {
+                curves.push(OnSurface::new(name));
+            }
+        }
+    }
+
+    fn second_line(&self, plan: &Plan) -> String {
+        let (method, written) = (plan.method.title(), plan.pace.1.trim());
+        match (self.runs, plan.pace.0) {
+            (1, Pace::Step(_)) => format!("{method}, h = {written}"),
+            (1, Pace::Tolerance(_)) => format!("{method}, tolerance {written}"),
+            (runs, Pace::Step(_)) => format!("{runs} runs, h = {written}"),
+            (runs, Pace::Tolerance(_)) => format!("{runs} runs, tolerance {written}"),
+        }
+    }
+
+    fn first(&self, kind: Kind, plan: &Plan, start: &Start) -> Drawn {
+        let (name, columns) = (&*self.spec.model.name, &self.layout.columns);
+        let (own, element) = columns.split_at(self.layout.invariants.end);
+        let phase = |[x, y]: [usize; 2]| {
+            let names = [columns[1 + x].clone(), columns[1 + y].clone()];
+            Phase::new(name, &self.subtitle, names)
+        };
+        match kind {
+            Kind::Components => {
+                let plot = Plot::new(name, own, self.layout.states, (0.0, plan.end()));
+                let plot = plot.subtitle(&self.subtitle).element(element);
+                Drawn::Components(Box::new(plot))
+            }
+            Kind::Compare => {
+                let compare = Compare::new(name, &self.subtitle, own, self.layout.states);
+                Drawn::Compare(compare)
+            }
+            Kind::Phase(axes) => {
+                let plane = self.spec.model.dimension() == 2;
+                let system = system(self.spec, start).filter(|_| plane);
+                Drawn::Phase(phase(axes), axes, system)
+            }
+            Kind::Section(section) => {
+                let mut phase = phase(section.axes);
+                let coordinate = &columns[1 + section.coordinate];
+                phase.subtitle(format!(
+                    "{}; {coordinate} rises through {}",
+                    self.subtitle, section.value
+                ));
+                Drawn::Section(phase, Box::new(Section::new(section)))
+            }
+            Kind::Orbit => match system(self.spec, start) {
+                Some(system) => Drawn::Orbit(Vec::new(), Box::new(system)),
+                None => Drawn::Nothing(kind),
+            },
+            Kind::Attitude => Drawn::Attitude(Vec::new()),
+        }
+    }
+
+    /// Takes a row of the run.
+    pub fn push(&mut self, row: &[f64]) {
+        match &mut self.drawn {
+            Drawn::Nothing(_) => {}
+            Drawn::Components(plot) => plot.push(row),
+            Drawn::Compare(compare) => compare.push(&row[..self.layout.invariants.end]),
+            Drawn::Phase(phase, [x, y], _) => phase.push((row[1 + *x], row[1 + *y])),
+            Drawn::Section(phase, section) => {
+                let states = self.layout.states;
+                if let Some(point) = section.push(row[0], &row[1..=states]) {
+                    phase.dot(point);
+                }
+            }
+            Drawn::Orbit(curves, system) => {
+                let point: Point = [row[1], row[2], row[3]];
+                if let Some(curve) = curves.last_mut() {
+                    curve.push(&point, &casimir(system, &point).1);
+                }
+            }
+            Drawn::Attitude(curves) => {
+                let tip = tip(&row[self.layout.invariants.end..]);
+                if let Some(curve) = curves.last_mut() {
+                    curve.push(&tip, &tip);
+                }
+            }
+        }
+    }
+
+    /// The picture as SVG, and what there is to say about it.
+    pub fn finish(self) -> (String, Option<String>) {
+        let name = &*self.spec.model.name;
+        match self.drawn {
+            Drawn::Nothing(_) => (
+                View::new(name, "", [(); 3].map(|()| String::new()), Vec::new()).to_svg(),
+                None,
+            ),
+            Drawn::Components(plot) => (plot.to_svg(), None),
+            Drawn::Compare(compare) => (compare.to_svg(), None),
+            Drawn::Phase(mut phase, axes, system) => {
+                if let Some(system) = system {
+                    phase.levels(&|(x, y)| {
+                        let mut state = vec![0.0; 2];
+                        (state[axes[0]], state[axes[1]]) = (x, y);
+                        system.hamiltonian(&state)
+                    });
+                }
+                (phase.to_svg(), None)
+            }
+            Drawn::Section(phase, section) => {
+                let note = section.note(phase.dots());
+                (phase.to_svg(), note)
+            }
+            Drawn::Orbit(curves, system) => {
+                let names = [1, 2, 3].map(|k| self.layout.columns[k].clone());
+                let mut view = View::new(name, &self.subtitle, names, curves);
+                let energy = |point: &Point| energy(&system, point);
+                let surface = |point: &Point| casimir(&system, point);
+                let of = system.casimir_name(0);
+                let note = format!("surface: {of} as at the start; grey: level curves of H on it");
+                let found = view.orbit(&surface, &energy, &note);
+                let none = "there is no surface through the initial state: it is a point orbit";
+                (view.to_svg(), (!found).then(|| none.to_owned()))
+            }
+            Drawn::Attitude(curves) => {
+                let axes = ["e1", "e2", "e3"].map(str::to_owned);
+                let mut view = View::new(name, &self.subtitle, axes, curves);
+                view.sphere(
+                    "where the third axis of the group element points to: its third column",
+                );
+                (view.to_svg(), None)
+            }
+        }
+    }
+}
+
+fn casimir(system: &Dynamic<f64>, point: &Point) -> (f64, Point) {
+    let (state, mut gradient) = (point.to_vec(), vec![0.0; 3]);
+    let mut values = vec![0.0; system.casimir_count()];
+    system.casimirs(&state, &mut values);
+    system.casimir_gradient(0, &state, &mut gradient);
+    (values[0], [gradient[0], gradient[1], gradient[2]])
+}
+
+fn energy(system: &Dynamic<f64>, point: &Point) -> (f64, Point) {
+    let (state, mut gradient) = (point.to_vec(), vec![0.0; 3]);
+    system.gradient(&state, &mut gradient);
+    (
+        system.hamiltonian(&state),
+        [gradient[0], gradient[1], gradient[2]],
+    )
+}
+
+/// The third column of a rotation: nine entries, row after row, or a quaternion, the real part first.
+fn tip(element: &[f64]) -> Point {
+    match *element {
+        [w, x, y, z] => [
+            2.0 * (x * z + w * y),
+            2.0 * (y * z - w * x),
+            1.0 - 2.0 * (x * x + y * y),
+        ],
+        _ => {
+            let size = element.len().isqrt();
+            [0, 1, 2].map(|row| element.get(row * size + 2).copied().unwrap_or(f64::NAN))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quaternions_and_matrices_point_the_same_way() {
+        // turned by 2 a about (1, 2, 2)/3
+        let (s, c) = 0.4_f64.sin_cos();
+        let [x, y, z] = [1.0, 2.0, 2.0].map(|u| s * u / 3.0);
+        let matrix = [
+            1.0 - 2.0 * (y * y + z * z),
+            2.0 * (x * y - c * z),
+            2.0 * (x * z + c * y),
+            2.0 * (x * y + c * z),
+            1.0 - 2.0 * (x * x + z * z),
+            2.0 * (y * z - c * x),
+            2.0 * (x * z - c * y),
+            2.0 * (y * z + c * x),
+            1.0 - 2.0 * (x * x + y * y),
+        ];
+        let (a, b) = (tip(&matrix), tip(&[c, x, y, z]));
+        for (a, b) in a.iter().zip(b) {
+            assert!((a - b).abs() < 1e-15);
+        }
+        assert!((a[0] * a[0] + a[1] * a[1] + a[2] * a[2] - 1.0).abs() < 1e-15);
+        assert!((a[2] - 1.0).abs() > 0.1);
+    }
+}

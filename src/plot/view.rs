@@ -1,0 +1,385 @@
+//! Pictures of space: what a curve on a coadjoint orbit or on the sphere of directions looks like from outside.
+
+use super::chart::COLOURS;
+use super::surface::{Field, Point, Surface, dot, onto};
+use super::svg::{FAINT, INK, Place, Svg, thinned};
+use super::trace::Trace;
+
+/// The sides of the square in which space is shown, and where it begins.
+const SIDE: f64 = 640.0;
+const LEFT: f64 = 40.0;
+const HEAD: f64 = 80.0;
+const LINE: f64 = 18.0;
+/// Pixels between the places of a line.
+const FINEST: f64 = 2.5;
+/// Level curves of the energy.
+const LEVELS: usize = 11;
+/// Cells along a side of the box of an orbit: while its size is looked for, and in the end.
+const COARSE: usize = 16;
+const FINE: usize = 44;
+
+/// From where one looks: turned about the third axis, and from above.
+const AZIMUTH: f64 = 0.6;
+const ELEVATION: f64 = 0.45;
+
+/// The directions to the right, up, and to the eye.
+fn camera() -> [Point; 3] {
+    let ((s, c), (t, d)) = (AZIMUTH.sin_cos(), ELEVATION.sin_cos());
+    [[-s, c, 0.0], [-t * c, -t * s, d], [d * c, d * s, t]]
+}
+
+fn projected(point: &Point) -> Place {
+    let [right, up, _] = camera();
+    (dot(&right, point), dot(&up, point))
+}
+
+/// Whether a surface with this normal faces the eye.
+fn faces(normal: &Point) -> bool {
+    dot(normal, &camera()[2]) >= 0.0
+}
+
+/// A curve on a surface: what faces the eye, and the rest.
+#[derive(Clone, Debug)]
+pub struct OnSurface {
+    name: String,
+    front: Trace,
+    back: Trace,
+    bounds: Option<(Point, Point)>,
+    first: Option<Point>,
+    /// Whether the last point faced the eye.
+    side: Option<bool>,
+}
+
+impl OnSurface {
+    /// A curve without points.
+    pub fn new(name: impl Into<String>) -> Self {
+        Self {
+            name: name.into(),
+            front: Trace::default(),
+            back: Trace::default(),
+            bounds: None,
+            first: None,
+            side: None,
+        }
+    }
+
+    /// Takes the next point, and the normal of the surface there.
+    pub fn push(&mut self, point: &Point, normal: &Point) {
+        let (low, high) = self.bounds.unwrap_or((*point, *point));
+        self.bounds = Some((
+            [0, 1, 2].map(|i| low[i].min(point[i])),
+            [0, 1, 2].map(|i| high[i].max(point[i])),
+        ));
+        self.first.get_or_insert(*point);
+        let place = projected(point);
+        let front = faces(normal);
+        let (own, other) = match front {
+            true => (&mut self.front, &mut self.back),
+            false => (&mut self.back, &mut self.front),
+        };
+        if self.side.replace(front) == Some(!front) {
+            // the segment in which it turns away belongs to the side it comes from
+            other.push(place);
+            other.lift();
+        }
+        own.push(place);
+    }
+}
+
+/// Lines of one kind behind the curves.
+#[derive(Clone, Debug, Default)]
+struct Lines {
+    front: Vec<Vec<Place>>,
+    back: Vec<Vec<Place>>,
+}
+
+impl Lines {
+    /// A chain of points, divided where the surface turns away.
+    fn add(&mut self, chain: &[Point], normal: &dyn Fn(&Point) -> Point) {
+        let mut piece: Option<(bool, Vec<Place>)> = None;
+        for point in chain {
+            let (front, place) = (faces(&normal(point)), projected(point));
+            match &mut piece {
+                Some((side, places)) => {
+                    places.push(place);
+                    if *side != front {
+                        let (side, places) = (*side, std::mem::take(places));
+                        self.keep(side, places);
+                        piece = Some((front, vec![place]));
+                    }
+                }
+                None => piece = Some((front, vec![place])),
+            }
+        }
+        if let Some((side, places)) = piece {
+            self.keep(side, places);
+        }
+    }
+
+    fn keep(&mut self, front: bool, places: Vec<Place>) {
+        let lines = if front {
+            &mut self.front
+        } else {
+            &mut self.back
+        };
+        lines.push(places);
+    }
+
+    fn all(&self) -> impl Iterator<Item = &Place> {
+        self.front.iter().chain(&self.back).flatten()
+    }
+}
+
+/// A picture of curves on surfaces.
+#[derive(Clone, Debug)]
+pub struct View {
+    title: String,
+    subtitle: String,
+    /// The names of the axes of space.
+    axes: [String; 3],
+    curves: Vec<OnSurface>,
+    contours: Lines,
+    outline: Lines,
+    /// What the lines behind the curves are.
+    note: String,
+}
+
+impl View {
+    /// A picture without lines behind the curves.
+    pub fn new(title: &str, subtitle: &str, axes: [String; 3], curves: Vec<OnSurface>) -> Self {
+        Self {
+            title: title.to_owned(),
+            subtitle: subtitle.to_owned(),
+            axes,
+            curves,
+            contours: Lines::default(),
+            outline: Lines::default(),
+            note: String::new(),
+        }
+    }
+
+    /// The orbit on which the first curve lies, the level surface of a Casimir, with level curves of the energy. False where
+    /// there is no surface through its first point.
+    pub fn orbit(&mut self, casimir: &Field<'_>, energy: &Field<'_>, note: &str) -> bool {
+        let Some(curve) = self.curves.first() else {
+            return false;
+        };
+        let (Some(first), Some(bounds)) = (curve.first, curve.bounds) else {
+            return false;
+        };
+        let level = casimir(&first).0;
+        let centred = |point: &Point| {
+            let (value, gradient) = casimir(point);
+            (value - level, gradient)
+        };
+        let (surface, closed) = whole(&centred, &first, bounds);
+        if surface.triangles.is_empty() {
+            return false;
+        }
+        let normal = |point: &Point| casimir(point).1;
+        let towards: Vec<f64> = surface
+            .points
+            .iter()
+            .map(|point| dot(&normal(point), &camera()[2]))
+            .collect();
+        for chain in surface.curves(&towards, 0.0) {
+            self.outline
+                .keep(true, chain.iter().map(projected).collect());
+        }
+        let values: Vec<f64> = surface.points.iter().map(|p| energy(p).0).collect();
+        let finite = || values.iter().copied().filter(|value| value.is_finite());
+        let (low, high) = (
+            finite().fold(f64::INFINITY, f64::min),
+            finite().fold(f64::NEG_INFINITY, f64::max),
+        );
+        for k in 1..=LEVELS {
+            let level = low + (high - low) * k as f64 / (LEVELS + 1) as f64;
+            for chain in surface.curves(&values, level) {
+                let on = |point: &Point| {
+                    let wanted: [(&Field<'_>, f64); 2] = [(&centred, 0.0), (energy, level)];
+                    (0..3).fold(*point, |point, _| onto(&point, &wanted))
+                };
+                let chain: Vec<Point> = chain.iter().map(on).collect();
+                self.contours.add(&chain, &normal);
+            }
+        }
+        let cut = if closed {
+            ""
+        } else {
+            "; cut off around the curve"
+        };
+        self.note = format!("{note}{cut}");
+        true
+    }
+
+    /// The unit sphere with circles of latitude and longitude.
+    pub fn sphere(&mut self, note: &str) {
+        let circle = |of: &dyn Fn(f64) -> Point| -> Vec<Point> {
+            let turn = std::f64::consts::TAU / 120.0;
+            (0..=120).map(|k| of(turn * f64::from(k))).collect()
+        };
+        for k in -2..=2 {
+            let (s, c) = (std::f64::consts::FRAC_PI_6 * f64::from(k)).sin_cos();
+            let latitude = circle(&|t| [c * t.cos(), c * t.sin(), s]);
+            self.contours.add(&latitude, &|point| *point);
+        }
+        for k in 0..6 {
+            let (s, c) = (std::f64::consts::FRAC_PI_6 * f64::from(k)).sin_cos();
+            let meridian = circle(&|t| [c * t.cos(), s * t.cos(), t.sin()]);
+            self.contours.add(&meridian, &|point| *point);
+        }
+        let [right, up, _] = camera();
+        let edge = circle(&|t| [0, 1, 2].map(|i| right[i] * t.cos() + up[i] * t.sin()));
+        self.outline
+            .keep(true, edge.iter().map(projected).collect());
+        self.note = note.to_owned();
+    }
+
+    /// The picture.
+    pub fn to_svg(&self) -> String {
+        let traces = self
+            .curves
+            .iter()
+            .flat_map(|curve| [&curve.front, &curve.back]);
+        let corners = traces.filter_map(Trace::bounds);
+        let corners = corners.flat_map(|(low, high)| [low, high]);
+        let lines = self.contours.all().chain(self.outline.all()).copied();
+        let bounds = corners.chain(lines).fold(None, |bounds, (x, y): Place| {
+            let ((a, b), (c, d)) = bounds.unwrap_or(((x, y), (x, y)));
+            Some(((a.min(x), b.min(y)), (c.max(x), d.max(y))))
+        });
+        let ((left, bottom), (right, top)) = bounds.unwrap_or(((-1.0, -1.0), (1.0, 1.0)));
+        let size = (right - left).max(top - bottom);
+        let size = if size > 0.0 { 1.06 * size } else { 1.0 };
+        let middle = (0.5 * (left + right), 0.5 * (bottom + top));
+        let place = |&(x, y): &Place| -> Place {
+            (
+                LEFT + SIDE * (0.5 + (x - middle.0) / size),
+                HEAD + SIDE * (0.5 - (y - middle.1) / size),
+            )
+        };
+        let mut svg = Svg::default();
+        let mut draw = |pieces: &[Vec<Place>], attributes: &str| {
+            for piece in pieces.iter().filter(|piece| piece.len() > 1) {
+                let places: Vec<Place> = piece.iter().map(place).collect();
+                svg.polyline(thinned(&places, FINEST), attributes);
+            }
+        };
+        draw(
+            &self.contours.back,
+            "stroke=\"#e3e3e3\" stroke-width=\"0.8\"",
+        );
+        for (index, curve) in self.curves.iter().enumerate() {
+            let paint = COLOURS[index % COLOURS.len()];
+            let stroke = format!("stroke=\"{paint}\" stroke-width=\"1.1\" opacity=\"0.3\"");
+            draw(curve.back.pieces(), &stroke);
+        }
+        draw(
+            &self.contours.front,
+            "stroke=\"#a8a8a8\" stroke-width=\"0.8\"",
+        );
+        draw(&self.outline.front, "stroke=\"#777\" stroke-width=\"1.2\"");
+        for (index, curve) in self.curves.iter().enumerate() {
+            let paint = COLOURS[index % COLOURS.len()];
+            draw(
+                curve.front.pieces(),
+                &format!("stroke=\"{paint}\" stroke-width=\"1.6\""),
+            );
+        }
+        for (index, curve) in self.curves.iter().enumerate() {
+            if let Some(first) = &curve.first {
+                let paint = COLOURS[index % COLOURS.len()];
+                svg.disc(place(&projected(first)), 4.0, &format!("fill=\"{paint}\""));
+            }
+        }
+        self.directions(&mut svg);
+        let height = self.legend(&mut svg);
+        svg.page((SIDE + 2.0 * LEFT, height), &self.title, &self.subtitle)
+    }
+
+    /// The directions of the axes, in the lower left corner.
+    fn directions(&self, svg: &mut Svg) {
+        let origin = (LEFT + 40.0, HEAD + SIDE - 10.0);
+        for (axis, name) in self.axes.iter().enumerate() {
+            let mut unit = [0.0; 3];
+            unit[axis] = 1.0;
+            let (x, y) = projected(&unit);
+            let end = (origin.0 + 44.0 * x, origin.1 - 44.0 * y);
+            svg.line(
+                origin,
+                end,
+                &format!("stroke=\"{FAINT}\" stroke-width=\"1.4\""),
+            );
+            let at = (origin.0 + 58.0 * x, origin.1 - 58.0 * y + 4.0);
+            let style = format!("text-anchor=\"middle\" fill=\"{INK}\"");
+            svg.text(at, 13.0, &style, name);
+        }
+    }
+
+    fn legend(&self, svg: &mut Svg) -> f64 {
+        let mut y = HEAD + SIDE + 34.0;
+        if self.curves.len() > 1 {
+            for (index, curve) in self.curves.iter().enumerate() {
+                let paint = COLOURS[index % COLOURS.len()];
+                let stroke = format!("stroke=\"{paint}\" stroke-width=\"2.5\"");
+                svg.line((LEFT, y - 4.0), (LEFT + 24.0, y - 4.0), &stroke);
+                svg.text(
+                    (LEFT + 32.0, y),
+                    13.0,
+                    &format!("fill=\"{INK}\""),
+                    &curve.name,
+                );
+                y += LINE;
+            }
+        }
+        let mut notes = vec!["dot: where it starts; pale: the side that is turned away"];
+        if !self.note.is_empty() {
+            notes.insert(0, &self.note);
+        }
+        for note in notes {
+            svg.text((LEFT, y), 12.0, &format!("fill=\"{FAINT}\""), note);
+            y += LINE;
+        }
+        y + 6.0
+    }
+}
+
+/// The part of a level surface on which a point lies: all of it where it is bounded, else the part around a curve; and which
+/// of both.
+fn whole(function: &Field<'_>, near: &Point, (low, high): (Point, Point)) -> (Surface, bool) {
+    let extent = (0..3).map(|i| high[i] - low[i]).fold(0.0, f64::max);
+    let size = [0, 1, 2].map(|i| low[i].abs().max(high[i].abs()));
+    let scale = size.iter().copied().fold(extent, f64::max);
+    if scale == 0.0 {
+        return (Surface::default(), true);
+    }
+    let middle = [0, 1, 2].map(|i| 0.5 * (low[i] + high[i]));
+    let around = |reach: f64| {
+        (
+            // a little to one side, so that no corner lies on the surface by symmetry
+            middle.map(|x| x - 1.013 * reach),
+            middle.map(|x| x + reach),
+        )
+    };
+    let mut reach = 0.75 * scale;
+    for _ in 0..4 {
+        let (from, to) = around(reach);
+        let part = Surface::new(function, &from, &to, COARSE).part_at(near);
+        if let Some((low, high)) = part.bounds() {
+            let cell = 2.0 * reach / COARSE as f64;
+            let inside =
+                (0..3).all(|i| low[i] > from[i] + 0.5 * cell && high[i] < to[i] - 0.5 * cell);
+            if inside {
+                let from = low.map(|x| x - 0.53 * cell);
+                let to = high.map(|x| x + 0.5 * cell);
+                return (Surface::new(function, &from, &to, FINE).part_at(near), true);
+            }
+        }
+        reach *= 1.7;
+    }
+    let (from, to) = around(0.7 * extent.max(0.2 * scale));
+    (
+        Surface::new(function, &from, &to, FINE).part_at(near),
+        false,
+    )
+}

@@ -1,0 +1,221 @@
+//! `lie run --plot FILE --picture KIND`.
+
+mod common;
+
+use std::path::Path;
+
+use common::{folder, lie};
+
+/// The polylines of a picture that have something in their attributes, in pixels.
+fn lines(svg: &str, attribute: &str) -> Vec<Vec<(f64, f64)>> {
+    let found = svg
+        .lines()
+        .filter(|line| line.starts_with("<polyline") && line.contains(attribute));
+    let points = |line: &str| -> Option<Vec<(f64, f64)>> {
+        let points = line.split("points=\"").nth(1)?.split('"').next()?;
+        let point = |text: &str| {
+            let (x, y) = text.split_once(',')?;
+            Some((x.parse().ok()?, y.parse().ok()?))
+        };
+        points.split(' ').map(point).collect()
+    };
+    found.map(|line| points(line).expect("points")).collect()
+}
+
+fn draw(folder: &Path, call: &str) -> String {
+    let path = folder.join("picture.svg");
+    lie(&format!(
+        "run {call} --quiet --out {} --plot {}",
+        folder.join("rows.csv").display(),
+        path.display()
+    ))
+    .ok();
+    let svg = std::fs::read_to_string(path).expect("a picture");
+    assert!(svg.starts_with("<svg") && svg.trim_end().ends_with("</svg>"));
+    assert!(!svg.contains("NaN") && !svg.contains("inf"), "{call}");
+    svg
+}
+
+const BODY: &str = "specs/so3_free_rigid_body.json --step 0.05";
+const TOP: &str = "specs/se3_heavy_top.json --step 0.05";
+
+#[test]
+fn the_orbit_of_a_body_is_a_sphere() {
+    let folder = folder();
+    let svg = draw(folder.path(), &format!("{BODY} --until 30 --picture orbit"));
+    let outline: Vec<(f64, f64)> = lines(&svg, "stroke=\"#777\" stroke-width=\"1.2\"").concat();
+    assert!(outline.len() > 60, "{}", outline.len());
+    let middle = |of: fn(&(f64, f64)) -> f64| {
+        let values = || outline.iter().map(of);
+        0.5 * (values().fold(f64::MAX, f64::min) + values().fold(f64::MIN, f64::max))
+    };
+    let centre = (middle(|p| p.0), middle(|p| p.1));
+    let radius = |p: &(f64, f64)| (p.0 - centre.0).hypot(p.1 - centre.1);
+    let radii: Vec<f64> = outline.iter().map(radius).collect();
+    let (low, high) = radii
+        .iter()
+        .fold((f64::MAX, 0.0_f64), |(a, b), r| (a.min(*r), b.max(*r)));
+    assert!(high < 1.02 * low, "{low} {high}");
+    // level curves and the trajectory stay inside
+    for line in lines(&svg, "stroke=\"#a8a8a8\"")
+        .iter()
+        .chain(&lines(&svg, "stroke=\"#0072b2\""))
+    {
+        assert!(line.iter().all(|p| radius(p) < 1.02 * high));
+    }
+    assert!(lines(&svg, "stroke=\"#a8a8a8\"").len() >= 8);
+    assert!(svg.contains("surface: norm2 as at the start") && !svg.contains("cut off"));
+    // a cylinder is not closed
+    let svg = draw(
+        folder.path(),
+        "specs/e2_pendulum.json --step 0.05 --until 20 --picture orbit",
+    );
+    assert!(svg.contains("cut off around the curve"));
+}
+
+#[test]
+fn a_section_has_a_point_for_each_passage() {
+    let folder = folder();
+    let svg = draw(
+        folder.path(),
+        &format!("{TOP} --until 200 --picture section:m1=0.1"),
+    );
+    let dots = svg
+        .lines()
+        .find(|line| line.contains("stroke-linecap=\"round\""))
+        .expect("dots");
+    let rows = std::fs::read_to_string(folder.path().join("rows.csv")).expect("rows");
+    let (header, rows) = common::csv(&rows);
+    let place = header
+        .iter()
+        .position(|name| name == "m1")
+        .expect("a column");
+    let passages = rows
+        .windows(2)
+        .filter(|pair| pair[0][place] < 0.1 && pair[1][place] >= 0.1);
+    let passages = passages.count();
+    assert!(passages > 20);
+    assert_eq!(dots.matches('M').count(), passages);
+    assert!(svg.contains("m1 rises through 0.1"));
+    // none: it is said
+    let path = folder.path().join("p.svg");
+    let run = lie(&format!(
+        "run {TOP} --until 5 --picture section:m1=1000 --out {} --plot {}",
+        folder.path().join("rows.csv").display(),
+        path.display()
+    ));
+    assert!(
+        run.ok()
+            .stderr
+            .contains("warning: the section is never passed")
+    );
+}
+
+#[test]
+fn phase_attitude_and_several_runs() {
+    let folder = folder();
+    let svg = draw(
+        folder.path(),
+        "specs/canonical_pendulum.json --picture phase",
+    );
+    assert!(lines(&svg, "stroke=\"#c4c4c4\"").len() > 8 && svg.contains("level curves of H"));
+    let svg = draw(
+        folder.path(),
+        &format!("{TOP} --until 5 --picture phase:g1,m3"),
+    );
+    assert!(svg.contains(">g1</text>") && svg.contains(">m3</text>"));
+    for chart in ["matrix", "quaternion"] {
+        let call = format!("{BODY} --until 30 --picture attitude --group {chart}");
+        let svg = draw(folder.path(), &call);
+        // it begins at the pole
+        assert!(
+            svg.contains("<circle")
+                && !lines(&svg, "stroke=\"#0072b2\" stroke-width=\"1.6\"").is_empty()
+        );
+    }
+    let several = "--method rk4 --method midpoint --method gauss4";
+    let svg = draw(folder.path(), &format!("{TOP} --until 5 {several}"));
+    for name in [
+        "rk4",
+        "midpoint",
+        "gauss4",
+        "error of energy",
+        "error of length2",
+    ] {
+        assert!(svg.contains(name), "{name}");
+    }
+    let svg = draw(
+        folder.path(),
+        &format!("{BODY} --until 5 --param I1=1:2:5 --picture orbit"),
+    );
+    assert!(svg.contains("I1 = 1.25"));
+}
+
+#[test]
+fn a_long_run_has_no_larger_file() {
+    let folder = folder();
+    let length = |until: u32, kind: &str| {
+        draw(
+            folder.path(),
+            &format!("{TOP} --until {until} --picture {kind}"),
+        )
+        .len()
+    };
+    for kind in ["phase", "attitude --group matrix"] {
+        let (short, long) = (length(5_000, kind), length(20_000, kind));
+        assert!(
+            long < 2 * short && long < 2_500_000,
+            "{kind}: {short} {long}"
+        );
+    }
+}
+
+#[test]
+fn pixels_and_pages() {
+    let folder = folder();
+    for (name, start) in [
+        ("p.png", &b"\x89PNG"[..]),
+        ("p.pdf", b"%PDF"),
+        ("p.SVG", b"<svg"),
+    ] {
+        let path = folder.path().join(name);
+        lie(&format!(
+            "run {BODY} --quiet --until 5 --out {} --plot {}",
+            folder.path().join("rows.csv").display(),
+            path.display()
+        ))
+        .ok();
+        let bytes = std::fs::read(&path).expect("a picture");
+        assert!(bytes.starts_with(start) && bytes.len() > 5_000, "{name}");
+    }
+}
+
+#[test]
+fn mistakes() {
+    let of = |spec: &str, flags: &str| lie(&format!("run specs/{spec}.json {flags}"));
+    let top = |flags: &str| of("se3_heavy_top", flags);
+    top("--picture orbit").error("option", "command line: --picture");
+    for picture in [
+        "orbit",
+        "attitude",
+        "attitud",
+        "phase:m1",
+        "phase:m1,m9",
+        "section:m9=1",
+        "section:m1=x+",
+        "compare:m1",
+    ] {
+        let run = top(&format!("--plot a.svg --picture {picture}"));
+        assert_eq!(run.code, Some(2), "{picture}: {}", run.stderr);
+        assert!(
+            run.stderr.contains("command line: --picture") && run.stderr.contains("help: "),
+            "{picture}"
+        );
+    }
+    top("--plot a.jpg").error("option", "command line: --plot");
+    of("canonical_pendulum", "--plot a.svg --picture section")
+        .error("option", "command line: --picture");
+    top("--plot a.svg --picture components --method rk4 --method gauss4")
+        .error("option", "command line: --plot");
+    assert!(!Path::new("a.svg").exists() && !Path::new("a.jpg").exists());
+}
