@@ -112,7 +112,10 @@ fn kind(schema: &Value) -> String {
     }
     match schema["type"].as_str() {
         Some("array") if schema["prefixItems"].is_array() => "pair".to_owned(),
-        Some("array") => format!("list of {}", kind(&schema["items"])),
+        Some("array") => format!(
+            "list of {}",
+            kind(&schema["items"]).replacen("list of", "lists of", 1)
+        ),
         Some("object") => format!(
             "object, each value a {}",
             kind(&schema["additionalProperties"])
