@@ -11,3 +11,13 @@ pub struct Readme;
 #[cfg(doctest)]
 #[doc = include_str!("../docs/declaration.md")]
 pub struct DeclarationPage;
+
+/// The code of the book's tutorial in Rust.
+#[cfg(doctest)]
+#[doc = include_str!("../book/src/tutorials/engineer.md")]
+pub struct BookEngineer;
+
+/// The code of the book's page on the language.
+#[cfg(doctest)]
+#[doc = include_str!("../book/src/reference/language.md")]
+pub struct BookLanguage;

@@ -1,12 +1,16 @@
 //! What the documents say is so: excerpts are current, tables agree with the code, places exist.
 
-use std::fs;
 use std::path::Path;
 use std::process::Command;
 
 use lie_codegen::algebra::constructors::FAMILIES;
 use lie_codegen::compile::{compile_spec, declared_choices, expand};
 use lie_codegen::methods::{CATALOGUE, Choice, Method};
+
+mod common;
+
+use common::catalogue::words;
+use common::markdown::{blocks, blocks_in, links, marked, read};
 
 const DOCUMENTS: [&str; 6] = [
     "README.md",
@@ -17,43 +21,12 @@ const DOCUMENTS: [&str; 6] = [
     "docs/algebras.md",
 ];
 
-fn read(path: &str) -> String {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
-    fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
-}
-
-/// The code blocks of a document with their language.
-fn blocks(text: &str) -> Vec<(String, String)> {
-    let mut blocks: Vec<(String, String)> = Vec::new();
-    let mut inside = false;
-    for line in text.lines() {
-        if let Some(language) = line.strip_prefix("```") {
-            inside = !inside;
-            if inside {
-                blocks.push((language.to_owned(), String::new()));
-            }
-        } else if inside && let Some((_, block)) = blocks.last_mut() {
-            block.push_str(line);
-            block.push('\n');
-        }
-    }
-    assert!(!inside, "a code block is not closed");
-    blocks
-}
-
-fn blocks_in(text: &str, language: &str) -> Vec<String> {
-    let blocks = blocks(text).into_iter();
-    blocks
-        .filter(|(found, _)| found == language)
-        .map(|(_, block)| block)
-        .collect()
-}
-
 #[test]
 fn the_first_code_of_the_readme_is_the_two_commands() {
     let readme = read("README.md");
-    let (language, first) = &blocks(&readme)[0];
-    assert_eq!(language, "sh");
+    let first = &blocks(&readme)[0];
+    assert_eq!(first.language, "sh");
+    let first = &first.text;
     let commands: Vec<&str> = first.lines().collect();
     assert!(
         commands[0].starts_with("cargo run --release -- run specs/se3_heavy_top.json "),
@@ -122,38 +95,6 @@ fn the_mistake_in_the_readme_is_what_the_command_prints() {
         String::from_utf8_lossy(&output.stderr).trim(),
         message.trim()
     );
-}
-
-/// What a method of the catalogue preserves, in the words of the README.
-fn words(method: &Method) -> String {
-    if method.id.starts_with("compose") {
-        return "as ID".to_owned();
-    }
-    let kept = method.preserves;
-    let words = [
-        (kept.poisson, "Poisson"),
-        (
-            kept.constant_poisson && !kept.poisson,
-            "Poisson if constant",
-        ),
-        (kept.orbit, "orbit"),
-        (kept.energy, "energy"),
-        (kept.quadratic_invariants, "quadratic invariants"),
-        (
-            kept.quadratic_casimirs && !kept.casimirs && !kept.quadratic_invariants,
-            "quadratic Casimirs",
-        ),
-        (
-            kept.linear_invariants && !kept.quadratic_invariants,
-            "linear invariants",
-        ),
-    ];
-    let words: Vec<&str> = words
-        .into_iter()
-        .filter(|(kept, _)| *kept)
-        .map(|(_, word)| word)
-        .collect();
-    words.join(", ")
 }
 
 /// The ids in the first cell of a row, without `(ID)`.
@@ -254,14 +195,10 @@ fn places_in_the_documents_exist() {
     let mut count = 0;
     for document in DOCUMENTS {
         let text = read(document);
-        let links = text
-            .split("](")
-            .skip(1)
-            .filter_map(|rest| rest.split(')').next());
+        let links = links(&text).into_iter();
         let links = links.filter(|link| !link.starts_with("http"));
-        let prose: String = text.split("```").step_by(2).collect();
-        let marked: Vec<&str> = prose.split('`').skip(1).step_by(2).collect();
-        let paths = marked.into_iter().filter(|word| {
+        let marked = marked(&text);
+        let paths = marked.iter().filter(|word| {
             let folders = ["lie-", "src/", "specs/", "tests/", "docs/", "tools/"];
             word.contains('/')
                 && !word.contains(' ')

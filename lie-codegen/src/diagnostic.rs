@@ -70,6 +70,10 @@ macro_rules! kinds {
             pub fn as_str(self) -> &'static str {
                 match self { $(Kind::$name => $text),+ }
             }
+            /// What it is said of, in a sentence.
+            pub fn meaning(self) -> &'static str {
+                match self { $(Kind::$name => $doc),+ }
+            }
         }
     };
 }

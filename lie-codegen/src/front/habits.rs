@@ -166,6 +166,12 @@ const TWINS: &[(char, char)] = &[
     ('ο', 'o'),
 ];
 
+/// The functions of other languages that are known, each with what to write for a call of it.
+pub fn functions() -> impl Iterator<Item = (&'static str, String)> {
+    let names = FUNCTIONS.iter().map(|(name, _)| *name);
+    names.filter_map(|name| Some((name, function(name, &[])?)))
+}
+
 /// What to write for a call of a function of another language, its arguments as text.
 pub fn function(name: &str, arguments: &[String]) -> Option<String> {
     let name = name.to_lowercase();

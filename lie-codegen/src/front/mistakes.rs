@@ -317,7 +317,7 @@ pub fn unknown_function(
     origin: Origin,
     names: &Names,
 ) -> Diagnostic {
-    let functions = || FUNCTIONS.iter().map(|(name, _)| *name);
+    let functions = || FUNCTIONS.iter().map(|function| function.name);
     let help = if let Some(form) = habits::function(name, arguments) {
         format!("write `{form}`")
     } else if let Some(reason) = habits::without(name) {

@@ -8,6 +8,7 @@ pub mod declaration;
 pub mod file;
 pub mod names;
 pub mod spec;
+pub mod vocabulary;
 
 pub(crate) mod place;
 

@@ -7,34 +7,55 @@ use super::tables::Tables;
 use super::vectors::Vectors;
 use unicode_normalization::{IsNormalized, UnicodeNormalization as _, is_nfc_quick};
 
-/// The functions of the grammar with their numbers of arguments.
-pub const FUNCTIONS: &[(&str, usize)] = &[
-    ("sqrt", 1),
-    ("exp", 1),
-    ("log", 1),
-    ("sin", 1),
-    ("cos", 1),
-    ("tan", 1),
-    ("asin", 1),
-    ("acos", 1),
-    ("atan", 1),
-    ("sinh", 1),
-    ("cosh", 1),
-    ("tanh", 1),
-    ("cbrt", 1),
-    ("log1p", 1),
-    ("expm1", 1),
-    ("asinh", 1),
-    ("acosh", 1),
-    ("atanh", 1),
-    ("hypot", 2),
-    ("atan2", 2),
-    ("abs", 1),
-    ("min", 2),
-    ("max", 2),
+/// A function of the grammar.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Function {
+    /// Its name.
+    pub name: &'static str,
+    /// Its number of arguments, in the syntax tree.
+    pub arity: usize,
+    /// A call of it, as it is written.
+    pub call: &'static str,
+    /// What it is.
+    pub meaning: &'static str,
+}
+
+/// A table of functions, one a line.
+macro_rules! functions {
+    ($($name:expr, $arity:literal, $call:literal, $meaning:literal;)+) => {
+        &[$($crate::front::names::Function { name: $name, arity: $arity, call: $call, meaning: $meaning }),+]
+    };
+}
+pub(super) use functions;
+
+/// The functions of the grammar.
+pub const FUNCTIONS: &[Function] = functions! {
+    "sqrt", 1, "sqrt(x)", "the root that is not negative";
+    "exp", 1, "exp(x)", "the exponential";
+    "log", 1, "log(x)", "the natural logarithm";
+    "sin", 1, "sin(x)", "the sine of an angle in radians";
+    "cos", 1, "cos(x)", "the cosine of an angle in radians";
+    "tan", 1, "tan(x)", "the tangent of an angle in radians";
+    "asin", 1, "asin(x)", "the angle from -pi/2 to pi/2 whose sine is x";
+    "acos", 1, "acos(x)", "the angle from 0 to pi whose cosine is x";
+    "atan", 1, "atan(x)", "the angle between -pi/2 and pi/2 whose tangent is x";
+    "sinh", 1, "sinh(x)", "the hyperbolic sine";
+    "cosh", 1, "cosh(x)", "the hyperbolic cosine";
+    "tanh", 1, "tanh(x)", "the hyperbolic tangent";
+    "cbrt", 1, "cbrt(x)", "the cube root, of negative numbers too";
+    "log1p", 1, "log1p(x)", "log(1 + x), with all digits where x is small";
+    "expm1", 1, "expm1(x)", "exp(x) - 1, with all digits where x is small";
+    "asinh", 1, "asinh(x)", "the number whose hyperbolic sine is x";
+    "acosh", 1, "acosh(x)", "the number that is not negative and whose hyperbolic cosine is x";
+    "atanh", 1, "atanh(x)", "the number whose hyperbolic tangent is x";
+    "hypot", 2, "hypot(x, y)", "sqrt(x^2 + y^2)";
+    "atan2", 2, "atan2(y, x)", "the angle of the point (x, y), from -pi to pi";
+    "abs", 1, "abs(x)", "x or -x, whichever is not negative";
+    "min", 2, "min(x, y)", "the smaller of two";
+    "max", 2, "max(x, y)", "the larger of two";
     // of the tree: `x < y: a, b`
-    (PIECEWISE, 4),
-];
+    PIECEWISE, 4, "piecewise(x < y: a, b)", "the value of the first case whose condition holds, else the last value; any number of cases";
+};
 
 /// The function whose arguments are cases.
 pub const PIECEWISE: &str = "piecewise";
@@ -49,14 +70,14 @@ pub fn normalised(name: &str) -> String {
 }
 
 /// Names of the language itself that stand for a value.
-const BUILT_IN: &[&str] = &["pi", "t"];
+pub(super) const BUILT_IN: &[&str] = &["pi", "t"];
 
 /// Number of arguments of a function of the grammar.
 pub fn arity(function: &str) -> Option<usize> {
     FUNCTIONS
         .iter()
-        .find(|(name, _)| *name == function)
-        .map(|(_, arity)| *arity)
+        .find(|known| known.name == function)
+        .map(|known| known.arity)
 }
 
 /// The names that an expression may use; the parser needs them to tell a product without its

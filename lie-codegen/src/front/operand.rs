@@ -39,7 +39,9 @@ pub fn last_operand(tokens: &[Token]) -> &[Token] {
 /// Whether a literal such as `2sin` ends in the name of a function.
 pub fn ends_in_function(literal: &str) -> bool {
     let letters = literal.trim_start_matches(|c: char| c.is_ascii_digit() || c == '.');
-    FUNCTIONS.iter().any(|(name, _)| letters.ends_with(name))
+    FUNCTIONS
+        .iter()
+        .any(|function| letters.ends_with(function.name))
 }
 
 /// The operands of a missing `*` as text, for messages.

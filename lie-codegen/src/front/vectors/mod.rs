@@ -8,7 +8,7 @@ mod shapes;
 use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::names::{self, Names};
+use super::names::{self, Function, Names, functions};
 use crate::ast::{Expr, ExprKind, Name};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 
@@ -17,19 +17,19 @@ pub use expand::expand;
 /// How many nodes all expansions of a declaration may have.
 const MOST_NODES: usize = 200_000;
 
-/// The functions of vectors with their numbers of arguments.
-const FUNCTIONS: &[(&str, usize)] = &[
-    ("dot", 2),
-    ("cross", 2),
-    ("norm", 1),
-    ("norm2", 1),
-    ("quad", 2),
-];
+/// The functions of vectors.
+pub(super) const FUNCTIONS: &[Function] = functions! {
+    "dot", 2, "dot(v, w)", "the sum of v_i w_i";
+    "cross", 2, "cross(v, w)", "the vector product, of two vectors with three entries";
+    "norm", 1, "norm(v)", "the root of the sum of v_i^2";
+    "norm2", 1, "norm2(v)", "the sum of v_i^2";
+    "quad", 2, "quad(A, v)", "the sum of A_ij v_i v_j";
+};
 
 /// Number of arguments of a function of vectors.
 pub fn arity(function: &str) -> Option<usize> {
-    let found = FUNCTIONS.iter().find(|(name, _)| *name == function);
-    found.map(|(_, arity)| *arity)
+    let found = FUNCTIONS.iter().find(|known| known.name == function);
+    found.map(|known| known.arity)
 }
 
 /// A scalar, a vector or a matrix of scalars.
