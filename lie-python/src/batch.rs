@@ -7,6 +7,7 @@ use lie_runtime::diagnostics::Forgotten;
 use lie_runtime::driver::{
     Grid, Observer, Options, Problem, Progress, Save, SolveError, solve_observed,
 };
+use lie_runtime::newton::NewtonOptions;
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use std::ops::ControlFlow;
@@ -37,6 +38,7 @@ pub struct Members<'a> {
     pub declared: &'a Declared,
     pub choice: &'a Choice,
     pub tolerances: Tolerances,
+    pub newton: NewtonOptions,
     /// A row for each member, or one for all.
     pub parameters: Vec<Vec<f64>>,
     pub starts: Vec<Vec<f64>>,
@@ -117,7 +119,10 @@ impl Members<'_> {
             mu0: self.starts[member].clone(),
             span: (0.0, self.end),
         };
-        let options = Options::new(self.step).save(Save::Ends);
+        let options = Options {
+            newton: self.newton,
+            ..Options::new(self.step).save(Save::Ends)
+        };
         match solve_observed(&problem, Forgotten(method.as_ref()), &options, Stop(stop)) {
             Ok(mut solution) => solution
                 .mu

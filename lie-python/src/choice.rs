@@ -1,9 +1,10 @@
-//! Methods by their labels, and their tolerances.
+//! Methods by their labels, their tolerances and their solvers.
 
 use crate::errors::method_error;
 use lie_codegen::methods::{Choice, refusal};
 use lie_codegen::model::Model;
 use lie_dynamic::Tolerances;
+use lie_runtime::newton::{Convergence, NewtonOptions};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -46,6 +47,89 @@ pub fn tolerances(
         *place = value;
     }
     Ok(found)
+}
+
+/// What a call says of the solver of implicit methods.
+#[derive(FromPyObject)]
+pub struct Solver {
+    #[pyo3(item)]
+    iteration: Option<String>,
+    #[pyo3(item)]
+    newton_tolerance: Option<f64>,
+    #[pyo3(item)]
+    max_iterations: Option<u32>,
+    #[pyo3(item)]
+    converge: Option<String>,
+}
+
+impl Solver {
+    /// The options of a method.
+    pub fn options(
+        &self,
+        py: Python<'_>,
+        choice: &Choice,
+        by_tolerance: bool,
+    ) -> PyResult<NewtonOptions> {
+        let entry = choice.solved().entry();
+        let explicit = entry.is_some_and(|method| method.explicit);
+        let together = entry.is_some_and(|method| method.fixed_point);
+        for (name, given) in [
+            ("iteration", self.iteration.is_some()),
+            ("newton_tolerance", self.newton_tolerance.is_some()),
+            ("max_iterations", self.max_iterations.is_some()),
+            ("converge", self.converge.is_some()),
+        ] {
+            if given && explicit {
+                let text = format!("`{name}` is an option of implicit methods, and {} is explicit", choice.id());
+                return Err(method_error(py, &text, "leave it out, or take an implicit method such as \"midpoint\""));
+            }
+        }
+        let mut options = match self.iteration.as_deref() {
+            None | Some("automatic") => NewtonOptions::default(),
+            Some("newton") => NewtonOptions::newton(),
+            Some("simplified") => NewtonOptions::simplified(),
+            Some("fixed-point") => NewtonOptions::fixed_point(),
+            Some(other) => {
+                return Err(PyValueError::new_err(format!(
+                    "no iteration `{other}`: there are \"automatic\", \"newton\", \"simplified\" and \"fixed-point\""
+                )));
+            }
+        };
+        if let Some(tolerance) = self.newton_tolerance {
+            if tolerance.is_nan() || tolerance < 0.0 {
+                return Err(PyValueError::new_err(format!(
+                    "newton_tolerance must not be negative, and is {tolerance}"
+                )));
+            }
+            options.tolerance = tolerance;
+        }
+        if let Some(count) = self.max_iterations {
+            options.max_iterations = count.max(1);
+        }
+        let Some(converge) = &self.converge else {
+            return Ok(options);
+        };
+        if !together {
+            let text = format!("`converge` is an option of methods that evaluate their stages together, and {} does not", choice.id());
+            return Err(method_error(py, &text, "leave it out, or take a method such as \"gauss16\""));
+        }
+        options.convergence = match converge.as_str() {
+            "state" => Convergence::State,
+            "map" => Convergence::Map,
+            "tolerance" if by_tolerance => Convergence::Tolerance,
+            "tolerance" => {
+                return Err(PyValueError::new_err(
+                    "converge=\"tolerance\" needs a tolerance: give tol in place of h, or converge=\"state\"",
+                ));
+            }
+            other => {
+                return Err(PyValueError::new_err(format!(
+                    "`{other}` is nothing that converges: there are \"state\", \"map\" and \"tolerance\""
+                )));
+            }
+        };
+        Ok(options)
+    }
 }
 
 /// The method of a label such as `lie-midpoint --retraction cayley`, if it applies.

@@ -12,8 +12,9 @@ use lie_codegen::model::Model;
 use lie_dynamic::{Declared, Dynamic};
 use lie_jit::Jit;
 use lie_runtime::diagnostics::Forgotten;
-use lie_runtime::driver::{Options, Pace, Problem, Save, Solution, SolveError, solve_observed};
-use lie_runtime::newton::NewtonOptions;
+use lie_runtime::driver::{
+    Chart, Options, Pace, Problem, Reconstruction, Save, Solution, SolveError, solve_observed,
+};
 use lie_runtime::{Poisson, SquareMatrix};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
@@ -193,6 +194,8 @@ impl Core {
         every: u64,
         at: Option<Vec<f64>>,
         tolerances: (Option<f64>, Option<f64>),
+        solver: choice::Solver,
+        group: Option<&str>,
     ) -> PyResult<(Rows<'py>, Bound<'py, PyDict>)> {
         let (choice, declared) = self.method(py, label)?;
         let system = made(&declared, &parameters)?;
@@ -204,21 +207,33 @@ impl Core {
                 (step, None) => Pace::Step(step.unwrap_or(0.01)),
             },
             save: at.map_or(Save::Every(every), Save::At),
-            newton: NewtonOptions::default(),
+            newton: solver.options(py, &choice, pace.1.is_some())?,
             assess: pace.1.is_some(),
         };
+        let chart = group.map(|name| self.chart(name)).transpose()?;
         let problem = Problem {
             system,
             mu0: start,
             span: (0.0, end),
         };
-        let (outcome, watch) = py.detach(|| {
+        let (outcome, watch, elements) = py.detach(|| {
             let watch = observer::Watch::default();
             let method = lie_dynamic::method::<f64>(&choice, tolerances);
+            let mut elements = None;
             let outcome = method.map(|method| {
-                solve_observed(&problem, Forgotten(method.as_ref()), &options, &watch)
+                let method = Forgotten(method.as_ref());
+                let Some(chart) = chart else {
+                    return solve_observed(&problem, method, &options, &watch);
+                };
+                let mut on_group = observer::OnGroup {
+                    watch: &watch,
+                    reconstruction: Reconstruction::new(&problem.system, chart),
+                };
+                let outcome = solve_observed(&problem, method, &options, &mut on_group);
+                elements = Some(on_group.reconstruction.rows().concat());
+                outcome
             });
-            (outcome, watch)
+            (outcome, watch, elements)
         });
         watch.outcome()?;
         let outcome = outcome.ok_or_else(|| unsupported(py, label))?;
@@ -238,6 +253,12 @@ impl Core {
             (Some(step), _) => step,
             (None, Pace::Step(step) | Pace::Tolerance(step)) => step,
         };
+        if let Some(elements) = elements {
+            found.set_item("group", elements.into_pyarray(py))?;
+        }
+        if let Some(error) = watch.missed() {
+            found.set_item("missed", error)?;
+        }
         found.set_item("step", step)?;
         found.set_item("steps", solution.stats.steps)?;
         found.set_item("evaluations", solution.stats.evaluations)?;
@@ -314,6 +335,7 @@ impl Core {
         end: f64,
         threads: usize,
         tolerances: (Option<f64>, Option<f64>),
+        solver: choice::Solver,
     ) -> PyResult<(Bound<'py, PyArray2<f64>>, Vec<(usize, f64, String)>)> {
         let (choice, declared) = self.method(py, label)?;
         let tolerances = choice::tolerances(py, &choice, tolerances, None)?;
@@ -326,6 +348,7 @@ impl Core {
             declared: &declared,
             choice: &choice,
             tolerances,
+            newton: solver.options(py, &choice, false)?,
             parameters: rows(&parameters),
             starts: rows(&starts),
             step,
@@ -346,6 +369,26 @@ fn made(declared: &Declared, parameters: &[f64]) -> PyResult<Dynamic<f64>> {
 }
 
 impl Core {
+    /// How the group element is written.
+    fn chart(&self, name: &str) -> PyResult<Chart> {
+        let chart = match name {
+            "matrix" => Chart::Matrix,
+            "quaternion" => Chart::Quaternion,
+            other => {
+                return Err(PyValueError::new_err(format!(
+                    "no form of the group element `{other}`: there are \"matrix\" and \"quaternion\""
+                )));
+            }
+        };
+        let quaternion = chart == Chart::Quaternion;
+        match lie_codegen::structure::group::refusal(&self.model(), quaternion) {
+            Some((reason, help)) => Err(PyValueError::new_err(format!(
+                "group=\"{name}\": {reason}\n  help: {help}"
+            ))),
+            None => Ok(chart),
+        }
+    }
+
     /// The checked declaration: it holds what is not sent between threads, and so it is made again from its text.
     fn model(&self) -> Model {
         let model = lie_codegen::compile::compile_spec(&self.text);

@@ -1,7 +1,8 @@
-//! Looks for Ctrl-C while a run goes on.
+//! Looks for Ctrl-C while a run goes on, and follows the group element.
 
+use lie_dynamic::Dynamic;
 use lie_runtime::Poisson;
-use lie_runtime::driver::{Chosen, Observer, Progress};
+use lie_runtime::driver::{Assessed, Chosen, Motion, Observer, Progress, Reconstruction};
 use pyo3::prelude::*;
 use std::cell::RefCell;
 use std::ops::ControlFlow;
@@ -20,6 +21,7 @@ struct Seen {
     looked: Instant,
     interrupted: Option<PyErr>,
     chosen: Option<f64>,
+    missed: Option<f64>,
 }
 
 impl Default for Watch {
@@ -29,6 +31,7 @@ impl Default for Watch {
             looked: Instant::now(),
             interrupted: None,
             chosen: None,
+            missed: None,
         }))
     }
 }
@@ -42,6 +45,11 @@ impl Watch {
         }
     }
 
+    /// The error at the end, where it may be much larger than the tolerance; not a number where it cannot be told.
+    pub fn missed(&self) -> Option<f64> {
+        self.0.borrow().missed
+    }
+
     /// The step that was chosen.
     pub fn chosen(&self) -> Option<f64> {
         self.0.borrow().chosen
@@ -51,6 +59,11 @@ impl Watch {
 impl<P: Poisson<f64>> Observer<f64, P> for &Watch {
     fn chosen(&mut self, chosen: &Chosen) {
         self.0.borrow_mut().chosen = Some(chosen.step);
+    }
+
+    fn assessed(&mut self, assessed: &Assessed) {
+        let error = assessed.error.unwrap_or(f64::NAN);
+        self.0.borrow_mut().missed = assessed.missed().then_some(error);
     }
 
     fn step(&mut self, _system: &P, _progress: Progress, _mu: &P::State) -> ControlFlow<()> {
@@ -71,5 +84,51 @@ impl<P: Poisson<f64>> Observer<f64, P> for &Watch {
                 ControlFlow::Break(())
             }
         }
+    }
+}
+
+/// Looks, and follows the group element.
+pub struct OnGroup<'a> {
+    pub watch: &'a Watch,
+    pub reconstruction: Reconstruction<f64, Vec<f64>>,
+}
+
+impl Observer<f64, Dynamic<f64>> for &mut OnGroup<'_> {
+    const MOTION: bool = true;
+
+    fn chosen(&mut self, chosen: &Chosen) {
+        let mut watch = self.watch;
+        Observer::<f64, Dynamic<f64>>::chosen(&mut watch, chosen);
+    }
+
+    fn assessed(&mut self, assessed: &Assessed) {
+        let mut watch = self.watch;
+        Observer::<f64, Dynamic<f64>>::assessed(&mut watch, assessed);
+    }
+
+    fn step(
+        &mut self,
+        system: &Dynamic<f64>,
+        progress: Progress,
+        mu: &Vec<f64>,
+    ) -> ControlFlow<()> {
+        let mut watch = self.watch;
+        watch.step(system, progress, mu)
+    }
+
+    fn row(&mut self, system: &Dynamic<f64>, time: f64, mu: &Vec<f64>) -> ControlFlow<()> {
+        self.reconstruction.row(system, time, mu)
+    }
+
+    fn motion(&mut self, system: &Dynamic<f64>, motion: &Motion<'_, Vec<f64>>) {
+        self.reconstruction.motion(system, motion);
+    }
+
+    fn leave_grid(&mut self) {
+        Observer::<f64, Dynamic<f64>>::leave_grid(&mut self.reconstruction);
+    }
+
+    fn return_to_grid(&mut self) {
+        Observer::<f64, Dynamic<f64>>::return_to_grid(&mut self.reconstruction);
     }
 }

@@ -18,6 +18,7 @@ from __future__ import annotations
 import difflib
 import json
 import os
+import warnings
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Union
 
@@ -65,6 +66,8 @@ _SLIPS = {
 }
 #: What chooses a variant of a method.
 _VARIANTS = ("retraction", "lift", "gradient", "composition", "pieces", "tensor")
+#: Options of the solver of implicit methods.
+_SOLVER = ("iteration", "newton_tolerance", "max_iterations", "converge")
 _FUNCTIONS = (
     "vector_field",
     "jacobian",
@@ -124,6 +127,27 @@ def _times(
     return end, count, None
 
 
+def _declared(name: str, value: object, options: Mapping[str, list[str]]) -> object:
+    """An option of the solver: what the call says, else what the declaration says."""
+    key = name.replace("_", "-")
+    if value is not None or key not in options:
+        return value
+    text = options[key][0]
+    if name == "newton_tolerance":
+        return _core.constant(text)
+    return int(_core.constant(text)) if name == "max_iterations" else text
+
+
+def _merged(parameters: Mapping[str, Any] | None, named: Mapping[str, Any]) -> dict[str, Any]:
+    """Parameters by name, and those in a dictionary."""
+    if parameters is not None and not isinstance(parameters, Mapping):
+        raise TypeError(f'parameters are a dictionary such as {{"k": 2}}, not {parameters!r}')
+    both = [name for name in named if name in (parameters or {})]
+    if both:
+        raise TypeError(f"the parameter `{both[0]}` is given twice")
+    return {**(parameters or {}), **named}
+
+
 class Solution:
     """What a run has saved, as numpy arrays.
 
@@ -153,6 +177,8 @@ class Solution:
         self.method = method
         self.step = step
         self.steps = steps
+        #: The group element at each row, shape (m, s, s) or (m, 4), where it was asked for.
+        self.group: Array | None = None
 
     def __getitem__(self, name: str) -> Array:
         if name in self.coordinates:
@@ -170,18 +196,34 @@ class Solution:
     def __len__(self) -> int:
         return len(self.t)
 
+    def _reference(self, values: Array) -> float | None:
+        """What a change is divided by: the first value; nothing where that is only round-off beside the state."""
+        if not len(values):
+            return None
+        scale = float(np.max(np.abs(self.mu))) if self.mu.size else 0.0
+        first = abs(float(values[0]))
+        return first if first > 1e-12 * min(scale, scale * scale) else None
+
     @property
     def drift(self) -> dict[str, float]:
-        """The largest change of energy and Casimirs over the rows, relative to their first values (absolute where these are 0)."""
+        """The largest change of energy and Casimirs over the rows, relative to their first values.
+
+        Where the first value is 0, or only round-off beside the state, the change itself.
+        """
         found = {}
         for name, values in [("energy", self.energy), *self.casimirs.items()]:
             change = float(np.max(np.abs(values - values[0]))) if len(values) else 0.0
-            scale = abs(float(values[0])) if len(values) else 0.0
-            found[name] = change / scale if scale > 0 else change
+            found[name] = change / (self._reference(values) or 1.0)
         return found
 
     def __repr__(self) -> str:
-        drift = ", ".join(f"{name} {value:.1e}" for name, value in self.drift.items())
+        absolute = {
+            name: " (absolute)" if self._reference(values) is None else ""
+            for name, values in [("energy", self.energy), *self.casimirs.items()]
+        }
+        drift = ", ".join(
+            f"{name} {value:.1e}{absolute[name]}" for name, value in self.drift.items()
+        )
         end = f"t = {self.t[-1]:g}" if len(self.t) else "nothing"
         return (
             f"<{self.name}, {self.method}, step {self.step:g}: {len(self.t)} rows to {end}; "
@@ -204,7 +246,7 @@ class Solution:
         above.set_title(f"{self.name}, {self.method}, step {self.step:g}")
         above.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)
         for name, values in [("energy", self.energy), *self.casimirs.items()]:
-            scale = abs(values[0]) or 1.0
+            scale = self._reference(values) or 1.0
             errors = np.maximum(np.abs(values - values[0]) / scale, 1e-17)
             below.semilogy(self.t, errors, label=name, linewidth=1)
         below.set_ylabel("relative error")
@@ -241,19 +283,15 @@ class System:
     """
 
     def __init__(self, spec: str | Mapping[str, Any] | None = None, /, **keys: Any) -> None:
-        if isinstance(spec, str):
+        if isinstance(spec, (str, os.PathLike)):
             if keys:
                 raise TypeError("give the text of a spec or its keys, not both")
+            if not isinstance(spec, str) or (spec.endswith(".json") and "{" not in spec):
+                raise TypeError(f"this is the name of a file: liepoisson.load({os.fspath(spec)!r})")
             text = spec
         else:
             declaration = {"format": 1, "name": "System", **dict(spec or {}), **keys}
             algebra = declaration.get("algebra")
-            if "hamiltonian" in declaration and "**" in str(declaration["hamiltonian"]):
-                raise DeclarationError(
-                    "syntax: powers are written `^`\n  help: "
-                    + str(declaration["hamiltonian"]).replace("**", "^"),
-                    "syntax",
-                )
             if algebra is None and "poisson" not in declaration:
                 raise DeclarationError(
                     'schema: the algebra is missing\n  help: algebra="so(3)", or '
@@ -313,7 +351,7 @@ class System:
         values = self.parameters
         for name, value in given.items():
             if name not in values:
-                if name in ("params", "parameters", "args"):
+                if name in ("params", "args"):
                     example = next(iter(values), "k")
                     raise TypeError(f"parameters are given by their names: {example}=…")
                 if name in _VARIANTS:
@@ -357,6 +395,9 @@ class System:
                 f"x0 has {len(start)} numbers, {self.name} has {len(names)} coordinates: "
                 f"{', '.join(names)}"
             )
+        for name, value in zip(self.coordinates, complete):
+            if not np.isfinite(value):
+                raise ValueError(f"x0: {name} is {value}, and must be finite")
         return complete
 
     def _method(self, method: str | None, options: Mapping[str, list[str]], tol: Any) -> str:
@@ -383,18 +424,30 @@ class System:
         at: Sequence[float] | None = None,
         rtol: float | None = None,
         atol: float | None = None,
-        **parameters: Number,
+        iteration: str | None = None,
+        newton_tolerance: float | None = None,
+        max_iterations: int | None = None,
+        converge: str | None = None,
+        group: str | None = None,
+        parameters: Mapping[str, Number] | None = None,
+        **named: Number,
     ) -> Solution:
         """Integrates from time 0 until ``t``.
 
         ``h`` is the step; ``tol``, in its place, the relative error wanted at the end. ``x0`` is the initial state, a
         sequence or a dictionary; ``every`` saves each so-manyth step, ``at`` saves these times alone. Parameters are given by
-        name. What is left out comes from the declaration. ``rtol`` and ``atol`` are those of dopri5.
+        name, or in ``parameters`` where a name is also an argument (``parameters={"h": 2}``). What is left out comes from the
+        declaration. ``rtol`` and ``atol`` are those of dopri5. ``iteration`` ("automatic", "newton", "simplified",
+        "fixed-point"), ``newton_tolerance`` (in units of round-off), ``max_iterations`` and ``converge`` ("state", "map",
+        "tolerance") are for the solver of implicit methods. ``group="matrix"`` or ``"quaternion"`` follows the group element
+        from the identity on (``run.group``).
+
+        Warnings: :class:`UserWarning` where the error at the end may be much larger than ``tol``.
 
         Errors: :class:`MethodError` for a method that does not apply, :class:`IntegrationError` with ``partial`` for a
         run that stopped early, :class:`ValueError` and :class:`TypeError` for arguments.
         """
-        values = self._values(parameters)
+        values = self._values(_merged(parameters, named))
         start = self._start(x0, values)
         options = self._core.run_options()
         if h is not None and tol is not None:
@@ -414,7 +467,18 @@ class System:
         tolerances = (rtol, atol)
         if method is None:  # of the declaration's method
             tolerances = (_given(rtol, "rtol", options), _given(atol, "atol", options))
-        rows, found = self._core.run(label, values, start, pace, end, every, times, tolerances)
+        solver: dict[str, object] = {
+            "iteration": iteration,
+            "newton_tolerance": newton_tolerance,
+            "max_iterations": max_iterations,
+            "converge": converge,
+        }
+        if method is None:  # of the declaration's method, like these
+            solver = {name: _declared(name, value, options) for name, value in solver.items()}
+        group = group if group is not None else options.get("group", [None])[0]
+        rows, found = self._core.run(
+            label, values, start, pace, end, every, times, tolerances, solver, group
+        )
         t_rows, mu, energy, casimirs = rows
         columns = {name: casimirs[:, index] for index, name in enumerate(self.casimirs)}
         solution = Solution(
@@ -428,6 +492,23 @@ class System:
             float(str(found["step"])),
             int(str(found["steps"])),
         )
+        shown = [self.coordinates.index(name) for name in self._core.shown()]
+        if len(shown) < len(self.coordinates):  # what carries the time is no coordinate of the user
+            solution.coordinates = self._core.shown()
+            solution.mu = mu[:, shown]
+        if "group" in found:
+            elements = np.asarray(found["group"]).reshape(len(t_rows), -1)
+            size = round(elements.shape[1] ** 0.5)
+            solution.group = elements if group == "quaternion" else elements.reshape(-1, size, size)
+        if "missed" in found:
+            error = float(str(found["missed"]))
+            text = (
+                f"the error at the end is about {error:.1e} of the state, more than the tolerance {tol:g}: "
+                f"errors grow on this orbit, or {label} cannot keep it"
+                if np.isfinite(error)
+                else "the error at the end is not known: telling it takes too many steps, or failed"
+            )
+            warnings.warn(text, stacklevel=2)
         if "why" in found:
             number, time = int(str(found["step_number"])), float(str(found["time"]))
             message = (
@@ -447,13 +528,15 @@ class System:
         threads: int | None = None,
         rtol: float | None = None,
         atol: float | None = None,
-        **parameters: Any,
+        parameters: Mapping[str, Any] | None = None,
+        **named: Any,
     ) -> Ensemble:
         """The ends of many trajectories, from the rows of ``x0`` (shape (m, n)); parameters may be arrays of length m.
 
         The bits do not depend on the number of threads (all processors by default). A member that fails is a row
         of not-a-number, and is named in ``failures``.
         """
+        parameters = _merged(parameters, named)
         starts = np.ascontiguousarray(np.atleast_2d(np.asarray(x0, dtype=np.float64)))
         if starts.ndim != 2 or starts.shape[1] != self.dimension:
             raise ValueError(f"x0 has the shape {np.shape(x0)}, not (members, {self.dimension})")
@@ -478,13 +561,18 @@ class System:
         tolerances = (rtol, atol)
         if method is None:
             tolerances = (_given(rtol, "rtol", options), _given(atol, "atol", options))
+        solver: dict[str, object] = {
+            name: _declared(name, None, options) if method is None else None for name in _SOLVER
+        }
         workers = threads if threads is not None else (os.cpu_count() or 1)
         ends, failures = self._core.ensemble(
-            label, table, starts, _number(h, "h"), end, workers, tolerances
+            label, table, starts, _number(h, "h"), end, workers, tolerances, solver
         )
         return Ensemble(ends, failures)
 
-    def function(self, name: str, /, **parameters: Number) -> Callable[..., Array]:
+    def function(
+        self, name: str, /, parameters: Mapping[str, Number] | None = None, **named: Number
+    ) -> Callable[..., Array]:
         """A function of the state, vectorised over leading axes: of shape (…, n).
 
         ``vector_field``, ``gradient``: (…, n). ``jacobian``, ``hessian``, ``poisson_matrix``: (…, n, n).
@@ -501,7 +589,7 @@ class System:
             raise ValueError(
                 f"no function `{name}`{_hint(name, _FUNCTIONS)} There are: {', '.join(_FUNCTIONS)}"
             )
-        values, n = self._values(parameters), self.dimension
+        values, n = self._values(_merged(parameters, named)), self.dimension
         core, count = self._core, len(self.casimirs)
 
         def evaluate(mu: npt.ArrayLike) -> Array:

@@ -30,6 +30,8 @@ class Core:
         every: int,
         at: list[float] | None,
         tolerances: tuple[float | None, float | None],
+        solver: dict[str, object],
+        group: str | None,
     ) -> tuple[tuple[Array, Array, Array, Array], dict[str, object]]: ...
     def evaluate(self, kernel: str, parameters: list[float], states: Array) -> Array: ...
     def ensemble(
@@ -41,6 +43,7 @@ class Core:
         end: float,
         threads: int,
         tolerances: tuple[float | None, float | None],
+        solver: dict[str, object],
     ) -> tuple[Array, list[tuple[int, float, str]]]: ...
 
 def constant(text: str) -> float: ...

@@ -1,0 +1,261 @@
+"""Typical mistakes: each is refused by the right error, whose text names the remedy, and the remedy works."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import liepoisson as lp
+import numpy as np
+import pytest
+
+SO3: dict[str, Any] = {
+    "algebra": "so(3)",
+    "state": ["x", "y", "z"],
+    "parameters": {"I1": 2, "I2": 1, "I3": "2/3"},
+    "hamiltonian": "x^2/(2*I1) + y^2/(2*I2) + z^2/(2*I3)",
+    "initial": ["4/5", "1/10", "3/5"],
+}
+CASIMIR = "C = x^2 + y^2 + z^2"
+BRACKETS: dict[str, Any] = {
+    "basis": ["e1", "e2", "e3"],
+    "brackets": ["[e1, e2] = e3", "[e2, e3] = e1", "[e3, e1] = e2"],
+}
+
+
+def spec(**keys: Any) -> dict[str, Any]:
+    return {**SO3, **keys}
+
+
+def without(*names: str, **keys: Any) -> dict[str, Any]:
+    return {name: value for name, value in {**SO3, **keys}.items() if name not in names}
+
+
+#: A wrong declaration, what the message says, and the declaration after its hint.
+DECLARATIONS: list[tuple[dict[str, Any], str, dict[str, Any]]] = [
+    (spec(hamiltonian="x**2/2"), r"\^", spec(hamiltonian="x^2/2")),
+    (spec(hamiltonian="np.sin(x)"), "sin", spec(hamiltonian="sin(x)")),
+    (spec(hamiltonian="numpy.exp(x)"), "exp", spec(hamiltonian="exp(x)")),
+    (spec(hamiltonian="math.sqrt(1 + x^2)"), "sqrt", spec(hamiltonian="sqrt(1 + x^2)")),
+    (spec(hamiltonian="x[0]^2/2"), "x", spec(hamiltonian="x^2/2")),
+    (spec(hamiltonian="Sin(x)"), "sin", spec(hamiltonian="sin(x)")),
+    (spec(hamiltonian="ln(1 + x^2)"), "log", spec(hamiltonian="log(1 + x^2)")),
+    (spec(hamiltonian="arctan(x)"), "atan", spec(hamiltonian="atan(x)")),
+    (spec(hamiltonian="2x"), r"\*", spec(hamiltonian="2*x")),
+    (spec(hamiltonian="x y"), r"\*", spec(hamiltonian="x*y")),
+    (spec(hamiltonian="(x + y"), r"\)", spec(hamiltonian="(x + y)")),
+    (spec(hamiltonian="x + y)"), r"\)", spec(hamiltonian="x + y")),
+    (spec(hamiltonian="x +"), "expression|operand|number|ends", spec(hamiltonian="x")),
+    (spec(hamiltonian=""), "empty|missing|expression|nothing", spec(hamiltonian="x")),
+    (spec(hamiltonian="x^2/2 = 1"), "=", spec(hamiltonian="x^2/2")),
+    (spec(hamiltonian="m1^2/2"), "x", spec(hamiltonian="x^2/2")),
+    (spec(hamiltonian="x^2/(2*I4)"), "I1", spec(hamiltonian="x^2/(2*I1)")),
+    (spec(hamiltonian="X^2/2"), "x", spec(hamiltonian="x^2/2")),
+    (spec(hamiltonian="e1^2/2"), "state|coordinate", spec(hamiltonian="x^2/2")),
+    (spec(hamiltonian="x^2/2 + PI"), "pi", spec(hamiltonian="x^2/2 + pi")),
+    (spec(hamiltonian="pow(x, 2)"), r"\^|pow", spec(hamiltonian="x^2")),
+    (spec(hamiltonian="abs x"), r"\(", spec(hamiltonian="abs(x)")),
+    (spec(hamiltonian="atan2(x)"), "two|2", spec(hamiltonian="atan2(x, y)")),
+    (spec(hamiltonian="sin(x, y)"), "one|1", spec(hamiltonian="sin(x)")),
+    (spec(hamiltonian="x^2/0"), "zero|0", spec(hamiltonian="x^2/2")),
+    (spec(hamiltonian="1,5*x"), ",|decimal", spec(hamiltonian="1.5*x")),
+    (spec(hamiltonian="x·y"), r"\*", spec(hamiltonian="x*y")),
+    (spec(hamiltonian="x²/2"), r"\^", spec(hamiltonian="x^2/2")),
+    (
+        spec(hamiltonian="sqrt(x)", initial=[-1, 1, 1]),
+        "sqrt|negative|defined",
+        spec(hamiltonian="sqrt(x)"),
+    ),
+    (without("hamiltonian"), "hamiltonian", spec()),
+    (without("algebra"), "algebra", spec()),
+    (spec(algebra="SO(3)"), "`so`", spec(algebra="so(3)")),
+    (spec(algebra="so3"), r"so\(3\)|so\(n\)", spec(algebra="so(3)")),
+    (spec(algebra="so(2.5)"), "whole|number|integer|so", spec(algebra="so(3)")),
+    (spec(algebra="su(2) + "), "algebra|summand|ends|expected|behind", spec(algebra="su(2)")),
+    (spec(algebra="sphere"), "algebra", spec(algebra="so(3)")),
+    (spec(algebra=3), "algebra|string|text", spec(algebra="so(3)")),
+    (spec(state=["x", "y"]), "3|three", spec()),
+    (spec(state=["x", "y", "y"]), "y", spec()),
+    (spec(state="x, y, z"), "list|array|sequence", spec()),
+    (spec(state=["x", "y", "2z"]), "2z|name", spec()),
+    (spec(state=["x", "y", "sin"]), "sin", spec()),
+    (spec(state=["x", "y", "pi"]), "pi", spec()),
+    (spec(initial=[1, 2]), "3|three", spec(initial=[1, 2, 3])),
+    (spec(initial=["a", 2, 3]), "a", spec(initial=[1, 2, 3])),
+    (spec(initial=[[1, 2, 3]]), "initial|number|list", spec(initial=[1, 2, 3])),
+    (spec(initial="1, 2, 3"), "list|array|sequence|initial", spec(initial=[1, 2, 3])),
+    (spec(parameters=["I1"]), "parameters|map|object", spec()),
+    (spec(parameters={"I1": "two", "I2": 1, "I3": 1}), "two", spec()),
+    (spec(parameters={"x": 1, "I1": 2, "I2": 1, "I3": 1}), "x", spec()),
+    (spec(parameter={"k": 1}), "parameters", spec(parameters={"I1": 1, "I2": 1, "I3": 1})),
+    (spec(Hamiltonian="x"), "hamiltonian", spec()),
+    (spec(H="x"), "H", spec()),
+    (spec(casimir="x^2 + y^2 + z^2"), "casimirs", spec(casimirs=[CASIMIR])),
+    (spec(casimirs={"C": "x^2"}), "list", spec(casimirs=[CASIMIR])),
+    (
+        spec(casimirs=["C = x^2"]),
+        "Casimir|casimir",
+        spec(casimirs=[CASIMIR]),
+    ),
+    (spec(run={"stepsize": 1}), "step", spec(run={"step": 1})),
+    (spec(run={"method": "rk5"}), "rk4", spec(run={"method": "rk4"})),
+    (spec(format=2), "format|1", spec(format=1)),
+    (
+        spec(algebra={**BRACKETS, "brackets": ["[e1, e2] = e4", "[e2, e3] = e1", "[e3, e1] = e2"]}),
+        "e4",
+        spec(algebra=BRACKETS),
+    ),
+    (
+        spec(algebra={**BRACKETS, "brackets": ["[e1, e2] = e1", "[e2, e3] = e1", "[e3, e1] = e2"]}),
+        "Jacobi|jacobi",
+        spec(algebra=BRACKETS),
+    ),
+    (
+        spec(algebra={**BRACKETS, "brackets": ["[e1, e1] = e3"]}),
+        "e1",
+        spec(algebra=BRACKETS),
+    ),
+    (
+        spec(algebra={**BRACKETS, "brackets": [*BRACKETS["brackets"], "[e2, e1] = e3"]}),
+        "e1|twice|antisymmetric|sign",
+        spec(algebra=BRACKETS),
+    ),
+    (spec(algebra={"brackets": BRACKETS["brackets"]}), "basis", spec(algebra=BRACKETS)),
+]
+
+Call = Callable[[lp.System], Any]
+
+#: A wrong call, its error, what the message says, and the call after its hint.
+CALLS: list[tuple[Call, type[Exception], str, Call]] = [
+    (lambda s: s.run(dt=0.1), TypeError, "`h`", lambda s: s.run(h=0.1)),
+    (lambda s: s.run(step=0.1), TypeError, "`h`", lambda s: s.run(h=0.1)),
+    (lambda s: s.run(max_step=0.1), TypeError, "`h`", lambda s: s.run(h=0.1)),
+    (lambda s: s.run(y0=[1, 2, 3]), TypeError, "`x0`", lambda s: s.run(x0=[1, 2, 3])),
+    (lambda s: s.run(mu0=[1, 2, 3]), TypeError, "`x0`", lambda s: s.run(x0=[1, 2, 3])),
+    (lambda s: s.run(t_span=(0, 1)), TypeError, "`t`", lambda s: s.run(t=1)),
+    (lambda s: s.run(t_eval=[0, 1]), TypeError, "`at`", lambda s: s.run(at=[0, 1])),
+    (lambda s: s.run(until=1), TypeError, "`t`", lambda s: s.run(t=1)),
+    (lambda s: s.run(tolerance=1e-6), TypeError, "`tol`", lambda s: s.run(tol=1e-6, t=1)),
+    (lambda s: s.run(I4=1), TypeError, "I1", lambda s: s.run(I1=1)),
+    (lambda s: s.run(i1=1), TypeError, "I1", lambda s: s.run(I1=1)),
+    (lambda s: s.run(params={"I1": 1}), TypeError, "I1=", lambda s: s.run(I1=1)),
+    (lambda s: s.run(args=(1,)), TypeError, "I1=", lambda s: s.run(I1=1)),
+    (
+        lambda s: s.run(retraction="cayley"),
+        TypeError,
+        "--retraction",
+        lambda s: s.run("lie-midpoint --retraction cayley"),
+    ),
+    (lambda s: s.run("rk45"), lp.MethodError, "method", lambda s: s.run("dopri5")),
+    (lambda s: s.run("RK4"), lp.MethodError, "rk4", lambda s: s.run("rk4")),
+    (
+        lambda s: s.run("lie_midpoint"),
+        lp.MethodError,
+        "lie-midpoint",
+        lambda s: s.run("lie-midpoint"),
+    ),
+    (lambda s: s.run("midpoint", 0.1), TypeError, "positional", lambda s: s.run("midpoint", h=0.1)),
+    (lambda s: s.run(""), lp.MethodError, "name one", lambda s: s.run("rk4")),
+    (lambda s: s.run(0.1), TypeError, "id as text", lambda s: s.run(h=0.1)),
+    (lambda s: s.run(h=0), ValueError, "step", lambda s: s.run(h=0.1)),
+    (lambda s: s.run(h=-0.1), ValueError, "step|away|sign", lambda s: s.run(h=-0.1, t=-1)),
+    (lambda s: s.run(h=float("nan")), ValueError, "step|NaN|finite", lambda s: s.run(h=0.1)),
+    (lambda s: s.run(h="a"), ValueError, "a", lambda s: s.run(h="1/10")),
+    (lambda s: s.run(h=None, tol=0), ValueError, "tolerance", lambda s: s.run(tol=1e-6, t=1)),
+    (lambda s: s.run(h=0.1, tol=1e-6), TypeError, "not both", lambda s: s.run(tol=1e-6, t=1)),
+    (lambda s: s.run(x0=[1, 2]), ValueError, "3 coordinates", lambda s: s.run(x0=[1, 2, 3])),
+    (
+        lambda s: s.run(x0=[1, 2, float("nan")]),
+        ValueError,
+        "z is nan",
+        lambda s: s.run(x0=[1, 2, 3]),
+    ),
+    (
+        lambda s: s.run(x0={"x": 1, "y": 2}),
+        ValueError,
+        "lacks z",
+        lambda s: s.run(x0={"x": 1, "y": 2, "z": 3}),
+    ),
+    (lambda s: s.run(x0={"x": 1, "y": 2, "w": 3}), ValueError, "w", lambda s: s.run(x0=[1, 2, 3])),
+    (lambda s: s.run(every=0), ValueError, "1, 2, 3", lambda s: s.run(every=1)),
+    (lambda s: s.run(at=[]), ValueError, "empty", lambda s: s.run(at=[0, 1])),
+    (lambda s: s.run(at=[0, 1], t=2), TypeError, "leave out", lambda s: s.run(at=[0, 1])),
+    (
+        lambda s: s.run("midpoint", rtol=1e-6),
+        lp.MethodError,
+        "dopri5",
+        lambda s: s.run("dopri5", rtol=1e-6),
+    ),
+    (
+        lambda s: s.run("dopri5", tol=1e-6),
+        lp.MethodError,
+        "rtol",
+        lambda s: s.run("dopri5", rtol=1e-6),
+    ),
+    (
+        lambda s: s.run("splitting2 --pieces coordinates"),
+        lp.MethodError,
+        "coordinate",
+        lambda s: s.run("splitting2 --pieces coordinate"),
+    ),
+    (
+        lambda s: lp.System(**spec(run={"step": 0})).run(),
+        ValueError,
+        "step",
+        lambda s: lp.System(**spec(run={"step": 1})).run(),
+    ),
+    (lambda s: s.run(t="later"), ValueError, "later", lambda s: s.run(t="1/2")),
+    (lambda s: s.run(t=1)["energi"], KeyError, "energy", lambda s: s.run(t=1)["energy"]),
+    (lambda s: s.run(t=1)["w"], KeyError, "There are", lambda s: s.run(t=1)["x"]),
+    (lambda s: s.function("rhs"), ValueError, "vector_field", lambda s: s.function("vector_field")),
+    (
+        lambda s: s.function("vector_field")([1.0, 2.0]),
+        ValueError,
+        "not 3",
+        lambda s: s.function("vector_field")([1.0, 2.0, 3.0]),
+    ),
+    (
+        lambda s: s.ensemble(np.ones((4, 2)), t=1),
+        ValueError,
+        "members, 3",
+        lambda s: s.ensemble(np.ones((4, 3)), t=1),
+    ),
+    (
+        lambda s: s.ensemble(np.ones((4, 3)), t=1, I1=np.ones(3)),
+        ValueError,
+        "4 members",
+        lambda s: s.ensemble(np.ones((4, 3)), t=1, I1=np.ones(4)),
+    ),
+    (
+        lambda s: s.ensemble(np.ones((4, 3)), t=1, threads=0),
+        ValueError,
+        "1, 2, 3",
+        lambda s: s.ensemble(np.ones((4, 3)), t=1, threads=1),
+    ),
+    (lambda s: lp.System("body.json"), TypeError, "load", lambda s: lp.System(s.text)),
+]
+
+
+@pytest.mark.parametrize("number", range(len(DECLARATIONS)))
+def test_a_wrong_declaration_is_refused(number: int) -> None:
+    wrong, says, right = DECLARATIONS[number]
+    lp.System(**right)
+    with pytest.raises(lp.DeclarationError, match=says) as caught:
+        lp.System(**wrong)
+    message = str(caught.value)
+    assert "help: " in message, message
+    assert caught.value.kind, message
+
+
+@pytest.mark.parametrize("number", range(len(CALLS)))
+def test_a_wrong_call_is_refused(number: int) -> None:
+    wrong, error, says, right = CALLS[number]
+    system = lp.System(**SO3)
+    right(system)
+    with pytest.raises(error, match=says):
+        wrong(system)
+
+
+def test_there_are_a_hundred() -> None:
+    assert len(DECLARATIONS) + len(CALLS) >= 100
+    assert isinstance(SO3, Mapping)
