@@ -42,7 +42,8 @@ pub fn load(path: &Path) -> Result<Spec, Failure> {
 /// As [`load`].
 pub fn load_with(path: &Path, effort: Effort) -> Result<Spec, Failure> {
     let source = Rc::new(read(path)?);
-    match lie_codegen::compile::compile_spec_with(&source.text, effort) {
+    let folder = path.parent();
+    match lie_codegen::compile::compile_spec_in(&source.text, folder, effort) {
         Ok(model) => Ok(Spec { source, model }),
         Err(diagnostics) => {
             let all = diagnostics.into_iter();

@@ -1,5 +1,7 @@
 //! The compiler from end to end: read a declaration, check it, plan what is generated, print it.
 
+use std::path::Path;
+
 use proc_macro2::TokenStream;
 
 use crate::ast::Declaration;
@@ -24,8 +26,20 @@ pub fn compile_spec(text: &str) -> Result<Model, Vec<Diagnostic>> {
 /// # Errors
 /// Every mistake of the first stage that has one.
 pub fn compile_spec_with(text: &str, effort: Effort) -> Result<Model, Vec<Diagnostic>> {
+    compile_spec_in(text, None, effort)
+}
+
+/// The same for a spec that may name files of tables, relative to a folder; without one they are refused.
+///
+/// # Errors
+/// Every mistake of the first stage that has one. Those in a file of a table name it and the line.
+pub fn compile_spec_in(
+    text: &str,
+    folder: Option<&Path>,
+    effort: Effort,
+) -> Result<Model, Vec<Diagnostic>> {
     let mut report = Report::new();
-    let parsed = spec::read(text, &mut report);
+    let parsed = spec::read_in(text, folder, &mut report);
     report.gate()?;
     let Some(Body::Declaration(declaration)) = parsed.body else {
         return Err(report.into_diagnostics());

@@ -1,5 +1,7 @@
 //! Objects of the spec: unknown, repeated and missing keys, wrong types.
 
+use std::path::{Path, PathBuf};
+
 use super::json::{Member, Type, Value};
 use super::text::Source;
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
@@ -10,6 +12,7 @@ use crate::suggest::meant;
 pub struct Object<'a> {
     members: Vec<Member<'a>>,
     head: Origin,
+    folder: Option<PathBuf>,
 }
 
 impl<'a> Object<'a> {
@@ -56,7 +59,20 @@ impl<'a> Object<'a> {
         Some(Self {
             members,
             head: value.head(),
+            folder: None,
         })
+    }
+
+    /// The same in a folder, relative to which it names files.
+    #[must_use]
+    pub fn within(self, folder: Option<&Path>) -> Self {
+        let folder = folder.map(Path::to_owned);
+        Self { folder, ..self }
+    }
+
+    /// The folder relative to which it names files; nothing where it is text alone.
+    pub fn folder(&self) -> Option<&Path> {
+        self.folder.as_deref()
     }
 
     /// The value of a key.

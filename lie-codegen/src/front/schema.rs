@@ -95,8 +95,8 @@ objects! {
     /// A function by a table: the spline of an odd degree through its points, with continuous derivatives below that
     /// degree. The points next to the ends are no knots ("not-a-knot").
     struct TableFunction requires ["table"] {
-        /// The points `[x, y]`, with ascending x.
-        "table" table: Vec<[Constant; 2]>,
+        /// The points, with ascending x.
+        "table" table: Points,
         /// The degree of the spline: 1, 3 (the default), 5 or 7.
         "degree" degree: Option<u32>,
         /// What the function is outside of the table: `refuse` (the default: a step that leaves the table fails),
@@ -233,6 +233,17 @@ pub enum Initial {
     Random(Random),
     /// From a file.
     Numbers(Numbers),
+}
+
+/// The points of a table: a list, or a file.
+#[derive(JsonSchema)]
+#[schemars(untagged)]
+#[expect(dead_code, reason = "the variants describe the schema")]
+pub enum Points {
+    /// The points `[x, y]`.
+    List(Vec<[Constant; 2]>),
+    /// The path of a CSV file, relative to that of the spec: `x,y` in each line, after at most one line of names.
+    File(String),
 }
 
 /// What a function by a table is outside of it.

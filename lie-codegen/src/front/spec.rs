@@ -8,6 +8,8 @@ mod start;
 mod tables;
 mod vectors;
 
+use std::path::Path;
+
 use quote::quote;
 
 use super::json::{self, Type, Value};
@@ -26,12 +28,17 @@ const FORMAT: &str = "1";
 /// Reads the text of a spec file. Every mistake is reported at its bytes in `text`, in the order
 /// of the file; the declaration is there only if there is none.
 pub fn read(text: &str, report: &mut Report) -> Parsed {
+    read_in(text, None, report)
+}
+
+/// The same for a spec that may name files of tables, relative to a folder; without one they are refused.
+pub fn read_in(text: &str, folder: Option<&Path>, report: &mut Report) -> Parsed {
     if let Some(oversized) = file::oversized(text.len()) {
         report.push(oversized);
         return Parsed::default();
     }
     let mut found = Report::new();
-    let parsed = document(text, &mut found);
+    let parsed = document(text, folder, &mut found);
     // The keys may stand in any order, but are read in that of their meaning.
     let mut diagnostics = found.into_diagnostics();
     diagnostics.sort_by_key(|d| match d.origin {
@@ -42,7 +49,7 @@ pub fn read(text: &str, report: &mut Report) -> Parsed {
     parsed
 }
 
-fn document(text: &str, report: &mut Report) -> Parsed {
+fn document(text: &str, folder: Option<&Path>, report: &mut Report) -> Parsed {
     let mut parsed = Parsed {
         visibility: quote!(pub),
         ..Parsed::default()
@@ -55,6 +62,7 @@ fn document(text: &str, report: &mut Report) -> Parsed {
         }
     };
     let Some(spec) = spec else { return parsed };
+    let spec = spec.within(folder);
     spec.require("a spec", Spec::REQUIRED, report);
     if !spec.get("algebra").is_some_and(algebra::is_named) {
         spec.require("a spec", &["state"], report);
@@ -175,7 +183,7 @@ impl Entries for Object<'_> {
 
     fn tables(&self, report: &mut Report) -> Vec<Table> {
         let value = self.get("functions");
-        value.map_or_else(Vec::new, |v| tables::read(v, report))
+        value.map_or_else(Vec::new, |v| tables::read(v, self.folder(), report))
     }
 
     fn own_functions(&self, _: &mut Report) -> Vec<OwnFunction> {

@@ -55,11 +55,14 @@ impl Outside {
 /// A table by its name, `None` where a mistake in it was reported.
 pub type Read = (Name, Option<Written>);
 
+/// A point of a table, and its place.
+pub type Point = (Expr, Expr, Origin);
+
 /// A table as it was written.
 #[derive(Clone, Debug)]
 pub struct Written {
     /// The points, each with its place.
-    pub points: Vec<(Expr, Expr, Origin)>,
+    pub points: Vec<Point>,
     /// The degree of the spline, and its place.
     pub degree: (Expr, Origin),
     /// What it is outside.
