@@ -262,11 +262,23 @@ fn no_arrow_between_crates_points_back() {
         ["lie-codegen", "lie-dynamic", "lie-runtime"]
     );
     assert_eq!(
+        dependencies("lie-in-process/Cargo.toml"),
+        [
+            "lie-codegen",
+            "lie-dynamic",
+            "lie-jit",
+            "lie-measure",
+            "lie-program",
+            "lie-runtime"
+        ]
+    );
+    assert_eq!(
         dependencies("Cargo.toml"),
         [
             "lie-codegen",
             "lie-core",
             "lie-dynamic",
+            "lie-in-process",
             "lie-jit",
             "lie-measure",
             "lie-program",

@@ -6,9 +6,10 @@ use std::path::PathBuf;
 use std::process::{Child, ChildStderr, Command, Stdio};
 
 use lie_codegen::diagnostic::Kind;
+use lie_in_process::Work;
 use lie_program::listen::listen;
 use lie_program::protocol::{End, Message, Obstacle, Progress, Stop};
-use lie_program::session::{Session, serve};
+use lie_program::session::serve;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
@@ -39,9 +40,6 @@ pub enum Outcome {
 
 /// Takes what a program finds, and what follows it on the output.
 pub type Take<'a, R> = dyn FnMut(R, &mut dyn BufRead) -> io::Result<()> + 'a;
-
-/// What a thread of this program does with the line of a request.
-pub type Work = dyn Fn(&str, &mut Session<'_>) -> Result<(), End> + Send + Sync;
 
 /// What does the work.
 pub enum Worker {

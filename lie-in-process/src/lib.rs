@@ -1,0 +1,192 @@
+//! Runs, verifications and measurements of a declaration in the process that has read it, without a compiler of Rust.
+//!
+//! Requests and answers are those of [`lie_program`]: what is made here is served as a built program serves it, by
+//! [`lie_program::session::serve`], or a request at a time by [`Work`].
+
+#![warn(missing_docs)]
+
+use lie_codegen::methods::Choice;
+use lie_codegen::model::Model;
+use lie_codegen::plan::plan;
+use lie_codegen::program::{Chart, Purpose, compared};
+use lie_dynamic::{Declared, Dynamic, Method, at_defaults, method};
+use lie_jit::Jit;
+use lie_measure::verify::Kind;
+use lie_measure::{Bench, Stress, Verify};
+use lie_program::Program;
+use lie_program::protocol::{End, Tolerances};
+use lie_program::session::Session;
+use lie_runtime::{ParameterError, Scalar, driver};
+
+/// Does what the line of a request asks for.
+pub type Work = dyn Fn(&str, &mut Session<'_>) -> Result<(), End> + Send + Sync;
+
+/// The system of a spec before its parameters have values; none where a program would have to be built.
+pub fn declared(model: &Model) -> Option<Declared> {
+    let plan = plan(model, &[]);
+    Dynamic::supports(&plan).then(|| Declared::new(plan, &Jit))
+}
+
+/// What serves requests for methods on a system in this process; none where a program has to be built. Where times are
+/// measured, `clock` reads the seconds of the processor, if it can.
+pub fn work(
+    model: &Model,
+    choices: &[Choice],
+    purpose: Purpose,
+    clock: fn() -> Option<f64>,
+) -> Option<Box<Work>> {
+    let plan = plan(model, choices);
+    let there =
+        |choice: &Choice| method::<f64>(choice, lie_dynamic::Tolerances::default()).is_some();
+    if !Dynamic::supports(&plan) || !choices.iter().all(there) {
+        return None;
+    }
+    let parameters = model.parameters.iter();
+    let parameters = parameters.map(|p| (p.name.clone(), p.default_value));
+    let declared = Declaration {
+        plain: (purpose == Purpose::Verify)
+            .then(|| Declared::new(lie_codegen::plan::plan(model, &[]), &Jit)),
+        with_group: plan.structure.group.is_some(),
+        with_cayley: plan.system.triple.is_some(),
+        declared: Declared::new(plan, &Jit),
+        choices: choices.to_vec(),
+        parameters: parameters.collect(),
+        compared: compared(model, choices).into_iter().cloned().collect(),
+        orbits: model.is_lie_poisson(),
+    };
+    Some(match purpose {
+        Purpose::Run => Box::new(move |line, session| declared.run(None, line, session)),
+        Purpose::OnGroup(chart) => {
+            Box::new(move |line, session| declared.run(Some(chart), line, session))
+        }
+        Purpose::Verify => Box::new(move |line, session| declared.verify(line, session)),
+        Purpose::Bench => Box::new(move |line, session| declared.bench(clock, line, session)),
+        Purpose::Stress => Box::new(move |line, session| declared.stress(line, session)),
+    })
+}
+
+/// What a thread needs of a declaration.
+struct Declaration {
+    declared: Declared,
+    /// Without fused equations, where steps are compared.
+    plain: Option<Declared>,
+    with_group: bool,
+    with_cayley: bool,
+    choices: Vec<Choice>,
+    parameters: Vec<(String, f64)>,
+    compared: Vec<Choice>,
+    orbits: bool,
+}
+
+/// A method that is known to be there.
+fn made<S: Scalar>(choice: &Choice, tolerances: &Tolerances) -> Method<S> {
+    let (rtol, atol) = (tolerances.rtol, tolerances.atol);
+    let made = method(choice, lie_dynamic::Tolerances { rtol, atol });
+    made.unwrap_or_else(|| unreachable!("whether there is a method does not depend on tolerances"))
+}
+
+/// The same at its defaults.
+fn of_defaults<S: Scalar>(choice: &Choice) -> Method<S> {
+    at_defaults(choice).unwrap_or_else(|| unreachable!("the method was there before"))
+}
+
+/// Makes the system of values of the parameters.
+fn maker(
+    declared: &Declared,
+) -> impl Fn(&[f64]) -> Result<Dynamic<f64>, ParameterError> + Send + Sync + use<> {
+    let declared = declared.clone();
+    move |values| declared.system(values)
+}
+
+impl Declaration {
+    fn parameters(&self) -> Vec<(&str, f64)> {
+        let parameters = self.parameters.iter();
+        parameters
+            .map(|(name, value)| (name.as_str(), *value))
+            .collect()
+    }
+
+    fn run(&self, chart: Option<Chart>, line: &str, session: &mut Session<'_>) -> Result<(), End> {
+        let mut program = Program::new(&self.parameters(), maker(&self.declared));
+        for choice in &self.choices {
+            let (label, choice) = (choice.label(), choice.clone());
+            let make = move |tolerances: &Tolerances| made(&choice, tolerances);
+            program = match chart {
+                None => program.any_method(&label, make),
+                Some(chart) => program.any_on_group(&label, of_driver(chart), make),
+            };
+        }
+        program.run(line, session)
+    }
+
+    fn verify(&self, line: &str, session: &mut Session<'_>) -> Result<(), End> {
+        let mut program = Verify::new(&self.parameters(), maker(&self.declared));
+        for choice in &self.choices {
+            let (label, choice) = (choice.label(), choice.clone());
+            let series = matches!(choice, Choice::Taylor | Choice::LieTaylor);
+            let kind = if choice.solved() != &choice {
+                Kind::Composed
+            } else if choice.is_adaptive() && !series {
+                Kind::Adaptive
+            } else {
+                Kind::Plain
+            };
+            program = program.any_method(&label, kind, move |tolerances| match series {
+                true => (of_defaults(&choice), of_defaults(&choice)),
+                false => (made(&choice, tolerances), made(&choice, tolerances)),
+            });
+        }
+        for choice in &self.compared {
+            let Some(plain) = &self.plain else { break };
+            let (label, build) = (choice.label(), maker(plain));
+            let choice = choice.clone();
+            let make = move |tolerances: &Tolerances| made(&choice, tolerances);
+            program = program.any_plain(&label, build, make);
+        }
+        if self.orbits {
+            program = program.with_orbits();
+        }
+        if self.with_group {
+            program = program.with_group();
+        }
+        if self.with_cayley {
+            program = program.with_cayley();
+        }
+        program.work(line, session)
+    }
+
+    fn bench(
+        &self,
+        clock: fn() -> Option<f64>,
+        line: &str,
+        session: &mut Session<'_>,
+    ) -> Result<(), End> {
+        let program = Bench::new(&self.parameters(), maker(&self.declared));
+        let mut program = program.clock(clock);
+        for choice in &self.choices {
+            let (label, choice) = (choice.label(), choice.clone());
+            program = match choice.is_adaptive() {
+                true => program.any_adaptive(&label, move |tolerances| made(&choice, tolerances)),
+                false => program.any_method(&label, move || made(&choice, &Tolerances::default())),
+            };
+        }
+        program.work(line, session)
+    }
+
+    fn stress(&self, line: &str, session: &mut Session<'_>) -> Result<(), End> {
+        let mut program = Stress::new(&self.parameters(), maker(&self.declared));
+        for choice in &self.choices {
+            let (label, choice) = (choice.label(), choice.clone());
+            program = program.any_method(&label, move || made(&choice, &Tolerances::default()));
+        }
+        program.work(line, session)
+    }
+}
+
+/// The chart of the driver.
+fn of_driver(chart: Chart) -> driver::Chart {
+    match chart {
+        Chart::Matrix => driver::Chart::Matrix,
+        Chart::Quaternion => driver::Chart::Quaternion,
+    }
+}
