@@ -80,8 +80,15 @@ impl Solver {
             ("converge", self.converge.is_some()),
         ] {
             if given && explicit {
-                let text = format!("`{name}` is an option of implicit methods, and {} is explicit", choice.id());
-                return Err(method_error(py, &text, "leave it out, or take an implicit method such as \"midpoint\""));
+                let text = format!(
+                    "`{name}` is an option of implicit methods, and {} is explicit",
+                    choice.id()
+                );
+                return Err(method_error(
+                    py,
+                    &text,
+                    "leave it out, or take an implicit method such as \"midpoint\"",
+                ));
             }
         }
         let mut options = match self.iteration.as_deref() {
@@ -110,8 +117,15 @@ impl Solver {
             return Ok(options);
         };
         if !together {
-            let text = format!("`converge` is an option of methods that evaluate their stages together, and {} does not", choice.id());
-            return Err(method_error(py, &text, "leave it out, or take a method such as \"gauss16\""));
+            let text = format!(
+                "`converge` is an option of methods that evaluate their stages together, and {} does not",
+                choice.id()
+            );
+            return Err(method_error(
+                py,
+                &text,
+                "leave it out, or take a method such as \"gauss16\"",
+            ));
         }
         options.convergence = match converge.as_str() {
             "state" => Convergence::State,

@@ -4,6 +4,7 @@ mod batch;
 mod choice;
 mod errors;
 mod observer;
+mod verify;
 
 use choice::wanted;
 use errors::{declaration, method_error};
@@ -11,6 +12,7 @@ use lie_codegen::methods::Choice;
 use lie_codegen::model::Model;
 use lie_dynamic::{Declared, Dynamic};
 use lie_jit::Jit;
+use lie_program::protocol::Start;
 use lie_runtime::diagnostics::Forgotten;
 use lie_runtime::driver::{
     Chart, Options, Pace, Problem, Reconstruction, Save, Solution, SolveError, solve_observed,
@@ -160,6 +162,33 @@ impl Core {
             .into_iter()
             .map(|(id, why)| (id.to_owned(), why))
             .collect()
+    }
+
+    /// Every claim of these methods, of all that apply where none is named, measured from a state on; and what is wrong with
+    /// the measurements themselves.
+    fn verify(
+        &self,
+        py: Python<'_>,
+        methods: Vec<String>,
+        parameters: Vec<f64>,
+        start: Vec<f64>,
+        options: (Option<f64>, u64),
+    ) -> PyResult<(Vec<verify::Fact>, Vec<String>)> {
+        let model = self.model();
+        let choices = match methods.is_empty() {
+            true => every(&model),
+            false => {
+                let choices = methods.iter().map(|label| wanted(py, &model, label));
+                choices.collect::<PyResult<_>>()?
+            }
+        };
+        let names = self.parameter_names().into_iter();
+        let start = Start {
+            parameters: names.zip(parameters).collect(),
+            initial: start,
+        };
+        let found = verify::verify(py, &model, &choices, start, options)?;
+        Ok((found.facts, found.unsound))
     }
 
     /// The generated Rust.
@@ -360,6 +389,18 @@ impl Core {
             .reshape([starts.as_array().nrows(), self.names.len()])?;
         Ok((ends, failures))
     }
+}
+
+/// Every method that applies and runs in Python, at its default options.
+fn every(model: &Model) -> Vec<Choice> {
+    let known = lie_codegen::methods::applicability(model);
+    let apply = known.into_iter().filter(|(_, why)| why.is_none());
+    apply
+        .filter_map(|(id, _)| Choice::from_id(id).ok())
+        .filter(|choice| {
+            lie_dynamic::method::<f64>(choice, lie_dynamic::Tolerances::default()).is_some()
+        })
+        .collect()
 }
 
 /// The system of these parameters.

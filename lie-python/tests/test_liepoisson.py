@@ -381,3 +381,21 @@ def test_a_file_is_loaded_by_load() -> None:
         lp.System("top.json")
     with pytest.raises(TypeError, match="load"):
         lp.System(pathlib.Path("top.json"))
+
+
+def test_claims_are_measured() -> None:
+    body = lp.System(**STARTED)
+    found = body.verify("rk4", "lie-midpoint", "gauss4")
+    assert found.passed and not found.failures, repr(found)
+    facts = {(fact.method, fact.fact): fact for fact in found.facts}
+    assert abs(facts["rk4", "order"].measured - 4) < 0.3
+    assert abs(facts["lie-midpoint", "order"].measured - 2) < 0.2
+    assert facts["lie-midpoint", "Poisson"].verdict == "holds"
+    # the control: what is not claimed is far from it
+    assert facts["rk4", "Poisson"].verdict == "not-claimed"
+    assert facts["rk4", "Poisson"].measured > 1e3 * facts["lie-midpoint", "Poisson"].measured
+    assert "lie-midpoint" in repr(found) and "0 fail" in repr(found)
+    with pytest.raises(lp.MethodError):
+        body.verify("rk5")
+    with pytest.raises(ValueError):
+        body.verify("rk4", x0=[float("nan"), 0, 0])

@@ -27,14 +27,17 @@ import numpy.typing as npt
 
 from . import _core
 from ._errors import DeclarationError, IntegrationError, MethodError
+from ._verification import Fact, Verification
 
 __all__ = [
     "DeclarationError",
     "Ensemble",
+    "Fact",
     "IntegrationError",
     "MethodError",
     "Solution",
     "System",
+    "Verification",
     "load",
 ]
 __version__ = "0.1.0"
@@ -616,6 +619,32 @@ class System:
     def methods(self) -> dict[str, str | None]:
         """Every method by its id, with the reason where it does not apply, else ``None``."""
         return dict(self._core.methods())
+
+    def verify(
+        self,
+        *methods: str,
+        h: Number | None = None,
+        x0: Any = None,
+        seed: int = 1,
+        parameters: Mapping[str, Number] | None = None,
+        **named: Number,
+    ) -> Verification:
+        """Measures what methods claim on this system: order, symmetry, invariants, the orbit, the Poisson structure.
+
+        Without names, all methods that apply and run in Python, at their default options. ``h`` is the step at which facts are
+        measured; it is found where it is not given. Kernels are compared with the declaration by the command, `lie verify`.
+
+        >>> body = System(algebra="so(3)", state=["x", "y", "z"], hamiltonian="x^2/2 + y^2/4 + z^2/6")
+        >>> body.verify("rk4", "lie-midpoint", x0=[0.8, 0.1, 0.6]).passed
+        True
+
+        Errors: :class:`MethodError` for a method that does not apply, :class:`ValueError` where nothing can be measured.
+        """
+        values = self._values(_merged(parameters, named))
+        start = self._start(x0, values)
+        step = None if h is None else _number(h, "h")
+        facts, unsound = self._core.verify(list(methods), values, start, (step, seed))
+        return Verification([Fact(*fact) for fact in facts], unsound)
 
     def rust(self, *methods: str) -> str:
         """The generated Rust, with fused code of these methods."""
