@@ -53,6 +53,10 @@ impl Interrupt {
         if self.0.here.load(Ordering::SeqCst) {
             std::thread::spawn(move || {
                 std::thread::sleep(GRACE);
+                let grace = GRACE.as_secs();
+                eprintln!(
+                    "cut off: what was going on did not end within {grace} s, and is lost; with --compile it ends at once"
+                );
                 std::process::exit(i32::from(code));
             });
         }

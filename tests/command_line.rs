@@ -25,7 +25,7 @@ fn every_mistake_of_the_command_line_is_an_option_error() {
         ("run BODY --step -0.1 --until 1", "--until"),
         ("run BODY --step 0.1 --at 1,-1", "--at"),
         ("run BODY --step 1e-300", "--step"),
-        ("run BODY --plot x.png", "--plot"),
+        ("run BODY --plot x.jpg", "--plot"),
         ("bench BODY --plot x.png", "--plot"),
         ("run BODY --every 0", "--every"),
         ("run BODY --every 1.5", "--every"),

@@ -311,10 +311,11 @@ fn measuring_programs_end_with_the_command() {
 /// The same where the command measures by itself.
 #[test]
 fn measurements_end_with_the_command() {
-    let body = "specs/so3_free_rigid_body.json --methods gonzalez";
+    let body = "specs/so3_free_rigid_body.json";
     for (call, long) in [
-        ("stress", "--steps 1e15"),
-        ("bench", "--until 1e4 --budget 1e6"),
+        ("stress", "--methods gonzalez --steps 1e15"),
+        // all methods: each run is short, and all of them are long
+        ("bench", "--until 100 --budget 0.5"),
     ] {
         let mut command = command(format!("{call} {body} {long}").split_whitespace());
         let command = command.stdout(Stdio::piped()).stderr(Stdio::piped());

@@ -279,7 +279,6 @@ fn no_arrow_between_crates_points_back() {
             "lie-core",
             "lie-dynamic",
             "lie-in-process",
-            "lie-jit",
             "lie-measure",
             "lie-program",
             "lie-runtime"

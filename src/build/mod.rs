@@ -32,8 +32,8 @@ pub use cache::{failure as cache_failure, root as cache_root};
 use cause::Cause;
 use entry::Entry;
 pub use here::here;
-pub use lie_in_process::declared;
 use key::Key;
+pub use lie_in_process::declared;
 pub use processor::Processor;
 use toolchain::Toolchain;
 
