@@ -16,4 +16,6 @@ for number, share in enumerate(SHARES):
         os.replace(part + ".tmp.npy", part)
 world.Barrier()
 if world.rank == 0:
-    np.save(sys.argv[1], np.concatenate([np.load(f"{sys.argv[1]}.{k}.npy") for k in range(len(SHARES))]))
+    np.save(
+        sys.argv[1], np.concatenate([np.load(f"{sys.argv[1]}.{k}.npy") for k in range(len(SHARES))])
+    )

@@ -111,7 +111,12 @@ impl Solver {
             options.tolerance = tolerance;
         }
         if let Some(count) = self.max_iterations {
-            options.max_iterations = count.max(1);
+            if count == 0 {
+                return Err(PyValueError::new_err(
+                    "max_iterations must be 1, 2, 3, …, not 0",
+                ));
+            }
+            options.max_iterations = count;
         }
         let Some(converge) = &self.converge else {
             return Ok(options);

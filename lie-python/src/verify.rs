@@ -80,6 +80,15 @@ pub fn verify(
     py.detach(|| talk(&work, &line))
 }
 
+/// Tells that a thread is over, however it ends.
+struct Ended<'a>(&'a AtomicBool);
+
+impl Drop for Ended<'_> {
+    fn drop(&mut self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+}
+
 /// Has a request served by a thread, and looks for Ctrl-C meanwhile: closing the input ends the work.
 fn talk(work: &lie_in_process::Work, line: &[u8]) -> PyResult<Facts> {
     let (questions, mut asks) = io::pipe()?;
@@ -87,12 +96,14 @@ fn talk(work: &lie_in_process::Work, line: &[u8]) -> PyResult<Facts> {
     asks.write_all(line)?;
     let asks: Mutex<Option<PipeWriter>> = Mutex::new(Some(asks));
     let over = AtomicBool::new(false);
+    let ended = Ended(&over);
     let (facts, end, interrupted) = std::thread::scope(|scope| {
         scope.spawn(move || {
             let mut output = BufWriter::new(says);
             serve(None, Box::new(BufReader::new(questions)), &mut output, work)
         });
-        let heard = scope.spawn(|| {
+        let heard = scope.spawn(move || {
+            let _ended = ended;
             let (mut facts, mut end) = (Facts::default(), None);
             let heard = listen(&mut BufReader::new(answers), &mut |message, _| {
                 match message {
@@ -102,7 +113,6 @@ fn talk(work: &lie_in_process::Work, line: &[u8]) -> PyResult<Facts> {
                 }
                 Ok(())
             });
-            over.store(true, Ordering::Relaxed);
             heard.map(|()| (facts, end))
         });
         let mut interrupted = Ok(());

@@ -30,7 +30,9 @@ def call(engine: str, workers: int, out: pathlib.Path, flag: str = "") -> int:
     else:
         command = [*script, str(workers), str(out)]
     environment = {**os.environ, "LIE_KILL": flag, "PYTHONPATH": str(EXAMPLES)}
-    return subprocess.run(command, env=environment, timeout=240, capture_output=True).returncode
+    return subprocess.run(
+        command, check=False, env=environment, timeout=240, capture_output=True
+    ).returncode
 
 
 @pytest.mark.parametrize("engine", ENGINES)

@@ -308,6 +308,8 @@ def test_solver_options_of_the_declaration_and_of_the_call() -> None:
         body.run("midpoint", converge="map")
     with pytest.raises(ValueError, match="needs a tolerance"):
         body.run("gauss16", converge="tolerance")
+    with pytest.raises(ValueError, match="not 0"):
+        body.run("midpoint", max_iterations=0)
     with pytest.raises(ValueError, match="simplified"):
         body.run("midpoint", iteration="picard")
     one = body.run("gauss16", tol=1e-6, t=5, converge="tolerance")

@@ -537,7 +537,7 @@ class System:
         """The ends of many trajectories, from the rows of ``x0`` (shape (m, n)); parameters may be arrays of length m.
 
         The bits do not depend on the number of threads (all processors by default). A member that fails is a row
-        of not-a-number, and is named in ``failures``.
+        of not-a-number, and is named in ``failures``. Of a group element that the declaration asks for, nothing is kept.
         """
         parameters = _merged(parameters, named)
         starts = np.ascontiguousarray(np.atleast_2d(np.asarray(x0, dtype=np.float64)))
