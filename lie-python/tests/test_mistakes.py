@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -30,6 +31,27 @@ def spec(**keys: Any) -> dict[str, Any]:
 def without(*names: str, **keys: Any) -> dict[str, Any]:
     return {name: value for name, value in {**SO3, **keys}.items() if name not in names}
 
+
+KINDS = {
+    "antisymmetry",
+    "arity",
+    "constant",
+    "domain",
+    "empty-hamiltonian",
+    "state-length",
+    "unknown-function",
+    "duplicate-name",
+    "jacobi",
+    "casimir",
+    "limit",
+    "method",
+    "number",
+    "option",
+    "reserved-name",
+    "schema",
+    "syntax",
+    "unknown-symbol",
+}
 
 #: A wrong declaration, what the message says, and the declaration after its hint.
 DECLARATIONS: list[tuple[dict[str, Any], str, dict[str, Any]]] = [
@@ -240,11 +262,14 @@ CALLS: list[tuple[Call, type[Exception], str, Call]] = [
 def test_a_wrong_declaration_is_refused(number: int) -> None:
     wrong, says, right = DECLARATIONS[number]
     lp.System(**right)
-    with pytest.raises(lp.DeclarationError, match=says) as caught:
+    with pytest.raises(lp.DeclarationError) as caught:
         lp.System(**wrong)
-    message = str(caught.value)
+    # what is said, without the line of the declaration that is shown
+    lines = [line for line in str(caught.value).splitlines() if not line.startswith("    ")]
+    message = "\n".join(lines)
+    assert re.search(says, message), message
     assert "help: " in message, message
-    assert caught.value.kind, message
+    assert caught.value.kind in KINDS, message
 
 
 @pytest.mark.parametrize("number", range(len(CALLS)))

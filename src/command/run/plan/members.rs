@@ -80,14 +80,7 @@ pub fn several(spec: &Spec, flags: &args::Run) -> Result<Several, Vec<Message>> 
         }
     };
     if plans.len() * points.len() > MOST {
-        let text = format!(
-            "{} runs, and {MOST} can be made at once",
-            plans.len() * points.len()
-        );
-        let message = Message::new(Kind::Limit, text).at_option("--param");
-        return Err(vec![
-            message.help("take fewer values, or several commands for parts of them"),
-        ]);
+        return Err(vec![too_many(plans.len() * points.len())]);
     }
     let starts: Vec<(Vec<f64>, Start)> = points
         .into_iter()
@@ -105,6 +98,12 @@ pub fn several(spec: &Spec, flags: &args::Run) -> Result<Several, Vec<Message>> 
         plans,
         labels,
     })
+}
+
+fn too_many(runs: usize) -> Message {
+    let text = format!("{runs} runs, and {MOST} can be made at once");
+    let message = Message::new(Kind::Limit, text).at_option("--param");
+    message.help("take fewer values, or several commands for parts of them")
 }
 
 /// A name that no column of the system has.
@@ -228,9 +227,7 @@ fn sweeps(flags: &args::Run) -> Result<(Vec<Sweep>, Vec<String>), Vec<Message>> 
         }
     }
     if runs > MOST {
-        let text = format!("{runs} runs, and {MOST} can be made at once");
-        let message = Message::new(Kind::Limit, text).at_option("--param");
-        mistakes.push(message.help("take fewer values, or several commands for parts of them"));
+        mistakes.push(too_many(runs));
     }
     match mistakes.is_empty() {
         true => Ok((sweeps, fixed)),
@@ -254,9 +251,7 @@ fn values(given: &Given, range: &str) -> Result<Vec<f64>, Message> {
     let help = "give the number of values, at least 1, such as `--param k=1:2:11`";
     let count = count.count().map_err(|message| message.help(help))? as usize;
     if count > MOST {
-        let text = format!("{count} runs, and {MOST} can be made at once");
-        let message = Message::new(Kind::Limit, text).at(given.wrong("").place);
-        return Err(message.help("take fewer values"));
+        return Err(too_many(count).at(given.wrong("").place));
     }
     if count == 1 && from != to {
         let message = given.wrong("one value cannot be both ends");
