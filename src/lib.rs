@@ -1,6 +1,6 @@
 //! The library part of the root package: what the `lie` command, the examples and the tests share.
 
-pub mod plot;
+pub use lie_plot as plot;
 
 /// The code of the README.
 #[cfg(doctest)]

@@ -293,6 +293,37 @@ fn a_damaged_cache_heals_itself() {
     assert_eq!(call().ok().stdout, whole.stdout);
 }
 
+/// Beyond the limit of the cache everything goes but the program just built; a limit that is no number is refused before
+/// anything is built.
+#[test]
+fn the_cache_has_a_limit() {
+    let folder = folder();
+    let path = spec(folder.path(), |_| ());
+    let cache = folder.path().join("cache");
+    let cargo = script(folder.path(), "exit 1");
+    let wrong = [
+        ("LIE_CACHE_DIR", cache.as_path()),
+        ("LIE_CACHE_MB", Path::new("2 GB")),
+        ("CARGO", &cargo),
+    ];
+    let refused = run(&path, &wrong);
+    assert_eq!(refused.code, Some(2), "{}", refused.stderr);
+    assert!(
+        refused.stderr.contains("LIE_CACHE_MB is `2 GB`"),
+        "{}",
+        refused.stderr
+    );
+    let small = [
+        ("LIE_CACHE_DIR", cache.as_path()),
+        ("LIE_CACHE_MB", Path::new("1")),
+    ];
+    let built = run(&path, &small).ok();
+    assert!(built.stderr.contains("Building"), "{}", built.stderr);
+    assert!(!cache.join("target").exists(), "the packages went");
+    let again = run(&path, &[small[0], ("CARGO", cargo.as_path())]).ok();
+    assert_eq!(again.stdout, built.stdout, "the program stayed");
+}
+
 #[test]
 fn a_program_that_dies_names_its_folder() {
     let folder = folder();

@@ -280,10 +280,12 @@ fn no_arrow_between_crates_points_back() {
             "lie-dynamic",
             "lie-in-process",
             "lie-measure",
+            "lie-plot",
             "lie-program",
             "lie-runtime"
         ]
     );
+    assert_eq!(dependencies("lie-plot/Cargo.toml"), [""; 0]);
 }
 
 #[test]

@@ -6,6 +6,8 @@
 //! CACHE/target/                   cargo's folder, shared so that packages compile once
 //! CACHE/lock                      held while cargo runs
 //! ```
+//!
+//! What is beyond the limit (`limit`) is removed after a build.
 
 mod cache;
 mod cause;
@@ -14,6 +16,7 @@ mod clock;
 mod entry;
 mod here;
 mod key;
+mod limit;
 mod processor;
 mod runtime;
 pub mod talk;
@@ -34,6 +37,7 @@ use entry::Entry;
 pub use here::here;
 use key::Key;
 pub use lie_in_process::declared;
+pub use limit::{limit as cache_limit, programs as cache_programs, size as cache_size};
 pub use processor::Processor;
 use toolchain::Toolchain;
 
@@ -96,6 +100,7 @@ pub struct Request<'a> {
 /// `io` for the cache folder, `toolchain` for everything that cargo cannot do; a signal.
 pub fn program(request: &Request<'_>, interrupt: &Interrupt) -> Result<PathBuf, Failure> {
     let cache = cache::root()?;
+    let limit = limit::limit()?;
     let toolchain = Toolchain::find(&cache, request.processor)?;
     let template = Template::of(request.purpose);
     let modules = template.modules.iter();
@@ -111,6 +116,7 @@ pub fn program(request: &Request<'_>, interrupt: &Interrupt) -> Result<PathBuf, 
         .hex();
     let entry = Entry::new(&cache, &key);
     if entry.is_whole(request.source) {
+        limit::used(&entry.folder);
         return Ok(entry.program);
     }
     let _lock = lock(&cache, request.quiet)?;
@@ -120,6 +126,8 @@ pub fn program(request: &Request<'_>, interrupt: &Interrupt) -> Result<PathBuf, 
     let built = build(request, &toolchain, &cache, &entry.folder, &key, interrupt)?;
     let installed = entry.install(&built);
     installed.map_err(|error| cache::failure(&entry.program, &error))?;
+    limit::forget(&built, &package(&key));
+    limit::trim(&cache, limit, &entry.folder, &runtime::identity());
     Ok(entry.program)
 }
 
@@ -179,7 +187,7 @@ fn build(
     interrupt: &Interrupt,
 ) -> Result<PathBuf, Failure> {
     runtime::unpack(cache).map_err(|error| cache::failure(cache, &error))?;
-    let name = format!("lie-{key}");
+    let name = package(key);
     let template = Template::of(request.purpose);
     let manifest = manifest(template, &name);
     let write = |file: &str, content: &str| {
@@ -225,6 +233,11 @@ fn build(
     let executable = executable(&output.stdout, &name).ok_or_else(failed)?;
     say(&format!("Built in {:.1} s.", start.elapsed().as_secs_f64()));
     Ok(executable)
+}
+
+/// The name of the package of a program.
+fn package(key: &str) -> String {
+    format!("lie-{key}")
 }
 
 /// The manifest of a program.

@@ -1,9 +1,7 @@
 //! `lie cache`: where built programs are kept, how much they take, and how they are removed.
 
-use std::path::Path;
-
 use super::{args, print};
-use crate::build::{cache_failure, cache_root};
+use crate::build::{cache_failure, cache_limit, cache_programs, cache_root, cache_size};
 use crate::message::Failure;
 
 /// What is in the cache beside the programs: all of it can be made again.
@@ -15,13 +13,15 @@ const FOLDERS: [&str; 3] = ["programs", "target", "runtime"];
 /// `io`: there is no folder for it, or something in it cannot be removed.
 pub fn run(arguments: &args::Cache) -> Result<u8, Failure> {
     let root = cache_root()?;
-    let (size, programs) = (size(&root), programs(&root));
+    let (size, programs) = (cache_size(&root), cache_programs(&root).len());
     let place = root.display();
     if !arguments.clear {
         let text = format!(
-            "{place}\n{programs} programs, {:.1} MB in all\n\
-             LIE_CACHE_DIR chooses another folder; `lie cache --clear` empties it: what is needed is built again\n",
-            megabytes(size)
+            "{place}\n{programs} programs, {:.1} MB in all, of at most {:.0} MB\n\
+             LIE_CACHE_DIR chooses another folder, LIE_CACHE_MB another limit: beyond it the programs go that were not \
+             used for longest\n`lie cache --clear` empties it: what is needed is built again\n",
+            megabytes(size),
+            megabytes(cache_limit()?)
         );
         print(&text)?;
         return Ok(0);
@@ -40,26 +40,4 @@ pub fn run(arguments: &args::Cache) -> Result<u8, Failure> {
 
 fn megabytes(bytes: u64) -> f64 {
     bytes as f64 / 1e6
-}
-
-/// Built programs, one in each folder.
-fn programs(root: &Path) -> usize {
-    let folders = std::fs::read_dir(root.join("programs"))
-        .into_iter()
-        .flatten();
-    folders
-        .flatten()
-        .filter(|entry| entry.path().is_dir())
-        .count()
-}
-
-/// The bytes of all files below a folder; links are not followed.
-fn size(folder: &Path) -> u64 {
-    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
-    let sizes = entries.map(|entry| match entry.metadata() {
-        Ok(found) if found.is_dir() => size(&entry.path()),
-        Ok(found) => found.len(),
-        Err(_) => 0,
-    });
-    sizes.sum()
 }

@@ -14,7 +14,7 @@
 
 use crate::contest::{Entrant, Problem, Setting};
 use crate::{table, top};
-use lie_poisson::plot::chart::{Axis, Chart, Panel, Series, Stroke};
+use lie_plot::chart::{Axis, Chart, Panel, Series, Stroke};
 use lie_runtime::{Poisson, State};
 
 type Vector = [f64; 3];

@@ -2,7 +2,7 @@
 
 use crate::contest::{Entrant, Problem, Setting};
 use crate::table;
-use lie_poisson::plot::chart::{Axis, Chart, Panel, Series, Stroke};
+use lie_plot::chart::{Axis, Chart, Panel, Series, Stroke};
 use lie_runtime::{Poisson, State};
 
 /// What one run has lost until 10^3, 10^4, … units of time.

@@ -3,7 +3,7 @@
 use crate::contest::{Entrant, Problem, Setting};
 use crate::frequency::{refined, strongest};
 use crate::table;
-use lie_poisson::plot::chart::{Axis, Chart, Panel, Series, Stroke};
+use lie_plot::chart::{Axis, Chart, Panel, Series, Stroke};
 use lie_runtime::diagnostics::reference;
 use lie_runtime::{Poisson, State};
 

@@ -7,7 +7,7 @@
 //! aggregation*, VLDB 2014, <https://doi.org/10.14778/2732951.2732953>).
 //!
 //! ```
-//! use lie_poisson::plot::Plot;
+//! use lie_plot::Plot;
 //!
 //! let mut plot = Plot::new("Circle, exact", &["t", "x", "y", "energy"], 2, (0.0, 10.0));
 //! for k in 0..=1000 {

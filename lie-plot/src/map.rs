@@ -1,7 +1,7 @@
 //! A map of experiments: a row for each method, a column for each experiment, a colour for what happened.
 //!
 //! ```
-//! use lie_poisson::plot::map::{Cell, Column, Map, Outcome};
+//! use lie_plot::map::{Cell, Column, Map, Outcome};
 //! let map = Map {
 //!     title: "Top".into(),
 //!     subtitle: String::new(),

@@ -5,7 +5,7 @@
 //! drawn in full strength with their names in bold; a pale band follows what is fastest of all classes.
 //!
 //! ```
-//! use lie_poisson::plot::frontier::{Curve, Frontier};
+//! use lie_plot::frontier::{Curve, Frontier};
 //! let curve = Curve {
 //!     name: "rk4".into(),
 //!     class: "linear invariants".into(),

@@ -1,6 +1,6 @@
 //! Broken macros: every error at the offending token, and none in the code that uses the type.
 //!
-//! After a change of a message, `TRYBUILD=overwrite cargo test --test compile_fail` writes the
+//! After a change of a message, `TRYBUILD=overwrite cargo test -p lie-runtime --test compile_fail` writes the
 //! `.stderr` files anew; read the difference before you commit it.
 
 #[test]

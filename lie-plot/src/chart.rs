@@ -1,7 +1,7 @@
 //! Lines and dots in panels side by side, each axis linear or logarithmic.
 //!
 //! ```
-//! use lie_poisson::plot::chart::{Axis, Chart, Panel, Series};
+//! use lie_plot::chart::{Axis, Chart, Panel, Series};
 //! let panel = Panel {
 //!     title: "Energy".into(),
 //!     x: Axis::logarithmic("time"),
