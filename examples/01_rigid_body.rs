@@ -61,7 +61,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         "method", "", "all", "first tenth", "last tenth", "growth"
     );
     let kept = run(LieMidpoint::exp(), "lie-midpoint")?;
-    let lost = run(Rk4, "rk4")?;
+    let lost = run(Rk4::new(), "rk4")?;
 
     let columns = [
         "t",

@@ -79,7 +79,7 @@ fn report<M: Method<f64, Top> + Copy>(
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut monitor = DriftMonitor::new();
-    let fine = run(Gauss6, 0.005, &mut monitor)?;
+    let fine = run(Gauss6::new(), 0.005, &mut monitor)?;
     let (_, reference) = fine.last().ok_or("an empty run")?;
 
     println!("heavy top, t = {END}, errors at the end against gauss6 with h = 0.005\n");
@@ -87,7 +87,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         "{:<22} {:>6} {:>10} {:>6} {:>10} {:>10} {:>8}",
         "method", "h", "error", "order", "energy", "Casimirs", "Newton"
     );
-    report("gauss6", Gauss6, reference)?;
+    report("gauss6", Gauss6::new(), reference)?;
     report("lie-midpoint, exp", LieMidpoint::exp(), reference)?;
     report("lie-midpoint, cayley", LieMidpoint::cayley(), reference)?;
 

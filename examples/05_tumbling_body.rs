@@ -63,21 +63,21 @@ fn main() -> Result<(), Box<dyn Error>> {
         PathBuf::from,
     );
     let exact = [
-        ("moser-veselov", change(MoserVeselov)?),
+        ("moser-veselov", change(MoserVeselov::new())?),
         ("lie-midpoint", change(LieMidpoint::exp())?),
         ("splitting4", change(Splitting4::new())?),
-        ("midpoint", change(ImplicitMidpoint)?),
+        ("midpoint", change(ImplicitMidpoint::new())?),
     ];
     println!("largest change of the spatial momentum, {END} time units, step {STEP}");
     for (name, change) in exact {
         println!("{name:<16} {change:.1e}");
         assert!(change < 1e-13, "{name} keeps the spatial momentum");
     }
-    let lost = change(Rk4)?;
+    let lost = change(Rk4::new())?;
     println!("{:<16} {lost:.1e}", "rk4");
     assert!(lost > 1e-8, "rk4 does not");
 
-    let (solution, attitude) = run(MoserVeselov, Chart::Quaternion)?;
+    let (solution, attitude) = run(MoserVeselov::new(), Chart::Quaternion)?;
     let signs = solution
         .mu
         .windows(2)

@@ -51,8 +51,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     );
     println!("over {} orbits:", 100);
     let rotation = |drift: &Drift| drift.casimirs.iter().map(|c| c.max).fold(0.0, f64::max);
-    let (_, kept) = run(EulerArnold2, 10.0 * END, STEP)?;
-    let (_, lost) = run(Rk4, 10.0 * END, STEP)?;
+    let (_, kept) = run(EulerArnold2::new(), 10.0 * END, STEP)?;
+    let (_, lost) = run(Rk4::new(), 10.0 * END, STEP)?;
     for (name, drift) in [("euler-arnold2", &kept), ("rk4", &lost)] {
         let growth = drift.energy.growth().unwrap_or(1.0);
         println!(
@@ -65,7 +65,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     assert!(kept.energy.growth().is_some_and(|growth| growth < 1.5));
     assert!(lost.energy.growth().is_some_and(|growth| growth > 5.0));
 
-    let (solution, _) = run(EulerArnold2, END, STEP)?;
+    let (solution, _) = run(EulerArnold2::new(), END, STEP)?;
     let columns = [
         "t",
         "roll",

@@ -62,10 +62,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let [q, p] = START;
     let options = Options::new(0.02);
     let canonical = Problem::new(Canonical::new().system()?, START, (0.0, END));
-    let canonical = solve(&canonical, Gauss6, &options)?;
+    let canonical = solve(&canonical, Gauss6::new(), &options)?;
     let circle = [p, q.cos(), -q.sin()];
     let on_circle = Problem::new(OnCircle::new().system()?, circle, (0.0, END));
-    let on_circle = solve(&on_circle, Gauss6, &options)?;
+    let on_circle = solve(&on_circle, Gauss6::new(), &options)?;
     let mut apart = 0.0_f64;
     for (a, b) in canonical.mu.iter().zip(&on_circle.mu) {
         let expected = [a[1], a[0].cos(), -a[0].sin()];
@@ -85,8 +85,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         "\nthe same in canonical coordinates, h = 0.5, t = {}",
         40.0 * END
     );
-    let kept = run(ImplicitMidpoint, "midpoint")?;
-    let lost = run(Rk4, "rk4")?;
+    let kept = run(ImplicitMidpoint::new(), "midpoint")?;
+    let lost = run(Rk4::new(), "rk4")?;
     let columns = ["t", "q", "p", "energy, midpoint", "energy, rk4"];
     let mut plot = Plot::new(
         "Pendulum in canonical coordinates",

@@ -53,10 +53,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         "method", "energy", "Casimir", "growth"
     );
     let (kept, first) = run(CohenHairer4::new(), "cohen-hairer4")?;
-    let (_, second) = run(MeanValue, "mean-value")?;
-    let mean = WithTensor::new(MeanValue, MeanTensor);
+    let (_, second) = run(MeanValue::new(), "mean-value")?;
+    let mean = WithTensor::new(MeanValue::new(), MeanTensor);
     let (_, third) = run(mean, "mean-value --tensor mean")?;
-    let (lost, control) = run(Rk4, "rk4")?;
+    let (lost, control) = run(Rk4::new(), "rk4")?;
     assert!(
         first.max(second).max(third) < 1e-12,
         "the energy is not kept"

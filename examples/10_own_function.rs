@@ -69,7 +69,7 @@ fn run<M: Method<f64, RingTopSystem>>(
 
 fn main() -> Result<(), Box<dyn Error>> {
     let kept = run("lie-midpoint", LieMidpoint::exp())?;
-    let lost = run("rk4", Rk4)?;
+    let lost = run("rk4", Rk4::new())?;
     let columns = [
         "t",
         "Gamma1",

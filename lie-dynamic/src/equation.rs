@@ -5,6 +5,7 @@ use crate::matrix::Matrix;
 use crate::system::{Dynamic, FusedCodes};
 use lie_codegen::methods::Choice;
 use lie_codegen::plan::{Chart, Ending, Fused, Guess, Item, Partner, Solver};
+use lie_codegen::trace::COMPLETED;
 use lie_core::generic;
 use lie_runtime::methods::Retraction;
 use lie_runtime::{Equation, Mask as _, Poisson, Scalar, StageMatrix, Unknown};
@@ -127,6 +128,28 @@ impl<S: Scalar> Running<'_, S> {
     }
 }
 
+impl<S, G> Planned<'_, S, G>
+where
+    S: Scalar,
+    G: Equation<S, State = Vec<S>>,
+{
+    /// The generic equation at the state of the fused one, and the unknown with what the iteration left out.
+    fn partner(&mut self, unknown: &G::Unknown) -> (&mut G, Option<G::Unknown>) {
+        let Some(fused) = &self.fused else {
+            return (&mut self.generic, None);
+        };
+        self.generic.set_base(&fused.base);
+        let completed = fused.codes.completed.map(|code| {
+            let mut all = unknown.clone();
+            let targets = [all.part_mut(0), &mut []];
+            let at = (self.h, unknown.part(0));
+            fused.run(self.system, (code, COMPLETED), at, targets);
+            all
+        });
+        (&mut self.generic, completed)
+    }
+}
+
 impl<S, G> Equation<S> for Planned<'_, S, G>
 where
     S: Scalar,
@@ -237,8 +260,8 @@ where
         match fused.row.ending {
             Ending::Unknown => mu.copy_from_slice(unknown.part(0)),
             Ending::Partner => {
-                self.generic.set_base(&fused.base);
-                self.generic.result(unknown, mu);
+                let (generic, completed) = self.partner(unknown);
+                generic.result(completed.as_ref().unwrap_or(unknown), mu);
             }
             Ending::Kernel => {
                 let Some(code) = fused.codes.result else {
@@ -269,7 +292,8 @@ where
         match fused.row.chart {
             None => S::Mask::splat(true),
             Some(Chart::OfField) => {
-                let point = unknown.part(0).to_vec();
+                let (_, completed) = self.partner(unknown);
+                let point = completed.as_ref().unwrap_or(unknown).part(0).to_vec();
                 generic::cayley_chart_of_step(self.system, self.h, &point)
             }
             Some(Chart::OfFactor) => {
@@ -278,23 +302,19 @@ where
                 generic::cayley_chart(self.system, &xi)
             }
             Some(Chart::OfPartner) => {
-                self.generic.set_base(&fused.base);
-                self.generic.within_chart(unknown)
+                let (generic, completed) = self.partner(unknown);
+                generic.within_chart(completed.as_ref().unwrap_or(unknown))
             }
         }
     }
 
     fn group_factor(&mut self, unknown: &Self::Unknown, xi: &mut Vec<S>) -> Option<Retraction> {
-        if let Some(fused) = &self.fused {
-            self.generic.set_base(&fused.base);
-        }
-        self.generic.group_factor(unknown, xi)
+        let (generic, completed) = self.partner(unknown);
+        generic.group_factor(completed.as_ref().unwrap_or(unknown), xi)
     }
 
     fn velocity(&mut self, unknown: &Self::Unknown, stage: usize, xi: &mut Vec<S>) -> usize {
-        if let Some(fused) = &self.fused {
-            self.generic.set_base(&fused.base);
-        }
-        self.generic.velocity(unknown, stage, xi)
+        let (generic, completed) = self.partner(unknown);
+        generic.velocity(completed.as_ref().unwrap_or(unknown), stage, xi)
     }
 }

@@ -64,6 +64,8 @@ pub(crate) struct FusedCodes {
     pub linearize: usize,
     pub guess: Place,
     pub result: Place,
+    /// What completes the unknown, where the iteration leaves some of it out.
+    pub completed: Place,
     pub step: OfStep,
     pub table: Table,
     /// The cost of an iteration with a Jacobian in those without.
@@ -128,7 +130,7 @@ impl Making {
         let residual = self.kernel(named("residual")?);
         let linearize = Code::of_kernel(named("linearize")?, self.size);
         let linearize = Code {
-            clear: [None, None],
+            clear: [linearize.clear[0], None],
             ..linearize.with_zeros(&fused.elimination.fill, self.size)
         };
         let costs = fused.costs();
@@ -138,6 +140,7 @@ impl Making {
             linearize: self.push(linearize),
             guess: named("initial_guess").map(|function| self.kernel(function)),
             result: named("result").map(|function| self.kernel(function)),
+            completed: fused.completed().map(|function| self.kernel(function)),
             step: self.step(&fused.step),
             table: Table::new(&fused.elimination),
             cost: costs.map(|[with, without]| with as f64 / without as f64),

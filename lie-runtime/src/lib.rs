@@ -83,6 +83,8 @@ pub use lie_core::{
 };
 #[cfg(feature = "macros")]
 pub use lie_macros::lie_poisson;
+/// The library of the states and matrices of generated systems, in the version that they have.
+pub use nalgebra;
 
 /// What a program usually needs.
 pub mod prelude {

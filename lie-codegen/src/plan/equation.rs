@@ -6,6 +6,7 @@ use super::function::Function;
 use super::recurrence::Recurrence;
 use crate::methods::{self, Choice, Lift};
 use crate::schedule::Counts;
+use crate::trace::COMPLETED;
 
 /// A definition that the steps of methods are made of.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -67,6 +68,13 @@ pub struct Fused {
 }
 
 impl Fused {
+    /// The kernel that completes the unknowns, where the iteration leaves some out.
+    pub fn completed(&self) -> Option<&Function> {
+        self.functions
+            .iter()
+            .find(|function| function.name == COMPLETED)
+    }
+
     /// What an iteration with a Jacobian costs and one without, in instructions about: the operations of their kernels,
     /// and what the iteration does with each coordinate.
     pub fn costs(&self) -> Option<[usize; 2]> {

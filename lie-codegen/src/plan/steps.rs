@@ -312,14 +312,14 @@ pub(super) fn of_stages(stages: usize, n: usize, block: &Pattern) -> Elimination
     Elimination::new(stages * n, &pattern, &unit)
 }
 
-/// The elimination of a Jacobian; diagonal entries that are the number one are known to be it.
+/// The elimination of a Jacobian; diagonal entries that are the number one are known to be it. So are those of empty rows,
+/// whose unknowns the iteration leaves out.
 fn of_jacobian(n: usize, places: &[(usize, usize)], program: &Program) -> Elimination {
     let matrix = &program.outputs[program.outputs.len() - places.len()..];
     let one = |value: &Value| matches!(value, Value::Number(number) if number.is_one());
     let entries = places.iter().zip(matrix);
-    let unit: BTreeSet<usize> = entries
-        .filter(|((i, j), value)| i == j && one(value))
-        .map(|((i, _), _)| *i)
-        .collect();
+    let unit = entries.filter(|((i, j), value)| i == j && one(value));
+    let left_out = (0..n).filter(|row| places.iter().all(|(i, _)| i != row));
+    let unit: BTreeSet<usize> = unit.map(|((i, _), _)| *i).chain(left_out).collect();
     Elimination::new(n, places, &unit)
 }

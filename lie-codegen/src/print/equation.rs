@@ -4,13 +4,14 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use super::Printer;
-use super::function::{Body, Owner, entries, matrix_entries};
+use super::function::{Body, Owner, matrix_entries, vector_writes};
 use super::names::{ident, index};
 use crate::derive::Shape;
 use crate::plan::elimination::Elimination;
 use crate::plan::{Chart, Constants, Ending, Function, Fused, Guess, Motion, Partner};
 use crate::schedule::Value;
 use crate::symbolic::Symbol;
+use crate::trace::COMPLETED;
 
 /// The constants of a step size: fields of a struct, how they are computed, the fields of its value.
 pub(super) struct StepConstants {
@@ -32,6 +33,7 @@ impl Printer<'_> {
             values,
         } = self.step_constants(&fused.step);
         let methods = self.equation_methods(fused);
+        let completed = self.completed(fused);
         let table = self.table(fused);
         quote! {
             #(#[doc = #docs])*
@@ -51,6 +53,8 @@ impl Printer<'_> {
                     #statements
                     Self { system, base: ::lie_runtime::Poisson::zero_state(system), h, #values }
                 }
+
+                #completed
             }
 
             #[allow(non_snake_case, clippy::many_single_char_names)]
@@ -77,6 +81,28 @@ impl Printer<'_> {
 
             #table
         }
+    }
+
+    /// The unknowns that the iteration leaves out, computed from the others.
+    fn completed(&self, fused: &Fused) -> Option<TokenStream> {
+        let function = fused.completed()?;
+        let (n, docs) = (index(self.plan.dimension()), self.docs(function));
+        let (unknown, all) = (self.argument("unknown"), self.argument("mu"));
+        let place = self.places_of_arguments(fused);
+        let body = self.body(
+            function,
+            &Body::of(Owner::Equation(&fused.step), &place, &["mu"]),
+        );
+        let state = quote! { ::lie_runtime::__private::SVector<S, #n> };
+        Some(quote! {
+            #docs
+            #[allow(non_snake_case)]
+            fn completed(&self, #unknown: &#state) -> #state {
+                let mut #all = *#unknown;
+                #body
+                #all
+            }
+        })
     }
 
     /// The list of an elimination that is not written out.
@@ -112,7 +138,7 @@ impl Printer<'_> {
     }
 
     fn equation_methods(&self, fused: &Fused) -> TokenStream {
-        let functions = fused.functions.iter();
+        let functions = fused.functions.iter().filter(|f| f.name != COMPLETED);
         let kernels: TokenStream = functions.map(|f| self.equation_kernel(fused, f)).collect();
         let ending = self.ending(fused);
         let guess = initial_guess(fused.guess);
@@ -192,7 +218,7 @@ impl Printer<'_> {
         };
         let (residual, matrix) = (self.argument("residual"), self.argument("matrix"));
         let (vector, slopes) = outputs.split_at(indices.len());
-        let vector = entries(&residual, indices, vector);
+        let vector = vector_writes(&residual, indices, vector, self.plan.dimension());
         let slopes = matrix_entries(&matrix, places, slopes);
         let fill = &fused.elimination.fill;
         let zeros = vec![quote! { S::zero() }; fill.len()];
@@ -206,8 +232,9 @@ impl Printer<'_> {
             Ending::Kernel => return None,
             Ending::Unknown => quote! { *mu = *unknown; },
             Ending::Partner => {
-                let partner = self.partner_here(fused);
+                let (partner, completion) = (self.partner_here(fused), Self::completion(fused));
                 quote! {
+                    #completion
                     let mut equation = #partner;
                     ::lie_runtime::Equation::set_base(&mut equation, &self.base);
                     ::lie_runtime::Equation::result(&mut equation, unknown, mu);
@@ -222,16 +249,23 @@ impl Printer<'_> {
         })
     }
 
+    /// Completes the unknown for an equation that reads all of it.
+    fn completion(fused: &Fused) -> Option<TokenStream> {
+        let completed = quote! { let unknown = &self.completed(unknown); };
+        fused.completed().map(|_| completed)
+    }
+
     fn partner_here(&self, fused: &Fused) -> TokenStream {
         self.partner_value(&fused.partner, &quote! { self.system }, &quote! { self.h })
     }
 
     /// How a solved step moves the group element: the generic equation says it.
     fn motion(&self, fused: &Fused) -> TokenStream {
-        let partner = self.partner_here(fused);
+        let (partner, completion) = (self.partner_here(fused), Self::completion(fused));
         let factor = (fused.motion != Motion::Velocity).then(|| {
             quote! {
                 fn group_factor(&mut self, unknown: &Self::State, xi: &mut Self::State) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
+                    #completion
                     let mut equation = #partner;
                     ::lie_runtime::Equation::set_base(&mut equation, &self.base);
                     ::lie_runtime::Equation::group_factor(&mut equation, unknown, xi)
@@ -241,6 +275,7 @@ impl Printer<'_> {
         let velocity = (fused.motion != Motion::Factor).then(|| {
             quote! {
                 fn velocity(&mut self, unknown: &Self::State, stage: usize, xi: &mut Self::State) -> usize {
+                    #completion
                     let mut equation = #partner;
                     ::lie_runtime::Equation::set_base(&mut equation, &self.base);
                     ::lie_runtime::Equation::velocity(&mut equation, unknown, stage, xi)
@@ -252,8 +287,10 @@ impl Printer<'_> {
 
     /// Whether the element of a step is joined to the identity.
     fn within_chart(&self, fused: &Fused, chart: Chart) -> TokenStream {
+        let completion = Self::completion(fused);
         let joined = match chart {
             Chart::OfField => quote! {
+                #completion
                 ::lie_runtime::generic::cayley_chart_of_step(self.system, self.h, unknown)
             },
             Chart::OfFactor => quote! {
@@ -264,6 +301,7 @@ impl Printer<'_> {
             Chart::OfPartner => {
                 let partner = self.partner_here(fused);
                 quote! {
+                    #completion
                     let mut equation = #partner;
                     ::lie_runtime::Equation::set_base(&mut equation, &self.base);
                     ::lie_runtime::Equation::within_chart(&mut equation, unknown)

@@ -171,7 +171,7 @@ fn zeros(target: &Ident) -> TokenStream {
 }
 
 /// Writes of a vector; entries that vanish identically are filled with zero first.
-fn vector_writes(
+pub(super) fn vector_writes(
     target: &Ident,
     indices: &[usize],
     outputs: &[TokenStream],

@@ -2,6 +2,7 @@
 
 use lie_core::{Equation, SquareMatrix};
 
+use super::apart::Apart;
 use super::sym::{Session, Sym, with, within};
 use super::system::{Square, SymbolicSystem};
 use crate::derive::{Argument, Block, Derived, Kernel, Source, Tangents, Tape, leaner_jacobian};
@@ -9,6 +10,9 @@ use crate::symbolic::{ExprId, Symbol};
 
 /// A list with more definitions for each entry of the unknown is long.
 const LONG: usize = 4;
+
+/// The kernel that completes the unknowns.
+pub const COMPLETED: &str = "completed";
 
 /// What a step says of itself in formulas.
 #[derive(Clone, Copy, Debug)]
@@ -207,45 +211,86 @@ pub(crate) fn values(
 }
 
 /// The kernels of a method: residual, residual with its Jacobian, and where the trace has them the start of the
-/// iteration and the state at the end, unless that is the unknown. `None` where the equation depends on comparisons.
+/// iteration and the state at the end, unless that is the unknown. Unknowns that the iteration need not find are left out
+/// of residual and Jacobian; a kernel of its own completes them. `None` where the equation depends on comparisons.
 pub fn kernels(
     source: &mut Source,
     formulas: &Formulas,
     run: impl FnOnce(&SymbolicSystem, Sym) -> Step,
 ) -> Option<Vec<Kernel>> {
     let (step, tape, given) = traced(source, run)?;
-    let end = step
-        .result
-        .filter(|end| *end != source.block(Block::Unknown));
-    let (rows, slopes) = match step.rows {
+    let mut end = step.result;
+    let (mut rows, slopes) = match step.rows {
         Some(rows) => (rows, tape.clone()),
         None => differentiated(source, step.of_residual, &step.residual, step.tangents),
     };
+    let mut residual = step.residual;
+    let mut lists = [&tape, &slopes].map(|tape| tape.definitions().to_vec());
+    // what is given from outside depends on all unknowns, and a state at the end that is not traced as well
+    let alone = end.is_some() && given.symbols.is_empty();
+    let apart = alone.then(|| Apart::find(source, &lists[0], &residual, &rows));
+    let completed = apart.flatten().map(|apart| {
+        let zero = source.graph.integer(0);
+        let iterated = |i: usize| !apart.holds(i);
+        for (i, entry) in residual.iter_mut().enumerate() {
+            *entry = if iterated(i) {
+                apart.value(source, *entry)
+            } else {
+                zero
+            };
+        }
+        for (i, row) in rows.iter_mut().enumerate() {
+            for (j, entry) in row.iter_mut().enumerate() {
+                let stays = iterated(i) && iterated(j);
+                *entry = if stays {
+                    apart.value(source, *entry)
+                } else {
+                    zero
+                };
+            }
+        }
+        for entry in end.iter_mut().flatten() {
+            *entry = apart.value(source, *entry);
+        }
+        lists = [0, 1].map(|k| apart.list(source, &lists[k]));
+        apart.completed(source)
+    });
+    end = end.filter(|end| *end != source.block(Block::Unknown));
     let graph = &source.graph;
-    let residual = Kernel::vector(
-        graph,
-        "residual",
-        formulas.residual,
-        Vec::new(),
-        &step.residual,
-    );
+    let vector = |name, formula, entries: &[ExprId]| {
+        Kernel::vector(graph, name, formula, Vec::new(), entries)
+    };
     let both = Kernel::fused(
         graph,
         "linearize",
         formulas.linearize,
         Vec::new(),
-        &step.residual,
+        &residual,
         &rows,
     );
-    let result = end.map(|end| Kernel::vector(graph, "result", formulas.result, Vec::new(), &end));
-    let guess = step.guess.map(|(guess, formula)| {
-        Kernel::vector(graph, "initial_guess", formula, Vec::new(), &guess)
+    let [plain, derived] = &lists;
+    let guess = step
+        .guess
+        .map(|(guess, formula)| vector("initial_guess", formula, &guess));
+    let kernels = guess.map(|guess| (guess, plain)).into_iter();
+    let kernels = kernels.chain([
+        (vector("residual", formulas.residual, &residual), plain),
+        (both, derived),
+    ]);
+    let end = end.map(|end| vector("result", formulas.result, &end));
+    let completed = completed.map(|all| {
+        vector(
+            COMPLETED,
+            "All unknowns: those that the iteration leaves out by their formulas.",
+            &all,
+        )
     });
-    let kernels = guess.map(|guess| (guess, &tape)).into_iter();
-    let kernels = kernels.chain([(residual, &tape), (both, &slopes)]);
-    let kernels = kernels.chain(result.map(|result| (result, &tape)));
-    let complete =
-        |(kernel, list): (Kernel, &Tape)| source.complete(kernel, list.definitions(), &given);
+    let kernels = kernels.chain(
+        end.into_iter()
+            .chain(completed)
+            .map(|kernel| (kernel, plain)),
+    );
+    let complete = |(kernel, list): (Kernel, &Vec<_>)| source.complete(kernel, list, &given);
     Some(kernels.map(complete).collect())
 }
 

@@ -5,11 +5,12 @@
 //! marks what it compares as given from outside. The Jacobian is found by differentiation, or is that which the
 //! equation states.
 
+mod apart;
 mod equation;
 mod sym;
 mod system;
 
-pub use equation::{Formulas, Step, kernels, step};
+pub use equation::{COMPLETED, Formulas, Step, kernels, step};
 pub(crate) use equation::{linearized, values, whole};
 pub use sym::Sym;
 pub use system::{Square, SymbolicSystem};
@@ -54,5 +55,67 @@ mod tests {
             step(generic::ExpMidpoint::new(system, h))
         });
         assert!(found.is_none());
+    }
+
+    /// The coordinates that the iteration of an equation leaves out.
+    fn left_out(
+        spec: &str,
+        kernels: fn(&mut Source) -> Option<Vec<crate::derive::Kernel>>,
+    ) -> Vec<usize> {
+        let model = compile_spec(spec).expect("a sound spec");
+        let mut source = Source::of(&model);
+        let algebra = model.bracket.algebra().expect("an algebra");
+        source.exponential = crate::structure::exponential::closed_form(&algebra.exact);
+        let kernels = kernels(&mut source).expect("one path");
+        let residual = kernels.iter().find(|kernel| kernel.name == "residual");
+        let crate::derive::Shape::Vector(indices) = &residual.expect("a residual").shape else {
+            panic!("the residual is a vector")
+        };
+        let iterated: Vec<usize> = indices.clone();
+        let left_out = (0..source.dimension).filter(|i| !iterated.contains(i));
+        let left_out: Vec<usize> = left_out.collect();
+        let completed = kernels.iter().any(|kernel| kernel.name == super::COMPLETED);
+        assert_eq!(completed, !left_out.is_empty());
+        left_out
+    }
+
+    fn spec_of(algebra: &str, state: &str, hamiltonian: &str, initial: &str) -> String {
+        format!(
+            r#"{{ "format": 1, "name": "Body", "algebra": {algebra}, "state": [{state}],
+            "hamiltonian": "{hamiltonian}", "initial": [{initial}] }}"#
+        )
+    }
+
+    /// `exp(ad*_x)` for `x = h grad H(m)` does not know a coordinate in which H is linear with a constant coefficient.
+    #[test]
+    fn what_the_gradient_does_not_know_is_left_out() {
+        let exp = |source: &mut Source| source.exp_kernels();
+        let se3 = r#""se(3)""#;
+        let state = r#""a", "b", "c", "x", "y", "z""#;
+        let of = |hamiltonian: &str| {
+            left_out(&spec_of(se3, state, hamiltonian, "1, 1, 1, 0, 0, 1"), exp)
+        };
+        assert_eq!(of("a^2 + b^2/2 + c^2/3 + z"), [3, 4, 5], "the heavy top");
+        assert_eq!(of("a^2 + b^2/2 + c^2/3 + z^2"), [3, 4]);
+        assert_eq!(of("a^2 + b^2/2 + c^2/3 + x^2 + y^2/2 + z^2/3"), [0; 0]);
+        assert_eq!(left_out(SPEC, exp), [0; 0]);
+        assert_eq!(
+            left_out(SPEC, |source| Some(source.midpoint_kernels())),
+            [0; 0]
+        );
+    }
+
+    /// Time, the central coordinate of its pair, and the momentum conjugate to time.
+    #[test]
+    fn time_is_not_iterated() {
+        let spec = SPEC.replace("z^4/5", "z^4/5 + x*sin(t)");
+        let all = Source::of(&compile_spec(&spec).expect("a sound spec")).dimension;
+        let hidden: Vec<usize> = (3..all).collect();
+        assert_eq!(hidden.len(), 3, "time, its momentum, one");
+        assert_eq!(
+            left_out(&spec, |source| Some(source.midpoint_kernels())),
+            hidden
+        );
+        assert_eq!(left_out(&spec, |source| source.exp_kernels()), hidden);
     }
 }

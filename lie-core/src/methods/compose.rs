@@ -49,7 +49,7 @@ const SIZES: usize = 9;
 ///
 /// ```compile_fail
 /// use lie_core::methods::{Compose4, Rk4};
-/// let method = Compose4::new(Rk4);
+/// let method = Compose4::new(Rk4::new());
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Compose<M, const ORDER: u32> {

@@ -30,6 +30,9 @@
 //!
 //! By Taylor series, with order and step from a tolerance: [`Taylor`] of the solution itself, [`LieTaylor`] in the algebra.
 //!
+//! Every method is made by `new()`, at the defaults of the command line; a choice has a constructor of its own name, as
+//! [`LieMidpoint::cayley`] has.
+//!
 //! [`Rk4`] and [`Dopri5`] keep no structure: they are there to compare with. What a method keeps is data,
 //! see [`Facts`].
 #![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
@@ -58,6 +61,7 @@ pub mod lie_euler;
 pub mod lie_midpoint;
 pub mod lie_taylor;
 mod lifted;
+mod made;
 pub mod mean_value;
 pub mod midpoint;
 pub mod moser_veselov;

@@ -55,7 +55,7 @@ impl AlongGradient for ItohAbe {
 ///
 /// ```
 /// use lie_core::methods::{MeanTensor, MeanValue, WithTensor};
-/// let method = WithTensor::new(MeanValue, MeanTensor);
+/// let method = WithTensor::new(MeanValue::new(), MeanTensor);
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct WithTensor<G, T> {

@@ -28,6 +28,17 @@ pub struct Claims {
 }
 
 impl Claims {
+    /// Of a method of order 1 that solves nothing and keeps nothing: name what differs, as in
+    /// `Claims { order: 2, ..Claims::NONE }`.
+    pub const NONE: Self = Self {
+        order: 1,
+        symmetric: false,
+        explicit: true,
+        fixed_point: false,
+        own_steps: false,
+        preserves: Preserves::NOTHING,
+    };
+
     /// What a method says of itself.
     pub const fn of<M: Facts>() -> Self {
         Self {
