@@ -1,19 +1,25 @@
 //! Steps that are written here, measured beside what is claimed of them.
 
-mod systems;
-
 use std::convert::Infallible;
 
-use lie_runtime::State as _;
 use lie_runtime::diagnostics::{Claims, StepVerification, Verdict, verify_step};
 use lie_runtime::methods::Preserves;
 use lie_runtime::prelude::*;
-use systems::rigid_body::RigidBody;
 
-type Vector = <RigidBody<f64> as Poisson<f64>>::State;
+lie_poisson! {
+    system RigidBody;
+    algebra = so(3);
+    state x, y, z;
+    hamiltonian = (x^2 + y^2/2 + z^2/3)/2;
+    casimir C = x^2 + y^2 + z^2;
+    methods = [rk4];
+}
+
+type Body = RigidBodySystem<f64>;
+type Vector = lie_runtime::nalgebra::Vector3<f64>;
 
 /// The implicit midpoint rule, by fixed-point iteration.
-fn midpoint(body: &RigidBody<f64>, mu: &mut Vector, h: f64) -> Result<(), Infallible> {
+fn midpoint(body: &Body, mu: &mut Vector, h: f64) -> Result<(), Infallible> {
     let (mut next, mut field) = (*mu, *mu);
     for _ in 0..100 {
         body.vector_field(&((*mu + next) / 2.0), &mut field);
@@ -24,7 +30,7 @@ fn midpoint(body: &RigidBody<f64>, mu: &mut Vector, h: f64) -> Result<(), Infall
 }
 
 /// Rotations about the axes, there and back: the flows of `x^2/2 I1`, `y^2/2 I2`, `z^2/2 I3`, each exact.
-fn rotations(body: &RigidBody<f64>, mu: &mut Vector, h: f64) -> Result<(), Infallible> {
+fn rotations(body: &Body, mu: &mut Vector, h: f64) -> Result<(), Infallible> {
     let mut gradient = *mu;
     for (axis, part) in [(0, 0.5), (1, 0.5), (2, 1.0), (1, 0.5), (0, 0.5)] {
         body.gradient(mu, &mut gradient);
@@ -37,9 +43,9 @@ fn rotations(body: &RigidBody<f64>, mu: &mut Vector, h: f64) -> Result<(), Infal
 
 fn verify(
     claims: &Claims,
-    step: impl Fn(&RigidBody<f64>, &mut Vector, f64) -> Result<(), Infallible>,
+    step: impl Fn(&Body, &mut Vector, f64) -> Result<(), Infallible>,
 ) -> StepVerification {
-    let body = RigidBody::<f64>::default();
+    let body = RigidBody::new().system().expect("finite parameters");
     let found = verify_step(&body, &[0.9, 0.3, 0.4].into(), 0.4, claims, |mu, h| {
         step(&body, mu, h)
     });
@@ -119,16 +125,16 @@ fn what_does_not_hold_is_violated() {
         rotations,
     );
     // a sign
-    let backwards = |body: &RigidBody<f64>, mu: &mut Vector, h: f64| rotations(body, mu, -h);
+    let backwards = |body: &Body, mu: &mut Vector, h: f64| rotations(body, mu, -h);
     assert_eq!(
         verdict(&verify(&ROTATIONS, backwards), "order"),
         Verdict::Violated
     );
     // half of it
-    let first = |body: &RigidBody<f64>, mu: &mut Vector, h: f64| {
+    let first = |body: &Body, mu: &mut Vector, h: f64| {
         let mut field = *mu;
         body.vector_field(mu, &mut field);
-        mu.axpy(h, &field);
+        *mu += h * field;
         Ok(())
     };
     let found = verify(
@@ -148,7 +154,7 @@ fn what_does_not_hold_is_violated() {
 /// At a short step a method that keeps nothing passes as well, and nothing is decided.
 #[test]
 fn a_short_step_decides_nothing() {
-    let body = RigidBody::<f64>::default();
+    let body = RigidBody::new().system().expect("finite parameters");
     let mu = [0.9, 0.3, 0.4].into();
     let found = verify_step(&body, &mu, 1e-4, &MIDPOINT, |mu, h| midpoint(&body, mu, h));
     let found = found.unwrap_or_else(|never| match never {});
@@ -160,7 +166,7 @@ fn a_short_step_decides_nothing() {
 /// The error of a step ends the verification.
 #[test]
 fn an_error_is_passed_on() {
-    let body = RigidBody::<f64>::default();
+    let body = RigidBody::new().system().expect("finite parameters");
     let fails = |_: &mut Vector, _| Err("no convergence");
     let found = verify_step(&body, &[0.9, 0.3, 0.4].into(), 0.1, &Claims::NONE, fails);
     assert_eq!(found, Err("no convergence"));

@@ -98,6 +98,14 @@ pub enum OptionError {
         "no step was found that keeps the tolerance {0}: the error of a step does not decrease with its size"
     )]
     NoStep(f64),
+    /// The initial state has not one number for each coordinate.
+    #[error("the initial state has length {found}, the system {expected} coordinates")]
+    StateLength {
+        /// The number of coordinates.
+        expected: usize,
+        /// The length of the state.
+        found: usize,
+    },
     /// Start or end is infinite or not a number.
     #[error("start and end must be finite, not {0} and {1}")]
     Span(f64, f64),

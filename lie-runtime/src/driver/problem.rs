@@ -2,6 +2,7 @@
 
 use crate::poisson::Poisson;
 use crate::scalar::Scalar;
+use nalgebra::SVector;
 
 /// A system, an initial state and a span of time.
 #[derive(Clone, Debug)]
@@ -14,12 +15,50 @@ pub struct Problem<S: Scalar, P: Poisson<S>> {
     pub span: (f64, f64),
 }
 
+/// What a state of type V is made from: a state, or an array with a number for each coordinate.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a state of this system",
+    label = "not one number for each coordinate",
+    note = "a state is an array with as many numbers as the system has coordinates, or a vector of `lie_runtime::nalgebra` of that length; \
+            the declaration lists the coordinates behind `state`"
+)]
+pub trait IntoState<V> {
+    /// The state.
+    fn into_state(self) -> V;
+}
+
+impl<V> IntoState<V> for V {
+    fn into_state(self) -> V {
+        self
+    }
+}
+
+impl<S: Scalar, const N: usize> IntoState<SVector<S, N>> for [S; N] {
+    fn into_state(self) -> SVector<S, N> {
+        self.into()
+    }
+}
+
+#[cfg(feature = "std")]
+impl<S, const N: usize> IntoState<std::vec::Vec<S>> for [S; N] {
+    fn into_state(self) -> std::vec::Vec<S> {
+        self.into()
+    }
+}
+
+#[cfg(feature = "std")]
+impl<S: Clone> IntoState<std::vec::Vec<S>> for &[S] {
+    fn into_state(self) -> std::vec::Vec<S> {
+        self.to_vec()
+    }
+}
+
 impl<S: Scalar, P: Poisson<S>> Problem<S, P> {
     /// A problem from system, initial state and span `(t0, t1)`.
-    pub fn new(system: P, mu0: impl Into<P::State>, span: (f64, f64)) -> Self {
+    pub fn new(system: P, mu0: impl IntoState<P::State>, span: (f64, f64)) -> Self {
         Self {
             system,
-            mu0: mu0.into(),
+            mu0: mu0.into_state(),
             span,
         }
     }

@@ -13,6 +13,7 @@ use super::stats::{Stats, Status};
 use crate::methods::Method;
 use crate::poisson::Poisson;
 use crate::scalar::Scalar;
+use crate::state::State as _;
 use thiserror::Error;
 
 /// A run without a recorder that could not start or failed.
@@ -97,6 +98,10 @@ pub fn integrate<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
     options: &Options,
     observer: &mut impl Observer<S, P>,
 ) -> Result<(Stats, Status), IntegrateError> {
+    let (expected, found) = (problem.system.dimension(), problem.mu0.as_slice().len());
+    if expected != found {
+        return Err(OptionError::StateLength { expected, found }.into());
+    }
     let (mut step, mut settled) = settle(problem, &method, options)?;
     let mut assessed = None;
     if let (Some(first), true) = (&settled, options.assess) {
