@@ -5,6 +5,7 @@
 //! // in tests/golden.rs of a crate that keeps its systems in specs/
 //! let mut golden = Golden::new("tests/golden");
 //! golden.spec("specs/heavy_top.json", &["lie-midpoint", "gauss4"]);
+//! golden.source("src/bodies.rs"); // every `lie_poisson! { … }` in it
 //! golden.check().unwrap();
 //! ```
 //!
@@ -12,18 +13,21 @@
 //! is then seen in the version control. A file of the folder that no system claims any more is an
 //! error, and so is a file that is missing.
 
+mod source;
+
 use std::collections::BTreeMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
 use crate::characters::visible;
-use crate::compile::{compile_spec, expand, with_options};
-use crate::diagnostic::{MOST_SHOWN, Origin, not_shown};
+use crate::compile::{compile_spec, declared_choices, expand, with_options};
+use crate::diagnostic::{Diagnostic, MOST_SHOWN, Origin, not_shown};
 use crate::front::line_column;
 use crate::methods::Choice;
 use crate::model::Model;
 use crate::plan::plan;
 use crate::print::Runtime;
+use source::Declared;
 
 /// The environment variable that makes [`Golden::check`] write instead of compare.
 pub const UPDATE: &str = "LIE_UPDATE_GOLDEN";
@@ -93,13 +97,30 @@ impl Golden {
     /// Adds the generated code of a spec file with fused code for the methods (every option of an
     /// id that applies). The golden file bears the name of the spec.
     pub fn spec(&mut self, path: impl AsRef<Path>, methods: &[&str]) -> &mut Self {
-        self.of_spec(path.as_ref(), methods, "rs", expand)
+        self.of_spec(path.as_ref(), Some(methods), "rs", expand)
+    }
+
+    /// Adds the generated code of every `lie_poisson! { … }` of a Rust source file, with the methods that each declares. The
+    /// golden file bears the name of the system, or that of the spec which the macro names.
+    pub fn source(&mut self, path: impl AsRef<Path>) -> &mut Self {
+        match source::declarations(path.as_ref()) {
+            Ok(declared) => {
+                for declared in declared {
+                    match declared {
+                        Declared::Code(name, code) => self.text(&format!("{name}.rs"), code),
+                        Declared::Spec(path) => self.of_spec(Path::new(&path), None, "rs", expand),
+                    };
+                }
+            }
+            Err(problem) => self.problems.push(problem),
+        }
+        self
     }
 
     /// Adds the plan of that code: formulas, operation counts and a digest of each kernel, which changes with its
     /// operations. It is short enough to be reviewed; the file ends in `.plan`.
     pub fn plan(&mut self, path: impl AsRef<Path>, methods: &[&str]) -> &mut Self {
-        self.of_spec(path.as_ref(), methods, "plan", |model, choices| {
+        self.of_spec(path.as_ref(), Some(methods), "plan", |model, choices| {
             plan(model, choices).to_string()
         })
     }
@@ -107,7 +128,7 @@ impl Golden {
     fn of_spec(
         &mut self,
         path: &Path,
-        methods: &[&str],
+        methods: Option<&[&str]>,
         extension: &str,
         write: impl FnOnce(&Model, &[Choice]) -> String,
     ) -> &mut Self {
@@ -204,8 +225,15 @@ impl Golden {
     }
 }
 
-/// The checked system of a spec file, and the methods with every option that applies.
-fn read(path: &Path, methods: &[&str]) -> Result<(Model, Vec<Choice>), String> {
+/// A diagnostic with its remedy.
+fn message(place: &str, d: &Diagnostic) -> String {
+    let help = d.help.as_deref().unwrap_or("correct the declaration");
+    let text = format!("{place}: error[{}]: {}{REMEDY}{help}", d.kind, d.message);
+    visible(&text).into_owned()
+}
+
+/// The checked system of a spec file, and the methods with every option that applies; by default those that it declares.
+fn read(path: &Path, methods: Option<&[&str]>) -> Result<(Model, Vec<Choice>), String> {
     let place = path.display();
     let text = std::fs::read_to_string(path).map_err(|error| format!("{place}: {error}"))?;
     let model = compile_spec(&text).map_err(|diagnostics| {
@@ -221,14 +249,16 @@ fn read(path: &Path, methods: &[&str]) -> Result<(Model, Vec<Choice>), String> {
                     }
                     _ => place.to_string(),
                 };
-                let help = d.help.as_deref().unwrap_or("correct the declaration");
-                let text = format!("{place}: error[{}]: {}{REMEDY}{help}", d.kind, d.message);
-                visible(&text).into_owned()
+                message(&place, d)
             })
             .chain(rest)
             .collect();
         messages.join("\n")
     })?;
+    let Some(methods) = methods else {
+        let choices = declared_choices(&model);
+        return Ok((model, choices));
+    };
     let choices = methods.iter().map(|id| {
         Choice::from_id(id)
             .map_err(|unusable| format!("{place}: {}{REMEDY}{}", unusable.message, unusable.help))
@@ -268,76 +298,4 @@ fn difference(path: &Path, golden: &str, new: &str) -> String {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn differences_missing_and_left_over_files_are_reported() {
-        let folder = std::env::temp_dir().join(format!("lie-golden-{}", std::process::id()));
-        let mut golden = Golden::new(&folder);
-        golden
-            .text("a.rs", "one\ntwo\n".into())
-            .text("b.rs", "three\n".into());
-        assert!(golden.run(false).is_err(), "nothing is there yet");
-        golden.run(true).unwrap();
-        golden.run(false).unwrap();
-        std::fs::write(folder.join("a.rs"), "one\nzwei\n").unwrap();
-        std::fs::write(folder.join("c.rs"), "").unwrap();
-        let Stale(problems) = golden.run(false).unwrap_err();
-        assert_eq!(problems.len(), 2, "{problems:?}");
-        assert!(
-            problems[0].contains("a.rs:2: was `zwei`, is `two`"),
-            "{problems:?}"
-        );
-        assert!(problems[1].contains("c.rs"), "{problems:?}");
-        golden.run(true).unwrap();
-        golden.run(false).unwrap();
-        std::fs::remove_dir_all(folder).unwrap();
-    }
-
-    #[test]
-    fn the_runtime_of_a_golden_file_is_at_a_path() {
-        let folder = std::env::temp_dir().join(format!("lie-golden-path-{}", std::process::id()));
-        let mut golden = Golden::new(&folder);
-        golden.runtime("my_crate::lie_runtime");
-        golden.spec("../specs/so3_free_rigid_body.json", &[]);
-        let code = &golden.files["so3_free_rigid_body.rs"];
-        assert!(
-            code.contains("impl<S: my_crate::lie_runtime::Scalar>"),
-            "{code}"
-        );
-        assert!(
-            !code.contains("::lie_runtime::Scalar> ::lie_runtime"),
-            "{code}"
-        );
-        let Stale(problems) = golden.runtime("my-crate").run(true).unwrap_err();
-        assert!(
-            problems[0].starts_with("`my-crate` is not the path of a crate"),
-            "{problems:?}"
-        );
-    }
-
-    #[test]
-    fn what_unwrap_prints_says_what_to_do() {
-        let folder = std::env::temp_dir().join(format!("lie-golden-help-{}", std::process::id()));
-        std::fs::create_dir_all(&folder).unwrap();
-        let spec = folder.join("broken.json");
-        std::fs::write(&spec, "{\n  \"format\": 1,\n  \"hamiltonain\": \"x\"\n}").unwrap();
-        let mut golden = Golden::new(&folder);
-        golden.text("a.rs", "one\n".into());
-        let stale = format!("{:?}", golden.run(false).unwrap_err());
-        assert!(
-            stale.contains(&format!("\nhelp: set {UPDATE}=1 to write")),
-            "{stale}"
-        );
-        golden.spec(&spec, &["gauss4"]);
-        let broken = format!("{:?}", golden.run(false).unwrap_err());
-        let place = format!("{}:3:4: error[schema]: ", spec.display());
-        assert!(broken.contains(&place), "{broken}");
-        assert!(
-            broken.contains("\nhelp: did you mean `hamiltonian`?"),
-            "{broken}"
-        );
-        std::fs::remove_dir_all(folder).unwrap();
-    }
-}
+mod tests;
