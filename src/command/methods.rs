@@ -95,17 +95,12 @@ fn as_json(method: &Method) -> Value {
 }
 
 fn table() -> String {
-    let mut references: Vec<&str> = Vec::new();
+    let (mut references, mut needs): (Vec<&str>, Vec<&str>) = (Vec::new(), Vec::new());
     let mut options: Vec<(String, Vec<&str>)> = Vec::new();
     let mut rows = vec![["method", "order", "", "", "keeps", "needs", ""].map(str::to_owned)];
     for method in CATALOGUE {
-        let number = references
-            .iter()
-            .position(|reference| *reference == method.reference)
-            .unwrap_or_else(|| {
-                references.push(method.reference);
-                references.len() - 1
-            });
+        let number = place(&mut references, method.reference);
+        let need = place(&mut needs, method.needs);
         for (name, default) in method.options() {
             let others: Vec<&str> = method
                 .values(name)
@@ -133,22 +128,28 @@ fn table() -> String {
             }
             .to_owned(),
             kept(method),
-            method.needs.to_owned(),
-            format!("[{}]", number + 1),
+            need.to_string(),
+            format!("[{number}]"),
         ]);
     }
     let mut text = aligned(&rows);
     text.push_str(
-        "\nOrbit: the coadjoint orbit, with it every Casimir. Poisson: each step is a Poisson map; if \
+        "\nOrbit: the coadjoint orbit, with it every Casimir. Poisson: each step is a Poisson map; if\n\
          constant: where the Poisson matrix is constant.\n",
     );
+    text.push_str("\nWhat they need:\n");
+    for (index, need) in needs.iter().enumerate() {
+        let words: Vec<&str> = need.split(' ').collect();
+        text.push_str(&wrapped(&format!("  {}: ", index + 1), &words, " "));
+    }
     text.push_str("\nOptions and their defaults (a composition takes those of its base, too):\n");
     for (option, takers) in &options {
-        text.push_str(&wrapped(&format!("  {option}: "), takers));
+        text.push_str(&wrapped(&format!("  {option}: "), takers, ", "));
     }
     text.push_str("\nReferences (DOI):\n");
     for (index, reference) in references.iter().enumerate() {
-        text.push_str(&format!("  [{}] {reference}\n", index + 1));
+        let words: Vec<&str> = reference.split(' ').collect();
+        text.push_str(&wrapped(&format!("  [{}] ", index + 1), &words, " "));
     }
     text
 }
@@ -173,19 +174,33 @@ fn aligned<const N: usize>(rows: &[[String; N]]) -> String {
     text
 }
 
-/// Words with commas in lines of at most 90 characters.
-fn wrapped(lead: &str, words: &[&str]) -> String {
+/// The number of a text in a list, from 1, which it joins if it is new.
+fn place<'a>(list: &mut Vec<&'a str>, text: &'a str) -> usize {
+    let known = list.iter().position(|known| *known == text);
+    let place = known.unwrap_or_else(|| {
+        list.push(text);
+        list.len() - 1
+    });
+    place + 1
+}
+
+/// Words with what separates them, in lines of at most 90 characters.
+fn wrapped(lead: &str, words: &[&str], separator: &str) -> String {
     let mut text = String::new();
     let mut line = lead.to_owned();
     for (index, word) in words.iter().enumerate() {
-        let comma = if index + 1 < words.len() { ", " } else { "" };
+        let separator = if index + 1 < words.len() {
+            separator
+        } else {
+            ""
+        };
         if line.chars().count() + word.chars().count() > 90 {
             text.push_str(line.trim_end());
             text.push('\n');
             line = "    ".to_owned();
         }
         line.push_str(word);
-        line.push_str(comma);
+        line.push_str(separator);
     }
     if words.is_empty() {
         return String::new();
