@@ -20,6 +20,7 @@
 mod bins;
 pub mod chart;
 pub mod compare;
+pub mod contours;
 mod draw;
 pub mod frontier;
 pub mod map;

@@ -1,7 +1,8 @@
 //! Pictures of space: what a curve on a coadjoint orbit or on the sphere of directions looks like from outside.
 
 use super::chart::COLOURS;
-use super::surface::{Field, Point, Surface, dot, onto};
+use super::contours::contours;
+use super::surface::{Field, Point, dot};
 use super::svg::{FAINT, INK, Place, Svg, thinned};
 use super::trace::Trace;
 
@@ -12,11 +13,6 @@ const HEAD: f64 = 80.0;
 const LINE: f64 = 18.0;
 /// Pixels between the places of a line.
 const FINEST: f64 = 2.5;
-/// Level curves of the energy.
-const LEVELS: usize = 11;
-/// Cells along a side of the box of an orbit: while its size is looked for, and in the end.
-const COARSE: usize = 16;
-const FINE: usize = 44;
 
 /// From where one looks: turned about the third axis, and from above.
 const AZIMUTH: f64 = 0.6;
@@ -167,43 +163,22 @@ impl View {
         let (Some(first), Some(bounds)) = (curve.first, curve.bounds) else {
             return false;
         };
-        let level = casimir(&first).0;
-        let centred = |point: &Point| {
-            let (value, gradient) = casimir(point);
-            (value - level, gradient)
-        };
-        let (surface, closed) = whole(&centred, &first, bounds);
-        if surface.triangles.is_empty() {
+        let Some(found) = contours(casimir, energy, &first, bounds) else {
             return false;
-        }
+        };
         let normal = |point: &Point| casimir(point).1;
-        let towards: Vec<f64> = surface
-            .points
-            .iter()
+        let corners = found.surface.points.iter();
+        let towards: Vec<f64> = corners
             .map(|point| dot(&normal(point), &camera()[2]))
             .collect();
-        for chain in surface.curves(&towards, 0.0) {
+        for chain in found.surface.curves(&towards, 0.0) {
             self.outline
                 .keep(true, chain.iter().map(projected).collect());
         }
-        let values: Vec<f64> = surface.points.iter().map(|p| energy(p).0).collect();
-        let finite = || values.iter().copied().filter(|value| value.is_finite());
-        let (low, high) = (
-            finite().fold(f64::INFINITY, f64::min),
-            finite().fold(f64::NEG_INFINITY, f64::max),
-        );
-        for k in 1..=LEVELS {
-            let level = low + (high - low) * k as f64 / (LEVELS + 1) as f64;
-            for chain in surface.curves(&values, level) {
-                let on = |point: &Point| {
-                    let wanted: [(&Field<'_>, f64); 2] = [(&centred, 0.0), (energy, level)];
-                    (0..3).fold(*point, |point, _| onto(&point, &wanted))
-                };
-                let chain: Vec<Point> = chain.iter().map(on).collect();
-                self.contours.add(&chain, &normal);
-            }
+        for chain in &found.levels {
+            self.contours.add(chain, &normal);
         }
-        let cut = if closed {
+        let cut = if found.closed {
             ""
         } else {
             "; cut off around the curve"
@@ -342,44 +317,4 @@ impl View {
         }
         y + 6.0
     }
-}
-
-/// The part of a level surface on which a point lies: all of it where it is bounded, else the part around a curve; and which
-/// of both.
-fn whole(function: &Field<'_>, near: &Point, (low, high): (Point, Point)) -> (Surface, bool) {
-    let extent = (0..3).map(|i| high[i] - low[i]).fold(0.0, f64::max);
-    let size = [0, 1, 2].map(|i| low[i].abs().max(high[i].abs()));
-    let scale = size.iter().copied().fold(extent, f64::max);
-    if scale == 0.0 {
-        return (Surface::default(), true);
-    }
-    let middle = [0, 1, 2].map(|i| 0.5 * (low[i] + high[i]));
-    let around = |reach: f64| {
-        (
-            // a little to one side, so that no corner lies on the surface by symmetry
-            middle.map(|x| x - 1.013 * reach),
-            middle.map(|x| x + reach),
-        )
-    };
-    let mut reach = 0.75 * scale;
-    for _ in 0..4 {
-        let (from, to) = around(reach);
-        let part = Surface::new(function, &from, &to, COARSE).part_at(near);
-        if let Some((low, high)) = part.bounds() {
-            let cell = 2.0 * reach / COARSE as f64;
-            let inside =
-                (0..3).all(|i| low[i] > from[i] + 0.5 * cell && high[i] < to[i] - 0.5 * cell);
-            if inside {
-                let from = low.map(|x| x - 0.53 * cell);
-                let to = high.map(|x| x + 0.5 * cell);
-                return (Surface::new(function, &from, &to, FINE).part_at(near), true);
-            }
-        }
-        reach *= 1.7;
-    }
-    let (from, to) = around(0.7 * extent.max(0.2 * scale));
-    (
-        Surface::new(function, &from, &to, FINE).part_at(near),
-        false,
-    )
 }

@@ -34,6 +34,8 @@ pub enum Command {
     Bench(Bench),
     /// Takes methods to the limits of steps, parameters and states, and through a long run
     Stress(Stress),
+    /// Writes a page of HTML: mathematics, trajectory, orbit, errors against run time, generated code
+    Report(Box<Report>),
     /// Lists the methods: order, what they preserve, what they need, reference
     Methods(Methods),
     /// Prints the JSON Schema of spec files
@@ -58,8 +60,6 @@ pub enum Later {
     #[command(hide = true)]
     Advise(Anything),
     #[command(hide = true)]
-    Report(Anything),
-    #[command(hide = true)]
     Equilibria(Anything),
 }
 
@@ -71,7 +71,6 @@ impl Later {
             Later::Merge(_) => "merge",
             Later::Resume(_) => "resume",
             Later::Advise(_) => "advise",
-            Later::Report(_) => "report",
             Later::Equilibria(_) => "equilibria",
         }
     }
@@ -86,6 +85,45 @@ pub struct New {
     /// The algebra, as in `"algebra"` of a spec
     #[arg(long, value_name = "ALGEBRA", default_value = "so(3)")]
     pub algebra: String,
+}
+
+/// `lie report`.
+#[derive(Args, Debug)]
+#[command(
+    after_help = "Exit codes: 0 the page is written, 1 a file cannot be, 2 invalid input, 3 a run stopped early and the
+page says why, 130 Ctrl-C, 143 SIGTERM, 129 SIGHUP."
+)]
+pub struct Report {
+    /// The spec file
+    #[arg(value_name = "SPEC")]
+    pub spec: PathBuf,
+    /// The method, see `lie methods`; given several times, all are compared, and the first is shown in full
+    #[arg(long, value_name = "ID")]
+    pub method: Vec<String>,
+    /// Step size
+    #[arg(long, value_name = "H", allow_hyphen_values = true)]
+    pub step: Option<String>,
+    /// Relative error at the end, in place of --step
+    #[arg(long, value_name = "E", allow_hyphen_values = true)]
+    pub tol: Option<String>,
+    /// Final time
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    pub until: Option<String>,
+    /// Sets a parameter (repeatable)
+    #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]
+    pub param: Vec<String>,
+    /// Initial state, separated by commas
+    #[arg(long, value_name = "V1,V2,…", allow_hyphen_values = true)]
+    pub initial: Option<String>,
+    /// Leaves out the comparison of methods, which takes some seconds
+    #[arg(long)]
+    pub no_bench: bool,
+    /// Where the page goes (default: the name of the spec, .html)
+    #[arg(long, value_name = "FILE.html")]
+    pub out: Option<PathBuf>,
+    /// Says nothing on stderr unless something fails
+    #[arg(long)]
+    pub quiet: bool,
 }
 
 /// `lie cache`.

@@ -8,6 +8,7 @@ mod measure;
 pub mod method;
 mod methods;
 mod new;
+mod report;
 mod run;
 mod schema;
 pub mod usage;
@@ -31,6 +32,7 @@ pub fn run(command: &Command) -> Result<u8, Failure> {
         Command::Bench(arguments) => measure::bench::run(arguments),
         Command::Stress(arguments) => measure::stress::run(arguments),
         Command::Verify(arguments) => measure::verify::run(arguments),
+        Command::Report(arguments) => report::run(arguments),
         Command::Methods(arguments) => methods::run(arguments),
         Command::Schema => schema::run(),
         Command::New(arguments) => new::run(arguments),
@@ -40,8 +42,9 @@ pub fn run(command: &Command) -> Result<u8, Failure> {
 }
 
 /// The commands that are built.
-pub const BUILT: [&str; 10] = [
-    "check", "expand", "run", "verify", "bench", "stress", "methods", "schema", "new", "cache",
+pub const BUILT: [&str; 11] = [
+    "check", "expand", "run", "verify", "bench", "stress", "report", "methods", "schema", "new",
+    "cache",
 ];
 
 fn not_built(later: &Later) -> Failure {

@@ -1,0 +1,117 @@
+//! What the mathematics of a system is, in formulas.
+
+use lie_codegen::front::Names;
+use lie_codegen::model::Model;
+use lie_codegen::plan::plan;
+
+use super::mathml::formula;
+use super::page::escaped;
+
+/// Brackets beyond this number say less than the name of the algebra.
+const MOST: usize = 24;
+
+/// Formulas under their titles.
+pub fn of(model: &Model) -> Vec<(&'static str, Vec<String>)> {
+    let names = names(model);
+    let mut all = Vec::new();
+    let brackets = brackets(model, &names);
+    if !brackets.is_empty() {
+        all.push(("Brackets of the algebra:", brackets));
+    }
+    let energy = match (&model.family, model.energy.expression()) {
+        (Some(family), _) => Some(model.display_of_family(family)),
+        (None, Some(hamiltonian)) => Some(model.display(hamiltonian.energy)),
+        (None, None) => None,
+    };
+    if let Some(energy) = energy {
+        all.push((
+            "Hamiltonian:",
+            vec![formula(&format!("H = {energy}"), &names)],
+        ));
+    }
+    if let Some(lagrangian) = model.energy.lagrangian() {
+        let text = format!("l = {}", model.display(lagrangian.value));
+        all.push(("Reduced Lagrangian:", vec![formula(&text, &names)]));
+    }
+    let casimirs = model.casimirs.iter();
+    let casimirs = casimirs.map(|casimir| {
+        formula(
+            &format!("{} = {}", casimir.name, model.display(casimir.expr)),
+            &names,
+        )
+    });
+    let casimirs: Vec<String> = casimirs.collect();
+    if !casimirs.is_empty() {
+        all.push(("Casimirs:", casimirs));
+    }
+    if model.family.is_none() {
+        let plan = plan(model, &[]);
+        let lines = plan
+            .system
+            .poisson
+            .iter()
+            .flat_map(|kernel| kernel.explicit.iter());
+        let motion = lines.filter(|line| {
+            line.split_once('=')
+                .is_some_and(|(left, _)| left.trim().ends_with('\''))
+        });
+        let motion: Vec<String> = motion.map(|line| formula(line, &names)).collect();
+        if !motion.is_empty() {
+            all.push(("Equations of motion:", motion));
+        }
+    }
+    all
+}
+
+/// The names that formulas contain.
+fn names(model: &Model) -> Names {
+    let coordinates = model.coordinates.iter().map(|name| name.text.clone());
+    let parameters = model
+        .parameters
+        .iter()
+        .map(|parameter| parameter.name.clone());
+    let basis = model
+        .bracket
+        .algebra()
+        .into_iter()
+        .flat_map(|algebra| algebra.basis.iter());
+    let basis = basis.map(|name| name.text.clone());
+    let all: Names = coordinates.chain(parameters).chain(basis).collect();
+    all.of_family(model.family.is_some())
+}
+
+/// `[e1, e2] = e3`
+fn brackets(model: &Model, names: &Names) -> Vec<String> {
+    let Some(algebra) = model.bracket.algebra() else {
+        return Vec::new();
+    };
+    let size = algebra.basis.len();
+    let pairs = (0..size).flat_map(|i| (i + 1..size).map(move |j| (i, j)));
+    let pairs: Vec<(usize, usize)> = pairs
+        .filter(|(i, j)| !algebra.constants.upper(*i, *j).is_empty())
+        .collect();
+    if pairs.len() > MOST {
+        return vec![format!(
+            "<p>{} brackets that are not zero, of {size} elements</p>",
+            pairs.len()
+        )];
+    }
+    let bracket = |(i, j): (usize, usize)| {
+        let terms = algebra.constants.upper(i, j).iter().map(|(.., k, value)| {
+            format!("({})*{}", model.display(*value), algebra.basis[*k].text)
+        });
+        let text = terms
+            .collect::<Vec<_>>()
+            .join(" + ")
+            .replace("(1)*", "")
+            .replace("(-1)*", "-");
+        let name = |i: usize| escaped(&algebra.basis[i].text);
+        let left = format!(
+            "<mo>[</mo><mi>{}</mi><mo>,</mo><mi>{}</mi><mo>]</mo><mo>=</mo>",
+            name(i),
+            name(j)
+        );
+        formula(&text, names).replacen("<mrow>", &format!("<mrow>{left}"), 1)
+    };
+    pairs.into_iter().map(bracket).collect()
+}

@@ -1,0 +1,75 @@
+//! The coadjoint orbit with a trajectory on it as lines in space, which a page turns.
+
+use lie_dynamic::Dynamic;
+use lie_poisson::plot::contours::contours;
+use lie_poisson::plot::surface::Point;
+use lie_runtime::Poisson as _;
+use serde_json::{Value, json};
+
+/// Points of the trajectory at most.
+const MOST: usize = 4000;
+
+/// The lines of a scene: of each the coordinates of its points, then the normals of the surface there. None where there is no
+/// surface.
+pub fn scene(system: &Dynamic<f64>, axes: &[String], states: &[Point]) -> Option<Value> {
+    let first = states.first()?;
+    let bounds = |of: fn(f64, f64) -> f64| {
+        let folded = states
+            .iter()
+            .fold(*first, |all, point| [0, 1, 2].map(|i| of(all[i], point[i])));
+        folded
+    };
+    let (low, high) = (bounds(f64::min), bounds(f64::max));
+    let casimir = |point: &Point| {
+        let (state, mut gradient) = (point.to_vec(), vec![0.0; 3]);
+        let mut values = vec![0.0; system.casimir_count()];
+        system.casimirs(&state, &mut values);
+        system.casimir_gradient(0, &state, &mut gradient);
+        (values[0], [gradient[0], gradient[1], gradient[2]])
+    };
+    let energy = |point: &Point| {
+        let (state, mut gradient) = (point.to_vec(), vec![0.0; 3]);
+        system.gradient(&state, &mut gradient);
+        (
+            system.hamiltonian(&state),
+            [gradient[0], gradient[1], gradient[2]],
+        )
+    };
+    let found = contours(&casimir, &energy, first, (low, high))?;
+    let (low, high) = found.surface.bounds()?;
+    let size = (0..3)
+        .map(|i| (high[i] - low[i]).powi(2))
+        .sum::<f64>()
+        .sqrt();
+    let line = |points: &[Point]| -> Vec<f64> {
+        let normals = points.iter().map(|point| {
+            let normal = casimir(point).1;
+            let length = normal.iter().map(|x| x * x).sum::<f64>().sqrt();
+            normal.map(|x| x / length.max(f64::MIN_POSITIVE))
+        });
+        let normals: Vec<Point> = normals.collect();
+        points
+            .iter()
+            .chain(&normals)
+            .flatten()
+            .map(|x| short(*x))
+            .collect()
+    };
+    let every = states.len().div_ceil(MOST);
+    let curve: Vec<Point> = states.iter().copied().step_by(every).collect();
+    let middle = [0, 1, 2].map(|i| short(0.5 * (low[i] + high[i])));
+    let levels: Vec<Vec<f64>> = found.levels.iter().map(|level| line(level)).collect();
+    Some(json!({
+        "axes": axes,
+        "middle": middle,
+        "size": short(size),
+        "closed": found.closed,
+        "levels": levels,
+        "curves": [line(&curve)],
+    }))
+}
+
+/// Five digits, which a picture does not need more of.
+fn short(x: f64) -> f64 {
+    format!("{x:.4e}").parse().unwrap_or(x)
+}
