@@ -7,7 +7,8 @@ use lie_dynamic::{Declared, Tolerances, method};
 use lie_runtime::Poisson;
 use lie_runtime::diagnostics::Forgotten;
 use lie_runtime::driver::{
-    Observer, OptionError, Options, Pace, Problem, Progress, Save, Solution, SolveError, solve_observed,
+    Observer, OptionError, Options, Pace, Problem, Progress, Save, Solution, SolveError,
+    solve_observed,
 };
 use numpy::{IntoPyArray, PyArray1, PyArray3, PyArrayMethods, PyReadonlyArray2};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};

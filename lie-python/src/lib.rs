@@ -156,13 +156,10 @@ impl Core {
         text.map_err(|refused: choice::Refused| refused.raise(py))
     }
 
-    /// The equations of motion in the names of the declaration, line by line, where they are short.
+    /// The Hamiltonian and the equations of motion in the names of the declaration, line by line; the Hamiltonian alone where they
+    /// are long.
     fn equations(&self, py: Python<'_>) -> Vec<String> {
-        self.0.with_model(py, |model| {
-            let plan = lie_codegen::plan::plan(&model, &[]);
-            let kernels = plan.system.poisson.iter();
-            kernels.flat_map(|kernel| kernel.explicit.clone()).collect()
-        })
+        self.0.with_model(py, |model| report::equations(&model))
     }
 
     /// One trajectory: times, states, energies and Casimirs; the step; what ended it early.

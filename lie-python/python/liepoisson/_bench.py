@@ -144,7 +144,7 @@ class Bench:
 
     def plot(self, *, show: bool = False) -> Any:
         """Draws errors over times with matplotlib; returns the figure."""
-        figure = new_figure((8, 5.5), show=show, call="plot()")
+        figure = new_figure((8, 5.5), "plot()")
         self._draw(figure)
         return shown(figure, show)
 

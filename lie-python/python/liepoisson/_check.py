@@ -83,7 +83,7 @@ class Check:
         for motion in self.constants_of_motion or []:
             lines.append(("constant of the motion", motion.expression))
         if self.splitting is not None:
-            pieces = "; ".join(" + ".join(terms) for terms in self.splitting)
+            pieces = "; ".join(", ".join(terms) for terms in self.splitting)
             lines.append(("pieces with exact flows", pieces))
         apply = [name for name, reason in self.methods.items() if reason is None]
         lines.append(("methods that apply", f"{len(apply)} of {len(self.methods)}"))

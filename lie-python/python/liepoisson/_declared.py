@@ -228,8 +228,15 @@ class Declared:
         return self._core.rust(list(methods))
 
     def latex(self) -> str:
-        """The Hamiltonian and the equations of motion for LaTeX."""
-        lines = [line for line in self._core.equations()]
+        """The Hamiltonian and, where they are not too long, the equations of motion for LaTeX."""
+        hidden = [name for name in self._core.coordinates if name not in self.coordinates]
+        lines = self._core.equations()
+        if hidden:  # the momentum of the time is a summand of the larger space's H
+            lines = [
+                re.sub(rf" \+ {re.escape(hidden[0])}\b", "", line)
+                for line in lines
+                if not line.startswith(tuple(f"{name}'" for name in hidden))
+            ]
         body = r" \\ ".join(as_latex(line).replace("=", "&=", 1) for line in lines)
         return r"\begin{aligned}" + body + r"\end{aligned}"
 

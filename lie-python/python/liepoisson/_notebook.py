@@ -49,7 +49,9 @@ def _picture(system: System) -> str:
 
 def page_of(system: System) -> str:
     """The system: mathematics, Casimirs, motion."""
-    mathematics = f"<div>$$\n{html.escape(system.latex())}\n$$</div>"
+    # a system without a Hamiltonian has none
+    shown = f"<div>$$\n{html.escape(system.latex())}\n$$</div>"
+    mathematics = shown if system._core.equations() else ""
     casimirs = ", ".join(system.casimirs)
     known = f"<p>Casimirs: {html.escape(casimirs)}</p>" if casimirs else ""
     return page(system.name, mathematics, known, _picture(system))

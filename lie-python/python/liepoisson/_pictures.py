@@ -11,8 +11,8 @@ from typing import Any
 __all__ = ["image", "new_figure", "page", "table"]
 
 
-def new_figure(size: tuple[float, float], *, show: bool, call: str) -> Any:
-    """An empty figure: of pyplot where it is to be shown or kept by the caller."""
+def new_figure(size: tuple[float, float], call: str) -> Any:
+    """An empty figure of pyplot, for the caller to keep or to show."""
     try:
         import matplotlib.pyplot as plt
     except ImportError:

@@ -100,7 +100,7 @@ class Solution:
 
     def plot(self, *, show: bool = False) -> Any:
         """Draws the components and the errors of the invariants with matplotlib; returns the figure."""
-        figure = new_figure((8, 6), show=show, call="plot()")
+        figure = new_figure((8, 6), "plot()")
         self._draw(figure)
         return shown(figure, show)
 
