@@ -5,6 +5,10 @@
 
 #![warn(missing_docs)]
 
+pub mod catalogue;
+pub mod list;
+pub mod report;
+
 use lie_codegen::methods::Choice;
 use lie_codegen::model::Model;
 use lie_codegen::plan::plan;

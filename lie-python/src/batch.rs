@@ -1,13 +1,16 @@
 //! Many trajectories on several threads. Each member is computed alone, so that the number of threads changes no bit.
 
+use crate::choice;
+use crate::declaration::Declaration;
 use lie_codegen::methods::Choice;
 use lie_dynamic::{Declared, Tolerances, method};
 use lie_runtime::Poisson;
 use lie_runtime::diagnostics::Forgotten;
 use lie_runtime::driver::{
-    Grid, Observer, Options, Problem, Progress, Save, SolveError, solve_observed,
+    Observer, OptionError, Options, Pace, Problem, Progress, Save, Solution, SolveError,
+    solve_observed,
 };
-use lie_runtime::newton::NewtonOptions;
+use numpy::{IntoPyArray, PyArray1, PyArray3, PyArrayMethods, PyReadonlyArray2};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use std::ops::ControlFlow;
@@ -31,31 +34,46 @@ impl<P: Poisson<f64>> Observer<f64, P> for Stop<'_> {
 }
 
 /// A member that ended early: its number, the time, why.
-type Failed = (usize, f64, String);
+pub type Failed = (usize, f64, String);
 
 /// What is integrated.
 pub struct Members<'a> {
     pub declared: &'a Declared,
     pub choice: &'a Choice,
     pub tolerances: Tolerances,
-    pub newton: NewtonOptions,
     /// A row for each member, or one for all.
     pub parameters: Vec<Vec<f64>>,
     pub starts: Vec<Vec<f64>>,
-    pub step: f64,
+    pub options: Options,
     pub end: f64,
 }
 
+/// The rows of a member, as many as it came to: times and states.
+#[derive(Default)]
+struct Member {
+    times: Vec<f64>,
+    states: Vec<Vec<f64>>,
+    failed: Option<Failed>,
+    /// Options that suit no member.
+    refused: Option<OptionError>,
+}
+
+/// What all members gave: the times, the states member after member and row after row, what failed in order. Rows to which a
+/// member did not come are not numbers.
+pub struct Found {
+    times: Vec<f64>,
+    states: Vec<f64>,
+    failures: Vec<Failed>,
+}
+
 impl Members<'_> {
-    /// The ends one after the other, not numbers where a member failed, and the failures in order.
-    pub fn run(&self, threads: usize) -> PyResult<(Vec<f64>, Vec<Failed>)> {
-        Grid::new((0.0, self.end), self.step)
-            .map_err(|error| PyValueError::new_err(error.to_string()))?;
+    /// All members, on so many threads.
+    pub fn run(&self, threads: usize) -> PyResult<Found> {
         let threads = threads.clamp(1, self.starts.len().max(1));
         let share = (self.starts.len() / (threads * SHARES)).clamp(1, SHARE);
         let (next, stop) = (AtomicUsize::new(0), AtomicBool::new(false));
         let work = || {
-            let mut done: Vec<(usize, Result<Vec<f64>, Failed>)> = Vec::new();
+            let mut done: Vec<(usize, Member)> = Vec::new();
             loop {
                 let first = next.fetch_add(share, Ordering::Relaxed);
                 if first >= self.starts.len() || stop.load(Ordering::Relaxed) {
@@ -89,47 +107,161 @@ impl Members<'_> {
         let found = found.map_err(|_| PyValueError::new_err("a thread of the ensemble failed"))?;
         let mut all: Vec<_> = found.into_iter().flatten().collect();
         all.sort_by_key(|(member, _)| *member);
-        let width = self.starts.first().map_or(0, Vec::len);
-        let (mut ends, mut failures) = (Vec::with_capacity(all.len() * width), Vec::new());
-        for (_, end) in all {
-            match end {
-                Ok(end) => ends.extend(end),
-                Err(failed) => {
-                    ends.extend(std::iter::repeat_n(f64::NAN, width));
-                    failures.push(failed);
-                }
-            }
+        if let Some(error) = all.iter().find_map(|(_, member)| member.refused.as_ref()) {
+            return Err(PyValueError::new_err(error.to_string()));
         }
-        Ok((ends, failures))
+        Ok(self.collected(all.into_iter().map(|(_, member)| member).collect()))
     }
 
-    fn member(&self, member: usize, stop: &AtomicBool) -> Result<Vec<f64>, Failed> {
-        let failed = |time: f64, why: String| (member, time, why);
+    fn collected(&self, members: Vec<Member>) -> Found {
+        let width = self.starts.first().map_or(0, Vec::len);
+        let longest = members.iter().map(|member| &member.times);
+        let times = longest.max_by_key(|times| times.len());
+        let times = times.cloned().unwrap_or_default();
+        let mut states = Vec::with_capacity(members.len() * times.len() * width);
+        let mut failures = Vec::new();
+        for member in members {
+            let missing = times.len() - member.states.len();
+            states.extend(member.states.into_iter().flatten());
+            states.extend(std::iter::repeat_n(f64::NAN, missing * width));
+            failures.extend(member.failed);
+        }
+        Found {
+            times,
+            states,
+            failures,
+        }
+    }
+
+    fn member(&self, member: usize, stop: &AtomicBool) -> Member {
+        let failed = |time: f64, why: String| Member {
+            failed: Some((member, time, why)),
+            ..Member::default()
+        };
         let parameters = match self.parameters.as_slice() {
             [only] => only,
             all => &all[member],
         };
-        let system = self.declared.system(parameters);
-        let system = system.map_err(|error| failed(0.0, error.to_string()))?;
+        let system = match self.declared.system(parameters) {
+            Ok(system) => system,
+            Err(error) => return failed(0.0, error.to_string()),
+        };
         let Some(method) = method::<f64>(self.choice, self.tolerances) else {
-            return Err(failed(0.0, "there is no such method".to_owned()));
+            return failed(0.0, "there is no such method".to_owned());
         };
         let problem = Problem {
             system,
             mu0: self.starts[member].clone(),
             span: (0.0, self.end),
         };
-        let options = Options {
-            newton: self.newton,
-            ..Options::new(self.step).save(Save::Ends)
-        };
-        match solve_observed(&problem, Forgotten(method.as_ref()), &options, Stop(stop)) {
-            Ok(mut solution) => solution
-                .mu
-                .pop()
-                .ok_or_else(|| failed(0.0, "nothing was computed".to_owned())),
-            Err(SolveError::Step { error, .. }) => Err(failed(error.time, error.to_string())),
-            Err(SolveError::Option(error)) => Err(failed(0.0, error.to_string())),
+        let outcome = solve_observed(
+            &problem,
+            Forgotten(method.as_ref()),
+            &self.options,
+            Stop(stop),
+        );
+        match outcome {
+            Ok(solution) => self.rows(solution, None),
+            Err(SolveError::Step { error, solution }) => {
+                let failed = (member, error.time, error.to_string());
+                self.rows(*solution, Some(failed))
+            }
+            Err(SolveError::Option(error @ OptionError::NoStep(_))) => {
+                failed(0.0, error.to_string())
+            }
+            Err(SolveError::Option(error)) => {
+                stop.store(true, Ordering::Relaxed);
+                Member {
+                    refused: Some(error),
+                    ..Member::default()
+                }
+            }
         }
     }
+
+    /// What is kept of a solution: of the ends the last alone, and nothing where it was not reached.
+    fn rows(&self, mut solution: Solution<f64, Vec<f64>>, failed: Option<Failed>) -> Member {
+        if self.options.save == Save::Ends {
+            let reached = failed.is_none();
+            let first = match reached {
+                true => solution.t.len().saturating_sub(1),
+                false => solution.t.len(),
+            };
+            solution.t.drain(..first);
+            solution.mu.drain(..first);
+        }
+        Member {
+            times: solution.t,
+            states: solution.mu,
+            failed,
+            refused: None,
+        }
+    }
+}
+
+/// What is asked for: a dictionary of Python.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub struct Asked {
+    label: String,
+    /// The step, or the tolerance in its place.
+    pace: (Option<f64>, Option<f64>),
+    end: f64,
+    /// The ends alone where neither of the two is given.
+    every: Option<u64>,
+    at: Option<Vec<f64>>,
+    threads: usize,
+    tolerances: (Option<f64>, Option<f64>),
+    solver: choice::Solver,
+}
+
+/// Many trajectories: the times, the states of members by rows, and why some ended early.
+pub fn ensemble<'py>(
+    py: Python<'py>,
+    declaration: &Declaration,
+    parameters: &PyReadonlyArray2<'py, f64>,
+    starts: &PyReadonlyArray2<'py, f64>,
+    asked: Asked,
+) -> PyResult<(
+    Bound<'py, PyArray1<f64>>,
+    Bound<'py, PyArray3<f64>>,
+    Vec<Failed>,
+)> {
+    let (choice, declared) = declaration.method(py, &asked.label)?;
+    let tolerances = choice::tolerances(py, &choice, asked.tolerances, asked.pace.1)?;
+    method::<f64>(&choice, tolerances).ok_or_else(|| choice::unsupported(py, &asked.label))?;
+    let rows = |array: &PyReadonlyArray2<'py, f64>| -> Vec<Vec<f64>> {
+        let rows = array.as_array();
+        rows.rows().into_iter().map(|row| row.to_vec()).collect()
+    };
+    let options = Options {
+        pace: match asked.pace {
+            (_, Some(tolerance)) => Pace::Tolerance(tolerance),
+            (step, None) => Pace::Step(step.unwrap_or(0.01)),
+        },
+        save: match (asked.every, asked.at) {
+            (_, Some(times)) => Save::At(times),
+            (Some(every), None) => Save::Every(every),
+            (None, None) => Save::Ends,
+        },
+        newton: asked.solver.options(py, &choice, asked.pace.1.is_some())?,
+        assess: false,
+    };
+    let members = Members {
+        declared: &declared,
+        choice: &choice,
+        tolerances,
+        parameters: rows(parameters),
+        starts: rows(starts),
+        options,
+        end: asked.end,
+    };
+    let found = py.detach(|| members.run(asked.threads))?;
+    let shape = [
+        members.starts.len(),
+        found.times.len(),
+        declaration.facts.names.len(),
+    ];
+    let states = found.states.into_pyarray(py).reshape(shape)?;
+    Ok((found.times.into_pyarray(py), states, found.failures))
 }

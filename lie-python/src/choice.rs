@@ -151,17 +151,39 @@ impl Solver {
     }
 }
 
+/// Why there is no such method for a system, and what helps.
+pub struct Refused {
+    text: String,
+    help: String,
+}
+
+impl Refused {
+    pub fn raise(self, py: Python<'_>) -> PyErr {
+        method_error(py, &self.text, &self.help)
+    }
+}
+
 /// The method of a label such as `lie-midpoint --retraction cayley`, if it applies.
-pub fn wanted(py: Python<'_>, model: &Model, label: &str) -> PyResult<Choice> {
-    let choice = Choice::from_label(label).map_err(|unusable| {
-        let help = unusable.help.replace("`lie methods`", "`System.methods()`");
-        method_error(py, &unusable.message, &help)
+pub fn wanted(model: &Model, label: &str) -> Result<Choice, Refused> {
+    let choice = Choice::from_label(label).map_err(|unusable| Refused {
+        text: unusable.message.clone(),
+        help: unusable.help.replace("`lie methods`", "`System.methods()`"),
     })?;
     match refusal(model, &choice) {
         None => Ok(choice),
-        Some((reason, remedy)) => {
-            let text = format!("`{label}` does not apply to {}: {reason}", model.name);
-            Err(method_error(py, &text, &remedy))
-        }
+        Some((reason, help)) => Err(Refused {
+            text: format!("`{label}` does not apply to {}: {reason}", model.name),
+            help,
+        }),
     }
+}
+
+/// A method that only the command has.
+pub fn unsupported(py: Python<'_>, label: &str) -> PyErr {
+    let text = format!("`{label}` does not run in Python yet");
+    method_error(
+        py,
+        &text,
+        "`lie run` has it; or take another method, see System.methods()",
+    )
 }

@@ -17,29 +17,54 @@ fn raise(py: Python<'_>, name: &str, arguments: impl for<'a> pyo3::call::PyCallA
 }
 
 /// All mistakes of a declaration; kind and place are those of the first.
-pub fn declaration(py: Python<'_>, text: &str, diagnostics: &[Diagnostic]) -> PyErr {
-    let place = |diagnostic: &Diagnostic| match diagnostic.origin {
+pub struct Mistakes {
+    message: String,
+    kind: &'static str,
+    place: Option<(usize, usize)>,
+}
+
+impl Mistakes {
+    pub fn of(text: &str, diagnostics: &[Diagnostic]) -> Self {
+        let shown = diagnostics.iter().map(|diagnostic| shown(text, diagnostic));
+        let first = diagnostics.first();
+        Self {
+            message: shown.collect::<Vec<_>>().join("\n"),
+            kind: first.map_or("syntax", |diagnostic| diagnostic.kind.as_str()),
+            place: first.and_then(|diagnostic| place(text, diagnostic)),
+        }
+    }
+
+    pub fn raise(self, py: Python<'_>) -> PyErr {
+        let (line, column) = self.place.unzip();
+        raise(
+            py,
+            "DeclarationError",
+            (self.message, self.kind, line, column),
+        )
+    }
+}
+
+/// Line and column in the text.
+fn place(text: &str, diagnostic: &Diagnostic) -> Option<(usize, usize)> {
+    match diagnostic.origin {
         Some(Origin::Text { start, .. }) => Some(lie_codegen::front::line_column(text, start)),
         _ => None,
-    };
-    let shown = diagnostics.iter().map(|diagnostic| {
-        let mut message = format!("{}: {}", diagnostic.kind.as_str(), diagnostic.message);
-        if let Some((line, column)) = place(diagnostic) {
-            message.push_str(&format!(" (line {line}, column {column})"));
-            if let Some(source) = text.lines().nth(line.saturating_sub(1)) {
-                message.push_str(&format!("\n    {}", source.trim()));
-            }
+    }
+}
+
+/// A mistake or a warning with its line and its remedy.
+pub fn shown(text: &str, diagnostic: &Diagnostic) -> String {
+    let mut message = format!("{}: {}", diagnostic.kind.as_str(), diagnostic.message);
+    if let Some((line, column)) = place(text, diagnostic) {
+        message.push_str(&format!(" (line {line}, column {column})"));
+        if let Some(source) = text.lines().nth(line.saturating_sub(1)) {
+            message.push_str(&format!("\n    {}", source.trim()));
         }
-        if let Some(help) = &diagnostic.help {
-            message.push_str(&format!("\n  help: {help}"));
-        }
-        message
-    });
-    let message = shown.collect::<Vec<_>>().join("\n");
-    let first = diagnostics.first();
-    let kind = first.map_or("syntax", |diagnostic| diagnostic.kind.as_str());
-    let (line, column) = first.and_then(place).unzip();
-    raise(py, "DeclarationError", (message, kind, line, column))
+    }
+    if let Some(help) = &diagnostic.help {
+        message.push_str(&format!("\n  help: {help}"));
+    }
+    message
 }
 
 /// A method that does not apply.

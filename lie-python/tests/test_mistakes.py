@@ -254,6 +254,114 @@ CALLS: list[tuple[Call, type[Exception], str, Call]] = [
         "1, 2, 3",
         lambda s: s.ensemble(np.ones((4, 3)), t=1, threads=1),
     ),
+    (
+        lambda s: s.ensemble(np.ones((4, 3)), tol=1e-6, t=1, every=2),
+        TypeError,
+        "at=",
+        lambda s: s.ensemble(np.ones((4, 3)), tol=1e-6, at=[0, 1]),
+    ),
+    (
+        lambda s: s.ensemble(np.ones((4, 3)), tol=1e-6, h=0.1, t=1),
+        TypeError,
+        "not both",
+        lambda s: s.ensemble(np.ones((4, 3)), tol=1e-6, t=1),
+    ),
+    (
+        lambda s: s.ensemble(np.ones((4, 3)), tol=0, t=1),
+        ValueError,
+        "tolerance",
+        lambda s: s.ensemble(np.ones((4, 3)), tol=1e-6, t=1),
+    ),
+    (
+        lambda s: s.ensemble(np.ones((4, 3)), h=0.1, at=[-1, 2]),
+        ValueError,
+        "not between",
+        lambda s: s.ensemble(np.ones((4, 3)), h=0.1, at=[1, 2]),
+    ),
+    (
+        lambda s: s.ensemble(np.ones((4, 3)), t=1, every=0),
+        ValueError,
+        "1, 2, 3",
+        lambda s: s.ensemble(np.ones((4, 3)), t=1, every=1),
+    ),
+    (
+        lambda s: s.ensemble(np.ones((4, 3)), "rk4", t=1, iteration="newton"),
+        lp.MethodError,
+        "midpoint",
+        lambda s: s.ensemble(np.ones((4, 3)), "midpoint", t=1, iteration="newton"),
+    ),
+    (
+        lambda s: lp.System(**spec(hamiltonian="x*cos(t)", parameters={})).function("gradient")(
+            np.ones((4, 3)), [0.0, 1.0]
+        ),
+        ValueError,
+        "one for each state",
+        lambda s: lp.System(**spec(hamiltonian="x*cos(t)", parameters={})).function("gradient")(
+            np.ones((4, 3)), [0.0, 1.0, 2.0, 3.0]
+        ),
+    ),
+    (
+        lambda s: s.bench(["rk4", "gauss4"], t=1),
+        TypeError,
+        r'bench\("rk4", "gauss4"\)',
+        lambda s: s.bench("rk4", "gauss4", t=1, budget=1e-4),
+    ),
+    (
+        lambda s: s.bench("rk5", t=1),
+        lp.MethodError,
+        "rk4",
+        lambda s: s.bench("rk4", t=1, budget=1e-4),
+    ),
+    (
+        lambda s: s.bench("rk4", h=0.1),
+        TypeError,
+        "many steps",
+        lambda s: s.bench("rk4", t=1, budget=1e-4),
+    ),
+    (
+        lambda s: s.bench("rk4", t=0),
+        ValueError,
+        "t=10",
+        lambda s: s.bench("rk4", t=10, budget=1e-4),
+    ),
+    (
+        lambda s: s.bench("rk4", t=1, measure="enrgy"),
+        ValueError,
+        "`energy`",
+        lambda s: s.bench("rk4", t=1, budget=1e-4, measure="energy"),
+    ),
+    (
+        lambda s: s.bench("rk4", t=10, section=("y", 0)),
+        TypeError,
+        'measure="section"',
+        lambda s: s.bench("rk4", t=10, budget=1e-4, section=("y", 0), measure="section"),
+    ),
+    (
+        lambda s: s.bench("rk4", t=10, section="y=0", measure="section"),
+        TypeError,
+        r'section=\("x", 0\)',
+        lambda s: s.bench("rk4", t=10, budget=1e-4, section=("y", 0), measure="section"),
+    ),
+    (
+        lambda s: s.bench("rk4", t=1, budget=0),
+        ValueError,
+        "budget=0.2",
+        lambda s: s.bench("rk4", t=1, budget=1e-4),
+    ),
+    (
+        lambda s: s.bench("rk4", t=1, budget=1e-4)["errors"],
+        KeyError,
+        "`error`",
+        lambda s: s.bench("rk4", t=1, budget=1e-4)["error"],
+    ),
+    (
+        lambda s: s.bench("rk4", t=1, budget=1e-4).of("rk5"),
+        KeyError,
+        "`rk4`",
+        lambda s: s.bench("rk4", t=1, budget=1e-4).of("rk4"),
+    ),
+    (lambda s: s.check(deep="yes"), TypeError, "True or False", lambda s: s.check(deep=True)),
+    (lambda s: s.methods()["rk5"], KeyError, "`rk4`", lambda s: s.methods()["rk4"]),
     (lambda s: lp.System("body.json"), TypeError, "load", lambda s: lp.System(s.text)),
 ]
 

@@ -9,13 +9,12 @@ mod structure;
 use std::fmt::Write as _;
 use std::path::Path;
 
-use lie_codegen::check::{Effort, motions as search};
-use lie_codegen::compile;
-use lie_codegen::methods::{Choice, applicability, refusal};
-use lie_codegen::model::{CasimirKind, Model};
-use lie_codegen::structure::smoothness::{self, Joint};
+use lie_codegen::check::Effort;
+use lie_codegen::methods::{Choice, refusal};
+use lie_codegen::model::Model;
 use lie_codegen::structure::{algebra, lifts};
-use serde_json::{Value, json};
+use lie_in_process::report::{Report, sites};
+use serde_json::Value;
 
 use super::run::plan::several;
 use super::{args, print};
@@ -47,9 +46,9 @@ pub fn run(arguments: &args::Check) -> Result<u8, Failure> {
                     failure.messages.extend(found);
                     continue;
                 }
-                let report = Report::on(&spec.model, effort);
+                let report = Words(Report::on(&spec.model, effort));
                 if arguments.json {
-                    reports.push(report.json(&spec.model));
+                    reports.push(report.0.json(&spec.model));
                 } else {
                     print(&report.text(&spec.model, path))?;
                 }
@@ -89,95 +88,10 @@ fn defaults_of_run(spec: &Spec) -> Result<(), Vec<Message>> {
     several(spec, &args::Run::default()).map(|_| ())
 }
 
-/// What is asked of the compiler besides the model.
-struct Report {
-    /// Kernel, additions, multiplications, divisions, calls.
-    operations: Vec<(String, [usize; 4])>,
-    methods: Vec<(&'static str, Option<String>)>,
-    algebra: Option<algebra::Report>,
-    motions: Result<search::Motions, &'static str>,
-    splitting: Result<splitting::Splitting, String>,
-    joints: Vec<Joint>,
-}
+/// A report in words.
+struct Words(Report);
 
-impl Report {
-    fn on(model: &Model, effort: Effort) -> Self {
-        let plan = lie_codegen::plan::plan(model, &compile::declared_choices(model));
-        let operations = plan
-            .counts()
-            .into_iter()
-            .map(|(kernel, count)| (kernel, [count.add, count.mul, count.div, count.call]))
-            .collect();
-        Self {
-            operations,
-            methods: applicability(model),
-            algebra: algebra::report(model, algebra::DEEP),
-            motions: search::find(
-                model,
-                match effort {
-                    Effort::Declaration | Effort::Report => search::WORK,
-                    Effort::Deep => search::DEEP,
-                },
-            ),
-            splitting: splitting::of(model),
-            joints: smoothness::joints(model),
-        }
-    }
-
-    fn json(&self, model: &Model) -> Value {
-        let casimirs: Vec<Value> = model
-            .casimirs
-            .iter()
-            .map(|casimir| {
-                json!({
-                    "name": casimir.name,
-                    "expression": model.display(casimir.expr),
-                    "kind": match casimir.kind {
-                        CasimirKind::Declared => "declared",
-                        CasimirKind::Polynomial => "polynomial",
-                        CasimirKind::Rational => "rational",
-                    },
-                    "degree": casimir.degree,
-                })
-            })
-            .collect();
-        let operations: serde_json::Map<String, Value> = self
-            .operations
-            .iter()
-            .map(|(kernel, [add, mul, div, call])| {
-                (
-                    kernel.clone(),
-                    json!({ "add": add, "mul": mul, "div": div, "call": call }),
-                )
-            })
-            .collect();
-        let methods: serde_json::Map<String, Value> = self
-            .methods
-            .iter()
-            .map(|(id, reason)| ((*id).to_owned(), reason.clone().into()))
-            .collect();
-        let sites = sites(model).map_or(1, |[rows, columns]| rows * columns);
-        json!({
-            "name": model.name,
-            "dimension": sites * model.dimension(),
-            "generic_rank": sites * model.generic_rank,
-            "initial_rank": model.initial_rank,
-            "casimirs": casimirs,
-            "independent_casimirs": sites * (model.dimension() - model.generic_rank),
-            "constants_of_motion": motions::json(model, &self.motions),
-            "class": self.algebra.as_ref().map(|report| structure::class(&report.class)),
-            "algebra_name": self.algebra.as_ref().and_then(|report| report.name.as_ref().ok()),
-            "series": self.algebra.as_ref().map(|report| structure::series(&report.series)),
-            "killing": self.algebra.as_ref().map(structure::killing),
-            "splitting": splitting::json(&self.splitting),
-            "splitting_cost": splitting::cost(&self.splitting),
-            "joints": joints::json(&self.joints),
-            "orders": joints::orders(&self.joints, &self.methods),
-            "operations": operations,
-            "methods": methods,
-        })
-    }
-
+impl Words {
     fn text(&self, model: &Model, path: &Path) -> String {
         let mut text = format!("{} ({})\n", model.name, path.display());
         // Writing to a string does not fail.
@@ -187,17 +101,18 @@ impl Report {
     }
 
     fn write(&self, model: &Model, text: &mut String) -> std::fmt::Result {
-        write_system(model, self.algebra.as_ref(), text)?;
-        motions::write(model, &self.motions, text)?;
-        splitting::write(model, &self.splitting, text)?;
+        write_system(model, self.0.algebra.as_ref(), text)?;
+        motions::write(model, &self.0.motions, text)?;
+        splitting::write(model, &self.0.splitting, text)?;
         self.write_operations(text)?;
         self.write_methods(model, text)?;
-        joints::write(&self.joints, &self.methods, text)
+        joints::write(&self.0.joints, &self.0.methods, text)
     }
 
     /// The operations of each kernel.
     fn write_operations(&self, text: &mut String) -> std::fmt::Result {
         let widest = self
+            .0
             .operations
             .iter()
             .map(|(kernel, _)| kernel.chars().count())
@@ -209,7 +124,7 @@ impl Report {
             "",
             widest = widest - 8
         )?;
-        for (kernel, [add, mul, div, call]) in &self.operations {
+        for (kernel, [add, mul, div, call]) in &self.0.operations {
             writeln!(
                 text,
                 "    {kernel:widest$} {add:5} {mul:5} {div:5} {call:5}"
@@ -220,7 +135,7 @@ impl Report {
 
     /// The methods that apply, and why the others do not.
     fn write_methods(&self, model: &Model, text: &mut String) -> std::fmt::Result {
-        let apply = self.methods.iter().filter(|(_, reason)| reason.is_none());
+        let apply = self.0.methods.iter().filter(|(_, reason)| reason.is_none());
         let apply: Vec<&str> = apply.map(|(id, _)| *id).collect();
         let options = self.with_options(model);
         list(text, "  methods that apply: ", &apply)?;
@@ -238,7 +153,7 @@ impl Report {
         }
         // what has the same reason stands together
         let mut refused: Vec<(&str, Vec<&str>)> = Vec::new();
-        let plain = self.methods.iter().map(|(id, reason)| (*id, reason));
+        let plain = self.0.methods.iter().map(|(id, reason)| (*id, reason));
         let with_options = options.iter().map(|(label, reason)| (&**label, reason));
         for (name, reason) in plain.chain(with_options) {
             let Some(reason) = reason.as_deref().filter(|reason| *reason != NOT_BUILT) else {
@@ -258,7 +173,7 @@ impl Report {
     /// The methods with options other than their defaults, and why they do not apply.
     fn with_options(&self, model: &Model) -> Vec<(String, Option<String>)> {
         let mut options = Vec::new();
-        for (id, default) in &self.methods {
+        for (id, default) in &self.0.methods {
             let Ok(choice) = Choice::from_id(id) else {
                 continue;
             };
@@ -272,11 +187,6 @@ impl Report {
         }
         options
     }
-}
-
-/// Rows and columns of a family with its default parameters.
-fn sites(model: &Model) -> Option<[usize; 2]> {
-    model.family.as_ref()?.sites(&model.defaults())
 }
 
 /// How large a family is.

@@ -1,7 +1,8 @@
 //! `lie methods`: the catalogue.
 
-use lie_codegen::methods::{CATALOGUE, Method, Preserves};
-use serde_json::{Value, json};
+use lie_codegen::methods::CATALOGUE;
+use lie_in_process::catalogue;
+use serde_json::Value;
 
 use super::{args, print};
 use crate::message::Failure;
@@ -12,86 +13,12 @@ use crate::message::Failure;
 /// stdout cannot be written.
 pub fn run(arguments: &args::Methods) -> Result<u8, Failure> {
     if arguments.json {
-        let all: Vec<Value> = CATALOGUE.iter().map(as_json).collect();
+        let all: Vec<Value> = CATALOGUE.iter().map(catalogue::json).collect();
         print(&format!("{:#}\n", Value::from(all)))?;
     } else {
         print(&table())?;
     }
     Ok(0)
-}
-
-/// What a method keeps, without what follows from it.
-fn kept(method: &Method) -> String {
-    let Preserves {
-        energy,
-        casimirs,
-        quadratic_casimirs,
-        orbit,
-        poisson,
-        constant_poisson,
-        quadratic_invariants,
-        linear_invariants,
-    } = method.preserves;
-    if method.id.starts_with("compose") {
-        return "what its base keeps".to_owned();
-    }
-    let all = [
-        (poisson, "Poisson"),
-        (constant_poisson && !poisson, "Poisson if constant"),
-        (orbit, "orbit"),
-        (casimirs && !orbit, "Casimirs"),
-        (energy, "energy"),
-        (quadratic_invariants, "quadratic invariants"),
-        (
-            quadratic_casimirs && !casimirs && !quadratic_invariants,
-            "quadratic Casimirs",
-        ),
-        (
-            linear_invariants && !quadratic_invariants,
-            "linear invariants",
-        ),
-    ];
-    let names = all.into_iter().filter(|(kept, _)| *kept);
-    names.map(|(_, name)| name).collect::<Vec<_>>().join(", ")
-}
-
-fn as_json(method: &Method) -> Value {
-    let Preserves {
-        energy,
-        casimirs,
-        quadratic_casimirs,
-        orbit,
-        poisson,
-        constant_poisson,
-        quadratic_invariants,
-        linear_invariants,
-    } = method.preserves;
-    let options: serde_json::Map<String, Value> = method
-        .options()
-        .into_iter()
-        .map(|(name, default)| (name.to_owned(), default.into()))
-        .collect();
-    json!({
-        "id": method.id,
-        "title": method.title,
-        "order": method.order,
-        "symmetric": method.symmetric,
-        "explicit": method.explicit,
-        "preserves": {
-            "energy": energy,
-            "casimirs": casimirs,
-            "quadratic_casimirs": quadratic_casimirs,
-            "orbit": orbit,
-            "poisson": poisson,
-            "constant_poisson": constant_poisson,
-            "quadratic_invariants": quadratic_invariants,
-            "linear_invariants": linear_invariants,
-        },
-        "needs": method.needs,
-        "options": options,
-        "reference": method.reference,
-        "built": true,
-    })
 }
 
 fn table() -> String {
@@ -127,7 +54,7 @@ fn table() -> String {
                 "implicit"
             }
             .to_owned(),
-            kept(method),
+            catalogue::kept(method),
             need.to_string(),
             format!("[{number}]"),
         ]);

@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from . import Solution
+    from ._bench import Bench
+    from ._solution import Solution
 
-__all__ = ["DeclarationError", "IntegrationError", "MethodError"]
+__all__ = ["DeclarationError", "IntegrationError", "Interrupted", "MethodError"]
 
 
 class DeclarationError(ValueError):
@@ -48,3 +49,14 @@ class IntegrationError(RuntimeError):
 
     def __reduce__(self) -> tuple[object, ...]:
         return type(self), (str(self), self.partial, self.step, self.time)
+
+
+class Interrupted(KeyboardInterrupt):
+    """A measurement that Ctrl-C ended; ``partial`` is the :class:`Bench` of what there was."""
+
+    def __init__(self, message: str, partial: Bench) -> None:
+        super().__init__(message)
+        self.partial = partial
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return type(self), (str(self), self.partial)

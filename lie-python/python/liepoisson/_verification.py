@@ -6,6 +6,8 @@ import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
+from ._pictures import page, table
+
 __all__ = ["Fact", "Verification"]
 
 
@@ -54,20 +56,28 @@ class Verification:
         """Whether every claim holds."""
         return not self.failures
 
-    def __repr__(self) -> str:
-        """A table: a line for each method, a column for each fact that is claimed or measured."""
+    def _table(self) -> tuple[list[str], list[list[str]]]:
         methods = list(dict.fromkeys(fact.method for fact in self.facts))
         names = list(dict.fromkeys(fact.fact for fact in self.facts if fact.verdict != "absent"))
         cells = {(fact.method, fact.fact): _cell(fact) for fact in self.facts}
-        rows = [["method", *names]]
-        rows += [
-            [method, *(cells.get((method, name), "–") for name in names)] for method in methods
-        ]
-        widths = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
-        lines = ["  ".join(cell.ljust(width) for cell, width in zip(row, widths)) for row in rows]
+        rows = [[method, *(cells.get((method, name), "–") for name in names)] for method in methods]
+        return ["method", *names], rows
+
+    def _summary(self) -> str:
         claimed = sum(fact.verdict in ("holds", "fails") for fact in self.facts)
-        lines.append(f"{claimed} claims, {len(self.failures)} fail")
-        return "\n".join(line.rstrip() for line in lines + self.failures)
+        return f"{claimed} claims, {len(self.failures)} fail"
+
+    def __repr__(self) -> str:
+        """A table: a line for each method, a column for each fact that is claimed or measured."""
+        head, body = self._table()
+        rows = [head, *body]
+        widths = [max(len(row[k]) for row in rows) for k in range(len(head))]
+        lines = ["  ".join(cell.ljust(width) for cell, width in zip(row, widths)) for row in rows]
+        return "\n".join(line.rstrip() for line in [*lines, self._summary(), *self.failures])
+
+    def _repr_html_(self) -> str:
+        failed = table(["what fails"], [[words] for words in self.failures])
+        return page(self._summary(), table(*self._table()), failed if self.failures else "")
 
 
 def _cell(fact: Fact) -> str:

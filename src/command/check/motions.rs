@@ -4,19 +4,7 @@ use std::fmt::Write as _;
 
 use lie_codegen::check::motions::{End, Motions};
 use lie_codegen::model::Model;
-use serde_json::{Value, json};
-
-/// The functions by their names: F1, F2, … and what they are.
-fn named(model: &Model, motions: &Motions) -> Vec<(String, u32)> {
-    let name = |v: usize| match v.checked_sub(model.dimension()) {
-        Some(parameter) => model.parameters[parameter].name.clone(),
-        None => model.coordinates[v].text.clone(),
-    };
-    let found = motions.found.iter();
-    found
-        .map(|motion| (motion.function.display(&name), motion.degree))
-        .collect()
-}
+use lie_in_process::report::motions::named;
 
 /// The constants by lines.
 pub(super) fn write(
@@ -63,16 +51,4 @@ pub(super) fn write(
         writeln!(text, "    F{} = {function}{kind}", index + 1)?;
     }
     Ok(())
-}
-
-/// The same for programs; null where none were looked for.
-pub(super) fn json(model: &Model, motions: &Result<Motions, &'static str>) -> Value {
-    let Ok(motions) = motions else {
-        return Value::Null;
-    };
-    let found = named(model, motions);
-    let found = found.into_iter();
-    found
-        .map(|(function, degree)| json!({ "expression": function, "degree": degree }))
-        .collect()
 }

@@ -2,63 +2,8 @@
 
 use std::fmt::Write as _;
 
-use lie_codegen::methods::{Choice, Pieces, Scheme, refusal};
 use lie_codegen::model::Model;
-use lie_codegen::structure::family;
-use lie_codegen::structure::found::{self, Terms};
-use serde_json::{Value, json};
-
-/// The pieces of H, in the order of a step.
-pub(super) struct Splitting {
-    terms: Terms,
-    /// The operations of a step of order 2, and those of other ways with as many pieces.
-    costs: Option<(usize, Vec<usize>)>,
-}
-
-/// The pieces of H, or why there are none.
-pub(super) fn of(model: &Model) -> Result<Splitting, String> {
-    if let Some(own) = &model.family {
-        let pieces = family::pieces(model, own, &mut model.graph.clone())?;
-        let terms = Terms {
-            pieces: pieces
-                .iter()
-                .map(|piece| vec![piece.describe(model)])
-                .collect(),
-            shifted: false,
-        };
-        return Ok(Splitting { terms, costs: None });
-    }
-    let Some((found, chosen)) = model.chosen() else {
-        let choice = Choice::Splitting(2, Scheme::Strang, Pieces::Found);
-        let why = refusal(model, &choice).map(|(why, _)| why);
-        return Err(why.unwrap_or_else(|| "H is too long to be taken apart".to_owned()));
-    };
-    let mut terms = found::terms(model, model.splitting(), found);
-    let order = chosen.order.iter();
-    terms.pieces = order.map(|place| terms.pieces[*place].clone()).collect();
-    let mut others = chosen.costs.clone();
-    let own = others.remove(chosen.way);
-    Ok(Splitting {
-        terms,
-        costs: (!found.declared).then_some((own, others)),
-    })
-}
-
-/// The terms of each piece.
-pub(super) fn json(splitting: &Result<Splitting, String>) -> Value {
-    splitting.as_ref().map_or(Value::Null, |splitting| {
-        splitting.terms.pieces.clone().into()
-    })
-}
-
-/// What a step costs, beside other ways.
-pub(super) fn cost(splitting: &Result<Splitting, String>) -> Value {
-    let costs = splitting.as_ref().ok().and_then(|s| s.costs.as_ref());
-    costs.map_or(
-        Value::Null,
-        |(own, others)| json!({ "weight": own, "others": others }),
-    )
-}
+use lie_in_process::report::splitting::Splitting;
 
 /// One line for each piece.
 pub(super) fn write(

@@ -2,12 +2,13 @@
 
 use lie_codegen::diagnostic::Kind;
 use lie_codegen::program::Purpose;
+use lie_in_process::list;
 use lie_measure::stress::{Cell, Experiment, Found, Growth, Moved, Options, Outcome};
 use lie_poisson::plot::map::{self, Cell as Square, Column, Map};
 
 use super::growth;
 use super::table::{self, short};
-use super::{Bed, Ended, bed, files, interrupted, list};
+use super::{Bed, Ended, bed, files, interrupted};
 use crate::command::run::values::Given;
 use crate::command::{args, print};
 use crate::interrupt::Interrupt;

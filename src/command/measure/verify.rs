@@ -6,6 +6,7 @@ use lie_codegen::diagnostic::Kind;
 use lie_codegen::judge::Judge;
 use lie_codegen::program::Purpose;
 use lie_codegen::structure::smoothness;
+use lie_in_process::list;
 use lie_measure::facts::{Finding, Verdict};
 use lie_measure::verify::{Found, GroundFound as Ground, Options};
 use lie_program::protocol::Obstacle;
@@ -13,7 +14,7 @@ use serde_json::{Map, Value, json};
 
 use super::evidence::Evidence;
 use super::table::{self, short};
-use super::{Ended, bed, interrupted, list};
+use super::{Ended, bed, interrupted};
 use crate::command::run::values::Given;
 use crate::command::{args, print};
 use crate::interrupt::Interrupt;

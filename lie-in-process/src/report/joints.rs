@@ -1,0 +1,43 @@
+//! Joints, where branches of H meet, and the orders that methods have across them.
+
+use lie_codegen::methods::CATALOGUE;
+use lie_codegen::structure::smoothness::{Joint, reached};
+use serde_json::{Value, json};
+
+/// The methods with the reason why they do not apply.
+pub type Methods = [(&'static str, Option<String>)];
+
+/// The methods that apply, with their orders and those that they have across the joints.
+pub fn across<'a>(
+    joints: &'a [Joint],
+    methods: &'a Methods,
+) -> impl Iterator<Item = (&'static str, u32, Option<u32>)> + 'a {
+    let apply = methods.iter().filter(|(_, reason)| reason.is_none());
+    apply.filter_map(|(id, _)| {
+        let method = CATALOGUE.iter().find(|method| method.id == *id)?;
+        Some((*id, method.order, reached(joints, method.order)))
+    })
+}
+
+/// The joints for programs: `differentiable` is -1 where H jumps, null where it is not decided.
+pub(super) fn json(joints: &[Joint]) -> Value {
+    let joints = joints.iter();
+    joints
+        .map(|joint| {
+            json!({
+                "place": joint.place,
+                "differentiable": joint.jump.map(|jump| i64::from(jump) - 1),
+                "order": joint.jump,
+            })
+        })
+        .collect()
+}
+
+/// The orders across the joints, of the methods that apply; null of H without joints, and of a method where none is known.
+pub(super) fn orders(joints: &[Joint], methods: &Methods) -> Value {
+    if joints.is_empty() {
+        return Value::Null;
+    }
+    let orders = across(joints, methods).map(|(id, _, order)| (id.to_owned(), order.into()));
+    Value::Object(orders.collect())
+}

@@ -1,0 +1,117 @@
+//! What a declaration is, and what can be done with it: the facts behind `lie check`.
+
+pub mod joints;
+pub mod motions;
+pub mod splitting;
+mod structure;
+
+use lie_codegen::check::{Effort, motions as search};
+use lie_codegen::compile;
+use lie_codegen::methods::applicability;
+use lie_codegen::model::{CasimirKind, Model};
+use lie_codegen::structure::algebra;
+use lie_codegen::structure::smoothness::{self, Joint};
+use serde_json::{Value, json};
+use splitting::Splitting;
+
+/// What is found beside the model.
+pub struct Report {
+    /// Kernel, additions, multiplications, divisions, calls.
+    pub operations: Vec<(String, [usize; 4])>,
+    /// Every method, with the reason where it does not apply.
+    pub methods: Vec<(&'static str, Option<String>)>,
+    /// Class, series and name of the algebra; none of brackets that are not linear.
+    pub algebra: Option<algebra::Report>,
+    /// Constants of the motion, or why none were looked for.
+    pub motions: Result<search::Motions, &'static str>,
+    /// The pieces of H whose flows are exact, or why there are none.
+    pub splitting: Result<Splitting, String>,
+    /// Where branches of H meet.
+    pub joints: Vec<Joint>,
+}
+
+impl Report {
+    /// Everything is found that `effort` allows.
+    pub fn on(model: &Model, effort: Effort) -> Self {
+        let plan = lie_codegen::plan::plan(model, &compile::declared_choices(model));
+        let operations = plan
+            .counts()
+            .into_iter()
+            .map(|(kernel, count)| (kernel, [count.add, count.mul, count.div, count.call]))
+            .collect();
+        Self {
+            operations,
+            methods: applicability(model),
+            algebra: algebra::report(model, algebra::DEEP),
+            motions: search::find(
+                model,
+                match effort {
+                    Effort::Declaration | Effort::Report => search::WORK,
+                    Effort::Deep => search::DEEP,
+                },
+            ),
+            splitting: splitting::of(model),
+            joints: smoothness::joints(model),
+        }
+    }
+
+    /// The report for programs: the object of `lie check --json`.
+    pub fn json(&self, model: &Model) -> Value {
+        let casimirs: Vec<Value> = model
+            .casimirs
+            .iter()
+            .map(|casimir| {
+                json!({
+                    "name": casimir.name,
+                    "expression": model.display(casimir.expr),
+                    "kind": match casimir.kind {
+                        CasimirKind::Declared => "declared",
+                        CasimirKind::Polynomial => "polynomial",
+                        CasimirKind::Rational => "rational",
+                    },
+                    "degree": casimir.degree,
+                })
+            })
+            .collect();
+        let operations: serde_json::Map<String, Value> = self
+            .operations
+            .iter()
+            .map(|(kernel, [add, mul, div, call])| {
+                (
+                    kernel.clone(),
+                    json!({ "add": add, "mul": mul, "div": div, "call": call }),
+                )
+            })
+            .collect();
+        let methods: serde_json::Map<String, Value> = self
+            .methods
+            .iter()
+            .map(|(id, reason)| ((*id).to_owned(), reason.clone().into()))
+            .collect();
+        let sites = sites(model).map_or(1, |[rows, columns]| rows * columns);
+        json!({
+            "name": model.name,
+            "dimension": sites * model.dimension(),
+            "generic_rank": sites * model.generic_rank,
+            "initial_rank": model.initial_rank,
+            "casimirs": casimirs,
+            "independent_casimirs": sites * (model.dimension() - model.generic_rank),
+            "constants_of_motion": motions::json(model, &self.motions),
+            "class": self.algebra.as_ref().map(|report| structure::class(&report.class)),
+            "algebra_name": self.algebra.as_ref().and_then(|report| report.name.as_ref().ok()),
+            "series": self.algebra.as_ref().map(|report| structure::series(&report.series)),
+            "killing": self.algebra.as_ref().map(structure::killing),
+            "splitting": splitting::json(&self.splitting),
+            "splitting_cost": splitting::cost(&self.splitting),
+            "joints": joints::json(&self.joints),
+            "orders": joints::orders(&self.joints, &self.methods),
+            "operations": operations,
+            "methods": methods,
+        })
+    }
+}
+
+/// Rows and columns of a family with its default parameters.
+pub fn sites(model: &Model) -> Option<[usize; 2]> {
+    model.family.as_ref()?.sites(&model.defaults())
+}

@@ -1,0 +1,111 @@
+"""Arguments of calls: numbers, times, names, and what people write from habit."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Mapping, Sequence
+from typing import Any, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+
+Array = npt.NDArray[np.float64]
+Number = Union[float, int, str]
+
+#: What people write from habit, and what it is called here.
+SLIPS = {
+    "dt": "h",
+    "step": "h",
+    "stepsize": "h",
+    "max_step": "h",
+    "y0": "x0",
+    "mu0": "x0",
+    "initial": "x0",
+    "u0": "x0",
+    "t_end": "t",
+    "until": "t",
+    "tmax": "t",
+    "t_span": "t",
+    "t_eval": "at",
+    "tolerance": "tol",
+    "T": "t",
+    "tf": "t",
+    "tspan": "t",
+    "times": "at",
+    "initial_state": "x0",
+}
+#: What chooses a variant of a method.
+VARIANTS = ("retraction", "lift", "gradient", "composition", "pieces", "tensor")
+#: Options of the solver of implicit methods.
+SOLVER = ("iteration", "newton_tolerance", "max_iterations", "converge")
+#: The step where neither the call nor the declaration gives one.
+STEP = 0.01
+#: The time until which a system runs where neither says it.
+UNTIL = 10.0
+
+
+def hint(name: str, known: Sequence[str]) -> str:
+    close = difflib.get_close_matches(name, known, n=1)
+    return f"; did you mean `{close[0]}`?" if close else ""
+
+
+def number(value: Number, what: str) -> float:
+    """A number, or an exact constant as text."""
+    if isinstance(value, str):
+        return _core.constant(value)
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise TypeError(f"{what} must be a number or text such as '1/7', not {value!r}") from None
+
+
+def given(value: float | None, name: str, options: Mapping[str, list[str]]) -> float | None:
+    """What the call says, else what the declaration says."""
+    if value is None and name in options:
+        return _core.constant(options[name][0])
+    return None if value is None else float(value)
+
+
+def times_of(
+    t: Number | None, at: Any, every: int | None, options: Mapping[str, list[str]]
+) -> tuple[float, int, list[float] | None]:
+    """The end, each so-manyth step that is saved, and the times that are saved in its place."""
+    if at is not None and (t is not None or every is not None):
+        raise TypeError("with `at` there is a row for each of its times: leave out t and every")
+    if every is not None and every < 1:
+        raise ValueError(f"every must be 1, 2, 3, …, not {every}")
+    if at is None and t is None and every is None:
+        at = options.get("at")
+    if at is not None:
+        found = [number(time, "a time of at") for time in np.atleast_1d(at).tolist()]
+        if not found:
+            raise ValueError("`at` is empty: give it times, such as at=[0, 1, 2]")
+        found.sort(key=abs)
+        return found[-1], 1, found
+    until = options.get("until", [str(UNTIL)])
+    end = _core.constant(until[0]) if t is None else number(t, "t")
+    count = every if every is not None else int(options.get("every", ["1"])[0])
+    return end, count, None
+
+
+def declared(name: str, value: object, options: Mapping[str, list[str]]) -> object:
+    """An option of the solver: what the call says, else what the declaration says."""
+    key = name.replace("_", "-")
+    if value is not None or key not in options:
+        return value
+    text = options[key][0]
+    if name == "newton_tolerance":
+        return _core.constant(text)
+    return int(_core.constant(text)) if name == "max_iterations" else text
+
+
+def merged(parameters: Mapping[str, Any] | None, named: Mapping[str, Any]) -> dict[str, Any]:
+    """Parameters by name, and those in a dictionary."""
+    if parameters is not None and not isinstance(parameters, Mapping):
+        raise TypeError(f'parameters are a dictionary such as {{"k": 2}}, not {parameters!r}')
+    both = [name for name in named if name in (parameters or {})]
+    if both:
+        raise TypeError(f"the parameter `{both[0]}` is given twice")
+    return {**(parameters or {}), **named}

@@ -1,0 +1,257 @@
+"""What was declared: names, parameters, states, the mathematics."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from . import _core, _methods
+from ._arguments import (
+    SLIPS,
+    STEP,
+    VARIANTS,
+    Array,
+    Number,
+    declared,
+    given,
+    hint,
+    number,
+)
+from ._check import Check
+from ._check import read as read_check
+from ._errors import DeclarationError
+from ._methods import Methods
+
+
+class Declared:
+    """A declaration that passed every check."""
+
+    def __init__(self, spec: str | Mapping[str, Any] | None = None, /, **keys: Any) -> None:
+        if isinstance(spec, (str, os.PathLike)):
+            if keys:
+                raise TypeError("give the text of a spec or its keys, not both")
+            if not isinstance(spec, str) or (spec.endswith(".json") and "{" not in spec):
+                raise TypeError(f"this is the name of a file: liepoisson.load({os.fspath(spec)!r})")
+            text = spec
+        else:
+            declaration = {"format": 1, "name": "System", **dict(spec or {}), **keys}
+            algebra = declaration.get("algebra")
+            if algebra is None and "poisson" not in declaration:
+                raise DeclarationError(
+                    'schema: the algebra is missing\n  help: algebra="so(3)", or '
+                    'algebra={"basis": ["e1", "e2", "e3"], "brackets": ["[e1, e2] = e3", …]}',
+                    "schema",
+                )
+            text = json.dumps(declaration, indent=2, ensure_ascii=False, default=plain)
+        self._core = _core.Core(text)
+
+    # a system is its text: other processes compile it again
+    def __reduce__(self) -> tuple[object, ...]:
+        return type(self), (self._core.text,)
+
+    @property
+    def name(self) -> str:
+        """The name of the system."""
+        return self._core.name
+
+    @property
+    def text(self) -> str:
+        """The declaration as JSON."""
+        return self._core.text
+
+    @property
+    def dimension(self) -> int:
+        """The number of coordinates."""
+        return len(self._core.shown())
+
+    @property
+    def coordinates(self) -> list[str]:
+        """The names of the coordinates; what carries the time of a Hamiltonian that depends on it is none."""
+        names = self._core.coordinates
+        return [names[place] for place in self._core.shown()]
+
+    @property
+    def parameters(self) -> dict[str, float]:
+        """The parameters with their defaults."""
+        values = self._core.parameters
+        return {name: values[name] for name in self._core.parameter_names()}
+
+    @property
+    def casimirs(self) -> list[str]:
+        """The names of the Casimirs, declared and found."""
+        return self._core.casimirs
+
+    @property
+    def initial(self) -> Array | None:
+        """The declared initial state at the default parameters."""
+        found = self._core.initial(list(self.parameters.values()))
+        return None if found is None else found[self._core.shown()]
+
+    def __repr__(self) -> str:
+        return f"<System {self.name}: {', '.join(self.coordinates)}>"
+
+    def _values(self, given: Mapping[str, Any]) -> list[float]:
+        values = self.parameters
+        for name, value in given.items():
+            if name not in values:
+                if name in ("params", "args"):
+                    example = next(iter(values), "k")
+                    raise TypeError(f"parameters are given by their names: {example}=…")
+                if name in VARIANTS:
+                    raise TypeError(
+                        f'`{name}` stands with the method: run("METHOD --{name} {value}")'
+                    )
+                if name in SLIPS:
+                    raise TypeError(f"no argument `{name}`; here it is `{SLIPS[name]}`")
+                known = ", ".join(values) or "none"
+                raise TypeError(
+                    f"{self.name} has no parameter `{name}`{hint(name, list(values))} (parameters: {known})"
+                )
+            values[name] = number(value, f"the parameter {name}")
+        return list(values.values())
+
+    def _start(self, x0: Any, values: list[float]) -> list[float]:
+        if x0 is None:
+            found = self._core.initial(values)
+            if found is None:
+                raise ValueError(
+                    f"the initial state is missing: give x0=[…] with {self.dimension} numbers "
+                    f"({', '.join(self.coordinates)})"
+                )
+            return [float(value) for value in found]
+        names = self.coordinates
+        if isinstance(x0, Mapping):
+            if any(name not in names for name in x0):
+                names = self._core.coordinates
+            unknown = [name for name in x0 if name not in names]
+            if unknown:
+                raise ValueError(f"no coordinate `{unknown[0]}`{hint(unknown[0], names)}")
+            missing = [name for name in names if name not in x0]
+            if missing:
+                raise ValueError(f"x0 lacks {', '.join(missing)}")
+            x0 = [x0[name] for name in names]
+        start = [number(value, "an entry of x0") for value in np.atleast_1d(x0).tolist()]
+        complete = self._core.complete([start])
+        if complete is None:
+            raise ValueError(
+                f"x0 has {len(start)} numbers, {self.name} has {len(names)} coordinates: "
+                f"{', '.join(names)}"
+            )
+        for name, value in zip(self._core.coordinates, complete[0]):
+            if not np.isfinite(value):
+                raise ValueError(f"x0: {name} is {value}, and must be finite")
+        return complete[0]
+
+    def _method(self, method: str | None, options: Mapping[str, list[str]], tol: Any) -> str:
+        if method is None:
+            if tol is not None and "method" not in options:
+                return "gauss16"
+            method = options["method"][0] if "method" in options else self._core.usual_method()
+            for name in VARIANTS:
+                if name in options:
+                    method += f" --{name} {options[name][0]}"
+        if not isinstance(method, str):
+            raise TypeError(f"the method is its id as text, such as 'lie-midpoint', not {method!r}")
+        return method
+
+    def _asked(
+        self,
+        method: str | None,
+        pace: tuple[Number | None, float | None],
+        end: float,
+        options: Mapping[str, list[str]],
+        tolerances: tuple[float | None, float | None],
+        solver: dict[str, object],
+    ) -> dict[str, Any]:
+        """The method with its step or tolerance and its options; what the call leaves out, the declaration says."""
+        h, tol = pace
+        if h is not None and tol is not None:
+            raise TypeError("give h or tol, not both")
+        if method is None and tol is not None:  # a tolerance takes a method of its own
+            left_out = ("method", "rtol", "atol")
+            options = {name: value for name, value in options.items() if name not in left_out}
+        if h is None:
+            tol = given(tol, "tol", options)
+        label = self._method(method, options, tol)
+        if h is None and tol is None:
+            step = options.get("step")
+            h = _core.constant(step[0]) if step else float(np.copysign(STEP, end))
+        if method is None:  # of the declaration's method
+            rtol, atol = tolerances
+            tolerances = (given(rtol, "rtol", options), given(atol, "atol", options))
+            solver = {name: declared(name, value, options) for name, value in solver.items()}
+        return {
+            "label": label,
+            "pace": (None if h is None else number(h, "h"), None if tol is None else float(tol)),
+            "end": end,
+            "tolerances": tolerances,
+            "solver": solver,
+        }
+
+    def methods(self) -> Methods:
+        """Every :class:`Method` by its id: order, symmetry, what it keeps, and why it does not apply.
+
+        >>> from liepoisson import System
+        >>> body = System(algebra="so(3)", state=["x", "y", "z"], hamiltonian="x^2/2 + y^2/4 + z^2/6")
+        >>> midpoint = body.methods()["midpoint"]
+        >>> midpoint.order, midpoint.symmetric, midpoint.explicit, midpoint.applies
+        (2, True, False, True)
+        >>> body.methods()["euler-arnold2"].applies
+        False
+        """
+        return _methods.read(self._core.methods())
+
+    def check(self, *, deep: bool = False) -> Check:
+        """What the declaration is, as `lie check` says it: ranks, Casimirs, the algebra, constants of the motion, splitting.
+
+        ``deep`` searches longer for Casimirs and constants of the motion.
+
+        >>> from liepoisson import System
+        >>> body = System(algebra="so(3)", state=["x", "y", "z"], hamiltonian="x^2/2 + y^2/4 + z^2/6")
+        >>> found = body.check()
+        >>> found.generic_rank, found.algebra, found.algebra_class["semisimple"]
+        (2, 'so(3)', True)
+        >>> [(casimir.name, casimir.expression) for casimir in found.casimirs]
+        [('C1', 'x^2 + y^2 + z^2')]
+        """
+        if not isinstance(deep, bool):
+            raise TypeError(f"deep is True or False, not {deep!r}")
+        return read_check(self._core.check(deep))
+
+    def rust(self, *methods: str) -> str:
+        """The generated Rust, with fused code of these methods."""
+        return self._core.rust(list(methods))
+
+    def latex(self) -> str:
+        """The Hamiltonian and, where they are not too long, the equations of motion for LaTeX."""
+        hidden = [name for name in self._core.coordinates if name not in self.coordinates]
+        lines = self._core.equations()
+        if hidden:  # the momentum of the time is a summand of the larger space's H
+            lines = [
+                re.sub(rf" \+ {re.escape(hidden[0])}\b", "", line)
+                for line in lines
+                if not line.startswith(tuple(f"{name}'" for name in hidden))
+            ]
+        body = r" \\ ".join(as_latex(line).replace("=", "&=", 1) for line in lines)
+        return r"\begin{aligned}" + body + r"\end{aligned}"
+
+
+def plain(value: Any) -> Any:
+    """numpy's numbers and arrays as JSON."""
+    if isinstance(value, np.ndarray):
+        return value.tolist()
+    if isinstance(value, np.generic):
+        return value.item()
+    raise TypeError(f"{value!r} cannot stand in a declaration")
+
+
+def as_latex(text: str) -> str:
+    text = re.sub(r"([A-Za-z]+)_?(\d+)(?![\d^])", r"\1_{\2}", text)
+    text = re.sub(r"\^(\d+)", r"^{\1}", text)
+    text = re.sub(r"\b(sqrt|exp|log|sin|cos|tan)\(", r"\\\1(", text)
+    return text.replace("*", r"\,")

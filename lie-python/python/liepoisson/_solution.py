@@ -1,0 +1,157 @@
+"""What a run has saved."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from ._arguments import Array, hint
+from ._pictures import image, new_figure, page, shown, table
+
+__all__ = ["Ensemble", "Solution"]
+
+#: Failures of an ensemble that a notebook shows.
+_SHOWN = 10
+
+
+class Solution:
+    """What a run has saved, as numpy arrays.
+
+    ``t``: the times, shape (m,). ``mu``: the states, shape (m, n). ``energy``: H at each row, shape (m,).
+    ``casimirs``: a dictionary of arrays of shape (m,). ``run["Pi1"]``, ``run["energy"]`` and ``run["C1"]`` are columns.
+    ``method``, ``step``, ``steps``: what was done.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        coordinates: Sequence[str],
+        t: Array,
+        mu: Array,
+        energy: Array,
+        casimirs: Mapping[str, Array],
+        method: str,
+        step: float,
+        steps: int,
+    ) -> None:
+        self.name = name
+        self.coordinates = list(coordinates)
+        self.t = t
+        self.mu = mu
+        self.energy = energy
+        self.casimirs = dict(casimirs)
+        self.method = method
+        self.step = step
+        self.steps = steps
+        #: The group element at each row, shape (m, s, s) or (m, 4), where it was asked for.
+        self.group: Array | None = None
+
+    def __getitem__(self, name: str) -> Array:
+        if name in self.coordinates:
+            column: Array = self.mu[:, self.coordinates.index(name)]
+            return column
+        if name == "t":
+            return self.t
+        if name == "energy":
+            return self.energy
+        if name in self.casimirs:
+            return self.casimirs[name]
+        known = ["t", *self.coordinates, "energy", *self.casimirs]
+        raise KeyError(f"no column {name!r}{hint(str(name), known)} There are: {', '.join(known)}")
+
+    def __len__(self) -> int:
+        return len(self.t)
+
+    def _reference(self, values: Array) -> float | None:
+        """What a change is divided by: the first value; nothing where that is only round-off beside the state."""
+        if not len(values):
+            return None
+        scale = float(np.max(np.abs(self.mu))) if self.mu.size else 0.0
+        first = abs(float(values[0]))
+        return first if first > 1e-12 * min(scale, scale * scale) else None
+
+    @property
+    def drift(self) -> dict[str, float]:
+        """The largest change of energy and Casimirs over the rows, relative to their first values.
+
+        Where the first value is 0, or only round-off beside the state, the change itself.
+        """
+        found = {}
+        for name, values in [("energy", self.energy), *self.casimirs.items()]:
+            change = float(np.max(np.abs(values - values[0]))) if len(values) else 0.0
+            found[name] = change / (self._reference(values) or 1.0)
+        return found
+
+    def __repr__(self) -> str:
+        absolute = {
+            name: " (absolute)" if self._reference(values) is None else ""
+            for name, values in [("energy", self.energy), *self.casimirs.items()]
+        }
+        drift = ", ".join(
+            f"{name} {value:.1e}{absolute[name]}" for name, value in self.drift.items()
+        )
+        end = f"t = {self.t[-1]:g}" if len(self.t) else "nothing"
+        return (
+            f"<{self.name}, {self.method}, step {self.step:g}: {len(self.t)} rows to {end}; "
+            f"largest relative error: {drift}>"
+        )
+
+    def plot(self, *, show: bool = False) -> Any:
+        """Draws the components and the errors of the invariants with matplotlib; returns the figure."""
+        figure = new_figure((8, 6), "plot()")
+        self._draw(figure)
+        return shown(figure, show)
+
+    def _draw(self, figure: Any) -> None:
+        above, below = figure.subplots(2, 1, sharex=True, height_ratios=[2, 1])
+        self._draw_components(above)
+        above.set_title(f"{self.name}, {self.method}, step {self.step:g}")
+        for name, values in [("energy", self.energy), *self.casimirs.items()]:
+            scale = self._reference(values) or 1.0
+            errors = np.maximum(np.abs(values - values[0]) / scale, 1e-17)
+            below.semilogy(self.t, errors, label=name, linewidth=1)
+        below.set_ylabel("relative error")
+        below.set_xlabel("t")
+        below.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)
+
+    def _draw_components(self, axes: Any) -> None:
+        for name in self.coordinates:
+            axes.plot(self.t, self[name], label=name, linewidth=1)
+        axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)
+
+    def _repr_html_(self) -> str:
+        if not len(self):
+            return page(repr(self))
+        drift = [(name, f"{value:.2e}") for name, value in self.drift.items()]
+        picture = image(self._draw, (8, 5), f"components and errors of {self.name}")
+        return page(repr(self).strip("<>"), table(["invariant", "largest error"], drift), picture)
+
+
+class Ensemble:
+    """Many trajectories.
+
+    ``mu``: the final states, shape (m, n), or with ``every`` or ``at`` all that were saved, shape (m, rows, n); what a failed
+    member did not reach is not a number. ``t``: the times of the rows, shape (rows,). ``failures``: (member, time, reason).
+    """
+
+    def __init__(self, mu: Array, t: Array, failures: list[tuple[int, float, str]]) -> None:
+        self.mu = mu
+        self.t = t
+        self.failures = failures
+
+    def __len__(self) -> int:
+        return len(self.mu)
+
+    def __repr__(self) -> str:
+        rows = f" at {len(self.t)} times" if self.mu.ndim == 3 else ""
+        return f"<{len(self.mu)} members{rows}, {len(self.failures)} failed>"
+
+    def _repr_html_(self) -> str:
+        rows = [
+            (str(member), f"{time:g}", reason) for member, time, reason in self.failures[:_SHOWN]
+        ]
+        failed = table(["member", "time", "why it failed"], rows) if rows else ""
+        more = len(self.failures) - len(rows)
+        return page(repr(self).strip("<>"), failed, f"<p>… and {more} more</p>" if more else "")

@@ -1,0 +1,278 @@
+"""Systems: runs, ensembles, measurements, functions."""
+
+from __future__ import annotations
+
+import os
+import warnings
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ._arguments import Array, Number, merged, number, times_of
+from ._bench import Bench
+from ._declared import Declared
+from ._errors import IntegrationError
+from ._functions import function_of
+from ._measure import measured
+from ._members import members_of, table_of
+from ._notebook import page_of
+from ._solution import Ensemble, Solution
+from ._verification import Fact, Verification
+
+__all__ = ["System", "load"]
+
+
+class System(Declared):
+    """A Lie–Poisson system, by the text of a spec, a dictionary, or the keys of a spec as keywords.
+
+    >>> top = System(name="Top", algebra="se(3)", state=["m1", "m2", "m3", "g1", "g2", "g3"],
+    ...              hamiltonian="m1^2/2 + m2^2/2 + m3^2 + g3", initial=[0.1, 0.2, 0.9, 0, 0.6, 0.8])
+    >>> top.casimirs
+    ['C1', 'C2']
+
+    Errors: :class:`DeclarationError` lists every mistake with its place and remedy.
+    """
+
+    def run(
+        self,
+        method: str | None = None,
+        *,
+        h: Number | None = None,
+        tol: float | None = None,
+        t: Number | None = None,
+        x0: Any = None,
+        every: int | None = None,
+        at: Sequence[float] | None = None,
+        rtol: float | None = None,
+        atol: float | None = None,
+        iteration: str | None = None,
+        newton_tolerance: float | None = None,
+        max_iterations: int | None = None,
+        converge: str | None = None,
+        group: str | None = None,
+        parameters: Mapping[str, Number] | None = None,
+        **named: Number,
+    ) -> Solution:
+        """Integrates from time 0 until ``t``.
+
+        ``h`` is the step; ``tol``, in its place, the relative error wanted at the end. ``x0`` is the initial state, a
+        sequence or a dictionary; ``every`` saves each so-manyth step, ``at`` saves these times alone. Parameters are given by
+        name, or in ``parameters`` where a name is also an argument (``parameters={"h": 2}``). What is left out comes from the
+        declaration. ``rtol`` and ``atol`` are those of dopri5. ``iteration`` ("automatic", "newton", "simplified",
+        "fixed-point"), ``newton_tolerance`` (in units of round-off), ``max_iterations`` and ``converge`` ("state", "map",
+        "tolerance") are for the solver of implicit methods. ``group="matrix"`` or ``"quaternion"`` follows the group element
+        from the identity on (``run.group``).
+
+        Warnings: :class:`UserWarning` where the error at the end may be much larger than ``tol``.
+
+        Errors: :class:`MethodError` for a method that does not apply, :class:`IntegrationError` with ``partial`` for a
+        run that stopped early, :class:`ValueError` and :class:`TypeError` for arguments.
+        """
+        values = self._values(merged(parameters, named))
+        start = self._start(x0, values)
+        options = self._core.run_options()
+        end, every, times = times_of(t, at, every, options)
+        solver: dict[str, object] = {
+            "iteration": iteration,
+            "newton_tolerance": newton_tolerance,
+            "max_iterations": max_iterations,
+            "converge": converge,
+        }
+        asked = self._asked(method, (h, tol), end, options, (rtol, atol), solver)
+        label = asked["label"]
+        group = group if group is not None else options.get("group", [None])[0]
+        asked.update(parameters=values, start=start, every=every, at=times, group=group)
+        (t_rows, mu, energy, casimirs), found = self._core.run(asked)
+        shown = self._core.shown()
+        columns = {name: casimirs[:, index] for index, name in enumerate(self.casimirs)}
+        solution = Solution(
+            self.name,
+            self.coordinates,
+            t_rows,
+            mu[:, shown] if len(shown) < mu.shape[1] else mu,
+            energy,
+            columns,
+            label,
+            float(str(found["step"])),
+            int(str(found["steps"])),
+        )
+        if "group" in found:
+            elements = np.asarray(found["group"]).reshape(len(t_rows), -1)
+            size = round(elements.shape[1] ** 0.5)
+            solution.group = elements if group == "quaternion" else elements.reshape(-1, size, size)
+        if "missed" in found:
+            error = float(str(found["missed"]))
+            text = (
+                f"the error at the end is about {error:.1e} of the state, more than the tolerance {asked['pace'][1]:g}: "
+                f"errors grow on this orbit, or {label} cannot keep it"
+                if np.isfinite(error)
+                else "the error at the end is not known: telling it takes too many steps, or failed"
+            )
+            warnings.warn(text, stacklevel=2)
+        if "why" in found:
+            number, time = int(str(found["step_number"])), float(str(found["time"]))
+            message = (
+                f"the integration stopped in step {number} at t = {time!r}: {found['why']}\n"
+                f"  help: {found['remedy']}; the rows so far are in `partial`"
+            )
+            raise IntegrationError(message, solution, number, time)
+        return solution
+
+    def ensemble(
+        self,
+        x0: npt.ArrayLike,
+        method: str | None = None,
+        *,
+        h: Number | None = None,
+        tol: float | None = None,
+        t: Number | None = None,
+        every: int | None = None,
+        at: Sequence[float] | None = None,
+        threads: int | None = None,
+        rtol: float | None = None,
+        atol: float | None = None,
+        iteration: str | None = None,
+        newton_tolerance: float | None = None,
+        max_iterations: int | None = None,
+        converge: str | None = None,
+        parameters: Mapping[str, Any] | None = None,
+        **named: Any,
+    ) -> Ensemble:
+        """Many trajectories, from the rows of ``x0`` (shape (m, n)); parameters may be arrays of length m.
+
+        The ends are kept, or with ``every`` each so-manyth step, with ``at`` these times. With ``tol`` in the place of ``h`` each
+        member has a step of its own, and `every` is not taken. Other arguments are those of :meth:`run`. The bits do not
+        depend on the number of threads (all processors by default). A member that fails has rows of not-a-number from there
+        on, and is named in ``failures``. Of a group element that the declaration asks for, nothing is kept.
+
+        >>> body = System(algebra="so(3)", state=["x", "y", "z"], hamiltonian="x^2/2 + y^2/4 + z^2/6")
+        >>> starts = [[1, 0.1, 0], [0, 1, 0.1]]
+        >>> body.ensemble(starts, "gauss4", h=0.1, t=1).mu.shape
+        (2, 3)
+        >>> rows = body.ensemble(starts, "gauss4", h=0.1, t=1, every=5)
+        >>> rows.mu.shape, rows.t.tolist()
+        ((2, 3, 3), [0.0, 0.5, 1.0])
+        """
+        parameters = merged(parameters, named)
+        starts = members_of(self, x0)
+        table = table_of(self, parameters, len(starts))
+        options = self._core.run_options()
+        # rows of the declaration are for single runs
+        for name in ("at", "every"):
+            options.pop(name, None)
+        end, _, times = times_of(t, at, every, options)
+        if threads is not None and threads < 1:
+            raise ValueError(f"threads must be 1, 2, 3, …, not {threads}")
+        solver: dict[str, object] = {
+            "iteration": iteration,
+            "newton_tolerance": newton_tolerance,
+            "max_iterations": max_iterations,
+            "converge": converge,
+        }
+        asked = self._asked(method, (h, tol), end, options, (rtol, atol), solver)
+        if asked["pace"][1] is not None and every is not None:
+            raise TypeError(
+                "with a tolerance each member has a step of its own: give at=[…] in place of every"
+            )
+        asked.update(every=every, at=times, threads=threads or os.cpu_count() or 1)
+        rows, states, failures = self._core.ensemble(table, starts, asked)
+        shown = self._core.shown()
+        states = states[:, :, shown] if len(shown) < states.shape[2] else states
+        if every is None and times is None:
+            # where none came to its end there is no row
+            ends = states[:, -1] if len(rows) else np.full((len(starts), self.dimension), np.nan)
+            return Ensemble(ends, rows, failures)
+        return Ensemble(states, rows, failures)
+
+    def function(
+        self, name: str, /, parameters: Mapping[str, Number] | None = None, **named: Number
+    ) -> Callable[..., Array]:
+        """A function of the state, vectorised over leading axes: of shape (…, n).
+
+        ``vector_field``, ``gradient``: (…, n). ``jacobian``, ``hessian``, ``poisson_matrix``: (…, n, n).
+        ``hamiltonian``: (…). ``casimirs``: (…, number of Casimirs).
+
+        >>> body = System(algebra="so(3)", state=["x", "y", "z"], hamiltonian="x^2/2 + y^2/4 + z^2/6")
+        >>> f = body.function("vector_field")
+        >>> f([1.0, 2.0, 6.0]).tolist()
+        [-2.0, 4.0, -1.0]
+
+        For SciPy: ``solve_ivp(lambda t, y: f(y), …)``. Where the Hamiltonian depends on the time, it is the second argument,
+        0 unless it is given: ``f(y, t)``; t may be an array over the leading axes.
+
+        >>> driven = System(algebra="so(3)", state=["x", "y", "z"], hamiltonian="x^2/2 + cos(t)*y")
+        >>> driven.function("hamiltonian")([0, 1, 0], 0.0).item()
+        1.0
+        """
+        return function_of(self, name, self._values(merged(parameters, named)))
+
+    def verify(
+        self,
+        *methods: str,
+        h: Number | None = None,
+        x0: Any = None,
+        seed: int = 1,
+        parameters: Mapping[str, Number] | None = None,
+        **named: Number,
+    ) -> Verification:
+        """Measures what methods claim on this system: order, symmetry, invariants, the orbit, the Poisson structure.
+
+        Without names, all methods that apply and run in Python, at their default options. ``h`` is the step at which facts are
+        measured; it is found where it is not given. Kernels are compared with the declaration by the command, `lie verify`.
+
+        >>> body = System(algebra="so(3)", state=["x", "y", "z"], hamiltonian="x^2/2 + y^2/4 + z^2/6")
+        >>> body.verify("rk4", "lie-midpoint", x0=[0.8, 0.1, 0.6]).passed
+        True
+
+        Errors: :class:`MethodError` for a method that does not apply, :class:`ValueError` where nothing can be measured.
+        """
+        values = self._values(merged(parameters, named))
+        start = self._start(x0, values)
+        step = None if h is None else number(h, "h")
+        facts, unsound = self._core.verify(list(methods), values, start, (step, seed))
+        return Verification([Fact(*fact) for fact in facts], unsound)
+
+    def bench(
+        self,
+        *methods: str,
+        t: Number | None = None,
+        measure: str = "state",
+        section: tuple[str, Number] | None = None,
+        budget: float = 0.2,
+        x0: Any = None,
+        parameters: Mapping[str, Number] | None = None,
+        **named: Number,
+    ) -> Bench:
+        """Measures errors of methods beside the times that they take, each at one step or tolerance after the other.
+
+        Without names, the methods that `lie bench` takes, as far as they run in Python. ``t`` is the end, that of the
+        declaration (at most 20), or 10. ``measure`` is the sense of errors: "state", "energy", "casimirs", "phase", or
+        "section" with ``section=(coordinate, value)``. No run that takes longer than ``budget`` seconds is made more accurate.
+
+        >>> body = System(algebra="so(3)", state=["x", "y", "z"], hamiltonian="x^2/2 + y^2/4 + z^2/6")
+        >>> found = body.bench("rk4", "gauss4", t=1, budget=0.01, x0=[0.8, 0.1, 0.6])
+        >>> sorted(found.methods)
+        ['gauss4', 'rk4']
+        >>> bool(found["error"].min() < 1e-9 < found["error"].max())
+        True
+
+        Errors: :class:`Interrupted`, a KeyboardInterrupt, where Ctrl-C ends it; its ``partial`` has what was measured.
+        :class:`MethodError` for a method that does not apply, :class:`ValueError` where nothing can be measured.
+        """
+        for name in ("h", "tol"):
+            if name in named and name not in self.parameters:
+                raise TypeError(f"no argument `{name}`: bench tries many steps; leave it out")
+        values = self._values(merged(parameters, named))
+        start = self._start(x0, values)
+        return measured(self, methods, values, start, (t, budget, measure, section))
+
+    def _repr_html_(self) -> str:
+        return page_of(self)
+
+
+def load(path: str | os.PathLike[str]) -> System:
+    """The system of a spec file."""
+    with open(path, encoding="utf-8-sig") as file:
+        return System(file.read())

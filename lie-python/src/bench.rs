@@ -1,0 +1,141 @@
+//! Errors of methods beside the times that they take.
+
+use crate::declaration::{Declaration, choices, runs};
+use crate::talk::{not_here, talk};
+use lie_codegen::methods::Choice;
+use lie_codegen::model::Model;
+use lie_codegen::program::Purpose;
+use lie_measure::bench::{ClockKind, Found, Measure, Options, Plane};
+use lie_program::protocol::Start;
+use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
+use pyo3::prelude::*;
+
+/// A run: method, "step" or "tolerance", its value; error, what is left of it across the orbit; seconds for a unit of time of
+/// the system (least, median, on the wall); steps, evaluations, Newton iterations.
+type Row = (
+    String,
+    &'static str,
+    f64,
+    f64,
+    Option<f64>,
+    f64,
+    f64,
+    f64,
+    u64,
+    u64,
+    u64,
+);
+/// A run that did not come to its end: method, "step" or "tolerance", its value, why.
+type Stopped = (String, &'static str, f64, String);
+
+/// What was measured.
+#[derive(Default, IntoPyObject)]
+pub struct Results {
+    rows: Vec<Row>,
+    stopped: Vec<Stopped>,
+    /// The estimated error of the reference solution, and its distance from a second one.
+    reference: Option<(f64, f64)>,
+    /// The place of the coordinate of the surface of section, its value, how often it is passed.
+    section: Option<(usize, f64, u64)>,
+    /// Whether times are those of the processor.
+    processor: bool,
+    /// Whether Ctrl-C ended it.
+    interrupted: bool,
+}
+
+impl Results {
+    fn take(&mut self, found: Found) {
+        match found {
+            Found::Reference(found) => self.reference = Some((found.error, found.difference)),
+            Found::Section { plane, passages } => {
+                self.section = Some((plane.coordinate, plane.value, passages));
+            }
+            Found::Clock(kind) => self.processor = kind == ClockKind::Processor,
+            Found::Point(point) => self.rows.push((
+                point.method,
+                point.control.word(),
+                point.value,
+                point.error,
+                point.across,
+                point.seconds,
+                point.median,
+                point.wall,
+                point.steps,
+                point.evaluations,
+                point.newton,
+            )),
+            Found::Stopped {
+                method,
+                control,
+                value,
+                why,
+            } => self.stopped.push((method, control.word(), value, why)),
+        }
+    }
+}
+
+/// What is asked for: the end, seconds for a run, the sense of errors, the surface of section.
+pub type Asked = (f64, f64, String, Option<(usize, f64)>);
+
+fn options((until, budget, measure, plane): Asked) -> PyResult<Options> {
+    let plane = plane.map(|(coordinate, value)| Plane { coordinate, value });
+    let measure = match measure.as_str() {
+        "state" => Measure::State,
+        "energy" => Measure::Energy,
+        "casimirs" => Measure::Casimirs,
+        "phase" => Measure::Phase,
+        "section" => Measure::Section(plane),
+        other => return Err(PyValueError::new_err(format!("no measure `{other}`"))),
+    };
+    Ok(Options {
+        until,
+        budget,
+        measure,
+    })
+}
+
+/// The methods that `lie bench` takes, those that run here.
+fn usual(model: &Model) -> Vec<Choice> {
+    let mut usual = lie_in_process::list::fewer(model);
+    usual.retain(runs);
+    usual
+}
+
+/// Has the errors and times of these methods measured, of the usual ones where none is named.
+pub fn bench(
+    py: Python<'_>,
+    declaration: &Declaration,
+    labels: &[String],
+    start: Start,
+    asked: Asked,
+) -> PyResult<Results> {
+    let options = options(asked)?;
+    let casimirs = options.measure == Measure::Casimirs;
+    let made = declaration.with_model(py, |model| {
+        let choices = choices(&model, labels, usual)?;
+        let without = casimirs && model.casimirs.iter().all(|casimir| casimir.multivalued);
+        let work = lie_in_process::work(&model, &choices, Purpose::Bench, crate::clock::processor);
+        Ok((work, choices, without))
+    });
+    let (work, choices, without) =
+        made.map_err(|refused: crate::choice::Refused| refused.raise(py))?;
+    if without {
+        let text =
+            "the system has no Casimir with one branch: declare one, or take measure=\"energy\"";
+        return Err(PyValueError::new_err(text));
+    }
+    let work = work.ok_or_else(|| not_here(py, "lie bench"))?;
+    let request = lie_measure::Request {
+        methods: choices.iter().map(Choice::label).collect(),
+        start,
+        options,
+    };
+    let mut results = Results::default();
+    let outcome = talk(py, &*work, &request, |found| results.take(found))?;
+    outcome.checked("measurement")?;
+    match outcome.interrupted {
+        Some(other) if !other.is_instance_of::<PyKeyboardInterrupt>(py) => return Err(other),
+        interrupted => results.interrupted = interrupted.is_some(),
+    }
+    Ok(results)
+}

@@ -1,0 +1,69 @@
+//! What `lie check` and `lie methods` say, as JSON.
+
+use crate::declaration::{Declaration, runs};
+use crate::errors::shown;
+use lie_codegen::check::Effort;
+use lie_codegen::methods::{CATALOGUE, Choice, applicability};
+use lie_codegen::model::Model;
+use lie_dynamic::Dynamic;
+use lie_in_process::catalogue;
+use lie_in_process::report::Report;
+use pyo3::prelude::*;
+use serde_json::{Value, json};
+
+/// The methods with the reason where one does not apply, and whether it runs in Python.
+pub fn methods(model: &Model) -> String {
+    let known = applicability(model);
+    let reason = |id: &str| {
+        let found = known.iter().find(|(known, _)| *known == id);
+        found.and_then(|(_, reason)| reason.clone())
+    };
+    let supported = Dynamic::supports(&lie_codegen::plan::plan(model, &[]));
+    let rows = CATALOGUE.iter().map(|method| {
+        let mut row = catalogue::json(method);
+        row["keeps"] = catalogue::kept(method).into();
+        row["reason"] = reason(method.id).into();
+        row["here"] = (supported && here(method.id)).into();
+        row
+    });
+    rows.collect::<Value>().to_string()
+}
+
+/// The Hamiltonian and the equations of motion by lines; the Hamiltonian alone where they are long.
+pub fn equations(model: &Model) -> Vec<String> {
+    let plan = lie_codegen::plan::plan(model, &[]);
+    let kernels = plan.system.poisson.iter();
+    let explicit: Vec<String> = kernels.flat_map(|kernel| kernel.explicit.clone()).collect();
+    match (model.energy.expression(), &model.family) {
+        (Some(hamiltonian), None) if explicit.is_empty() => {
+            vec![format!("H = {}", model.display(hamiltonian.energy))]
+        }
+        _ => explicit,
+    }
+}
+
+/// Whether a method runs without a compiler of Rust; a composition by that of the midpoint rule.
+fn here(id: &str) -> bool {
+    let choice = match id.starts_with("compose") {
+        true => Choice::from_id(&format!("{id}(midpoint)")),
+        false => Choice::from_id(id),
+    };
+    choice.is_ok_and(|choice| runs(&choice))
+}
+
+/// The object of `lie check --json`, with the warnings.
+pub fn check(py: Python<'_>, declaration: &Declaration, deep: bool) -> PyResult<String> {
+    let effort = match deep {
+        true => Effort::Deep,
+        false => Effort::Report,
+    };
+    declaration.with_effort(py, effort, |model| {
+        let mut found = Report::on(&model, effort).json(&model);
+        let warnings = model.warnings.iter();
+        let warnings: Vec<String> = warnings
+            .map(|warning| shown(&declaration.text, warning))
+            .collect();
+        found["warnings"] = json!(warnings);
+        found.to_string()
+    })
+}
