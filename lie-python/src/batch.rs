@@ -215,18 +215,21 @@ pub struct Asked {
     solver: choice::Solver,
 }
 
-/// Many trajectories: the times, the states of members by rows, and why some ended early.
+/// The times, the states of members by rows, and why some ended early.
+pub type Saved<'py> = (
+    Bound<'py, PyArray1<f64>>,
+    Bound<'py, PyArray3<f64>>,
+    Vec<Failed>,
+);
+
+/// Many trajectories.
 pub fn ensemble<'py>(
     py: Python<'py>,
     declaration: &Declaration,
     parameters: &PyReadonlyArray2<'py, f64>,
     starts: &PyReadonlyArray2<'py, f64>,
     asked: Asked,
-) -> PyResult<(
-    Bound<'py, PyArray1<f64>>,
-    Bound<'py, PyArray3<f64>>,
-    Vec<Failed>,
-)> {
+) -> PyResult<Saved<'py>> {
     let (choice, declared) = declaration.method(py, &asked.label)?;
     let tolerances = choice::tolerances(py, &choice, asked.tolerances, asked.pace.1)?;
     method::<f64>(&choice, tolerances).ok_or_else(|| choice::unsupported(py, &asked.label))?;

@@ -19,7 +19,7 @@ use choice::wanted;
 use declaration::Declaration;
 use lie_codegen::methods::Choice;
 use lie_program::protocol::Start;
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyReadonlyArray2};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::collections::HashMap;
@@ -190,11 +190,7 @@ impl Core {
         parameters: PyReadonlyArray2<'py, f64>,
         starts: PyReadonlyArray2<'py, f64>,
         asked: batch::Asked,
-    ) -> PyResult<(
-        Bound<'py, PyArray1<f64>>,
-        Bound<'py, PyArray3<f64>>,
-        Vec<batch::Failed>,
-    )> {
+    ) -> PyResult<batch::Saved<'py>> {
         batch::ensemble(py, &self.0, &parameters, &starts, asked)
     }
 }
