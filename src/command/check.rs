@@ -165,7 +165,7 @@ impl Words {
             }
         }
         for (reason, names) in refused {
-            writeln!(text, "    not {}: {reason}", names.join(", "))?;
+            sentence(text, &format!("    not {}: {reason}", names.join(", ")))?;
         }
         Ok(())
     }
@@ -273,4 +273,20 @@ fn list(text: &mut String, title: &str, items: &[&str]) -> std::fmt::Result {
         }
     }
     writeln!(text)
+}
+
+/// A sentence in lines of at most 100 characters; what follows the first is indented further.
+fn sentence(text: &mut String, sentence: &str) -> std::fmt::Result {
+    let indent = sentence.len() - sentence.trim_start().len();
+    let mut line = " ".repeat(indent);
+    for (index, word) in sentence.split_whitespace().enumerate() {
+        if index > 0 && line.chars().count() + 1 + word.chars().count() > 100 {
+            writeln!(text, "{line}")?;
+            line = " ".repeat(indent + 4);
+        } else if index > 0 {
+            line.push(' ');
+        }
+        line.push_str(word);
+    }
+    writeln!(text, "{line}")
 }

@@ -24,7 +24,7 @@ pub fn run(arguments: &args::Methods) -> Result<u8, Failure> {
 fn table() -> String {
     let (mut references, mut needs): (Vec<&str>, Vec<&str>) = (Vec::new(), Vec::new());
     let mut options: Vec<(String, Vec<&str>)> = Vec::new();
-    let mut rows = vec![["method", "order", "", "", "keeps", "needs", ""].map(str::to_owned)];
+    let mut rows = vec![["method", "order", "", "keeps", "needs"].map(str::to_owned)];
     for method in CATALOGUE {
         let number = place(&mut references, method.reference);
         let need = place(&mut needs, method.needs);
@@ -47,16 +47,17 @@ fn table() -> String {
         rows.push([
             method.id.to_owned(),
             method.order.to_string(),
-            if method.symmetric { "symmetric" } else { "" }.to_owned(),
-            if method.explicit {
-                "explicit"
-            } else {
-                "implicit"
-            }
-            .to_owned(),
+            format!(
+                "{:9} {}",
+                if method.symmetric { "symmetric" } else { "" },
+                if method.explicit {
+                    "explicit"
+                } else {
+                    "implicit"
+                }
+            ),
             catalogue::kept(method),
-            need.to_string(),
-            format!("[{number}]"),
+            format!("{need}[{number}]"),
         ]);
     }
     let mut text = aligned(&rows);
@@ -64,7 +65,7 @@ fn table() -> String {
         "\nOrbit: the coadjoint orbit, with it every Casimir. Poisson: each step is a Poisson map; if\n\
          constant: where the Poisson matrix is constant.\n",
     );
-    text.push_str("\nWhat they need:\n");
+    text.push_str("\nWhat they need, by the number before the reference:\n");
     for (index, need) in needs.iter().enumerate() {
         let words: Vec<&str> = need.split(' ').collect();
         text.push_str(&wrapped(&format!("  {}: ", index + 1), &words, " "));

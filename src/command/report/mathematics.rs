@@ -4,8 +4,7 @@ use lie_codegen::front::Names;
 use lie_codegen::model::Model;
 use lie_codegen::plan::plan;
 
-use super::mathml::formula;
-use super::page::escaped;
+use super::mathml::{formula, identifier};
 
 /// Brackets beyond this number say less than the name of the algebra.
 const MOST: usize = 24;
@@ -105,9 +104,9 @@ fn brackets(model: &Model, names: &Names) -> Vec<String> {
             .join(" + ")
             .replace("(1)*", "")
             .replace("(-1)*", "-");
-        let name = |i: usize| escaped(&algebra.basis[i].text);
+        let name = |i: usize| identifier(&algebra.basis[i].text);
         let left = format!(
-            "<mo>[</mo><mi>{}</mi><mo>,</mo><mi>{}</mi><mo>]</mo><mo>=</mo>",
+            "<mo>[</mo>{}<mo>,</mo>{}<mo>]</mo><mo>=</mo>",
             name(i),
             name(j)
         );

@@ -67,7 +67,10 @@ pub fn formula(text: &str, names: &Names) -> String {
 /// One side of an equation; `x'` is the derivative by the time.
 fn side(text: &str, names: &Names) -> Option<String> {
     if let Some(name) = text.strip_suffix('\'') {
-        return Some(format!("<mover>{}<mo>˙</mo></mover>", identifier(name)));
+        return Some(format!(
+            "<mover accent=\"true\">{}<mo stretchy=\"false\">˙</mo></mover>",
+            identifier(name)
+        ));
     }
     if text.chars().all(|c| c.is_alphanumeric() || c == '_')
         && !text.starts_with(|c: char| c.is_ascii_digit())
@@ -83,7 +86,7 @@ fn side(text: &str, names: &Names) -> Option<String> {
 }
 
 /// A name: Greek letters, and what follows a letter or a bar below as an index.
-fn identifier(name: &str) -> String {
+pub fn identifier(name: &str) -> String {
     let digits = name.trim_end_matches(|c: char| c.is_ascii_digit());
     let (base, index) = match name.split_once('_') {
         Some((base, index)) if !base.is_empty() && !index.is_empty() => (base, index),
@@ -125,12 +128,16 @@ fn of(expression: &Expr, around: Binding) -> String {
             ),
             Binding::Power,
         ),
-        ExprKind::Negative(inner) => (
-            format!("<mo>−</mo>{}", of(inner, Binding::Product)),
-            Binding::Sum,
-        ),
+        ExprKind::Negative(_) => {
+            let (negative, text) = signed(expression);
+            let sign = if negative { "<mo>−</mo>" } else { "" };
+            (format!("{sign}{text}"), Binding::Sum)
+        }
         ExprKind::Sum(terms) => (sum(terms), Binding::Sum),
-        ExprKind::Product(factors) => (product(factors), Binding::Product),
+        ExprKind::Product(_) => match signed(expression) {
+            (true, text) => (format!("<mo>−</mo>{text}"), Binding::Sum),
+            (false, text) => (text, Binding::Product),
+        },
         ExprKind::Power(base, exponent) => {
             let base = match base.kind {
                 ExprKind::Name { .. } => of(base, Binding::Power),
@@ -195,18 +202,42 @@ fn sum(terms: &[(bool, Expr)]) -> String {
     let mut text = String::new();
     for (number, (minus, term)) in terms.iter().enumerate() {
         // a minus of its own joins the sign
-        let (minus, term) = match &term.kind {
-            ExprKind::Negative(inner) => (!minus, &**inner),
-            _ => (*minus, term),
-        };
-        text.push_str(match (number, minus) {
+        let (negative, term) = signed(term);
+        text.push_str(match (number, *minus != negative) {
             (_, true) => "<mo>−</mo>",
             (0, false) => "",
             (_, false) => "<mo>+</mo>",
         });
-        text.push_str(&of(term, Binding::Product));
+        text.push_str(&term);
     }
     text
+}
+
+/// Whether a minus stands before a term, and the rest of it.
+fn signed(term: &Expr) -> (bool, String) {
+    match &term.kind {
+        ExprKind::Negative(inner) => {
+            let (negative, text) = signed(inner);
+            (!negative, text)
+        }
+        ExprKind::Product(factors) => match factors.as_slice() {
+            [
+                (
+                    false,
+                    Expr {
+                        kind: ExprKind::Negative(first),
+                        ..
+                    },
+                ),
+                rest @ ..,
+            ] => {
+                let bare = std::iter::once((false, (**first).clone())).chain(rest.iter().cloned());
+                (true, product(&bare.collect::<Vec<_>>()))
+            }
+            factors => (false, product(factors)),
+        },
+        _ => (false, of(term, Binding::Product)),
+    }
 }
 
 fn product(factors: &[(bool, Expr)]) -> String {
@@ -288,7 +319,9 @@ mod tests {
     fn fractions_indices_and_signs() {
         let text = formula("m1' = -m1*m2/(2*I1) + sqrt(omega)^2", &names());
         assert!(
-            text.contains("<mover><msub><mi>m</mi><mi>1</mi></msub><mo>˙</mo></mover><mo>=</mo>"),
+            text.contains(
+                "<msub><mi>m</mi><mi>1</mi></msub><mo stretchy=\"false\">˙</mo></mover><mo>=</mo>"
+            ),
             "{text}"
         );
         assert!(
@@ -312,6 +345,13 @@ mod tests {
         assert_eq!(open("(x + m1)/m2"), 0);
         assert_eq!(open("x + m1*m2"), 0);
         assert_eq!(open("sin(x)"), 1);
+        assert_eq!(
+            open("-x*m1/m2 - (-x)*m1"),
+            0,
+            "{}",
+            formula("-x*m1/m2 - (-x)*m1", &names())
+        );
+        assert_eq!(open("m1*(-x)"), 1);
     }
 
     #[test]

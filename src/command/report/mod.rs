@@ -42,7 +42,7 @@ const BUDGET: &str = "0.02";
 pub fn run(flags: &args::Report) -> Result<u8, Failure> {
     let spec = compiler::load(&flags.spec)?;
     let out = out(flags)?;
-    let mut file = Destination::file(&out).map_err(|error| outputs::unwritable(&out, &error))?;
+    let file = Destination::file(&out).map_err(|error| outputs::unwritable(&out, &error))?;
     let folder =
         tempfile::tempdir().map_err(|error| outputs::unwritable(&std::env::temp_dir(), &error))?;
     let mut report = Report {

@@ -54,8 +54,11 @@ impl Page {
         let _ = writeln!(self.body, "<pre class=\"command\">{}</pre>", escaped(line));
     }
 
-    /// Text of fixed width.
+    /// Text of fixed width, if there is any.
     pub fn preformatted(&mut self, text: &str) {
+        if text.trim().is_empty() {
+            return;
+        }
         let _ = writeln!(self.body, "<pre>{}</pre>", escaped(text.trim_end()));
     }
 
