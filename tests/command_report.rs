@@ -45,7 +45,7 @@ fn everything_is_on_the_page() {
         assert!(text.contains(part), "{part}");
     }
     // each equation of motion, as mathematics
-    assert_eq!(text.matches("˙</mo>").count(), 3);
+    assert_eq!(text.matches("<mo>′</mo>").count(), 3);
     assert!(!text.contains("<math display=\"block\"><mrow></mrow>"));
 }
 

@@ -68,7 +68,7 @@ pub fn formula(text: &str, names: &Names) -> String {
 fn side(text: &str, names: &Names) -> Option<String> {
     if let Some(name) = text.strip_suffix('\'') {
         return Some(format!(
-            "<mover accent=\"true\">{}<mo stretchy=\"false\">˙</mo></mover>",
+            "<msup><mrow>{}</mrow><mo>′</mo></msup>",
             identifier(name)
         ));
     }
@@ -87,6 +87,11 @@ fn side(text: &str, names: &Names) -> Option<String> {
 
 /// A name: Greek letters, and what follows a letter or a bar below as an index.
 pub fn identifier(name: &str) -> String {
+    let letters = name.trim_end_matches(|c: char| c.is_ascii_digit() || c == '_');
+    let base = letters.split('_').next().unwrap_or(letters);
+    if base.chars().count() > 3 && GREEK.iter().all(|(word, _)| *word != base) {
+        return format!("<mtext>{}</mtext>", escaped(name));
+    }
     let digits = name.trim_end_matches(|c: char| c.is_ascii_digit());
     let (base, index) = match name.split_once('_') {
         Some((base, index)) if !base.is_empty() && !index.is_empty() => (base, index),
@@ -319,9 +324,7 @@ mod tests {
     fn fractions_indices_and_signs() {
         let text = formula("m1' = -m1*m2/(2*I1) + sqrt(omega)^2", &names());
         assert!(
-            text.contains(
-                "<msub><mi>m</mi><mi>1</mi></msub><mo stretchy=\"false\">˙</mo></mover><mo>=</mo>"
-            ),
+            text.contains("<msub><mi>m</mi><mi>1</mi></msub></mrow><mo>′</mo></msup><mo>=</mo>"),
             "{text}"
         );
         assert!(
