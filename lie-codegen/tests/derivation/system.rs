@@ -219,7 +219,10 @@ pub fn distance(a: &[f64], b: &[f64]) -> f64 {
     a.iter()
         .zip(b)
         .map(|(a, b)| (a - b).abs())
-        .fold(0.0, f64::max)
+        .fold(
+            0.0,
+            |largest, x| if x.is_nan() { x } else { f64::max(largest, x) },
+        )
 }
 
 /// A generic point, entries between 0.2 and 1 in absolute value.
@@ -257,7 +260,13 @@ pub fn solve(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Vec<f64> {
 pub fn solution(system: &System, both: &Kernel, h: f64, mu: &[f64], start: Vec<f64>) -> Vec<f64> {
     let mut u = start;
     for _ in 0..20 {
-        let (residual, slopes) = system.equation(both, h, mu, &u);
+        let (residual, mut slopes) = system.equation(both, h, mu, &u);
+        // an unknown that the iteration leaves out has an empty row, and stays
+        for (i, row) in slopes.iter_mut().enumerate() {
+            if row.iter().all(|slope| *slope == 0.0) {
+                row[i] = 1.0;
+            }
+        }
         let step = solve(slopes, residual);
         u.iter_mut().zip(step).for_each(|(u, step)| *u -= step);
     }
