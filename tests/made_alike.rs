@@ -87,7 +87,7 @@ fn by_new() {
     let catalogue = CATALOGUE
         .iter()
         .map(|row| row.id)
-        .filter(|id| !id.contains('('));
+        .filter(|id| !id.starts_with("compose"));
     let mut catalogue: Vec<&str> = catalogue.collect();
     catalogue.sort_unstable();
     assert_eq!(made.as_slice(), catalogue);
