@@ -144,6 +144,11 @@ where
     }
 
     #[inline]
+    fn leave_out(&self, unknown: &mut Self::Unknown) {
+        self.equation.leave_out(unknown);
+    }
+
+    #[inline]
     fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
         self.equation.residual(unknown, residual);
     }

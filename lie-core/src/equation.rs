@@ -33,6 +33,10 @@ pub trait Equation<S: Scalar> {
     }
     /// The unknown with which the iteration starts.
     fn initial_guess(&mut self, unknown: &mut Self::Unknown);
+    /// Gives the unknowns that the iteration leaves out the values of the state: no residual depends on them, but norms and
+    /// predictions of the whole unknown do.
+    #[inline(always)]
+    fn leave_out(&self, _unknown: &mut Self::Unknown) {}
     /// The residual r(u).
     fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown);
     /// The residual and its Jacobian `dr/du`. Writes every entry that can be nonzero before or

@@ -207,6 +207,16 @@ where
         fused.field = field;
     }
 
+    fn leave_out(&self, unknown: &mut Self::Unknown) {
+        let Some(fused) = &self.fused else {
+            return self.generic.leave_out(unknown);
+        };
+        let entries = unknown.part_mut(0);
+        for index in &fused.codes.left_out {
+            entries[*index] = fused.base[*index];
+        }
+    }
+
     fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
         let Some(fused) = &mut self.fused else {
             return self.generic.residual(unknown, residual);

@@ -66,6 +66,8 @@ pub(crate) struct FusedCodes {
     pub result: Place,
     /// What completes the unknown, where the iteration leaves some of it out.
     pub completed: Place,
+    /// Those of it.
+    pub left_out: Vec<usize>,
     pub step: OfStep,
     pub table: Table,
     /// The cost of an iteration with a Jacobian in those without.
@@ -141,6 +143,7 @@ impl Making {
             guess: named("initial_guess").map(|function| self.kernel(function)),
             result: named("result").map(|function| self.kernel(function)),
             completed: fused.completed().map(|function| self.kernel(function)),
+            left_out: fused.left_out(),
             step: self.step(&fused.step),
             table: Table::new(&fused.elimination),
             cost: costs.map(|[with, without]| with as f64 / without as f64),

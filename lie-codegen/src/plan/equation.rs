@@ -4,6 +4,7 @@ use super::constants::Constants;
 use super::elimination::Elimination;
 use super::function::Function;
 use super::recurrence::Recurrence;
+use crate::derive::Shape;
 use crate::methods::{self, Choice, Lift};
 use crate::schedule::Counts;
 use crate::trace::COMPLETED;
@@ -73,6 +74,19 @@ impl Fused {
         self.functions
             .iter()
             .find(|function| function.name == COMPLETED)
+    }
+
+    /// The unknowns that the iteration leaves out.
+    pub fn left_out(&self) -> Vec<usize> {
+        let mut functions = self.functions.iter();
+        let residual = functions.find(|function| function.name == "residual");
+        match (self.completed(), residual.map(|residual| &residual.shape)) {
+            (Some(_), Some(Shape::Vector(iterated))) => {
+                let all = 0..self.elimination.order.len();
+                all.filter(|i| !iterated.contains(i)).collect()
+            }
+            _ => Vec::new(),
+        }
     }
 
     /// What an iteration with a Jacobian costs and one without, in instructions about: the operations of their kernels,

@@ -142,11 +142,12 @@ impl Printer<'_> {
         let kernels: TokenStream = functions.map(|f| self.equation_kernel(fused, f)).collect();
         let ending = self.ending(fused);
         let guess = initial_guess(fused.guess);
+        let left_out = left_out(fused);
         let elimination = elimination_methods(&fused.elimination);
         let motion = self.motion(fused);
         let chart = fused.chart.map(|chart| self.within_chart(fused, chart));
         let cost = fused.costs().map(jacobian_cost);
-        quote! { #kernels #ending #guess #elimination #cost #motion #chart }
+        quote! { #kernels #ending #guess #left_out #elimination #cost #motion #chart }
     }
 
     /// A kernel as a method of the equation.
@@ -324,6 +325,20 @@ fn jacobian_cost([with, without]: [usize; 2]) -> TokenStream {
             #with / #without
         }
     }
+}
+
+/// The unknowns that the iteration leaves out have the values of the state.
+fn left_out(fused: &Fused) -> Option<TokenStream> {
+    let all = fused.left_out();
+    let all: Vec<_> = all.iter().map(|i| index(*i)).collect();
+    (!all.is_empty()).then(|| {
+        quote! {
+            #[inline]
+            fn leave_out(&self, unknown: &mut Self::Unknown) {
+                #(unknown[#all] = self.base[#all];)*
+            }
+        }
+    })
 }
 
 /// The initial guess along the field.

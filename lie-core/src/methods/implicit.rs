@@ -62,6 +62,7 @@ impl<S: Scalar, E: Equation<S>> ImplicitStepper<S, E> {
                 self.unknown.assign_where(predicted, self.predictor.next());
             }
         }
+        self.equation.leave_out(&mut self.unknown);
         let scale = self.equation.scale(mu);
         let solved = self.newton.solve_trying(
             &mut self.equation,
