@@ -2322,6 +2322,13 @@ for HeavyTopExpMidpoint<'_, S> {
         ::lie_runtime::State::axpy(unknown, self.h * S::from_f64(0.5), &field);
     }
 
+    #[inline]
+    fn leave_out(&self, unknown: &mut Self::Unknown) {
+        unknown[3] = self.base[3];
+        unknown[4] = self.base[4];
+        unknown[5] = self.base[5];
+    }
+
     /// Sparse elimination in the order [3, 4, 5, 0, 1, 2], 0 entries of fill-in: 17 multiplications with the solution.
     #[inline]
     fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
