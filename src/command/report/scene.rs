@@ -14,10 +14,9 @@ const MOST: usize = 4000;
 pub fn scene(system: &Dynamic<f64>, axes: &[String], states: &[Point]) -> Option<Value> {
     let first = states.first()?;
     let bounds = |of: fn(f64, f64) -> f64| {
-        let folded = states
+        states
             .iter()
-            .fold(*first, |all, point| [0, 1, 2].map(|i| of(all[i], point[i])));
-        folded
+            .fold(*first, |all, point| [0, 1, 2].map(|i| of(all[i], point[i])))
     };
     let (low, high) = (bounds(f64::min), bounds(f64::max));
     let casimir = |point: &Point| {
