@@ -3,8 +3,9 @@
 use lie_dynamic::Dynamic;
 use lie_poisson::plot::contours::contours;
 use lie_poisson::plot::surface::Point;
-use lie_runtime::Poisson as _;
 use serde_json::{Value, json};
+
+use crate::command::run::picture::{casimir, energy};
 
 /// Points of the trajectory at most.
 const MOST: usize = 4000;
@@ -19,21 +20,8 @@ pub fn scene(system: &Dynamic<f64>, axes: &[String], states: &[Point]) -> Option
             .fold(*first, |all, point| [0, 1, 2].map(|i| of(all[i], point[i])))
     };
     let (low, high) = (bounds(f64::min), bounds(f64::max));
-    let casimir = |point: &Point| {
-        let (state, mut gradient) = (point.to_vec(), vec![0.0; 3]);
-        let mut values = vec![0.0; system.casimir_count()];
-        system.casimirs(&state, &mut values);
-        system.casimir_gradient(0, &state, &mut gradient);
-        (values[0], [gradient[0], gradient[1], gradient[2]])
-    };
-    let energy = |point: &Point| {
-        let (state, mut gradient) = (point.to_vec(), vec![0.0; 3]);
-        system.gradient(&state, &mut gradient);
-        (
-            system.hamiltonian(&state),
-            [gradient[0], gradient[1], gradient[2]],
-        )
-    };
+    let casimir = |point: &Point| casimir(system, point);
+    let energy = |point: &Point| energy(system, point);
     let found = contours(&casimir, &energy, first, (low, high))?;
     let (low, high) = found.surface.bounds()?;
     let size = (0..3)

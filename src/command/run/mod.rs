@@ -3,7 +3,7 @@
 pub mod bar;
 mod layout;
 pub mod outputs;
-mod picture;
+pub mod picture;
 pub mod plan;
 mod reception;
 mod session;

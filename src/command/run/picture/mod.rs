@@ -208,7 +208,8 @@ impl<'a> Picture<'a> {
     }
 }
 
-fn casimir(system: &Dynamic<f64>, point: &Point) -> (f64, Point) {
+/// The first Casimir of a three-dimensional system, and its gradient.
+pub fn casimir(system: &Dynamic<f64>, point: &Point) -> (f64, Point) {
     let (state, mut gradient) = (point.to_vec(), vec![0.0; 3]);
     let mut values = vec![0.0; system.casimir_count()];
     system.casimirs(&state, &mut values);
@@ -216,7 +217,8 @@ fn casimir(system: &Dynamic<f64>, point: &Point) -> (f64, Point) {
     (values[0], [gradient[0], gradient[1], gradient[2]])
 }
 
-fn energy(system: &Dynamic<f64>, point: &Point) -> (f64, Point) {
+/// The energy of a three-dimensional system, and its gradient.
+pub fn energy(system: &Dynamic<f64>, point: &Point) -> (f64, Point) {
     let (state, mut gradient) = (point.to_vec(), vec![0.0; 3]);
     system.gradient(&state, &mut gradient);
     (
