@@ -64,7 +64,24 @@ pub trait Unknown<S: Scalar>: Clone {
         // 0 times what is not finite is not a number
         let mut sum = S::zero();
         for part in 0..self.parts() {
-            for &entry in self.part(part) {
+            let part = self.part(part);
+            // of many entries, sums that do not wait for each other
+            let many = if part.len() < 64 {
+                0
+            } else {
+                part.len() / 8 * 8
+            };
+            let (blocks, rest) = (part[..many].as_chunks::<8>().0, &part[many..]);
+            let mut sums = [S::zero(); 8];
+            for block in blocks {
+                for (sum, &entry) in sums.iter_mut().zip(block) {
+                    *sum += entry * S::zero();
+                }
+            }
+            if many > 0 {
+                sum = sums.into_iter().fold(sum, |sum, part| sum + part);
+            }
+            for &entry in rest {
                 sum += entry * S::zero();
             }
         }

@@ -3,9 +3,18 @@
 
 use crate::scalar::{Mask, Scalar, largest};
 
-/// As many terms of the series are round-off up to this square of the angle.
-const LEVELS: [(usize, f64); 4] = [(4, 3e-4), (6, 2e-2), (8, 0.4), (MOST, 4.0)];
-const MOST: usize = 11;
+/// So many terms of the series are enough up to this square of the angle: the first one left out moves a spin by less than an eighth
+/// of the last bit of its length.
+const LEVELS: [(usize, f64); 7] = [
+    (4, 3.08e-3),
+    (5, 0.0207),
+    (6, 0.082),
+    (7, 0.233),
+    (8, 0.535),
+    (10, 1.87),
+    (MOST, 4.0),
+];
+const MOST: usize = 12;
 
 /// The components of the spins of bonds, the first ones and the second ones.
 pub(super) type Pairs<'a, S> = [[&'a mut [S]; 3]; 2];
@@ -68,6 +77,9 @@ impl<S: Scalar> Exchange<S> {
             x if x < LEVELS[1].1 => self.by_series::<{ LEVELS[1].0 }>(pairs),
             x if x < LEVELS[2].1 => self.by_series::<{ LEVELS[2].0 }>(pairs),
             x if x < LEVELS[3].1 => self.by_series::<{ LEVELS[3].0 }>(pairs),
+            x if x < LEVELS[4].1 => self.by_series::<{ LEVELS[4].0 }>(pairs),
+            x if x < LEVELS[5].1 => self.by_series::<{ LEVELS[5].0 }>(pairs),
+            x if x < LEVELS[6].1 => self.by_series::<{ LEVELS[6].0 }>(pairs),
             _ => turn(pairs, |square| self.far(square)),
         }
     }
@@ -77,12 +89,7 @@ impl<S: Scalar> Exchange<S> {
         let squared = self.t * self.t;
         turn(pairs, |square| {
             let x = square * squared;
-            let (mut sine, mut cosine) = (sines[TERMS - 1], cosines[TERMS - 1]);
-            for k in (0..TERMS - 1).rev() {
-                sine = sine * x + sines[k];
-                cosine = cosine * x + cosines[k];
-            }
-            (sine, cosine)
+            (series(sines, x), series(cosines, x))
         });
     }
 
@@ -98,15 +105,25 @@ impl<S: Scalar> Exchange<S> {
         if !self.near.any() {
             return (sine, cosine);
         }
-        let series = |terms: &[S; MOST]| {
-            let terms = terms.iter().rev();
-            terms.fold(S::zero(), |sum, term| sum * x + *term)
-        };
         (
-            S::select(self.near, series(&self.sines), sine),
-            S::select(self.near, series(&self.cosines), cosine),
+            S::select(self.near, series(&self.sines, x), sine),
+            S::select(self.near, series(&self.cosines, x), cosine),
         )
     }
+}
+
+/// The series at x, as a polynomial in its square over pairs of terms: half as many operations wait for each other as in
+/// Horner's rule. Terms of zero at its end change no bit.
+#[inline(always)]
+fn series<S: Scalar>(terms: &[S], x: S) -> S {
+    let square = x * x;
+    let (pairs, rest) = terms.as_chunks::<2>();
+    let mut pairs = pairs.iter().rev().map(|[even, odd]| *even + *odd * x);
+    let last = match rest {
+        [single] => *single,
+        _ => pairs.next().unwrap_or(S::zero()),
+    };
+    pairs.fold(last, |sum, pair| sum * square + pair)
 }
 
 /// Turns the two spins of each bond about their sum, of whose square the two functions are given.
@@ -139,4 +156,63 @@ fn cross<S: Scalar>(u: [S; 3], v: [S; 3]) -> [S; 3] {
         u[2] * v[0] - u[0] * v[2],
         u[0] * v[1] - u[1] * v[0],
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What the first terms left out move a unit vector by: `x^(T + 1/2)/(2T + 1)!` of the sine, `x^(T + 1)/(2T + 2)!` of the cosine.
+    fn left_out(terms: usize, x: f64) -> f64 {
+        let mut move_by = x.sqrt();
+        for k in 1..=terms {
+            move_by *= x / (2.0 * k as f64) / (2.0 * k as f64 + 1.0);
+        }
+        move_by.max(move_by * x.sqrt() / (2.0 * terms as f64 + 2.0))
+    }
+
+    #[test]
+    fn terms_are_as_many_as_round_off_asks_for() {
+        let eighth = f64::EPSILON / 16.0;
+        for (terms, limit) in LEVELS {
+            assert!(left_out(terms, limit) < eighth, "{terms}");
+            assert!(
+                left_out(terms - 1, limit) > eighth,
+                "{terms}: one less would do"
+            );
+        }
+    }
+
+    #[test]
+    fn series_and_sine_are_one_flow() {
+        let limits = LEVELS.map(|(_, limit)| limit);
+        for x in limits.iter().flat_map(|limit| [0.999 * limit, 0.5 * limit]) {
+            for square in [1e-6, 1.0, 4.0] {
+                // 4 square t^2 is the bound of all bonds
+                let t = (x / square).sqrt();
+                let bound = square / 4.0;
+                let exchange = Exchange::<f64>::new(t, bound);
+                let whole = Exchange {
+                    near: false,
+                    ..Exchange::new(t, bound)
+                };
+                let (sine, cosine) = whole.far(square);
+                let x = square * t * t;
+                let enough = LEVELS.iter().find(|(_, limit)| x < *limit);
+                let terms = enough.expect("below the last limit").0;
+                let error = |terms: usize| {
+                    let near = series(&exchange.sines[..terms], x) - sine;
+                    let far = series(&exchange.cosines[..terms], x) - cosine;
+                    (near * square.sqrt()).abs().max((far * square).abs())
+                };
+                assert!(error(terms) < 4e-16, "{x} {square}: {:e}", error(terms));
+                assert!(error(2) > 1e-15 || x < 1e-3, "two terms are too few at {x}");
+                // lanes that need fewer terms have zeros in the others
+                assert_eq!(
+                    series(&exchange.sines, x),
+                    series(&exchange.sines[..terms], x)
+                );
+            }
+        }
+    }
 }

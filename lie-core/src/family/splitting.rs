@@ -209,15 +209,20 @@ impl Stretch {
 
 /// The largest square of the first three coordinates of a site, in parts that do not wait for each other.
 fn largest_square<S: Scalar>(mu: &[S], sites: usize) -> S {
-    let [x, y, z] = from_fn(|k| &mu[k * sites..][..sites]);
+    let components: [&[S]; 3] = from_fn(|k| &mu[k * sites..][..sites]);
+    let [(x, x_rest), (y, y_rest), (z, z_rest)] = components.map(|part| part.as_chunks::<8>());
+    let larger = |most: S, x: S, y: S, z: S| {
+        let square = x * x + y * y + z * z;
+        S::select(square.less(most), most, square)
+    };
     let mut parts = [S::zero(); 8];
-    for from in (0..sites).step_by(8) {
-        let end = sites.min(from + 8);
-        let spins = x[from..end].iter().zip(&y[from..end]).zip(&z[from..end]);
-        for (part, ((&x, &y), &z)) in parts.iter_mut().zip(spins) {
-            let square = x * x + y * y + z * z;
-            *part = S::select(square.less(*part), *part, square);
+    for ((x, y), z) in x.iter().zip(y).zip(z) {
+        for (k, part) in parts.iter_mut().enumerate() {
+            *part = larger(*part, x[k], y[k], z[k]);
         }
+    }
+    for (part, ((x, y), z)) in parts.iter_mut().zip(x_rest.iter().zip(y_rest).zip(z_rest)) {
+        *part = larger(*part, *x, *y, *z);
     }
     parts.into_iter().fold(S::zero(), S::max)
 }

@@ -129,13 +129,29 @@ macro_rules! float_scalar {
     };
 }
 
+/// Square roots are rounded to nearest by either library, so that the bits are the same; those of the standard library are known to
+/// the compiler, which makes several at once.
+macro_rules! root {
+    ($name:ident, $float:ty, $alone:path) => {
+        #[inline(always)]
+        fn $name(x: $float) -> $float {
+            #[cfg(feature = "std")]
+            return x.sqrt();
+            #[cfg(not(feature = "std"))]
+            return $alone(x);
+        }
+    };
+}
+root!(root, f64, libm::sqrt);
+root!(root_f32, f32, libm::sqrtf);
+
 float_scalar!(
     f64,
     F64x8,
     |high: f64, _low: f64| high,
     |numerator: f64, denominator: f64| numerator / denominator,
     libm::fabs,
-    libm::sqrt,
+    root,
     libm::pow,
     libm::atan2,
     exp = libm::exp,
@@ -163,7 +179,7 @@ float_scalar!(
     nearest_f32,
     ratio_f32,
     libm::fabsf,
-    libm::sqrtf,
+    root_f32,
     libm::powf,
     libm::atan2f,
     exp = libm::expf,
