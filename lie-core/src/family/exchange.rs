@@ -8,10 +8,10 @@ use crate::scalar::{Mask, Scalar, largest};
 const LEVELS: [(usize, f64); 7] = [
     (4, 3.08e-3),
     (5, 0.0207),
-    (6, 0.082),
+    (6, 0.0819),
     (7, 0.233),
-    (8, 0.535),
-    (10, 1.87),
+    (8, 0.534),
+    (10, 1.86),
     (MOST, 4.0),
 ];
 const MOST: usize = 12;
