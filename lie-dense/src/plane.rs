@@ -6,7 +6,6 @@
 )]
 
 use crate::skew::{SkewHermitian, imaginary_start, real_start};
-use core::ops::Range;
 use faer::{MatMut, MatRef};
 use lie_runtime::State;
 
@@ -134,18 +133,13 @@ pub(crate) fn zipped(one: &Tile, other: &Tile, operation: impl Fn(f64, f64) -> f
     out
 }
 
-/// The places of a square's column j among the coordinates, imaginary and real parts, and the rows of the square where they
-/// start.
+/// Where the imaginary and real parts of a square's column j stand from its first row on, as if all of them were kept. On the
+/// diagonal what is above it belongs to other columns.
 #[inline(always)]
-fn spans(size: usize, column: usize, row: usize, j: usize) -> [(Range<usize>, usize); 2] {
-    let rows = TILE.min(size - row);
-    let first = if row == column { j } else { 0 };
-    let im = imaginary_start(size, column + j) + row + first - column - j;
-    let below = if row == column { (j + 1).min(rows) } else { 0 };
-    let re = (real_start(size, column + j) + row + below) - (column + j + 1);
+fn starts(size: usize, column: usize, row: usize, j: usize) -> [usize; 2] {
     [
-        (im..im + rows - first, first),
-        (re..re + rows - below, below),
+        imaginary_start(size, column + j) + row - column - j,
+        real_start(size, column + j) + row - column - j - 1,
     ]
 }
 
@@ -154,24 +148,38 @@ fn spans(size: usize, column: usize, row: usize, j: usize) -> [(Range<usize>, us
 pub(crate) fn load(matrix: &SkewHermitian, column: usize, row: usize) -> [Tile; 2] {
     let (size, coordinates) = (matrix.size(), matrix.as_slice());
     let mut tiles = [[[0.0; TILE]; TILE]; 2];
-    if row > column && row + TILE <= size {
+    if row + TILE <= size {
         for j in 0..TILE {
-            let im = imaginary_start(size, column + j) + row - column - j;
-            let re = real_start(size, column + j) + row - column - j - 1;
-            tiles[0][j] = *block(coordinates, im);
-            tiles[1][j] = *block(coordinates, re);
+            let places = starts(size, column, row, j);
+            tiles[0][j] = *block(coordinates, places[0]);
+            tiles[1][j] = *block(coordinates, places[1]);
         }
-        return tiles;
-    }
-    for j in 0..TILE.min(size - column) {
-        for (tile, (span, first)) in tiles.iter_mut().zip(spans(size, column, row, j)) {
-            let values = &coordinates[span];
-            for (out, &value) in tile[j][first..].iter_mut().zip(values) {
-                *out = value;
+    } else {
+        for j in 0..TILE.min(size - column) {
+            let places = starts(size, column, row, j);
+            for (tile, place) in tiles.iter_mut().zip(places) {
+                let rows = size - row;
+                tile[j][..rows].copy_from_slice(&coordinates[place..place + rows]);
             }
         }
     }
+    if row == column {
+        return reflected(tiles);
+    }
     tiles
+}
+
+/// Makes imaginary and real parts of a square on the diagonal those of a skew-Hermitian matrix, by what is below the diagonal.
+#[inline(always)]
+fn reflected([mut im, mut re]: [Tile; 2]) -> [Tile; 2] {
+    for j in 0..TILE {
+        for i in 0..j {
+            im[j][i] = im[i][j];
+            re[j][i] = -re[i][j];
+        }
+        re[j][j] = 0.0;
+    }
+    [im, re]
 }
 
 /// Writes imaginary and real parts of a square on or below the diagonal.
@@ -181,18 +189,21 @@ pub(crate) fn store(matrix: &mut SkewHermitian, column: usize, row: usize, tiles
     let coordinates = matrix.as_mut_slice();
     if row > column && row + TILE <= size {
         for j in 0..TILE {
-            let im = imaginary_start(size, column + j) + row - column - j;
-            let re = real_start(size, column + j) + row - column - j - 1;
-            *block_mut(coordinates, im) = tiles[0][j];
-            *block_mut(coordinates, re) = tiles[1][j];
+            let places = starts(size, column, row, j);
+            *block_mut(coordinates, places[0]) = tiles[0][j];
+            *block_mut(coordinates, places[1]) = tiles[1][j];
         }
         return;
     }
+    let rows = TILE.min(size - row);
     for j in 0..TILE.min(size - column) {
-        for (tile, (span, first)) in tiles.iter().zip(spans(size, column, row, j)) {
-            let out = &mut coordinates[span];
-            for (out, &value) in out.iter_mut().zip(&tile[j][first..]) {
-                *out = value;
+        let places = starts(size, column, row, j);
+        let above = if row == column { [j, j + 1] } else { [0, 0] };
+        for part in 0..2 {
+            for i in 0..TILE {
+                if i >= above[part] && i < rows {
+                    coordinates[places[part] + i] = tiles[part][j][i];
+                }
             }
         }
     }

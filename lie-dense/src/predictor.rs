@@ -17,8 +17,8 @@ const LANES: usize = 16;
 pub(crate) struct Predictor {
     /// By blocks of entries, in each all differences.
     differences: Vec<[[f64; LANES]; MOST]>,
-    /// Vectors taken.
-    age: usize,
+    /// How many differences are those of the last vector.
+    known: usize,
     /// How many differences the next prediction sums.
     terms: usize,
 }
@@ -27,14 +27,14 @@ impl Predictor {
     pub(crate) fn new(count: usize) -> Self {
         Self {
             differences: vec![[[0.0; LANES]; MOST]; count.div_ceil(LANES)],
-            age: 0,
+            known: 0,
             terms: 0,
         }
     }
 
     /// Starts anew.
     pub(crate) fn forget(&mut self) {
-        self.age = 0;
+        self.known = 0;
         self.terms = 0;
     }
 
@@ -63,7 +63,8 @@ impl Predictor {
 
     #[inline(always)]
     fn take_entries(&mut self, vector: &[f64]) {
-        let known = self.age.min(MOST - 1);
+        // one more than before; none that will hardly be summed
+        let known = self.known.min(MOST - 1).min(self.terms + 1);
         let mut largest = [[0.0_f64; LANES]; MOST];
         for (values, block) in vector.chunks(LANES).zip(&mut self.differences) {
             let mut difference = [0.0; LANES];
@@ -87,7 +88,7 @@ impl Predictor {
         self.terms = (1..=known)
             .min_by(|a, b| error(a).total_cmp(&error(b)))
             .unwrap_or(1);
-        self.age += 1;
+        self.known = known + 1;
     }
 }
 

@@ -8,9 +8,7 @@
 //!
 //! The products are faer's, which chooses its kernels by the processor.
 
-use crate::plane::{
-    Plane, TILE, Tile, block, block_mut, load, scaled, store, tiles, transposed, zipped,
-};
+use crate::plane::{Plane, Tile, block, block_mut, load, scaled, store, tiles, transposed, zipped};
 use crate::skew::{SkewHermitian, places};
 use faer::linalg::matmul::{matmul, triangular};
 use faer::{Accum, Par};
@@ -44,15 +42,8 @@ impl Planes {
     fn spread_entries(&mut self, matrix: &SkewHermitian, factor: f64) {
         for (column, row) in tiles(self.real.size) {
             let [im, re] = load(matrix, column, row);
-            let (mut im, mut re) = (scaled(&im, factor), scaled(&re, factor));
-            if row == column {
-                for j in 0..TILE {
-                    for i in 0..j {
-                        im[j][i] = im[i][j];
-                        re[j][i] = -re[i][j];
-                    }
-                }
-            } else {
+            let (im, re) = (scaled(&im, factor), scaled(&re, factor));
+            if row != column {
                 let (im, re) = (transposed(&im), scaled(&transposed(&re), -1.0));
                 self.set_tiles(row, column, [&re, &im]);
             }
