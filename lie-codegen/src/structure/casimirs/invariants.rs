@@ -5,16 +5,21 @@ use std::collections::BTreeMap;
 use num_bigint::BigInt;
 use rustc_hash::FxHashMap;
 
-use super::field::{Field, Functions, PRIMES, Prime, reconstructed};
+use super::field::{Field, Functions, PRIMES, Prime};
 use super::grading::Grading;
 use super::kernel::{Sparse, kernel};
 use super::normal::{largest, normal, normal_rational};
 use super::operators::{self, Echelon, Operator, Word};
+use super::residues::{combine, lifted, reconstructed};
+use super::traces;
 use crate::algebra::StructureConstants;
 use crate::exact::{Budget, Exhausted, Fraction, Polynomial, Rational};
 
 /// A function by its terms, highest words last.
 pub type Terms<T> = Vec<(Word, T)>;
+
+/// So many monomials that are looked at together take seconds.
+const MANY: usize = 1_000;
 
 /// A search, degree by degree.
 pub struct Search<'a> {
@@ -99,6 +104,32 @@ impl<'a> Search<'a> {
             }
         }
         Ok(false)
+    }
+
+    /// Looks at the invariant of degree 4 that is a trace, where all monomials of this degree would have to be looked at together;
+    /// whether as many were found as there are.
+    pub fn trace(&mut self, wanted: usize) -> Result<bool, Exhausted> {
+        let classes = self.classes(4)?;
+        let together = classes.len() == 1 && classes.values().all(|class| class.len() >= MANY);
+        if self.rational.is_none() || self.unit.is_some() || !together {
+            return Ok(false);
+        }
+        let all: Vec<usize> = (0..self.constants.dimension()).collect();
+        let adjoint = operators::operators(self.constants, &all, Fraction::as_constant, |v| -v);
+        let adjoint = adjoint.unwrap_or_default();
+        let Some(terms) = traces::fourth(&adjoint, self.budget)? else {
+            return Ok(false);
+        };
+        for operator in &adjoint {
+            if !vanishes(operator, &terms, self.budget)? {
+                return Ok(false);
+            }
+        }
+        let trace = normal_rational(&terms, None);
+        if self.is_new(&trace)? {
+            self.found.push(trace);
+        }
+        Ok(self.found.len() == wanted)
     }
 
     /// The invariants of a degree, as a vector space.
@@ -333,36 +364,6 @@ impl<'a> Search<'a> {
         }
         Ok(Some((value, gradient)))
     }
-}
-
-fn lifted(vectors: &[Sparse<u64>]) -> Vec<Sparse<BigInt>> {
-    let lift = |vector: &Sparse<u64>| vector.iter().map(|(c, v)| (*c, BigInt::from(*v))).collect();
-    vectors.iter().map(lift).collect()
-}
-
-/// Residues modulo a product from those modulo its factors; false where the vectors are no images of the same ones.
-fn combine(
-    residues: &mut [Sparse<BigInt>],
-    modulus: &BigInt,
-    vectors: &[Sparse<u64>],
-    prime: u64,
-) -> bool {
-    let columns = |vector: &Sparse<BigInt>| vector.iter().map(|(c, _)| *c).collect::<Vec<_>>();
-    let same = |(a, b): (&Sparse<BigInt>, &Sparse<u64>)| {
-        columns(a).into_iter().eq(b.iter().map(|(c, _)| *c))
-    };
-    if residues.len() != vectors.len() || !residues.iter().zip(vectors).all(same) {
-        return false;
-    }
-    let prime = BigInt::from(prime);
-    let inverse = modulus.modpow(&(&prime - 2u8), &prime);
-    for (vector, other) in residues.iter_mut().zip(vectors) {
-        for ((_, value), (_, residue)) in vector.iter_mut().zip(other) {
-            let step = (BigInt::from(*residue) - &*value) * &inverse % &prime;
-            *value += modulus * step;
-        }
-    }
-    true
 }
 
 /// Whether an operator maps a function to zero.

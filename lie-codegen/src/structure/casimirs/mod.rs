@@ -4,7 +4,8 @@
 //! finest grading of the algebra (`grading`), reduced modulo a prime (`kernel`), and the solution is brought back to rational
 //! numbers and verified over them. With parameters in the structure constants the same elimination runs over rational
 //! functions. A solution is kept where its gradient is independent of those before it, modulo a prime at one point, which proves
-//! that it is no function of them, no product above all.
+//! that it is no function of them, no product above all. Where a basis mixes so many elements that elimination would take long,
+//! an invariant of degree 4 of a semisimple algebra is the trace of a power (`traces`).
 //!
 //! The number of independent Casimirs is the dimension less the generic rank (Beltrametti and Blasi, Phys. Lett. 20 (1966) 62,
 //! doi:10.1016/0031-9163(66)91048-1); where it is reached, nothing else is looked for.
@@ -16,6 +17,8 @@ mod kernel;
 mod normal;
 mod operators;
 mod quotients;
+mod residues;
+mod traces;
 
 use crate::algebra::{StructureConstants, rank};
 use crate::exact::{Budget, Exhausted, Fraction, Monomial, Polynomial};
@@ -194,7 +197,8 @@ pub fn invariants(
 
 fn polynomials(search: &mut Search<'_>, wanted: usize) -> Result<(), Exhausted> {
     for degree in 1..=MAX_DEGREE {
-        if search.degree(degree, wanted)? {
+        // invariants of degree 3 take the longest where the others are a trace
+        if search.degree(degree, wanted)? || degree == 2 && search.trace(wanted)? {
             return Ok(());
         }
     }

@@ -104,7 +104,7 @@ fn parts_keep_their_parameters_and_a_unit_is_of_all() {
 
 #[test]
 fn degrees_in_their_bases_and_in_others() {
-    let cases: [(&str, Vec<known::Integers>, &[u32]); 7] = [
+    let cases: [(&str, Vec<known::Integers>, &[u32]); 8] = [
         ("se(3)", known::se3(), &[2, 2]),
         ("so(4)", known::so(4), &[2, 2]),
         ("su(3)", known::su(3), &[2, 3]),
@@ -112,6 +112,7 @@ fn degrees_in_their_bases_and_in_others() {
         ("so(5)", known::so(5), &[2, 4]),
         ("sp(4)", known::sp(2), &[2, 4]),
         ("poincare", poincare(), &[2, 4]),
+        ("su(4)", known::su(4), &[2, 3, 4]),
     ];
     for (name, matrices, expected) in cases {
         let start = std::time::Instant::now();
