@@ -1,21 +1,23 @@
-//! What an iteration need not find: unknowns with a formula in the state before the step, and unknowns that nothing else
-//! depends on, which have a formula in the others. Both are computed once, outside the iteration.
+//! What an iteration need not find: unknowns with a formula in the state before the step, and unknowns that nothing
+//! in the iteration depends on, which have a formula in the others. Both are computed once, outside the iteration.
 //!
 //! Of the residual r of the unknowns u, `r_i = u_i - g_i(mu)` is of the first kind: central coordinates, or the time
 //! where H depends on it. Of the second kind is `r_j = u_j - g_j(mu, u)` if no other residual depends on `u_j`: the
 //! momentum conjugate to time, or for the exponential any coordinate in which H is linear and of constant coefficient, as
-//! the direction of gravity is in the heavy top.
+//! the direction of gravity is in the heavy top. So are up to three unknowns that depend on each other, `A v + b = 0` with A and b
+//! functions of the others alone: a vector that H does not see ([`linear`](super::linear)).
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::linear::{Group, groups};
 use crate::derive::{Block, Source};
 use crate::symbolic::{ExprId, Symbol};
 
 /// Definitions in order.
-type List = Vec<(Symbol, ExprId)>;
+pub(super) type List = Vec<(Symbol, ExprId)>;
 
 /// Formulas of unknowns, by their indices.
-type Formulas = BTreeMap<usize, ExprId>;
+pub(super) type Formulas = BTreeMap<usize, ExprId>;
 
 /// The formulas of the unknowns that are found outside the iteration.
 #[derive(Debug)]
@@ -59,10 +61,9 @@ impl Apart {
                 break;
             }
         }
-        let alone = |j: &usize| !apart.first.contains_key(j) && is(*j, *j, one);
-        let nowhere_else = |j: &usize| all.clone().all(|i| i == *j || is(i, *j, zero));
-        let candidates: Vec<usize> = all.clone().filter(alone).filter(nowhere_else).collect();
-        apart.find_last(source, list, residual, candidates);
+        let rest: Vec<usize> = all.filter(|j| !apart.first.contains_key(j)).collect();
+        let groups = groups(source, list, residual, rows, &rest, &apart.unknown);
+        apart.find_last(source, list, residual, groups);
         let found = apart.first.len() + apart.last.len();
         (found > 0 && found < residual.len()).then_some(apart)
     }
@@ -99,33 +100,31 @@ impl Apart {
         }
     }
 
-    /// Those of the candidates on which neither the rest nor each other depend, even where it cancels.
+    /// Those of the groups on which the rest does not depend, even where it cancels. Each depends on those behind it at most.
     fn find_last(
         &mut self,
         source: &mut Source,
         list: &[(Symbol, ExprId)],
         residual: &[ExprId],
-        mut candidates: Vec<usize>,
+        mut groups: Vec<Group>,
     ) {
-        let list = self.list(source, list);
-        let residual: Vec<ExprId> = residual.iter().map(|r| self.value(source, *r)).collect();
         loop {
-            let formulas = candidates
-                .iter()
-                .map(|j| (*j, self.formula(source, *j, residual[*j])));
-            let formulas: Formulas = formulas.collect();
-            let iterated = |i: &usize| !self.first.contains_key(i) && !formulas.contains_key(i);
+            let apart = |i: &usize| groups.iter().any(|group| group.holds(*i));
+            let iterated = |i: &usize| !self.first.contains_key(i) && !apart(i);
             let rest = (0..residual.len()).filter(iterated).map(|i| residual[i]);
-            let values: Vec<ExprId> = rest.chain(formulas.values().copied()).collect();
-            let used = symbols(source, &list, &values);
-            let before = candidates.len();
-            candidates.retain(|j| !used.contains(&self.unknown[*j]));
-            if candidates.len() == before {
-                let values: Vec<ExprId> = formulas.values().copied().collect();
-                self.take(source, &list, &values);
-                self.last = formulas;
-                return;
+            let used = symbols(source, list, &rest.collect::<Vec<_>>());
+            let before = groups.len();
+            groups.retain(|group| group.members().all(|j| !used.contains(&self.unknown[j])));
+            if groups.len() == before {
+                break;
             }
+        }
+        for group in groups.iter().rev() {
+            let definitions = self.list(source, list);
+            let formulas = group.solved(source, &|source, value| self.value(source, value));
+            let values: Vec<ExprId> = formulas.values().copied().collect();
+            self.take(source, &definitions, &values);
+            self.last.extend(formulas);
         }
     }
 
@@ -167,7 +166,11 @@ impl Apart {
 }
 
 /// The symbols that values depend on, by definitions too.
-fn symbols(source: &Source, list: &[(Symbol, ExprId)], values: &[ExprId]) -> BTreeSet<Symbol> {
+pub(super) fn symbols(
+    source: &Source,
+    list: &[(Symbol, ExprId)],
+    values: &[ExprId],
+) -> BTreeSet<Symbol> {
     let needed = source.needed(list, values);
     let values = values.iter().chain(needed.iter().map(|(_, value)| value));
     values

@@ -7,6 +7,7 @@
 
 mod apart;
 mod equation;
+mod linear;
 mod sym;
 mod system;
 
@@ -103,6 +104,29 @@ mod tests {
             left_out(SPEC, |source| Some(source.midpoint_kernels())),
             [0; 0]
         );
+    }
+
+    /// A vector that H does not see turns about the gradient, linearly: it is solved for at the end.
+    #[test]
+    fn a_vector_that_is_not_seen_is_left_out() {
+        let midpoint = |source: &mut Source| Some(source.midpoint_kernels());
+        let cayley = |source: &mut Source| source.cayley_kernels();
+        let state = r#""a", "b", "c", "x", "y", "z""#;
+        let body = "a^2 + b^2/2 + c^2/3";
+        for (hamiltonian, expected) in [
+            (body.to_owned(), vec![3, 4, 5]),
+            (format!("{body} + x"), vec![]),
+            (format!("{body} + x^2"), vec![]),
+        ] {
+            let spec = spec_of(r#""se(3)""#, state, &hamiltonian, "1, 1, 1, 0, 0, 1");
+            assert_eq!(left_out(&spec, midpoint), expected, "{hamiltonian}");
+            assert_eq!(left_out(&spec, cayley), expected, "{hamiltonian}");
+        }
+        // two vectors, each by itself
+        let algebra = r#""semidirect(so(3), R^3, R^3)""#;
+        let state = r#""a", "b", "c", "x", "y", "z", "u", "v", "w""#;
+        let spec = spec_of(algebra, state, body, "1, 1, 1, 0, 0, 1, 0, 1, 0");
+        assert_eq!(left_out(&spec, midpoint), [3, 4, 5, 6, 7, 8]);
     }
 
     /// Time, the central coordinate of its pair, and the momentum conjugate to time.
