@@ -23,6 +23,11 @@ impl Budget {
         Self(Cell::new(units))
     }
 
+    /// What is left.
+    pub fn left(&self) -> u64 {
+        self.0.get()
+    }
+
     /// Takes units away.
     ///
     /// # Errors

@@ -18,8 +18,8 @@ use crate::exact::{Budget, Exhausted, Fraction, Polynomial, Rational};
 /// A function by its terms, highest words last.
 pub type Terms<T> = Vec<(Word, T)>;
 
-/// So many monomials that are looked at together take seconds.
-const MANY: usize = 1_000;
+/// In smaller algebras elimination takes less than traces.
+const LARGE: usize = 11;
 
 /// A search, degree by degree.
 pub struct Search<'a> {
@@ -106,12 +106,17 @@ impl<'a> Search<'a> {
         Ok(false)
     }
 
-    /// Looks at the invariant of degree 4 that is a trace, where all monomials of this degree would have to be looked at together;
-    /// whether as many were found as there are.
+    /// Looks at the invariant of degree 4 that is a trace, where elimination would take more than is left of the budget; whether
+    /// as many were found as there are.
     pub fn trace(&mut self, wanted: usize) -> Result<bool, Exhausted> {
-        let classes = self.classes(4)?;
-        let together = classes.len() == 1 && classes.values().all(|class| class.len() >= MANY);
-        if self.rational.is_none() || self.unit.is_some() || !together {
+        let n = self.constants.dimension();
+        let affordable = PRIMES.len() as u64 * traces::cost(n) < self.budget.left();
+        if n < LARGE || !affordable || self.rational.is_none() || self.unit.is_some() {
+            return Ok(false);
+        }
+        let elimination = |class: Vec<Word>| (class.len() as u64).pow(3) / 4;
+        let all = self.classes(4)?.into_values().map(elimination).sum::<u64>();
+        if all < self.budget.left() {
             return Ok(false);
         }
         let all: Vec<usize> = (0..self.constants.dimension()).collect();

@@ -55,6 +55,13 @@ pub fn fourth(
     Ok(None)
 }
 
+/// The operations modulo one prime for an algebra of this dimension.
+pub fn cost(dimension: usize) -> u64 {
+    let n = dimension as u64;
+    let pairs = n * (n + 1) / 2;
+    n.pow(5) + (n * pairs).pow(2) + n.pow(4)
+}
+
 /// The coefficients of the words modulo a prime, the first one that is not zero made one; `None` where the prime does not serve.
 fn modulo(
     field: &Prime<'_>,
@@ -63,8 +70,7 @@ fn modulo(
 ) -> Result<Option<Sparse<u64>>, Exhausted> {
     let n = adjoint.len();
     let pairs = n * (n + 1) / 2;
-    let cost = n.pow(5) + n * n * pairs * pairs + n.pow(4);
-    field.budget.spend(cost as u64)?;
+    field.budget.spend(cost(n))?;
     let Some(constants) = matrices(field, adjoint) else {
         return Ok(None);
     };
