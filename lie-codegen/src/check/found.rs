@@ -17,6 +17,8 @@ use crate::symbolic::{ExprId, Graph, Symbol};
 
 /// Longer functions are not made part of a system, whose code would be as long.
 const MOST_TERMS: usize = 1000;
+/// Longer ones are not even told of.
+const MOST_REPORTED: usize = 12_000;
 
 /// What a search starts from.
 pub struct Asked<'a> {
@@ -177,7 +179,11 @@ fn complete(
             end = Search::Singular;
             return None;
         };
-        let expr = written(&casimir, declaration, field);
+        let most = match work {
+            casimirs::WORK => MOST_TERMS,
+            _ => MOST_REPORTED,
+        };
+        let expr = written(&casimir, declaration, field, most);
         if expr.is_none() {
             end = Search::Long;
         }
@@ -245,11 +251,12 @@ fn defined(casimir: casimirs::Casimir, initial: Option<&[Rational]>) -> Option<c
     }
 }
 
-/// A found function as if it had been declared; `None` where it is too long.
+/// A found function as if it had been declared; `None` where it has more terms than `most`.
 fn written(
     casimir: &casimirs::Casimir,
     declaration: &Declaration,
     field: &Field,
+    most: usize,
 ) -> Option<(Expr, CasimirKind, Option<u32>)> {
     let writer = Writer {
         declaration,
@@ -259,7 +266,7 @@ fn written(
     match casimir {
         casimirs::Casimir::Polynomial(function) => {
             let degree = writer.degree(function);
-            (function.terms().len() <= MOST_TERMS).then(|| {
+            (function.terms().len() <= most).then(|| {
                 (
                     writer.polynomial(function),
                     CasimirKind::Polynomial,
@@ -275,7 +282,7 @@ fn written(
             });
             let mut powers: Vec<(bool, Expr)> = powers.collect();
             powers.sort_by_key(|(below, _)| *below);
-            (terms <= MOST_TERMS).then(|| {
+            (terms <= most).then(|| {
                 (
                     writer.expr(ExprKind::Product(powers)),
                     CasimirKind::Rational,
