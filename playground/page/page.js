@@ -25,7 +25,7 @@ function open(keep) {
     $("messages").append(button);
   }
   if (!about) { $("status").textContent = "It does not run yet."; draw(); return; }
-  $("equations").textContent = about.equations.join("\n"); $("status").dataset.engine = about.engine;
+  $("equations").textContent = about.equations.join("\n"); $("equations").dataset.engine = about.engine;
   const chosen = about.method.split(" ")[0];
   $("method").replaceChildren(...about.methods.map(id => new Option(id, id, false, id === chosen)));
   $("method").value = chosen;
