@@ -1,8 +1,10 @@
-//! The interpreter, Cranelift and rustc give the same bits: every kernel of every spec on random states, and steps of every
+//! The interpreter, Cranelift, WebAssembly and rustc give the same bits: every kernel of every spec on random states, and steps of every
 //! method.
 
 #[path = "common/random.rs"]
 mod random;
+#[path = "../lie-wasm/tests/wasmi_engine/mod.rs"]
+mod wasmi_engine;
 
 use lie_codegen::compile::{compile_spec, with_options};
 use lie_codegen::methods::{Choice, Lift, Retraction, Tensor};
@@ -14,6 +16,7 @@ use lie_runtime::methods as m;
 use lie_runtime::newton::NewtonOptions;
 use lie_runtime::{LiePoisson, Poisson, Scalar, SquareMatrix, State, Widen};
 use random::Random;
+use wasmi_engine::Wasmi;
 
 const STATES: usize = 50;
 const STEPS: usize = 40;
@@ -157,7 +160,7 @@ macro_rules! compare {
         use spec_systems::$spec::$system;
         let printed = $system::new().system().unwrap();
         let spec = stringify!($spec);
-        for engine in [&Interpreted as &dyn Engine, &Jit] {
+        for engine in [&Interpreted as &dyn Engine, &Jit, &Wasmi] {
             let made = made(spec, &spec_systems::methods::METHODS, engine);
             let start: Vec<f64> = $system::new().initial_state().as_slice().to_vec();
             let name = |what: &str| format!("{spec} {} {what}", engine.name());

@@ -262,6 +262,10 @@ fn no_arrow_between_crates_points_back() {
         ["lie-codegen", "lie-dynamic", "lie-runtime"]
     );
     assert_eq!(
+        dependencies("lie-wasm/Cargo.toml"),
+        ["lie-dynamic", "lie-runtime"]
+    );
+    assert_eq!(
         dependencies("lie-in-process/Cargo.toml"),
         [
             "lie-codegen",

@@ -2,7 +2,7 @@
 //!
 //! The compiler ends in a [`Plan`](lie_codegen::plan::Plan): straight-line programs with what surrounds them. The macro prints it as Rust.
 //! Here each program becomes a [`Code`] over registers, which an [`Engine`] runs: the interpreter
-//! [`Interpreted`], for every scalar, or machine code (crate `lie-jit`). [`Dynamic`] implements the traits of the
+//! [`Interpreted`], for every scalar, machine code (crate `lie-jit`), or WebAssembly (crate `lie-wasm`). [`Dynamic`] implements the traits of the
 //! numeric core over states on the heap, so that each method is compiled once for all systems.
 //!
 //! The order of operations, the constants and the elementary functions are those of the printed code: a step gives the same
@@ -32,6 +32,7 @@
 
 mod code;
 mod either;
+mod elementary;
 mod elimination;
 mod equation;
 mod flows;
@@ -39,6 +40,7 @@ mod generating;
 mod gradient;
 mod interpreter;
 mod kernels;
+mod layout;
 mod matrix;
 mod methods;
 mod names;
@@ -47,8 +49,10 @@ mod structure;
 mod system;
 
 pub use code::{Code, Instruction, Number, Register, Source, Store};
+pub use elementary::{BINARY, Binary, UNARY, Unary};
 pub use interpreter::{Interpreted, Interpreter, phi, stumpff};
 pub use kernels::{Engine, Frame, Machine, Targets};
+pub use layout::{Lengths, SLICES};
 pub use matrix::Matrix;
 pub use methods::{Method, Tolerances, at_defaults, method};
 pub use system::{Declared, Dynamic};

@@ -1,7 +1,6 @@
 //! From a code to Cranelift's intermediate form.
 
 use crate::functions;
-use crate::input;
 use cranelift_codegen::Context;
 use cranelift_codegen::ir::condcodes::FloatCC;
 use cranelift_codegen::ir::{
@@ -145,7 +144,7 @@ impl Body<'_, '_> {
     fn load(&mut self, code: &Code, table: Value) {
         let mut slices: HashMap<usize, Value> = HashMap::new();
         for source in &code.sources {
-            let value = match (input(source), source) {
+            let value = match (source.place(), source) {
                 (Some((slice, entry)), _) => {
                     let builder = &mut self.builder;
                     let base = *slices.entry(slice).or_insert_with(|| {

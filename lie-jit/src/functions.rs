@@ -1,24 +1,8 @@
 //! What compiled code calls: the elementary functions of the numeric core.
 
 use lie_codegen::symbolic::Function;
-use lie_runtime::Scalar;
+use lie_dynamic::{BINARY, UNARY};
 
-macro_rules! unary {
-    ($($name:ident)+) => {
-        $(extern "C" fn $name(x: f64) -> f64 { Scalar::$name(x) })+
-        fn unary() -> Vec<(String, *const u8)> {
-            vec![$((name(stringify!($name)), $name as *const u8)),+]
-        }
-    };
-}
-unary!(exp log sin cos tan asin acos atan sinh cosh tanh cbrt log1p expm1 asinh acosh atanh);
-
-extern "C" fn atan2(y: f64, x: f64) -> f64 {
-    Scalar::atan2(y, x)
-}
-extern "C" fn powf(x: f64, exponent: f64) -> f64 {
-    Scalar::powf(x, exponent)
-}
 /// Writes all Stumpff functions below an index.
 ///
 /// SAFETY: compiled code gives a place for so many numbers.
@@ -48,12 +32,11 @@ pub fn symbol(function: Function) -> String {
 
 /// All symbols with their addresses.
 pub fn symbols() -> Vec<(String, *const u8)> {
-    let mut all = unary();
-    all.extend([
-        (name("atan2"), atan2 as *const u8),
-        (name("powf"), powf as *const u8),
+    let unary = UNARY.iter().map(|(of, f)| (name(of), *f as *const u8));
+    let binary = BINARY.iter().map(|(of, f)| (name(of), *f as *const u8));
+    let families = [
         (name("stumpff"), stumpff as *const u8),
         (name("phi"), phi as *const u8),
-    ]);
-    all
+    ];
+    unary.chain(binary).chain(families).collect()
 }

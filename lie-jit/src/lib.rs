@@ -12,7 +12,7 @@ mod functions;
 use compile::{Compiler, Shape};
 use cranelift_jit::JITModule;
 use cranelift_module::FuncId;
-use lie_dynamic::{Code, Engine, Frame, Interpreted, Interpreter, Machine, Source, Targets};
+use lie_dynamic::{Code, Engine, Frame, Interpreted, Interpreter, Lengths, Machine, Targets};
 use lie_runtime::Scalar;
 use std::mem::ManuallyDrop;
 use std::sync::{Arc, OnceLock};
@@ -24,11 +24,7 @@ pub struct Jit;
 /// Codes with more instructions than this are interpreted: Cranelift's time grows faster than they are long.
 const LONGEST: usize = 20_000;
 
-/// The slices that a function reads, in the order of its table: the arguments, then the constants of the system and of the step
-/// size, the parameters, step size and time.
-const INPUTS: usize = 8;
-
-/// A compiled code: reads from a table of [`INPUTS`] pointers, writes to two places.
+/// A compiled code: reads from a table of the slices in a frame, writes to two places.
 type Function = unsafe extern "C" fn(*const *const f64, *mut f64, *mut f64);
 
 impl Engine for Jit {
@@ -49,8 +45,7 @@ impl Engine for Jit {
 struct Entry {
     /// None of a code that is too long, which is interpreted.
     function: Option<Function>,
-    inputs: [usize; INPUTS],
-    outputs: [usize; 2],
+    lengths: Lengths,
     clear: [usize; 2],
 }
 
@@ -119,66 +114,23 @@ impl Compiled {
 
 impl Entry {
     fn new(code: &Code, function: Option<Function>) -> Self {
-        let mut inputs = [0; INPUTS];
-        for source in &code.sources {
-            if let Some((slice, entry)) = input(source) {
-                inputs[slice] = inputs[slice].max(entry + 1);
-            }
-        }
-        let mut outputs = [0; 2];
-        for store in &code.stores {
-            let output = &mut outputs[usize::from(store.target)];
-            *output = (*output).max(store.entry as usize + 1);
-        }
         Self {
             function,
-            inputs,
-            outputs,
+            lengths: Lengths::of(code),
             clear: code.clear.map(|count| count.unwrap_or(0) as usize),
         }
     }
-}
 
-/// The slice and the entry that a source is.
-fn input(source: &Source) -> Option<(usize, usize)> {
-    Some(match *source {
-        Source::Argument(argument, entry) => (usize::from(argument), entry as usize),
-        Source::System(position) => (4, position as usize),
-        Source::OfStep(position) => (5, position as usize),
-        Source::Parameter(position) => (6, position as usize),
-        Source::Step => (7, 0),
-        Source::Time => (7, 1),
-        Source::Number(_) => return None,
-    })
-}
-
-impl Entry {
     /// Calls the function over lanes, two by two; over numbers, once.
     ///
     /// # Panics
     /// A slice is shorter than the code needs.
     fn call<S: Scalar>(&self, function: Function, frame: &Frame<'_, S>, targets: Targets<'_, S>) {
-        let [a, b, c, d] = frame.arguments;
-        let slices = [
-            a,
-            b,
-            c,
-            d,
-            frame.system,
-            frame.of_step,
-            frame.parameters,
-            &frame.scalars,
-        ];
-        for (slice, least) in slices.iter().zip(self.inputs) {
-            assert!(slice.len() >= least, "a slice is too short for its code");
-        }
+        self.lengths.check(frame, &targets);
         let [vector, matrix] = targets;
-        for (target, least) in [vector.len(), matrix.len()].iter().zip(self.outputs) {
-            assert!(*target >= least, "a target is too short for its code");
-        }
         vector[..self.clear[0]].fill(S::zero());
         matrix[..self.clear[1]].fill(S::zero());
-        let mut table = slices.map(|slice| slice.as_ptr().cast::<f64>());
+        let mut table = frame.slices().map(|slice| slice.as_ptr().cast::<f64>());
         let mut vector = vector.as_mut_ptr().cast::<f64>();
         let mut matrix = matrix.as_mut_ptr().cast::<f64>();
         let lanes = size_of::<S>() / size_of::<f64>();

@@ -1,4 +1,3 @@
-"use strict";
 const $ = id => document.getElementById(id), dark = matchMedia("(prefers-color-scheme: dark)");
 const COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c6d31", "#999999"];
 let ask, about = null, playing = true, timer = 0;
@@ -7,14 +6,7 @@ let state; // what the run has left: rows to draw, the attitude, the errors
 async function load() {
   const packed = Uint8Array.from(atob($("module").textContent.trim()), c => c.charCodeAt(0));
   const bytes = await new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
-  const { put, answer, get } = (await WebAssembly.instantiate(bytes, {})).instance.exports;
-  const encode = new TextEncoder(), decode = new TextDecoder();
-  ask = request => {
-    for (const byte of encode.encode(JSON.stringify(request))) put(byte);
-    const out = new Uint8Array(answer());
-    for (let k = 0; k < out.length; k++) out[k] = get(k);
-    return JSON.parse(decode.decode(out));
-  };
+  ask = await compiler(bytes);
 }
 
 // ---- the declaration
@@ -33,7 +25,7 @@ function open(keep) {
     $("messages").append(button);
   }
   if (!about) { $("status").textContent = "It does not run yet."; draw(); return; }
-  $("equations").textContent = about.equations.join("\n");
+  $("equations").textContent = about.equations.join("\n"); $("equations").dataset.engine = about.engine;
   const chosen = about.method.split(" ")[0];
   $("method").replaceChildren(...about.methods.map(id => new Option(id, id, false, id === chosen)));
   $("method").value = chosen;

@@ -6,10 +6,15 @@ use lie_codegen::front::line_column;
 use lie_codegen::methods::{Choice, applicability, refusal};
 use lie_codegen::model::Model;
 use lie_codegen::plan::plan;
-use lie_dynamic::{Dynamic, Interpreted, Method, at_defaults};
+use lie_dynamic::{Dynamic, Engine as _, Method, at_defaults};
 use lie_runtime::Poisson as _;
 use lie_runtime::newton::NewtonOptions;
 use serde_json::{Value, json};
+
+#[cfg(target_arch = "wasm32")]
+use crate::linked::Linking as Running;
+#[cfg(not(target_arch = "wasm32"))]
+use lie_dynamic::Interpreted as Running;
 
 /// Steps of one request at most: a page stays alive between requests.
 const MOST_STEPS: u64 = 100_000;
@@ -145,7 +150,8 @@ fn opened(text: &str, request: &Value) -> Result<(Run, Value), Vec<Diagnostic>> 
             "use the command `lie run`".to_owned(),
         )
     })?;
-    let system = Dynamic::new(planned, &[], &Interpreted).map_err(|error| {
+    let engine = Running::default();
+    let system = Dynamic::new(planned, &[], &engine).map_err(|error| {
         refused(
             Kind::Domain,
             error.to_string(),
@@ -159,7 +165,7 @@ fn opened(text: &str, request: &Value) -> Result<(Run, Value), Vec<Diagnostic>> 
             "add `\"initial\": [1, 0, 0]`".to_owned(),
         )
     })?;
-    let about = about(&model, &system, &choice);
+    let about = about(&model, &system, &choice, engine.name());
     let run = Run {
         system,
         method,
@@ -171,7 +177,7 @@ fn opened(text: &str, request: &Value) -> Result<(Run, Value), Vec<Diagnostic>> 
 }
 
 /// What a page shows of a system.
-fn about(model: &Model, system: &Dynamic<f64>, choice: &Choice) -> Value {
+fn about(model: &Model, system: &Dynamic<f64>, choice: &Choice, engine: &str) -> Value {
     let coordinates: Vec<&str> = (0..system.dimension())
         .map(|i| system.coordinate(i))
         .collect();
@@ -197,6 +203,7 @@ fn about(model: &Model, system: &Dynamic<f64>, choice: &Choice) -> Value {
     json!({
         "name": model.name,
         "method": choice.label(),
+        "engine": engine,
         "coordinates": coordinates,
         "casimirs": casimirs,
         "rank": model.generic_rank,
@@ -261,6 +268,7 @@ mod tests {
         let mut session = Session::default();
         let about = open(&mut session, TOP, "lie-midpoint", 0.01);
         assert_eq!(about["name"], "HeavyTop");
+        assert_eq!(about["engine"], "interpreter");
         assert_eq!(about["rotates"], true);
         assert_eq!(about["casimirs"], json!(["length2", "vertical_momentum"]));
         assert!(

@@ -1,7 +1,7 @@
-//! The compiler and the interpreter behind a page: a declaration in, its diagnostics or a system out, and then rows of a run.
+//! The compiler and its back end of WebAssembly behind a page: a declaration in, its diagnostics or a system out, and then rows of a run.
 //!
 //! A page writes a request byte by byte, has it answered, and reads the answer byte by byte, so that no pointer crosses the
-//! border. Requests and answers are JSON:
+//! border; kernels are linked beside that (`linked.rs`). Requests and answers are JSON:
 //!
 //! - `{"declaration": "…", "method": "lie-midpoint", "step": 0.01}` is answered by what the system is, or by
 //!   `{"diagnostics": [{"line", "column", "kind", "message", "help", "warning"}]}`;
@@ -11,6 +11,8 @@
 #![warn(missing_docs)]
 
 mod answer;
+#[cfg(target_arch = "wasm32")]
+mod linked;
 
 pub use answer::Session;
 

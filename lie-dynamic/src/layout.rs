@@ -1,0 +1,70 @@
+//! What compiled code agrees on with those who call it: the order of the slices it reads, and their least lengths.
+
+use crate::code::{Code, Source};
+use crate::kernels::{ARGUMENTS, Frame, Targets};
+
+/// The number of slices in [`Frame::slices`].
+pub const SLICES: usize = ARGUMENTS + 4;
+
+impl Source {
+    /// The slice of [`Frame::slices`] that it is in, and its entry there; none of a number.
+    pub fn place(&self) -> Option<(usize, usize)> {
+        Some(match *self {
+            Self::Argument(argument, entry) => (usize::from(argument), entry as usize),
+            Self::System(position) => (ARGUMENTS, position as usize),
+            Self::OfStep(position) => (ARGUMENTS + 1, position as usize),
+            Self::Parameter(position) => (ARGUMENTS + 2, position as usize),
+            Self::Step => (ARGUMENTS + 3, 0),
+            Self::Time => (ARGUMENTS + 3, 1),
+            Self::Number(_) => return None,
+        })
+    }
+}
+
+impl<S> Frame<'_, S> {
+    /// The arguments, then the constants of the system and of the step size, the parameters, and step size with time.
+    pub fn slices(&self) -> [&[S]; SLICES] {
+        let [a, b, c, d] = self.arguments;
+        let (system, of_step) = (self.system, self.of_step);
+        [a, b, c, d, system, of_step, self.parameters, &self.scalars]
+    }
+}
+
+/// The least lengths of the slices that a code reads and writes.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Lengths {
+    inputs: [usize; SLICES],
+    outputs: [usize; 2],
+}
+
+impl Lengths {
+    /// Those of a code.
+    pub fn of(code: &Code) -> Self {
+        let mut lengths = Self::default();
+        for (slice, entry) in code.sources.iter().filter_map(Source::place) {
+            let least = &mut lengths.inputs[slice];
+            *least = (*least).max(entry + 1);
+        }
+        for store in &code.stores {
+            let least = &mut lengths.outputs[usize::from(store.target)];
+            *least = (*least).max(store.entry as usize + 1);
+        }
+        for (least, clear) in lengths.outputs.iter_mut().zip(code.clear) {
+            *least = (*least).max(clear.unwrap_or(0) as usize);
+        }
+        lengths
+    }
+
+    /// Compares them with what a code is called with.
+    ///
+    /// # Panics
+    /// A slice is shorter than the code needs.
+    pub fn check<S>(&self, frame: &Frame<'_, S>, targets: &Targets<'_, S>) {
+        for (slice, least) in frame.slices().iter().zip(self.inputs) {
+            assert!(slice.len() >= least, "a slice is too short for its code");
+        }
+        for (target, least) in targets.iter().zip(self.outputs) {
+            assert!(target.len() >= least, "a target is too short for its code");
+        }
+    }
+}
