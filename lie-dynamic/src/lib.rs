@@ -39,12 +39,14 @@ mod generating;
 mod gradient;
 mod interpreter;
 mod kernels;
+mod lagrangian;
 mod matrix;
 mod methods;
 mod names;
 mod series;
 mod structure;
 mod system;
+mod traits;
 
 pub use code::{Code, Instruction, Number, Register, Source, Store};
 pub use interpreter::{Interpreted, Interpreter, phi, stumpff};

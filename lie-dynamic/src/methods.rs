@@ -283,7 +283,9 @@ impl<S: Scalar> AnyMethod<S, Dynamic<S>> for Claiming<S> {
     }
 }
 
-fn boxed<S: Scalar, M: m::Method<S, Dynamic<S>> + 'static>(method: M) -> Option<Method<S>> {
+pub(crate) fn boxed<S: Scalar, M: m::Method<S, Dynamic<S>> + 'static>(
+    method: M,
+) -> Option<Method<S>> {
     Some(Box::new(method))
 }
 
@@ -365,7 +367,7 @@ pub fn method<S: Scalar>(choice: &Choice, tolerances: Tolerances) -> Option<Meth
             rtol: tolerances.rtol,
             atol: tolerances.atol,
         }),
-        _ => None,
+        other => crate::lagrangian::method(other),
     }
 }
 
