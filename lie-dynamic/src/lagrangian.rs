@@ -1,9 +1,10 @@
 //! Systems by a Lagrangian or a discrete Lagrangian, and their methods.
 
+use crate::compiled::Place;
 use crate::kernels::ARGUMENTS;
 use crate::matrix::Matrix;
 use crate::methods::{Method, boxed};
-use crate::system::{Dynamic, Place};
+use crate::system::Dynamic;
 use crate::traits::there;
 use lie_codegen::methods::{Choice, Retraction};
 use lie_codegen::plan::Energy;

@@ -31,9 +31,11 @@
 #![warn(missing_docs)]
 
 mod code;
+mod compiled;
 mod either;
 mod elimination;
 mod equation;
+mod equations;
 mod flows;
 mod generating;
 mod gradient;

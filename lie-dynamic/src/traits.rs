@@ -1,7 +1,8 @@
 //! The traits of the numeric core, by the kernels of the plan.
 
+use crate::compiled::Place;
 use crate::matrix::Matrix;
-use crate::system::{Dynamic, Place};
+use crate::system::Dynamic;
 use lie_core::{generic, lagrangian::legendre};
 use lie_runtime::scalar::Truncated;
 use lie_runtime::{
