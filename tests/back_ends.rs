@@ -14,7 +14,10 @@ use lie_jit::Jit;
 use lie_runtime::diagnostics::AnyMethod;
 use lie_runtime::methods as m;
 use lie_runtime::newton::NewtonOptions;
-use lie_runtime::{LiePoisson, Poisson, Scalar, SquareMatrix, State, Widen};
+use lie_runtime::{
+    DiscreteLagrangianPoisson, LagrangianPoisson, LiePoisson, Poisson, Scalar, SquareMatrix, State,
+    Widen,
+};
 use random::Random;
 use wasmi_engine::Wasmi;
 
@@ -28,6 +31,12 @@ fn choice_of(label: &str) -> Choice {
     let choice = Choice::from_id(id).unwrap();
     match (&choice, label.rsplit(' ').next()) {
         (Choice::LieMidpoint(_), Some("cayley")) => Choice::LieMidpoint(Retraction::Cayley),
+        (Choice::Variational(order, _), Some("cayley")) => {
+            Choice::Variational(*order, Retraction::Cayley)
+        }
+        (Choice::DiscreteEulerPoincare(_), Some("cayley")) => {
+            Choice::DiscreteEulerPoincare(Retraction::Cayley)
+        }
         (Choice::DiscreteGradient(gradient, _), Some("mean")) => {
             Choice::DiscreteGradient(*gradient, Tensor::Mean)
         }
@@ -132,6 +141,45 @@ fn algebra<P: LiePoisson<f64>>(
         "dexp_dual_slope",
         [out.as_slice(), &entries(&matrix)].concat(),
     ));
+    found
+}
+
+/// Those of a system by its Lagrangian.
+fn lagrangian<P: LagrangianPoisson<f64>>(
+    system: &P,
+    xi: &[f64],
+    mu: &[f64],
+) -> Vec<(&'static str, Vec<f64>)> {
+    let mut found = algebra(system, xi, mu);
+    let (mut velocity, mut out) = (system.zero_state(), system.zero_state());
+    let mut matrix = system.zero_jacobian();
+    velocity.as_mut_slice().copy_from_slice(xi);
+    found.push(("lagrangian", vec![system.lagrangian(&velocity)]));
+    system.momentum(&velocity, &mut out);
+    found.push(("momentum", out.as_slice().to_vec()));
+    system.inertia(&velocity, &mut matrix);
+    found.push(("inertia", entries(&matrix)));
+    system.euler_poincare(&velocity, &mut out);
+    found.push(("euler_poincare", out.as_slice().to_vec()));
+    found
+}
+
+/// Those of a system by its discrete Lagrangian.
+fn discrete<P: DiscreteLagrangianPoisson<f64>>(
+    system: &P,
+    x: &[f64],
+    mu: &[f64],
+) -> Vec<(&'static str, Vec<f64>)> {
+    let mut found = algebra(system, x, mu);
+    let (mut point, mut out) = (system.zero_state(), system.zero_state());
+    let mut matrix = system.zero_jacobian();
+    point.as_mut_slice().copy_from_slice(x);
+    let value = system.discrete_lagrangian(STEP, &point);
+    found.push(("discrete_lagrangian", vec![value]));
+    system.discrete_slope(STEP, &point, &mut out);
+    found.push(("discrete_slope", out.as_slice().to_vec()));
+    system.discrete_curvature(STEP, &point, &mut matrix);
+    found.push(("discrete_curvature", entries(&matrix)));
     found
 }
 
@@ -275,6 +323,36 @@ fn large_algebras() {
 fn brackets_without_an_algebra() {
     let mut differences = Differences::default();
     each! { differences, canonical_pendulum CanonicalPendulum; lotka_volterra LotkaVolterra; se2_circulation BodyWithCirculation; }
+    assert!(differences.0.is_empty(), "{}", differences.0.join("\n"));
+}
+
+#[test]
+fn lagrangians() {
+    let mut differences = Differences::default();
+    compare!(differences, so3_gyrostat_lagrangian, Gyrostat, [lagrangian], [
+        "midpoint" m::ImplicitMidpoint, "gauss4" m::Gauss4, "lie-midpoint" m::LieMidpoint::exp(),
+        "lie-midpoint --retraction cayley" m::LieMidpoint::cayley(), "rk4" m::Rk4,
+        "variational2" m::Variational2::exp(), "variational2 --retraction cayley" m::Variational2::cayley(),
+        "variational4" m::Variational4::exp(), "variational6" m::Variational6::exp(),
+    ]);
+    // H is a Legendre transform by Newton's iteration
+    compare!(differences, so3_quartic_lagrangian, QuarticBody, [lagrangian], [
+        "midpoint" m::ImplicitMidpoint, "gauss4" m::Gauss4, "lie-midpoint" m::LieMidpoint::exp(),
+        "gonzalez" m::Gonzalez, "rkmk4" m::Rkmk4, "rk4" m::Rk4,
+        "variational2" m::Variational2::exp(), "variational2 --retraction cayley" m::Variational2::cayley(),
+        "variational4" m::Variational4::exp(), "variational6" m::Variational6::exp(),
+    ]);
+    assert!(differences.0.is_empty(), "{}", differences.0.join("\n"));
+}
+
+#[test]
+fn discrete_lagrangians() {
+    let mut differences = Differences::default();
+    compare!(differences, so3_discrete_lagrangian, DiscreteBody, [discrete], [
+        "midpoint" m::ImplicitMidpoint, "lie-midpoint" m::LieMidpoint::exp(), "rk4" m::Rk4,
+        "discrete-euler-poincare --retraction cayley" m::DiscreteEulerPoincare::cayley(),
+        "discrete-euler-poincare" m::DiscreteEulerPoincare::exp(),
+    ]);
     assert!(differences.0.is_empty(), "{}", differences.0.join("\n"));
 }
 

@@ -63,6 +63,10 @@ fn a_run_needs_no_toolchain() {
     for call in [
         "run specs/so3_free_rigid_body.json --until 0.2",
         "verify specs/so3_free_rigid_body.json --methods rk4",
+        "run specs/so3_gyrostat_lagrangian.json --until 0.2 --method variational4",
+        "run specs/so3_quartic_lagrangian.json --until 0.2 --method variational2",
+        "run specs/so3_discrete_lagrangian.json --until 0.2 --method discrete-euler-poincare --retraction cayley",
+        "verify specs/so3_quartic_lagrangian.json --methods variational2",
     ] {
         let mut here = command(call.split(' '));
         here.env("CARGO", nothing)

@@ -1,8 +1,9 @@
 //! The equations of steps: fused ones in code, generic ones with the elimination of the plan.
 
+use crate::compiled::FusedCodes;
 use crate::elimination::Table;
 use crate::matrix::Matrix;
-use crate::system::{Dynamic, FusedCodes};
+use crate::system::Dynamic;
 use lie_codegen::methods::Choice;
 use lie_codegen::plan::{Chart, Ending, Fused, Guess, Item, Partner, Solver};
 use lie_codegen::trace::COMPLETED;

@@ -1,7 +1,8 @@
 //! The flows of the pieces of H.
 
 use crate::code::Code;
-use crate::system::{Dynamic, Making};
+use crate::compiled::Making;
+use crate::system::Dynamic;
 use lie_codegen::derive::{Shape, Update};
 use lie_codegen::plan::{Flow, Found, Plan};
 use lie_core::generic::{CoordinateFlows, piece_direction};

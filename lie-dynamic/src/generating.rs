@@ -1,7 +1,8 @@
 //! Generating functions in code.
 
+use crate::compiled::GeneratingCodes;
 use crate::matrix::Matrix;
-use crate::system::{Dynamic, GeneratingCodes};
+use crate::system::Dynamic;
 use lie_core::generic;
 use lie_runtime::{Dual, GeneratingFunction, Lift, Poisson, Scalar};
 

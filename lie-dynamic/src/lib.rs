@@ -31,15 +31,18 @@
 #![warn(missing_docs)]
 
 mod code;
+mod compiled;
 mod either;
 mod elementary;
 mod elimination;
 mod equation;
+mod equations;
 mod flows;
 mod generating;
 mod gradient;
 mod interpreter;
 mod kernels;
+mod lagrangian;
 mod layout;
 mod matrix;
 mod methods;
@@ -47,6 +50,7 @@ mod names;
 mod series;
 mod structure;
 mod system;
+mod traits;
 
 pub use code::{Code, Instruction, Number, Register, Source, Store};
 pub use elementary::{BINARY, Binary, UNARY, Unary};

@@ -1,8 +1,9 @@
 //! Taylor coefficients by the recurrence of the plan.
 
 use crate::code::Code;
+use crate::compiled::Making;
 use crate::kernels::ARGUMENTS;
-use crate::system::{Dynamic, Making};
+use crate::system::Dynamic;
 use lie_codegen::plan;
 use lie_core::generic::PowerSeries;
 use lie_runtime::recurrence::MOST_ORDERS;

@@ -1,9 +1,10 @@
 //! The structure of a system that methods need: spins, a representation, a motion in closed form.
 
 use crate::code::Code;
+use crate::compiled::Making;
 use crate::matrix::Matrix;
 use crate::names;
-use crate::system::{Dynamic, Making};
+use crate::system::Dynamic;
 use lie_codegen::exact::Rational;
 use lie_codegen::plan::{self, Function, Plan};
 use lie_codegen::structure::integrable::Motion;

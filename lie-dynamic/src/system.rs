@@ -1,267 +1,16 @@
 //! A system made at run time.
 
 use crate::code::Code;
-use crate::elimination::Table;
+use crate::compiled::{Compiled, Kernels, OfStep};
 use crate::interpreter::Interpreter;
 use crate::kernels::{ARGUMENTS, Engine, Frame, Machine};
-use crate::matrix::Matrix;
 use crate::names;
-use lie_codegen::methods::{Choice, Gradient};
-use lie_codegen::plan::{
-    Constants, Energy, Function, Fused, Generating, Item, Method, Plan, Solver,
-};
+use lie_codegen::plan::Plan;
 use lie_codegen::schedule::Operation;
 use lie_codegen::symbolic::{self, Symbol};
-use lie_core::generic;
 use lie_core::parameter::{ParameterError, all_finite, all_positive};
-use lie_runtime::scalar::Truncated;
-use lie_runtime::{
-    CayleyPoisson, Dual, Expand, LiePoisson, Lift, Poisson, Scalar, Spectrum, Widen,
-};
-use std::collections::HashMap;
+use lie_runtime::Scalar;
 use std::sync::Arc;
-
-/// A code by its place; none where the plan has no such kernel.
-pub(crate) type Place = Option<usize>;
-
-/// The kernels of the traits.
-#[derive(Clone, Debug, Default)]
-struct Kernels {
-    hamiltonian: Place,
-    energy: Place,
-    gradient: Place,
-    hessian: Place,
-    poisson_matrix: Place,
-    poisson_slope: Place,
-    vector_field: Place,
-    jacobian: Place,
-    linearize: Place,
-    casimirs: Place,
-    casimir_gradients: Vec<usize>,
-    ad: Place,
-    ad_star: Place,
-    ad_star_matrix: Place,
-    coadjoint_action: Place,
-    dexp_dual: Place,
-    dexp_dual_slope: Place,
-    triple: Place,
-}
-
-/// Codes of what depends on the step size, and what is computed once for a step size.
-#[derive(Clone, Debug)]
-pub(crate) struct OfStep {
-    /// The program of the constants.
-    pub constants: usize,
-    /// How many they are.
-    pub count: usize,
-}
-
-/// A fused equation: its codes, and its row in the plan.
-#[derive(Clone, Debug)]
-pub(crate) struct FusedCodes {
-    pub item: usize,
-    pub residual: usize,
-    pub linearize: usize,
-    pub guess: Place,
-    pub result: Place,
-    /// What completes the unknown, where the iteration leaves some of it out.
-    pub completed: Place,
-    /// Those of it.
-    pub left_out: Vec<usize>,
-    pub step: OfStep,
-    pub table: Table,
-    /// The cost of an iteration with a Jacobian in those without.
-    pub cost: Option<f64>,
-}
-
-/// A generating function in code.
-#[derive(Clone, Debug)]
-pub(crate) struct GeneratingCodes {
-    pub gradient: usize,
-    pub linearize: Place,
-    pub step: OfStep,
-}
-
-/// The codes of a plan, which systems of all parameters and scalars share.
-#[derive(Debug)]
-pub(crate) struct Compiled {
-    pub plan: Plan,
-    pub codes: Arc<[Code]>,
-    kernels: Kernels,
-    constants: usize,
-    pub fused: HashMap<&'static str, FusedCodes>,
-    pub generating: HashMap<&'static str, GeneratingCodes>,
-    /// Discrete gradients in closed form: codes and kernels.
-    pub gradients: HashMap<Gradient, (Vec<usize>, Vec<Function>)>,
-    pub eliminations: HashMap<String, Table>,
-    /// The equation of each method.
-    pub solvers: HashMap<Choice, Solver>,
-    pub taylor: Option<crate::series::Codes>,
-    pub lie_taylor: Option<crate::series::Codes>,
-    pub flows: crate::flows::Codes,
-    pub structure: crate::structure::Codes,
-    casimir_degrees: Vec<Option<u32>>,
-}
-
-/// Codes in the making.
-pub(crate) struct Making {
-    codes: Vec<Code>,
-    size: usize,
-}
-
-impl Making {
-    pub fn push(&mut self, code: Code) -> usize {
-        self.codes.push(code);
-        self.codes.len() - 1
-    }
-
-    pub fn kernel(&mut self, function: &Function) -> usize {
-        let code = Code::of_kernel(function, self.size);
-        self.push(code)
-    }
-
-    fn step(&mut self, constants: &Constants) -> OfStep {
-        OfStep {
-            constants: self.push(Code::of_program(&constants.program)),
-            count: constants.entries.len(),
-        }
-    }
-
-    fn fused(&mut self, item: usize, fused: &Fused) -> Option<FusedCodes> {
-        let named = |name: &str| fused.functions.iter().find(|f| f.name == name);
-        let residual = self.kernel(named("residual")?);
-        let linearize = Code::of_kernel(named("linearize")?, self.size);
-        let linearize = Code {
-            clear: [linearize.clear[0], None],
-            ..linearize.with_zeros(&fused.elimination.fill, self.size)
-        };
-        let costs = fused.costs();
-        Some(FusedCodes {
-            item,
-            residual,
-            linearize: self.push(linearize),
-            guess: named("initial_guess").map(|function| self.kernel(function)),
-            result: named("result").map(|function| self.kernel(function)),
-            completed: fused.completed().map(|function| self.kernel(function)),
-            left_out: fused.left_out(),
-            step: self.step(&fused.step),
-            table: Table::new(&fused.elimination),
-            cost: costs.map(|[with, without]| with as f64 / without as f64),
-        })
-    }
-
-    fn generating(&mut self, function: &Generating) -> GeneratingCodes {
-        let linearize = function.linearize.as_ref();
-        GeneratingCodes {
-            gradient: self.kernel(&function.gradient),
-            linearize: linearize.map(|linearize| self.kernel(linearize)),
-            step: self.step(&function.step),
-        }
-    }
-
-    fn kernels(&mut self, plan: &Plan) -> Kernels {
-        let system = &plan.system;
-        let functions = system.poisson.iter().chain(&system.algebra);
-        let functions = functions.chain(&system.exponential).chain(&system.triple);
-        let mut places: HashMap<&str, usize> = HashMap::new();
-        for function in functions {
-            places.insert(function.name, self.kernel(function));
-        }
-        let place = |name: &str| places.get(name).copied();
-        let gradients = system.casimirs.iter();
-        Kernels {
-            hamiltonian: place("hamiltonian"),
-            energy: place("energy"),
-            gradient: place("gradient"),
-            hessian: place("hessian"),
-            poisson_matrix: place("poisson_matrix"),
-            poisson_slope: place("poisson_slope"),
-            vector_field: place("vector_field"),
-            jacobian: place("jacobian"),
-            linearize: place("linearize"),
-            casimirs: place("casimirs"),
-            ad: place("ad"),
-            ad_star: place("ad_star"),
-            ad_star_matrix: place("ad_star_matrix"),
-            coadjoint_action: place("coadjoint_action"),
-            dexp_dual: place("dexp_dual"),
-            dexp_dual_slope: place("dexp_dual_slope"),
-            triple: place("triple"),
-            casimir_gradients: gradients
-                .map(|casimir| self.kernel(&casimir.gradient))
-                .collect(),
-        }
-    }
-}
-
-impl Compiled {
-    fn new(plan: Plan) -> Self {
-        let mut making = Making {
-            codes: Vec::new(),
-            size: plan.dimension(),
-        };
-        let kernels = making.kernels(&plan);
-        let constants = making.push(Code::of_program(&plan.constants.program));
-        let (mut fused, mut generating) = (HashMap::new(), HashMap::new());
-        let (mut eliminations, mut solvers) = (HashMap::new(), HashMap::new());
-        let mut gradients = HashMap::new();
-        let (mut taylor, mut lie_taylor) = (None, None);
-        for (place, item) in plan.items.iter().enumerate() {
-            match item {
-                Item::Fused(equation) => {
-                    if let Some(codes) = making.fused(place, equation) {
-                        fused.insert(equation.suffix, codes);
-                    }
-                }
-                Item::Generating(function) => {
-                    generating.insert(function.suffix, making.generating(function));
-                }
-                Item::Sparse(sparse) => {
-                    let table = Table::new(&sparse.elimination);
-                    eliminations.insert(sparse.suffix.clone(), table);
-                }
-                Item::Method(Method::Catalogue(choice), solver) => {
-                    solvers.insert(choice.clone(), solver.clone());
-                }
-                Item::Gradient(gradient) => {
-                    let functions = gradient.functions.clone();
-                    let codes = functions
-                        .iter()
-                        .map(|function| making.kernel(function))
-                        .collect();
-                    gradients.insert(gradient.gradient, (codes, functions));
-                }
-                Item::Recurrence(recurrence) => {
-                    let codes = crate::series::Codes::new(recurrence, &mut making);
-                    match recurrence.gradient {
-                        None => taylor = Some(codes),
-                        Some(_) => lie_taylor = Some(codes),
-                    }
-                }
-                Item::Collective(_) | Item::Method(Method::Own(_), _) => {}
-            }
-        }
-        let flows = crate::flows::Codes::new(&plan, &mut making);
-        let structure = crate::structure::Codes::new(&plan, &mut making);
-        let casimir_degrees = plan.system.casimirs.iter().map(|c| c.degree).collect();
-        Self {
-            codes: making.codes.into(),
-            plan,
-            kernels,
-            constants,
-            fused,
-            generating,
-            gradients,
-            eliminations,
-            solvers,
-            taylor,
-            lie_taylor,
-            flows,
-            structure,
-            casimir_degrees,
-        }
-    }
-}
 
 /// A Lie–Poisson system made at run time, over states on the heap.
 ///
@@ -269,9 +18,11 @@ impl Compiled {
 /// with what is empty, or panic: [`method`](crate::method) is asked for methods that apply.
 pub struct Dynamic<S> {
     pub(crate) compiled: Arc<Compiled>,
-    machine: Arc<dyn Machine<S>>,
+    pub(crate) machine: Arc<dyn Machine<S>>,
     parameters: Vec<S>,
     constants: Vec<S>,
+    /// A velocity of the branch of the Legendre transform; none for that which begins at rest.
+    pub(crate) branch: Option<Vec<S>>,
 }
 
 impl<S: Scalar> Clone for Dynamic<S> {
@@ -281,6 +32,7 @@ impl<S: Scalar> Clone for Dynamic<S> {
             machine: Arc::clone(&self.machine),
             parameters: self.parameters.clone(),
             constants: self.constants.clone(),
+            branch: self.branch.clone(),
         }
     }
 }
@@ -316,25 +68,21 @@ impl Declared {
             machine: Arc::clone(&self.machine),
             parameters: Vec::new(),
             constants: Vec::new(),
+            branch: None,
         };
         system.with_parameters(parameters)
     }
 }
 
 impl Dynamic<f64> {
-    /// Whether systems can be made of a plan: not of a family, nor where H is the Legendre transform of a Lagrangian or calls a
-    /// function of Rust, nor over a realization.
+    /// Whether systems can be made of a plan: not of a family, nor where H calls a function of Rust, nor over a realization.
     pub fn supports(plan: &Plan) -> bool {
         let own = |operation: &Operation<_>| {
             matches!(operation, Operation::Call(symbolic::Function::Own(_), _))
         };
         let mut functions = plan.system.functions();
         let calls_rust = functions.any(|function| function.program.operations.iter().any(own));
-        !calls_rust
-            && plan.family.is_none()
-            && plan.system.energy == Energy::Expression
-            && plan.system.discrete.is_empty()
-            && plan.structure.realization.is_none()
+        !calls_rust && plan.family.is_none() && plan.structure.realization.is_none()
     }
 
     /// The system of a plan and of these parameters, see [`Declared`].
@@ -363,6 +111,7 @@ impl Dynamic<f64> {
         system.parameters = given
             .chain(defaults.into_iter().skip(parameters.len()))
             .collect();
+        system.branch = None;
         system.check_signs()?;
         let plan = &self.compiled.plan;
         let mut constants = vec![0.0; plan.constants.entries.len()];
@@ -486,7 +235,7 @@ impl<S: Scalar> Dynamic<S> {
     }
 
     /// The same with its constants as other scalars.
-    fn over<T: Scalar>(
+    pub(crate) fn over<T: Scalar>(
         &self,
         constant: impl Fn(S) -> T,
         machine: Option<Arc<dyn Machine<T>>>,
@@ -498,193 +247,11 @@ impl<S: Scalar> Dynamic<S> {
             machine: machine.unwrap_or_else(|| interpreter()),
             parameters: all(&self.parameters),
             constants: all(&self.constants),
+            branch: self.branch.as_deref().map(all),
         }
     }
 
-    fn kernels(&self) -> &Kernels {
+    pub(crate) fn kernels(&self) -> &Kernels {
         &self.compiled.kernels
-    }
-}
-
-/// The place of a kernel that every system has.
-fn there(place: Place) -> usize {
-    let Some(place) = place else {
-        panic!("the system has no such kernel")
-    };
-    place
-}
-
-impl<S: Scalar> Poisson<S> for Dynamic<S> {
-    type State = Vec<S>;
-    type Jacobian = Matrix<S>;
-
-    fn dimension(&self) -> usize {
-        self.compiled.plan.dimension()
-    }
-    fn name(&self) -> &str {
-        &self.compiled.plan.names.system
-    }
-    fn coordinate(&self, index: usize) -> &str {
-        &self.compiled.plan.names.coordinates[index]
-    }
-    fn casimir_count(&self) -> usize {
-        self.compiled.plan.system.casimirs.len()
-    }
-    fn casimir_name(&self, index: usize) -> &str {
-        &self.compiled.plan.system.casimirs[index].name
-    }
-    fn hamiltonian_degree(&self) -> Option<u32> {
-        self.compiled.plan.system.hamiltonian_degree
-    }
-    fn casimir_degree(&self, index: usize) -> Option<u32> {
-        self.compiled.casimir_degrees[index]
-    }
-    fn casimir_is_multivalued(&self, index: usize) -> bool {
-        self.compiled.plan.system.casimirs[index].multivalued
-    }
-    fn poisson_degree(&self) -> Option<u32> {
-        self.compiled.plan.system.poisson_degree
-    }
-    fn zero_state(&self) -> Vec<S> {
-        vec![S::zero(); self.dimension()]
-    }
-    fn zero_jacobian(&self) -> Matrix<S> {
-        Matrix::zero(self.dimension())
-    }
-    fn hamiltonian(&self, mu: &Vec<S>) -> S {
-        let mut value = [S::zero()];
-        self.call(
-            there(self.kernels().hamiltonian),
-            [mu, &[]],
-            &mut value,
-            &mut [],
-        );
-        value[0]
-    }
-    fn energy(&self, mu: &Vec<S>) -> S {
-        let Some(energy) = self.kernels().energy else {
-            return self.hamiltonian(mu);
-        };
-        let mut value = [S::zero()];
-        self.call(energy, [mu, &[]], &mut value, &mut []);
-        value[0]
-    }
-    fn gradient(&self, mu: &Vec<S>, out: &mut Vec<S>) {
-        self.call(there(self.kernels().gradient), [mu, &[]], out, &mut []);
-    }
-    fn hessian(&self, mu: &Vec<S>, out: &mut Matrix<S>) {
-        match self.kernels().hessian {
-            Some(code) => self.call(code, [mu, &[]], &mut [], out.as_mut_slice()),
-            None => generic::hessian_by_duals(self, mu, out),
-        }
-    }
-    fn poisson_matrix(&self, mu: &Vec<S>, out: &mut Matrix<S>) {
-        let code = there(self.kernels().poisson_matrix);
-        self.call(code, [mu, &[]], &mut [], out.as_mut_slice());
-    }
-    fn poisson_slope(&self, mu: &Vec<S>, xi: &Vec<S>, out: &mut Matrix<S>) {
-        match self.kernels().poisson_slope {
-            Some(code) => self.call(code, [mu, xi], &mut [], out.as_mut_slice()),
-            None => generic::poisson_slope(self, xi, out),
-        }
-    }
-    fn vector_field(&self, mu: &Vec<S>, out: &mut Vec<S>) {
-        match self.kernels().vector_field {
-            Some(code) => self.call(code, [mu, &[]], out, &mut []),
-            None => generic::vector_field(self, mu, out),
-        }
-    }
-    fn jacobian(&self, mu: &Vec<S>, out: &mut Matrix<S>) {
-        match self.kernels().jacobian {
-            Some(code) => self.call(code, [mu, &[]], &mut [], out.as_mut_slice()),
-            None => generic::jacobian_by_duals(self, mu, out),
-        }
-    }
-    fn linearize(&self, mu: &Vec<S>, field: &mut Vec<S>, jacobian: &mut Matrix<S>) {
-        match self.kernels().linearize {
-            Some(code) => self.call(code, [mu, &[]], field, jacobian.as_mut_slice()),
-            None => {
-                self.vector_field(mu, field);
-                self.jacobian(mu, jacobian);
-            }
-        }
-    }
-    fn casimirs(&self, mu: &Vec<S>, out: &mut [S]) {
-        if let Some(code) = self.kernels().casimirs {
-            self.call(code, [mu, &[]], out, &mut []);
-        }
-    }
-    fn casimir_gradient(&self, index: usize, mu: &Vec<S>, out: &mut Vec<S>) {
-        let code = self.kernels().casimir_gradients[index];
-        self.call(code, [mu, &[]], out, &mut []);
-    }
-}
-
-impl<S: Scalar> LiePoisson<S> for Dynamic<S> {
-    fn ad(&self, xi: &Vec<S>, eta: &Vec<S>, out: &mut Vec<S>) {
-        self.call(there(self.kernels().ad), [xi, eta], out, &mut []);
-    }
-    fn ad_star(&self, xi: &Vec<S>, mu: &Vec<S>, out: &mut Vec<S>) {
-        self.call(there(self.kernels().ad_star), [xi, mu], out, &mut []);
-    }
-    fn ad_star_matrix(&self, xi: &Vec<S>, out: &mut Matrix<S>) {
-        let code = there(self.kernels().ad_star_matrix);
-        self.call(code, [xi, &[]], &mut [], out.as_mut_slice());
-    }
-    fn has_closed_exponential(&self) -> bool {
-        !self.compiled.plan.system.exponential.is_empty()
-    }
-    fn has_closed_slope(&self) -> bool {
-        self.kernels().dexp_dual_slope.is_some()
-    }
-    fn coadjoint_action(&self, xi: &Vec<S>, mu: &Vec<S>, out: &mut Vec<S>) {
-        match self.kernels().coadjoint_action {
-            Some(code) => self.call(code, [xi, mu], out, &mut []),
-            None => generic::coadjoint_action(self, xi, mu, out),
-        }
-    }
-    fn dexp_dual(&self, xi: &Vec<S>, mu: &Vec<S>, out: &mut Vec<S>) {
-        match self.kernels().dexp_dual {
-            Some(code) => self.call(code, [xi, mu], out, &mut []),
-            None => generic::dexp_dual(self, xi, mu, out),
-        }
-    }
-    fn dexp_dual_slope(&self, xi: &Vec<S>, mu: &Vec<S>, out: &mut Vec<S>, slope: &mut Matrix<S>) {
-        match self.kernels().dexp_dual_slope {
-            Some(code) => self.call(code, [xi, mu], out, slope.as_mut_slice()),
-            None => generic::dexp_dual_slope(self, xi, mu, out, slope),
-        }
-    }
-}
-
-impl<S: Scalar> CayleyPoisson<S> for Dynamic<S> {
-    fn spectrum(&self) -> Spectrum<'_> {
-        self.compiled.structure.spectrum()
-    }
-    fn triple(&self, x: &Vec<S>, z: &Vec<S>, mu: &Vec<S>, out: &mut Vec<S>) {
-        let frame = self.frame([x, z, mu, &[]], &[], [S::zero(); 2]);
-        self.machine
-            .run(there(self.kernels().triple), &frame, [out, &mut []]);
-    }
-}
-
-impl<S: Scalar> Lift<S> for Dynamic<S> {
-    type Lifted = Dynamic<Dual<S>>;
-    fn lift(&self) -> Self::Lifted {
-        self.over(Dual::constant_of, None)
-    }
-}
-
-impl<S: Scalar> Widen<S> for Dynamic<S> {
-    type Widened = Dynamic<S::Wide>;
-    fn widen(&self) -> Self::Widened {
-        self.over(S::widen, self.machine.wide())
-    }
-}
-
-impl<S: Scalar> Expand<S> for Dynamic<S> {
-    type Expanded = Dynamic<Truncated<S>>;
-    fn expand(&self) -> Self::Expanded {
-        self.over(Truncated::constant_of, None)
     }
 }

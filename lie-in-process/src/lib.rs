@@ -52,6 +52,8 @@ pub fn work(
             .then(|| Declared::new(lie_codegen::plan::plan(model, &[]), &Jit)),
         with_group: plan.structure.group.is_some(),
         with_cayley: plan.system.triple.is_some(),
+        with_lagrangian: !plan.system.lagrangian.is_empty(),
+        with_discrete: !plan.system.discrete.is_empty(),
         declared: Declared::new(plan, &Jit),
         choices: choices.to_vec(),
         parameters: parameters.collect(),
@@ -76,6 +78,8 @@ struct Declaration {
     plain: Option<Declared>,
     with_group: bool,
     with_cayley: bool,
+    with_lagrangian: bool,
+    with_discrete: bool,
     choices: Vec<Choice>,
     parameters: Vec<(String, f64)>,
     compared: Vec<Choice>,
@@ -155,6 +159,12 @@ impl Declaration {
         }
         if self.with_cayley {
             program = program.with_cayley();
+        }
+        if self.with_lagrangian {
+            program = program.with_lagrangian();
+        }
+        if self.with_discrete {
+            program = program.with_discrete();
         }
         program.work(line, session)
     }

@@ -1,0 +1,263 @@
+//! The codes of a plan: each of its programs, by its place.
+
+use crate::code::Code;
+use crate::elimination::Table;
+use lie_codegen::methods::{Choice, Gradient};
+use lie_codegen::plan::{Constants, Function, Fused, Generating, Item, Method, Plan, Solver};
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// A code by its place; none where the plan has no such kernel.
+pub(crate) type Place = Option<usize>;
+
+/// The kernels of the traits.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Kernels {
+    pub hamiltonian: Place,
+    pub energy: Place,
+    pub gradient: Place,
+    pub hessian: Place,
+    pub poisson_matrix: Place,
+    pub poisson_slope: Place,
+    pub vector_field: Place,
+    pub jacobian: Place,
+    pub linearize: Place,
+    pub casimirs: Place,
+    pub casimir_gradients: Vec<usize>,
+    pub ad: Place,
+    pub ad_star: Place,
+    pub ad_star_matrix: Place,
+    pub coadjoint_action: Place,
+    pub dexp_dual: Place,
+    pub dexp_dual_slope: Place,
+    pub triple: Place,
+    /// Of the Lagrangian, its slope and its second derivative.
+    pub lagrangian: [Place; 3],
+    /// The same of the discrete Lagrangian.
+    pub discrete: [Place; 3],
+}
+
+/// Codes of what depends on the step size, and what is computed once for a step size.
+#[derive(Clone, Debug)]
+pub(crate) struct OfStep {
+    /// The program of the constants.
+    pub constants: usize,
+    /// How many they are.
+    pub count: usize,
+}
+
+/// A fused equation: its codes, and its row in the plan.
+#[derive(Clone, Debug)]
+pub(crate) struct FusedCodes {
+    pub item: usize,
+    pub residual: usize,
+    pub linearize: usize,
+    pub guess: Place,
+    pub result: Place,
+    /// What completes the unknown, where the iteration leaves some of it out.
+    pub completed: Place,
+    /// Those of it.
+    pub left_out: Vec<usize>,
+    pub step: OfStep,
+    pub table: Table,
+    /// The cost of an iteration with a Jacobian in those without.
+    pub cost: Option<f64>,
+}
+
+/// A generating function in code.
+#[derive(Clone, Debug)]
+pub(crate) struct GeneratingCodes {
+    pub gradient: usize,
+    pub linearize: Place,
+    pub step: OfStep,
+}
+
+/// The codes of a plan, which systems of all parameters and scalars share.
+#[derive(Debug)]
+pub(crate) struct Compiled {
+    pub plan: Plan,
+    pub codes: Arc<[Code]>,
+    pub kernels: Kernels,
+    /// The program of the constants.
+    pub constants: usize,
+    pub fused: HashMap<&'static str, FusedCodes>,
+    pub generating: HashMap<&'static str, GeneratingCodes>,
+    /// Discrete gradients in closed form: codes and kernels.
+    pub gradients: HashMap<Gradient, (Vec<usize>, Vec<Function>)>,
+    pub eliminations: HashMap<String, Table>,
+    /// The equation of each method.
+    pub solvers: HashMap<Choice, Solver>,
+    pub taylor: Option<crate::series::Codes>,
+    pub lie_taylor: Option<crate::series::Codes>,
+    pub flows: crate::flows::Codes,
+    pub structure: crate::structure::Codes,
+    pub casimir_degrees: Vec<Option<u32>>,
+}
+
+/// Codes in the making.
+pub(crate) struct Making {
+    codes: Vec<Code>,
+    size: usize,
+}
+
+impl Making {
+    pub fn push(&mut self, code: Code) -> usize {
+        self.codes.push(code);
+        self.codes.len() - 1
+    }
+
+    pub fn kernel(&mut self, function: &Function) -> usize {
+        let code = Code::of_kernel(function, self.size);
+        self.push(code)
+    }
+
+    fn step(&mut self, constants: &Constants) -> OfStep {
+        OfStep {
+            constants: self.push(Code::of_program(&constants.program)),
+            count: constants.entries.len(),
+        }
+    }
+
+    fn fused(&mut self, item: usize, fused: &Fused) -> Option<FusedCodes> {
+        let named = |name: &str| fused.functions.iter().find(|f| f.name == name);
+        let residual = self.kernel(named("residual")?);
+        let linearize = Code::of_kernel(named("linearize")?, self.size);
+        let linearize = Code {
+            clear: [linearize.clear[0], None],
+            ..linearize.with_zeros(&fused.elimination.fill, self.size)
+        };
+        let costs = fused.costs();
+        Some(FusedCodes {
+            item,
+            residual,
+            linearize: self.push(linearize),
+            guess: named("initial_guess").map(|function| self.kernel(function)),
+            result: named("result").map(|function| self.kernel(function)),
+            completed: fused.completed().map(|function| self.kernel(function)),
+            left_out: fused.left_out(),
+            step: self.step(&fused.step),
+            table: Table::new(&fused.elimination),
+            cost: costs.map(|[with, without]| with as f64 / without as f64),
+        })
+    }
+
+    fn generating(&mut self, function: &Generating) -> GeneratingCodes {
+        let linearize = function.linearize.as_ref();
+        GeneratingCodes {
+            gradient: self.kernel(&function.gradient),
+            linearize: linearize.map(|linearize| self.kernel(linearize)),
+            step: self.step(&function.step),
+        }
+    }
+
+    fn kernels(&mut self, plan: &Plan) -> Kernels {
+        let system = &plan.system;
+        let functions = system.poisson.iter().chain(&system.algebra);
+        let functions = functions.chain(&system.exponential).chain(&system.triple);
+        let functions = functions.chain(&system.lagrangian).chain(&system.discrete);
+        let mut places: HashMap<&str, usize> = HashMap::new();
+        for function in functions {
+            places.insert(function.name, self.kernel(function));
+        }
+        let place = |name: &str| places.get(name).copied();
+        let gradients = system.casimirs.iter();
+        Kernels {
+            hamiltonian: place("hamiltonian"),
+            energy: place("energy"),
+            gradient: place("gradient"),
+            hessian: place("hessian"),
+            poisson_matrix: place("poisson_matrix"),
+            poisson_slope: place("poisson_slope"),
+            vector_field: place("vector_field"),
+            jacobian: place("jacobian"),
+            linearize: place("linearize"),
+            casimirs: place("casimirs"),
+            ad: place("ad"),
+            ad_star: place("ad_star"),
+            ad_star_matrix: place("ad_star_matrix"),
+            coadjoint_action: place("coadjoint_action"),
+            dexp_dual: place("dexp_dual"),
+            dexp_dual_slope: place("dexp_dual_slope"),
+            triple: place("triple"),
+            lagrangian: ["lagrangian", "momentum", "inertia"].map(place),
+            discrete: [
+                "discrete_lagrangian",
+                "discrete_slope",
+                "discrete_curvature",
+            ]
+            .map(place),
+            casimir_gradients: gradients
+                .map(|casimir| self.kernel(&casimir.gradient))
+                .collect(),
+        }
+    }
+}
+
+impl Compiled {
+    pub fn new(plan: Plan) -> Self {
+        let mut making = Making {
+            codes: Vec::new(),
+            size: plan.dimension(),
+        };
+        let kernels = making.kernels(&plan);
+        let constants = making.push(Code::of_program(&plan.constants.program));
+        let (mut fused, mut generating) = (HashMap::new(), HashMap::new());
+        let (mut eliminations, mut solvers) = (HashMap::new(), HashMap::new());
+        let mut gradients = HashMap::new();
+        let (mut taylor, mut lie_taylor) = (None, None);
+        for (place, item) in plan.items.iter().enumerate() {
+            match item {
+                Item::Fused(equation) => {
+                    if let Some(codes) = making.fused(place, equation) {
+                        fused.insert(equation.suffix, codes);
+                    }
+                }
+                Item::Generating(function) => {
+                    generating.insert(function.suffix, making.generating(function));
+                }
+                Item::Sparse(sparse) => {
+                    let table = Table::new(&sparse.elimination);
+                    eliminations.insert(sparse.suffix.clone(), table);
+                }
+                Item::Method(Method::Catalogue(choice), solver) => {
+                    solvers.insert(choice.clone(), solver.clone());
+                }
+                Item::Gradient(gradient) => {
+                    let functions = gradient.functions.clone();
+                    let codes = functions
+                        .iter()
+                        .map(|function| making.kernel(function))
+                        .collect();
+                    gradients.insert(gradient.gradient, (codes, functions));
+                }
+                Item::Recurrence(recurrence) => {
+                    let codes = crate::series::Codes::new(recurrence, &mut making);
+                    match recurrence.gradient {
+                        None => taylor = Some(codes),
+                        Some(_) => lie_taylor = Some(codes),
+                    }
+                }
+                Item::Collective(_) | Item::Method(Method::Own(_), _) => {}
+            }
+        }
+        let flows = crate::flows::Codes::new(&plan, &mut making);
+        let structure = crate::structure::Codes::new(&plan, &mut making);
+        let casimir_degrees = plan.system.casimirs.iter().map(|c| c.degree).collect();
+        Self {
+            codes: making.codes.into(),
+            plan,
+            kernels,
+            constants,
+            fused,
+            generating,
+            gradients,
+            eliminations,
+            solvers,
+            taylor,
+            lie_taylor,
+            flows,
+            structure,
+            casimir_degrees,
+        }
+    }
+}

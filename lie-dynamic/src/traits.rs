@@ -1,0 +1,205 @@
+//! The traits of the numeric core, by the kernels of the plan.
+
+use crate::compiled::Place;
+use crate::matrix::Matrix;
+use crate::system::Dynamic;
+use lie_core::{generic, lagrangian::legendre};
+use lie_runtime::scalar::Truncated;
+use lie_runtime::{
+    CayleyPoisson, Dual, Expand, LiePoisson, Lift, Poisson, Scalar, Spectrum, Widen,
+};
+
+/// The place of a kernel that every system has.
+pub(crate) fn there(place: Place) -> usize {
+    let Some(place) = place else {
+        panic!("the system has no such kernel")
+    };
+    place
+}
+
+impl<S: Scalar> Poisson<S> for Dynamic<S> {
+    type State = Vec<S>;
+    type Jacobian = Matrix<S>;
+
+    fn dimension(&self) -> usize {
+        self.compiled.plan.dimension()
+    }
+    fn name(&self) -> &str {
+        &self.compiled.plan.names.system
+    }
+    fn coordinate(&self, index: usize) -> &str {
+        &self.compiled.plan.names.coordinates[index]
+    }
+    fn casimir_count(&self) -> usize {
+        self.compiled.plan.system.casimirs.len()
+    }
+    fn casimir_name(&self, index: usize) -> &str {
+        &self.compiled.plan.system.casimirs[index].name
+    }
+    fn hamiltonian_degree(&self) -> Option<u32> {
+        self.compiled.plan.system.hamiltonian_degree
+    }
+    fn casimir_degree(&self, index: usize) -> Option<u32> {
+        self.compiled.casimir_degrees[index]
+    }
+    fn casimir_is_multivalued(&self, index: usize) -> bool {
+        self.compiled.plan.system.casimirs[index].multivalued
+    }
+    fn poisson_degree(&self) -> Option<u32> {
+        self.compiled.plan.system.poisson_degree
+    }
+    fn following(&self, mu: &Vec<S>) -> Option<Self> {
+        if !self.is_by_legendre() {
+            return None;
+        }
+        let branch = Some(legendre::follow(self, mu)?);
+        let mut following = self.clone();
+        following.branch = branch;
+        Some(following)
+    }
+    fn zero_state(&self) -> Vec<S> {
+        vec![S::zero(); self.dimension()]
+    }
+    fn zero_jacobian(&self) -> Matrix<S> {
+        Matrix::zero(self.dimension())
+    }
+    fn hamiltonian(&self, mu: &Vec<S>) -> S {
+        let Some(code) = self.kernels().hamiltonian else {
+            return legendre::hamiltonian(self, mu);
+        };
+        let mut value = [S::zero()];
+        self.call(code, [mu, &[]], &mut value, &mut []);
+        value[0]
+    }
+    fn energy(&self, mu: &Vec<S>) -> S {
+        let Some(energy) = self.kernels().energy else {
+            return self.hamiltonian(mu);
+        };
+        let mut value = [S::zero()];
+        self.call(energy, [mu, &[]], &mut value, &mut []);
+        value[0]
+    }
+    fn gradient(&self, mu: &Vec<S>, out: &mut Vec<S>) {
+        match self.kernels().gradient {
+            Some(code) => self.call(code, [mu, &[]], out, &mut []),
+            None => legendre::velocity(self, mu, out),
+        }
+    }
+    fn hessian(&self, mu: &Vec<S>, out: &mut Matrix<S>) {
+        match self.kernels().hessian {
+            Some(code) => self.call(code, [mu, &[]], &mut [], out.as_mut_slice()),
+            None if self.is_by_legendre() => legendre::hessian(self, mu, out),
+            None => generic::hessian_by_duals(self, mu, out),
+        }
+    }
+    fn poisson_matrix(&self, mu: &Vec<S>, out: &mut Matrix<S>) {
+        let code = there(self.kernels().poisson_matrix);
+        self.call(code, [mu, &[]], &mut [], out.as_mut_slice());
+    }
+    fn poisson_slope(&self, mu: &Vec<S>, xi: &Vec<S>, out: &mut Matrix<S>) {
+        match self.kernels().poisson_slope {
+            Some(code) => self.call(code, [mu, xi], &mut [], out.as_mut_slice()),
+            None => generic::poisson_slope(self, xi, out),
+        }
+    }
+    fn vector_field(&self, mu: &Vec<S>, out: &mut Vec<S>) {
+        match self.kernels().vector_field {
+            Some(code) => self.call(code, [mu, &[]], out, &mut []),
+            None => generic::vector_field(self, mu, out),
+        }
+    }
+    fn jacobian(&self, mu: &Vec<S>, out: &mut Matrix<S>) {
+        match self.kernels().jacobian {
+            Some(code) => self.call(code, [mu, &[]], &mut [], out.as_mut_slice()),
+            None if self.is_by_legendre() => generic::jacobian(self, mu, out),
+            None => generic::jacobian_by_duals(self, mu, out),
+        }
+    }
+    fn linearize(&self, mu: &Vec<S>, field: &mut Vec<S>, jacobian: &mut Matrix<S>) {
+        match self.kernels().linearize {
+            Some(code) => self.call(code, [mu, &[]], field, jacobian.as_mut_slice()),
+            None => {
+                self.vector_field(mu, field);
+                self.jacobian(mu, jacobian);
+            }
+        }
+    }
+    fn casimirs(&self, mu: &Vec<S>, out: &mut [S]) {
+        if let Some(code) = self.kernels().casimirs {
+            self.call(code, [mu, &[]], out, &mut []);
+        }
+    }
+    fn casimir_gradient(&self, index: usize, mu: &Vec<S>, out: &mut Vec<S>) {
+        let code = self.kernels().casimir_gradients[index];
+        self.call(code, [mu, &[]], out, &mut []);
+    }
+}
+
+impl<S: Scalar> LiePoisson<S> for Dynamic<S> {
+    fn ad(&self, xi: &Vec<S>, eta: &Vec<S>, out: &mut Vec<S>) {
+        self.call(there(self.kernels().ad), [xi, eta], out, &mut []);
+    }
+    fn ad_star(&self, xi: &Vec<S>, mu: &Vec<S>, out: &mut Vec<S>) {
+        self.call(there(self.kernels().ad_star), [xi, mu], out, &mut []);
+    }
+    fn ad_star_matrix(&self, xi: &Vec<S>, out: &mut Matrix<S>) {
+        let code = there(self.kernels().ad_star_matrix);
+        self.call(code, [xi, &[]], &mut [], out.as_mut_slice());
+    }
+    fn has_closed_exponential(&self) -> bool {
+        !self.compiled.plan.system.exponential.is_empty()
+    }
+    fn has_closed_slope(&self) -> bool {
+        self.kernels().dexp_dual_slope.is_some()
+    }
+    fn coadjoint_action(&self, xi: &Vec<S>, mu: &Vec<S>, out: &mut Vec<S>) {
+        match self.kernels().coadjoint_action {
+            Some(code) => self.call(code, [xi, mu], out, &mut []),
+            None => generic::coadjoint_action(self, xi, mu, out),
+        }
+    }
+    fn dexp_dual(&self, xi: &Vec<S>, mu: &Vec<S>, out: &mut Vec<S>) {
+        match self.kernels().dexp_dual {
+            Some(code) => self.call(code, [xi, mu], out, &mut []),
+            None => generic::dexp_dual(self, xi, mu, out),
+        }
+    }
+    fn dexp_dual_slope(&self, xi: &Vec<S>, mu: &Vec<S>, out: &mut Vec<S>, slope: &mut Matrix<S>) {
+        match self.kernels().dexp_dual_slope {
+            Some(code) => self.call(code, [xi, mu], out, slope.as_mut_slice()),
+            None => generic::dexp_dual_slope(self, xi, mu, out, slope),
+        }
+    }
+}
+
+impl<S: Scalar> CayleyPoisson<S> for Dynamic<S> {
+    fn spectrum(&self) -> Spectrum<'_> {
+        self.compiled.structure.spectrum()
+    }
+    fn triple(&self, x: &Vec<S>, z: &Vec<S>, mu: &Vec<S>, out: &mut Vec<S>) {
+        let frame = self.frame([x, z, mu, &[]], &[], [S::zero(); 2]);
+        self.machine
+            .run(there(self.kernels().triple), &frame, [out, &mut []]);
+    }
+}
+
+impl<S: Scalar> Lift<S> for Dynamic<S> {
+    type Lifted = Dynamic<Dual<S>>;
+    fn lift(&self) -> Self::Lifted {
+        self.over(Dual::constant_of, None)
+    }
+}
+
+impl<S: Scalar> Widen<S> for Dynamic<S> {
+    type Widened = Dynamic<S::Wide>;
+    fn widen(&self) -> Self::Widened {
+        self.over(S::widen, self.machine.wide())
+    }
+}
+
+impl<S: Scalar> Expand<S> for Dynamic<S> {
+    type Expanded = Dynamic<Truncated<S>>;
+    fn expand(&self) -> Self::Expanded {
+        self.over(Truncated::constant_of, None)
+    }
+}
