@@ -43,8 +43,9 @@ pub fn equation<F, G>(
     fused.linearize(&unknown, &mut residual, &mut left);
     let iterated = iterated(&left, unknown.len());
     // The fused equation knows the unknowns that its iteration leaves out: first those with a formula in the state, then
-    // those that need the others. Their residuals in the generic one are `u - formula`.
-    for _ in 0..2 {
+    // those that need the others. Their residuals in the generic one are `u - formula`, or small multiples of the step beside that
+    // where few of them depend on each other.
+    for _ in 0..60 {
         reference.residual(&other, &mut expected);
         for index in (0..other.len()).filter(|index| !iterated.contains(index)) {
             other.set_entry(index, other.entry(index) - expected.entry(index));
