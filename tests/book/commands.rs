@@ -16,7 +16,7 @@ use crate::common::markdown::{Block, blocks, read};
 use crate::{FOLDER, common, compare, page, pages, place, update};
 
 /// No picture is larger, in bytes.
-const LARGEST_PICTURE: usize = 60_000;
+const LARGEST_PICTURE: usize = 80_000;
 
 /// Whether a call needs cargo, and minutes.
 fn is_slow(call: &str) -> bool {

@@ -41,19 +41,18 @@ impl Group {
             .map(|row| row.iter().map(&mut put).collect())
             .collect();
         let b: Vec<ExprId> = self.constant.iter().map(put).collect();
-        let size = self.members.len();
-        let all: Vec<usize> = (0..size).collect();
+        let all: Vec<usize> = (0..b.len()).collect();
         let determinant = minor(source, &a, &all, &all);
         let one = source.graph.integer(1);
         let inverse = source.graph.div(one, determinant);
         let solve = |(column, member): (usize, &usize)| {
             let mut sum = source.graph.integer(0);
-            for row in 0..size {
+            for (row, entry) in b.iter().enumerate() {
                 let without = |left: usize| all.iter().copied().filter(move |k| *k != left);
                 let rows: Vec<usize> = without(row).collect();
                 let columns: Vec<usize> = without(column).collect();
                 let cofactor = minor(source, &a, &rows, &columns);
-                let term = source.graph.mul(cofactor, b[row]);
+                let term = source.graph.mul(cofactor, *entry);
                 sum = match (row + column) % 2 {
                     0 => source.graph.sub(sum, term),
                     _ => source.graph.add(sum, term),
