@@ -15,11 +15,14 @@ use lie_runtime::diagnostics::AnyMethod;
 use lie_runtime::methods as m;
 use lie_runtime::newton::NewtonOptions;
 use lie_runtime::{
-    DiscreteLagrangianPoisson, LagrangianPoisson, LiePoisson, Poisson, Scalar, SquareMatrix, State,
-    Widen,
+    DiscreteLagrangianPoisson, LagrangianPoisson, LiePoisson, Poisson, RealizedPoisson, Scalar,
+    SquareMatrix, State, Widen,
 };
 use random::Random;
 use wasmi_engine::Wasmi;
+
+lie_runtime::lie_poisson! { spec = "tests/data/declarations/pass/realization.json"; }
+lie_runtime::lie_poisson! { spec = "tests/data/declarations/pass/realization_with_start.json"; }
 
 const STATES: usize = 50;
 const STEPS: usize = 40;
@@ -44,6 +47,7 @@ fn choice_of(label: &str) -> Choice {
         (Choice::Collective(order, _), Some("quaternion")) => {
             Choice::Collective(*order, Lift::Quaternion)
         }
+        (Choice::Collective(order, _), Some("spec")) => Choice::Collective(*order, Lift::Spec),
         (Choice::Collective(order, _), Some("smallest")) => {
             Choice::Collective(*order, Lift::Smallest)
         }
@@ -54,8 +58,7 @@ fn choice_of(label: &str) -> Choice {
 
 /// A spec as a system made at run time, by an engine.
 fn made(spec: &str, ids: &[&str], engine: &dyn Engine) -> Dynamic<f64> {
-    let path = format!("{}/specs/{spec}.json", env!("CARGO_MANIFEST_DIR"));
-    let text = std::fs::read_to_string(path).unwrap();
+    let text = std::fs::read_to_string(format!("{}/{spec}", env!("CARGO_MANIFEST_DIR"))).unwrap();
     let model = compile_spec(&text).unwrap();
     let choices: Vec<Choice> = ids.iter().map(|id| Choice::from_id(id).unwrap()).collect();
     Dynamic::new(plan(&model, &with_options(&model, &choices)), &[], engine).unwrap()
@@ -69,8 +72,10 @@ impl Differences {
     fn compare(&mut self, what: &str, printed: &[f64], made: &[f64]) {
         // a zero has no sign here: what fills in is negated or subtracted from 0
         let same = |(a, b): (&f64, &f64)| (a + 0.0).to_bits() == (b + 0.0).to_bits();
-        if !printed.iter().zip(made).all(same) {
-            self.0.push(format!("{what}: {printed:?} {made:?}"));
+        if let Some(place) = printed.iter().zip(made).position(|pair| !same(pair)) {
+            let (printed, made) = (printed[place], made[place]);
+            self.0
+                .push(format!("{what}: {printed:?} {made:?} at {place}"));
         }
     }
 }
@@ -183,6 +188,44 @@ fn discrete<P: DiscreteLagrangianPoisson<f64>>(
     found
 }
 
+/// Those of a declared realization.
+fn realized<P: RealizedPoisson<f64>>(
+    system: &P,
+    xi: &[f64],
+    mu: &[f64],
+) -> Vec<(&'static str, Vec<f64>)> {
+    let (mut z, mut v, mut start) = (
+        system.zero_point(),
+        system.zero_point(),
+        system.zero_point(),
+    );
+    for (i, (z, v)) in z
+        .as_mut_slice()
+        .iter_mut()
+        .zip(v.as_mut_slice())
+        .enumerate()
+    {
+        (*z, *v) = (
+            mu[i % mu.len()] + 0.3 * i as f64,
+            xi[i % xi.len()] - 0.7 * i as f64,
+        );
+    }
+    let (mut covector, mut out) = (system.zero_state(), system.zero_state());
+    let (mut point, mut matrix) = (system.zero_point(), system.zero_point_matrix());
+    covector.as_mut_slice().copy_from_slice(xi);
+    system.start(&mut start);
+    let mut found = vec![("start", start.as_slice().to_vec())];
+    system.momentum_map(&z, &mut out);
+    found.push(("momentum_map", out.as_slice().to_vec()));
+    system.pullback(&z, &covector, &mut point);
+    found.push(("pullback", point.as_slice().to_vec()));
+    system.pushforward(&z, &v, &mut out);
+    found.push(("pushforward", out.as_slice().to_vec()));
+    system.curvature(&z, &covector, &mut matrix);
+    found.push(("curvature", entries(&matrix)));
+    found
+}
+
 /// The states along a trajectory.
 fn trajectory<P: Poisson<f64>>(
     system: &P,
@@ -204,10 +247,14 @@ fn trajectory<P: Poisson<f64>>(
 
 /// Compares a printed system with those made at run time.
 macro_rules! compare {
-    ($differences:ident, $spec:ident, $system:ident, [$($algebra:ident)?], [$($id:literal $method:expr),* $(,)?]) => {{
+    ($differences:ident, $spec:ident, $system:ident, $algebra:tt, $methods:tt) => {{
         use spec_systems::$spec::$system;
+        let spec = concat!("specs/", stringify!($spec), ".json");
+        compare!($differences, spec => $system, $algebra, $methods);
+    }};
+    ($differences:ident, $spec:expr => $system:ident, [$($algebra:ident)?], [$($id:literal $method:expr),* $(,)?]) => {{
         let printed = $system::new().system().unwrap();
-        let spec = stringify!($spec);
+        let spec = $spec;
         for engine in [&Interpreted as &dyn Engine, &Jit, &Wasmi] {
             let made = made(spec, &spec_systems::methods::METHODS, engine);
             let start: Vec<f64> = $system::new().initial_state().as_slice().to_vec();
@@ -352,6 +399,22 @@ fn discrete_lagrangians() {
         "midpoint" m::ImplicitMidpoint, "lie-midpoint" m::LieMidpoint::exp(), "rk4" m::Rk4,
         "discrete-euler-poincare --retraction cayley" m::DiscreteEulerPoincare::cayley(),
         "discrete-euler-poincare" m::DiscreteEulerPoincare::exp(),
+    ]);
+    assert!(differences.0.is_empty(), "{}", differences.0.join("\n"));
+}
+
+#[test]
+fn realizations() {
+    const WITHOUT_START: &str = "tests/data/declarations/pass/realization.json";
+    const WITH_START: &str = "tests/data/declarations/pass/realization_with_start.json";
+    let mut differences = Differences::default();
+    compare!(differences, WITHOUT_START => Broken, [realized], [
+        "collective2 --lift spec" m::Collective2::given(), "collective4 --lift spec" m::Collective4::given(),
+        "collective6 --lift spec" m::Collective6::given(),
+    ]);
+    compare!(differences, WITH_START => AngularMomentum, [realized], [
+        "collective2 --lift spec" m::Collective2::given(), "collective4 --lift spec" m::Collective4::given(),
+        "collective6 --lift spec" m::Collective6::given(),
     ]);
     assert!(differences.0.is_empty(), "{}", differences.0.join("\n"));
 }

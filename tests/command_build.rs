@@ -67,6 +67,8 @@ fn a_run_needs_no_toolchain() {
         "run specs/so3_quartic_lagrangian.json --until 0.2 --method variational2",
         "run specs/so3_discrete_lagrangian.json --until 0.2 --method discrete-euler-poincare --retraction cayley",
         "verify specs/so3_quartic_lagrangian.json --methods variational2",
+        "run tests/data/declarations/pass/realization.json --until 0.2 --method collective4 --lift spec",
+        "verify tests/data/declarations/pass/realization_with_start.json --methods collective2",
     ] {
         let mut here = command(call.split(' '));
         here.env("CARGO", nothing)

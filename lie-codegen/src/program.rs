@@ -65,7 +65,7 @@ pub fn program(model: &Model, choices: &[Choice], purpose: Purpose) -> String {
             (
                 quote! { lie_measure::Verify },
                 module,
-                Some(quote! { #entries #evidence #beside }),
+                Some(quote! { #entries #evidence #(.beside(#beside))* }),
             )
         }
         Purpose::Bench => (
@@ -176,12 +176,11 @@ fn evidence(model: &Model) -> TokenStream {
 
 /// The methods over a declared realization: what they act on are its points, and the group element of the declared matrices
 /// only goes along with them.
-fn beside(choices: &[Choice]) -> TokenStream {
+pub fn beside(choices: &[Choice]) -> impl Iterator<Item = String> {
     let realized = choices
         .iter()
         .filter(|choice| matches!(choice.solved(), Choice::Collective(_, Lift::Spec)));
-    let labels = realized.map(Choice::label);
-    quote! { #(.beside(#labels))* }
+    realized.map(Choice::label)
 }
 
 fn entry(choice: &Choice, purpose: Purpose) -> TokenStream {

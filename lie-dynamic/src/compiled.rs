@@ -91,6 +91,7 @@ pub(crate) struct Compiled {
     pub lie_taylor: Option<crate::series::Codes>,
     pub flows: crate::flows::Codes,
     pub structure: crate::structure::Codes,
+    pub realization: Option<crate::realization::Codes>,
     pub casimir_degrees: Vec<Option<u32>>,
 }
 
@@ -242,6 +243,8 @@ impl Compiled {
         }
         let flows = crate::flows::Codes::new(&plan, &mut making);
         let structure = crate::structure::Codes::new(&plan, &mut making);
+        let realization = plan.structure.realization.as_ref();
+        let realization = realization.map(|r| crate::realization::Codes::new(r, &mut making));
         let casimir_degrees = plan.system.casimirs.iter().map(|c| c.degree).collect();
         Self {
             codes: making.codes.into(),
@@ -257,6 +260,7 @@ impl Compiled {
             lie_taylor,
             flows,
             structure,
+            realization,
             casimir_degrees,
         }
     }

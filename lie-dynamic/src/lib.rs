@@ -47,6 +47,7 @@ mod layout;
 mod matrix;
 mod methods;
 mod names;
+mod realization;
 mod series;
 mod structure;
 mod system;

@@ -201,6 +201,9 @@ fn collective<S: Scalar>(order: u32, lift: Lift) -> Option<Method<S>> {
                     ($order, Lift::Quaternion) => boxed(m::$name::quaternion()),
                     ($order, Lift::Representation) => boxed(m::$name::representation()),
                 )+
+                (2, Lift::Spec) => boxed(m::Collective2::given()),
+                (4, Lift::Spec) => boxed(m::Collective4::given()),
+                (6, Lift::Spec) => boxed(m::Collective6::given()),
                 (2, Lift::Hopf) => boxed(m::Collective2::hopf()),
                 (4, Lift::Hopf) => boxed(m::Collective4::hopf()),
                 (6, Lift::Hopf) => boxed(m::Collective6::hopf()),

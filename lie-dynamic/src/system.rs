@@ -75,14 +75,14 @@ impl Declared {
 }
 
 impl Dynamic<f64> {
-    /// Whether systems can be made of a plan: not of a family, nor where H calls a function of Rust, nor over a realization.
+    /// Whether systems can be made of a plan: not of a family, nor where H calls a function of Rust.
     pub fn supports(plan: &Plan) -> bool {
         let own = |operation: &Operation<_>| {
             matches!(operation, Operation::Call(symbolic::Function::Own(_), _))
         };
         let mut functions = plan.system.functions();
         let calls_rust = functions.any(|function| function.program.operations.iter().any(own));
-        !calls_rust && plan.family.is_none() && plan.structure.realization.is_none()
+        !calls_rust && plan.family.is_none()
     }
 
     /// The system of a plan and of these parameters, see [`Declared`].

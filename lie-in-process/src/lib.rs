@@ -12,7 +12,7 @@ pub mod report;
 use lie_codegen::methods::Choice;
 use lie_codegen::model::Model;
 use lie_codegen::plan::plan;
-use lie_codegen::program::{Chart, Purpose, compared};
+use lie_codegen::program::{Chart, Purpose, beside, compared};
 use lie_dynamic::{Declared, Dynamic, Method, at_defaults, method};
 use lie_jit::Jit;
 use lie_measure::verify::Kind;
@@ -54,6 +54,7 @@ pub fn work(
         with_cayley: plan.system.triple.is_some(),
         with_lagrangian: !plan.system.lagrangian.is_empty(),
         with_discrete: !plan.system.discrete.is_empty(),
+        with_realization: plan.structure.realization.is_some(),
         declared: Declared::new(plan, &Jit),
         choices: choices.to_vec(),
         parameters: parameters.collect(),
@@ -80,6 +81,7 @@ struct Declaration {
     with_cayley: bool,
     with_lagrangian: bool,
     with_discrete: bool,
+    with_realization: bool,
     choices: Vec<Choice>,
     parameters: Vec<(String, f64)>,
     compared: Vec<Choice>,
@@ -165,6 +167,12 @@ impl Declaration {
         }
         if self.with_discrete {
             program = program.with_discrete();
+        }
+        if self.with_realization {
+            program = program.with_realization();
+        }
+        for label in beside(&self.choices) {
+            program = program.beside(&label);
         }
         program.work(line, session)
     }

@@ -151,7 +151,7 @@ impl Declaration {
         let compiled = compiled.map_err(|obstacle| match obstacle {
             Obstacle::Method(refused) => refused.raise(py),
             Obstacle::System => {
-                let text = "a system with a realization or a family does not run in Python yet";
+                let text = "a family does not run in Python yet";
                 let help = "`lie run` integrates it: write the declaration to a file";
                 method_error(py, text, help)
             }
