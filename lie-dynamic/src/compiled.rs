@@ -92,6 +92,7 @@ pub(crate) struct Compiled {
     pub flows: crate::flows::Codes,
     pub structure: crate::structure::Codes,
     pub realization: Option<crate::realization::Codes>,
+    pub family: Option<crate::family::Codes>,
     pub casimir_degrees: Vec<Option<u32>>,
 }
 
@@ -245,6 +246,8 @@ impl Compiled {
         let structure = crate::structure::Codes::new(&plan, &mut making);
         let realization = plan.structure.realization.as_ref();
         let realization = realization.map(|r| crate::realization::Codes::new(r, &mut making));
+        let family = plan.family.as_ref();
+        let family = family.map(|family| crate::family::Codes::new(family, &mut making));
         let casimir_degrees = plan.system.casimirs.iter().map(|c| c.degree).collect();
         Self {
             codes: making.codes.into(),
@@ -261,6 +264,7 @@ impl Compiled {
             flows,
             structure,
             realization,
+            family,
             casimir_degrees,
         }
     }

@@ -2,11 +2,11 @@
 
 use crate::compiled::FusedCodes;
 use crate::elimination::Table;
-use crate::matrix::Matrix;
 use crate::system::Dynamic;
 use lie_codegen::methods::Choice;
 use lie_codegen::plan::{Chart, Ending, Fused, Guess, Item, Partner, Solver};
 use lie_codegen::trace::COMPLETED;
+use lie_core::family::LateMatrix;
 use lie_core::generic;
 use lie_runtime::methods::Retraction;
 use lie_runtime::{Equation, Mask as _, Poisson, Scalar, StageMatrix, Unknown};
@@ -17,13 +17,13 @@ pub trait Block<S> {
     fn block(&mut self) -> &mut [S];
 }
 
-impl<S: Scalar> Block<S> for Matrix<S> {
+impl<S: Scalar> Block<S> for LateMatrix<S> {
     fn block(&mut self) -> &mut [S] {
         self.as_mut_slice()
     }
 }
 
-impl<S: Scalar, const STAGES: usize> Block<S> for StageMatrix<Matrix<S>, STAGES> {
+impl<S: Scalar, const STAGES: usize> Block<S> for StageMatrix<LateMatrix<S>, STAGES> {
     fn block(&mut self) -> &mut [S] {
         self.0[0][0].as_mut_slice()
     }
@@ -40,7 +40,7 @@ struct Running<'a, S> {
 }
 
 /// The equation of the step of a method as the plan has it; the generic one where it has nothing.
-pub struct Planned<'a, S, G> {
+pub struct Planned<'a, S: Scalar, G> {
     system: &'a Dynamic<S>,
     h: S,
     generic: G,
@@ -51,12 +51,12 @@ pub struct Planned<'a, S, G> {
 impl<'a, S: Scalar, G> Planned<'a, S, G> {
     /// The equation of a step of size h, `generic` being the generic one of the same step.
     pub fn new(system: &'a Dynamic<S>, choice: &Choice, h: S, generic: G) -> Self {
-        let solver = system.compiled.solvers.get(choice);
+        let solver = system.values.compiled.solvers.get(choice);
         let (mut fused, mut elimination) = (None, None);
         match solver {
             Some(Solver::Fused(suffix)) => {
-                fused = system.compiled.fused.get(suffix).map(|codes| {
-                    let Item::Fused(row) = &system.compiled.plan.items[codes.item] else {
+                fused = system.values.compiled.fused.get(suffix).map(|codes| {
+                    let Item::Fused(row) = &system.values.compiled.plan.items[codes.item] else {
                         unreachable!("the row of a fused equation")
                     };
                     let zero = system.zero_state();
@@ -65,13 +65,13 @@ impl<'a, S: Scalar, G> Planned<'a, S, G> {
                         row,
                         field: zero.clone(),
                         base: zero,
-                        of_step: system.of_step(&codes.step, h),
+                        of_step: system.values.of_step(&codes.step, h),
                         ratios: vec![S::zero(); 2 * spins(row)],
                     }
                 });
             }
             Some(Solver::Eliminated(_, suffix)) => {
-                elimination = system.compiled.eliminations.get(suffix);
+                elimination = system.values.compiled.eliminations.get(suffix);
             }
             Some(Solver::Generic(_)) | None => {}
         }
@@ -124,8 +124,8 @@ impl<S: Scalar> Running<'_, S> {
                 _ => unknown,
             };
         }
-        let frame = system.frame(places, &self.of_step, [h, S::zero()]);
-        system.run(code.0, &frame, targets);
+        let frame = system.values.frame(places, &self.of_step, [h, S::zero()]);
+        system.values.run(code.0, &frame, targets);
     }
 }
 

@@ -4,10 +4,10 @@ use crate::either::Either;
 use crate::equation::Planned;
 use crate::generating;
 use crate::gradient;
-use crate::matrix::Matrix;
 use crate::system::Dynamic;
 use lie_codegen::methods::{Choice, Gradient, Lift, Retraction, Tensor};
 use lie_codegen::plan::{Partner, Solver};
+use lie_core::family::LateMatrix;
 use lie_core::generic;
 use lie_runtime::methods as m;
 use lie_runtime::{Implicit, Scalar};
@@ -51,7 +51,7 @@ macro_rules! cohen_hairer {
                 >> where Self: 'a;
                 fn equation<'a>(&'a self, _method: &m::CohenHairer<$stages>, h: S) -> Self::Equation<'a> {
                     let choice = Choice::CohenHairer(2 * $stages);
-                    let solver = self.compiled.solvers.get(&choice);
+                    let solver = self.values.compiled.solvers.get(&choice);
                     let equation = match solver {
                         Some(Solver::Generic(Partner::Gauss(_)) | Solver::Eliminated(Partner::Gauss(_), _)) => {
                             Either::Second(generic::Gauss::new(self, h))
@@ -124,7 +124,7 @@ macro_rules! stages {
         $(
             impl<S: Scalar> Implicit<S, m::Isospectral<$stages>> for Dynamic<S> {
                 type Equation<'a> = Planned<'a, S, generic::StageMomenta<
-                    'a, S, Self, generic::MatrixStages<S, Matrix<S>, $stages>, $stages,
+                    'a, S, Self, generic::MatrixStages<S, LateMatrix<S>, $stages>, $stages,
                 >> where Self: 'a;
                 fn equation<'a>(&'a self, _method: &m::Isospectral<$stages>, h: S) -> Self::Equation<'a> {
                     let equation = generic::StageMomenta::new(self, h);
@@ -181,7 +181,7 @@ impl<S: Scalar> Implicit<S, m::MoserVeselov> for Dynamic<S> {
     where
         Self: 'a;
     fn equation<'a>(&'a self, _method: &m::MoserVeselov, h: S) -> Self::Equation<'a> {
-        let equation = match self.compiled.structure.is_body_of_many() {
+        let equation = match self.values.compiled.structure.is_body_of_many() {
             false => Either::First(generic::DiscreteTop::new(self, h)),
             true => Either::Second(generic::DiscreteBody::new(self, h)),
         };

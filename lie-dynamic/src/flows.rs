@@ -2,9 +2,11 @@
 
 use crate::code::Code;
 use crate::compiled::Making;
+use crate::family::OfSite;
 use crate::system::Dynamic;
 use lie_codegen::derive::{Shape, Update};
-use lie_codegen::plan::{Flow, Found, Plan};
+use lie_codegen::plan::{Flow, Found, Function, Plan};
+use lie_core::family::FamilyFlows;
 use lie_core::generic::{CoordinateFlows, piece_direction};
 use lie_runtime::{FoundPoisson, LiePoisson, PieceFlows, Poisson, Scalar, SeparablePoisson};
 
@@ -65,23 +67,42 @@ impl Codes {
 }
 
 fn flow(flow: &Flow, making: &mut Making) -> FlowCode {
-    let code = flow.function.as_ref().map(|function| {
-        let mut code = Code::of_kernel(function, usize::MAX.isqrt());
-        // the results are updates, not the whole vector
-        code.clear = [None, None];
-        let rows = match &function.shape {
-            Shape::Vector(rows) => rows.clone(),
-            _ => Vec::new(),
-        };
-        for (entry, store) in (0..).zip(&mut code.stores) {
-            store.entry = entry;
-        }
-        let updates = rows.into_iter().zip(flow.updates.iter().copied()).collect();
-        (making.push(code), updates)
-    });
+    let function = flow.function.as_ref();
     FlowCode {
         coordinate: flow.coordinate,
-        code,
+        code: function.map(|function| updates(function, &flow.updates, making)),
+    }
+}
+
+/// The code of a kernel whose results change entries of a state: which ones, and how.
+pub(crate) fn updates(
+    function: &Function,
+    updates: &[Update],
+    making: &mut Making,
+) -> (usize, Vec<(usize, Update)>) {
+    let mut code = Code::of_kernel(function, usize::MAX.isqrt());
+    // the results are updates, not the whole vector
+    code.clear = [None, None];
+    let rows = match &function.shape {
+        Shape::Vector(rows) => rows.clone(),
+        _ => Vec::new(),
+    };
+    for (entry, store) in (0..).zip(&mut code.stores) {
+        store.entry = entry;
+    }
+    let updates = rows.into_iter().zip(updates.iter().copied()).collect();
+    (making.push(code), updates)
+}
+
+/// Changes entries of a state by such results.
+pub(crate) fn update<S: Scalar>(updates: &[(usize, Update)], results: &[S], mu: &mut [S]) {
+    for ((row, update), result) in updates.iter().zip(results) {
+        match update {
+            Update::Add => mu[*row] += *result,
+            Update::Subtract => mu[*row] -= *result,
+            Update::Multiply => mu[*row] *= *result,
+            Update::Divide => mu[*row] /= *result,
+        }
     }
 }
 
@@ -104,20 +125,20 @@ impl<'a, S: Scalar> Flows<'a, S> {
             results: zero.clone(),
             start: zero.clone(),
             xi: zero,
-            found: found && system.compiled.flows.found.is_some(),
+            found: found && system.values.compiled.flows.found.is_some(),
         }
     }
 
     /// Pieces that were found and are not those of the coordinates.
     fn pieces_found(&self) -> &'a [Piece] {
-        match &self.system.compiled.flows.found {
+        match &self.system.values.compiled.flows.found {
             Some((pieces, _)) if self.found => pieces,
             _ => &[],
         }
     }
 
     fn coordinates(&self) -> Option<&'a [FlowCode]> {
-        self.system.compiled.flows.coordinate.as_deref()
+        self.system.values.compiled.flows.coordinate.as_deref()
     }
 
     fn of_coordinate(&mut self, flow: &FlowCode, t: S, mu: &mut Vec<S>) {
@@ -125,20 +146,18 @@ impl<'a, S: Scalar> Flows<'a, S> {
             self.series.flow(flow.coordinate, t, mu);
             return;
         };
-        let frame = self.system.frame([mu, &[], &[], &[]], &[], [S::zero(), t]);
-        self.system.run(*code, &frame, [&mut self.results, &mut []]);
-        for ((row, update), result) in updates.iter().zip(&self.results) {
-            match update {
-                Update::Add => mu[*row] += *result,
-                Update::Subtract => mu[*row] -= *result,
-                Update::Multiply => mu[*row] *= *result,
-                Update::Divide => mu[*row] /= *result,
-            }
-        }
+        let frame = self
+            .system
+            .values
+            .frame([mu, &[], &[], &[]], &[], [S::zero(), t]);
+        self.system
+            .values
+            .run(*code, &frame, [&mut self.results, &mut []]);
+        update(updates, &self.results, mu);
     }
 
     fn along(&self, direction: usize, t: S, mu: &[S], xi: &mut [S]) {
-        self.system.call(direction, [mu, &[]], xi, &mut []);
+        self.system.values.call(direction, [mu, &[]], xi, &mut []);
         for entry in xi {
             *entry = t * *entry;
         }
@@ -216,6 +235,7 @@ impl<S: Scalar> PieceFlows<S> for Flows<'_, S> {
     fn rest(&self, t: S, mu: &Vec<S>, xi: &mut Vec<S>) -> bool {
         let whole = self
             .system
+            .values
             .compiled
             .flows
             .found
@@ -228,6 +248,7 @@ impl<S: Scalar> PieceFlows<S> for Flows<'_, S> {
         self.system.gradient(mu, xi);
         for piece in self.pieces_found() {
             self.system
+                .values
                 .call(piece.direction, [mu, &[]], &mut part, &mut []);
             for (entry, part) in xi.iter_mut().zip(&part) {
                 *entry -= *part;
@@ -247,9 +268,62 @@ impl<S: Scalar> SeparablePoisson<S> for Dynamic<S> {
     }
 }
 
+/// The flows of the pieces that were found: of a system, or of the sites of a family.
+pub enum AnyFlows<'a, S: Scalar> {
+    /// Of a system.
+    System(Flows<'a, S>),
+    /// Of a family.
+    Family(FamilyFlows<'a, S, OfSite<S>>),
+}
+
+macro_rules! any {
+    ($flows:expr, $some:ident => $value:expr) => {
+        match $flows {
+            AnyFlows::System($some) => $value,
+            AnyFlows::Family($some) => $value,
+        }
+    };
+}
+
+impl<S: Scalar> PieceFlows<S> for AnyFlows<'_, S> {
+    type State = Vec<S>;
+
+    fn pieces(&self) -> usize {
+        any!(self, flows => flows.pieces())
+    }
+    fn take(&mut self, mu: &Vec<S>, next: &mut Vec<S>) {
+        any!(self, flows => flows.take(mu, next));
+    }
+    fn give(&self, lanes: S::Mask, next: &Vec<S>, mu: &mut Vec<S>) {
+        any!(self, flows => flows.give(lanes, next, mu));
+    }
+    fn direction(&self, piece: usize, t: S, mu: &Vec<S>, xi: &mut Vec<S>) {
+        any!(self, flows => flows.direction(piece, t, mu, xi));
+    }
+    fn flow(&mut self, piece: usize, t: S, mu: &mut Vec<S>) {
+        any!(self, flows => flows.flow(piece, t, mu));
+    }
+    fn follow(
+        &mut self,
+        piece: usize,
+        t: S,
+        mu: &mut Vec<S>,
+        factor: &mut Vec<S>,
+        give: &mut dyn FnMut(&mut Vec<S>),
+    ) {
+        any!(self, flows => flows.follow(piece, t, mu, factor, give));
+    }
+    fn rest(&self, t: S, mu: &Vec<S>, xi: &mut Vec<S>) -> bool {
+        any!(self, flows => flows.rest(t, mu, xi))
+    }
+}
+
 impl<S: Scalar> FoundPoisson<S> for Dynamic<S> {
-    type Found<'a> = Flows<'a, S>;
-    fn found(&self) -> Flows<'_, S> {
-        Flows::new(self, true)
+    type Found<'a> = AnyFlows<'a, S>;
+    fn found(&self) -> AnyFlows<'_, S> {
+        match &self.family {
+            Some(family) => AnyFlows::Family(family.found()),
+            None => AnyFlows::System(Flows::new(self, true)),
+        }
     }
 }

@@ -1,8 +1,8 @@
 //! Generating functions in code.
 
 use crate::compiled::GeneratingCodes;
-use crate::matrix::Matrix;
 use crate::system::Dynamic;
+use lie_core::family::LateMatrix;
 use lie_core::generic;
 use lie_runtime::{Dual, GeneratingFunction, Lift, Poisson, Scalar};
 
@@ -18,8 +18,8 @@ pub struct Planned<'a, S: Scalar, G> {
 impl<'a, S: Scalar, G> Planned<'a, S, G> {
     /// The function under the end of its type's name.
     pub fn new(system: &'a Dynamic<S>, suffix: &'static str, h: S, generic: G) -> Self {
-        let codes = system.compiled.generating.get(suffix);
-        let of_step = codes.map(|codes| system.of_step(&codes.step, h));
+        let codes = system.values.compiled.generating.get(suffix);
+        let of_step = codes.map(|codes| system.values.of_step(&codes.step, h));
         Self {
             system,
             suffix,
@@ -30,14 +30,15 @@ impl<'a, S: Scalar, G> Planned<'a, S, G> {
     }
 
     fn codes(&self) -> Option<&'a GeneratingCodes> {
-        self.system.compiled.generating.get(self.suffix)
+        self.system.values.compiled.generating.get(self.suffix)
     }
 
     fn run(&self, code: usize, p: &[S], xi: &mut [S], hessian: &mut [S]) {
-        let frame = self
-            .system
-            .frame([p, &[], &[], &[]], &self.of_step, [self.h, S::zero()]);
-        self.system.run(code, &frame, [xi, hessian]);
+        let frame =
+            self.system
+                .values
+                .frame([p, &[], &[], &[]], &self.of_step, [self.h, S::zero()]);
+        self.system.values.run(code, &frame, [xi, hessian]);
     }
 }
 
@@ -51,16 +52,17 @@ struct Gradient<'a, S: Scalar> {
 
 impl<S: Scalar> GeneratingFunction<S> for Gradient<'_, S> {
     type State = Vec<S>;
-    type Jacobian = Matrix<S>;
+    type Jacobian = LateMatrix<S>;
 
     fn gradient(&mut self, p: &Vec<S>, xi: &mut Vec<S>) {
-        let frame = self
-            .system
-            .frame([p, &[], &[], &[]], &self.of_step, [self.h, S::zero()]);
-        self.system.run(self.code, &frame, [xi, &mut []]);
+        let frame =
+            self.system
+                .values
+                .frame([p, &[], &[], &[]], &self.of_step, [self.h, S::zero()]);
+        self.system.values.run(self.code, &frame, [xi, &mut []]);
     }
 
-    fn linearize(&mut self, _p: &Vec<S>, _xi: &mut Vec<S>, _hessian: &mut Matrix<S>) {
+    fn linearize(&mut self, _p: &Vec<S>, _xi: &mut Vec<S>, _hessian: &mut LateMatrix<S>) {
         unreachable!("only the gradient is asked for over dual numbers")
     }
 }
@@ -68,10 +70,10 @@ impl<S: Scalar> GeneratingFunction<S> for Gradient<'_, S> {
 impl<S, G> GeneratingFunction<S> for Planned<'_, S, G>
 where
     S: Scalar,
-    G: GeneratingFunction<S, State = Vec<S>, Jacobian = Matrix<S>>,
+    G: GeneratingFunction<S, State = Vec<S>, Jacobian = LateMatrix<S>>,
 {
     type State = Vec<S>;
-    type Jacobian = Matrix<S>;
+    type Jacobian = LateMatrix<S>;
 
     fn gradient(&mut self, p: &Vec<S>, xi: &mut Vec<S>) {
         match self.codes() {
@@ -80,7 +82,7 @@ where
         }
     }
 
-    fn linearize(&mut self, p: &Vec<S>, xi: &mut Vec<S>, hessian: &mut Matrix<S>) {
+    fn linearize(&mut self, p: &Vec<S>, xi: &mut Vec<S>, hessian: &mut LateMatrix<S>) {
         let Some(codes) = self.codes() else {
             return self.generic.linearize(p, xi, hessian);
         };
@@ -93,7 +95,7 @@ where
             system: &lifted,
             code: codes.gradient,
             h,
-            of_step: lifted.of_step(&codes.step, h),
+            of_step: lifted.values.of_step(&codes.step, h),
         };
         let zero = lifted.zero_state();
         generic::linearize_by_duals(&mut function, &zero, p, xi, hessian);

@@ -1,10 +1,10 @@
 //! Discrete gradients in code.
 
 use crate::kernels::ARGUMENTS;
-use crate::matrix::Matrix;
 use crate::system::Dynamic;
 use lie_codegen::methods::{Choice, Gradient};
 use lie_codegen::plan::{Partner, Solver};
+use lie_core::family::LateMatrix;
 use lie_core::generic::{
     self, DiscreteGradient, GonzalezGradient, ItohAbeGradient, MeanValueGradient,
 };
@@ -47,7 +47,7 @@ fn coded<S: Scalar>(
     [start, end]: [&Vec<S>; 2],
     targets: [&mut [S]; 2],
 ) {
-    let Some((codes, functions)) = system.compiled.gradients.get(&gradient) else {
+    let Some((codes, functions)) = system.values.compiled.gradients.get(&gradient) else {
         unreachable!("the closed form is in the plan")
     };
     let Some(place) = functions.iter().position(|function| function.name == name) else {
@@ -62,14 +62,14 @@ fn coded<S: Scalar>(
             _ => end,
         };
     }
-    let frame = system.frame(places, &[], [S::zero(); 2]);
-    system.run(codes[place], &frame, targets);
+    let frame = system.values.frame(places, &[], [S::zero(); 2]);
+    system.values.run(codes[place], &frame, targets);
 }
 
 impl<S: Scalar, K: Named> DiscreteGradient<S, Dynamic<S>> for Planned<S, K> {
     fn new(system: &Dynamic<S>) -> Self {
         let choice = Choice::OrbitEnergy(K::GRADIENT);
-        let partner = match system.compiled.solvers.get(&choice) {
+        let partner = match system.values.compiled.solvers.get(&choice) {
             Some(Solver::Generic(partner) | Solver::Eliminated(partner, _)) => Some(partner),
             _ => None,
         };
@@ -112,7 +112,7 @@ impl<S: Scalar, K: Named> DiscreteGradient<S, Dynamic<S>> for Planned<S, K> {
         system: &Dynamic<S>,
         end: &Vec<S>,
         out: &mut Vec<S>,
-        slopes: &mut Matrix<S>,
+        slopes: &mut LateMatrix<S>,
     ) {
         match &mut self.form {
             Form::Coded { gradient, start } => {

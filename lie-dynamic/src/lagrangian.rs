@@ -2,12 +2,12 @@
 
 use crate::compiled::Place;
 use crate::kernels::ARGUMENTS;
-use crate::matrix::Matrix;
 use crate::methods::{Method, boxed};
 use crate::system::Dynamic;
 use crate::traits::there;
 use lie_codegen::methods::{Choice, Retraction};
 use lie_codegen::plan::Energy;
+use lie_core::family::LateMatrix;
 use lie_core::generic_equations;
 use lie_runtime::methods as m;
 use lie_runtime::{DiscreteLagrangianPoisson, LagrangianPoisson, Scalar};
@@ -39,25 +39,27 @@ impl<S: Scalar> Dynamic<S> {
     fn discrete(&self, place: Place, h: S, x: &[S], vector: &mut [S], matrix: &mut [S]) {
         let mut arguments: [&[S]; ARGUMENTS] = [&[]; ARGUMENTS];
         arguments[0] = x;
-        let frame = self.frame(arguments, &[], [h, S::zero()]);
-        self.run(there(place), &frame, [vector, matrix]);
+        let frame = self.values.frame(arguments, &[], [h, S::zero()]);
+        self.values.run(there(place), &frame, [vector, matrix]);
     }
 }
 
 impl<S: Scalar> LagrangianPoisson<S> for Dynamic<S> {
     fn lagrangian(&self, xi: &Vec<S>) -> S {
-        let [code, ..] = self.kernels().lagrangian;
+        let [code, ..] = self.values.kernels().lagrangian;
         let mut value = [S::zero()];
-        self.call(there(code), [xi, &[]], &mut value, &mut []);
+        self.values
+            .call(there(code), [xi, &[]], &mut value, &mut []);
         value[0]
     }
     fn momentum(&self, xi: &Vec<S>, out: &mut Vec<S>) {
-        let [_, code, _] = self.kernels().lagrangian;
-        self.call(there(code), [xi, &[]], out, &mut []);
+        let [_, code, _] = self.values.kernels().lagrangian;
+        self.values.call(there(code), [xi, &[]], out, &mut []);
     }
-    fn inertia(&self, xi: &Vec<S>, out: &mut Matrix<S>) {
-        let [.., code] = self.kernels().lagrangian;
-        self.call(there(code), [xi, &[]], &mut [], out.as_mut_slice());
+    fn inertia(&self, xi: &Vec<S>, out: &mut LateMatrix<S>) {
+        let [.., code] = self.values.kernels().lagrangian;
+        self.values
+            .call(there(code), [xi, &[]], &mut [], out.as_mut_slice());
     }
     fn branch(&self) -> Option<Vec<S>> {
         self.branch.clone()
@@ -67,14 +69,14 @@ impl<S: Scalar> LagrangianPoisson<S> for Dynamic<S> {
 impl<S: Scalar> DiscreteLagrangianPoisson<S> for Dynamic<S> {
     fn discrete_lagrangian(&self, h: S, x: &Vec<S>) -> S {
         let mut value = [S::zero()];
-        self.discrete(self.kernels().discrete[0], h, x, &mut value, &mut []);
+        self.discrete(self.values.kernels().discrete[0], h, x, &mut value, &mut []);
         value[0]
     }
     fn discrete_slope(&self, h: S, x: &Vec<S>, out: &mut Vec<S>) {
-        self.discrete(self.kernels().discrete[1], h, x, out, &mut []);
+        self.discrete(self.values.kernels().discrete[1], h, x, out, &mut []);
     }
-    fn discrete_curvature(&self, h: S, x: &Vec<S>, out: &mut Matrix<S>) {
+    fn discrete_curvature(&self, h: S, x: &Vec<S>, out: &mut LateMatrix<S>) {
         let matrix = out.as_mut_slice();
-        self.discrete(self.kernels().discrete[2], h, x, &mut [], matrix);
+        self.discrete(self.values.kernels().discrete[2], h, x, &mut [], matrix);
     }
 }

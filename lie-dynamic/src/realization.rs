@@ -2,9 +2,9 @@
 
 use crate::code::Code;
 use crate::compiled::Making;
-use crate::matrix::Matrix;
 use crate::system::Dynamic;
 use lie_codegen::plan;
+use lie_core::family::LateMatrix;
 use lie_runtime::{ClosedRealization, RealizedPoisson, Scalar};
 
 /// The codes of a realization.
@@ -49,7 +49,7 @@ impl Codes {
 impl<S: Scalar> Dynamic<S> {
     fn realization(&self) -> (&plan::Realization, &Codes) {
         let declared = self.plan().structure.realization.as_ref();
-        match declared.zip(self.compiled.realization.as_ref()) {
+        match declared.zip(self.values.compiled.realization.as_ref()) {
             Some(both) => both,
             None => panic!("the system has no realization"),
         }
@@ -58,7 +58,7 @@ impl<S: Scalar> Dynamic<S> {
 
 impl<S: Scalar> RealizedPoisson<S> for Dynamic<S> {
     type Point = Vec<S>;
-    type PointMatrix = Matrix<S>;
+    type PointMatrix = LateMatrix<S>;
 
     fn point_dimension(&self) -> usize {
         self.realization().0.names.len()
@@ -72,29 +72,30 @@ impl<S: Scalar> RealizedPoisson<S> for Dynamic<S> {
     fn zero_point(&self) -> Vec<S> {
         vec![S::zero(); self.point_dimension()]
     }
-    fn zero_point_matrix(&self) -> Matrix<S> {
-        Matrix::zero(self.point_dimension())
+    fn zero_point_matrix(&self) -> LateMatrix<S> {
+        LateMatrix::new(self.point_dimension())
     }
     fn momentum_map(&self, z: &Vec<S>, out: &mut Vec<S>) {
         let (_, codes) = self.realization();
-        self.call(codes.momentum_map, [z, &[]], out, &mut []);
+        self.values.call(codes.momentum_map, [z, &[]], out, &mut []);
     }
     fn pullback(&self, z: &Vec<S>, xi: &Vec<S>, out: &mut Vec<S>) {
         let (_, codes) = self.realization();
-        self.call(codes.pullback, [z, xi], out, &mut []);
+        self.values.call(codes.pullback, [z, xi], out, &mut []);
     }
     fn pushforward(&self, z: &Vec<S>, v: &Vec<S>, out: &mut Vec<S>) {
         let (_, codes) = self.realization();
-        self.call(codes.pushforward, [z, v], out, &mut []);
+        self.values.call(codes.pushforward, [z, v], out, &mut []);
     }
-    fn curvature(&self, z: &Vec<S>, xi: &Vec<S>, out: &mut Matrix<S>) {
+    fn curvature(&self, z: &Vec<S>, xi: &Vec<S>, out: &mut LateMatrix<S>) {
         let (_, codes) = self.realization();
-        self.call(codes.curvature, [z, xi], &mut [], out.as_mut_slice());
+        self.values
+            .call(codes.curvature, [z, xi], &mut [], out.as_mut_slice());
     }
     fn start(&self, out: &mut Vec<S>) {
         let (_, codes) = self.realization();
         for (entry, code) in out.iter_mut().zip(&codes.start) {
-            *entry = self.value(*code);
+            *entry = self.values.value(*code);
         }
     }
 }

@@ -79,8 +79,10 @@ impl<'a, S: Scalar> Coefficients<'a, S> {
             [S::from_f64(k as f64), S::ratio(1.0, k as f64)]
         });
         let places: [&[S]; ARGUMENTS] = [state, &self.rest, &self.kept, &order];
-        let frame = self.system.frame(places, &[], [S::zero(); 2]);
-        self.system.run(code, &frame, [&mut self.results, &mut []]);
+        let frame = self.system.values.frame(places, &[], [S::zero(); 2]);
+        self.system
+            .values
+            .run(code, &frame, [&mut self.results, &mut []]);
         field.fill(S::zero());
         let (of_field, others) = self.results.split_at(codes.field.len());
         for (place, value) in codes.field.iter().zip(of_field) {
@@ -163,13 +165,13 @@ impl<S: Scalar> GradientRecurrence<S> for Coefficients<'_, S> {
 impl<S: Scalar> Series<S> for Dynamic<S> {
     type Recurrence<'a> = Coefficients<'a, S>;
     fn series(&self) -> Coefficients<'_, S> {
-        Coefficients::new(self, self.compiled.taylor.as_ref())
+        Coefficients::new(self, self.values.compiled.taylor.as_ref())
     }
 }
 
 impl<S: Scalar> GradientSeries<S> for Dynamic<S> {
     type Recurrence<'a> = Coefficients<'a, S>;
     fn gradient_series(&self) -> Coefficients<'_, S> {
-        Coefficients::new(self, self.compiled.lie_taylor.as_ref())
+        Coefficients::new(self, self.values.compiled.lie_taylor.as_ref())
     }
 }

@@ -2,12 +2,12 @@
 
 use crate::code::Code;
 use crate::compiled::Making;
-use crate::matrix::Matrix;
 use crate::names;
 use crate::system::Dynamic;
 use lie_codegen::exact::Rational;
 use lie_codegen::plan::{self, Function, Plan};
 use lie_codegen::structure::integrable::Motion;
+use lie_core::family::LateMatrix;
 use lie_core::generic::{flow_over_columns, flow_over_quaternions, flow_over_spins};
 use lie_core::structure::{Columns, Entry, Group, Plane, Representation};
 use lie_runtime::{
@@ -176,27 +176,28 @@ impl<S: Scalar> SpinPoisson<S> for Dynamic<S> {
     type Spinors = Vec<S>;
 
     fn spins(&self) -> &[[usize; 3]] {
-        &self.compiled.structure.spins
+        &self.values.compiled.structure.spins
     }
     fn scale(&self, spin: usize) -> S {
-        self.value(self.compiled.structure.scales[spin])
+        self.values
+            .value(self.values.compiled.structure.scales[spin])
     }
     fn zero_spinors(&self) -> Vec<S> {
-        vec![S::zero(); 4 * self.compiled.structure.spins.len()]
+        vec![S::zero(); 4 * self.values.compiled.structure.spins.len()]
     }
     fn spinor_flow(&self, point: &Vec<S>, out: &mut Vec<S>) {
-        match self.compiled.structure.spinor_flow {
-            Some(code) => self.call(code, [point, &[]], out, &mut []),
+        match self.values.compiled.structure.spinor_flow {
+            Some(code) => self.values.call(code, [point, &[]], out, &mut []),
             None => flow_over_spins(self, point, out),
         }
     }
 }
 
 impl<S: Scalar> MatrixPoisson<S> for Dynamic<S> {
-    type Matrix = Matrix<S>;
+    type Matrix = LateMatrix<S>;
 
     fn representation(&self) -> Representation<'_> {
-        let structure = &self.compiled.structure;
+        let structure = &self.values.compiled.structure;
         Representation {
             matrices: structure.matrices,
             dual: structure.dual,
@@ -204,28 +205,28 @@ impl<S: Scalar> MatrixPoisson<S> for Dynamic<S> {
         }
     }
     fn spectrum(&self) -> Spectrum<'_> {
-        self.compiled.structure.spectrum()
+        self.values.compiled.structure.spectrum()
     }
-    fn zero_matrix(&self) -> Matrix<S> {
-        Matrix::zero(self.compiled.structure.size)
+    fn zero_matrix(&self) -> LateMatrix<S> {
+        LateMatrix::new(self.values.compiled.structure.size)
     }
 }
 
 impl<S: Scalar> IntegrablePoisson<S> for Dynamic<S> {
     fn motion(&self) -> lie_core::Motion {
-        match self.compiled.structure.motion {
+        match self.values.compiled.structure.motion {
             Some(Motion::Bodies) => lie_core::Motion::Bodies,
             _ => lie_core::Motion::Uniform,
         }
     }
     fn bodies(&self) -> &[[usize; 3]] {
-        match self.compiled.structure.motion {
+        match self.values.compiled.structure.motion {
             Some(Motion::Bodies) => self.spins(),
             _ => &[],
         }
     }
     fn body_scale(&self, body: usize) -> S {
-        match self.compiled.structure.motion {
+        match self.values.compiled.structure.motion {
             Some(Motion::Bodies) => SpinPoisson::scale(self, body),
             _ => S::one(),
         }
@@ -236,21 +237,21 @@ impl<S: Scalar> ColumnPoisson<S> for Dynamic<S> {
     type Columns = Vec<S>;
 
     fn zero_columns(&self) -> Vec<S> {
-        let structure = &self.compiled.structure;
+        let structure = &self.values.compiled.structure;
         vec![S::zero(); 2 * structure.size * structure.indices.len()]
     }
     fn representation_size(&self) -> usize {
-        self.compiled.structure.size
+        self.values.compiled.structure.size
     }
     fn columns(&self) -> Columns<'_> {
         Columns {
-            indices: &self.compiled.structure.indices,
-            covectors: self.compiled.structure.covectors,
+            indices: &self.values.compiled.structure.indices,
+            covectors: self.values.compiled.structure.covectors,
         }
     }
     fn column_flow(&self, point: &Vec<S>, out: &mut Vec<S>) {
-        match self.compiled.structure.column_flow {
-            Some(code) => self.call(code, [point, &[]], out, &mut []),
+        match self.values.compiled.structure.column_flow {
+            Some(code) => self.values.call(code, [point, &[]], out, &mut []),
             None => flow_over_columns(self, point, out),
         }
     }
@@ -261,19 +262,20 @@ impl<S: Scalar> VectorPoisson<S> for Dynamic<S> {
     type Quaternions = Vec<S>;
 
     fn rotation(&self) -> [usize; 3] {
-        self.compiled.structure.rotation
+        self.values.compiled.structure.rotation
     }
     fn vectors(&self) -> &[[Entry; 3]] {
-        &self.compiled.structure.vectors
+        &self.values.compiled.structure.vectors
     }
     fn scale(&self) -> S {
-        self.compiled
+        self.values
+            .compiled
             .structure
             .scale
-            .map_or_else(S::one, |scale| self.value(scale))
+            .map_or_else(S::one, |scale| self.values.value(scale))
     }
     fn zero_labels(&self) -> Vec<S> {
-        let labels = match self.compiled.structure.vectors.len() {
+        let labels = match self.values.compiled.structure.vectors.len() {
             1 => 1,
             count => 3 * count,
         };
@@ -283,39 +285,40 @@ impl<S: Scalar> VectorPoisson<S> for Dynamic<S> {
         vec![S::zero(); 8]
     }
     fn quaternion_flow(&self, labels: &Vec<S>, point: &Vec<S>, out: &mut Vec<S>) {
-        match self.compiled.structure.quaternion_flow {
-            Some(code) => self.call(code, [labels, point], out, &mut []),
+        match self.values.compiled.structure.quaternion_flow {
+            Some(code) => self.values.call(code, [labels, point], out, &mut []),
             None => flow_over_quaternions(self, labels, point, out),
         }
     }
 }
 
 impl<S: Scalar> InertiaPoisson<S> for Dynamic<S> {
-    type Matrix = Matrix<S>;
+    type Matrix = LateMatrix<S>;
 
     fn planes(&self) -> &[Plane] {
-        &self.compiled.structure.planes
+        &self.values.compiled.structure.planes
     }
-    fn zero_matrix(&self) -> Matrix<S> {
-        Matrix::zero(self.compiled.structure.moments.len())
+    fn zero_matrix(&self) -> LateMatrix<S> {
+        LateMatrix::new(self.values.compiled.structure.moments.len())
     }
     fn moment(&self, axis: usize) -> S {
-        self.value(self.compiled.structure.moments[axis])
+        self.values
+            .value(self.values.compiled.structure.moments[axis])
     }
 }
 
 impl<S: Scalar> CotangentPoisson<S> for Dynamic<S> {
     type Momentum = Vec<S>;
-    type MomentumMatrix = Matrix<S>;
+    type MomentumMatrix = LateMatrix<S>;
 
     fn momenta(&self) -> usize {
-        self.compiled.structure.momenta
+        self.values.compiled.structure.momenta
     }
     fn zero_momentum(&self) -> Vec<S> {
-        vec![S::zero(); self.compiled.structure.momenta]
+        vec![S::zero(); self.values.compiled.structure.momenta]
     }
-    fn zero_momentum_matrix(&self) -> Matrix<S> {
-        Matrix::zero(self.compiled.structure.momenta)
+    fn zero_momentum_matrix(&self) -> LateMatrix<S> {
+        LateMatrix::new(self.values.compiled.structure.momenta)
     }
 }
 
@@ -328,6 +331,6 @@ impl<S: Scalar> MatrixGroup<S> for Dynamic<S> {
             orthogonal: false,
             right: false,
         };
-        self.compiled.structure.group.unwrap_or(NONE)
+        self.values.compiled.structure.group.unwrap_or(NONE)
     }
 }

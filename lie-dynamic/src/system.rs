@@ -1,40 +1,31 @@
 //! A system made at run time.
 
 use crate::code::Code;
-use crate::compiled::{Compiled, Kernels, OfStep};
+use crate::compiled::Compiled;
+use crate::family::{OfSite, sizes};
 use crate::interpreter::Interpreter;
-use crate::kernels::{ARGUMENTS, Engine, Frame, Machine};
+use crate::kernels::{ARGUMENTS, Engine, Machine};
 use crate::names;
-use lie_codegen::plan::Plan;
+use crate::values::Values;
+use lie_codegen::plan::{Code as Program, Plan};
 use lie_codegen::schedule::Operation;
 use lie_codegen::symbolic::{self, Symbol};
 use lie_core::parameter::{ParameterError, all_finite, all_positive};
 use lie_runtime::Scalar;
+use lie_runtime::family::{Family, unit_spheres};
 use std::sync::Arc;
 
 /// A Lie–Poisson system made at run time, over states on the heap.
 ///
 /// It implements the traits of the numeric core by the codes of its plan. Traits for structure that it does not have answer
 /// with what is empty, or panic: [`method`](crate::method) is asked for methods that apply.
-pub struct Dynamic<S> {
-    pub(crate) compiled: Arc<Compiled>,
-    pub(crate) machine: Arc<dyn Machine<S>>,
-    parameters: Vec<S>,
-    constants: Vec<S>,
+#[derive(Clone)]
+pub struct Dynamic<S: Scalar> {
+    pub(crate) values: Values<S>,
     /// A velocity of the branch of the Legendre transform; none for that which begins at rest.
     pub(crate) branch: Option<Vec<S>>,
-}
-
-impl<S: Scalar> Clone for Dynamic<S> {
-    fn clone(&self) -> Self {
-        Self {
-            compiled: Arc::clone(&self.compiled),
-            machine: Arc::clone(&self.machine),
-            parameters: self.parameters.clone(),
-            constants: self.constants.clone(),
-            branch: self.branch.clone(),
-        }
-    }
+    /// The loops over the sites of a family.
+    pub(crate) family: Option<Family<OfSite<S>>>,
 }
 
 /// A plan whose codes are ready to run, before its parameters have values.
@@ -63,26 +54,30 @@ impl Declared {
     /// # Errors
     /// A parameter that must be positive is not, or a constant that the system needs is not finite.
     pub fn system(&self, parameters: &[f64]) -> Result<Dynamic<f64>, ParameterError> {
-        let system = Dynamic {
+        let values = Values {
             compiled: Arc::clone(&self.compiled),
             machine: Arc::clone(&self.machine),
             parameters: Vec::new(),
             constants: Vec::new(),
+        };
+        let system = Dynamic {
+            values,
             branch: None,
+            family: None,
         };
         system.with_parameters(parameters)
     }
 }
 
 impl Dynamic<f64> {
-    /// Whether systems can be made of a plan: not of a family, nor where H calls a function of Rust.
+    /// Whether systems can be made of a plan: not where H calls a function of Rust.
     pub fn supports(plan: &Plan) -> bool {
         let own = |operation: &Operation<_>| {
             matches!(operation, Operation::Call(symbolic::Function::Own(_), _))
         };
-        let mut functions = plan.system.functions();
-        let calls_rust = functions.any(|function| function.program.operations.iter().any(own));
-        !calls_rust && plan.family.is_none()
+        let of_sites = plan.family.iter().flat_map(|family| family.functions());
+        let mut functions = plan.system.functions().chain(of_sites);
+        !functions.any(|function| function.program.operations.iter().any(own))
     }
 
     /// The system of a plan and of these parameters, see [`Declared`].
@@ -105,133 +100,96 @@ impl Dynamic<f64> {
     /// # Errors
     /// As of [`Dynamic::new`].
     pub fn with_parameters(&self, parameters: &[f64]) -> Result<Self, ParameterError> {
-        let mut system = self.clone();
-        let defaults = self.defaults();
+        let mut values = self.values.clone();
+        let defaults = self.constants_of(&self.plan().defaults);
         let given = parameters.iter().copied();
-        system.parameters = given
+        values.parameters = given
             .chain(defaults.into_iter().skip(parameters.len()))
             .collect();
-        system.branch = None;
-        system.check_signs()?;
-        let plan = &self.compiled.plan;
-        let mut constants = vec![0.0; plan.constants.entries.len()];
-        let frame = system.frame([&[]; ARGUMENTS], &[], [0.0; 2]);
-        self.machine
-            .run(self.compiled.constants, &frame, [&mut constants, &mut []]);
-        system.constants = constants;
-        system.check_constants()?;
-        Ok(system)
-    }
-
-    /// The defaults of the parameters.
-    fn defaults(&self) -> Vec<f64> {
-        let code = Code::of_program(&self.compiled.plan.defaults);
-        let mut values = vec![0.0; code.stores.len()];
-        let frame = self.frame([&[]; ARGUMENTS], &[], [0.0; 2]);
-        let interpreter = Interpreter::new(Arc::from(vec![code]));
-        interpreter.run(0, &frame, [&mut values, &mut []]);
-        values
+        check_signs(&values)?;
+        let mut constants = vec![0.0; self.plan().constants.entries.len()];
+        let frame = values.frame([&[]; ARGUMENTS], &[], [0.0; 2]);
+        values.run(values.compiled.constants, &frame, [&mut constants, &mut []]);
+        values.constants = constants;
+        check_constants(&values)?;
+        let family = match &values.compiled.plan.family {
+            Some(family) => {
+                let sizes = sizes(&family.sizes, &values)?;
+                Some(Family::new(OfSite::new(values.clone()), sizes))
+            }
+            None => None,
+        };
+        Ok(Self {
+            values,
+            branch: None,
+            family,
+        })
     }
 
     /// The declared initial state for the parameters of the system.
     pub fn initial_state(&self) -> Option<Vec<f64>> {
-        let code = Code::of_program(self.compiled.plan.initial.as_ref()?);
+        let Some(family) = &self.family else {
+            return Some(self.constants_of(self.plan().initial.as_ref()?));
+        };
+        let seed = self.plan().family.as_ref()?.seed?;
+        let dimension = self.plan().family.as_ref()?.coordinates.len();
+        Some(unit_spheres(family.count(), dimension, seed))
+    }
+
+    /// What a program makes of the parameters.
+    fn constants_of(&self, program: &Program) -> Vec<f64> {
+        let code = Code::of_program(program);
         let mut values = vec![0.0; code.stores.len()];
-        let frame = self.frame([&[]; ARGUMENTS], &[], [0.0; 2]);
+        let frame = self.values.frame([&[]; ARGUMENTS], &[], [0.0; 2]);
         let interpreter = Interpreter::new(Arc::from(vec![code]));
         interpreter.run(0, &frame, [&mut values, &mut []]);
-        Some(values)
-    }
-
-    fn check_signs(&self) -> Result<(), ParameterError> {
-        let plan = &self.compiled.plan;
-        let all = plan
-            .parameters
-            .iter()
-            .zip(&plan.names.parameters)
-            .zip(&self.parameters);
-        let positive = all.filter(|((parameter, _), _)| parameter.positive);
-        let positive: Vec<_> = positive
-            .map(|((_, name), value)| (*value, names::text(name)))
-            .collect();
-        all_positive(&positive)
-    }
-
-    fn check_constants(&self) -> Result<(), ParameterError> {
-        let plan = &self.compiled.plan;
-        let entries = plan.constants.entries.iter().zip(&self.constants);
-        let failing = entries.filter(|(_, value)| !value.is_finite());
-        let failing: Vec<_> = failing
-            .map(|(entry, value)| {
-                let symbol = entry.parameter.map(Symbol::Parameter);
-                let name = symbol
-                    .map(|symbol| plan.names.shown(symbol))
-                    .unwrap_or_default();
-                (*value, names::text(&name), names::text(&entry.text))
-            })
-            .collect();
-        all_finite(&failing)
+        values
     }
 }
 
+fn check_signs(values: &Values<f64>) -> Result<(), ParameterError> {
+    let plan = &values.compiled.plan;
+    let all = plan
+        .parameters
+        .iter()
+        .zip(&plan.names.parameters)
+        .zip(&values.parameters);
+    let positive = all.filter(|((parameter, _), _)| parameter.positive);
+    let positive: Vec<_> = positive
+        .map(|((_, name), value)| (*value, names::text(name)))
+        .collect();
+    all_positive(&positive)
+}
+
+fn check_constants(values: &Values<f64>) -> Result<(), ParameterError> {
+    let plan = &values.compiled.plan;
+    let entries = plan.constants.entries.iter().zip(&values.constants);
+    let failing = entries.filter(|(_, value)| !value.is_finite());
+    let failing: Vec<_> = failing
+        .map(|(entry, value)| {
+            let symbol = entry.parameter.map(Symbol::Parameter);
+            let name = symbol
+                .map(|symbol| plan.names.shown(symbol))
+                .unwrap_or_default();
+            (*value, names::text(&name), names::text(&entry.text))
+        })
+        .collect();
+    all_finite(&failing)
+}
 impl<S: Scalar> Dynamic<S> {
     /// The plan that it was made of.
     pub fn plan(&self) -> &Plan {
-        &self.compiled.plan
+        &self.values.compiled.plan
     }
 
     /// The values of the parameters.
     pub fn parameters(&self) -> &[S] {
-        &self.parameters
+        &self.values.parameters
     }
 
-    pub(crate) fn frame<'a>(
-        &'a self,
-        arguments: [&'a [S]; ARGUMENTS],
-        of_step: &'a [S],
-        scalars: [S; 2],
-    ) -> Frame<'a, S> {
-        Frame {
-            arguments,
-            system: &self.constants,
-            of_step,
-            parameters: &self.parameters,
-            scalars,
-        }
-    }
-
-    pub(crate) fn run(&self, code: usize, frame: &Frame<'_, S>, targets: [&mut [S]; 2]) {
-        self.machine.run(code, frame, targets);
-    }
-
-    /// Runs a kernel of one or two vectors.
-    #[inline]
-    pub(crate) fn call(
-        &self,
-        code: usize,
-        arguments: [&[S]; 2],
-        vector: &mut [S],
-        matrix: &mut [S],
-    ) {
-        let [a, b] = arguments;
-        let frame = self.frame([a, b, &[], &[]], &[], [S::zero(); 2]);
-        self.machine.run(code, &frame, [vector, matrix]);
-    }
-
-    /// The value of a program without arguments.
-    pub(crate) fn value(&self, code: usize) -> S {
-        let mut value = [S::zero()];
-        self.call(code, [&[], &[]], &mut value, &mut []);
-        value[0]
-    }
-
-    /// The constants of a step size.
-    pub(crate) fn of_step(&self, step: &OfStep, h: S) -> Vec<S> {
-        let mut constants = vec![S::zero(); step.count];
-        let frame = self.frame([&[]; ARGUMENTS], &[], [h, S::zero()]);
-        self.machine
-            .run(step.constants, &frame, [&mut constants, &mut []]);
-        constants
+    /// The number of rows and columns of sites, of a family; a chain is one row.
+    pub fn sizes(&self) -> Option<[usize; 2]> {
+        self.family.as_ref().map(Family::sizes)
     }
 
     /// The same with its constants as other scalars.
@@ -240,18 +198,15 @@ impl<S: Scalar> Dynamic<S> {
         constant: impl Fn(S) -> T,
         machine: Option<Arc<dyn Machine<T>>>,
     ) -> Dynamic<T> {
-        let all = |values: &[S]| values.iter().map(|value| constant(*value)).collect();
-        let interpreter = || Arc::new(Interpreter::new(Arc::clone(&self.compiled.codes)));
+        let branch = self.branch.as_deref();
+        let branch = branch.map(|values| values.iter().map(|value| constant(*value)).collect());
+        let values = self.values.over(constant, machine);
+        let family = self.sizes();
+        let family = family.map(|sizes| Family::new(OfSite::new(values.clone()), sizes));
         Dynamic {
-            compiled: Arc::clone(&self.compiled),
-            machine: machine.unwrap_or_else(|| interpreter()),
-            parameters: all(&self.parameters),
-            constants: all(&self.constants),
-            branch: self.branch.as_deref().map(all),
+            values,
+            branch,
+            family,
         }
-    }
-
-    pub(crate) fn kernels(&self) -> &Kernels {
-        &self.compiled.kernels
     }
 }

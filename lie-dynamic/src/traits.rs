@@ -1,8 +1,8 @@
 //! The traits of the numeric core, by the kernels of the plan.
 
 use crate::compiled::Place;
-use crate::matrix::Matrix;
 use crate::system::Dynamic;
+use lie_core::family::LateMatrix;
 use lie_core::{generic, lagrangian::legendre};
 use lie_runtime::scalar::Truncated;
 use lie_runtime::{
@@ -19,34 +19,50 @@ pub(crate) fn there(place: Place) -> usize {
 
 impl<S: Scalar> Poisson<S> for Dynamic<S> {
     type State = Vec<S>;
-    type Jacobian = Matrix<S>;
+    type Jacobian = LateMatrix<S>;
 
     fn dimension(&self) -> usize {
-        self.compiled.plan.dimension()
+        if let Some(family) = &self.family {
+            return Poisson::<S>::dimension(family);
+        }
+        self.values.compiled.plan.dimension()
     }
     fn name(&self) -> &str {
-        &self.compiled.plan.names.system
+        &self.values.compiled.plan.names.system
     }
     fn coordinate(&self, index: usize) -> &str {
-        &self.compiled.plan.names.coordinates[index]
+        if let Some(family) = &self.family {
+            return Poisson::<S>::coordinate(family, index);
+        }
+        &self.values.compiled.plan.names.coordinates[index]
     }
     fn casimir_count(&self) -> usize {
-        self.compiled.plan.system.casimirs.len()
+        if let Some(family) = &self.family {
+            return Poisson::<S>::casimir_count(family);
+        }
+        self.values.compiled.plan.system.casimirs.len()
     }
     fn casimir_name(&self, index: usize) -> &str {
-        &self.compiled.plan.system.casimirs[index].name
+        if let Some(family) = &self.family {
+            return Poisson::<S>::casimir_name(family, index);
+        }
+        &self.values.compiled.plan.system.casimirs[index].name
     }
     fn hamiltonian_degree(&self) -> Option<u32> {
-        self.compiled.plan.system.hamiltonian_degree
+        self.values.compiled.plan.system.hamiltonian_degree
     }
     fn casimir_degree(&self, index: usize) -> Option<u32> {
-        self.compiled.casimir_degrees[index]
+        if let Some(family) = &self.family {
+            return Poisson::<S>::casimir_degree(family, index);
+        }
+        self.values.compiled.casimir_degrees[index]
     }
     fn casimir_is_multivalued(&self, index: usize) -> bool {
-        self.compiled.plan.system.casimirs[index].multivalued
+        let casimir = self.plan().system.casimirs.get(index);
+        casimir.is_some_and(|casimir| casimir.multivalued)
     }
     fn poisson_degree(&self) -> Option<u32> {
-        self.compiled.plan.system.poisson_degree
+        self.values.compiled.plan.system.poisson_degree
     }
     fn following(&self, mu: &Vec<S>) -> Option<Self> {
         if !self.is_by_legendre() {
@@ -57,67 +73,97 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
         following.branch = branch;
         Some(following)
     }
-    fn zero_state(&self) -> Vec<S> {
-        vec![S::zero(); self.dimension()]
+    fn has_jacobian(&self) -> bool {
+        self.family.is_none()
     }
-    fn zero_jacobian(&self) -> Matrix<S> {
-        Matrix::zero(self.dimension())
+    fn zero_state(&self) -> Vec<S> {
+        vec![S::zero(); Poisson::<S>::dimension(self)]
+    }
+    fn zero_jacobian(&self) -> LateMatrix<S> {
+        LateMatrix::new(Poisson::<S>::dimension(self))
     }
     fn hamiltonian(&self, mu: &Vec<S>) -> S {
-        let Some(code) = self.kernels().hamiltonian else {
+        if let Some(family) = &self.family {
+            return family.hamiltonian(mu);
+        }
+        let Some(code) = self.values.kernels().hamiltonian else {
             return legendre::hamiltonian(self, mu);
         };
         let mut value = [S::zero()];
-        self.call(code, [mu, &[]], &mut value, &mut []);
+        self.values.call(code, [mu, &[]], &mut value, &mut []);
         value[0]
     }
     fn energy(&self, mu: &Vec<S>) -> S {
-        let Some(energy) = self.kernels().energy else {
+        let Some(energy) = self.values.kernels().energy else {
             return self.hamiltonian(mu);
         };
         let mut value = [S::zero()];
-        self.call(energy, [mu, &[]], &mut value, &mut []);
+        self.values.call(energy, [mu, &[]], &mut value, &mut []);
         value[0]
     }
     fn gradient(&self, mu: &Vec<S>, out: &mut Vec<S>) {
-        match self.kernels().gradient {
-            Some(code) => self.call(code, [mu, &[]], out, &mut []),
+        if let Some(family) = &self.family {
+            return family.gradient(mu, out);
+        }
+        match self.values.kernels().gradient {
+            Some(code) => self.values.call(code, [mu, &[]], out, &mut []),
             None => legendre::velocity(self, mu, out),
         }
     }
-    fn hessian(&self, mu: &Vec<S>, out: &mut Matrix<S>) {
-        match self.kernels().hessian {
-            Some(code) => self.call(code, [mu, &[]], &mut [], out.as_mut_slice()),
+    fn hessian(&self, mu: &Vec<S>, out: &mut LateMatrix<S>) {
+        if let Some(family) = &self.family {
+            return family.hessian(mu, out);
+        }
+        match self.values.kernels().hessian {
+            Some(code) => self
+                .values
+                .call(code, [mu, &[]], &mut [], out.as_mut_slice()),
             None if self.is_by_legendre() => legendre::hessian(self, mu, out),
             None => generic::hessian_by_duals(self, mu, out),
         }
     }
-    fn poisson_matrix(&self, mu: &Vec<S>, out: &mut Matrix<S>) {
-        let code = there(self.kernels().poisson_matrix);
-        self.call(code, [mu, &[]], &mut [], out.as_mut_slice());
+    fn poisson_matrix(&self, mu: &Vec<S>, out: &mut LateMatrix<S>) {
+        if let Some(family) = &self.family {
+            return family.poisson_matrix(mu, out);
+        }
+        let code = there(self.values.kernels().poisson_matrix);
+        self.values
+            .call(code, [mu, &[]], &mut [], out.as_mut_slice());
     }
-    fn poisson_slope(&self, mu: &Vec<S>, xi: &Vec<S>, out: &mut Matrix<S>) {
-        match self.kernels().poisson_slope {
-            Some(code) => self.call(code, [mu, xi], &mut [], out.as_mut_slice()),
+    fn poisson_slope(&self, mu: &Vec<S>, xi: &Vec<S>, out: &mut LateMatrix<S>) {
+        match self.values.kernels().poisson_slope {
+            Some(code) => self
+                .values
+                .call(code, [mu, xi], &mut [], out.as_mut_slice()),
             None => generic::poisson_slope(self, xi, out),
         }
     }
     fn vector_field(&self, mu: &Vec<S>, out: &mut Vec<S>) {
-        match self.kernels().vector_field {
-            Some(code) => self.call(code, [mu, &[]], out, &mut []),
+        if let Some(family) = &self.family {
+            return family.vector_field(mu, out);
+        }
+        match self.values.kernels().vector_field {
+            Some(code) => self.values.call(code, [mu, &[]], out, &mut []),
             None => generic::vector_field(self, mu, out),
         }
     }
-    fn jacobian(&self, mu: &Vec<S>, out: &mut Matrix<S>) {
-        match self.kernels().jacobian {
-            Some(code) => self.call(code, [mu, &[]], &mut [], out.as_mut_slice()),
+    fn jacobian(&self, mu: &Vec<S>, out: &mut LateMatrix<S>) {
+        if let Some(family) = &self.family {
+            return family.jacobian(mu, out);
+        }
+        match self.values.kernels().jacobian {
+            Some(code) => self
+                .values
+                .call(code, [mu, &[]], &mut [], out.as_mut_slice()),
             None if self.is_by_legendre() => generic::jacobian(self, mu, out),
             None => generic::jacobian_by_duals(self, mu, out),
         }
     }
-    fn linearize(&self, mu: &Vec<S>, field: &mut Vec<S>, jacobian: &mut Matrix<S>) {
-        match self.kernels().linearize {
-            Some(code) => self.call(code, [mu, &[]], field, jacobian.as_mut_slice()),
+    fn linearize(&self, mu: &Vec<S>, field: &mut Vec<S>, jacobian: &mut LateMatrix<S>) {
+        match self.values.kernels().linearize {
+            Some(code) => self
+                .values
+                .call(code, [mu, &[]], field, jacobian.as_mut_slice()),
             None => {
                 self.vector_field(mu, field);
                 self.jacobian(mu, jacobian);
@@ -125,48 +171,72 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
         }
     }
     fn casimirs(&self, mu: &Vec<S>, out: &mut [S]) {
-        if let Some(code) = self.kernels().casimirs {
-            self.call(code, [mu, &[]], out, &mut []);
+        if let Some(family) = &self.family {
+            return family.casimirs(mu, out);
+        }
+        if let Some(code) = self.values.kernels().casimirs {
+            self.values.call(code, [mu, &[]], out, &mut []);
         }
     }
     fn casimir_gradient(&self, index: usize, mu: &Vec<S>, out: &mut Vec<S>) {
-        let code = self.kernels().casimir_gradients[index];
-        self.call(code, [mu, &[]], out, &mut []);
+        if let Some(family) = &self.family {
+            return family.casimir_gradient(index, mu, out);
+        }
+        let code = self.values.kernels().casimir_gradients[index];
+        self.values.call(code, [mu, &[]], out, &mut []);
     }
 }
 
 impl<S: Scalar> LiePoisson<S> for Dynamic<S> {
     fn ad(&self, xi: &Vec<S>, eta: &Vec<S>, out: &mut Vec<S>) {
-        self.call(there(self.kernels().ad), [xi, eta], out, &mut []);
+        if let Some(family) = &self.family {
+            return family.ad(xi, eta, out);
+        }
+        self.values
+            .call(there(self.values.kernels().ad), [xi, eta], out, &mut []);
     }
     fn ad_star(&self, xi: &Vec<S>, mu: &Vec<S>, out: &mut Vec<S>) {
-        self.call(there(self.kernels().ad_star), [xi, mu], out, &mut []);
+        if let Some(family) = &self.family {
+            return family.ad_star(xi, mu, out);
+        }
+        self.values
+            .call(there(self.values.kernels().ad_star), [xi, mu], out, &mut []);
     }
-    fn ad_star_matrix(&self, xi: &Vec<S>, out: &mut Matrix<S>) {
-        let code = there(self.kernels().ad_star_matrix);
-        self.call(code, [xi, &[]], &mut [], out.as_mut_slice());
+    fn ad_star_matrix(&self, xi: &Vec<S>, out: &mut LateMatrix<S>) {
+        if let Some(family) = &self.family {
+            return family.ad_star_matrix(xi, out);
+        }
+        let code = there(self.values.kernels().ad_star_matrix);
+        self.values
+            .call(code, [xi, &[]], &mut [], out.as_mut_slice());
     }
     fn has_closed_exponential(&self) -> bool {
-        !self.compiled.plan.system.exponential.is_empty()
+        !self.values.compiled.plan.system.exponential.is_empty()
     }
     fn has_closed_slope(&self) -> bool {
-        self.kernels().dexp_dual_slope.is_some()
+        self.values.kernels().dexp_dual_slope.is_some()
     }
     fn coadjoint_action(&self, xi: &Vec<S>, mu: &Vec<S>, out: &mut Vec<S>) {
-        match self.kernels().coadjoint_action {
-            Some(code) => self.call(code, [xi, mu], out, &mut []),
+        match self.values.kernels().coadjoint_action {
+            Some(code) => self.values.call(code, [xi, mu], out, &mut []),
             None => generic::coadjoint_action(self, xi, mu, out),
         }
     }
     fn dexp_dual(&self, xi: &Vec<S>, mu: &Vec<S>, out: &mut Vec<S>) {
-        match self.kernels().dexp_dual {
-            Some(code) => self.call(code, [xi, mu], out, &mut []),
+        match self.values.kernels().dexp_dual {
+            Some(code) => self.values.call(code, [xi, mu], out, &mut []),
             None => generic::dexp_dual(self, xi, mu, out),
         }
     }
-    fn dexp_dual_slope(&self, xi: &Vec<S>, mu: &Vec<S>, out: &mut Vec<S>, slope: &mut Matrix<S>) {
-        match self.kernels().dexp_dual_slope {
-            Some(code) => self.call(code, [xi, mu], out, slope.as_mut_slice()),
+    fn dexp_dual_slope(
+        &self,
+        xi: &Vec<S>,
+        mu: &Vec<S>,
+        out: &mut Vec<S>,
+        slope: &mut LateMatrix<S>,
+    ) {
+        match self.values.kernels().dexp_dual_slope {
+            Some(code) => self.values.call(code, [xi, mu], out, slope.as_mut_slice()),
             None => generic::dexp_dual_slope(self, xi, mu, out, slope),
         }
     }
@@ -174,12 +244,13 @@ impl<S: Scalar> LiePoisson<S> for Dynamic<S> {
 
 impl<S: Scalar> CayleyPoisson<S> for Dynamic<S> {
     fn spectrum(&self) -> Spectrum<'_> {
-        self.compiled.structure.spectrum()
+        self.values.compiled.structure.spectrum()
     }
     fn triple(&self, x: &Vec<S>, z: &Vec<S>, mu: &Vec<S>, out: &mut Vec<S>) {
-        let frame = self.frame([x, z, mu, &[]], &[], [S::zero(); 2]);
-        self.machine
-            .run(there(self.kernels().triple), &frame, [out, &mut []]);
+        let frame = self.values.frame([x, z, mu, &[]], &[], [S::zero(); 2]);
+        self.values
+            .machine
+            .run(there(self.values.kernels().triple), &frame, [out, &mut []]);
     }
 }
 
@@ -193,7 +264,7 @@ impl<S: Scalar> Lift<S> for Dynamic<S> {
 impl<S: Scalar> Widen<S> for Dynamic<S> {
     type Widened = Dynamic<S::Wide>;
     fn widen(&self) -> Self::Widened {
-        self.over(S::widen, self.machine.wide())
+        self.over(S::widen, self.values.machine.wide())
     }
 }
 

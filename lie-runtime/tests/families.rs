@@ -71,11 +71,9 @@ fn d(value: f64) -> D {
 }
 
 /// A family of spins against its H as a function of the coordinates of its sites, `at(k, site)`.
-fn compare<K, const L: usize, const T: usize>(
-    family: &Family<K, 3, L, T>,
-    energy: impl Fn(&dyn Fn(usize, isize, isize) -> D) -> D,
-) where
-    K: Sites<f64, 3, L, T>,
+fn compare<K>(family: &Family<K>, energy: impl Fn(&dyn Fn(usize, isize, isize) -> D) -> D)
+where
+    K: Sites<f64>,
 {
     let [rows, columns] = family.sizes();
     let count = rows * columns;

@@ -25,9 +25,9 @@ lie_poisson! {
 }
 
 /// Splittings have their orders, keep the Casimir of each site and are undone by the step back.
-fn splits<K, const L: usize, const T: usize>(system: &Family<K, 3, L, T>)
+fn splits<K>(system: &Family<K>)
 where
-    K: Pieces<f64, 3, L, T> + Sites<f64, 3, L, T>,
+    K: Pieces<f64>,
 {
     let count = system.count();
     let mu: Vec<f64> = unit_spheres(count, 3, 11);

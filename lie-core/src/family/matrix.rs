@@ -1,10 +1,11 @@
 //! Matrices of all coordinates of a family, which only measurements on small ones ask for.
 
+use super::shape::Shape as _;
+use super::sites::Site;
 use super::{Family, Sites};
 use crate::matrix::SquareMatrix;
 use crate::poisson::{Lift, Poisson};
 use crate::scalar::{Dual, Scalar};
-use core::array::from_fn;
 use std::vec::Vec;
 
 /// A square matrix that takes no memory before an entry is set.
@@ -24,6 +25,15 @@ impl<S: Scalar> LateMatrix<S> {
         }
     }
 
+    /// All entries, row after row.
+    #[inline]
+    pub fn as_mut_slice(&mut self) -> &mut [S] {
+        if self.entries.is_empty() {
+            self.entries = std::vec![S::zero(); self.dimension * self.dimension];
+        }
+        &mut self.entries
+    }
+
     /// Sets every entry to 0.
     fn clear(&mut self) {
         self.entries.clear();
@@ -41,30 +51,35 @@ impl<S: Scalar> SquareMatrix<S> for LateMatrix<S> {
     fn dimension(&self) -> usize {
         self.dimension
     }
+    #[inline]
     fn get(&self, row: usize, column: usize) -> S {
         let entry = self.entries.get(row * self.dimension + column);
         entry.map_or(S::zero(), |entry| *entry)
     }
+    #[inline]
     fn set(&mut self, row: usize, column: usize, value: S) {
-        let size = self.dimension * self.dimension;
-        self.entries.resize(size, S::zero());
-        self.entries[row * self.dimension + column] = value;
+        let place = row * self.dimension + column;
+        self.as_mut_slice()[place] = value;
     }
 }
 
-impl<K, const C: usize, const L: usize, const T: usize> Family<K, C, L, T> {
+impl<K> Family<K> {
     /// The matrix of a map of each site by itself, from what it makes of each unit vector.
     pub(super) fn by_sites<S: Scalar>(
         &self,
         out: &mut LateMatrix<S>,
-        map: impl Fn(usize, &[S; C]) -> [S; C],
-    ) {
+        map: impl Fn(usize, &Site<K, S>) -> Site<K, S>,
+    ) where
+        K: Sites<S>,
+    {
         out.clear();
+        let dimension = self.kernels().dimension();
         for site in 0..self.count() {
-            for k in 0..C {
-                let unit = from_fn(|i| if i == k { S::one() } else { S::zero() });
-                for (i, value) in map(site, &unit).into_iter().enumerate() {
-                    out.set(i * self.count() + site, k * self.count() + site, value);
+            for k in 0..dimension {
+                let one = |i: usize| if i == k { S::one() } else { S::zero() };
+                let unit = K::Site::make(dimension, one);
+                for (i, value) in map(site, &unit).as_ref().iter().enumerate() {
+                    out.set(i * self.count() + site, k * self.count() + site, *value);
                 }
             }
         }
@@ -75,9 +90,9 @@ impl<K, const C: usize, const L: usize, const T: usize> Family<K, C, L, T> {
         &self,
         mu: &[S],
         out: &mut LateMatrix<S>,
-        vector: impl Fn(&Family<K::Lifted, C, L, T>, &Vec<Dual<S>>, &mut Vec<Dual<S>>),
+        vector: impl Fn(&Family<K::Lifted>, &Vec<Dual<S>>, &mut Vec<Dual<S>>),
     ) where
-        K: Sites<S, C, L, T>,
+        K: Sites<S>,
     {
         let lifted = self.lift();
         let mut at: Vec<Dual<S>> = mu.iter().map(|value| Dual::constant_of(*value)).collect();
@@ -91,12 +106,12 @@ impl<K, const C: usize, const L: usize, const T: usize> Family<K, C, L, T> {
     }
 }
 
-impl<S, K, const C: usize, const L: usize, const T: usize> Lift<S> for Family<K, C, L, T>
+impl<S, K> Lift<S> for Family<K>
 where
     S: Scalar,
-    K: Sites<S, C, L, T>,
+    K: Sites<S>,
 {
-    type Lifted = Family<K::Lifted, C, L, T>;
+    type Lifted = Family<K::Lifted>;
     fn lift(&self) -> Self::Lifted {
         Family::new(self.kernels().lift(), self.sizes())
     }

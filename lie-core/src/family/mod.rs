@@ -20,6 +20,7 @@ mod energy;
 mod exchange;
 mod initial;
 mod matrix;
+mod shape;
 mod sites;
 mod splitting;
 mod stencil;
@@ -27,6 +28,8 @@ mod system;
 
 pub use initial::unit_spheres;
 pub use matrix::LateMatrix;
-pub use sites::{Sites, Span, Term};
-pub use splitting::{FamilyFlows, Kind, Pieces};
+pub use shape::{Fixed, Of, Shape};
+pub use sites::{Around, Site, Sites, Span, Sums, Term};
+pub use splitting::{FamilyFlows, Kind, Pieces, Strip};
+pub use stencil::Stretch;
 pub use system::{Family, size};

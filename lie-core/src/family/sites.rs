@@ -1,5 +1,7 @@
 //! What generated code says of one site of a family.
 
+use super::shape::{Of, Shape};
+use super::stencil::{Stretch, gathered};
 use crate::scalar::{Dual, Scalar};
 use core::ops::Range;
 
@@ -43,65 +45,116 @@ impl Span {
 
 /// One of the sums of which H is a function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Term {
+pub struct Term<'a> {
     /// The slots that the summand depends on.
-    pub slots: &'static [usize],
+    pub slots: &'a [usize],
     /// The sites, by row and by column.
     pub spans: [Span; 2],
 }
 
-/// One site of a family: C coordinates, on which and on those of its neighbours (L slots, itself among them) T sums depend.
-///
-/// Generated; the kernels are straight-line code. `at[slot]` are the coordinates of a site and of its neighbours,
-/// `weights[k]` is `dF/dT_k`, which is asked for only where it is no constant.
-pub trait Sites<S: Scalar, const C: usize, const L: usize, const T: usize>: Clone {
-    /// The same over eight numbers at once.
-    type Widened: Sites<S::Wide, C, L, T>;
-    /// The same over dual numbers.
-    type Lifted: Sites<Dual<S>, C, L, T>;
+/// The coordinates of a site.
+pub type Site<K, S> = Of<<K as Sites<S>>::Site, S>;
+/// The coordinates of a site and of its neighbours, slot after slot.
+pub type Around<K, S> = Of<<K as Sites<S>>::Around, S>;
+/// A number for each sum.
+pub type Sums<K, S> = Of<<K as Sites<S>>::Sums, S>;
 
-    /// Whether some `dF/dT_k` depends on the state.
-    const MEAN_FIELD: bool;
-    /// The number of Casimirs of a site.
-    const CASIMIRS: usize;
-    /// The distances of the slots in rows and columns.
-    const OFFSETS: [[isize; 2]; L];
-    /// The sums.
-    const TERMS: [Term; T];
-    /// The total degree of H, where it is a polynomial.
-    const DEGREE: Option<u32>;
+/// One site of a family: its coordinates, on which and on those of its neighbours (in slots, itself among them) sums depend.
+///
+/// Generated, with straight-line kernels over arrays; lengths that are found at run time have another [`Shape`]. `at` are the
+/// coordinates of a site and of its neighbours, slot after slot; `weights[k]` is `dF/dT_k`, which is asked for only where it
+/// is no constant.
+pub trait Sites<S: Scalar>: Clone {
+    /// How many coordinates a site has.
+    type Site: Shape;
+    /// How many coordinates all slots have.
+    type Around: Shape;
+    /// How many sums there are.
+    type Sums: Shape;
+    /// The same over eight numbers at once.
+    type Widened: Sites<S::Wide>;
+    /// The same over dual numbers.
+    type Lifted: Sites<Dual<S>>;
 
     /// The name of the system.
-    fn name(&self) -> &'static str;
-    /// The names of the coordinates of a site.
-    fn coordinates(&self) -> [&'static str; C];
+    fn name(&self) -> &str;
+    /// The number of coordinates of a site.
+    fn dimension(&self) -> usize;
+    /// The name of a coordinate of a site.
+    fn coordinate(&self, index: usize) -> &str;
+    /// The distances of the slots in rows and columns.
+    fn offsets(&self) -> &[[isize; 2]];
+    /// The number of sums.
+    fn count(&self) -> usize;
+    /// A sum.
+    fn term(&self, index: usize) -> Term<'_>;
+    /// Whether some `dF/dT_k` depends on the state.
+    fn has_mean_field(&self) -> bool;
+    /// The total degree of H, where it is a polynomial.
+    fn degree(&self) -> Option<u32>;
+    /// The number of Casimirs of a site.
+    fn casimir_count(&self) -> usize;
     /// The name of a Casimir of a site.
-    fn casimir_name(&self, index: usize) -> &'static str;
+    fn casimir_name(&self, index: usize) -> &str;
     /// Its total degree, where it is a polynomial.
     fn casimir_degree(&self, index: usize) -> Option<u32>;
 
     /// The vector field of a site of which every sum has all summands.
-    fn field(&self, at: &[[S; C]; L], weights: &[S; T]) -> [S; C];
+    fn field(&self, at: &Around<Self, S>, weights: &Sums<Self, S>) -> Site<Self, S>;
     /// `dF/dT_k` times the derivative of the summand k by the coordinates in a slot, `at` the site of the summand.
-    fn slope(&self, term: usize, slot: usize, at: &[[S; C]; L], weights: &[S; T]) -> [S; C];
+    fn slope(
+        &self,
+        term: usize,
+        slot: usize,
+        at: &Around<Self, S>,
+        weights: &Sums<Self, S>,
+    ) -> Site<Self, S>;
     /// The summands.
-    fn summands(&self, at: &[[S; C]; L]) -> [S; T];
+    fn summands(&self, at: &Around<Self, S>) -> Sums<Self, S>;
     /// `F(T_1, …)`.
-    fn energy(&self, totals: &[S; T]) -> S;
+    fn energy(&self, totals: &Sums<Self, S>) -> S;
     /// `dF/dT_k`; those that are constant may be left 0.
-    fn weights(&self, totals: &[S; T]) -> [S; T];
+    fn weights(&self, totals: &Sums<Self, S>) -> Sums<Self, S>;
 
     /// `[xi, eta]` of the algebra of a site.
-    fn ad(&self, xi: &[S; C], eta: &[S; C]) -> [S; C];
+    fn ad(&self, xi: &Site<Self, S>, eta: &Site<Self, S>) -> Site<Self, S>;
     /// `ad*_xi mu` of the algebra of a site.
-    fn ad_star(&self, xi: &[S; C], mu: &[S; C]) -> [S; C];
+    fn ad_star(&self, xi: &Site<Self, S>, mu: &Site<Self, S>) -> Site<Self, S>;
     /// A Casimir of a site.
-    fn casimir(&self, index: usize, mu: &[S; C]) -> S;
+    fn casimir(&self, index: usize, mu: &Site<Self, S>) -> S;
     /// Its gradient.
-    fn casimir_gradient(&self, index: usize, mu: &[S; C]) -> [S; C];
+    fn casimir_gradient(&self, index: usize, mu: &Site<Self, S>) -> Site<Self, S>;
 
     /// The same with each constant eight times.
     fn widen(&self) -> Self::Widened;
     /// The same with each constant as a dual number.
     fn lift(&self) -> Self::Lifted;
+
+    /// The vector field on a stretch, into a state: [`Sites::field`] of each of its sites.
+    #[inline(always)]
+    fn fields(&self, stretch: &Stretch<'_, S>, weights: &Sums<Self, S>, out: &mut [S]) {
+        let along = stretch.around(self);
+        let mut to = stretch.in_state::<Self::Site>(self.dimension(), out);
+        for i in 0..stretch.len() {
+            let at = gathered::<Self::Around, S>(along.as_ref(), i);
+            let field = self.field(&at, weights);
+            for (to, value) in to.as_mut().iter_mut().zip(field.as_ref()) {
+                to[i] = *value;
+            }
+        }
+    }
+
+    /// The summands of all sites of a stretch, added one after the other.
+    #[inline(always)]
+    fn sum(&self, stretch: &Stretch<'_, S>) -> Sums<Self, S> {
+        let along = stretch.around(self);
+        let mut sum = Self::Sums::make(self.count(), |_| S::zero());
+        (0..stretch.len()).for_each(|i| {
+            let summands = self.summands(&gathered::<Self::Around, S>(along.as_ref(), i));
+            for (sum, summand) in sum.as_mut().iter_mut().zip(summands.as_ref()) {
+                *sum += *summand;
+            }
+        });
+        sum
+    }
 }

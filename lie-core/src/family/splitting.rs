@@ -9,6 +9,8 @@ use super::bonds::Bonds;
 use super::columns::Columns;
 use super::energy::Totals;
 use super::exchange::Exchange;
+use super::shape::Shape as _;
+use super::sites::{Site, Sums};
 use super::stencil::wrapped;
 use super::{Family, Sites, Span};
 use crate::pieces::{FoundPoisson, PieceFlows};
@@ -33,58 +35,93 @@ pub struct Kind {
     message = "the family of `{Self}` cannot be split over the scalar `{S}`",
     note = "splittings need a Hamiltonian that consists of functions of one coordinate and of bonds with exact flows: `lie check` says what stands against it"
 )]
-pub trait Pieces<S: Scalar, const C: usize, const L: usize, const T: usize>:
-    Sites<S, C, L, T>
-{
+pub trait Pieces<S: Scalar>: Sites<S> {
     /// The kinds of pieces.
-    const KINDS: &'static [Kind];
-
+    fn kinds(&self) -> &[Kind];
     /// The rate of an exchange, `s_1' = rate (s_1 + s_2) x s_1`; none of another kind.
     fn exchange(&self, kind: usize) -> Option<S>;
     /// What a site adds to the sums of which a piece is a function; 0 of all other sums.
-    fn share(&self, kind: usize, one: &[S; C]) -> [S; T];
+    fn share(&self, kind: usize, one: &Site<Self, S>) -> Sums<Self, S>;
     /// The flow of a piece over a time t, of a site or of a bond, at these values of its sums.
-    fn flow(&self, kind: usize, t: S, sums: &[S; T], one: &mut [S; C], other: &mut [S; C]);
+    fn flow(
+        &self,
+        kind: usize,
+        t: S,
+        sums: &Sums<Self, S>,
+        one: &mut Site<Self, S>,
+        other: &mut Site<Self, S>,
+    );
+
+    /// The flow of a piece over a time t for many sites or bonds of a state: [`Pieces::flow`] of each.
+    #[inline(always)]
+    fn flows(&self, kind: usize, t: S, sums: &Sums<Self, S>, strip: &Strip, mu: &mut [S]) {
+        let dimension = self.dimension();
+        let site =
+            |mu: &[S], place: usize| Self::Site::make(dimension, |k| mu[k * strip.sites + place]);
+        let set = |mu: &mut [S], place: usize, value: &Site<Self, S>| {
+            for (k, value) in value.as_ref().iter().enumerate() {
+                mu[k * strip.sites + place] = *value;
+            }
+        };
+        for i in 0..strip.count {
+            let [first, second] = strip.places.map(|place| place + i);
+            let (mut one, mut other) = (site(mu, first), site(mu, second));
+            self.flow(kind, t, sums, &mut one, &mut other);
+            if strip.bonds {
+                set(mu, second, &other);
+            }
+            set(mu, first, &one);
+        }
+    }
+}
+
+/// Sites of a row, or bonds, that are done together: where the first and where the second ones stand, one behind the other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Strip {
+    /// The places of the first sites.
+    pub places: [usize; 2],
+    /// How many there are.
+    pub count: usize,
+    /// The number of sites of the family: how far apart the coordinates of a site are.
+    pub sites: usize,
+    /// Whether they are bonds; else first and second sites are the same.
+    pub bonds: bool,
 }
 
 /// A piece: a kind, of bonds those of one colour.
 struct Piece<S> {
-    kind: usize,
+    place: usize,
+    kind: Kind,
     colour: u8,
     bonds: Option<Bonds>,
     exchange: Option<S>,
 }
 
-/// Sites of a row, or bonds, that are done together: where the first and where the second ones stand, one behind the other.
-struct Stretch {
-    places: [usize; 2],
-    count: usize,
-}
-
 /// The flows of the pieces of a family. They act on states in an order of their own, see [`PieceFlows::take`].
-pub struct FamilyFlows<'a, S, K, const C: usize, const L: usize, const T: usize> {
-    family: &'a Family<K, C, L, T>,
+pub struct FamilyFlows<'a, S, K> {
+    family: &'a Family<K>,
     columns: Columns,
     pieces: Vec<Piece<S>>,
     /// A bound of the squares of all spins, which exchanges ask for.
     largest: S,
 }
 
-impl<'a, S, K, const C: usize, const L: usize, const T: usize> FamilyFlows<'a, S, K, C, L, T>
+impl<'a, S, K> FamilyFlows<'a, S, K>
 where
     S: Scalar,
-    K: Pieces<S, C, L, T>,
+    K: Pieces<S>,
 {
-    fn new(family: &'a Family<K, C, L, T>) -> Self {
+    fn new(family: &'a Family<K>) -> Self {
         let (mut pieces, mut modulus) = (Vec::new(), 1);
-        for (place, kind) in K::KINDS.iter().enumerate() {
-            let bonds = Bonds::of(*kind, family.sizes());
+        for (place, &kind) in family.kernels().kinds().iter().enumerate() {
+            let bonds = Bonds::of(kind, family.sizes());
             if let Some(bonds) = bonds.filter(|bonds| bonds.axis == 1) {
                 modulus = bonds.period().max(modulus);
             }
             for colour in 0..bonds.map_or(1, Bonds::colours) {
                 pieces.push(Piece {
-                    kind: place,
+                    place,
+                    kind,
                     colour,
                     bonds,
                     exchange: family.kernels().exchange(place),
@@ -100,11 +137,21 @@ where
         }
     }
 
-    /// The stretches of a piece whose first sites are in a row.
-    fn stretches(&self, piece: &Piece<S>, row: usize, mut then: impl FnMut(Stretch)) {
-        let kind = K::KINDS[piece.kind];
+    /// The strips of a piece whose first sites are in a row.
+    fn strips(&self, piece: &Piece<S>, row: usize, mut then: impl FnMut(Strip)) {
         let [rows, columns] = self.family.sizes();
-        let Piece { bonds, colour, .. } = *piece;
+        let Piece {
+            kind,
+            bonds,
+            colour,
+            ..
+        } = *piece;
+        let strip = |places: [usize; 2], count: usize| Strip {
+            places,
+            count,
+            sites: rows * columns,
+            bonds: bonds.is_some(),
+        };
         let own = |axis: usize, place: usize| {
             bonds.is_none_or(|bonds| bonds.axis != axis || bonds.colour(place) == colour)
         };
@@ -117,10 +164,7 @@ where
         let of_columns = bonds.filter(|bonds| bonds.axis == 1);
         if of_columns.is_none() && span == (0..columns) {
             // whole rows, whatever the order of their columns is
-            return then(Stretch {
-                places: [begin, below],
-                count: columns,
-            });
+            return then(strip([begin, below], columns));
         }
         let parts = of_columns.map_or([(span.clone(), 0), (0..0, 0)], |bonds| {
             bonds.stretches(span)
@@ -129,27 +173,26 @@ where
         for (Range { start, end }, shift) in parts {
             for first in (start..end.min(start + step)).filter(|first| own(1, *first)) {
                 let second = (first as isize + shift) as usize;
-                then(Stretch {
-                    places: [
-                        begin + self.columns.place(first),
-                        below + self.columns.place(second),
-                    ],
-                    count: (end - first).div_ceil(step),
-                });
+                let places = [
+                    begin + self.columns.place(first),
+                    below + self.columns.place(second),
+                ];
+                then(strip(places, (end - first).div_ceil(step)));
             }
         }
     }
 
     /// The sums of which a piece is a function.
-    fn sums(&self, piece: &Piece<S>, mu: &[S]) -> [S; T] {
-        let mut totals = Totals::new();
-        let (family, kind) = (self.family, piece.kind);
-        if K::KINDS[kind].collective {
+    fn sums(&self, piece: &Piece<S>, mu: &[S]) -> Sums<K, S> {
+        let (family, kernels) = (self.family, self.family.kernels());
+        let mut totals = Totals::<K::Sums, S>::new(kernels.count());
+        if piece.kind.collective {
             for row in 0..family.sizes()[0] {
-                self.stretches(piece, row, |stretch| {
-                    let first = stretch.places[0];
-                    for site in first..first + stretch.count {
-                        totals.add(family.kernels().share(kind, &family.site(mu, site)));
+                self.strips(piece, row, |strip| {
+                    let first = strip.places[0];
+                    for site in first..first + strip.count {
+                        let share = kernels.share(piece.place, &family.site(mu, site));
+                        totals.add(share.as_ref());
                     }
                 });
             }
@@ -159,20 +202,11 @@ where
 
     /// The flow of a piece that is no exchange.
     fn sites(&self, piece: &Piece<S>, t: S, mu: &mut [S]) {
-        let (family, kind) = (self.family, piece.kind);
-        let bond = piece.bonds.is_some();
         let sums = self.sums(piece, mu);
-        for row in 0..family.sizes()[0] {
-            self.stretches(piece, row, |Stretch { places, count }| {
-                for i in 0..count {
-                    let [first, second] = places.map(|place| place + i);
-                    let (mut one, mut other) = (family.site(mu, first), family.site(mu, second));
-                    family.kernels().flow(kind, t, &sums, &mut one, &mut other);
-                    if bond {
-                        family.set_site(mu, second, other);
-                    }
-                    family.set_site(mu, first, one);
-                }
+        for row in 0..self.family.sizes()[0] {
+            self.strips(piece, row, |strip| {
+                let kernels = self.family.kernels();
+                kernels.flows(piece.place, t, &sums, &strip, mu);
             });
         }
     }
@@ -181,10 +215,10 @@ where
     fn exchanges(&self, piece: &Piece<S>, t: S, mu: &mut [S]) {
         let exchange = Exchange::new(t, self.largest);
         for row in 0..self.family.sizes()[0] {
-            self.stretches(piece, row, |stretch| {
+            self.strips(piece, row, |strip| {
                 let mut parts = mu.chunks_exact_mut(self.family.count());
                 let components: [_; 3] = from_fn(|_| match parts.next() {
-                    Some(part) => stretch.pair(part),
+                    Some(part) => strip.pair(part),
                     None => unreachable!("a spin has three components"),
                 });
                 let [[x1, x2], [y1, y2], [z1, z2]] = components;
@@ -194,7 +228,7 @@ where
     }
 }
 
-impl Stretch {
+impl Strip {
     /// The first and the second numbers, which are apart.
     fn pair<'m, S>(&self, numbers: &'m mut [S]) -> [&'m mut [S]; 2] {
         let ([first, second], count) = (self.places, self.count);
@@ -227,11 +261,10 @@ fn largest_square<S: Scalar>(mu: &[S], sites: usize) -> S {
     parts.into_iter().fold(S::zero(), S::max)
 }
 
-impl<S, K, const C: usize, const L: usize, const T: usize> PieceFlows<S>
-    for FamilyFlows<'_, S, K, C, L, T>
+impl<S, K> PieceFlows<S> for FamilyFlows<'_, S, K>
 where
     S: Scalar,
-    K: Pieces<S, C, L, T>,
+    K: Pieces<S>,
 {
     type State = Vec<S>;
 
@@ -256,7 +289,7 @@ where
 
     fn flow(&mut self, piece: usize, t: S, mu: &mut Vec<S>) {
         let piece = &self.pieces[piece];
-        if piece.bonds.is_none() && K::KINDS[piece.kind].offset != [0, 0] {
+        if piece.bonds.is_none() && piece.kind.offset != [0, 0] {
             // a bond of a site with itself is no such piece
             return mu.fill(S::zero() / S::zero());
         }
@@ -267,13 +300,13 @@ where
     }
 }
 
-impl<S, K, const C: usize, const L: usize, const T: usize> FoundPoisson<S> for Family<K, C, L, T>
+impl<S, K> FoundPoisson<S> for Family<K>
 where
     S: Scalar,
-    K: Pieces<S, C, L, T>,
+    K: Pieces<S>,
 {
     type Found<'a>
-        = FamilyFlows<'a, S, K, C, L, T>
+        = FamilyFlows<'a, S, K>
     where
         Self: 'a;
 

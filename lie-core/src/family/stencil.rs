@@ -1,8 +1,9 @@
 //! A site and its neighbours: where they stand in a state, and for which sites nothing wraps around.
 
+use super::shape::{Of, Shape};
+use super::sites::{Around, Site, Sums};
 use super::{Family, Sites, Span};
 use crate::scalar::Scalar;
-use core::array::from_fn;
 use core::ops::Range;
 
 /// An index modulo the size.
@@ -11,23 +12,86 @@ pub(super) fn wrapped(index: isize, size: usize) -> usize {
     index.rem_euclid(size as isize) as usize
 }
 
-impl<K, const C: usize, const L: usize, const T: usize> Family<K, C, L, T> {
+/// Columns of a row at which a site has all summands with it, and no neighbour is found by wrapping around.
+#[derive(Clone, Debug)]
+pub struct Stretch<'m, S> {
+    mu: &'m [S],
+    sizes: [usize; 2],
+    row: usize,
+    columns: Range<usize>,
+}
+
+impl<'m, S: Scalar> Stretch<'m, S> {
+    /// The number of sites.
+    #[inline]
+    pub fn len(&self) -> usize {
+        self.columns.len()
+    }
+
+    /// Whether there are none.
+    #[inline]
+    pub fn is_empty(&self) -> bool {
+        self.columns.is_empty()
+    }
+
+    /// A coordinate of the sites at a distance from those of the stretch.
+    #[inline]
+    pub fn part(&self, [down, right]: [isize; 2], coordinate: usize) -> &'m [S] {
+        let [rows, columns] = self.sizes;
+        let row = wrapped(self.row as isize + down, rows);
+        let from = row * columns + (self.columns.start as isize + right) as usize;
+        &self.mu[coordinate * rows * columns + from..][..self.len()]
+    }
+
+    /// The coordinates of the sites and of their neighbours, slot after slot.
+    #[inline(always)]
+    pub(super) fn around<K: Sites<S>>(&self, sites: &K) -> Of<K::Around, &'m [S]> {
+        let (dimension, offsets) = (sites.dimension(), sites.offsets());
+        K::Around::make(dimension * offsets.len(), |place| {
+            self.part(offsets[place / dimension], place % dimension)
+        })
+    }
+
+    /// Where the coordinates of the sites are in another state.
+    #[inline(always)]
+    pub fn in_state<'o, A: Shape>(
+        &self,
+        dimension: usize,
+        state: &'o mut [S],
+    ) -> Of<A, &'o mut [S]> {
+        let [rows, columns] = self.sizes;
+        let mut parts = state.chunks_exact_mut(rows * columns);
+        A::make(dimension, |_| match parts.next() {
+            Some(part) => &mut part[self.row * columns + self.columns.start..][..self.len()],
+            None => unreachable!("a part for each coordinate"),
+        })
+    }
+}
+
+/// The coordinates at a place of each slice: those of a site and of its neighbours.
+#[inline(always)]
+pub(super) fn gathered<A: Shape, S: Scalar>(along: &[&[S]], place: usize) -> Of<A, S> {
+    A::make(along.len(), |k| along[k][place])
+}
+
+impl<K> Family<K> {
     /// The columns in which a site has all summands with it, and no neighbour is found by wrapping around; none where
     /// that is not so of the row.
     pub(super) fn inner<S: Scalar>(&self, row: usize) -> Range<usize>
     where
-        K: Sites<S, C, L, T>,
+        K: Sites<S>,
     {
         let [rows, columns] = self.sizes();
         let columns = columns as isize;
         let (mut first, mut end) = (0, columns);
-        for [_, offset] in K::OFFSETS {
+        let offsets = self.kernels().offsets();
+        for [_, offset] in offsets {
             first = first.max(-offset);
             end = end.min(columns - offset);
         }
-        for term in K::TERMS {
+        for term in (0..self.kernels().count()).map(|k| self.kernels().term(k)) {
             for &slot in term.slots {
-                let [down, right] = K::OFFSETS[slot];
+                let [down, right] = offsets[slot];
                 if !term.spans[0].holds(row as isize - down, rows) {
                     return 0..0;
                 }
@@ -44,53 +108,53 @@ impl<K, const C: usize, const L: usize, const T: usize> Family<K, C, L, T> {
         }
     }
 
+    /// Some columns of a row, among those in which a site has all neighbours.
+    #[inline]
+    pub(super) fn stretch<'m, S>(
+        &self,
+        mu: &'m [S],
+        row: usize,
+        columns: Range<usize>,
+    ) -> Stretch<'m, S> {
+        Stretch {
+            mu,
+            sizes: self.sizes(),
+            row,
+            columns,
+        }
+    }
+
     /// The coordinates of a site and of its neighbours, wherever they are.
     #[inline]
-    pub(super) fn around<S: Scalar>(&self, mu: &[S], [row, column]: [usize; 2]) -> [[S; C]; L]
+    pub(super) fn around<S: Scalar>(&self, mu: &[S], [row, column]: [usize; 2]) -> Around<K, S>
     where
-        K: Sites<S, C, L, T>,
+        K: Sites<S>,
     {
         let [rows, columns] = self.sizes();
-        from_fn(|slot| {
-            let [down, right] = K::OFFSETS[slot];
+        let (dimension, offsets) = (self.kernels().dimension(), self.kernels().offsets());
+        K::Around::make(dimension * offsets.len(), |place| {
+            let [down, right] = offsets[place / dimension];
             let site = wrapped(row as isize + down, rows) * columns
                 + wrapped(column as isize + right, columns);
-            self.site(mu, site)
+            mu[place % dimension * self.count() + site]
         })
     }
 
     /// The coordinates of a site.
     #[inline]
-    pub(super) fn site<S: Scalar>(&self, mu: &[S], site: usize) -> [S; C] {
-        from_fn(|k| mu[k * self.count() + site])
+    pub(super) fn site<S: Scalar>(&self, mu: &[S], site: usize) -> Site<K, S>
+    where
+        K: Sites<S>,
+    {
+        K::Site::make(self.kernels().dimension(), |k| mu[k * self.count() + site])
     }
 
     /// Sets the coordinates of a site.
     #[inline]
-    pub(super) fn set_site<S: Scalar>(&self, out: &mut [S], site: usize, value: [S; C]) {
-        for (k, value) in value.into_iter().enumerate() {
-            out[k * self.count() + site] = value;
+    pub(super) fn set_site<S: Scalar>(&self, out: &mut [S], site: usize, value: &[S]) {
+        for (k, value) in value.iter().enumerate() {
+            out[k * self.count() + site] = *value;
         }
-    }
-
-    /// The coordinates of the neighbours of a stretch of columns in a row: slices, slot after slot.
-    #[inline(always)]
-    pub(super) fn along<'m, S: Scalar>(
-        &self,
-        mu: &'m [S],
-        row: usize,
-        stretch: &Range<usize>,
-    ) -> [[&'m [S]; C]; L]
-    where
-        K: Sites<S, C, L, T>,
-    {
-        let [rows, columns] = self.sizes();
-        from_fn(|slot| {
-            let [down, right] = K::OFFSETS[slot];
-            let row = wrapped(row as isize + down, rows);
-            let from = row * columns + (stretch.start as isize + right) as usize;
-            from_fn(|k| &mu[k * self.count() + from..][..stretch.len()])
-        })
     }
 
     /// `dH/dmu` at a site, term by term.
@@ -98,22 +162,24 @@ impl<K, const C: usize, const L: usize, const T: usize> Family<K, C, L, T> {
         &self,
         mu: &[S],
         [row, column]: [usize; 2],
-        weights: &[S; T],
-    ) -> [S; C]
+        weights: &Sums<K, S>,
+    ) -> Site<K, S>
     where
-        K: Sites<S, C, L, T>,
+        K: Sites<S>,
     {
         let [rows, columns] = self.sizes();
-        let mut sum = [S::zero(); C];
-        for (k, term) in K::TERMS.iter().enumerate() {
+        let kernels = self.kernels();
+        let mut sum = K::Site::make(kernels.dimension(), |_| S::zero());
+        for k in 0..kernels.count() {
+            let term = kernels.term(k);
             for &slot in term.slots {
-                let [down, right] = K::OFFSETS[slot];
+                let [down, right] = kernels.offsets()[slot];
                 let (above, before) = (row as isize - down, column as isize - right);
                 if term.spans[0].holds(above, rows) && term.spans[1].holds(before, columns) {
                     let at = self.around(mu, [wrapped(above, rows), wrapped(before, columns)]);
-                    let slope = self.kernels().slope(k, slot, &at, weights);
-                    for (sum, slope) in sum.iter_mut().zip(slope) {
-                        *sum += slope;
+                    let slope = kernels.slope(k, slot, &at, weights);
+                    for (sum, slope) in sum.as_mut().iter_mut().zip(slope.as_ref()) {
+                        *sum += *slope;
                     }
                 }
             }

@@ -4,7 +4,6 @@ use super::{LateMatrix, Sites};
 use crate::parameter::{ParameterError, ParameterFault};
 use crate::poisson::{LiePoisson, Poisson, Widen};
 use crate::scalar::Scalar;
-use core::array::from_fn;
 use std::format;
 use std::string::String;
 use std::sync::OnceLock;
@@ -21,7 +20,7 @@ struct Names {
 ///
 /// Its Casimirs are, of each Casimir of a site, the mean over all sites, the smallest and the largest one.
 #[derive(Clone, Debug)]
-pub struct Family<K, const C: usize, const L: usize, const T: usize> {
+pub struct Family<K> {
     kernels: K,
     sizes: [usize; 2],
     /// Made when somebody asks for one: a large family is integrated without.
@@ -48,7 +47,7 @@ pub fn size<S: Scalar>(value: S, name: &'static str) -> Result<usize, ParameterE
 /// The places in the list of Casimirs of a family: three for each of a site.
 const STATISTICS: [&str; 3] = ["mean", "min", "max"];
 
-impl<K, const C: usize, const L: usize, const T: usize> Family<K, C, L, T> {
+impl<K> Family<K> {
     /// The family of so many sites, rows and columns; a chain is one row.
     pub fn new(kernels: K, sizes: [usize; 2]) -> Self {
         Self {
@@ -78,18 +77,18 @@ impl<K, const C: usize, const L: usize, const T: usize> Family<K, C, L, T> {
 
     fn names<S: Scalar>(&self) -> &Names
     where
-        K: Sites<S, C, L, T>,
+        K: Sites<S>,
     {
         self.names.get_or_init(|| {
             let [rows, columns] = self.sizes;
-            let coordinates = self.kernels.coordinates();
+            let coordinates = 0..self.kernels.dimension();
             let named = |name: &str, site: usize| match rows {
                 1 => format!("{name}[{site}]"),
                 _ => format!("{name}[{}][{}]", site / columns, site % columns),
             };
-            let all = coordinates.iter();
+            let all = coordinates.map(|k| self.kernels.coordinate(k));
             let all = all.flat_map(|name| (0..self.count()).map(move |site| named(name, site)));
-            let casimirs = (0..3 * K::CASIMIRS).map(|index| {
+            let casimirs = (0..3 * self.kernels.casimir_count()).map(|index| {
                 let name = self.kernels.casimir_name(index / 3);
                 format!("{name}_{}", STATISTICS[index % 3])
             });
@@ -103,7 +102,7 @@ impl<K, const C: usize, const L: usize, const T: usize> Family<K, C, L, T> {
     /// The sum of a Casimir over all sites, and the smallest and the largest value.
     fn statistics<S: Scalar>(&self, mu: &[S], index: usize) -> [S; 3]
     where
-        K: Sites<S, C, L, T>,
+        K: Sites<S>,
     {
         let value = |site: usize| self.kernels.casimir(index, &self.site(mu, site));
         let first = value(0);
@@ -116,7 +115,7 @@ impl<K, const C: usize, const L: usize, const T: usize> Family<K, C, L, T> {
     /// The site at which a Casimir is smallest, or largest; of lanes in the first one.
     fn extreme<S: Scalar>(&self, mu: &[S], index: usize, largest: bool) -> usize
     where
-        K: Sites<S, C, L, T>,
+        K: Sites<S>,
     {
         let value = |site: usize| self.kernels.casimir(index, &self.site(mu, site)).to_f64();
         let mut found = (0, value(0));
@@ -130,16 +129,16 @@ impl<K, const C: usize, const L: usize, const T: usize> Family<K, C, L, T> {
     }
 }
 
-impl<S, K, const C: usize, const L: usize, const T: usize> Poisson<S> for Family<K, C, L, T>
+impl<S, K> Poisson<S> for Family<K>
 where
     S: Scalar,
-    K: Sites<S, C, L, T>,
+    K: Sites<S>,
 {
     type State = Vec<S>;
     type Jacobian = LateMatrix<S>;
 
     fn dimension(&self) -> usize {
-        C * self.count()
+        self.kernels.dimension() * self.count()
     }
     fn name(&self) -> &str {
         self.kernels.name()
@@ -148,7 +147,7 @@ where
         &self.names().coordinates[index]
     }
     fn casimir_count(&self) -> usize {
-        3 * K::CASIMIRS
+        3 * self.kernels.casimir_count()
     }
     fn casimir_name(&self, index: usize) -> &str {
         &self.names().casimirs[index]
@@ -159,16 +158,16 @@ where
             .filter(|_| index.is_multiple_of(3))
     }
     fn hamiltonian_degree(&self) -> Option<u32> {
-        K::DEGREE
+        self.kernels.degree()
     }
     fn has_jacobian(&self) -> bool {
         false
     }
     fn zero_state(&self) -> Vec<S> {
-        std::vec![S::zero(); C * self.count()]
+        std::vec![S::zero(); self.kernels.dimension() * self.count()]
     }
     fn zero_jacobian(&self) -> LateMatrix<S> {
-        LateMatrix::new(C * self.count())
+        LateMatrix::new(self.kernels.dimension() * self.count())
     }
 
     fn hamiltonian(&self, mu: &Vec<S>) -> S {
@@ -181,7 +180,7 @@ where
         for row in 0..rows {
             for column in 0..columns {
                 let slope = self.slope(mu, [row, column], &weights);
-                self.set_site(out, row * columns + column, slope);
+                self.set_site(out, row * columns + column, slope.as_ref());
             }
         }
     }
@@ -206,24 +205,13 @@ where
                 let site = row * columns + column;
                 let slope = self.slope(mu, [row, column], &weights);
                 let field = self.kernels.ad_star(&slope, &self.site(mu, site));
-                self.set_site(out, site, field);
+                self.set_site(out, site, field.as_ref());
             }
             if inner.is_empty() {
                 continue;
             }
-            let along = self.along(mu, row, &inner);
-            let mut parts = out.chunks_exact_mut(rows * columns);
-            let to: [&mut [S]; C] = from_fn(|_| match parts.next() {
-                Some(part) => &mut part[row * columns + inner.start..][..inner.len()],
-                None => unreachable!("a part for each coordinate"),
-            });
-            for i in 0..inner.len() {
-                let at = from_fn(|slot| from_fn(|k| along[slot][k][i]));
-                let field = self.kernels.field(&at, &weights);
-                for k in 0..C {
-                    to[k][i] = field[k];
-                }
-            }
+            let stretch = self.stretch(mu, row, inner);
+            self.kernels.fields(&stretch, &weights, out);
         }
     }
 
@@ -233,7 +221,7 @@ where
 
     fn casimirs(&self, mu: &Vec<S>, out: &mut [S]) {
         let count = S::from_f64(self.count() as f64);
-        for index in 0..K::CASIMIRS {
+        for index in 0..self.kernels.casimir_count() {
             let [sum, smallest, largest] = self.statistics(mu, index);
             out[3 * index..][..3].copy_from_slice(&[sum / count, smallest, largest]);
         }
@@ -245,24 +233,28 @@ where
         let gradient = |site| self.kernels.casimir_gradient(casimir, &self.site(mu, site));
         if !index.is_multiple_of(3) {
             let site = self.extreme(mu, casimir, index % 3 == 2);
-            return self.set_site(out, site, gradient(site));
+            return self.set_site(out, site, gradient(site).as_ref());
         }
         let share = S::one() / S::from_f64(self.count() as f64);
         for site in 0..self.count() {
-            self.set_site(out, site, gradient(site).map(|slope| share * slope));
+            let mut gradient = gradient(site);
+            for slope in gradient.as_mut() {
+                *slope = share * *slope;
+            }
+            self.set_site(out, site, gradient.as_ref());
         }
     }
 }
 
-impl<S, K, const C: usize, const L: usize, const T: usize> LiePoisson<S> for Family<K, C, L, T>
+impl<S, K> LiePoisson<S> for Family<K>
 where
     S: Scalar,
-    K: Sites<S, C, L, T>,
+    K: Sites<S>,
 {
     fn ad(&self, xi: &Vec<S>, eta: &Vec<S>, out: &mut Vec<S>) {
         for site in 0..self.count() {
             let value = self.kernels.ad(&self.site(xi, site), &self.site(eta, site));
-            self.set_site(out, site, value);
+            self.set_site(out, site, value.as_ref());
         }
     }
     fn ad_star(&self, xi: &Vec<S>, mu: &Vec<S>, out: &mut Vec<S>) {
@@ -270,7 +262,7 @@ where
             let value = self
                 .kernels
                 .ad_star(&self.site(xi, site), &self.site(mu, site));
-            self.set_site(out, site, value);
+            self.set_site(out, site, value.as_ref());
         }
     }
     fn ad_star_matrix(&self, xi: &Vec<S>, out: &mut LateMatrix<S>) {
@@ -280,12 +272,12 @@ where
     }
 }
 
-impl<S, K, const C: usize, const L: usize, const T: usize> Widen<S> for Family<K, C, L, T>
+impl<S, K> Widen<S> for Family<K>
 where
     S: Scalar,
-    K: Sites<S, C, L, T>,
+    K: Sites<S>,
 {
-    type Widened = Family<K::Widened, C, L, T>;
+    type Widened = Family<K::Widened>;
     fn widen(&self) -> Self::Widened {
         Family::new(self.kernels.widen(), self.sizes)
     }

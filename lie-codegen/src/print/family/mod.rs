@@ -26,21 +26,16 @@ impl Printer<'_> {
         quote! { #parameters #sites #over #system #kernels #pieces }
     }
 
-    /// C, L and T.
+    /// The numbers of coordinates of a site and of all slots, and of sums.
     fn counts(&self, family: &Family) -> [Literal; 3] {
-        let counts = [
-            family.coordinates.len(),
-            family.offsets.len(),
-            family.sums.len(),
-        ];
-        counts.map(index)
+        [family.coordinates.len(), family.places(), family.sums.len()].map(index)
     }
 
     /// The type of the system, and how it is made.
     fn system_of_family(&self, family: &Family) -> TokenStream {
         let (visibility, name, sites) = (&self.surface.visibility, self.name(), self.system_name());
         let system = self.type_name("System");
-        let [c, l, t] = self.counts(family);
+        let [c, ..] = self.counts(family);
         let names = self.parameters_by_name();
         let size = |size: &Size| match size {
             Size::Number(count) => {
@@ -70,7 +65,7 @@ impl Printer<'_> {
         let doc = format!(" The family of sites [`{sites}`] as a system.");
         quote! {
             #[doc = #doc]
-            #visibility type #system<S = f64> = ::lie_runtime::family::Family<#sites<S>, #c, #l, #t>;
+            #visibility type #system<S = f64> = ::lie_runtime::family::Family<#sites<S>>;
 
             #[allow(non_snake_case)]
             impl<S: ::lie_runtime::Scalar> #name<S> {
@@ -98,24 +93,27 @@ impl Printer<'_> {
     /// The impl of `Sites`.
     fn sites(&self, family: &Family) -> TokenStream {
         let sites = self.system_name();
-        let [c, l, t] = self.counts(family);
+        let [c, p, t] = self.counts(family);
         let facts = self.facts_of_sites(family);
-        let at = quote! { _at: &[[S; #c]; #l] };
+        let at = quote! { _at: &[S; #p] };
         let weights = quote! { _weights: &[S; #t] };
         let vector = quote! { [S; #c] };
-        let field = self.kernel(family, &family.field, family.coordinates.len());
+        let field = self.kernel(&family.field, family.coordinates.len());
         let slopes = self.slopes_of_sums(family);
-        let summands = self.kernel(family, &family.summands, family.sums.len());
-        let energy = self.kernel(family, &family.energy, 1);
-        let of_sums = self.kernel(family, &family.weights, family.sums.len());
-        let ad = self.kernel(family, &family.ad, family.coordinates.len());
-        let ad_star = self.kernel(family, &family.ad_star, family.coordinates.len());
+        let summands = self.kernel(&family.summands, family.sums.len());
+        let energy = self.kernel(&family.energy, 1);
+        let of_sums = self.kernel(&family.weights, family.sums.len());
+        let ad = self.kernel(&family.ad, family.coordinates.len());
+        let ad_star = self.kernel(&family.ad_star, family.coordinates.len());
         let casimirs = self.casimirs_of_site(family);
         let [of_field, of_summands, of_energy] =
             [&family.field, &family.summands, &family.energy].map(|function| self.docs(function));
         quote! {
             #[allow(non_snake_case, clippy::many_single_char_names, clippy::possible_missing_comma)]
-            impl<S: ::lie_runtime::Scalar> ::lie_runtime::family::Sites<S, #c, #l, #t> for #sites<S> {
+            impl<S: ::lie_runtime::Scalar> ::lie_runtime::family::Sites<S> for #sites<S> {
+                type Site = ::lie_runtime::family::Fixed<#c>;
+                type Around = ::lie_runtime::family::Fixed<#p>;
+                type Sums = ::lie_runtime::family::Fixed<#t>;
                 type Widened = #sites<S::Wide>;
                 type Lifted = #sites<::lie_runtime::Dual<S>>;
 
@@ -157,8 +155,8 @@ impl Printer<'_> {
 
     /// What the family says of itself.
     fn facts_of_sites(&self, family: &Family) -> TokenStream {
-        let [c, l, t] = self.counts(family);
-        let (name, coordinates) = (&self.plan.names.system, &family.coordinates);
+        let [c, _, t] = self.counts(family);
+        let name = &self.plan.names.system;
         let offsets = family.offsets.iter().map(|distance| {
             let [down, right] = distance.map(Literal::i64_unsuffixed);
             quote! { [#down, #right] }
@@ -177,34 +175,61 @@ impl Printer<'_> {
         };
         let degree = option(family.degree);
         let (mean, count) = (family.mean_field, index(family.casimirs.len()));
-        let casimirs = family.casimirs.iter().map(|(name, ..)| name);
-        let degrees = family.casimirs.iter().map(|(_, degree, _)| option(*degree));
-        let places: Vec<_> = (0..family.casimirs.len()).map(index).collect();
+        let coordinates = by_place(family.coordinates.iter().map(|name| quote! { #name }));
+        let casimirs = by_place(family.casimirs.iter().map(|(name, ..)| quote! { #name }));
+        let degrees = family.casimirs.iter();
+        let degrees = by_place(degrees.map(|(_, degree, _)| option(*degree)));
         quote! {
-            const MEAN_FIELD: bool = #mean;
-            const CASIMIRS: usize = #count;
-            const OFFSETS: [[isize; 2]; #l] = [#(#offsets),*];
-            const TERMS: [::lie_runtime::family::Term; #t] = [#(#terms),*];
-            const DEGREE: ::core::option::Option<u32> = #degree;
-
-            fn name(&self) -> &'static str {
+            fn name(&self) -> &str {
                 #name
             }
 
-            fn coordinates(&self) -> [&'static str; #c] {
-                [#(#coordinates),*]
+            fn dimension(&self) -> usize {
+                #c
             }
 
-            fn casimir_name(&self, _index: usize) -> &'static str {
+            fn coordinate(&self, _index: usize) -> &str {
                 match _index {
-                    #(#places => #casimirs,)*
+                    #coordinates
+                    _ => "",
+                }
+            }
+
+            fn offsets(&self) -> &[[isize; 2]] {
+                &[#(#offsets),*]
+            }
+
+            fn count(&self) -> usize {
+                #t
+            }
+
+            fn term(&self, _index: usize) -> ::lie_runtime::family::Term<'_> {
+                const TERMS: [::lie_runtime::family::Term<'static>; #t] = [#(#terms),*];
+                TERMS[_index]
+            }
+
+            fn has_mean_field(&self) -> bool {
+                #mean
+            }
+
+            fn degree(&self) -> ::core::option::Option<u32> {
+                #degree
+            }
+
+            fn casimir_count(&self) -> usize {
+                #count
+            }
+
+            fn casimir_name(&self, _index: usize) -> &str {
+                match _index {
+                    #casimirs
                     _ => "",
                 }
             }
 
             fn casimir_degree(&self, _index: usize) -> ::core::option::Option<u32> {
                 match _index {
-                    #(#places => #degrees,)*
+                    #degrees
                     _ => ::core::option::Option::None,
                 }
             }
@@ -212,10 +237,10 @@ impl Printer<'_> {
     }
 
     fn slopes_of_sums(&self, family: &Family) -> TokenStream {
-        let [c, l, t] = self.counts(family);
+        let [c, p, t] = self.counts(family);
         let arms = family.slopes.iter().map(|(k, slot, function)| {
             let (k, slot) = (index(*k), index(*slot));
-            let body = self.kernel(family, function, family.coordinates.len());
+            let body = self.kernel(function, family.coordinates.len());
             quote! { (#k, #slot) => { #body } }
         });
         let counts = family
@@ -226,7 +251,7 @@ impl Printer<'_> {
             #[doc = " `dF/dT_k ds_k/dmu` by the coordinates in a slot, at the site of the summand."]
             #[doc = ""]
             #(#[doc = #counts])*
-            fn slope(&self, _term: usize, _slot: usize, _at: &[[S; #c]; #l], _weights: &[S; #t]) -> [S; #c] {
+            fn slope(&self, _term: usize, _slot: usize, _at: &[S; #p], _weights: &[S; #t]) -> [S; #c] {
                 match (_term, _slot) {
                     #(#arms)*
                     _ => [S::zero(); #c],
@@ -242,7 +267,7 @@ impl Printer<'_> {
         let bodies = |which: usize, size: usize| -> Vec<TokenStream> {
             let functions = family.casimirs.iter().map(|(_, _, both)| &both[which]);
             functions
-                .map(|function| self.kernel(family, function, size))
+                .map(|function| self.kernel(function, size))
                 .collect()
         };
         let (values, gradients) = (bodies(0, 1), bodies(1, size));
@@ -264,23 +289,13 @@ impl Printer<'_> {
     }
 
     /// The body of a kernel: arguments taken apart, locals, and an array of this size, or a scalar.
-    fn kernel(&self, family: &Family, function: &Function, size: usize) -> TokenStream {
+    fn kernel(&self, function: &Function, size: usize) -> TokenStream {
         let unpacked: TokenStream = function
             .arguments
             .iter()
             .map(|argument| {
                 let from = ident(&format!("_{}", argument.name));
-                if argument.name != "at" {
-                    return self.taken(function, &argument.symbols, &quote! { *#from });
-                }
-                let slots = argument.symbols.chunks(family.coordinates.len());
-                slots
-                    .enumerate()
-                    .map(|(slot, symbols)| {
-                        let slot = index(slot);
-                        self.taken(function, symbols, &quote! { #from[#slot] })
-                    })
-                    .collect()
+                self.taken(function, &argument.symbols, &quote! { *#from })
             })
             .collect();
         let leaf = |value: &_| self.value(value, Owner::System);
@@ -313,6 +328,15 @@ impl Printer<'_> {
         });
         quote! { let [#(#entries),*] = #from; }
     }
+}
+
+/// The arms of a match over the places of these.
+fn by_place(values: impl Iterator<Item = TokenStream>) -> TokenStream {
+    let arms = values.enumerate().map(|(place, value)| {
+        let place = index(place);
+        quote! { #place => #value, }
+    });
+    arms.collect()
 }
 
 fn span(span: &Option<(usize, usize)>) -> TokenStream {

@@ -25,7 +25,7 @@ impl Printer<'_> {
     /// The impl of `Pieces`, and the actions that it needs.
     pub(super) fn pieces_of_family(&self, family: &Family, pieces: &FamilyPieces) -> TokenStream {
         let sites = self.system_name();
-        let [c, l, t] = self.counts(family);
+        let [c, _, t] = self.counts(family);
         let kinds = pieces.kinds.iter().map(|kind| {
             let [down, right] = kind.offset.map(Literal::i64_unsuffixed);
             let spans = kind.spans.iter().map(span);
@@ -33,14 +33,14 @@ impl Printer<'_> {
             quote! { ::lie_runtime::family::Kind { offset: [#down, #right], spans: [#(#spans),*], collective: #collective } }
         });
         let rates = pieces.kinds.iter().enumerate().map(|(place, kind)| {
-            let (name, body) = (rate(place), self.kernel(family, &kind.rate, 1));
+            let (name, body) = (rate(place), self.kernel(&kind.rate, 1));
             quote! {
                 #[inline]
                 fn #name(&self, _one: &[S; #c], _weights: &[S; #t]) -> S { #body }
             }
         });
         let shares = pieces.kinds.iter().enumerate().filter_map(|(place, kind)| {
-            let body = self.kernel(family, kind.share.as_ref()?, family.sums.len());
+            let body = self.kernel(kind.share.as_ref()?, family.sums.len());
             let place = index(place);
             Some(quote! { #place => { #body } })
         });
@@ -54,8 +54,10 @@ impl Printer<'_> {
             }
 
             #[allow(non_snake_case, clippy::possible_missing_comma)]
-            impl<S: ::lie_runtime::Scalar> ::lie_runtime::family::Pieces<S, #c, #l, #t> for #sites<S> {
-                const KINDS: &'static [::lie_runtime::family::Kind] = &[#(#kinds),*];
+            impl<S: ::lie_runtime::Scalar> ::lie_runtime::family::Pieces<S> for #sites<S> {
+                fn kinds(&self) -> &[::lie_runtime::family::Kind] {
+                    &[#(#kinds),*]
+                }
 
                 #[inline]
                 fn exchange(&self, _kind: usize) -> ::core::option::Option<S> {

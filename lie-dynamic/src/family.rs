@@ -1,0 +1,249 @@
+//! The sites of a family, by the codes of one of them: eight sites at a time where the machine has lanes.
+
+mod codes;
+mod pieces;
+
+pub(crate) use codes::Codes;
+
+use crate::names;
+use crate::values::Values;
+use lie_codegen::model::Size;
+use lie_codegen::plan;
+use lie_core::family::{Shape, Sites, Stretch, Term, size};
+use lie_core::parameter::ParameterError;
+use lie_runtime::{Dual, Scalar};
+use smallvec::SmallVec;
+
+/// As many as there are: few need no memory from the heap.
+#[derive(Clone, Copy, Debug)]
+pub struct Few;
+
+impl Shape for Few {
+    type Of<T> = SmallVec<[T; 24]>;
+
+    #[inline]
+    fn make<T>(count: usize, one: impl FnMut(usize) -> T) -> Self::Of<T> {
+        (0..count).map(one).collect()
+    }
+}
+
+/// So many things.
+type FewOf<T> = <Few as Shape>::Of<T>;
+
+fn zeros<S: Scalar>(count: usize) -> FewOf<S> {
+    Few::make(count, |_| S::zero())
+}
+
+/// So many sites are done at a time by a machine with lanes.
+const EIGHT: usize = 8;
+
+/// One site of a family, made at run time.
+#[derive(Clone)]
+pub struct OfSite<S: Scalar> {
+    values: Values<S>,
+    /// The same over eight numbers at once; none where the machine has nothing better than the interpreter for them.
+    wide: Option<Values<S::Wide>>,
+}
+
+/// The number of rows and columns.
+pub(crate) fn sizes(sizes: &[Size], values: &Values<f64>) -> Result<[usize; 2], ParameterError> {
+    let along = |axis: &Size| match axis {
+        Size::Number(count) => Ok(*count),
+        Size::Parameter(parameter) => size(
+            values.parameters[*parameter],
+            names::text(&values.compiled.plan.names.parameters[*parameter]),
+        ),
+    };
+    match sizes {
+        [rows, columns] => Ok([along(rows)?, along(columns)?]),
+        _ => Ok([1, sizes.first().map_or(Ok(1), along)?]),
+    }
+}
+
+impl<S: Scalar> OfSite<S> {
+    /// A site of a family with these values.
+    pub(crate) fn new(values: Values<S>) -> Self {
+        let wide = values.machine.wide();
+        let wide = wide.map(|machine| values.over(S::widen, Some(machine)));
+        Self { values, wide }
+    }
+
+    fn plan(&self) -> &plan::Family {
+        match &self.values.compiled.plan.family {
+            Some(family) => family,
+            None => panic!("the system is no family"),
+        }
+    }
+
+    fn codes(&self) -> &Codes {
+        match &self.values.compiled.family {
+            Some(codes) => codes,
+            None => panic!("the system is no family"),
+        }
+    }
+
+    /// What a kernel gives: so many numbers.
+    fn vector(&self, code: usize, arguments: [&[S]; 2], count: usize) -> FewOf<S> {
+        let mut out = zeros(count);
+        self.values.call(code, arguments, &mut out, &mut []);
+        out
+    }
+
+    /// The coordinates of the sites of a stretch and of their neighbours, slot after slot.
+    fn along<'m>(&self, stretch: &Stretch<'m, S>) -> FewOf<&'m [S]> {
+        let (dimension, offsets) = (self.dimension(), self.offsets());
+        Few::make(dimension * offsets.len(), |place| {
+            stretch.part(offsets[place / dimension], place % dimension)
+        })
+    }
+}
+
+/// Eight numbers from a place on; where there are fewer, the last one again.
+fn eight<S: Scalar>(from: &[S], place: usize) -> S::Wide {
+    let last = from.len() - 1;
+    S::gather(std::array::from_fn(|lane| from[(place + lane).min(last)]))
+}
+
+impl<S: Scalar> Sites<S> for OfSite<S> {
+    type Site = Few;
+    type Around = Few;
+    type Sums = Few;
+    type Widened = OfSite<S::Wide>;
+    type Lifted = OfSite<Dual<S>>;
+
+    fn name(&self) -> &str {
+        &self.values.compiled.plan.names.system
+    }
+    fn dimension(&self) -> usize {
+        self.plan().coordinates.len()
+    }
+    fn coordinate(&self, index: usize) -> &str {
+        &self.plan().coordinates[index]
+    }
+    fn offsets(&self) -> &[[isize; 2]] {
+        &self.codes().offsets
+    }
+    fn count(&self) -> usize {
+        self.plan().sums.len()
+    }
+    fn term(&self, index: usize) -> Term<'_> {
+        Term {
+            slots: &self.plan().sums[index].slots,
+            spans: codes::spans(&self.plan().sums[index].spans),
+        }
+    }
+    fn has_mean_field(&self) -> bool {
+        self.plan().mean_field
+    }
+    fn degree(&self) -> Option<u32> {
+        self.plan().degree
+    }
+    fn casimir_count(&self) -> usize {
+        self.plan().casimirs.len()
+    }
+    fn casimir_name(&self, index: usize) -> &str {
+        &self.plan().casimirs[index].0
+    }
+    fn casimir_degree(&self, index: usize) -> Option<u32> {
+        self.plan().casimirs[index].1
+    }
+
+    fn field(&self, at: &FewOf<S>, weights: &FewOf<S>) -> FewOf<S> {
+        self.vector(self.codes().field, [at, weights], self.dimension())
+    }
+    fn slope(&self, term: usize, slot: usize, at: &FewOf<S>, weights: &FewOf<S>) -> FewOf<S> {
+        match self.codes().slopes.get(&(term, slot)) {
+            Some(code) => self.vector(*code, [at, weights], self.dimension()),
+            None => zeros(self.dimension()),
+        }
+    }
+    fn summands(&self, at: &FewOf<S>) -> FewOf<S> {
+        self.vector(self.codes().summands, [at, &[]], self.count())
+    }
+    fn energy(&self, totals: &FewOf<S>) -> S {
+        self.values.number(self.codes().energy, [&[], totals])
+    }
+    fn weights(&self, totals: &FewOf<S>) -> FewOf<S> {
+        self.vector(self.codes().weights, [&[], totals], self.count())
+    }
+
+    fn ad(&self, xi: &FewOf<S>, eta: &FewOf<S>) -> FewOf<S> {
+        self.vector(self.codes().ad, [xi, eta], self.dimension())
+    }
+    fn ad_star(&self, xi: &FewOf<S>, mu: &FewOf<S>) -> FewOf<S> {
+        self.vector(self.codes().ad_star, [xi, mu], self.dimension())
+    }
+    fn casimir(&self, index: usize, mu: &FewOf<S>) -> S {
+        let [value, _] = self.codes().casimirs[index];
+        self.values.number(value, [mu, &[]])
+    }
+    fn casimir_gradient(&self, index: usize, mu: &FewOf<S>) -> FewOf<S> {
+        let [_, gradient] = self.codes().casimirs[index];
+        self.vector(gradient, [mu, &[]], self.dimension())
+    }
+
+    fn widen(&self) -> Self::Widened {
+        OfSite::new(self.values.over(S::widen, self.values.machine.wide()))
+    }
+    fn lift(&self) -> Self::Lifted {
+        OfSite::new(self.values.over(Dual::constant_of, None))
+    }
+
+    fn fields(&self, stretch: &Stretch<'_, S>, weights: &FewOf<S>, out: &mut [S]) {
+        let (code, count) = (self.codes().field, stretch.len());
+        let along = self.along(stretch);
+        let mut to = stretch.in_state::<Few>(self.dimension(), out);
+        let Some(wide) = &self.wide else {
+            let (mut at, mut field) = (zeros(along.len()), zeros(to.len()));
+            for i in 0..count {
+                at.iter_mut().zip(&along).for_each(|(x, from)| *x = from[i]);
+                self.values.call(code, [&at, weights], &mut field, &mut []);
+                to.iter_mut().zip(&field).for_each(|(to, x)| to[i] = *x);
+            }
+            return;
+        };
+        let weights = Few::make(weights.len(), |k| weights[k].widen());
+        let (mut at, mut field) = (zeros(along.len()), zeros(to.len()));
+        for i in (0..count).step_by(EIGHT) {
+            at.iter_mut()
+                .zip(&along)
+                .for_each(|(x, from)| *x = eight(from, i));
+            wide.call(code, [&at, &weights], &mut field, &mut []);
+            let of_all = i..count.min(i + EIGHT);
+            for (to, x) in to.iter_mut().zip(&field) {
+                to[of_all.clone()].copy_from_slice(&S::scatter(*x)[..of_all.len()]);
+            }
+        }
+    }
+
+    fn sum(&self, stretch: &Stretch<'_, S>) -> FewOf<S> {
+        let (code, count) = (self.codes().summands, stretch.len());
+        let along = self.along(stretch);
+        let mut sum: FewOf<S> = zeros(self.count());
+        let Some(wide) = &self.wide else {
+            let (mut at, mut summands) = (zeros(along.len()), zeros(sum.len()));
+            for i in 0..count {
+                at.iter_mut().zip(&along).for_each(|(x, from)| *x = from[i]);
+                self.values.call(code, [&at, &[]], &mut summands, &mut []);
+                sum.iter_mut()
+                    .zip(&summands)
+                    .for_each(|(sum, x)| *sum += *x);
+            }
+            return sum;
+        };
+        let (mut at, mut summands) = (zeros(along.len()), zeros(sum.len()));
+        for i in (0..count).step_by(EIGHT) {
+            at.iter_mut()
+                .zip(&along)
+                .for_each(|(x, from)| *x = eight(from, i));
+            wide.call(code, [&at, &[]], &mut summands, &mut []);
+            for (sum, x) in sum.iter_mut().zip(&summands) {
+                let of_all = S::scatter(*x);
+                of_all[..EIGHT.min(count - i)]
+                    .iter()
+                    .for_each(|x| *sum += *x);
+            }
+        }
+        sum
+    }
+}

@@ -1,0 +1,129 @@
+//! The codes of a family: those of one site.
+
+use crate::code::Code;
+use crate::compiled::Making;
+use crate::flows;
+use lie_codegen::derive::Update;
+use lie_codegen::plan::{Family, FamilyForm, Function};
+use lie_core::family::{Kind, Span};
+use std::collections::HashMap;
+
+/// The codes of one site, and where its neighbours are.
+#[derive(Debug)]
+pub struct Codes {
+    pub offsets: Vec<[isize; 2]>,
+    pub field: usize,
+    pub slopes: HashMap<(usize, usize), usize>,
+    pub summands: usize,
+    pub energy: usize,
+    pub weights: usize,
+    pub ad: usize,
+    pub ad_star: usize,
+    /// Of each Casimir the value and the gradient.
+    pub casimirs: Vec<[usize; 2]>,
+    pub kinds: Vec<Kind>,
+    pub pieces: Vec<PieceCodes>,
+}
+
+/// The codes of a piece.
+#[derive(Debug)]
+pub struct PieceCodes {
+    pub form: FamilyForm,
+    pub rate: usize,
+    pub share: Option<usize>,
+    /// The turns about its coordinates.
+    pub turns: Vec<Turn>,
+}
+
+/// The flow `exp(t ad*_(e_a))`.
+#[derive(Clone, Debug)]
+pub struct Turn {
+    /// The coordinate a.
+    pub coordinate: usize,
+    pub code: usize,
+    /// What is done with each result.
+    pub updates: Vec<(usize, Update)>,
+}
+
+/// Over which sites a sum goes.
+pub fn spans(spans: &[Option<(usize, usize)>; 2]) -> [Span; 2] {
+    spans.map(|span| match span {
+        None => Span::All,
+        Some((first, left)) => Span::Within { first, left },
+    })
+}
+
+fn offset(offset: [i64; 2]) -> [isize; 2] {
+    offset.map(|distance| distance as isize)
+}
+
+impl Codes {
+    pub fn new(family: &Family, making: &mut Making) -> Self {
+        let (site, sums) = (family.coordinates.len(), family.sums.len());
+        let mut kernel = |function: &Function, count| making.push(Code::of_kernel(function, count));
+        let slopes = family.slopes.iter();
+        let slopes = slopes
+            .map(|(term, slot, function)| ((*term, *slot), kernel(function, site)))
+            .collect();
+        let casimirs = family.casimirs.iter();
+        let casimirs = casimirs
+            .map(|(_, _, [value, gradient])| [kernel(value, 1), kernel(gradient, site)])
+            .collect();
+        let [field, ad, ad_star] =
+            [&family.field, &family.ad, &family.ad_star].map(|function| kernel(function, site));
+        let [summands, weights] =
+            [&family.summands, &family.weights].map(|function| kernel(function, sums));
+        let energy = kernel(&family.energy, 1);
+        let (mut kinds, mut pieces) = (Vec::new(), Vec::new());
+        if let Some(of_family) = &family.pieces {
+            let turns = of_family
+                .turns
+                .iter()
+                .map(|(coordinate, function, updates)| {
+                    let (code, updates) = flows::updates(function, updates, making);
+                    let coordinate = *coordinate;
+                    Turn {
+                        coordinate,
+                        code,
+                        updates,
+                    }
+                });
+            let turns: Vec<Turn> = turns.collect();
+            let turns_of = |all: &[usize]| {
+                let known = |a: &usize| turns.iter().find(|turn| turn.coordinate == *a).cloned();
+                all.iter().filter_map(known).collect()
+            };
+            for piece in &of_family.kinds {
+                kinds.push(Kind {
+                    offset: offset(piece.offset),
+                    spans: spans(&piece.spans),
+                    collective: piece.share.is_some(),
+                });
+                let share = piece.share.as_ref();
+                pieces.push(PieceCodes {
+                    form: piece.form,
+                    rate: making.push(Code::of_kernel(&piece.rate, 1)),
+                    share: share.map(|share| making.push(Code::of_kernel(share, sums))),
+                    turns: match piece.form {
+                        FamilyForm::Site(a) | FamilyForm::Collective(a) => turns_of(&[a]),
+                        FamilyForm::Product(both) => turns_of(&both),
+                        FamilyForm::Exchange => Vec::new(),
+                    },
+                });
+            }
+        }
+        Self {
+            offsets: family.offsets.iter().map(|o| offset(*o)).collect(),
+            field,
+            slopes,
+            summands,
+            energy,
+            weights,
+            ad,
+            ad_star,
+            casimirs,
+            kinds,
+            pieces,
+        }
+    }
+}

@@ -1,0 +1,96 @@
+//! A plan whose parameters have values.
+
+use crate::compiled::{Compiled, Kernels, OfStep};
+use crate::interpreter::Interpreter;
+use crate::kernels::{ARGUMENTS, Frame, Machine};
+use lie_runtime::Scalar;
+use std::sync::Arc;
+
+/// The codes of a plan, with the values of its parameters and of the constants that depend on them.
+pub(crate) struct Values<S> {
+    pub compiled: Arc<Compiled>,
+    pub machine: Arc<dyn Machine<S>>,
+    pub parameters: Vec<S>,
+    pub constants: Vec<S>,
+}
+
+impl<S: Clone> Clone for Values<S> {
+    fn clone(&self) -> Self {
+        Self {
+            compiled: Arc::clone(&self.compiled),
+            machine: Arc::clone(&self.machine),
+            parameters: self.parameters.clone(),
+            constants: self.constants.clone(),
+        }
+    }
+}
+
+impl<S: Scalar> Values<S> {
+    pub fn frame<'a>(
+        &'a self,
+        arguments: [&'a [S]; ARGUMENTS],
+        of_step: &'a [S],
+        scalars: [S; 2],
+    ) -> Frame<'a, S> {
+        Frame {
+            arguments,
+            system: &self.constants,
+            of_step,
+            parameters: &self.parameters,
+            scalars,
+        }
+    }
+
+    pub fn run(&self, code: usize, frame: &Frame<'_, S>, targets: [&mut [S]; 2]) {
+        self.machine.run(code, frame, targets);
+    }
+
+    /// Runs a kernel of one or two vectors.
+    #[inline]
+    pub fn call(&self, code: usize, arguments: [&[S]; 2], vector: &mut [S], matrix: &mut [S]) {
+        let [a, b] = arguments;
+        let frame = self.frame([a, b, &[], &[]], &[], [S::zero(); 2]);
+        self.machine.run(code, &frame, [vector, matrix]);
+    }
+
+    /// The number that a kernel of one or two vectors gives.
+    pub fn number(&self, code: usize, arguments: [&[S]; 2]) -> S {
+        let mut value = [S::zero()];
+        self.call(code, arguments, &mut value, &mut []);
+        value[0]
+    }
+
+    /// The value of a program without arguments.
+    pub fn value(&self, code: usize) -> S {
+        self.number(code, [&[], &[]])
+    }
+
+    /// The constants of a step size.
+    pub fn of_step(&self, step: &OfStep, h: S) -> Vec<S> {
+        let mut constants = vec![S::zero(); step.count];
+        let frame = self.frame([&[]; ARGUMENTS], &[], [h, S::zero()]);
+        self.machine
+            .run(step.constants, &frame, [&mut constants, &mut []]);
+        constants
+    }
+
+    pub fn kernels(&self) -> &Kernels {
+        &self.compiled.kernels
+    }
+
+    /// The same as other scalars: by this machine, or by the interpreter.
+    pub fn over<T: Scalar>(
+        &self,
+        constant: impl Fn(S) -> T,
+        machine: Option<Arc<dyn Machine<T>>>,
+    ) -> Values<T> {
+        let all = |values: &[S]| values.iter().map(|value| constant(*value)).collect();
+        let interpreter = || Arc::new(Interpreter::new(Arc::clone(&self.compiled.codes)));
+        Values {
+            compiled: Arc::clone(&self.compiled),
+            machine: machine.unwrap_or_else(|| interpreter()),
+            parameters: all(&self.parameters),
+            constants: all(&self.constants),
+        }
+    }
+}
