@@ -89,12 +89,16 @@ impl<S: Scalar> OfSite<S> {
         out
     }
 
-    /// The coordinates of the sites of a stretch and of their neighbours, slot after slot.
-    fn along<'m>(&self, stretch: &Stretch<'m, S>) -> FewOf<&'m [S]> {
+    /// Runs a kernel of a site with its neighbours at each site of a stretch.
+    fn along(&self, code: usize, stretch: &Stretch<'_, S>, weights: &[S], to: &mut [&mut [S]]) {
         let (dimension, offsets) = (self.dimension(), self.offsets());
-        Few::make(dimension * offsets.len(), |place| {
+        let columns: FewOf<&[S]> = Few::make(dimension * offsets.len(), |place| {
             stretch.part(offsets[place / dimension], place % dimension)
-        })
+        });
+        let frame = self
+            .values
+            .frame([&[], weights, &[], &[]], &[], [S::zero(); 2]);
+        self.values.machine.along(code, &columns, &frame, to);
     }
 }
 
@@ -190,60 +194,20 @@ impl<S: Scalar> Sites<S> for OfSite<S> {
     }
 
     fn fields(&self, stretch: &Stretch<'_, S>, weights: &FewOf<S>, out: &mut [S]) {
-        let (code, count) = (self.codes().field, stretch.len());
-        let along = self.along(stretch);
         let mut to = stretch.in_state::<Few>(self.dimension(), out);
-        let Some(wide) = &self.wide else {
-            let (mut at, mut field) = (zeros(along.len()), zeros(to.len()));
-            for i in 0..count {
-                at.iter_mut().zip(&along).for_each(|(x, from)| *x = from[i]);
-                self.values.call(code, [&at, weights], &mut field, &mut []);
-                to.iter_mut().zip(&field).for_each(|(to, x)| to[i] = *x);
-            }
-            return;
-        };
-        let weights = Few::make(weights.len(), |k| weights[k].widen());
-        let (mut at, mut field) = (zeros(along.len()), zeros(to.len()));
-        for i in (0..count).step_by(EIGHT) {
-            at.iter_mut()
-                .zip(&along)
-                .for_each(|(x, from)| *x = eight(from, i));
-            wide.call(code, [&at, &weights], &mut field, &mut []);
-            let of_all = i..count.min(i + EIGHT);
-            for (to, x) in to.iter_mut().zip(&field) {
-                to[of_all.clone()].copy_from_slice(&S::scatter(*x)[..of_all.len()]);
-            }
-        }
+        self.along(self.codes().field, stretch, weights, &mut to);
     }
 
     fn sum(&self, stretch: &Stretch<'_, S>) -> FewOf<S> {
-        let (code, count) = (self.codes().summands, stretch.len());
-        let along = self.along(stretch);
-        let mut sum: FewOf<S> = zeros(self.count());
-        let Some(wide) = &self.wide else {
-            let (mut at, mut summands) = (zeros(along.len()), zeros(sum.len()));
-            for i in 0..count {
-                at.iter_mut().zip(&along).for_each(|(x, from)| *x = from[i]);
-                self.values.call(code, [&at, &[]], &mut summands, &mut []);
-                sum.iter_mut()
-                    .zip(&summands)
-                    .for_each(|(sum, x)| *sum += *x);
-            }
-            return sum;
-        };
-        let (mut at, mut summands) = (zeros(along.len()), zeros(sum.len()));
-        for i in (0..count).step_by(EIGHT) {
-            at.iter_mut()
-                .zip(&along)
-                .for_each(|(x, from)| *x = eight(from, i));
-            wide.call(code, [&at, &[]], &mut summands, &mut []);
-            for (sum, x) in sum.iter_mut().zip(&summands) {
-                let of_all = S::scatter(*x);
-                of_all[..EIGHT.min(count - i)]
-                    .iter()
-                    .for_each(|x| *sum += *x);
-            }
-        }
-        sum
+        let (count, places) = (self.count(), stretch.len());
+        let mut summands = vec![S::zero(); count * places];
+        let mut to: FewOf<&mut [S]> = summands.chunks_exact_mut(places.max(1)).collect();
+        self.along(self.codes().summands, stretch, &[], &mut to);
+        drop(to);
+        // one after the other, as the loop over sites adds them
+        Few::make(count, |k| {
+            let summands = summands[k * places..][..places].iter();
+            summands.fold(S::zero(), |sum, summand| sum + *summand)
+        })
     }
 }

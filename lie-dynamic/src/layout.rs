@@ -55,6 +55,23 @@ impl Lengths {
         lengths
     }
 
+    /// Compares them with what a code is called with over columns: each has at least the places of the first target.
+    ///
+    /// # Panics
+    /// A slice is shorter than the code needs, or a column than the first target.
+    pub fn check_columns<S>(&self, columns: &[&[S]], frame: &Frame<'_, S>, to: &[&mut [S]]) {
+        let places = to.first().map_or(0, |to| to.len());
+        let columns_long = columns.iter().all(|column| column.len() >= places);
+        let enough = columns.len() >= self.inputs[0] && to.len() >= self.outputs[0];
+        assert!(enough, "there are too few columns for a code");
+        let targets_long = to.iter().all(|to| to.len() >= places);
+        assert!(columns_long && targets_long, "a column is too short");
+        assert!(self.outputs[1] == 0, "a code over columns has no matrix");
+        for (slice, least) in frame.slices().iter().zip(self.inputs).skip(1) {
+            assert!(slice.len() >= least, "a slice is too short for its code");
+        }
+    }
+
     /// Compares them with what a code is called with.
     ///
     /// # Panics

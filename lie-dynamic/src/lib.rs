@@ -57,7 +57,7 @@ mod values;
 pub use code::{Code, Instruction, Number, Register, Source, Store};
 pub use elementary::{BINARY, Binary, UNARY, Unary};
 pub use interpreter::{Interpreted, Interpreter, phi, stumpff};
-pub use kernels::{Engine, Frame, Machine, Targets};
+pub use kernels::{Engine, Frame, Machine, Targets, place_by_place};
 pub use layout::{Lengths, SLICES};
 pub use methods::{Method, Tolerances, at_defaults, method};
 pub use system::{Declared, Dynamic};

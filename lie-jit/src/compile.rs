@@ -14,22 +14,22 @@ use lie_dynamic::{Code, Instruction, Number, Source};
 use std::collections::HashMap;
 
 /// Bytes of a number, and of a pointer on every processor that is supported.
-const WORD: i32 = 8;
+pub(crate) const WORD: i32 = 8;
 
 /// Functions in the making.
 pub struct Compiler {
-    module: JITModule,
-    context: Context,
-    builder: FunctionBuilderContext,
+    pub(crate) module: JITModule,
+    pub(crate) context: Context,
+    pub(crate) builder: FunctionBuilderContext,
 }
 
 /// What a register of a code is.
 #[derive(Clone, Copy, Debug)]
 pub struct Shape {
     /// A number, or the numbers of two lanes.
-    number: Type,
+    pub(crate) number: Type,
     /// Bytes from a number of a slice to the next.
-    stride: i32,
+    pub(crate) stride: i32,
 }
 
 impl Shape {
@@ -57,12 +57,12 @@ enum Kind {
 }
 
 /// A function under construction.
-struct Body<'a, 'b> {
-    module: &'a mut JITModule,
-    builder: &'a mut FunctionBuilder<'b>,
-    called: HashMap<String, FuncRef>,
-    registers: Vec<Value>,
-    shape: Shape,
+pub(crate) struct Body<'a, 'b> {
+    pub(crate) module: &'a mut JITModule,
+    pub(crate) builder: &'a mut FunctionBuilder<'b>,
+    pub(crate) called: HashMap<String, FuncRef>,
+    pub(crate) registers: Vec<Value>,
+    pub(crate) shape: Shape,
 }
 
 impl Compiler {
@@ -123,6 +123,11 @@ impl Compiler {
         }
         builder.ins().return_(&[]);
         builder.finalize();
+        self.defined()
+    }
+
+    /// The function that is in the making.
+    pub(crate) fn defined(&mut self) -> Option<FuncId> {
         let signature = &self.context.func.signature;
         let function = self.module.declare_anonymous_function(signature).ok()?;
         self.module
@@ -142,28 +147,42 @@ impl Compiler {
 impl Body<'_, '_> {
     /// The registers of the sources.
     fn load(&mut self, code: &Code, table: Value) {
-        let mut slices: HashMap<usize, Value> = HashMap::new();
+        let mut slices = HashMap::new();
         for source in &code.sources {
-            let value = match (source.place(), source) {
-                (Some((slice, entry)), _) => {
-                    let builder = &mut self.builder;
-                    let base = *slices.entry(slice).or_insert_with(|| {
-                        let offset = slice as i32 * WORD;
-                        builder
-                            .ins()
-                            .load(types::I64, MemFlags::trusted(), table, offset)
-                    });
-                    let offset = entry as i32 * self.shape.stride;
-                    let number = self.shape.number;
-                    self.builder
-                        .ins()
-                        .load(number, MemFlags::trusted(), base, offset)
-                }
-                (None, Source::Number(number)) => self.number(*number),
-                (None, _) => unreachable!("only numbers are not read"),
-            };
+            let value = self.source(source, table, &mut slices);
             self.registers.push(value);
         }
+    }
+
+    /// A source, from the slices of a table, whose places are kept.
+    pub(crate) fn source(
+        &mut self,
+        source: &Source,
+        table: Value,
+        slices: &mut HashMap<usize, Value>,
+    ) -> Value {
+        match (source.place(), source) {
+            (Some((slice, entry)), _) => {
+                let base = *slices
+                    .entry(slice)
+                    .or_insert_with(|| self.word(table, slice));
+                let offset = entry as i32 * self.shape.stride;
+                let number = self.shape.number;
+                self.builder
+                    .ins()
+                    .load(number, MemFlags::trusted(), base, offset)
+            }
+            (None, Source::Number(number)) => self.number(*number),
+            (None, _) => unreachable!("only numbers are not read"),
+        }
+    }
+
+    /// An entry of a table of places.
+    pub(crate) fn word(&mut self, table: Value, entry: usize) -> Value {
+        let offset = entry as i32 * WORD;
+        self.builder
+            .ins()
+            .load(types::I64, MemFlags::trusted(), table, offset)
     }
 
     fn number(&mut self, number: Number) -> Value {
@@ -208,7 +227,7 @@ impl Body<'_, '_> {
         self.builder.ins().insertlane(first, second, 1)
     }
 
-    fn instruction(&mut self, instruction: &Instruction) -> Option<()> {
+    pub(crate) fn instruction(&mut self, instruction: &Instruction) -> Option<()> {
         let at = |register: u32| self.registers[register as usize];
         let value = match *instruction {
             Instruction::Add(a, b) => {
