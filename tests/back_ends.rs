@@ -1,22 +1,23 @@
 //! The interpreter, Cranelift, WebAssembly and rustc give the same bits: every kernel of every spec on random states, and steps of every
 //! method.
 
+#[path = "common/bits.rs"]
+mod bits;
 #[path = "common/random.rs"]
 mod random;
 #[path = "../lie-wasm/tests/wasmi_engine/mod.rs"]
 mod wasmi_engine;
 
+use bits::{Differences, STEP, entries, kernels, trajectory};
 use lie_codegen::compile::{compile_spec, with_options};
 use lie_codegen::methods::{Choice, Lift, Retraction, Tensor};
 use lie_codegen::plan::plan;
 use lie_dynamic::{Dynamic, Engine, Interpreted, method};
 use lie_jit::Jit;
-use lie_runtime::diagnostics::AnyMethod;
 use lie_runtime::methods as m;
-use lie_runtime::newton::NewtonOptions;
 use lie_runtime::{
     DiscreteLagrangianPoisson, LagrangianPoisson, LiePoisson, Poisson, RealizedPoisson, Scalar,
-    SquareMatrix, State, Widen,
+    State, Widen,
 };
 use random::Random;
 use wasmi_engine::Wasmi;
@@ -25,8 +26,6 @@ lie_runtime::lie_poisson! { spec = "tests/data/declarations/pass/realization.jso
 lie_runtime::lie_poisson! { spec = "tests/data/declarations/pass/realization_with_start.json"; }
 
 const STATES: usize = 50;
-const STEPS: usize = 40;
-const STEP: f64 = 0.05;
 
 /// The choice under a label.
 fn choice_of(label: &str) -> Choice {
@@ -62,59 +61,6 @@ fn made(spec: &str, ids: &[&str], engine: &dyn Engine) -> Dynamic<f64> {
     let model = compile_spec(&text).unwrap();
     let choices: Vec<Choice> = ids.iter().map(|id| Choice::from_id(id).unwrap()).collect();
     Dynamic::new(plan(&model, &with_options(&model, &choices)), &[], engine).unwrap()
-}
-
-/// What differs, by name.
-#[derive(Default)]
-struct Differences(Vec<String>);
-
-impl Differences {
-    fn compare(&mut self, what: &str, printed: &[f64], made: &[f64]) {
-        // a zero has no sign here: what fills in is negated or subtracted from 0
-        let same = |(a, b): (&f64, &f64)| (a + 0.0).to_bits() == (b + 0.0).to_bits();
-        if let Some(place) = printed.iter().zip(made).position(|pair| !same(pair)) {
-            let (printed, made) = (printed[place], made[place]);
-            self.0
-                .push(format!("{what}: {printed:?} {made:?} at {place}"));
-        }
-    }
-}
-
-fn entries<M: SquareMatrix<f64>>(matrix: &M) -> Vec<f64> {
-    let n = matrix.dimension();
-    let places = (0..n).flat_map(|i| (0..n).map(move |j| (i, j)));
-    places.map(|(i, j)| matrix.get(i, j)).collect()
-}
-
-/// The kernels of a system at a state.
-fn kernels<P: Poisson<f64>>(system: &P, mu: &[f64]) -> Vec<(&'static str, Vec<f64>)> {
-    let mut state = system.zero_state();
-    state.as_mut_slice().copy_from_slice(mu);
-    let (mut out, mut matrix) = (system.zero_state(), system.zero_jacobian());
-    let mut found = vec![
-        ("hamiltonian", vec![system.hamiltonian(&state)]),
-        ("energy", vec![system.energy(&state)]),
-    ];
-    system.gradient(&state, &mut out);
-    found.push(("gradient", out.as_slice().to_vec()));
-    system.vector_field(&state, &mut out);
-    found.push(("vector_field", out.as_slice().to_vec()));
-    system.hessian(&state, &mut matrix);
-    found.push(("hessian", entries(&matrix)));
-    system.poisson_matrix(&state, &mut matrix);
-    found.push(("poisson_matrix", entries(&matrix)));
-    system.jacobian(&state, &mut matrix);
-    found.push(("jacobian", entries(&matrix)));
-    system.linearize(&state, &mut out, &mut matrix);
-    found.push(("linearize", [out.as_slice(), &entries(&matrix)].concat()));
-    let mut casimirs = vec![0.0; system.casimir_count()];
-    system.casimirs(&state, &mut casimirs);
-    found.push(("casimirs", casimirs));
-    for index in 0..system.casimir_count() {
-        system.casimir_gradient(index, &state, &mut out);
-        found.push(("casimir_gradient", out.as_slice().to_vec()));
-    }
-    found
 }
 
 /// Those of a Lie algebra.
@@ -224,25 +170,6 @@ fn realized<P: RealizedPoisson<f64>>(
     system.curvature(&z, &covector, &mut matrix);
     found.push(("curvature", entries(&matrix)));
     found
-}
-
-/// The states along a trajectory.
-fn trajectory<P: Poisson<f64>>(
-    system: &P,
-    method: &dyn AnyMethod<f64, P>,
-    mu: &[f64],
-) -> Result<Vec<f64>, String> {
-    let mut state = system.zero_state();
-    state.as_mut_slice().copy_from_slice(mu);
-    let mut stepper = method.any_stepper(system, STEP, &NewtonOptions::default());
-    let mut all = Vec::new();
-    for _ in 0..STEPS {
-        stepper
-            .step(&mut state)
-            .map_err(|failure| format!("{failure:?}"))?;
-        all.extend_from_slice(state.as_slice());
-    }
-    Ok(all)
 }
 
 /// Compares a printed system with those made at run time.

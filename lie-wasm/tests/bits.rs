@@ -10,10 +10,11 @@ use lie_codegen::methods::{Choice, applicability};
 use lie_codegen::plan::plan;
 use lie_codegen::symbolic::Function;
 use lie_dynamic::{
-    Code, Declared, Dynamic, Engine, Frame, Instruction, Interpreted, Machine, Number, SLICES,
-    Source, Store,
+    Code, Declared, Dynamic, Engine, Frame, Instruction, Interpreted, Interpreter, Machine, Number,
+    SLICES, Source, Store,
 };
 use lie_jit::Jit;
+use lie_runtime::Scalar;
 use random::Random;
 use std::sync::{Arc, Mutex};
 use wasmi_engine::Wasmi;
@@ -107,10 +108,12 @@ fn differences(codes: &Arc<[Code]>, others: &[(&dyn Engine, &Arc<[Code]>)]) -> V
 }
 
 fn specs() -> Vec<(String, String)> {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../specs");
-    let files = std::fs::read_dir(folder)
-        .unwrap()
-        .map(|file| file.unwrap().path());
+    let folders = ["specs", "tests/data/families"].into_iter();
+    let files = folders.flat_map(|folder| {
+        let folder = format!("{}/../{folder}", env!("CARGO_MANIFEST_DIR"));
+        std::fs::read_dir(folder).unwrap()
+    });
+    let files = files.map(|file| file.unwrap().path());
     let mut found: Vec<_> = files
         .filter(|path| !path.ends_with("lie-system.schema.json"))
         .map(|path| {
@@ -138,6 +141,94 @@ fn all_codes_of_all_specs() {
         run += 1;
     }
     assert!(run >= 13, "{run} specs");
+}
+
+/// What a code gives along columns of so many places, of which each has numbers of its own; a zero has no sign.
+fn along<S: Scalar>(
+    machine: &dyn Machine<S>,
+    code: usize,
+    of: &Code,
+    numbers: &[Vec<S>],
+    columns: &[Vec<S>],
+) -> Vec<u64> {
+    let frame = Frame {
+        arguments: [0, 1, 2, 3].map(|argument| numbers[argument].as_slice()),
+        system: &numbers[4],
+        of_step: &numbers[5],
+        parameters: &numbers[6],
+        scalars: [numbers[7][0], numbers[7][1]],
+    };
+    let places = columns.first().map_or(PLACES, Vec::len);
+    let entries = of.stores.iter().map(|store| store.entry + 1).max();
+    let entries = entries.max(of.clear[0]).unwrap_or(0) as usize;
+    let mut out = vec![S::from_f64(7.0); entries * places];
+    let mut to: Vec<&mut [S]> = out.chunks_exact_mut(places).collect();
+    let columns: Vec<&[S]> = columns.iter().map(Vec::as_slice).collect();
+    machine.along(code, &columns, &frame, &mut to);
+    let lanes = out
+        .iter()
+        .flat_map(|x| (0..S::LANES).map(|lane| x.lane(lane)));
+    lanes
+        .map(|number| (number.to_f64() + 0.0).to_bits())
+        .collect()
+}
+
+const PLACES: usize = 5;
+
+/// Whether some code gives other bits along columns by machine code than by the interpreter; `moved` reads the last column at another
+/// place.
+fn differs_along<S: Scalar>(
+    codes: &[Code],
+    [one, other]: [&dyn Machine<S>; 2],
+    moved: bool,
+) -> Option<usize> {
+    let mut random = Random(1951);
+    let mut wide = |count: usize| -> Vec<S> {
+        let number = |values: &[f64]| {
+            let lanes = values.iter().enumerate();
+            lanes.fold(S::zero(), |x, (lane, value)| {
+                x.with_lane(lane, S::Lane::from_f64(*value))
+            })
+        };
+        let values = random.numbers(count * S::LANES);
+        values.chunks_exact(S::LANES).map(number).collect()
+    };
+    let vectors = codes
+        .iter()
+        .enumerate()
+        .filter(|(_, code)| code.stores.iter().all(|store| store.target == 0));
+    for (place, code) in vectors {
+        let lengths = numbers(code, &mut Random(1)).into_iter();
+        let numbers: Vec<Vec<S>> = lengths.map(|slice| wide(slice.len())).collect();
+        let columns: Vec<Vec<S>> = numbers[0].iter().map(|_| wide(PLACES)).collect();
+        let mut read = columns.clone();
+        if let Some(last) = read.last_mut().filter(|_| moved) {
+            last.rotate_left(1);
+        }
+        let expected = along(one, place, code, &numbers, &columns);
+        if along(other, place, code, &numbers, &read) != expected {
+            return Some(place);
+        }
+    }
+    None
+}
+
+#[test]
+fn along_columns_every_place_has_its_own_bits() {
+    for (name, text) in specs() {
+        let Some(codes) = codes(&text) else { continue };
+        let machines = [Interpreted.machine(&codes), Jit.machine(&codes)];
+        let interpreter = Interpreter::new(Arc::clone(&codes));
+        let lanes = machines[1].wide().expect("lanes of machine code");
+        let [one, other] = &machines;
+        let one_of_lanes: &dyn Machine<<f64 as Scalar>::Wide> = &interpreter;
+        for moved in [false, true] {
+            let of_numbers = differs_along(&codes, [one.as_ref(), other.as_ref()], moved);
+            let of_lanes = differs_along(&codes, [one_of_lanes, lanes.as_ref()], moved);
+            assert_eq!(of_numbers.is_some(), moved, "{name}: {of_numbers:?}");
+            assert_eq!(of_lanes.is_some(), moved, "{name}: {of_lanes:?}");
+        }
+    }
 }
 
 /// Every instruction once, with numbers of every kind, zeros to clear and entries that stay.
