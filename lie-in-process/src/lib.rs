@@ -6,6 +6,7 @@
 #![warn(missing_docs)]
 
 pub mod catalogue;
+pub mod families;
 pub mod list;
 pub mod report;
 

@@ -9,7 +9,9 @@ use lie_codegen::methods::Choice;
 use lie_codegen::model::Model;
 use lie_dynamic::{Declared, Dynamic};
 use lie_jit::Jit;
+use lie_runtime::Poisson as _;
 use lie_runtime::driver::Chart;
+use lie_runtime::family::STATISTICS;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::collections::HashMap;
@@ -19,6 +21,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 pub struct Facts {
     pub system: String,
     pub names: Vec<String>,
+    /// Whether it is a family, whose coordinates are those of its sites, as many as the parameters say.
+    pub family: bool,
     /// The places of the coordinates that users give.
     pub shown: Vec<usize>,
     /// The place of the time in the state, where the Hamiltonian depends on it.
@@ -37,10 +41,14 @@ impl Facts {
         });
         let names = model.coordinates.iter().map(|name| name.text.clone());
         let parameters = model.parameters.iter();
-        let casimirs = model.casimirs.iter().map(|casimir| casimir.name.clone());
+        let casimirs = model.casimirs.iter().flat_map(|casimir| match model.family {
+            Some(_) => STATISTICS.map(|of| format!("{}_{of}", casimir.name)).to_vec(),
+            None => vec![casimir.name.clone()],
+        });
         let timed = model.configuration.as_ref().is_some_and(|own| own.time);
         Self {
             system: model.name.clone(),
+            family: model.family.is_some(),
             names: names.collect(),
             shown: model.shown_coordinates(),
             // the last is the constant 1
@@ -151,13 +159,21 @@ impl Declaration {
         let compiled = compiled.map_err(|obstacle| match obstacle {
             Obstacle::Method(refused) => refused.raise(py),
             Obstacle::System => {
-                let text = "a family does not run in Python yet";
-                let help = "`lie run` integrates it: write the declaration to a file";
+                let text = "H calls functions of Rust, which do not run in Python";
+                let help = "give them as tables: docs/functions.md";
                 method_error(py, text, help)
             }
         })?;
         lock().insert(label.to_owned(), compiled.clone());
         Ok(compiled)
+    }
+
+    /// The places of the coordinates of a system that users give.
+    pub fn shown(&self, system: &Dynamic<f64>) -> Vec<usize> {
+        match self.facts.family {
+            true => (0..system.dimension()).collect(),
+            false => self.facts.shown.clone(),
+        }
     }
 
     /// The system of these parameters, without code for any method.

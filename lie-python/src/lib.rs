@@ -18,7 +18,10 @@ mod verify;
 use choice::wanted;
 use declaration::Declaration;
 use lie_codegen::methods::Choice;
+use lie_codegen::model::Model;
+use lie_in_process::families;
 use lie_program::protocol::Start;
+use lie_runtime::Poisson as _;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -47,6 +50,11 @@ impl Core {
     fn coordinates(&self) -> Vec<String> {
         self.0.facts.names.clone()
     }
+    /// Whether it is a family.
+    #[getter]
+    fn family(&self) -> bool {
+        self.0.facts.family
+    }
     #[getter]
     fn parameters(&self) -> HashMap<String, f64> {
         self.0.facts.parameters.iter().cloned().collect()
@@ -60,6 +68,18 @@ impl Core {
     fn parameter_names(&self) -> Vec<String> {
         let parameters = self.0.facts.parameters.iter();
         parameters.map(|(name, _)| name.clone()).collect()
+    }
+
+    /// The number of rows and columns of the sites of a family for these parameters; none of another system.
+    fn sites(&self, py: Python<'_>, parameters: Vec<f64>) -> PyResult<Option<[usize; 2]>> {
+        Ok(self.0.system(py, &parameters)?.sizes())
+    }
+
+    /// The names of the coordinates of all sites of a family for these parameters.
+    fn names_of_sites(&self, py: Python<'_>, parameters: Vec<f64>) -> PyResult<Vec<String>> {
+        let system = self.0.system(py, &parameters)?;
+        let names = (0..system.dimension()).map(|place| system.coordinate(place).to_owned());
+        Ok(names.collect())
     }
 
     /// The declared initial state for these parameters.
@@ -102,9 +122,10 @@ impl Core {
 
     /// The method where none is named.
     fn usual_method(&self) -> &'static str {
-        match self.0.facts.lie_poisson {
-            true => "lie-midpoint",
-            false => "midpoint",
+        match (self.0.facts.family, self.0.facts.lie_poisson) {
+            (true, _) => "gauss16",
+            (false, true) => "lie-midpoint",
+            (false, false) => "midpoint",
         }
     }
 
@@ -128,6 +149,7 @@ impl Core {
         start: Vec<f64>,
         options: (Option<f64>, u64),
     ) -> PyResult<(Vec<verify::Fact>, Vec<String>)> {
+        self.measurable(py, |model| families::too_many(model, start.len()))?;
         let start = self.start(parameters, start);
         let found = verify::verify(py, &self.0, &methods, start, options)?;
         Ok((found.facts, found.unsound))
@@ -142,6 +164,11 @@ impl Core {
         start: Vec<f64>,
         asked: bench::Asked,
     ) -> PyResult<bench::Results> {
+        self.measurable(py, |model| {
+            let help = "run says how energy and Casimirs drift";
+            let text = families::not_measured(model, "bench");
+            model.family.is_some().then(|| (text, help.to_owned()))
+        })?;
         let start = self.start(parameters, start);
         bench::bench(py, &self.0, &methods, start, asked)
     }
@@ -180,7 +207,7 @@ impl Core {
         states: PyReadonlyArray2<'py, f64>,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let system = self.0.system(py, &parameters)?;
-        evaluate::evaluate(py, kernel, &system, &self.0.facts.shown, &states)
+        evaluate::evaluate(py, kernel, &system, &self.0.shown(&system), &states)
     }
 
     /// Many trajectories: the times, the states of members by rows, and why some ended early: member, time, reason.
@@ -196,6 +223,21 @@ impl Core {
 }
 
 impl Core {
+    /// Refuses a family of which something is not measured.
+    fn measurable(
+        &self,
+        py: Python<'_>,
+        against: impl FnOnce(&Model) -> Option<(String, String)> + Send,
+    ) -> PyResult<()> {
+        if !self.0.facts.family {
+            return Ok(());
+        }
+        match self.0.with_model(py, |model| against(&model)) {
+            None => Ok(()),
+            Some((text, help)) => Err(PyValueError::new_err(format!("{text}\n  help: {help}"))),
+        }
+    }
+
     fn start(&self, parameters: Vec<f64>, initial: Vec<f64>) -> Start {
         Start {
             parameters: self.0.named(parameters).collect(),

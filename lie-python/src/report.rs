@@ -38,6 +38,7 @@ pub fn equations(model: &Model) -> Vec<String> {
         (Some(hamiltonian), None) if explicit.is_empty() => {
             vec![format!("H = {}", model.display(hamiltonian.energy))]
         }
+        (_, Some(family)) => vec![format!("H = {}", model.display_of_family(family))],
         _ => explicit,
     }
 }

@@ -3,6 +3,7 @@
 use crate::choice::{self, unsupported};
 use crate::declaration::{Declaration, made};
 use crate::observer;
+use lie_runtime::Poisson as _;
 use lie_runtime::diagnostics::Forgotten;
 use lie_runtime::driver::{
     Options, Pace, Problem, Reconstruction, Save, Solution, SolveError, solve_observed,
@@ -113,7 +114,7 @@ pub fn run<'py>(
     found.set_item("step", step)?;
     found.set_item("steps", solution.stats.steps)?;
     found.set_item("evaluations", solution.stats.evaluations)?;
-    Ok((rows(py, solution, declaration.facts.names.len())?, found))
+    Ok((rows(py, solution, problem.system.dimension())?, found))
 }
 
 /// The rows of a run as arrays.

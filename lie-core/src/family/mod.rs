@@ -32,4 +32,4 @@ pub use shape::{Fixed, Of, Shape};
 pub use sites::{Around, Site, Sites, Span, Sums, Term};
 pub use splitting::{FamilyFlows, Kind, Pieces, Strip};
 pub use stencil::Stretch;
-pub use system::{Family, size};
+pub use system::{Family, STATISTICS, size};

@@ -44,8 +44,8 @@ pub fn size<S: Scalar>(value: S, name: &'static str) -> Result<usize, ParameterE
     }
 }
 
-/// The places in the list of Casimirs of a family: three for each of a site.
-const STATISTICS: [&str; 3] = ["mean", "min", "max"];
+/// What there is of each Casimir of a site, over all sites.
+pub const STATISTICS: [&str; 3] = ["mean", "min", "max"];
 
 impl<K> Family<K> {
     /// The family of so many sites, rows and columns; a chain is one row.

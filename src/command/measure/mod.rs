@@ -14,6 +14,7 @@ pub mod verify;
 use lie_codegen::diagnostic::Kind;
 use lie_codegen::methods::Choice;
 use lie_codegen::program::{Purpose, program};
+use lie_in_process::families;
 use lie_program::protocol::Obstacle;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -28,9 +29,6 @@ use crate::compiler::{self, Spec};
 use crate::interrupt::Interrupt;
 use crate::message::{Failure, Message};
 use crate::render;
-
-/// The most coordinates of a family that is measured.
-const MOST_COORDINATES: usize = 64;
 
 /// A system at an initial state with the methods to measure, checked.
 pub struct Bed {
@@ -88,18 +86,10 @@ pub fn bed(flags: &Measured, defaults: impl Fn(&Spec) -> Vec<Choice>) -> Result<
 
 /// Refuses a family of more coordinates than matrices of all of them are computed for.
 fn small(spec: &Spec, point: &Point) -> Result<(), Failure> {
-    let (all, site) = (point.initial.len(), spec.model.dimension());
-    if all <= MOST_COORDINATES {
+    let Some((text, help)) = families::too_many(&spec.model, point.initial.len()) else {
         return Ok(());
-    }
-    let name = &spec.model.name;
-    let text = format!(
-        "{name} has {all} coordinates, and matrices of all of them are computed up to {MOST_COORDINATES}"
-    );
-    let help = format!(
-        "measure fewer sites, at most {}, as with `--param N=4`: the kernels of a site are the same",
-        MOST_COORDINATES / site
-    );
+    };
+    let help = format!("{help}, as with `--param N=4`: the kernels of a site are the same");
     Err(Message::new(Kind::Limit, text)
         .at_option("--param")
         .help(help)
@@ -116,10 +106,7 @@ impl Bed {
         if model.family.is_none() {
             return Ok(());
         }
-        let text = format!(
-            "{} is a family, which `{command}` does not measure yet",
-            model.name
-        );
+        let text = families::not_measured(model, command);
         let help = "`lie verify` measures a small one; `lie run` says how much energy and Casimirs drift and how long a step takes";
         Err(Message::option("SPEC", text).help(help).into())
     }

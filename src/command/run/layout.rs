@@ -65,7 +65,7 @@ impl Layout {
         let states = names.len() - 1;
         names.push("energy".to_owned());
         for casimir in &model.casimirs {
-            let statistics = ["mean", "min", "max"].iter();
+            let statistics = lie_runtime::family::STATISTICS.iter();
             names.extend(statistics.map(|what| format!("{}_{what}", casimir.name)));
         }
         Self {
