@@ -69,6 +69,8 @@ fn a_run_needs_no_toolchain() {
         "verify specs/so3_quartic_lagrangian.json --methods variational2",
         "run tests/data/declarations/pass/realization.json --until 0.2 --method collective4 --lift spec",
         "verify tests/data/declarations/pass/realization_with_start.json --methods collective2",
+        "run tests/data/families/heisenberg_chain.json --until 0.5 --param N=20",
+        "verify tests/data/families/lattice.json --methods splitting2 --param M=3",
     ] {
         let mut here = command(call.split(' '));
         here.env("CARGO", nothing)

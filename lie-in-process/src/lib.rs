@@ -26,13 +26,13 @@ use lie_runtime::{ParameterError, Scalar, driver};
 /// Does what the line of a request asks for.
 pub type Work = dyn Fn(&str, &mut Session<'_>) -> Result<(), End> + Send + Sync;
 
-/// The system of a spec before its parameters have values; none where a program would have to be built.
+/// The system of a spec before its parameters have values; none where H calls functions of Rust.
 pub fn declared(model: &Model) -> Option<Declared> {
     let plan = plan(model, &[]);
     Dynamic::supports(&plan).then(|| Declared::new(plan, &Jit))
 }
 
-/// What serves requests for methods on a system in this process; none where a program has to be built. Where times are
+/// What serves requests for methods on a system in this process; none where H calls functions of Rust. Where times are
 /// measured, `clock` reads the seconds of the processor, if it can.
 pub fn work(
     model: &Model,

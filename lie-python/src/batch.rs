@@ -10,7 +10,7 @@ use lie_runtime::driver::{
     Observer, OptionError, Options, Pace, Problem, Progress, Save, Solution, SolveError,
     solve_observed,
 };
-use numpy::{IntoPyArray, PyArray1, PyArray3, PyArrayMethods, PyReadonlyArray2};
+use numpy::{IntoPyArray, PyArray1, PyArray3, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods as _};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use std::ops::ControlFlow;
@@ -263,7 +263,7 @@ pub fn ensemble<'py>(
     let shape = [
         members.starts.len(),
         found.times.len(),
-        declaration.facts.names.len(),
+        starts.shape()[1],
     ];
     let states = found.states.into_pyarray(py).reshape(shape)?;
     Ok((found.times.into_pyarray(py), states, found.failures))

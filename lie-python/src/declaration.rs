@@ -23,6 +23,8 @@ pub struct Facts {
     pub names: Vec<String>,
     /// Whether it is a family, whose coordinates are those of its sites, as many as the parameters say.
     pub family: bool,
+    /// Whether its sites are on a lattice.
+    pub lattice: bool,
     /// The places of the coordinates that users give.
     pub shown: Vec<usize>,
     /// The place of the time in the state, where the Hamiltonian depends on it.
@@ -49,6 +51,7 @@ impl Facts {
         Self {
             system: model.name.clone(),
             family: model.family.is_some(),
+            lattice: model.family.as_ref().is_some_and(|family| family.sizes.len() == 2),
             names: names.collect(),
             shown: model.shown_coordinates(),
             // the last is the constant 1

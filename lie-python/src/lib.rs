@@ -55,6 +55,11 @@ impl Core {
     fn family(&self) -> bool {
         self.0.facts.family
     }
+    /// Whether its sites are on a lattice.
+    #[getter]
+    fn lattice(&self) -> bool {
+        self.0.facts.lattice
+    }
     #[getter]
     fn parameters(&self) -> HashMap<String, f64> {
         self.0.facts.parameters.iter().cloned().collect()

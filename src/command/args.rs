@@ -253,7 +253,7 @@ pub struct Run {
     #[arg(long)]
     pub quiet: bool,
     /// Build a program with cargo and run that, in place of machine code made here: for very long runs (the results are the
-    /// same, bit for bit; families are always built)
+    /// same, bit for bit)
     #[arg(long)]
     pub compile: bool,
     /// Which processor to compile for (the results are the same, bit for bit); as --fma, implies --compile

@@ -10,6 +10,8 @@ class Core:
     text: str
     name: str
     coordinates: list[str]
+    family: bool
+    lattice: bool
     parameters: dict[str, float]
     casimirs: list[str]
     def __init__(self, text: str) -> None: ...

@@ -26,6 +26,7 @@ from ._check import Check
 from ._check import read as read_check
 from ._errors import DeclarationError
 from ._methods import Methods
+from ._sites import Sites
 
 
 class Declared:
@@ -66,12 +67,17 @@ class Declared:
 
     @property
     def dimension(self) -> int:
-        """The number of coordinates."""
-        return len(self._core.shown())
+        """The number of coordinates; of a family at the default parameters."""
+        return self._dimension(list(self.parameters.values()))
 
     @property
     def coordinates(self) -> list[str]:
-        """The names of the coordinates; what carries the time of a Hamiltonian that depends on it is none."""
+        """The names of the coordinates; what carries the time of a Hamiltonian that depends on it is none.
+
+        Of a family those of all sites at the default parameters.
+        """
+        if self._core.family:
+            return self._core.names_of_sites(list(self.parameters.values()))
         names = self._core.coordinates
         return [names[place] for place in self._core.shown()]
 
@@ -90,9 +96,21 @@ class Declared:
     def initial(self) -> Array | None:
         """The declared initial state at the default parameters."""
         found = self._core.initial(list(self.parameters.values()))
-        return None if found is None else found[self._core.shown()]
+        return None if found is None else self._visible(found)
+
+    def _dimension(self, values: list[float]) -> int:
+        return Sites(self, values).dimension if self._core.family else len(self._core.shown())
+
+    def _visible(self, mu: Array) -> Array:
+        """States without what carries the time."""
+        shown = self._core.shown()
+        whole = self._core.family or len(shown) == mu.shape[-1]
+        return mu if whole else mu[..., shown]
 
     def __repr__(self) -> str:
+        if self._core.family:
+            shape = " x ".join(str(n) for n in Sites(self, list(self.parameters.values())).shape)
+            return f"<System {self.name}: {shape} sites with {', '.join(self._core.coordinates)}>"
         return f"<System {self.name}: {', '.join(self.coordinates)}>"
 
     def _values(self, given: Mapping[str, Any]) -> list[float]:
@@ -119,11 +137,20 @@ class Declared:
         if x0 is None:
             found = self._core.initial(values)
             if found is None:
+                of = "of each site: " if self._core.family else ""
+                names = self._core.coordinates if self._core.family else self.coordinates
                 raise ValueError(
-                    f"the initial state is missing: give x0=[…] with {self.dimension} numbers "
-                    f"({', '.join(self.coordinates)})"
+                    f"the initial state is missing: give x0=[…] with {self._dimension(values)} numbers "
+                    f"({of}{', '.join(names)})"
                 )
             return [float(value) for value in found]
+        if self._core.family and not isinstance(x0, Mapping):
+            state = Sites(self, values).state(x0)
+            if not np.isfinite(state).all():
+                raise ValueError("x0 must be finite")
+            return [float(value) for value in state]
+        if self._core.family:
+            raise TypeError("x0 of a family is an array: with a row of coordinates for each site")
         names = self.coordinates
         if isinstance(x0, Mapping):
             if any(name not in names for name in x0):
@@ -251,6 +278,14 @@ def plain(value: Any) -> Any:
 
 
 def as_latex(text: str) -> str:
+    # sums over the sites of a family, and their indices
+    axis = r"(\w+) in ([^,:]*?)\.\.([^,:]*)"
+    text = re.sub(
+        rf"sum\(({axis}(?:, {axis})?): ",
+        lambda head: re.sub(axis + r"(?:, )?", r"\\sum_{\2 \\le \1 < \3} ", head[1]) + "(",
+        text,
+    )
+    text = re.sub(r"\[([^\]]*)\]", r"_{\1}", text)
     text = re.sub(r"([A-Za-z]+)_?(\d+)(?![\d^])", r"\1_{\2}", text)
     text = re.sub(r"\^(\d+)", r"^{\1}", text)
     text = re.sub(r"\b(sqrt|exp|log|sin|cos|tan)\(", r"\\\1(", text)

@@ -30,7 +30,7 @@ def function_of(system: Declared, name: str, values: list[float]) -> Callable[..
         raise ValueError(
             f"no function `{name}`{hint(name, FUNCTIONS)} There are: {', '.join(FUNCTIONS)}"
         )
-    core, n, count = system._core, system.dimension, len(system.casimirs)
+    core, n, count = system._core, system._dimension(values), len(system.casimirs)
     shown, time = core.shown(), core.time()
     # what the user does not give: the constants of a state of the larger space
     template = None if time is None else (core.complete([[0.0] * n]) or [[]])[0]

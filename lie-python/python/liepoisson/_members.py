@@ -9,13 +9,16 @@ import numpy as np
 import numpy.typing as npt
 
 from ._arguments import Array
+from ._sites import Sites
 
 if TYPE_CHECKING:
     from ._declared import Declared
 
 
-def members_of(system: Declared, x0: npt.ArrayLike) -> Array:
+def members_of(system: Declared, x0: npt.ArrayLike, parameters: Mapping[str, Any]) -> Array:
     """The initial states, with what carries the time or the group element where the user left it out."""
+    if system._core.family:
+        return members_of_family(system, x0, parameters)
     starts = np.ascontiguousarray(np.atleast_2d(np.asarray(x0, dtype=np.float64)))
     n = system.dimension
     if starts.ndim == 2 and starts.shape[1] != len(system._core.coordinates):
@@ -25,6 +28,22 @@ def members_of(system: Declared, x0: npt.ArrayLike) -> Array:
     elif starts.ndim == 2:
         return starts
     raise ValueError(f"x0 has the shape {np.shape(x0)}, not (members, {n})")
+
+
+def members_of_family(system: Declared, x0: npt.ArrayLike, parameters: Mapping[str, Any]) -> Array:
+    """The same of a family: members have as many sites each."""
+    sites = []
+    for number in range(max((np.size(value) for value in parameters.values()), default=1)):
+        chosen = {
+            name: np.ravel(value)[min(number, np.size(value) - 1)]
+            for name, value in parameters.items()
+        }
+        sites.append(Sites(system, system._values(chosen)))
+        if sites[-1].shape != sites[0].shape:
+            raise ValueError("all members of an ensemble have as many sites: run them one by one")
+    given = np.asarray(x0, dtype=np.float64)
+    one = given.shape in ((sites[0].dimension,), (*sites[0].shape, sites[0].each))
+    return np.stack([sites[0].state(member) for member in (given[None] if one else given)])
 
 
 def table_of(system: Declared, parameters: Mapping[str, Any], members: int) -> Array:

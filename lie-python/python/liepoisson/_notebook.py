@@ -21,7 +21,7 @@ _STEPS = 5000
 def _picture(system: System) -> str:
     """The trajectory of the declaration, as far as a few thousand steps go; empty where there is none."""
     try:
-        if system.initial is None:
+        if system._core.family or system.initial is None:
             return ""
         options = system._core.run_options()
         end = _core.constant(options.get("until", [str(UNTIL)])[0])

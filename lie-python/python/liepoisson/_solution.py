@@ -9,9 +9,12 @@ import numpy as np
 
 from ._arguments import Array, hint
 from ._pictures import image, new_figure, page, shown, table
+from ._sites import Sites
 
 __all__ = ["Ensemble", "Solution"]
 
+#: Coordinates that a picture shows.
+_DRAWN = 12
 #: Failures of an ensemble that a notebook shows.
 _SHOWN = 10
 
@@ -45,6 +48,7 @@ class Solution:
         self.method = method
         self.step = step
         self.steps = steps
+        self._sites: Sites | None = None
         #: The group element at each row, shape (m, s, s) or (m, 4), where it was asked for.
         self.group: Array | None = None
 
@@ -63,6 +67,13 @@ class Solution:
 
     def __len__(self) -> int:
         return len(self.t)
+
+    @property
+    def sites(self) -> Array:
+        """The states of a family by sites: shape (m, N, coordinates), of a lattice (m, N, M, coordinates)."""
+        if self._sites is None:
+            raise AttributeError(f"{self.name} is no family: its states are in `mu`")
+        return self._sites.of(self.mu)
 
     def _reference(self, values: Array) -> float | None:
         """What a change is divided by: the first value; nothing where that is only round-off beside the state."""
@@ -117,8 +128,11 @@ class Solution:
         below.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)
 
     def _draw_components(self, axes: Any) -> None:
-        for name in self.coordinates:
+        for name in self.coordinates[:_DRAWN]:
             axes.plot(self.t, self[name], label=name, linewidth=1)
+        more = len(self.coordinates) - _DRAWN
+        if more > 0:
+            axes.plot([], [], " ", label=f"… and {more} more")
         axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)
 
     def _repr_html_(self) -> str:

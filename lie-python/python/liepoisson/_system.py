@@ -18,6 +18,7 @@ from ._functions import function_of
 from ._measure import measured
 from ._members import members_of, table_of
 from ._notebook import page_of
+from ._sites import Sites
 from ._solution import Ensemble, Solution
 from ._verification import Fact, Verification
 
@@ -85,19 +86,23 @@ class System(Declared):
         group = group if group is not None else options.get("group", [None])[0]
         asked.update(parameters=values, start=start, every=every, at=times, group=group)
         (t_rows, mu, energy, casimirs), found = self._core.run(asked)
-        shown = self._core.shown()
         columns = {name: casimirs[:, index] for index, name in enumerate(self.casimirs)}
+        names = self.coordinates
+        sites = None
+        if self._core.family:
+            names, sites = self._core.names_of_sites(values), Sites(self, values)
         solution = Solution(
             self.name,
-            self.coordinates,
+            names,
             t_rows,
-            mu[:, shown] if len(shown) < mu.shape[1] else mu,
+            self._visible(mu),
             energy,
             columns,
             label,
             float(str(found["step"])),
             int(str(found["steps"])),
         )
+        solution._sites = sites
         if "group" in found:
             elements = np.asarray(found["group"]).reshape(len(t_rows), -1)
             size = round(elements.shape[1] ** 0.5)
@@ -156,7 +161,7 @@ class System(Declared):
         ((2, 3, 3), [0.0, 0.5, 1.0])
         """
         parameters = merged(parameters, named)
-        starts = members_of(self, x0)
+        starts = members_of(self, x0, parameters)
         table = table_of(self, parameters, len(starts))
         options = self._core.run_options()
         # rows of the declaration are for single runs
@@ -178,11 +183,10 @@ class System(Declared):
             )
         asked.update(every=every, at=times, threads=threads or os.cpu_count() or 1)
         rows, states, failures = self._core.ensemble(table, starts, asked)
-        shown = self._core.shown()
-        states = states[:, :, shown] if len(shown) < states.shape[2] else states
+        states = self._visible(states)
         if every is None and times is None:
             # where none came to its end there is no row
-            ends = states[:, -1] if len(rows) else np.full((len(starts), self.dimension), np.nan)
+            ends = states[:, -1] if len(rows) else np.full((len(starts), states.shape[2]), np.nan)
             return Ensemble(ends, rows, failures)
         return Ensemble(states, rows, failures)
 

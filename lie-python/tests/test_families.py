@@ -1,0 +1,91 @@
+"""Families: as many sites as the parameters say."""
+
+import pickle
+
+import liepoisson as lp
+import numpy as np
+import pytest
+
+RING = {
+    "name": "Ring",
+    "algebra": "so(3)^N",
+    "state": ["x[i]", "y[i]", "z[i]"],
+    "parameters": {"N": 12, "J": 1},
+    "hamiltonian": "-J*sum(i in 0..N: x[i]*x[i+1] + y[i]*y[i+1] + z[i]*z[i+1])",
+    "initial": {"random": "unit-sphere", "seed": 1},
+}
+LATTICE = {
+    **RING,
+    "algebra": "so(3)^(N, M)",
+    "state": ["x[i, j]", "y[i, j]", "z[i, j]"],
+    "parameters": {"N": 3, "M": 4},
+    "hamiltonian": "-sum(i in 0..N, j in 0..M: x[i, j]*x[i+1, j] + z[i, j]*z[i, j+1])",
+}
+
+
+def test_the_sizes_are_those_of_the_parameters() -> None:
+    ring = lp.System(**RING)
+    assert (ring.dimension, ring.coordinates[12]) == (36, "y[0]")
+    assert ring.casimirs == ["C1_mean", "C1_min", "C1_max"]
+    run = ring.run("splitting4", h=0.1, t=1, N=5)
+    assert run.mu.shape == (11, 15) and run.sites.shape == (11, 5, 3)
+    # a state holds the first coordinates of all sites, then the second ones
+    assert np.array_equal(run.sites[3, 2], run.mu[3, [2, 7, 12]])
+    assert np.array_equal(run["y[2]"], run.sites[:, 2, 1])
+    assert run.drift["C1_mean"] < 1e-14 < run.drift["energy"] < 1e-3
+    by_site = ring.run("splitting4", h=0.1, t=1, N=5, x0=run.sites[0])
+    assert np.array_equal(by_site.mu, run.mu)
+    assert "12 sites with x, y, z" in repr(pickle.loads(pickle.dumps(ring)))
+    assert r"\sum_{0 \le i < N} (x_{i}" in ring.latex()
+
+
+def test_fields_by_numpy() -> None:
+    lattice = lp.System(**LATTICE)
+    run = lattice.run(t=0.1)
+    assert run.method == "gauss16" and run.sites.shape[1:] == (3, 4, 3)
+    field = lattice.function("vector_field")(run.mu[0])
+    mu = run.sites[0]
+    x, z = mu[..., 0], mu[..., 2]
+    slope = np.zeros_like(mu)
+    slope[..., 0] = -np.roll(x, 1, axis=0) - np.roll(x, -1, axis=0)
+    slope[..., 2] = -np.roll(z, 1, axis=1) - np.roll(z, -1, axis=1)
+    expected = np.moveaxis(np.cross(mu, slope), -1, 0).reshape(-1)
+    assert np.abs(field - expected).max() < 1e-15
+    assert np.abs(field + expected).max() > 1e-1
+
+
+def test_members_are_single_runs() -> None:
+    ring = lp.System(**RING)
+    alone = ring.run("rk4", h=0.05, t=1, N=5)
+    starts = np.stack([alone.sites[0], -alone.sites[0]])
+    many = ring.ensemble(starts, "rk4", h=0.05, t=1, N=5, J=[1.0, 2.0])
+    assert np.array_equal(many.mu[0], alone.mu[-1])
+    assert not np.array_equal(many.mu[1], -alone.mu[-1])
+
+
+def test_small_ones_are_verified() -> None:
+    ring = lp.System(**RING)
+    assert ring.verify("rk4", "splitting2", N=6).passed
+    with pytest.raises(ValueError, match="fewer sites, at most 21"):
+        ring.verify("rk4", N=100)
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda ring: ring.run(x0=[1, 2, 3], N=4), r"give \(12,\), .*, or \(4, 3\)"),
+        (lambda ring: ring.run(N=2.5), "a whole number"),
+        (lambda ring: ring.run("midpoint"), "keeps no matrix"),
+        (lambda ring: ring.bench("rk4"), "a family, which `bench` does not measure yet"),
+        (lambda ring: ring.ensemble(np.zeros((2, 12)), "rk4", N=[4, 5]), "as many sites"),
+    ],
+)
+def test_what_is_wrong_is_said(call, message) -> None:
+    with pytest.raises((ValueError, AttributeError), match=message):
+        call(lp.System(**RING))
+
+
+def test_no_family_has_no_sites() -> None:
+    body = lp.System(algebra="so(3)", state=["x", "y", "z"], hamiltonian="x^2/2 + y^2/4 + z^2/6")
+    with pytest.raises(AttributeError, match="is no family"):
+        print(body.run(x0=[1, 0, 0], t=0.1).sites)
