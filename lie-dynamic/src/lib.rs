@@ -44,6 +44,7 @@ mod gradient;
 mod interpreter;
 mod kernels;
 mod lagrangian;
+mod lanes;
 mod layout;
 mod methods;
 mod names;

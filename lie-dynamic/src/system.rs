@@ -101,11 +101,11 @@ impl Dynamic<f64> {
     /// As of [`Dynamic::new`].
     pub fn with_parameters(&self, parameters: &[f64]) -> Result<Self, ParameterError> {
         let mut values = self.values.clone();
-        let defaults = self.constants_of(&self.plan().defaults);
-        let given = parameters.iter().copied();
-        values.parameters = given
-            .chain(defaults.into_iter().skip(parameters.len()))
-            .collect();
+        values.parameters = parameters.to_vec();
+        if parameters.len() < self.plan().parameters.len() {
+            let defaults = self.constants_of(&self.plan().defaults).into_iter();
+            values.parameters.extend(defaults.skip(parameters.len()));
+        }
         check_signs(&values)?;
         let mut constants = vec![0.0; self.plan().constants.entries.len()];
         let frame = values.frame([&[]; ARGUMENTS], &[], [0.0; 2]);

@@ -20,5 +20,8 @@ pub fn too_many(model: &Model, coordinates: usize) -> Option<(String, String)> {
 
 /// That a measurement does not take families.
 pub fn not_measured(model: &Model, what: &str) -> String {
-    format!("{} is a family, which `{what}` does not measure yet", model.name)
+    format!(
+        "{} is a family, which `{what}` does not measure yet",
+        model.name
+    )
 }

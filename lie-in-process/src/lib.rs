@@ -8,6 +8,7 @@
 pub mod catalogue;
 pub mod families;
 pub mod list;
+pub mod members;
 pub mod report;
 
 use lie_codegen::methods::Choice;

@@ -1,12 +1,16 @@
 //! Codes over columns: a loop over places, two numbers at a time.
 
 use crate::compile::{Body, Compiler, Shape, WORD};
+use crate::{LONGEST, Memory};
 use cranelift_codegen::ir::condcodes::IntCC;
 use cranelift_codegen::ir::{AbiParam, BlockArg, InstBuilder, MemFlags, Value, types};
 use cranelift_frontend::FunctionBuilder;
 use cranelift_module::{FuncId, Module};
-use lie_dynamic::{Code, Source};
+use lie_dynamic::{Code, Frame, Lengths, Source};
+use lie_runtime::Scalar;
+use smallvec::SmallVec;
 use std::collections::HashMap;
+use std::sync::OnceLock;
 
 /// A function over columns: reads from a table of the slices in a frame and from a table of columns, writes to a table of
 /// columns, and does this for so many bytes of each.
@@ -148,6 +152,97 @@ impl Body<'_, '_> {
                 self.builder.ins().splat(self.shape.number, value)
             }
             _ => self.source(source, table, slices),
+        }
+    }
+}
+
+/// Codes over columns, each compiled when it is first run.
+pub struct Along(Vec<OnceLock<Option<OverColumns>>>);
+
+/// A code over columns.
+pub struct OverColumns {
+    function: Function,
+    lengths: Lengths,
+    /// The entries that it does not write.
+    clear: Vec<usize>,
+    _memory: Memory,
+}
+
+impl Along {
+    pub fn new(codes: usize) -> Self {
+        Self((0..codes).map(|_| OnceLock::new()).collect())
+    }
+
+    /// A code; none where it is too long, or has a matrix.
+    pub fn get(&self, place: usize, code: &Code, columns: Columns) -> Option<&OverColumns> {
+        let compile = || OverColumns::new(code, columns);
+        self.0[place].get_or_init(compile).as_ref()
+    }
+}
+
+impl OverColumns {
+    fn new(code: &Code, columns: Columns) -> Option<Self> {
+        let matrix = code.stores.iter().any(|store| store.target > 0);
+        if code.instructions.len() > LONGEST || matrix {
+            return None;
+        }
+        let mut compiler = Compiler::new()?;
+        let place = compiler.add_columns(code, columns)?;
+        let memory = Memory::new(compiler)?;
+        let written = |entry: &usize| {
+            let mut stores = code.stores.iter();
+            stores.any(|store| store.entry as usize == *entry)
+        };
+        let all = code.clear[0].unwrap_or(0) as usize;
+        Some(Self {
+            function: memory.over_columns(place),
+            lengths: Lengths::of(code),
+            clear: (0..all).filter(|entry| !written(entry)).collect(),
+            _memory: memory,
+        })
+    }
+
+    /// Calls the function for so many places from the first on, of numbers an even number of them; at least one is asked for.
+    ///
+    /// # Panics
+    /// A slice is shorter than the code needs, or a column than the first target.
+    pub fn call<S: Scalar>(
+        &self,
+        columns: &[&[S]],
+        frame: &Frame<'_, S>,
+        to: &mut [&mut [S]],
+        places: usize,
+    ) {
+        self.lengths.check_columns(columns, frame, to);
+        let enough = to.first().is_some_and(|to| to.len() >= places);
+        assert!(
+            enough && places > 0,
+            "there are fewer places than are asked for"
+        );
+        for entry in &self.clear {
+            to[*entry][..places].fill(S::zero());
+        }
+        let lanes = size_of::<S>() / size_of::<f64>();
+        let mut table = frame.slices().map(|slice| slice.as_ptr().cast::<f64>());
+        let columns = columns.iter().map(|column| column.as_ptr().cast::<f64>());
+        let mut columns: SmallVec<[*const f64; 24]> = columns.collect();
+        let to = to.iter_mut().map(|to| to.as_mut_ptr().cast::<f64>());
+        let mut to: SmallVec<[*mut f64; 24]> = to.collect();
+        for pair in 0..lanes.div_ceil(2) {
+            if pair > 0 {
+                table = table.map(|slice| slice.wrapping_add(2));
+                for column in &mut columns {
+                    *column = column.wrapping_add(2);
+                }
+                for to in &mut to {
+                    *to = to.wrapping_add(2);
+                }
+            }
+            let bytes = places * size_of::<S>();
+            // SAFETY: every slice and every column is as long as the code needs, and has this many bytes from its own
+            // beginning on; the function does two numbers for each step, which the places are a multiple of. What is written
+            // is borrowed for writing.
+            unsafe { (self.function)(table.as_ptr(), columns.as_ptr(), to.as_ptr(), bytes) }
         }
     }
 }

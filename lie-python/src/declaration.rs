@@ -43,15 +43,23 @@ impl Facts {
         });
         let names = model.coordinates.iter().map(|name| name.text.clone());
         let parameters = model.parameters.iter();
-        let casimirs = model.casimirs.iter().flat_map(|casimir| match model.family {
-            Some(_) => STATISTICS.map(|of| format!("{}_{of}", casimir.name)).to_vec(),
-            None => vec![casimir.name.clone()],
-        });
+        let casimirs = model
+            .casimirs
+            .iter()
+            .flat_map(|casimir| match model.family {
+                Some(_) => STATISTICS
+                    .map(|of| format!("{}_{of}", casimir.name))
+                    .to_vec(),
+                None => vec![casimir.name.clone()],
+            });
         let timed = model.configuration.as_ref().is_some_and(|own| own.time);
         Self {
             system: model.name.clone(),
             family: model.family.is_some(),
-            lattice: model.family.as_ref().is_some_and(|family| family.sizes.len() == 2),
+            lattice: model
+                .family
+                .as_ref()
+                .is_some_and(|family| family.sizes.len() == 2),
             names: names.collect(),
             shown: model.shown_coordinates(),
             // the last is the constant 1

@@ -1,0 +1,59 @@
+//! Systems of one declaration side by side, each in a lane.
+
+use crate::family::OfSite;
+use crate::interpreter::Interpreter;
+use crate::system::Dynamic;
+use crate::values::Values;
+use lie_runtime::Scalar;
+use lie_runtime::family::Family;
+use std::sync::Arc;
+
+impl<S: Scalar> Dynamic<S> {
+    /// Whether systems of this declaration can be side by side: not where a velocity is followed along its branch, which
+    /// makes another system of each.
+    pub fn takes_lanes(&self) -> bool {
+        !self.is_by_legendre()
+    }
+
+    /// Up to eight systems of one declaration as one system over lanes, with the parameters of each. The first fills the lanes
+    /// that are left.
+    ///
+    /// Every lane gives the bits of its system alone.
+    ///
+    /// # Panics
+    /// There is none, there are more than eight, they are of different declarations, families of different sizes, or they do not
+    /// take lanes ([`Dynamic::takes_lanes`]).
+    pub fn in_lanes(systems: &[&Self]) -> Dynamic<S::Wide> {
+        let first = systems[0];
+        let one_declaration = systems.iter().all(|system| {
+            Arc::ptr_eq(&system.values.compiled, &first.values.compiled)
+                && system.sizes() == first.sizes()
+        });
+        assert!(systems.len() <= 8, "there are eight lanes");
+        assert!(one_declaration, "the systems are of different declarations");
+        assert!(first.takes_lanes(), "the system does not take lanes");
+        let compiled = &first.values.compiled;
+        let gather = |values: fn(&Self) -> &[S]| -> Vec<S::Wide> {
+            let of_lane = |lane: usize| values(systems.get(lane).copied().unwrap_or(first));
+            let lanes: [&[S]; 8] = std::array::from_fn(of_lane);
+            let entries = 0..lanes[0].len();
+            entries
+                .map(|entry| S::gather(lanes.map(|values| values[entry])))
+                .collect()
+        };
+        let interpreter = || Arc::new(Interpreter::new(Arc::clone(&compiled.codes)));
+        let values = Values {
+            compiled: Arc::clone(compiled),
+            machine: first.values.machine.wide().unwrap_or_else(|| interpreter()),
+            parameters: gather(|system| &system.values.parameters),
+            constants: gather(|system| &system.values.constants),
+        };
+        let family = first.sizes();
+        let family = family.map(|sizes| Family::new(OfSite::new(values.clone()), sizes));
+        Dynamic {
+            values,
+            branch: None,
+            family,
+        }
+    }
+}

@@ -1,0 +1,284 @@
+//! Many trajectories of one declaration: members of an ensemble or of a sweep, eight at a time in lanes where that pays.
+//!
+//! Every lane has the bits of the member run alone, so that nobody can tell which members were side by side. A member that
+//! fails is run again alone, and says what it says alone; the others of its group are run again without it.
+
+use lie_codegen::methods::Choice;
+use lie_dynamic::{Declared, Dynamic, Method, Tolerances, method};
+use lie_runtime::diagnostics::Forgotten;
+use lie_runtime::driver::{
+    IntegrateError, Observer, OptionError, Options, Pace, Problem, Progress, Save, integrate,
+};
+use lie_runtime::{ParameterError, Poisson, Scalar};
+use std::ops::{ControlFlow, Range};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Lanes of double precision.
+type Wide = <f64 as Scalar>::Wide;
+
+/// So many members are side by side.
+pub const LANES: usize = Wide::LANES;
+/// Fewer members than this are run alone: a step in lanes costs as much as some alone, whether they are used or not.
+const LEAST: usize = 4;
+/// So often a group is run again without the members that failed; then all are run alone.
+const TRIES: usize = 2;
+
+/// What is integrated, from time 0 on.
+pub struct Members<'a> {
+    /// The system before its parameters have values.
+    pub declared: &'a Declared,
+    /// The method.
+    pub choice: &'a Choice,
+    /// The tolerances of a method that has some.
+    pub tolerances: Tolerances,
+    /// A row for each member, or one for all.
+    pub parameters: Vec<Vec<f64>>,
+    /// The initial state of each member.
+    pub starts: Vec<Vec<f64>>,
+    /// The options of every run; of [`Save::Ends`] the end alone is kept.
+    pub options: Options,
+    /// The end of the span.
+    pub end: f64,
+}
+
+/// The rows of a member, as many as it came to.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Member {
+    /// Their times.
+    pub times: Vec<f64>,
+    /// Their states, one behind the other.
+    pub states: Vec<f64>,
+    /// When and why it ended early, if it did.
+    pub failed: Option<(f64, String)>,
+    /// Options that suit no member.
+    pub refused: Option<OptionError>,
+}
+
+impl Member {
+    fn failing(time: f64, why: String) -> Self {
+        Self {
+            failed: Some((time, why)),
+            ..Self::default()
+        }
+    }
+}
+
+/// Whether members of a method go in lanes: with a fixed step, and unless the steps of lanes would wait for each other.
+pub fn takes_lanes(choice: &Choice, options: &Options) -> bool {
+    matches!(options.pace, Pace::Step(_)) && !matches!(choice.solved(), Choice::Dopri5)
+}
+
+/// Keeps the rows of a run, and ends it where the whole is to end.
+struct Kept<'a, S> {
+    times: Vec<f64>,
+    states: Vec<S>,
+    last_alone: bool,
+    stop: &'a AtomicBool,
+}
+
+impl<'a, S> Kept<'a, S> {
+    fn new(options: &Options, stop: &'a AtomicBool) -> Self {
+        Self {
+            times: Vec::new(),
+            states: Vec::new(),
+            last_alone: options.save == Save::Ends,
+            stop,
+        }
+    }
+}
+
+impl<S: Scalar> Observer<S, Dynamic<S>> for Kept<'_, S> {
+    fn step(&mut self, _: &Dynamic<S>, _: Progress, _: &Vec<S>) -> ControlFlow<()> {
+        match self.stop.load(Ordering::Relaxed) {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        }
+    }
+
+    fn row(&mut self, _: &Dynamic<S>, time: f64, mu: &Vec<S>) -> ControlFlow<()> {
+        if self.last_alone {
+            self.times.clear();
+            self.states.clear();
+        }
+        self.times.push(time);
+        self.states.extend_from_slice(mu);
+        ControlFlow::Continue(())
+    }
+}
+
+/// What a thread needs to run members.
+struct Worker<'a> {
+    members: &'a Members<'a>,
+    stop: &'a AtomicBool,
+    alone: Method,
+    together: Option<Method<Wide>>,
+}
+
+/// Why a group was not run to its end.
+enum Lost {
+    /// These lanes failed.
+    Lanes(u64),
+    /// The options suit no run.
+    All,
+}
+
+impl Members<'_> {
+    /// Runs some of the members, in order. Sets `stop` where the options suit no member, and ends early where it is set.
+    pub fn run(&self, some: Range<usize>, stop: &AtomicBool) -> Vec<Member> {
+        let Some(alone) = method(self.choice, self.tolerances) else {
+            let none = |_| Member::failing(0.0, "there is no such method".to_owned());
+            return some.map(none).collect();
+        };
+        let lanes = takes_lanes(self.choice, &self.options);
+        let together = lanes.then(|| method(self.choice, self.tolerances));
+        let worker = Worker {
+            members: self,
+            stop,
+            alone,
+            together: together.flatten(),
+        };
+        let mut found = Vec::with_capacity(some.len());
+        let mut first = some.start;
+        while first < some.end && !stop.load(Ordering::Relaxed) {
+            let last = some.end.min(first + LANES);
+            worker.group(first..last, &mut found);
+            first = last;
+        }
+        found.resize_with(some.len(), Member::default);
+        found
+    }
+
+    fn parameters(&self, member: usize) -> &[f64] {
+        match self.parameters.as_slice() {
+            [only] => only,
+            all => &all[member],
+        }
+    }
+
+    /// The systems of members: one for all where they have the same parameters.
+    fn systems(&self, members: Range<usize>) -> Vec<Result<Dynamic<f64>, ParameterError>> {
+        let made = |member| self.declared.system(self.parameters(member));
+        match self.parameters.len() {
+            1 => vec![made(members.start); members.len()],
+            _ => members.map(made).collect(),
+        }
+    }
+}
+
+impl Worker<'_> {
+    /// Runs members that may be side by side.
+    fn group(&self, members: Range<usize>, found: &mut Vec<Member>) {
+        let systems = self.members.systems(members.clone());
+        let mut all: Vec<Option<Member>> = vec![None; members.len()];
+        if let Some(together) = &self.together {
+            let there = systems.iter().enumerate();
+            let there = there.filter_map(|(index, system)| Some((index, system.as_ref().ok()?)));
+            let mut left: Vec<_> = there.filter(|(_, system)| system.takes_lanes()).collect();
+            // families of other sizes are other systems
+            if let Some(sizes) = left.first().map(|(_, system)| system.sizes()) {
+                left.retain(|(_, system)| system.sizes() == sizes);
+            }
+            for _ in 0..TRIES {
+                if left.len() < LEAST {
+                    break;
+                }
+                let starts = left.iter().map(|(index, _)| members.start + index);
+                let starts: Vec<_> = starts
+                    .map(|member| self.members.starts[member].as_slice())
+                    .collect();
+                let side_by_side: Vec<_> = left.iter().map(|(_, system)| *system).collect();
+                match self.together(together, &side_by_side, &starts) {
+                    Ok(lanes) => {
+                        for ((index, _), member) in left.drain(..).zip(lanes) {
+                            all[index] = Some(member);
+                        }
+                    }
+                    Err(Lost::Lanes(lost)) => {
+                        let mut lane = 0;
+                        left.retain(|_| {
+                            lane += 1;
+                            lost >> (lane - 1) & 1 == 0
+                        });
+                    }
+                    Err(Lost::All) => break,
+                }
+            }
+        }
+        let alone = members.zip(systems).zip(all);
+        found.extend(alone.map(|((member, system), done)| match (done, system) {
+            (Some(done), _) => done,
+            (None, Ok(system)) => self.alone(system, &self.members.starts[member]),
+            (None, Err(error)) => Member::failing(0.0, error.to_string()),
+        }));
+    }
+
+    /// A group side by side.
+    fn together(
+        &self,
+        method: &Method<Wide>,
+        systems: &[&Dynamic<f64>],
+        starts: &[&[f64]],
+    ) -> Result<Vec<Member>, Lost> {
+        let of_lane = |lane: usize| *starts.get(lane).unwrap_or(&starts[0]);
+        let lengths = systems[0].dimension();
+        if starts.iter().any(|start| start.len() != lengths) {
+            return Err(Lost::All);
+        }
+        let gather = |entry| Wide::new(std::array::from_fn(|lane| of_lane(lane)[entry]));
+        let problem = Problem {
+            system: Dynamic::in_lanes(systems),
+            mu0: (0..lengths).map(gather).collect(),
+            span: (0.0, self.members.end),
+        };
+        let options = &self.members.options;
+        let mut kept = Kept::new(options, self.stop);
+        match integrate(&problem, Forgotten(method.as_ref()), options, &mut kept) {
+            Ok(_) => Ok((0..systems.len())
+                .map(|lane| Member {
+                    times: kept.times.clone(),
+                    states: kept.states.iter().map(|entry| entry.lane(lane)).collect(),
+                    ..Member::default()
+                })
+                .collect()),
+            Err(IntegrateError::Step(error)) => Err(Lost::Lanes(error.failure.lanes)),
+            Err(IntegrateError::Option(_)) => Err(Lost::All),
+        }
+    }
+
+    fn alone(&self, system: Dynamic<f64>, start: &[f64]) -> Member {
+        let problem = Problem {
+            system,
+            mu0: start.to_vec(),
+            span: (0.0, self.members.end),
+        };
+        let options = &self.members.options;
+        let mut kept = Kept::new(options, self.stop);
+        let outcome = integrate(&problem, Forgotten(self.alone.as_ref()), options, &mut kept);
+        let mut member = Member {
+            times: kept.times,
+            states: kept.states,
+            ..Member::default()
+        };
+        match outcome {
+            Ok(_) => member,
+            Err(IntegrateError::Step(error)) => {
+                if kept.last_alone {
+                    // the end was not reached
+                    member = Member::default();
+                }
+                member.failed = Some((error.time, error.to_string()));
+                member
+            }
+            Err(IntegrateError::Option(error @ OptionError::NoStep(_))) => {
+                Member::failing(0.0, error.to_string())
+            }
+            Err(IntegrateError::Option(error)) => {
+                self.stop.store(true, Ordering::Relaxed);
+                Member {
+                    refused: Some(error),
+                    ..Member::default()
+                }
+            }
+        }
+    }
+}
