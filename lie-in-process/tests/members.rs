@@ -64,7 +64,7 @@ fn alone(members: &Members<'_>) -> Vec<Member> {
         .collect()
 }
 
-/// What is different between members in lanes and alone, by method; the control differs in one bit of one member.
+/// What is different between members in lanes and alone, by method; the control differs in the last digits of one member's start.
 fn different(name: &str, save: Save, newton: NewtonOptions) -> (usize, Vec<String>) {
     let model = model(name);
     let there = |choice: &Choice| method::<f64>(choice, Tolerances::default()).is_some();
@@ -88,10 +88,9 @@ fn different(name: &str, save: Save, newton: NewtonOptions) -> (usize, Vec<Strin
             different.push(choice.label());
         }
         compared += usize::from(takes_lanes(choice, &members.options));
-        let nudged = members.starts[9][0].to_bits() + 1;
-        members.starts[9][0] = f64::from_bits(nudged);
+        members.starts[9][0] *= 1.0 + 1e-9;
         if bits(&all(&members)) == bits(&expected) && expected[9].failed.is_none() {
-            different.push(format!("{} does not see a bit", choice.label()));
+            different.push(format!("{} does not see a change", choice.label()));
         }
     }
     (compared, different)
@@ -178,7 +177,7 @@ fn members_that_fail_fail_as_alone_and_leave_the_others_as_they_are() {
             // not finite from the start; later; no system
             members.starts[2][0] = f64::NAN;
             members.starts[5][0] = 1e160;
-            members.parameters[12][0] = -1.0;
+            members.parameters[12][0] = 0.0;
             let (found, expected) = (all(&members), alone(&members));
             assert_eq!(bits(&found), bits(&expected), "{}", choice.label());
             assert_eq!(failures(&found), failures(&expected), "{}", choice.label());

@@ -160,6 +160,37 @@ def test_failed_members_keep_their_rows() -> None:
     assert np.isfinite(found.mu[0]).all()
 
 
+def test_members_in_lanes_have_the_bits_of_members_alone() -> None:
+    body = lp.System(**BODY)
+    starts = np.random.default_rng(5).normal(size=(21, 3))
+    moments = np.linspace(1.5, 3, 21)
+    for method in ["rk4", "gauss4", "gauss16", "lie-midpoint", "taylor", "splitting2"]:
+        asked: dict[str, Any] = {"h": 0.1, "at": [0.25, 2]}
+        found = body.ensemble(starts, method, threads=1, I1=moments, **asked).mu
+        two = body.ensemble(starts, method, threads=2, I1=moments, **asked).mu
+        alone = [
+            body.run(method, x0=start, I1=moment, **asked).mu
+            for start, moment in zip(starts, moments)
+        ]
+        assert np.array_equal(found, np.stack(alone)) and np.array_equal(two, found)
+        assert not np.array_equal(found, np.stack(alone[1:] + alone[:1]))
+
+
+def test_a_member_that_fails_in_a_lane_fails_as_alone() -> None:
+    body = lp.System(**BODY)
+    starts = np.random.default_rng(7).normal(size=(8, 3))
+    whole = body.ensemble(starts, "gauss4", h=0.1, t=1, every=1, threads=1)
+    broken = starts.copy()
+    broken[3, 0] = 1e160
+    found = body.ensemble(broken, "gauss4", h=0.1, t=1, every=1, threads=1)
+    alone = body.ensemble(broken[3:4], "gauss4", h=0.1, t=1, every=1, threads=1)
+    [(member, *why)], [(_, *why_alone)] = found.failures, alone.failures
+    assert (member, why) == (3, why_alone) and not whole.failures
+    others = np.arange(8) != 3
+    assert np.array_equal(found.mu[others], whole.mu[others])
+    assert np.isnan(found.mu[3, -1]).all() and not np.isnan(found.mu[others]).any()
+
+
 def test_solver_options_count_for_members() -> None:
     body = lp.System(**BODY)
     slow = {"iteration": "fixed-point", "max_iterations": 2}
