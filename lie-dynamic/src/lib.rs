@@ -60,5 +60,5 @@ pub use elementary::{BINARY, Binary, UNARY, Unary};
 pub use interpreter::{Interpreted, Interpreter, phi, stumpff};
 pub use kernels::{Engine, Frame, Machine, Targets, place_by_place};
 pub use layout::{Lengths, SLICES};
-pub use methods::{Method, Tolerances, at_defaults, method};
+pub use methods::{Method, Tolerances, at_defaults, method, method_in_lanes};
 pub use system::{Declared, Dynamic};

@@ -165,6 +165,22 @@ pub fn method<S: Scalar>(choice: &Choice, tolerances: Tolerances) -> Option<Meth
     }
 }
 
+/// The method of a choice over lanes, for systems side by side ([`Dynamic::in_lanes`]); none of methods that are not compiled for them:
+/// each costs the compiler of this crate's users as much as a method over numbers, those with all stages in registers many times that.
+pub fn method_in_lanes(
+    choice: &Choice,
+    tolerances: Tolerances,
+) -> Option<Method<<f64 as Scalar>::Wide>> {
+    match choice {
+        Choice::Midpoint => boxed(m::ImplicitMidpoint),
+        Choice::Gauss(2) => boxed(m::Gauss4),
+        Choice::LieMidpoint(Retraction::Exp) => boxed(m::LieMidpoint::exp()),
+        Choice::Taylor => boxed(m::Taylor::with_tolerance(tolerances.rtol)),
+        Choice::Rk4 => boxed(m::Rk4),
+        _ => None,
+    }
+}
+
 fn gauss<S: Scalar>(stages: usize) -> Option<Method<S>> {
     match stages {
         2 => boxed(m::Gauss4),

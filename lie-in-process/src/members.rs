@@ -4,7 +4,7 @@
 //! fails is run again alone, and says what it says alone; the others of its group are run again without it.
 
 use lie_codegen::methods::Choice;
-use lie_dynamic::{Declared, Dynamic, Method, Tolerances, method};
+use lie_dynamic::{Declared, Dynamic, Method, Tolerances, method, method_in_lanes};
 use lie_runtime::diagnostics::Forgotten;
 use lie_runtime::driver::{
     IntegrateError, Observer, OptionError, Options, Pace, Problem, Progress, Save, integrate,
@@ -63,9 +63,10 @@ impl Member {
     }
 }
 
-/// Whether members of a method go in lanes: with a fixed step, and unless the steps of lanes would wait for each other.
+/// Whether members of a method go in lanes: with a fixed step, and a method that is compiled for lanes.
 pub fn takes_lanes(choice: &Choice, options: &Options) -> bool {
-    matches!(options.pace, Pace::Step(_)) && !matches!(choice.solved(), Choice::Dopri5)
+    let fixed = matches!(options.pace, Pace::Step(_));
+    fixed && method_in_lanes(choice, Tolerances::default()).is_some()
 }
 
 /// Keeps the rows of a run, and ends it where the whole is to end.
@@ -130,7 +131,7 @@ impl Members<'_> {
             return some.map(none).collect();
         };
         let lanes = takes_lanes(self.choice, &self.options);
-        let together = lanes.then(|| method(self.choice, self.tolerances));
+        let together = lanes.then(|| method_in_lanes(self.choice, self.tolerances));
         let worker = Worker {
             members: self,
             stop,

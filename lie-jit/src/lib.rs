@@ -15,7 +15,7 @@ use columns::{Along, Columns};
 use compile::{Compiler, Shape};
 use cranelift_jit::JITModule;
 use cranelift_module::FuncId;
-use lanes::{LANES, Lanes, Wide};
+use lanes::{Lanes, Wide};
 use lie_dynamic::{Code, Engine, Frame, Interpreted, Lengths, Machine, Targets, place_by_place};
 use lie_runtime::Scalar;
 use std::mem::ManuallyDrop;
@@ -91,7 +91,7 @@ struct Compiled {
     entries: Vec<Entry>,
     interpreted: Arc<dyn Machine<f64>>,
     codes: Arc<[Code]>,
-    wide: OnceLock<Arc<Lanes<LANES>>>,
+    wide: OnceLock<Arc<Lanes>>,
     along: Along,
     _memory: Memory,
 }
