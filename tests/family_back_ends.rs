@@ -175,13 +175,7 @@ fn chains_and_lattices() {
     .system()
     .unwrap();
     compare("open_chain", &chain, &[("N", 12.0)], methods!());
-    let lattice = Lattice {
-        N: 4.0,
-        M: 5.0,
-        ..Lattice::new()
-    }
-    .system()
-    .unwrap();
+    let lattice = Lattice { N: 4.0, M: 5.0 }.system().unwrap();
     compare(
         "lattice",
         &lattice,

@@ -2,7 +2,7 @@
 
 mod sites;
 
-use lie_runtime::family::{Family, Pieces, Sites, unit_spheres};
+use lie_runtime::family::{Family, Pieces, unit_spheres};
 use lie_runtime::methods::Method;
 use lie_runtime::prelude::*;
 use lie_runtime::{FoundPoisson, PieceFlows};

@@ -38,7 +38,7 @@ enum Drawn {
     Nothing(Kind),
     Components(Box<Plot>),
     Compare(Compare),
-    Phase(Phase, [usize; 2], Option<Dynamic<f64>>),
+    Phase(Phase, [usize; 2], Option<Box<Dynamic<f64>>>),
     Section(Phase, Box<Section>),
     Orbit(Vec<OnSurface>, Box<Dynamic<f64>>),
     Attitude(Vec<OnSurface>),
@@ -114,7 +114,7 @@ impl<'a> Picture<'a> {
             Kind::Phase(axes) => {
                 let plane = self.spec.model.dimension() == 2;
                 let system = system(self.spec, start).filter(|_| plane);
-                Drawn::Phase(phase(axes), axes, system)
+                Drawn::Phase(phase(axes), axes, system.map(Box::new))
             }
             Kind::Section(section) => {
                 let mut phase = phase(section.axes);
