@@ -1,4 +1,5 @@
-//! The sites of a family, by the codes of one of them: eight sites at a time where the machine has lanes.
+//! The sites of a family, by the codes of one of them: its field and its summands along columns of sites, its flows eight sites at a time
+//! where the machine has lanes.
 
 mod codes;
 mod pieces;
@@ -34,7 +35,7 @@ fn zeros<S: Scalar>(count: usize) -> FewOf<S> {
     Few::make(count, |_| S::zero())
 }
 
-/// So many sites are done at a time by a machine with lanes.
+/// So many sites move along a flow at a time where the machine has lanes.
 const EIGHT: usize = 8;
 
 /// One site of a family, made at run time.

@@ -1,4 +1,5 @@
-//! Many trajectories of one declaration: members of an ensemble or of a sweep, eight at a time in lanes where that pays.
+//! Many trajectories of one declaration: members of an ensemble or of a sweep, eight at a time in lanes by the methods that are
+//! compiled for lanes.
 //!
 //! Every lane has the bits of the member run alone, so that nobody can tell which members were side by side. A member that
 //! fails is run again alone, and says what it says alone; the others of its group are run again without it.
@@ -18,8 +19,8 @@ type Wide = <f64 as Scalar>::Wide;
 
 /// So many members are side by side.
 pub const LANES: usize = Wide::LANES;
-/// Fewer members than this are run alone: a step in lanes costs as much as some alone, whether they are used or not.
-const LEAST: usize = 4;
+/// Fewer members than this are run alone: a step in lanes takes as long as 2 to 5 steps alone, whether all lanes are used or not.
+const LEAST: usize = 6;
 /// So often a group is run again without the members that failed; then all are run alone.
 const TRIES: usize = 2;
 

@@ -205,7 +205,7 @@ impl OverColumns {
     /// Calls the function for so many places from the first on, of numbers an even number of them; at least one is asked for.
     ///
     /// # Panics
-    /// A slice is shorter than the code needs, or a column than the first target.
+    /// A slice is shorter than the code needs, or a column than the first target; or there are other places than that.
     pub fn call<S: Scalar>(
         &self,
         columns: &[&[S]],
@@ -223,6 +223,10 @@ impl OverColumns {
             to[*entry][..places].fill(S::zero());
         }
         let lanes = size_of::<S>() / size_of::<f64>();
+        assert!(
+            (places * lanes).is_multiple_of(2),
+            "numbers are done two at a time"
+        );
         let mut table = frame.slices().map(|slice| slice.as_ptr().cast::<f64>());
         let columns = columns.iter().map(|column| column.as_ptr().cast::<f64>());
         let mut columns: SmallVec<[*const f64; 24]> = columns.collect();

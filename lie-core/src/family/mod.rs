@@ -30,6 +30,6 @@ pub use initial::unit_spheres;
 pub use matrix::LateMatrix;
 pub use shape::{Fixed, Of, Shape};
 pub use sites::{Around, Site, Sites, Span, Sums, Term};
-pub use splitting::{FamilyFlows, Kind, Pieces, Strip};
+pub use splitting::{FamilyFlows, Kind, Pieces, Strip, site_by_site};
 pub use stencil::Stretch;
 pub use system::{Family, STATISTICS, size};

@@ -55,23 +55,35 @@ pub trait Pieces<S: Scalar>: Sites<S> {
     /// The flow of a piece over a time t for many sites or bonds of a state: [`Pieces::flow`] of each.
     #[inline(always)]
     fn flows(&self, kind: usize, t: S, sums: &Sums<Self, S>, strip: &Strip, mu: &mut [S]) {
-        let dimension = self.dimension();
-        let site =
-            |mu: &[S], place: usize| Self::Site::make(dimension, |k| mu[k * strip.sites + place]);
-        let set = |mu: &mut [S], place: usize, value: &Site<Self, S>| {
-            for (k, value) in value.as_ref().iter().enumerate() {
-                mu[k * strip.sites + place] = *value;
-            }
-        };
-        for i in 0..strip.count {
-            let [first, second] = strip.places.map(|place| place + i);
-            let (mut one, mut other) = (site(mu, first), site(mu, second));
-            self.flow(kind, t, sums, &mut one, &mut other);
-            if strip.bonds {
-                set(mu, second, &other);
-            }
-            set(mu, first, &one);
+        site_by_site(self, kind, t, sums, strip, mu);
+    }
+}
+
+/// [`Pieces::flow`] of one site or bond of a strip after the other.
+#[inline(always)]
+pub fn site_by_site<S: Scalar, K: Pieces<S>>(
+    kernels: &K,
+    kind: usize,
+    t: S,
+    sums: &Sums<K, S>,
+    strip: &Strip,
+    mu: &mut [S],
+) {
+    let dimension = kernels.dimension();
+    let site = |mu: &[S], place: usize| K::Site::make(dimension, |k| mu[k * strip.sites + place]);
+    let set = |mu: &mut [S], place: usize, value: &Site<K, S>| {
+        for (k, value) in value.as_ref().iter().enumerate() {
+            mu[k * strip.sites + place] = *value;
         }
+    };
+    for i in 0..strip.count {
+        let [first, second] = strip.places.map(|place| place + i);
+        let (mut one, mut other) = (site(mu, first), site(mu, second));
+        kernels.flow(kind, t, sums, &mut one, &mut other);
+        if strip.bonds {
+            set(mu, second, &other);
+        }
+        set(mu, first, &one);
     }
 }
 

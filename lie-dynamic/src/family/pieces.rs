@@ -6,7 +6,7 @@ use crate::flows::update;
 use crate::kernels::ARGUMENTS;
 use crate::values::Values;
 use lie_codegen::plan::FamilyForm;
-use lie_core::family::{Kind, Pieces, Shape as _, Sites as _, Strip};
+use lie_core::family::{Kind, Pieces, Shape as _, Sites as _, Strip, site_by_site};
 use lie_runtime::Scalar;
 
 /// The turn of a site by an angle.
@@ -74,25 +74,12 @@ impl<S: Scalar> Pieces<S> for OfSite<S> {
     }
 
     fn flows(&self, kind: usize, t: S, sums: &FewOf<S>, strip: &Strip, mu: &mut [S]) {
+        let Some(wide) = &self.wide else {
+            return site_by_site(self, kind, t, sums, strip, mu);
+        };
         let (piece, dimension, count) = (&self.codes().pieces[kind], self.dimension(), strip.count);
         let part = |site: usize, k: usize| k * strip.sites + strip.places[site];
         let sites = 1 + usize::from(strip.bonds);
-        let Some(wide) = &self.wide else {
-            let mut both = [zeros(dimension), zeros(dimension)];
-            for i in 0..count {
-                for (site, values) in both.iter_mut().enumerate() {
-                    let values = values.iter_mut().enumerate();
-                    values.for_each(|(k, x)| *x = mu[part(site, k) + i]);
-                }
-                let [one, other] = &mut both;
-                flow(&self.values, piece, t, sums, one, other);
-                for (site, values) in both.iter().enumerate().take(sites) {
-                    let values = values.iter().enumerate();
-                    values.for_each(|(k, x)| mu[part(site, k) + i] = *x);
-                }
-            }
-            return;
-        };
         let (t, sums) = (t.widen(), Few::make(sums.len(), |k| sums[k].widen()));
         let mut both = [zeros(dimension), zeros(dimension)];
         for i in (0..count).step_by(EIGHT) {

@@ -13,7 +13,7 @@ from ._sites import Sites
 
 __all__ = ["Ensemble", "Solution"]
 
-#: Coordinates that a picture shows.
+#: Coordinates of a family that a picture shows.
 _DRAWN = 12
 #: Failures of an ensemble that a notebook shows.
 _SHOWN = 10
@@ -128,9 +128,10 @@ class Solution:
         below.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)
 
     def _draw_components(self, axes: Any) -> None:
-        for name in self.coordinates[:_DRAWN]:
+        drawn = len(self.coordinates) if self._sites is None else _DRAWN
+        for name in self.coordinates[:drawn]:
             axes.plot(self.t, self[name], label=name, linewidth=1)
-        more = len(self.coordinates) - _DRAWN
+        more = len(self.coordinates) - drawn
         if more > 0:
             axes.plot([], [], " ", label=f"… and {more} more")
         axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)

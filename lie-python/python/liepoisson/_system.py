@@ -87,10 +87,8 @@ class System(Declared):
         asked.update(parameters=values, start=start, every=every, at=times, group=group)
         (t_rows, mu, energy, casimirs), found = self._core.run(asked)
         columns = {name: casimirs[:, index] for index, name in enumerate(self.casimirs)}
-        names = self.coordinates
-        sites = None
-        if self._core.family:
-            names, sites = self._core.names_of_sites(values), Sites(self, values)
+        family = self._core.family
+        names = self._core.names_of_sites(values) if family else self.coordinates
         solution = Solution(
             self.name,
             names,
@@ -102,7 +100,7 @@ class System(Declared):
             float(str(found["step"])),
             int(str(found["steps"])),
         )
-        solution._sites = sites
+        solution._sites = Sites(self, values) if family else None
         if "group" in found:
             elements = np.asarray(found["group"]).reshape(len(t_rows), -1)
             size = round(elements.shape[1] ** 0.5)
