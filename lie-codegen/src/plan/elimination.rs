@@ -134,6 +134,23 @@ impl Elimination {
             + scaling
     }
 
+    /// The pivots that do something, in order: a row of the identity that no other row has an entry of stays what it is, and
+    /// nothing is written there.
+    pub fn acting(&self) -> impl DoubleEndedIterator<Item = usize> {
+        let alone = |index: usize| {
+            let in_its_column = |(row, entries): (&usize, &BTreeSet<usize>)| {
+                *row == index || !entries.contains(&index)
+            };
+            self.unit.contains(&index)
+                && self.rows[&index].len() == 1
+                && self.rows.iter().all(in_its_column)
+        };
+        self.order
+            .iter()
+            .copied()
+            .filter(move |index| !alone(*index))
+    }
+
     /// The place of each pivot in the order.
     pub fn places(&self) -> BTreeMap<usize, usize> {
         let order = self.order.iter().enumerate();
@@ -233,6 +250,16 @@ mod tests {
             Elimination::new(3, &[], &BTreeSet::from([0, 1, 2])).multiplications(),
             0
         );
+    }
+
+    /// A row of the identity that is alone has no part in an elimination; one in whose column another row has an entry does.
+    #[test]
+    fn rows_that_are_alone_do_nothing() {
+        let unit = BTreeSet::from([0, 1]);
+        let elimination = Elimination::new(4, &[(2, 1), (2, 3), (3, 2)], &unit);
+        let mut acting: Vec<usize> = elimination.acting().collect();
+        acting.sort_unstable();
+        assert_eq!(acting, [1, 2, 3]);
     }
 
     /// A full matrix costs what Gauss's elimination does.

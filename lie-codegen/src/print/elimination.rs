@@ -169,8 +169,8 @@ impl Elimination {
             let entries = entries.into_iter().map(index);
             quote! { &[#(#entries),*] }
         };
-        let order = self.order.iter().copied().map(index);
-        let below = self.order.iter().map(|&k| {
+        let order = self.acting().map(index);
+        let below = self.acting().map(|k| {
             list(
                 self.order
                     .iter()
@@ -179,7 +179,7 @@ impl Elimination {
                     .collect(),
             )
         });
-        let right = self.order.iter().map(|&k| list(self.split(k).1));
+        let right = self.acting().map(|k| list(self.split(k).1));
         quote! {
             ::lie_runtime::__private::StaticElimination {
                 order: &[#(#order),*],
