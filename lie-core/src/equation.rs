@@ -53,6 +53,18 @@ pub trait Equation<S: Scalar> {
     fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask;
     /// Solves `(dr/du) x = r` by the factors, in place of r.
     fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown);
+    /// What Newton's iteration subtracts from an unknown, with the factors of its Jacobian: [`Equation::linearize`],
+    /// [`Equation::factor`] and [`Equation::solve`] one after the other, or something that gives the same bits. Returns the
+    /// size of the residual, and the lanes in which every pivot was safe.
+    #[inline(always)]
+    fn newton_update(
+        &mut self,
+        unknown: &Self::Unknown,
+        update: &mut Self::Unknown,
+        factors: &mut Self::Matrix,
+    ) -> (S, S::Mask) {
+        newton_update(self, unknown, update, factors)
+    }
     /// What an iteration with a Jacobian costs, in evaluations of the residual: [`Equation::linearize`],
     /// [`Equation::factor`] and [`Equation::solve`]. Decides whether iterations without one are tried. The default is
     /// `1.5 + n^2/20` of n unknowns, as counted of equations whose elimination is written out.
@@ -92,6 +104,21 @@ pub trait Equation<S: Scalar> {
     ) -> usize {
         0
     }
+}
+
+/// [`Equation::newton_update`] by its parts.
+#[inline(always)]
+pub fn newton_update<S: Scalar, E: Equation<S> + ?Sized>(
+    equation: &mut E,
+    unknown: &E::Unknown,
+    update: &mut E::Unknown,
+    factors: &mut E::Matrix,
+) -> (S, S::Mask) {
+    equation.linearize(unknown, update, factors);
+    let residual = update.max_norm();
+    let safe = equation.factor(factors);
+    equation.solve(factors, update);
+    (residual, safe)
 }
 
 /// The equation of one step of the implicit method M for a system.

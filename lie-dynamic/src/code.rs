@@ -370,21 +370,26 @@ impl Code {
         code
     }
 
+    /// Adds a source. Registers of sources come first: the new one moves all that hold results.
+    pub(crate) fn add_source(&mut self, source: Source) -> Register {
+        let new = self.sources.len() as Register;
+        self.sources.push(source);
+        let moved = |register: Register| register + Register::from(register >= new);
+        self.instructions = self.instructions.iter().map(|i| i.moved(&moved)).collect();
+        for store in &mut self.stores {
+            store.register = moved(store.register);
+        }
+        self.registers += 1;
+        new
+    }
+
     /// The same, writing zeros to these entries of the matrix too.
     #[must_use]
     pub fn with_zeros(mut self, places: &[(usize, usize)], size: usize) -> Self {
         if places.is_empty() {
             return self;
         }
-        // registers of sources come first: the new one moves all others
-        let zero = self.sources.len() as Register;
-        self.sources.push(Source::Number(Number::Exact(0.0)));
-        let moved = |register: Register| register + Register::from(register >= zero);
-        self.instructions = self.instructions.iter().map(|i| i.moved(&moved)).collect();
-        for store in &mut self.stores {
-            store.register = moved(store.register);
-        }
-        self.registers += 1;
+        let zero = self.add_source(Source::Number(Number::Exact(0.0)));
         let entries = rows(places, size).into_iter();
         self.stores.extend(entries.map(|entry| Store {
             target: 1,

@@ -1,7 +1,7 @@
 //! The codes of a plan: each of its programs, by its place.
 
 use crate::code::Code;
-use crate::elimination::Table;
+use crate::elimination::Elimination;
 use lie_codegen::methods::{Choice, Gradient};
 use lie_codegen::plan::{Constants, Function, Fused, Generating, Item, Method, Plan, Solver};
 use std::collections::HashMap;
@@ -52,6 +52,8 @@ pub(crate) struct FusedCodes {
     pub item: usize,
     pub residual: usize,
     pub linearize: usize,
+    /// The update of Newton's iteration, with the residual behind it, and the factors.
+    pub update: Place,
     pub guess: Place,
     pub result: Place,
     /// What completes the unknown, where the iteration leaves some of it out.
@@ -59,7 +61,7 @@ pub(crate) struct FusedCodes {
     /// Those of it.
     pub left_out: Vec<usize>,
     pub step: OfStep,
-    pub table: Table,
+    pub elimination: Elimination,
     /// The cost of an iteration with a Jacobian in those without.
     pub cost: Option<f64>,
 }
@@ -84,7 +86,7 @@ pub(crate) struct Compiled {
     pub generating: HashMap<&'static str, GeneratingCodes>,
     /// Discrete gradients in closed form: codes and kernels.
     pub gradients: HashMap<Gradient, (Vec<usize>, Vec<Function>)>,
-    pub eliminations: HashMap<String, Table>,
+    pub eliminations: HashMap<String, Elimination>,
     /// The equation of each method.
     pub solvers: HashMap<Choice, Solver>,
     pub taylor: Option<crate::series::Codes>,
@@ -128,17 +130,20 @@ impl Making {
             clear: [linearize.clear[0], None],
             ..linearize.with_zeros(&fused.elimination.fill, self.size)
         };
+        let elimination = Elimination::new(&fused.elimination, self.size, self);
+        let update = elimination.update(&linearize, self.size);
         let costs = fused.costs();
         Some(FusedCodes {
             item,
             residual,
             linearize: self.push(linearize),
+            update: update.map(|code| self.push(code)),
             guess: named("initial_guess").map(|function| self.kernel(function)),
             result: named("result").map(|function| self.kernel(function)),
             completed: fused.completed().map(|function| self.kernel(function)),
             left_out: fused.left_out(),
             step: self.step(&fused.step),
-            table: Table::new(&fused.elimination),
+            elimination,
             cost: costs.map(|[with, without]| with as f64 / without as f64),
         })
     }
@@ -218,8 +223,9 @@ impl Compiled {
                     generating.insert(function.suffix, making.generating(function));
                 }
                 Item::Sparse(sparse) => {
-                    let table = Table::new(&sparse.elimination);
-                    eliminations.insert(sparse.suffix.clone(), table);
+                    let size = making.size;
+                    let elimination = Elimination::new(&sparse.elimination, size, &mut making);
+                    eliminations.insert(sparse.suffix.clone(), elimination);
                 }
                 Item::Method(Method::Catalogue(choice), solver) => {
                     solvers.insert(choice.clone(), solver.clone());

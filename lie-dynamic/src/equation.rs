@@ -1,33 +1,15 @@
 //! The equations of steps: fused ones in code, generic ones with the elimination of the plan.
 
 use crate::compiled::FusedCodes;
-use crate::elimination::Table;
+use crate::elimination::{Blocks, Elimination, Scratch};
 use crate::system::Dynamic;
 use lie_codegen::methods::Choice;
 use lie_codegen::plan::{Chart, Ending, Fused, Guess, Item, Partner, Solver};
 use lie_codegen::trace::COMPLETED;
-use lie_core::family::LateMatrix;
-use lie_core::generic;
+use lie_core::{equation::newton_update, generic};
 use lie_runtime::methods::Retraction;
-use lie_runtime::{Equation, Mask as _, Poisson, Scalar, StageMatrix, Unknown};
-
-/// Matrices whose first block lies in one piece.
-pub trait Block<S> {
-    /// The first block.
-    fn block(&mut self) -> &mut [S];
-}
-
-impl<S: Scalar> Block<S> for LateMatrix<S> {
-    fn block(&mut self) -> &mut [S] {
-        self.as_mut_slice()
-    }
-}
-
-impl<S: Scalar, const STAGES: usize> Block<S> for StageMatrix<LateMatrix<S>, STAGES> {
-    fn block(&mut self) -> &mut [S] {
-        self.0[0][0].as_mut_slice()
-    }
-}
+use lie_runtime::{Equation, Mask as _, Poisson, Scalar, Unknown};
+use std::cell::RefCell;
 
 /// A fused equation at work.
 struct Running<'a, S> {
@@ -37,6 +19,8 @@ struct Running<'a, S> {
     field: Vec<S>,
     of_step: Vec<S>,
     ratios: Vec<S>,
+    /// An update of Newton's iteration with the residual behind it.
+    both: Vec<S>,
 }
 
 /// The equation of the step of a method as the plan has it; the generic one where it has nothing.
@@ -45,7 +29,8 @@ pub struct Planned<'a, S: Scalar, G> {
     h: S,
     generic: G,
     fused: Option<Running<'a, S>>,
-    elimination: Option<&'a Table>,
+    elimination: Option<&'a Elimination>,
+    scratch: RefCell<Scratch<S>>,
 }
 
 impl<'a, S: Scalar, G> Planned<'a, S, G> {
@@ -56,6 +41,7 @@ impl<'a, S: Scalar, G> Planned<'a, S, G> {
         match solver {
             Some(Solver::Fused(suffix)) => {
                 fused = system.values.compiled.fused.get(suffix).map(|codes| {
+                    elimination = Some(&codes.elimination);
                     let Item::Fused(row) = &system.values.compiled.plan.items[codes.item] else {
                         unreachable!("the row of a fused equation")
                     };
@@ -64,6 +50,7 @@ impl<'a, S: Scalar, G> Planned<'a, S, G> {
                         codes,
                         row,
                         field: zero.clone(),
+                        both: [zero.as_slice(), &zero].concat(),
                         base: zero,
                         of_step: system.values.of_step(&codes.step, h),
                         ratios: vec![S::zero(); 2 * spins(row)],
@@ -81,6 +68,7 @@ impl<'a, S: Scalar, G> Planned<'a, S, G> {
             generic,
             fused,
             elimination,
+            scratch: RefCell::default(),
         }
     }
 }
@@ -155,7 +143,7 @@ impl<S, G> Equation<S> for Planned<'_, S, G>
 where
     S: Scalar,
     G: Equation<S, State = Vec<S>>,
-    G::Matrix: Block<S>,
+    G::Matrix: Blocks<S>,
 {
     type State = Vec<S>;
     type Unknown = G::Unknown;
@@ -239,24 +227,48 @@ where
         };
         let (unknown, code) = (unknown.part(0), fused.codes.linearize);
         fused.prepare(self.system, unknown);
-        let targets = [residual.part_mut(0), matrix.block()];
+        let targets = [residual.part_mut(0), matrix.block_mut(0, 0)];
         fused.run(self.system, (code, "linearize"), (self.h, unknown), targets);
     }
 
     fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
-        match (&self.fused, self.elimination) {
-            (Some(fused), _) => fused.codes.table.factor(matrix),
-            (None, Some(table)) => table.factor(matrix),
-            (None, None) => self.generic.factor(matrix),
-        }
+        let Some(elimination) = self.elimination else {
+            return self.generic.factor(matrix);
+        };
+        let mut scratch = self.scratch.borrow_mut();
+        elimination.factor(&self.system.values, matrix, &mut scratch)
     }
 
     fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        match (&self.fused, self.elimination) {
-            (Some(fused), _) => fused.codes.table.solve(factors, residual),
-            (None, Some(table)) => table.solve(factors, residual),
-            (None, None) => self.generic.solve(factors, residual),
-        }
+        let Some(elimination) = self.elimination else {
+            return self.generic.solve(factors, residual);
+        };
+        let mut scratch = self.scratch.borrow_mut();
+        elimination.solve(&self.system.values, factors, residual, &mut scratch);
+    }
+
+    fn newton_update(
+        &mut self,
+        unknown: &Self::Unknown,
+        update: &mut Self::Unknown,
+        factors: &mut Self::Matrix,
+    ) -> (S, S::Mask) {
+        let fused = self.fused.as_mut();
+        let Some((code, fused)) = fused.and_then(|fused| Some((fused.codes.update?, fused))) else {
+            return newton_update(self, unknown, update, factors);
+        };
+        let unknown = unknown.part(0);
+        fused.prepare(self.system, unknown);
+        let mut both = std::mem::take(&mut fused.both);
+        let factors = factors.block_mut(0, 0);
+        let targets = [both.as_mut_slice(), &mut *factors];
+        fused.run(self.system, (code, "linearize"), (self.h, unknown), targets);
+        let (solution, residual) = both.split_at(unknown.len());
+        update.part_mut(0).copy_from_slice(solution);
+        let residual = S::largest_magnitude(residual);
+        let safe = fused.codes.elimination.are_safe(factors, unknown.len());
+        fused.both = both;
+        (residual, safe)
     }
 
     fn jacobian_cost(&self) -> f64 {

@@ -2,6 +2,7 @@
 
 use crate::code::{Code, Source};
 use crate::kernels::{ARGUMENTS, Frame, Targets};
+use smallvec::SmallVec;
 
 /// The number of slices in [`Frame::slices`].
 pub const SLICES: usize = ARGUMENTS + 4;
@@ -23,6 +24,7 @@ impl Source {
 
 impl<S> Frame<'_, S> {
     /// The arguments, then the constants of the system and of the step size, the parameters, and step size with time.
+    #[inline]
     pub fn slices(&self) -> [&[S]; SLICES] {
         let [a, b, c, d] = self.arguments;
         let (system, of_step) = (self.system, self.of_step);
@@ -33,7 +35,8 @@ impl<S> Frame<'_, S> {
 /// The least lengths of the slices that a code reads and writes.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Lengths {
-    inputs: [usize; SLICES],
+    /// The slices that are read, each with its least length.
+    inputs: SmallVec<[(usize, usize); 4]>,
     outputs: [usize; 2],
 }
 
@@ -41,10 +44,12 @@ impl Lengths {
     /// Those of a code.
     pub fn of(code: &Code) -> Self {
         let mut lengths = Self::default();
+        let mut inputs = [0; SLICES];
         for (slice, entry) in code.sources.iter().filter_map(Source::place) {
-            let least = &mut lengths.inputs[slice];
-            *least = (*least).max(entry + 1);
+            inputs[slice] = inputs[slice].max(entry + 1);
         }
+        let read = inputs.into_iter().enumerate();
+        lengths.inputs = read.filter(|(_, least)| *least > 0).collect();
         for store in &code.stores {
             let least = &mut lengths.outputs[usize::from(store.target)];
             *least = (*least).max(store.entry as usize + 1);
@@ -62,13 +67,17 @@ impl Lengths {
     pub fn check_columns<S>(&self, columns: &[&[S]], frame: &Frame<'_, S>, to: &[&mut [S]]) {
         let places = to.first().map_or(0, |to| to.len());
         let columns_long = columns.iter().all(|column| column.len() >= places);
-        let enough = columns.len() >= self.inputs[0] && to.len() >= self.outputs[0];
+        let first = self.inputs.first().filter(|(slice, _)| *slice == 0);
+        let read = first.map_or(0, |(_, least)| *least);
+        let enough = columns.len() >= read && to.len() >= self.outputs[0];
         assert!(enough, "there are too few columns for a code");
         let targets_long = to.iter().all(|to| to.len() >= places);
         assert!(columns_long && targets_long, "a column is too short");
         assert!(self.outputs[1] == 0, "a code over columns has no matrix");
-        for (slice, least) in frame.slices().iter().zip(self.inputs).skip(1) {
-            assert!(slice.len() >= least, "a slice is too short for its code");
+        let slices = frame.slices();
+        for (slice, least) in self.inputs.iter().filter(|(slice, _)| *slice > 0) {
+            let enough = slices[*slice].len() >= *least;
+            assert!(enough, "a slice is too short for its code");
         }
     }
 
@@ -76,9 +85,12 @@ impl Lengths {
     ///
     /// # Panics
     /// A slice is shorter than the code needs.
+    #[inline]
     pub fn check<S>(&self, frame: &Frame<'_, S>, targets: &Targets<'_, S>) {
-        for (slice, least) in frame.slices().iter().zip(self.inputs) {
-            assert!(slice.len() >= least, "a slice is too short for its code");
+        let slices = frame.slices();
+        for (slice, least) in &self.inputs {
+            let enough = slices[*slice].len() >= *least;
+            assert!(enough, "a slice is too short for its code");
         }
         for (target, least) in targets.iter().zip(self.outputs) {
             assert!(target.len() >= least, "a target is too short for its code");

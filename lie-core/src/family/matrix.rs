@@ -25,6 +25,12 @@ impl<S: Scalar> LateMatrix<S> {
         }
     }
 
+    /// All entries, row after row; none before one is set.
+    #[inline]
+    pub fn as_slice(&self) -> &[S] {
+        &self.entries
+    }
+
     /// All entries, row after row.
     #[inline]
     pub fn as_mut_slice(&mut self) -> &mut [S] {

@@ -38,11 +38,9 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
         let Workspace {
             update, factors, ..
         } = &mut self.workspace;
-        equation.linearize(unknown, update, factors);
-        let residual = update.max_norm();
-        let safe = equation.factor(factors) & lanes;
+        let (residual, safe) = equation.newton_update(unknown, update, factors);
+        let safe = safe & lanes;
         report.factorizations += 1;
-        equation.solve(factors, update);
         unknown.subtract_where(lanes, update);
         count.add(lanes);
         let solved = sizes.within(update, unknown, self.enough) & safe;

@@ -115,7 +115,12 @@ impl<S: Scalar, U: Unknown<S>> Predictor<S, U> {
             let values = unknown.part(part);
             let next = self.next.part_mut(part);
             let count = values.len();
-            let mut rows = self.differences.each_mut().map(|row| row.part_mut(part));
+            // of as many entries each, as the compiler is to know
+            let mut rows = self
+                .differences
+                .each_mut()
+                .map(|row| &mut row.part_mut(part)[..count]);
+            let next = &mut next[..count];
             let mut index = 0;
             while index + 1 < count {
                 let pair = [values[index], values[index + 1]];

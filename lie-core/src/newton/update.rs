@@ -49,19 +49,24 @@ pub(super) fn compute<S: Scalar, E: Equation<S>>(
         singular: S::Mask::splat(false),
         factorizations: 0,
     };
+    let Workspace {
+        update,
+        factors,
+        safe,
+        ..
+    } = &mut *workspace;
     if iteration == Iteration::Newton || (first && iteration == Iteration::Simplified) {
-        equation.linearize(unknown, &mut workspace.update, &mut workspace.factors);
-        workspace.safe = equation.factor(&mut workspace.factors);
+        (outcome.residual, *safe) = equation.newton_update(unknown, update, factors);
         outcome.factorizations += 1;
     } else {
-        equation.residual(unknown, &mut workspace.update);
+        equation.residual(unknown, update);
+        outcome.residual = update.max_norm();
+        if iteration != Iteration::Simplified {
+            outcome.update = outcome.residual;
+            return outcome;
+        }
+        equation.solve(factors, update);
     }
-    outcome.residual = workspace.update.max_norm();
-    outcome.update = outcome.residual;
-    if !matches!(iteration, Iteration::Newton | Iteration::Simplified) {
-        return outcome;
-    }
-    equation.solve(&workspace.factors, &mut workspace.update);
     if !(workspace.safe | !active).all() {
         outcome.pivoted = !workspace.safe & active & outcome.residual.finite();
         if outcome.pivoted.any() {
