@@ -1,10 +1,13 @@
-//! The interpreter, Cranelift and WebAssembly give the same bits: every code of every spec, with every method that applies, on random
-//! numbers.
+//! The interpreter, Cranelift, WebAssembly and CPython give the same bits: every code of every spec, with every method that applies, on
+//! random numbers.
 
+#[path = "../../tests/common/cpython/mod.rs"]
+mod cpython;
 #[path = "../../tests/common/random.rs"]
 mod random;
 mod wasmi_engine;
 
+use cpython::CPython;
 use lie_codegen::compile::{compile_spec, with_options};
 use lie_codegen::methods::{Choice, applicability};
 use lie_codegen::plan::plan;
@@ -51,15 +54,28 @@ fn codes(text: &str) -> Option<Arc<[Code]>> {
     listening.0.into_inner().unwrap().pop()
 }
 
-/// What a code writes for these numbers, entry by entry; a zero has no sign.
-fn written(machine: &dyn Machine<f64>, code: usize, of: &Code, numbers: &[Vec<f64>]) -> Vec<u64> {
-    let frame = Frame {
+/// The slices of a code as it reads them.
+fn frame<S: Copy>(numbers: &[Vec<S>]) -> Frame<'_, S> {
+    Frame {
         arguments: [0, 1, 2, 3].map(|argument| numbers[argument].as_slice()),
         system: &numbers[4],
         of_step: &numbers[5],
         parameters: &numbers[6],
         scalars: [numbers[7][0], numbers[7][1]],
-    };
+    }
+}
+
+/// The bits of a number; a zero has no sign, and what is not a number is one.
+fn bits(number: f64) -> u64 {
+    match number.is_nan() {
+        true => f64::NAN.to_bits(),
+        false => (number + 0.0).to_bits(),
+    }
+}
+
+/// What a code writes for these numbers, entry by entry.
+fn written(machine: &dyn Machine<f64>, code: usize, of: &Code, numbers: &[Vec<f64>]) -> Vec<u64> {
+    let frame = frame(numbers);
     let size = |target: u8| {
         let stores = of.stores.iter().filter(|store| store.target == target);
         let last = stores.map(|store| store.entry + 1).max().unwrap_or(0);
@@ -69,7 +85,7 @@ fn written(machine: &dyn Machine<f64>, code: usize, of: &Code, numbers: &[Vec<f6
     let (mut vector, mut matrix) = (vec![7.0; size(0)], vec![7.0; size(1)]);
     machine.run(code, &frame, [&mut vector, &mut matrix]);
     let all = vector.iter().chain(&matrix);
-    all.map(|number| (number + 0.0).to_bits()).collect()
+    all.map(|number| bits(*number)).collect()
 }
 
 /// Numbers for all slices of a code.
@@ -132,7 +148,8 @@ fn all_codes_of_all_specs() {
     let mut run = 0;
     for (name, text) in specs() {
         let Some(codes) = codes(&text) else { continue };
-        let found = differences(&codes, &[(&Jit, &codes), (&Wasmi, &codes)]);
+        let engines = [&Jit as &dyn Engine, &Wasmi, &CPython];
+        let found = differences(&codes, &engines.map(|engine| (engine, &codes)));
         assert!(
             found.is_empty(),
             "{name}: codes {found:?} of {}",
@@ -143,7 +160,7 @@ fn all_codes_of_all_specs() {
     assert!(run >= 13, "{run} specs");
 }
 
-/// What a code gives along columns of so many places, of which each has numbers of its own; a zero has no sign.
+/// What a code gives along columns of so many places, of which each has numbers of its own.
 fn along<S: Scalar>(
     machine: &dyn Machine<S>,
     code: usize,
@@ -151,13 +168,7 @@ fn along<S: Scalar>(
     numbers: &[Vec<S>],
     columns: &[Vec<S>],
 ) -> Vec<u64> {
-    let frame = Frame {
-        arguments: [0, 1, 2, 3].map(|argument| numbers[argument].as_slice()),
-        system: &numbers[4],
-        of_step: &numbers[5],
-        parameters: &numbers[6],
-        scalars: [numbers[7][0], numbers[7][1]],
-    };
+    let frame = frame(numbers);
     let places = columns.first().map_or(PLACES, Vec::len);
     let entries = of.stores.iter().map(|store| store.entry + 1).max();
     let entries = entries.max(of.clear[0]).unwrap_or(0) as usize;
@@ -168,9 +179,7 @@ fn along<S: Scalar>(
     let lanes = out
         .iter()
         .flat_map(|x| (0..S::LANES).map(|lane| x.lane(lane)));
-    lanes
-        .map(|number| (number.to_f64() + 0.0).to_bits())
-        .collect()
+    lanes.map(|number| bits(number.to_f64())).collect()
 }
 
 const PLACES: usize = 5;
@@ -193,10 +202,15 @@ fn differs_along<S: Scalar>(
         let values = random.numbers(count * S::LANES);
         values.chunks_exact(S::LANES).map(number).collect()
     };
+    // vectors of which every entry is written or cleared
+    let whole = |code: &Code| {
+        let entries = code.stores.iter().map(|store| store.entry + 1).max();
+        code.clear[0].is_some() || entries == Some(code.stores.len() as u32)
+    };
     let vectors = codes
         .iter()
         .enumerate()
-        .filter(|(_, code)| code.stores.iter().all(|store| store.target == 0));
+        .filter(|(_, code)| code.stores.iter().all(|store| store.target == 0) && whole(code));
     for (place, code) in vectors {
         let lengths = numbers(code, &mut Random(1)).into_iter();
         let numbers: Vec<Vec<S>> = lengths.map(|slice| wide(slice.len())).collect();
@@ -307,10 +321,10 @@ fn every_instruction() -> Code {
 #[test]
 fn every_instruction_is_the_interpreters() {
     let codes: Arc<[Code]> = [every_instruction()].into();
-    assert_eq!(
-        differences(&codes, &[(&Wasmi, &codes), (&Jit, &codes)]),
-        [0; 0]
-    );
+    for engine in [&Jit as &dyn Engine, &Wasmi, &CPython] {
+        let found = differences(&codes, &[(engine, &codes)]);
+        assert_eq!(found, [0; 0], "{}", engine.name());
+    }
 }
 
 /// One operation that is another one is found, and a product and a sum that are contracted would be.
@@ -335,7 +349,12 @@ fn a_flipped_operation_is_found() {
         }
     }
     let flipped = flipped.into();
-    assert_eq!(differences(&codes, &[(&Wasmi, &flipped)]), [position]);
+    for engine in [&Wasmi as &dyn Engine, &Jit] {
+        assert_eq!(differences(&codes, &[(engine, &flipped)]), [position]);
+    }
+    if cpython::there_is_cpython() {
+        assert_eq!(differences(&codes, &[(&CPython, &flipped)]), [position]);
+    }
 }
 
 /// A code that no host takes is interpreted, and those beside it are not.

@@ -1,0 +1,201 @@
+//! Codes run by CPython, as an engine for systems made at run time: each code is a function in Python's own arithmetic.
+//!
+//! A process of `python3` is given the functions, and then the numbers of each call, as the digits of their bits. Elementary functions
+//! are those of the numeric core, which the process asks for.
+
+use lie_dynamic::{
+    BINARY, Code, Engine, Frame, Instruction, Interpreted, Lengths, Machine, Number, Source,
+    Targets, UNARY, phi, stumpff,
+};
+use std::fmt::Write as _;
+use std::io::{BufRead as _, BufReader, Write as _};
+use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
+use std::sync::{Arc, Mutex};
+
+/// What serves calls in the process.
+const SERVE: &str = include_str!("serve.py");
+
+/// CPython. Where there is none, codes are interpreted.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct CPython;
+
+/// Whether there is one, which is told where not.
+pub fn there_is_cpython() -> bool {
+    let asked = Command::new("python3").arg("--version").output();
+    let there = asked.is_ok_and(|output| output.status.success());
+    if !there {
+        eprintln!("skipped: no python3");
+    }
+    there
+}
+
+impl Engine for CPython {
+    fn name(&self) -> &'static str {
+        "cpython"
+    }
+
+    fn machine(&self, codes: &Arc<[Code]>) -> Arc<dyn Machine<f64>> {
+        match there_is_cpython() {
+            true => Arc::new(Process::new(codes)),
+            false => Interpreted.machine(codes),
+        }
+    }
+}
+
+/// The two ends of a conversation.
+struct Talk {
+    child: Child,
+    asks: ChildStdin,
+    says: BufReader<ChildStdout>,
+}
+
+/// A process with the functions of some codes.
+struct Process {
+    codes: Arc<[Code]>,
+    lengths: Vec<Lengths>,
+    talk: Mutex<Talk>,
+}
+
+impl Process {
+    fn new(codes: &Arc<[Code]>) -> Self {
+        let mut child = Command::new("python3")
+            .args(["-c", SERVE])
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let mut asks = child.stdin.take().unwrap();
+        let says = BufReader::new(child.stdout.take().unwrap());
+        let functions: String = (0..).zip(codes.iter()).map(function).collect();
+        write!(asks, "{}\n{functions}", functions.lines().count()).unwrap();
+        Self {
+            codes: Arc::clone(codes),
+            lengths: codes.iter().map(Lengths::of).collect(),
+            talk: Mutex::new(Talk { child, asks, says }),
+        }
+    }
+}
+
+impl Drop for Talk {
+    fn drop(&mut self) {
+        // a process that waits for its next call may be ended
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+/// A number that no arithmetic of ours changes.
+fn exact(number: f64) -> String {
+    format!("bits({})", number.to_bits())
+}
+
+/// A code as a function of the slices of a frame, with a list of what it stores.
+fn function((position, code): (usize, &Code)) -> String {
+    let mut text = format!("def code_{position}(s):\n");
+    for (register, source) in code.sources.iter().enumerate() {
+        let value = match (source.place(), source) {
+            (Some((slice, entry)), _) => format!("s[{slice}][{entry}]"),
+            (None, Source::Number(Number::Exact(number) | Number::Parts(number, _))) => {
+                exact(*number)
+            }
+            (None, Source::Number(Number::Ratio(above, below))) => {
+                format!("{} / {}", exact(*above), exact(*below))
+            }
+            (None, other) => unreachable!("{other:?} is in a slice"),
+        };
+        let _ = writeln!(text, " r{register} = {value}");
+    }
+    let mut next = code.sources.len();
+    for instruction in &code.instructions {
+        let value = match *instruction {
+            Instruction::Add(a, b) => format!("r{a} + r{b}"),
+            Instruction::Sub(a, b) => format!("r{a} - r{b}"),
+            Instruction::Mul(a, b) => format!("r{a} * r{b}"),
+            Instruction::Div(a, b) => format!("divided(r{a}, r{b})"),
+            Instruction::Neg(a) => format!("-r{a}"),
+            Instruction::Sqrt(a) => format!("root(r{a})"),
+            Instruction::Below(a, b, c) => format!("r{b} if r{a} < 0.0 else r{c}"),
+            Instruction::Power(a, b) => format!("asked('powf', r{a}, r{b})[0]"),
+            Instruction::Atan2(a, b) => format!("asked('atan2', r{a}, r{b})[0]"),
+            Instruction::Call(function, a) => format!("asked('{}', r{a})[0]", function.name()),
+            Instruction::Stumpff(count, a) => format!("asked('stumpff {count}', r{a})"),
+            Instruction::Phi(count, a) => format!("asked('phi {count}', r{a})"),
+        };
+        let width = instruction.width() as usize;
+        let places: String = (next..next + width).map(|k| format!("r{k}, ")).collect();
+        let _ = match instruction {
+            Instruction::Stumpff(..) | Instruction::Phi(..) => {
+                writeln!(text, " {places}= {value}")
+            }
+            _ => writeln!(text, " r{next} = {value}"),
+        };
+        next += width;
+    }
+    let stored = code
+        .stores
+        .iter()
+        .map(|store| format!("r{}, ", store.register));
+    let _ = writeln!(text, " return [{}]", stored.collect::<String>());
+    text
+}
+
+/// Numbers as the digits of their bits.
+fn digits(numbers: &[f64]) -> String {
+    let words: Vec<String> = numbers.iter().map(|x| x.to_bits().to_string()).collect();
+    words.join(" ")
+}
+
+/// Numbers from the digits of their bits.
+fn numbers(text: &str) -> Vec<f64> {
+    let words = text.split_whitespace();
+    words
+        .map(|word| f64::from_bits(word.parse().unwrap()))
+        .collect()
+}
+
+/// What an elementary function of the numeric core gives.
+fn answer(name: &str, at: &[f64]) -> Vec<f64> {
+    if let Some((family, count)) = name.split_once(' ') {
+        let count: u8 = count.parse().unwrap();
+        let all = match family {
+            "stumpff" => stumpff(count, at[0]),
+            _ => phi(count, at[0]),
+        };
+        return all[..usize::from(count)].to_vec();
+    }
+    let unary = UNARY.iter().find(|(known, _)| *known == name);
+    let binary = BINARY.iter().find(|(known, _)| *known == name);
+    match (unary, binary) {
+        (Some((_, f)), _) => vec![f(at[0])],
+        (None, Some((_, f))) => vec![f(at[0], at[1])],
+        (None, None) => panic!("CPython asks for `{name}`"),
+    }
+}
+
+impl Machine<f64> for Process {
+    fn run(&self, code: usize, frame: &Frame<'_, f64>, mut targets: Targets<'_, f64>) {
+        self.lengths[code].check(frame, &targets);
+        let mut talk = self.talk.lock().unwrap();
+        let slices = frame.slices().map(digits);
+        writeln!(talk.asks, "{code};{}", slices.join(";")).unwrap();
+        let stored = loop {
+            let mut line = String::new();
+            talk.says.read_line(&mut line).unwrap();
+            match line.trim_end().split_once(';') {
+                Some(("stored", values)) => break numbers(values),
+                Some((name, values)) => {
+                    let answer = answer(name, &numbers(values));
+                    writeln!(talk.asks, "{}", digits(&answer)).unwrap();
+                }
+                None => panic!("CPython ended in code {code}"),
+            }
+        };
+        let of = &self.codes[code];
+        for (target, clear) in targets.iter_mut().zip(of.clear) {
+            target[..clear.unwrap_or(0) as usize].fill(0.0);
+        }
+        for (store, value) in of.stores.iter().zip(stored) {
+            targets[usize::from(store.target)][store.entry as usize] = value;
+        }
+    }
+}
