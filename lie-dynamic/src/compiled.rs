@@ -2,8 +2,10 @@
 
 use crate::code::Code;
 use crate::elimination::Elimination;
+use crate::kernels::ARGUMENTS;
 use lie_codegen::methods::{Choice, Gradient};
 use lie_codegen::plan::{Constants, Function, Fused, Generating, Item, Method, Plan, Solver};
+use smallvec::SmallVec;
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -46,18 +48,38 @@ pub(crate) struct OfStep {
     pub count: usize,
 }
 
+/// What a kernel of an equation has as an argument.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Given {
+    /// The state from which the step starts.
+    Base,
+    /// What is solved for.
+    Unknown,
+    /// The inverse length of the step.
+    Inverse,
+    /// The ratios of spins.
+    Ratios,
+}
+
+/// A kernel of an equation.
+#[derive(Clone, Debug)]
+pub(crate) struct Call {
+    pub code: usize,
+    pub arguments: SmallVec<[Given; ARGUMENTS]>,
+}
+
 /// A fused equation: its codes, and its row in the plan.
 #[derive(Clone, Debug)]
 pub(crate) struct FusedCodes {
     pub item: usize,
-    pub residual: usize,
-    pub linearize: usize,
+    pub residual: Call,
+    pub linearize: Call,
     /// The update of Newton's iteration, with the residual behind it, and the factors.
-    pub update: Place,
-    pub guess: Place,
-    pub result: Place,
+    pub update: Option<Call>,
+    pub guess: Option<Call>,
+    pub result: Option<Call>,
     /// What completes the unknown, where the iteration leaves some of it out.
-    pub completed: Place,
+    pub completed: Option<Call>,
     /// Those of it.
     pub left_out: Vec<usize>,
     pub step: OfStep,
@@ -115,6 +137,26 @@ impl Making {
         self.push(code)
     }
 
+    /// A kernel of an equation.
+    fn call(&mut self, function: &Function) -> Call {
+        self.call_of(Code::of_kernel(function, self.size), function)
+    }
+
+    /// A code with the arguments of a kernel.
+    fn call_of(&mut self, code: Code, function: &Function) -> Call {
+        let arguments = function.arguments.iter();
+        let arguments = arguments.map(|argument| match argument.name {
+            "mu" => Given::Base,
+            "inverse" => Given::Inverse,
+            "ratios" => Given::Ratios,
+            _ => Given::Unknown,
+        });
+        Call {
+            arguments: arguments.collect(),
+            code: self.push(code),
+        }
+    }
+
     fn step(&mut self, constants: &Constants) -> OfStep {
         OfStep {
             constants: self.push(Code::of_program(&constants.program)),
@@ -124,8 +166,8 @@ impl Making {
 
     fn fused(&mut self, item: usize, fused: &Fused) -> Option<FusedCodes> {
         let named = |name: &str| fused.functions.iter().find(|f| f.name == name);
-        let residual = self.kernel(named("residual")?);
-        let linearize = Code::of_kernel(named("linearize")?, self.size);
+        let jacobian = named("linearize")?;
+        let linearize = Code::of_kernel(jacobian, self.size);
         let linearize = Code {
             clear: [linearize.clear[0], None],
             ..linearize.with_zeros(&fused.elimination.fill, self.size)
@@ -135,12 +177,12 @@ impl Making {
         let costs = fused.costs();
         Some(FusedCodes {
             item,
-            residual,
-            linearize: self.push(linearize),
-            update: update.map(|code| self.push(code)),
-            guess: named("initial_guess").map(|function| self.kernel(function)),
-            result: named("result").map(|function| self.kernel(function)),
-            completed: fused.completed().map(|function| self.kernel(function)),
+            residual: self.call(named("residual")?),
+            linearize: self.call_of(linearize, jacobian),
+            update: update.map(|code| self.call_of(code, jacobian)),
+            guess: named("initial_guess").map(|function| self.call(function)),
+            result: named("result").map(|function| self.call(function)),
+            completed: fused.completed().map(|function| self.call(function)),
             left_out: fused.left_out(),
             step: self.step(&fused.step),
             elimination,

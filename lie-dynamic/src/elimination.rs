@@ -136,7 +136,7 @@ impl Elimination {
         let Scratch { read, factors, .. } = scratch;
         factors.resize(codes.layout.entries(), S::zero());
         let from = Scratch::gathered(read, matrix);
-        let frame = values.frame([from, &[], &[], &[]], &[], [S::zero(); 2]);
+        let frame = values.frame([from, &[], &[], &[]], &[], &[]);
         values.run(codes.factor, &frame, [factors, &mut []]);
         let across = matrix.across();
         let blocks = factors.chunks_exact(codes.layout.entries() / (across * across));
@@ -166,7 +166,7 @@ impl Elimination {
         for (place, part) in places[1..].iter_mut().zip(0..vector.parts()) {
             *place = vector.part(part);
         }
-        let frame = values.frame(places, &[], [S::zero(); 2]);
+        let frame = values.frame(places, &[], &[]);
         values.run(codes.solve, &frame, [solution, &mut []]);
         let width = solution.len() / vector.parts();
         for (part, values) in solution.chunks_exact(width).enumerate() {

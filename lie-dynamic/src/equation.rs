@@ -1,11 +1,11 @@
 //! The equations of steps: fused ones in code, generic ones with the elimination of the plan.
 
-use crate::compiled::FusedCodes;
+use crate::compiled::{Call, FusedCodes, Given};
 use crate::elimination::{Blocks, Elimination, Scratch};
+use crate::kernels::ARGUMENTS;
 use crate::system::Dynamic;
 use lie_codegen::methods::Choice;
 use lie_codegen::plan::{Chart, Ending, Fused, Guess, Item, Partner, Solver};
-use lie_codegen::trace::COMPLETED;
 use lie_core::{equation::newton_update, generic};
 use lie_runtime::methods::Retraction;
 use lie_runtime::{Equation, Mask as _, Poisson, Scalar, Unknown};
@@ -92,28 +92,26 @@ impl<S: Scalar> Running<'_, S> {
     fn run(
         &self,
         system: &Dynamic<S>,
-        code: (usize, &str),
+        call: &Call,
         (h, unknown): (S, &[S]),
         targets: [&mut [S]; 2],
     ) {
-        let functions = self.row.functions.iter();
-        let mut named = functions.filter(|function| function.name == code.1);
-        let arguments = named.next().map_or(&[][..], |function| &function.arguments);
-        let inverse = match arguments.iter().any(|argument| argument.name == "inverse") {
+        let inverse = match call.arguments.contains(&Given::Inverse) {
             true => generic::inverse_length(&self.base, &unknown.to_vec()),
             false => [S::zero()],
         };
-        let mut places: [&[S]; crate::kernels::ARGUMENTS] = Default::default();
-        for (place, argument) in places.iter_mut().zip(arguments) {
-            *place = match argument.name {
-                "mu" => &self.base,
-                "inverse" => &inverse,
-                "ratios" => &self.ratios,
-                _ => unknown,
+        let mut places: [&[S]; ARGUMENTS] = [&[]; ARGUMENTS];
+        for (place, argument) in places.iter_mut().zip(&call.arguments) {
+            *place = match argument {
+                Given::Base => &self.base,
+                Given::Unknown => unknown,
+                Given::Inverse => &inverse,
+                Given::Ratios => &self.ratios,
             };
         }
-        let frame = system.values.frame(places, &self.of_step, [h, S::zero()]);
-        system.values.run(code.0, &frame, targets);
+        let scalars = [h];
+        let frame = system.values.frame(places, &self.of_step, &scalars);
+        system.values.run(call.code, &frame, targets);
     }
 }
 
@@ -128,11 +126,11 @@ where
             return (&mut self.generic, None);
         };
         self.generic.set_base(&fused.base);
-        let completed = fused.codes.completed.map(|code| {
+        let completed = fused.codes.completed.as_ref().map(|call| {
             let mut all = unknown.clone();
             let targets = [all.part_mut(0), &mut []];
             let at = (self.h, unknown.part(0));
-            fused.run(self.system, (code, COMPLETED), at, targets);
+            fused.run(self.system, call, at, targets);
             all
         });
         (&mut self.generic, completed)
@@ -179,11 +177,11 @@ where
             Guess::WholeStep => self.h,
             Guess::HalfStep => self.h * S::from_f64(0.5),
             Guess::Kernel => {
-                let Some(code) = fused.codes.guess else {
+                let Some(call) = &fused.codes.guess else {
                     unreachable!("the guess is a kernel")
                 };
                 let targets = [unknown.part_mut(0), &mut []];
-                return fused.run(self.system, (code, "initial_guess"), (self.h, &[]), targets);
+                return fused.run(self.system, call, (self.h, &[]), targets);
             }
         };
         let mut field = std::mem::take(&mut fused.field);
@@ -210,10 +208,10 @@ where
         let Some(fused) = &mut self.fused else {
             return self.generic.residual(unknown, residual);
         };
-        let (unknown, code) = (unknown.part(0), fused.codes.residual);
+        let (unknown, call) = (unknown.part(0), &fused.codes.residual);
         fused.prepare(self.system, unknown);
         let targets = [residual.part_mut(0), &mut []];
-        fused.run(self.system, (code, "residual"), (self.h, unknown), targets);
+        fused.run(self.system, call, (self.h, unknown), targets);
     }
 
     fn linearize(
@@ -225,10 +223,10 @@ where
         let Some(fused) = &mut self.fused else {
             return self.generic.linearize(unknown, residual, matrix);
         };
-        let (unknown, code) = (unknown.part(0), fused.codes.linearize);
+        let (unknown, call) = (unknown.part(0), &fused.codes.linearize);
         fused.prepare(self.system, unknown);
         let targets = [residual.part_mut(0), matrix.block_mut(0, 0)];
-        fused.run(self.system, (code, "linearize"), (self.h, unknown), targets);
+        fused.run(self.system, call, (self.h, unknown), targets);
     }
 
     fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
@@ -254,7 +252,8 @@ where
         factors: &mut Self::Matrix,
     ) -> (S, S::Mask) {
         let fused = self.fused.as_mut();
-        let Some((code, fused)) = fused.and_then(|fused| Some((fused.codes.update?, fused))) else {
+        let updated = fused.and_then(|fused| Some((fused.codes.update.as_ref()?, fused)));
+        let Some((call, fused)) = updated else {
             return newton_update(self, unknown, update, factors);
         };
         let unknown = unknown.part(0);
@@ -262,7 +261,7 @@ where
         let mut both = std::mem::take(&mut fused.both);
         let factors = factors.block_mut(0, 0);
         let targets = [both.as_mut_slice(), &mut *factors];
-        fused.run(self.system, (code, "linearize"), (self.h, unknown), targets);
+        fused.run(self.system, call, (self.h, unknown), targets);
         let (solution, residual) = both.split_at(unknown.len());
         update.part_mut(0).copy_from_slice(solution);
         let residual = S::largest_magnitude(residual);
@@ -287,16 +286,11 @@ where
                 generic.result(completed.as_ref().unwrap_or(unknown), mu);
             }
             Ending::Kernel => {
-                let Some(code) = fused.codes.result else {
+                let Some(call) = &fused.codes.result else {
                     unreachable!("the ending is a kernel")
                 };
                 let targets = [mu.as_mut_slice(), &mut []];
-                fused.run(
-                    self.system,
-                    (code, "result"),
-                    (self.h, unknown.part(0)),
-                    targets,
-                );
+                fused.run(self.system, call, (self.h, unknown.part(0)), targets);
             }
         }
     }

@@ -96,9 +96,7 @@ impl<S: Scalar> OfSite<S> {
         let columns: FewOf<&[S]> = Few::make(dimension * offsets.len(), |place| {
             stretch.part(offsets[place / dimension], place % dimension)
         });
-        let frame = self
-            .values
-            .frame([&[], weights, &[], &[]], &[], [S::zero(); 2]);
+        let frame = self.values.frame([&[], weights, &[], &[]], &[], &[]);
         self.values.machine.along(code, &columns, &frame, to);
     }
 }

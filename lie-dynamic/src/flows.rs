@@ -146,13 +146,9 @@ impl<'a, S: Scalar> Flows<'a, S> {
             self.series.flow(flow.coordinate, t, mu);
             return;
         };
-        let frame = self
-            .system
-            .values
-            .frame([mu, &[], &[], &[]], &[], [S::zero(), t]);
-        self.system
-            .values
-            .run(*code, &frame, [&mut self.results, &mut []]);
+        let (values, scalars) = (&self.system.values, [S::zero(), t]);
+        let frame = values.frame([mu, &[], &[], &[]], &[], &scalars);
+        values.run(*code, &frame, [&mut self.results, &mut []]);
         update(updates, &self.results, mu);
     }
 

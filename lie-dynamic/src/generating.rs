@@ -34,11 +34,9 @@ impl<'a, S: Scalar, G> Planned<'a, S, G> {
     }
 
     fn run(&self, code: usize, p: &[S], xi: &mut [S], hessian: &mut [S]) {
-        let frame =
-            self.system
-                .values
-                .frame([p, &[], &[], &[]], &self.of_step, [self.h, S::zero()]);
-        self.system.values.run(code, &frame, [xi, hessian]);
+        let (values, scalars) = (&self.system.values, [self.h]);
+        let frame = values.frame([p, &[], &[], &[]], &self.of_step, &scalars);
+        values.run(code, &frame, [xi, hessian]);
     }
 }
 
@@ -55,11 +53,9 @@ impl<S: Scalar> GeneratingFunction<S> for Gradient<'_, S> {
     type Jacobian = LateMatrix<S>;
 
     fn gradient(&mut self, p: &Vec<S>, xi: &mut Vec<S>) {
-        let frame =
-            self.system
-                .values
-                .frame([p, &[], &[], &[]], &self.of_step, [self.h, S::zero()]);
-        self.system.values.run(self.code, &frame, [xi, &mut []]);
+        let (values, scalars) = (&self.system.values, [self.h]);
+        let frame = values.frame([p, &[], &[], &[]], &self.of_step, &scalars);
+        values.run(self.code, &frame, [xi, &mut []]);
     }
 
     fn linearize(&mut self, _p: &Vec<S>, _xi: &mut Vec<S>, _hessian: &mut LateMatrix<S>) {

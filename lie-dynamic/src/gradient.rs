@@ -62,7 +62,7 @@ fn coded<S: Scalar>(
             _ => end,
         };
     }
-    let frame = system.values.frame(places, &[], [S::zero(); 2]);
+    let frame = system.values.frame(places, &[], &[]);
     system.values.run(codes[place], &frame, targets);
 }
 

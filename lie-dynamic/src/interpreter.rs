@@ -59,14 +59,10 @@ impl Number {
 }
 
 fn load<S: Scalar>(source: &Source, frame: &Frame<'_, S>) -> S {
-    match *source {
-        Source::Argument(argument, entry) => frame.arguments[usize::from(argument)][entry as usize],
-        Source::System(position) => frame.system[position as usize],
-        Source::OfStep(position) => frame.of_step[position as usize],
-        Source::Parameter(position) => frame.parameters[position as usize],
-        Source::Step => frame.scalars[0],
-        Source::Time => frame.scalars[1],
-        Source::Number(number) => number.value(),
+    match (source.place(), source) {
+        (Some((slice, entry)), _) => frame.slices()[slice][entry],
+        (None, Source::Number(number)) => number.value(),
+        (None, other) => unreachable!("{other:?} is in a slice"),
     }
 }
 

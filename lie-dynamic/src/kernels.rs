@@ -1,6 +1,7 @@
 //! What runs code, and what it runs on.
 
 use crate::code::Code;
+use crate::layout::SLICES;
 use lie_runtime::Scalar;
 use smallvec::SmallVec;
 use std::ops::Range;
@@ -9,19 +10,39 @@ use std::sync::Arc;
 /// More vector arguments a kernel does not have.
 pub const ARGUMENTS: usize = 4;
 
-/// What code reads.
+/// What code reads, in the order of [`Source::place`](crate::Source::place): the vector arguments, the constants of the system
+/// and of the step size, the parameters, the step size with the time.
 #[derive(Clone, Copy, Debug)]
-pub struct Frame<'a, S> {
-    /// The vector arguments.
-    pub arguments: [&'a [S]; ARGUMENTS],
-    /// The constants of the system.
-    pub system: &'a [S],
-    /// The constants of the step size.
-    pub of_step: &'a [S],
-    /// The parameters.
-    pub parameters: &'a [S],
-    /// The step size and the time.
-    pub scalars: [S; 2],
+pub struct Frame<'a, S>([&'a [S]; SLICES]);
+
+impl<'a, S> Frame<'a, S> {
+    /// Of these slices; what no code that it is for reads may be empty.
+    #[inline]
+    pub fn new(
+        [a, b, c, d]: [&'a [S]; ARGUMENTS],
+        [system, of_step, parameters]: [&'a [S]; 3],
+        scalars: &'a [S],
+    ) -> Self {
+        Self([a, b, c, d, system, of_step, parameters, scalars])
+    }
+
+    /// All slices.
+    #[inline]
+    pub fn slices(&self) -> &[&'a [S]; SLICES] {
+        &self.0
+    }
+
+    /// The same with another first argument.
+    #[inline]
+    #[must_use]
+    pub fn at<'b>(&self, first: &'b [S]) -> Frame<'b, S>
+    where
+        'a: 'b,
+    {
+        let mut slices: [&'b [S]; SLICES] = self.0;
+        slices[0] = first;
+        Frame(slices)
+    }
 }
 
 /// What code writes: a number or vector, and a matrix row after row.
@@ -47,12 +68,7 @@ pub trait Machine<S>: Send + Sync {
     {
         let places = to.first().map_or(0, |to| to.len());
         place_by_place(0..places, columns, to, |at, out| {
-            let [_, b, c, d] = frame.arguments;
-            let frame = Frame {
-                arguments: [at, b, c, d],
-                ..*frame
-            };
-            self.run(code, &frame, [out, &mut []]);
+            self.run(code, &frame.at(at), [out, &mut []]);
         });
     }
 

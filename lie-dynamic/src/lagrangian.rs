@@ -39,7 +39,8 @@ impl<S: Scalar> Dynamic<S> {
     fn discrete(&self, place: Place, h: S, x: &[S], vector: &mut [S], matrix: &mut [S]) {
         let mut arguments: [&[S]; ARGUMENTS] = [&[]; ARGUMENTS];
         arguments[0] = x;
-        let frame = self.values.frame(arguments, &[], [h, S::zero()]);
+        let scalars = [h];
+        let frame = self.values.frame(arguments, &[], &scalars);
         self.values.run(there(place), &frame, [vector, matrix]);
     }
 }

@@ -4,7 +4,7 @@ use crate::code::{Code, Source};
 use crate::kernels::{ARGUMENTS, Frame, Targets};
 use smallvec::SmallVec;
 
-/// The number of slices in [`Frame::slices`].
+/// The number of slices in a [`Frame`].
 pub const SLICES: usize = ARGUMENTS + 4;
 
 impl Source {
@@ -19,16 +19,6 @@ impl Source {
             Self::Time => (ARGUMENTS + 3, 1),
             Self::Number(_) => return None,
         })
-    }
-}
-
-impl<S> Frame<'_, S> {
-    /// The arguments, then the constants of the system and of the step size, the parameters, and step size with time.
-    #[inline]
-    pub fn slices(&self) -> [&[S]; SLICES] {
-        let [a, b, c, d] = self.arguments;
-        let (system, of_step) = (self.system, self.of_step);
-        [a, b, c, d, system, of_step, self.parameters, &self.scalars]
     }
 }
 

@@ -101,7 +101,7 @@ fn scheme_of(scheme: Scheme) -> m::Scheme {
 }
 
 /// The method of a choice with its own defaults: series at the tolerance at which they are exact on every grid.
-pub fn at_defaults<S: Scalar>(choice: &Choice) -> Option<Method<S>> {
+pub fn at_defaults(choice: &Choice) -> Option<Method> {
     match choice {
         Choice::Taylor => boxed(m::Taylor::default()),
         Choice::LieTaylor => boxed(m::LieTaylor::default()),
@@ -111,7 +111,14 @@ pub fn at_defaults<S: Scalar>(choice: &Choice) -> Option<Method<S>> {
 
 /// The method of a choice; none where it needs what systems made at run time do not have yet. Whether it applies to a system is
 /// for the catalogue to say.
-pub fn method<S: Scalar>(choice: &Choice, tolerances: Tolerances) -> Option<Method<S>> {
+///
+/// Of double precision, so that all methods are compiled once, here, and not with every crate that asks for one.
+pub fn method(choice: &Choice, tolerances: Tolerances) -> Option<Method> {
+    over(choice, tolerances)
+}
+
+/// The same over any scalar.
+fn over<S: Scalar>(choice: &Choice, tolerances: Tolerances) -> Option<Method<S>> {
     match choice {
         Choice::Midpoint => boxed(m::ImplicitMidpoint),
         Choice::Gauss(stages) => gauss(*stages),
@@ -293,11 +300,11 @@ fn compose<S: Scalar>(
 ) -> Option<Method<S>> {
     let claims = Claims {
         order,
-        ..method::<S>(base, tolerances)?.claims()
+        ..over::<S>(base, tolerances)?.claims()
     };
     let (base, scheme) = (base.clone(), scheme_of(scheme));
     let choose = move |_: &Dynamic<S>| -> Method<S> {
-        let base = method(&base, tolerances);
+        let base = over(&base, tolerances);
         let base = Base(base.unwrap_or_else(|| unreachable!("the base was there before")));
         match order {
             4 => Box::new(m::Compose4::new(base).scheme(scheme)),

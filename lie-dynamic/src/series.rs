@@ -79,7 +79,7 @@ impl<'a, S: Scalar> Coefficients<'a, S> {
             [S::from_f64(k as f64), S::ratio(1.0, k as f64)]
         });
         let places: [&[S]; ARGUMENTS] = [state, &self.rest, &self.kept, &order];
-        let frame = self.system.values.frame(places, &[], [S::zero(); 2]);
+        let frame = self.system.values.frame(places, &[], &[]);
         self.system
             .values
             .run(code, &frame, [&mut self.results, &mut []]);

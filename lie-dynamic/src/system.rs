@@ -108,7 +108,7 @@ impl Dynamic<f64> {
         }
         check_signs(&values)?;
         let mut constants = vec![0.0; self.plan().constants.entries.len()];
-        let frame = values.frame([&[]; ARGUMENTS], &[], [0.0; 2]);
+        let frame = values.frame([&[]; ARGUMENTS], &[], &[]);
         values.run(values.compiled.constants, &frame, [&mut constants, &mut []]);
         values.constants = constants;
         check_constants(&values)?;
@@ -140,7 +140,7 @@ impl Dynamic<f64> {
     fn constants_of(&self, program: &Program) -> Vec<f64> {
         let code = Code::of_program(program);
         let mut values = vec![0.0; code.stores.len()];
-        let frame = self.values.frame([&[]; ARGUMENTS], &[], [0.0; 2]);
+        let frame = self.values.frame([&[]; ARGUMENTS], &[], &[]);
         let interpreter = Interpreter::new(Arc::from(vec![code]));
         interpreter.run(0, &frame, [&mut values, &mut []]);
         values

@@ -247,7 +247,7 @@ impl<S: Scalar> CayleyPoisson<S> for Dynamic<S> {
         self.values.compiled.structure.spectrum()
     }
     fn triple(&self, x: &Vec<S>, z: &Vec<S>, mu: &Vec<S>, out: &mut Vec<S>) {
-        let frame = self.values.frame([x, z, mu, &[]], &[], [S::zero(); 2]);
+        let frame = self.values.frame([x, z, mu, &[]], &[], &[]);
         self.values
             .machine
             .run(there(self.values.kernels().triple), &frame, [out, &mut []]);

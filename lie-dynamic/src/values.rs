@@ -26,19 +26,15 @@ impl<S: Clone> Clone for Values<S> {
 }
 
 impl<S: Scalar> Values<S> {
+    #[inline]
     pub fn frame<'a>(
         &'a self,
         arguments: [&'a [S]; ARGUMENTS],
         of_step: &'a [S],
-        scalars: [S; 2],
+        scalars: &'a [S],
     ) -> Frame<'a, S> {
-        Frame {
-            arguments,
-            system: &self.constants,
-            of_step,
-            parameters: &self.parameters,
-            scalars,
-        }
+        let constants = [&self.constants, of_step, &self.parameters];
+        Frame::new(arguments, constants, scalars)
     }
 
     pub fn run(&self, code: usize, frame: &Frame<'_, S>, targets: [&mut [S]; 2]) {
@@ -49,7 +45,7 @@ impl<S: Scalar> Values<S> {
     #[inline]
     pub fn call(&self, code: usize, arguments: [&[S]; 2], vector: &mut [S], matrix: &mut [S]) {
         let [a, b] = arguments;
-        let frame = self.frame([a, b, &[], &[]], &[], [S::zero(); 2]);
+        let frame = self.frame([a, b, &[], &[]], &[], &[]);
         self.machine.run(code, &frame, [vector, matrix]);
     }
 
@@ -68,7 +64,8 @@ impl<S: Scalar> Values<S> {
     /// The constants of a step size.
     pub fn of_step(&self, step: &OfStep, h: S) -> Vec<S> {
         let mut constants = vec![S::zero(); step.count];
-        let frame = self.frame([&[]; ARGUMENTS], &[], [h, S::zero()]);
+        let scalars = [h];
+        let frame = self.frame([&[]; ARGUMENTS], &[], &scalars);
         self.machine
             .run(step.constants, &frame, [&mut constants, &mut []]);
         constants

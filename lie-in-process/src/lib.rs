@@ -22,7 +22,7 @@ use lie_measure::{Bench, Stress, Verify};
 use lie_program::Program;
 use lie_program::protocol::{End, Tolerances};
 use lie_program::session::Session;
-use lie_runtime::{ParameterError, Scalar, driver};
+use lie_runtime::{ParameterError, driver};
 
 /// Does what the line of a request asks for.
 pub type Work = dyn Fn(&str, &mut Session<'_>) -> Result<(), End> + Send + Sync;
@@ -42,8 +42,7 @@ pub fn work(
     clock: fn() -> Option<f64>,
 ) -> Option<Box<Work>> {
     let plan = plan(model, choices);
-    let there =
-        |choice: &Choice| method::<f64>(choice, lie_dynamic::Tolerances::default()).is_some();
+    let there = |choice: &Choice| method(choice, lie_dynamic::Tolerances::default()).is_some();
     if !Dynamic::supports(&plan) || !choices.iter().all(there) {
         return None;
     }
@@ -91,14 +90,14 @@ struct Declaration {
 }
 
 /// A method that is known to be there.
-fn made<S: Scalar>(choice: &Choice, tolerances: &Tolerances) -> Method<S> {
+fn made(choice: &Choice, tolerances: &Tolerances) -> Method {
     let (rtol, atol) = (tolerances.rtol, tolerances.atol);
     let made = method(choice, lie_dynamic::Tolerances { rtol, atol });
     made.unwrap_or_else(|| unreachable!("whether there is a method does not depend on tolerances"))
 }
 
 /// The same at its defaults.
-fn of_defaults<S: Scalar>(choice: &Choice) -> Method<S> {
+fn of_defaults(choice: &Choice) -> Method {
     at_defaults(choice).unwrap_or_else(|| unreachable!("the method was there before"))
 }
 

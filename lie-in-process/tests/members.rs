@@ -67,7 +67,7 @@ fn alone(members: &Members<'_>) -> Vec<Member> {
 /// What is different between members in lanes and alone, by method; the control differs in the last digits of one member's start.
 fn different(name: &str, save: Save, newton: NewtonOptions) -> (usize, Vec<String>) {
     let model = model(name);
-    let there = |choice: &Choice| method::<f64>(choice, Tolerances::default()).is_some();
+    let there = |choice: &Choice| method(choice, Tolerances::default()).is_some();
     let choices: Vec<_> = list::all(&model).into_iter().filter(there).collect();
     let declared = Declared::new(plan(&model, &choices), &Jit);
     let starts = starts(&declared);

@@ -185,13 +185,8 @@ impl Machine<f64> for Compiled {
             }
             _ => 0,
         };
-        let [_, b, c, d] = frame.arguments;
         place_by_place(done..places, columns, to, |at, out| {
-            let frame = Frame {
-                arguments: [at, b, c, d],
-                ..*frame
-            };
-            self.run(code, &frame, [out, &mut []]);
+            self.run(code, &frame.at(at), [out, &mut []]);
         });
     }
 

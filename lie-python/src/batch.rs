@@ -135,7 +135,7 @@ pub fn ensemble<'py>(
 ) -> PyResult<Saved<'py>> {
     let (choice, declared) = declaration.method(py, &asked.label)?;
     let tolerances = choice::tolerances(py, &choice, asked.tolerances, asked.pace.1)?;
-    method::<f64>(&choice, tolerances).ok_or_else(|| choice::unsupported(py, &asked.label))?;
+    method(&choice, tolerances).ok_or_else(|| choice::unsupported(py, &asked.label))?;
     let rows = |array: &PyReadonlyArray2<'py, f64>| -> Vec<Vec<f64>> {
         let rows = array.as_array();
         rows.rows().into_iter().map(|row| row.to_vec()).collect()

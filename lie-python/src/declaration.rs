@@ -235,5 +235,5 @@ pub fn choices(
 
 /// Whether a method runs without a compiler of Rust.
 pub fn runs(choice: &Choice) -> bool {
-    lie_dynamic::method::<f64>(choice, lie_dynamic::Tolerances::default()).is_some()
+    lie_dynamic::method(choice, lie_dynamic::Tolerances::default()).is_some()
 }

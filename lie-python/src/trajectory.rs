@@ -48,7 +48,7 @@ pub fn run<'py>(
     let (choice, declared) = declaration.method(py, &asked.label)?;
     let system = made(&declared, &asked.parameters)?;
     let tolerances = choice::tolerances(py, &choice, asked.tolerances, pace.1)?;
-    lie_dynamic::method::<f64>(&choice, tolerances).ok_or_else(|| unsupported(py, &asked.label))?;
+    lie_dynamic::method(&choice, tolerances).ok_or_else(|| unsupported(py, &asked.label))?;
     let options = Options {
         pace: match pace {
             (_, Some(tolerance)) => Pace::Tolerance(tolerance),
@@ -70,7 +70,7 @@ pub fn run<'py>(
     };
     let (outcome, watch, elements) = py.detach(|| {
         let watch = observer::Watch::default();
-        let method = lie_dynamic::method::<f64>(&choice, tolerances);
+        let method = lie_dynamic::method(&choice, tolerances);
         let mut elements = None;
         let outcome = method.map(|method| {
             let method = Forgotten(method.as_ref());

@@ -56,13 +56,12 @@ fn codes(text: &str) -> Option<Arc<[Code]>> {
 
 /// The slices of a code as it reads them.
 fn frame<S: Copy>(numbers: &[Vec<S>]) -> Frame<'_, S> {
-    Frame {
-        arguments: [0, 1, 2, 3].map(|argument| numbers[argument].as_slice()),
-        system: &numbers[4],
-        of_step: &numbers[5],
-        parameters: &numbers[6],
-        scalars: [numbers[7][0], numbers[7][1]],
-    }
+    let arguments = [0, 1, 2, 3].map(|argument| numbers[argument].as_slice());
+    Frame::new(
+        arguments,
+        [&numbers[4], &numbers[5], &numbers[6]],
+        &numbers[7],
+    )
 }
 
 /// The bits of a number; a zero has no sign, and what is not a number is one.

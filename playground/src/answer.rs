@@ -141,7 +141,7 @@ fn opened(text: &str, request: &Value) -> Result<(Run, Value), Vec<Diagnostic>> 
         )
     })?;
     let planned = plan(&model, std::slice::from_ref(&choice));
-    let method = at_defaults::<f64>(&choice).filter(|_| Dynamic::supports(&planned));
+    let method = at_defaults(&choice).filter(|_| Dynamic::supports(&planned));
     let method = method.ok_or_else(|| {
         let text = "functions of Rust do not run in a page";
         refused(

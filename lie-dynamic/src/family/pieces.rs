@@ -14,7 +14,8 @@ fn turn<S: Scalar>(values: &Values<S>, turn: &Turn, angle: S, site: &mut [S]) {
     let mut results = zeros(turn.updates.len());
     let mut arguments: [&[S]; ARGUMENTS] = [&[]; ARGUMENTS];
     arguments[0] = site;
-    let frame = values.frame(arguments, &[], [S::zero(), angle]);
+    let scalars = [S::zero(), angle];
+    let frame = values.frame(arguments, &[], &scalars);
     values.run(turn.code, &frame, [&mut results, &mut []]);
     update(&turn.updates, &results, site);
 }
