@@ -60,5 +60,7 @@ pub use elementary::{BINARY, Binary, UNARY, Unary};
 pub use interpreter::{Interpreted, Interpreter, phi, stumpff};
 pub use kernels::{Engine, Frame, Machine, Targets, place_by_place};
 pub use layout::{Lengths, SLICES};
-pub use methods::{Method, Tolerances, at_defaults, method, method_in_lanes};
+pub use methods::{
+    Method, Tolerances, at_defaults, at_defaults_over, method, method_in_lanes, method_over,
+};
 pub use system::{Declared, Dynamic};

@@ -102,10 +102,15 @@ fn scheme_of(scheme: Scheme) -> m::Scheme {
 
 /// The method of a choice with its own defaults: series at the tolerance at which they are exact on every grid.
 pub fn at_defaults(choice: &Choice) -> Option<Method> {
+    at_defaults_over(choice)
+}
+
+/// The same over any scalar.
+pub fn at_defaults_over<S: Scalar>(choice: &Choice) -> Option<Method<S>> {
     match choice {
         Choice::Taylor => boxed(m::Taylor::default()),
         Choice::LieTaylor => boxed(m::LieTaylor::default()),
-        other => method(other, Tolerances::default()),
+        other => method_over(other, Tolerances::default()),
     }
 }
 
@@ -114,11 +119,11 @@ pub fn at_defaults(choice: &Choice) -> Option<Method> {
 ///
 /// Of double precision, so that all methods are compiled once, here, and not with every crate that asks for one.
 pub fn method(choice: &Choice, tolerances: Tolerances) -> Option<Method> {
-    over(choice, tolerances)
+    method_over(choice, tolerances)
 }
 
 /// The same over any scalar.
-fn over<S: Scalar>(choice: &Choice, tolerances: Tolerances) -> Option<Method<S>> {
+pub fn method_over<S: Scalar>(choice: &Choice, tolerances: Tolerances) -> Option<Method<S>> {
     match choice {
         Choice::Midpoint => boxed(m::ImplicitMidpoint),
         Choice::Gauss(stages) => gauss(*stages),
@@ -300,11 +305,11 @@ fn compose<S: Scalar>(
 ) -> Option<Method<S>> {
     let claims = Claims {
         order,
-        ..over::<S>(base, tolerances)?.claims()
+        ..method_over::<S>(base, tolerances)?.claims()
     };
     let (base, scheme) = (base.clone(), scheme_of(scheme));
     let choose = move |_: &Dynamic<S>| -> Method<S> {
-        let base = over(&base, tolerances);
+        let base = method_over(&base, tolerances);
         let base = Base(base.unwrap_or_else(|| unreachable!("the base was there before")));
         match order {
             4 => Box::new(m::Compose4::new(base).scheme(scheme)),

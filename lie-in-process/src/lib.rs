@@ -15,7 +15,7 @@ use lie_codegen::methods::Choice;
 use lie_codegen::model::Model;
 use lie_codegen::plan::plan;
 use lie_codegen::program::{Chart, Purpose, beside, compared};
-use lie_dynamic::{Declared, Dynamic, Method, at_defaults, method};
+use lie_dynamic::{Declared, Dynamic, Method, at_defaults, at_defaults_over, method, method_over};
 use lie_jit::Jit;
 use lie_measure::verify::Kind;
 use lie_measure::{Bench, Stress, Verify};
@@ -42,8 +42,8 @@ pub fn work(
     clock: fn() -> Option<f64>,
 ) -> Option<Box<Work>> {
     let plan = plan(model, choices);
-    let there = |choice: &Choice| method(choice, lie_dynamic::Tolerances::default()).is_some();
-    if !Dynamic::supports(&plan) || !choices.iter().all(there) {
+    let known = |choice: &Choice| method(choice, lie_dynamic::Tolerances::default()).is_some();
+    if !Dynamic::supports(&plan) || !choices.iter().all(known) {
         return None;
     }
     let parameters = model.parameters.iter();
@@ -89,16 +89,18 @@ struct Declaration {
     orbits: bool,
 }
 
-/// A method that is known to be there.
-fn made(choice: &Choice, tolerances: &Tolerances) -> Method {
-    let (rtol, atol) = (tolerances.rtol, tolerances.atol);
-    let made = method(choice, lie_dynamic::Tolerances { rtol, atol });
-    made.unwrap_or_else(|| unreachable!("whether there is a method does not depend on tolerances"))
+/// What is known to be there: whether there is a method depends neither on tolerances nor on the scalar.
+fn there<M>(method: Option<M>) -> M {
+    method.unwrap_or_else(|| unreachable!("the method was there before"))
 }
 
-/// The same at its defaults.
-fn of_defaults(choice: &Choice) -> Method {
-    at_defaults(choice).unwrap_or_else(|| unreachable!("the method was there before"))
+fn of_dynamic(tolerances: &Tolerances) -> lie_dynamic::Tolerances {
+    let (rtol, atol) = (tolerances.rtol, tolerances.atol);
+    lie_dynamic::Tolerances { rtol, atol }
+}
+
+fn made(choice: &Choice, tolerances: &Tolerances) -> Method {
+    there(method(choice, of_dynamic(tolerances)))
 }
 
 /// Makes the system of values of the parameters.
@@ -143,8 +145,14 @@ impl Declaration {
                 Kind::Plain
             };
             program = program.any_method(&label, kind, move |tolerances| match series {
-                true => (of_defaults(&choice), of_defaults(&choice)),
-                false => (made(&choice, tolerances), made(&choice, tolerances)),
+                true => (
+                    there(at_defaults(&choice)),
+                    there(at_defaults_over(&choice)),
+                ),
+                false => (
+                    made(&choice, tolerances),
+                    there(method_over(&choice, of_dynamic(tolerances))),
+                ),
             });
         }
         for choice in &self.compared {
