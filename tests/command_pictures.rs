@@ -171,6 +171,31 @@ fn a_long_run_has_no_larger_file() {
 }
 
 #[test]
+fn a_run_that_stops_early_is_said_to() {
+    let folder = folder();
+    let path = folder.path().join("picture.svg");
+    let rows = folder.path().join("rows.csv");
+    let draw = |call: &str| {
+        let (rows, path) = (rows.display(), path.display());
+        let run = lie(&format!("run {call} --quiet --out {rows} --plot {path}"));
+        let svg = std::fs::read_to_string(folder.path().join("picture.svg"));
+        (run.code, svg.expect("a picture"))
+    };
+    let spec = "specs/so3_nonpolynomial.json --until 30";
+    let (code, svg) = draw(&format!("{spec} --method midpoint --method rk4 --step 3"));
+    assert_eq!(code, Some(3));
+    assert!(svg.contains("; midpoint stopped at t = ") && svg.contains("; rk4 stopped at t = 0<"));
+    for kind in ["components", "orbit", "section", "phase"] {
+        let (code, svg) = draw(&format!("{spec} --method rk4 --step 3 --picture {kind}"));
+        assert_eq!(code, Some(3));
+        assert!(svg.contains("; stopped at t = 0<"), "{kind}");
+    }
+    // the control
+    let (code, svg) = draw(&format!("{spec} --method midpoint --step 0.05"));
+    assert!(code == Some(0) && !svg.contains("stopped"));
+}
+
+#[test]
 fn pixels_and_pages() {
     let folder = folder();
     for (name, start) in [

@@ -22,11 +22,9 @@ const DOCUMENTS: [&str; 6] = [
 ];
 
 #[test]
-fn the_first_code_of_the_readme_is_the_two_commands() {
+fn the_first_shell_code_of_the_readme_is_the_two_commands() {
     let readme = read("README.md");
-    let first = &blocks(&readme)[0];
-    assert_eq!(first.language, "sh");
-    let first = &first.text;
+    let first = &blocks_in(&readme, "sh")[0];
     let commands: Vec<&str> = first.lines().collect();
     assert!(
         commands[0].starts_with("cargo run --release -- run specs/se3_heavy_top.json "),

@@ -33,10 +33,12 @@ def panel(name, case, left, top):
     across = lambda error: left + LEFT + inner[0] * (-1 - math.log10(error)) / 13.5
     down = lambda time: top + TOP + inner[1] * (high - math.log10(time * 1e6)) / (high - low)
     parts = [f'<text x="{left + LEFT}" y="{top + 20}" font-weight="bold">{name}: {case["title"]}</text>']
+    parts.append(f'<text x="{left + LEFT - 6}" y="{top + 20}" text-anchor="end">µs</text>')
+    parts.append(f'<text x="{left + WIDTH - RIGHT}" y="{top + HEIGHT - BOTTOM + 30}" text-anchor="end">error</text>')
     for power in range(low, high + 1):
         y = down(10.0 ** (power - 6))
         parts.append(f'<line x1="{left + LEFT}" x2="{left + WIDTH - RIGHT}" y1="{y:.1f}" y2="{y:.1f}" stroke="#ddd"/>')
-        parts.append(f'<text x="{left + LEFT - 6}" y="{y + 4:.1f}" text-anchor="end">{10.0 ** power:,g}</text>')
+        parts.append(f'<text x="{left + LEFT - 6}" y="{y + 4:.1f}" text-anchor="end">{10.0 ** power:,.10g}</text>')
     for power in (-3, -6, -9, -12):
         x = across(10.0 ** power)
         parts.append(f'<line x1="{x:.1f}" x2="{x:.1f}" y1="{top + TOP}" y2="{top + HEIGHT - BOTTOM}" stroke="#ddd"/>')

@@ -12,7 +12,7 @@
 //! assert!(picture.to_svg().contains("rk4"));
 //! ```
 
-use super::svg::{FAINT, INK, Place, Svg};
+use super::svg::{FAINT, INK, Place, Svg, width_of};
 use super::ticks::Axis as Ticks;
 
 const PANEL: Place = (300.0, 260.0);
@@ -21,14 +21,46 @@ const STRIDE: Place = (396.0, 344.0);
 const HEAD: f64 = 102.0;
 const LINE: f64 = 17.0;
 
+/// From the left of a legend's sample to its name.
+const SAMPLE: f64 = 29.0;
+/// What stands in a panel in which there is nothing to draw.
+const EMPTY: &str = "nothing to draw";
+
 /// Dots that are so few are larger.
 const FEW_DOTS: usize = 400;
 
-/// Colours of series; the last ones of long lists repeat the first.
+/// Colours of series, which are told apart by their names.
 pub(super) const COLOURS: [&str; 14] = [
     "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#332288", "#882255", "#44aa99",
     "#999933", "#56b4e9", "#aa4466", "#117733", "#b8860b", "#7f3fbf",
 ];
+
+/// Colours of series beyond these, from the first to the last of a long list (after viridis).
+const SHADES: [&str; 16] = [
+    "#440154", "#481a6c", "#472f7d", "#414487", "#39568c", "#31688e", "#2a788e", "#23888e",
+    "#1f988b", "#22a884", "#35b779", "#54c568", "#7ad151", "#a5db36", "#c7e020", "#e3cf1c",
+];
+/// So many of a long list are named.
+const NAMED: usize = 8;
+
+/// The colour of one of many, by its number: each has its own where these suffice, else it is a shade.
+pub(super) fn paint(number: usize) -> &'static str {
+    match COLOURS.get(number) {
+        Some(paint) => paint,
+        None => SHADES[(number - COLOURS.len()) % SHADES.len()],
+    }
+}
+
+/// The number of the colour of one of so many, and whether it is named.
+pub(super) fn one_of(place: usize, many: usize) -> (usize, bool) {
+    if many <= COLOURS.len() {
+        return (place, true);
+    }
+    let shade = place * (SHADES.len() - 1) / (many - 1);
+    let nearest = |k: usize| (2 * k * (many - 1) + NAMED - 1) / (2 * (NAMED - 1));
+    let named = (0..NAMED).any(|k| nearest(k) == place);
+    (COLOURS.len() + shade, named)
+}
 
 /// How values are laid out along an axis.
 #[derive(Clone, Debug)]
@@ -110,7 +142,7 @@ impl Series {
     fn paint(&self) -> &'static str {
         match self.stroke {
             Stroke::Behind | Stroke::Level => "#c4c4c4",
-            _ => COLOURS[self.colour % COLOURS.len()],
+            _ => paint(self.colour),
         }
     }
 }
@@ -186,13 +218,20 @@ impl Chart {
                 names.push(series);
             }
         }
-        let columns = ((width - 40.0) / 190.0).floor().max(1.0) as usize;
+        let widths = names
+            .iter()
+            .map(|series| width_of(&series.name, 12.0, false) + SAMPLE + 20.0);
+        let stride = widths.fold(190.0, f64::max);
+        let columns = ((width - 24.0) / stride).floor().max(1.0) as usize;
         for (place, series) in names.iter().enumerate() {
-            let x = 24.0 + 190.0 * (place % columns) as f64;
+            let x = 24.0 + stride * (place % columns) as f64;
             let y = top + LINE * (place / columns) as f64;
-            mark(svg, series, &[(x, y - 4.0), (x + 22.0, y - 4.0)]);
+            match series.stroke {
+                Stroke::Dots | Stroke::Behind => mark(svg, series, &[(x + 11.0, y - 4.0)]),
+                _ => mark(svg, series, &[(x, y - 4.0), (x + 22.0, y - 4.0)]),
+            }
             svg.text(
-                (x + 29.0, y),
+                (x + SAMPLE, y),
                 12.0,
                 &format!("fill=\"{INK}\""),
                 &series.name,
@@ -261,6 +300,12 @@ impl<'a> Frame<'a> {
         let title = format!("font-weight=\"bold\" fill=\"{INK}\"");
         svg.text((left, top - 9.0), 13.0, &title, &self.panel.title);
         self.axes(svg);
+        let mut points = self.panel.series.iter().flat_map(|series| &series.points);
+        if !points.any(|point| self.place(*point).is_some()) {
+            let faint = format!("text-anchor=\"middle\" fill=\"{FAINT}\"");
+            let middle = (left + 0.5 * self.size.0, top + 0.5 * self.size.1);
+            svg.text(middle, 13.0, &faint, EMPTY);
+        }
         let behind = |series: &&Series| matches!(series.stroke, Stroke::Behind | Stroke::Level);
         let (back, front): (Vec<&Series>, Vec<&Series>) =
             self.panel.series.iter().partition(behind);
@@ -274,11 +319,14 @@ impl<'a> Frame<'a> {
                     0.8
                 };
                 let stroke = format!("stroke=\"{}\" stroke-width=\"{width}\"", series.paint());
-                for piece in places
-                    .split(Option::is_none)
-                    .filter(|piece| piece.len() > 1)
-                {
-                    svg.polyline(piece.iter().flatten().copied(), &stroke);
+                for piece in places.split(Option::is_none) {
+                    match piece {
+                        [Some(place)] => {
+                            svg.disc(*place, 2.5, &format!("fill=\"{}\"", series.paint()));
+                        }
+                        [] => {}
+                        _ => svg.polyline(piece.iter().flatten().copied(), &stroke),
+                    }
                 }
                 continue;
             }
@@ -312,6 +360,12 @@ impl<'a> Frame<'a> {
         }
         svg.line((left, bottom), (right, bottom), axis);
         svg.line((left, top), (left, bottom), axis);
+        if let Some(factor) = self.x.factor().filter(|_| !self.panel.x.logarithmic) {
+            svg.text((right, bottom + 30.0), 11.0, &anchored("end"), &factor);
+        }
+        if let Some(factor) = self.y.factor().filter(|_| !self.panel.y.logarithmic) {
+            svg.text((left - 6.0, top - 9.0), 11.0, &anchored("end"), &factor);
+        }
         let faint = format!("text-anchor=\"middle\" fill=\"{FAINT}\"");
         let middle = (left + 0.5 * self.size.0, bottom + 34.0);
         svg.text(middle, 12.0, &faint, &self.panel.x.label);

@@ -44,12 +44,17 @@ impl Compare {
         }
     }
 
+    /// Changes the second line of the picture.
+    pub fn subtitle(&mut self, subtitle: &str) {
+        subtitle.clone_into(&mut self.subtitle);
+    }
+
     /// Begins a further run from the first time to the second.
     pub fn begin(&mut self, name: impl Into<String>, range: (f64, f64)) {
         let invariants = self.columns.len() - 1 - self.states;
         self.runs.push(Run {
             name: name.into(),
-            phase: Trace::default(),
+            phase: Trace::stretched(),
             errors: vec![Bins::new(range, COLUMNS); invariants],
             first: Vec::new(),
             scale: 0.0,

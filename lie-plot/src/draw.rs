@@ -1,6 +1,7 @@
 //! Puts the picture together: panels above one another, legends beside them.
 
-use super::svg::{FAINT, INK, Svg};
+use super::chart::{one_of, paint};
+use super::svg::{FAINT, INK, Svg, width_of};
 use super::ticks::{Axis, power_of_ten};
 use super::{Curve, Plot, reference};
 
@@ -18,6 +19,12 @@ const SMALL: f64 = 15.0;
 /// So many components share a panel; up to so many have one each.
 const FEW: usize = 6;
 const MANY: usize = 36;
+/// So many lines of a panel have colours and names of their own.
+const NAMED: usize = 24;
+/// From the left of a legend's sample to its name.
+const SAMPLE: f64 = 29.0;
+/// How wide a legend may be; longer names are cut off.
+const WIDEST: f64 = 420.0;
 
 /// Colours that stay apart for colour-blind readers on white (after Okabe and Ito, and Tol).
 const COLOURS: [&str; 12] = [
@@ -74,9 +81,13 @@ pub fn svg(plot: &Plot) -> String {
         panels.push(element(plot));
     }
     panels.push(errors(plot));
+    let wide = |text: &str| width_of(text, SMALL, false);
     let labels = panels.iter().flat_map(|panel| &panel.lines);
-    let widest = labels.map(|line| line.label.chars().count()).max();
-    let legend = (widest.unwrap_or(0) as f64 * 8.0 + 50.0).clamp(90.0, 260.0);
+    let widest = labels.map(|line| wide(&line.label)).fold(0.0, f64::max);
+    let legend = (widest + SAMPLE + 8.0).clamp(90.0, WIDEST);
+    let ticks = panels.iter().flat_map(Panel::labels);
+    let ticks = ticks.map(|label| wide(&label)).fold(0.0, f64::max);
+    let left = LEFT.max(ticks + 40.0);
     let mut svg = Svg::default();
     let mut top = HEAD;
     if multiples {
@@ -86,7 +97,7 @@ pub fn svg(plot: &Plot) -> String {
         let last = place + 1 == panels.len();
         let height = if last { LAST } else { PANEL };
         let frame = Frame {
-            left: LEFT,
+            left,
             right: WIDTH - legend - RIGHT,
             top: top + ABOVE,
             bottom: top + height - BELOW,
@@ -141,8 +152,12 @@ fn components(plot: &Plot, curves: &[Curve], title: &str, y_title: &'static str)
         label: curve.name.clone(),
         pieces: curve.bins.pieces(),
     };
+    let title = match curves.len() {
+        0..=NAMED => title.to_owned(),
+        many => format!("{title}: {many} curves, shaded in their order"),
+    };
     Panel {
-        title: title.to_owned(),
+        title,
         x: time_axis(plot),
         y: Axis::linear(low, high, 6.0, 0.05),
         x_title: "t",
@@ -211,6 +226,27 @@ fn errors(plot: &Plot) -> Panel {
     }
 }
 
+impl Panel {
+    /// The colour of a line, and whether the legend names it.
+    fn colour(&self, index: usize) -> (Colour, bool) {
+        if self.lines.len() <= NAMED {
+            return ((self.colour)(index), true);
+        }
+        let (shade, named) = one_of(index, self.lines.len());
+        let name = paint(shade);
+        (Colour { name, opacity: 0.8 }, named)
+    }
+
+    /// The labels of the axis at the left.
+    fn labels(&self) -> impl Iterator<Item = String> {
+        let label = |&tick: &f64| match self.logarithmic {
+            true => power_of_ten(tick),
+            false => self.y.label(tick),
+        };
+        self.y.ticks.iter().map(label)
+    }
+}
+
 impl Frame {
     /// Where a point of the panel is drawn.
     fn place(&self, panel: &Panel, (x, y): (f64, f64)) -> (f64, f64) {
@@ -226,7 +262,7 @@ fn draw(svg: &mut Svg, panel: &Panel, frame: &Frame) {
     svg.text((frame.left, frame.top - 11.0), 16.0, &ink, &panel.title);
     axes(svg, panel, frame);
     for (index, line) in panel.lines.iter().enumerate() {
-        let Colour { name, opacity } = (panel.colour)(index);
+        let (Colour { name, opacity }, _) = panel.colour(index);
         let stroke = format!("stroke=\"{name}\" stroke-width=\"1.5\" opacity=\"{opacity}\"");
         let fill = format!("fill=\"{name}\" opacity=\"{opacity}\"");
         for piece in &line.pieces {
@@ -258,14 +294,10 @@ fn axes(svg: &mut Svg, panel: &Panel, frame: &Frame) {
         let label = panel.x.label(tick);
         svg.text((x, bottom + 19.0), SMALL, &anchored("middle"), &label);
     }
-    for &tick in &panel.y.ticks {
+    for (&tick, label) in panel.y.ticks.iter().zip(panel.labels()) {
         let (_, y) = frame.place(panel, (panel.x.low, tick));
         svg.line((left, y), (right, y), GRID);
         svg.line((left - 5.0, y), (left, y), &faint);
-        let label = match panel.logarithmic {
-            true => power_of_ten(tick),
-            false => panel.y.label(tick),
-        };
         svg.text((left - 9.0, y + 5.0), SMALL, &anchored("end"), &label);
     }
     svg.line((left, bottom), (right, bottom), &faint);
@@ -277,20 +309,44 @@ fn axes(svg: &mut Svg, panel: &Panel, frame: &Frame) {
         &anchored("middle"),
         panel.x_title,
     );
+    if let Some(factor) = panel.x.factor() {
+        svg.text((right, bottom + 35.0), SMALL, &anchored("end"), &factor);
+    }
+    if let Some(factor) = panel.y.factor().filter(|_| !panel.logarithmic) {
+        svg.text((left - 9.0, top - 9.0), SMALL, &anchored("end"), &factor);
+    }
     svg.turned_text((20.0, y), -90.0, SMALL, &anchored("middle"), panel.y_title);
 }
 
 fn draw_legend(svg: &mut Svg, panel: &Panel, (x, top): (f64, f64), height: f64) {
-    let room = (height - 70.0) / panel.lines.len().max(1) as f64;
+    let named: Vec<(&Line, Colour)> = panel
+        .lines
+        .iter()
+        .enumerate()
+        .filter_map(|(index, line)| {
+            let (colour, named) = panel.colour(index);
+            named.then_some((line, colour))
+        })
+        .collect();
+    let room = (height - 70.0) / named.len().max(1) as f64;
     let line_height = room.floor().clamp(9.0, 20.0);
     let size = f64::min(line_height - 3.0, SMALL);
-    for (index, line) in panel.lines.iter().enumerate() {
+    for (index, (line, Colour { name, opacity })) in named.into_iter().enumerate() {
         let y = top + 36.0 + line_height * index as f64;
-        let Colour { name, opacity } = (panel.colour)(index);
         let stroke = format!("stroke=\"{name}\" stroke-width=\"2.5\" opacity=\"{opacity}\"");
         svg.line((x, y), (x + 22.0, y), &stroke);
-        let place = (x + 29.0, y + 0.35 * size);
-        svg.text(place, size, &format!("fill=\"{INK}\""), &line.label);
+        let place = (x + SAMPLE, y + 0.35 * size);
+        let label = shortened(&line.label, WIDEST - SAMPLE, size);
+        svg.text(place, size, &format!("fill=\"{INK}\""), &label);
+    }
+}
+
+/// A text that is as wide as that at most, cut off with dots where need be.
+fn shortened(text: &str, width: f64, size: f64) -> String {
+    let most = (width / width_of("m", size, false)) as usize;
+    match text.char_indices().nth(most) {
+        None => text.to_owned(),
+        Some(_) => text.chars().take(most - 1).chain(['…']).collect(),
     }
 }
 

@@ -1,6 +1,6 @@
 //! Phase portraits and sections: one coordinate against another.
 
-use super::chart::{Axis, Chart, Panel, Series, Stroke};
+use super::chart::{Axis, Chart, Panel, Series, Stroke, one_of};
 use super::surface::Surface;
 use super::svg::Place;
 use super::trace::Trace;
@@ -40,15 +40,15 @@ impl Phase {
     }
 
     /// Changes the second line of the picture.
-    pub fn subtitle(&mut self, subtitle: String) {
-        self.subtitle = subtitle;
+    pub fn subtitle(&mut self, subtitle: &str) {
+        subtitle.clone_into(&mut self.subtitle);
     }
 
     /// Begins a further run.
     pub fn begin(&mut self, name: impl Into<String>) {
         self.runs.push(Run {
             name: name.into(),
-            trace: Trace::default(),
+            trace: Trace::stretched(),
             dots: Vec::new(),
         });
     }
@@ -133,8 +133,10 @@ impl Phase {
         if !self.behind.is_empty() {
             series.push(curve("level curves of H", 0, Stroke::Level, &self.behind));
         }
-        for (colour, run) in self.runs.iter().enumerate() {
-            let name = if self.runs.len() > 1 { &run.name } else { "" };
+        let many = self.runs.len();
+        for (place, run) in self.runs.iter().enumerate() {
+            let (colour, named) = one_of(place, many);
+            let name = if named && many > 1 { &run.name } else { "" };
             if !run.dots.is_empty() {
                 series.push(Series {
                     name: name.to_owned(),

@@ -181,6 +181,41 @@ impl Surface {
         Some(self.points.iter().fold((first, first), grow))
     }
 
+    /// Where the surface ends: edges of one triangle alone, in chains.
+    pub fn border(&self) -> Vec<Vec<Point>> {
+        let mut edges: HashMap<(usize, usize), usize> = HashMap::new();
+        for [a, b, c] in &self.triangles {
+            for (p, q) in [(*a, *b), (*b, *c), (*c, *a)] {
+                *edges.entry((p.min(q), p.max(q))).or_default() += 1;
+            }
+        }
+        let mut single: Vec<(usize, usize)> = edges
+            .into_iter()
+            .filter_map(|(edge, count)| (count == 1).then_some(edge))
+            .collect();
+        single.sort_unstable();
+        let mut neighbours: HashMap<usize, Vec<usize>> = HashMap::new();
+        for &(p, q) in &single {
+            neighbours.entry(p).or_default().push(q);
+            neighbours.entry(q).or_default().push(p);
+        }
+        let mut chains = Vec::new();
+        for (start, _) in single {
+            let (mut chain, mut at) = (vec![self.points[start]], start);
+            while let Some(next) = neighbours.get_mut(&at).and_then(Vec::pop) {
+                if let Some(back) = neighbours.get_mut(&next) {
+                    back.retain(|corner| *corner != at);
+                }
+                chain.push(self.points[next]);
+                at = next;
+            }
+            if chain.len() > 1 {
+                chains.push(chain);
+            }
+        }
+        chains
+    }
+
     /// The curves on which a function of the corners has a value, each a chain of points on edges of triangles.
     pub fn curves(&self, values: &[f64], level: f64) -> Vec<Vec<Point>> {
         let above = |at: usize| values[at] >= level;
@@ -315,6 +350,14 @@ mod tests {
         assert!(both.points.iter().any(|p| p[2] < 0.0));
         assert!(upper.points.iter().all(|p| p[2] > 0.0));
         assert!(!upper.points.is_empty() && upper.points.len() < both.points.len());
+        // it ends at the sides of the box and at its top, in a closed line; a sphere ends nowhere
+        let border = upper.border();
+        assert_eq!(border.len(), 1);
+        assert_eq!(border[0].first(), border[0].last());
+        let at_side = |p: &Point| p[2] > 3.0 || p.iter().any(|x| *x < -2.9 || *x > 3.0);
+        assert!(border[0].len() > 20 && border[0].iter().all(at_side));
+        let closed = Surface::new(&sphere, &[-2.5; 3], &[2.6; 3], 24);
+        assert!(closed.border().is_empty());
     }
 
     #[test]

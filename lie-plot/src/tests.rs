@@ -224,3 +224,107 @@ fn heads_of_a_map_are_inside_and_its_colours_explained() {
     assert!(words.iter().any(|text| text.2 == "energy error that grows"));
     assert!(svg.contains("10<tspan dy=\"-5\" font-size=\"7.5\">−16</tspan>"));
 }
+
+#[test]
+fn of_many_curves_a_few_are_named() {
+    let drawn = |states: usize| {
+        let rows = (0..=20).map(|k| {
+            let t = 0.5 * f64::from(k);
+            let state = (0..states).map(|i| (t + i as f64).sin());
+            [t].into_iter().chain(state).chain([1.0]).collect()
+        });
+        drawn(states + 2, states, rows)
+    };
+    let names = |svg: &str| {
+        let mut all = texts(svg, "15");
+        all.retain(|(.., text)| text.starts_with('c') && text[1..].parse::<u32>().is_ok());
+        all
+    };
+    let svg = drawn(96);
+    let mut seen = names(&svg);
+    // the last is the energy, in the panel below
+    let energy = seen.pop().expect("the energy");
+    assert_eq!(energy.2, "c97");
+    let first_and_last = [&*seen[0].2, &*seen[seen.len() - 1].2];
+    assert_eq!((seen.len(), first_and_last), (8, ["c1", "c96"]));
+    assert!(seen.iter().all(|name| name.1 < energy.1));
+    assert!(svg.contains("96 curves, shaded in their order"));
+    // the control: few have a name each, and nothing is said
+    let few = drawn(6);
+    assert_eq!(names(&few).len(), 7);
+    assert!(!few.contains("shaded"));
+}
+
+#[test]
+fn labels_of_an_axis_do_not_reach_its_title() {
+    for scale in [1e-12, 1e12, 0.0312, 1.0] {
+        let rows = (0..=20).map(|k| {
+            let t = 0.5 * f64::from(k);
+            vec![t, 1000.0 + scale * t.sin(), scale * t.cos(), 1.0]
+        });
+        let svg = drawn(4, 2, rows);
+        let title = svg.find("components of μ").expect("the title");
+        let at = svg[..title].rfind(" x=\"").expect("its place") + 4;
+        let title: f64 = svg[at..at + 4].parse().expect("a number");
+        let labels = texts(&svg, "15").into_iter();
+        // at the right end of which the axis stands
+        let labels = labels.filter(|(x, _, text)| *x < 250.0 && text.parse::<f64>().is_ok());
+        for (x, _, text) in labels {
+            assert!(
+                x - svg::width_of(&text, 15.0, false) > title,
+                "{text} {scale}"
+            );
+        }
+    }
+}
+
+#[test]
+fn names_of_runs_do_not_collide() {
+    use phase::Phase;
+    let picture = |many: usize| {
+        let mut phase = Phase::new("Top", "", ["x".to_owned(), "y".to_owned()]);
+        for k in 0..many {
+            phase.begin(format!("a_parameter_of_the_run = {k}.25"));
+            phase.push((0.0, f64::from(k as u32)));
+            phase.push((1.0, 0.0));
+        }
+        phase.to_svg()
+    };
+    let names = |svg: &str| {
+        let mut all = texts(svg, "12");
+        all.retain(|(.., text)| text.contains('='));
+        all
+    };
+    let (few, many) = (picture(14), picture(40));
+    assert_eq!((names(&few).len(), names(&many).len()), (14, 8));
+    for svg in [&few, &many] {
+        assert!(!collide(&names(svg), 12.0, 29.0, 804.0), "{:?}", names(svg));
+    }
+    assert!(many.contains("run = 0.25") && many.contains("run = 39.25"));
+    // each of the few has a colour of its own, and the many have more colours than that
+    let colours = |svg: &str| {
+        let all = svg.split("stroke=\"").skip(1);
+        let all = all.filter_map(|rest| rest.split('"').next());
+        all.collect::<std::collections::HashSet<_>>().len()
+    };
+    assert!(colours(&few) >= 14 && colours(&many) >= 16);
+    // the control: 190 pixels for a name, as before, were too few
+    let before = |(k, name): (usize, (f64, f64, String))| (24.0 + 190.0 * k as f64, 0.0, name.2);
+    let before: Vec<_> = names(&few)
+        .into_iter()
+        .take(4)
+        .enumerate()
+        .map(before)
+        .collect();
+    assert!(collide(&before, 12.0, 29.0, 804.0));
+}
+
+#[test]
+fn a_panel_without_points_says_so() {
+    use phase::Phase;
+    let mut phase = Phase::new("Top", "", ["x".to_owned(), "y".to_owned()]);
+    phase.begin("a run");
+    assert!(phase.to_svg().contains("nothing to draw"));
+    phase.dot((1.0, 2.0));
+    assert!(!phase.to_svg().contains("nothing to draw"));
+}

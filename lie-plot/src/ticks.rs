@@ -32,17 +32,16 @@ impl Axis {
         }
         let margin = margin * (high - low);
         (low, high) = (low - margin, high + margin);
-        let rough = (high - low) / count;
-        let power = 10f64.powf(rough.log10().floor());
-        let step = [1.0, 2.0, 2.5, 5.0, 10.0]
-            .into_iter()
-            .map(|factor| factor * power)
-            .find(|step| *step >= rough)
-            .unwrap_or(rough);
-        let ticks = ((low / step - 1e-9).ceil() as i64..=(high / step + 1e-9).floor() as i64)
-            .take(100)
-            .map(|k| k as f64 * step)
-            .collect();
+        // one tick alone gives no scale
+        let mut rough = (high - low) / count;
+        let (mut step, mut ticks) = round_ticks(low, high, rough);
+        for _ in 0..4 {
+            if ticks.len() >= 2 {
+                break;
+            }
+            rough *= 0.5;
+            (step, ticks) = round_ticks(low, high, rough);
+        }
         Self {
             low,
             high,
@@ -74,23 +73,47 @@ impl Axis {
         part.clamp(-1.0, 2.0)
     }
 
-    /// The label of a tick of a linear axis.
-    pub fn label(&self, value: f64) -> String {
+    /// The power of ten that labels of a linear axis are multiples of, where the values are very large or very small.
+    fn exponent(&self) -> i32 {
         let largest = self.low.abs().max(self.high.abs());
+        match (1e-3..1e6).contains(&largest) {
+            true => 0,
+            false => largest.log10().floor() as i32,
+        }
+    }
+
+    /// The same in words.
+    pub fn factor(&self) -> Option<String> {
+        let exponent = self.exponent();
+        (exponent != 0).then(|| format!("× {}", power_of_ten(f64::from(exponent))))
+    }
+
+    /// The label of a tick of a linear axis, without the factor.
+    pub fn label(&self, value: f64) -> String {
         if value == 0.0 {
             return "0".to_owned();
         }
-        if !(1e-3..1e6).contains(&largest) {
-            let digits = (largest / self.step).log10().ceil().clamp(0.0, 15.0) as usize;
-            let text = format!("{value:.digits$e}");
-            let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
-            let exponent = exponent.parse().unwrap_or(0);
-            return format!("{}·10{}", shortened(mantissa), superscript(exponent))
-                .replace('-', "−");
-        }
-        let decimals = (1.0 - self.step.log10().floor()).clamp(0.0, 15.0) as usize;
-        shortened(&format!("{value:.decimals$}")).replace('-', "−")
+        let exponent = self.exponent();
+        // in two steps, since a power of ten alone may be no number
+        let scaled = |x: f64| x / 10f64.powi(exponent / 2) / 10f64.powi(exponent - exponent / 2);
+        let decimals = (1.0 - scaled(self.step).log10().floor()).clamp(0.0, 15.0) as usize;
+        shortened(&format!("{:.decimals$}", scaled(value))).replace('-', "−")
     }
+}
+
+/// Ticks at multiples of a round number that is not much larger than a given one.
+fn round_ticks(low: f64, high: f64, rough: f64) -> (f64, Vec<f64>) {
+    let power = 10f64.powf(rough.log10().floor());
+    let step = [1.0, 2.0, 2.5, 5.0, 10.0]
+        .into_iter()
+        .map(|factor| factor * power)
+        .find(|step| *step >= rough)
+        .unwrap_or(rough);
+    let ticks = ((low / step - 1e-9).ceil() as i64..=(high / step + 1e-9).floor() as i64)
+        .take(100)
+        .map(|k| k as f64 * step)
+        .collect();
+    (step, ticks)
 }
 
 /// Without zeros at the end of the decimals.
@@ -146,11 +169,27 @@ mod tests {
             labels(0.0, 1e5),
             ["0", "20000", "40000", "60000", "80000", "100000"]
         );
-        assert_eq!(labels(0.0, 2e-9)[1], "5·10⁻¹⁰");
-        assert_eq!(labels(0.0, 1e9)[1], "2·10⁸");
+        assert_eq!(labels(0.0, 2e-9)[1], "0.5");
+        assert_eq!(labels(0.0, 1e9)[1], "0.2");
+        let factor = |low, high| Axis::linear(low, high, 6.0, 0.0).factor();
+        assert_eq!(factor(0.0, 2e-9).as_deref(), Some("× 10⁻⁹"));
+        assert_eq!(factor(-3e12, 1.0).as_deref(), Some("× 10¹²"));
+        assert_eq!(factor(0.0, 1e5), None);
         // A small change of a large value is still told apart.
         let fine = labels(1000.0, 1000.003);
         assert!(fine.windows(2).all(|pair| pair[0] != pair[1]), "{fine:?}");
+    }
+
+    #[test]
+    fn an_axis_has_two_ticks() {
+        // the control: at multiples of 2, as asked for, there is one
+        assert_eq!(round_ticks(-0.99, 1.9, 1.01).1, [0.0]);
+        assert_eq!(Axis::linear(-0.99, 1.9, 2.86, 0.0).ticks, [0.0, 1.0]);
+        for k in 1..400 {
+            let (low, high) = (-0.01 * f64::from(k), 1.7 + 0.003 * f64::from(k));
+            let ticks = Axis::linear(low, high, 3.0, 0.0).ticks;
+            assert!((2..=7).contains(&ticks.len()), "{low} {high} {ticks:?}");
+        }
     }
 
     #[test]

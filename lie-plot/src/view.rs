@@ -1,6 +1,6 @@
 //! Pictures of space: what a curve on a coadjoint orbit or on the sphere of directions looks like from outside.
 
-use super::chart::COLOURS;
+use super::chart::paint;
 use super::contours::contours;
 use super::surface::{Field, Point, dot};
 use super::svg::{FAINT, INK, Place, Svg, thinned};
@@ -32,6 +32,13 @@ fn projected(point: &Point) -> Place {
 /// Whether a surface with this normal faces the eye.
 fn faces(normal: &Point) -> bool {
     dot(normal, &camera()[2]) >= 0.0
+}
+
+/// A colour mixed with white: where lines cross, it stays as pale as it is.
+fn pale(paint: &str) -> String {
+    let part = |at: usize| u16::from_str_radix(&paint[at..at + 2], 16).unwrap_or(0);
+    let mixed = [1, 3, 5].map(|at| (3 * part(at) + 7 * 255) / 10);
+    format!("#{:02x}{:02x}{:02x}", mixed[0], mixed[1], mixed[2])
 }
 
 /// A curve on a surface: what faces the eye, and the rest.
@@ -136,6 +143,8 @@ pub struct View {
     curves: Vec<OnSurface>,
     contours: Lines,
     outline: Lines,
+    /// Where a surface is cut off.
+    border: Lines,
     /// What the lines behind the curves are.
     note: String,
 }
@@ -150,6 +159,7 @@ impl View {
             curves,
             contours: Lines::default(),
             outline: Lines::default(),
+            border: Lines::default(),
             note: String::new(),
         }
     }
@@ -164,6 +174,7 @@ impl View {
             return false;
         };
         let Some(found) = contours(casimir, energy, &first, bounds) else {
+            self.note = "no surface: the initial state is an orbit by itself".to_owned();
             return false;
         };
         let normal = |point: &Point| casimir(point).1;
@@ -178,12 +189,13 @@ impl View {
         for chain in &found.levels {
             self.contours.add(chain, &normal);
         }
-        let cut = if found.closed {
-            ""
-        } else {
-            "; cut off around the curve"
-        };
-        self.note = format!("{note}{cut}");
+        self.note = note.to_owned();
+        if !found.closed {
+            self.note.push_str("; cut off around the curve");
+            for chain in found.surface.border() {
+                self.border.add(&chain, &normal);
+            }
+        }
         true
     }
 
@@ -218,7 +230,8 @@ impl View {
             .flat_map(|curve| [&curve.front, &curve.back]);
         let corners = traces.filter_map(Trace::bounds);
         let corners = corners.flat_map(|(low, high)| [low, high]);
-        let lines = self.contours.all().chain(self.outline.all()).copied();
+        let lines = self.contours.all().chain(self.outline.all());
+        let lines = lines.chain(self.border.all()).copied();
         let bounds = corners.chain(lines).fold(None, |bounds, (x, y): Place| {
             let ((a, b), (c, d)) = bounds.unwrap_or(((x, y), (x, y)));
             Some(((a.min(x), b.min(y)), (c.max(x), d.max(y))))
@@ -244,18 +257,19 @@ impl View {
             &self.contours.back,
             "stroke=\"#e3e3e3\" stroke-width=\"0.8\"",
         );
+        draw(&self.border.back, "stroke=\"#d4d4d4\" stroke-width=\"0.8\"");
         for (index, curve) in self.curves.iter().enumerate() {
-            let paint = COLOURS[index % COLOURS.len()];
-            let stroke = format!("stroke=\"{paint}\" stroke-width=\"1.1\" opacity=\"0.3\"");
+            let stroke = format!("stroke=\"{}\" stroke-width=\"1.1\"", pale(paint(index)));
             draw(curve.back.pieces(), &stroke);
         }
         draw(
             &self.contours.front,
             "stroke=\"#a8a8a8\" stroke-width=\"0.8\"",
         );
+        draw(&self.border.front, "stroke=\"#888\" stroke-width=\"0.9\"");
         draw(&self.outline.front, "stroke=\"#777\" stroke-width=\"1.2\"");
         for (index, curve) in self.curves.iter().enumerate() {
-            let paint = COLOURS[index % COLOURS.len()];
+            let paint = paint(index);
             draw(
                 curve.front.pieces(),
                 &format!("stroke=\"{paint}\" stroke-width=\"1.6\""),
@@ -263,7 +277,7 @@ impl View {
         }
         for (index, curve) in self.curves.iter().enumerate() {
             if let Some(first) = &curve.first {
-                let paint = COLOURS[index % COLOURS.len()];
+                let paint = paint(index);
                 svg.disc(place(&projected(first)), 4.0, &format!("fill=\"{paint}\""));
             }
         }
@@ -295,7 +309,7 @@ impl View {
         let mut y = HEAD + SIDE + 34.0;
         if self.curves.len() > 1 {
             for (index, curve) in self.curves.iter().enumerate() {
-                let paint = COLOURS[index % COLOURS.len()];
+                let paint = paint(index);
                 let stroke = format!("stroke=\"{paint}\" stroke-width=\"2.5\"");
                 svg.line((LEFT, y - 4.0), (LEFT + 24.0, y - 4.0), &stroke);
                 svg.text(

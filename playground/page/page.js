@@ -57,7 +57,9 @@ function advance(steps) {
     state.rows.push([t, ...mu]); if (state.rows.length > 1500) state.rows.splice(0, 300);
     state.first ??= invariants;
     if (state.count++ % state.stride === 0) {
-      state.errors.push([t, ...invariants.map((v, k) => Math.abs(v - state.first[k]) / Math.max(Math.abs(state.first[k]), 1e-300))]);
+      // relative to the first value, unless that is round-off beside the state
+      const size = Math.max(...mu.map(Math.abs)), least = 1e-12 * Math.min(size, size * size);
+      state.errors.push([t, ...invariants.map((v, k) => Math.abs(v - state.first[k]) / (Math.abs(state.first[k]) > least ? Math.abs(state.first[k]) : 1))]);
       if (state.errors.length > 1200) { state.errors = state.errors.filter((_, k) => k % 2 === 0); state.stride *= 2; }
     }
     if (about.rotates) { state.tip.push(rotate(state.q, [0, 0, 1])); if (state.tip.length > 900) state.tip.splice(0, 200); }
@@ -143,6 +145,7 @@ function drawBody() {
 }
 function chart(pen, w, h, rows, names, scale, title) {
   const left = 58, bottom = h - 24, right = w - 12, top = 26, shown = Math.min(names.length, 8);
+  if (shown < names.length) title += ` (the first ${shown} of ${names.length})`;
   pen.textAlign = "left"; pen.fillText(title, left, 16);
   let x0 = left + pen.measureText(title).width + 16;
   for (let k = 0; k < shown; k++) { pen.fillStyle = COLOURS[k]; pen.fillText(names[k], x0, 16); x0 += pen.measureText(names[k]).width + 12; }
@@ -150,7 +153,7 @@ function chart(pen, w, h, rows, names, scale, title) {
   const values = rows.flatMap(row => row.slice(1, shown + 1)).filter(v => scale(v) !== null && Number.isFinite(scale(v))).map(scale);
   if (!values.length) return;
   let [low, high] = [values.reduce((a, b) => Math.min(a, b)), values.reduce((a, b) => Math.max(a, b))];
-  if (scale(1e-3) === -3) { low = Math.floor(Math.min(low, -16)); high = Math.ceil(Math.max(high, -14)); } else if (high - low < 1e-12) { low -= 1; high += 1; }
+  if (scale(1e-3) === -3) { low = Math.floor(Math.min(low, -16)); high = Math.ceil(Math.max(high, -14)); } else if (high - low <= 1e-12 * Math.max(Math.abs(low), Math.abs(high))) { const half = 0.1 * Math.max(Math.abs(low), Math.abs(high)) || 1; low -= half; high += half; }
   const [t0, t1] = [rows[0][0], rows.at(-1)[0]], X = t => left + (right - left) * (t - t0) / (t1 - t0 || 1), Y = v => bottom - (bottom - top) * (v - low) / (high - low);
   const faint = dark.matches ? "#a0a8b1" : "#59636e", grid = dark.matches ? "#2b3036" : "#e4e7ea", logs = scale(1e-3) === -3;
   pen.fillStyle = faint; pen.textAlign = "right";

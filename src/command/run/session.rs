@@ -9,7 +9,7 @@ use lie_runtime::driver::Pace;
 
 use super::bar::Bar;
 use super::layout::Layout;
-use super::picture::{Form, Picture};
+use super::picture::{Form, Picture, rounded};
 use super::plan::{Member, Plan, Several};
 use super::reception::{Received, Reception};
 use super::summary::{self, Drift};
@@ -56,6 +56,9 @@ impl Session<'_> {
             let done = matches!(outcome, Outcome::Done);
             if !self.flags.quiet && done {
                 self.say(number, member, &received, start.elapsed(), &mut tally);
+            }
+            if let (Outcome::Stopped(stop), Some((picture, ..))) = (&outcome, &mut picture) {
+                picture.stopped(&self.short_name(number, member), stop.time);
             }
             let code = self.ended(number, member, outcome, &received.drift, &mut tally);
             match code {
@@ -176,13 +179,13 @@ impl Session<'_> {
     /// `run 3, midpoint, k = 1.2`.
     fn named(&self, number: usize, member: &Member) -> String {
         let mut parts = vec![format!("run {number}")];
-        parts.extend(self.parts(member));
+        parts.extend(self.parts(member, |value| value));
         parts.join(", ")
     }
 
-    /// `midpoint, k = 1.2`, where that tells it apart.
+    /// `midpoint, k = 1.2`, where that tells it apart: as a picture has room for it.
     fn short_name(&self, number: usize, member: &Member) -> String {
-        let parts = self.parts(member);
+        let parts = self.parts(member, rounded);
         let with =
             |other: &Member| other.plan == member.plan && other.parameters == member.parameters;
         let alone = self
@@ -194,20 +197,20 @@ impl Session<'_> {
             .count()
             < 2;
         match parts.is_empty() || !alone {
-            true => self.named(number, member),
+            true => [vec![format!("run {number}")], parts].concat().join(", "),
             false => parts.join(", "),
         }
     }
 
-    /// What tells the run apart, beside its number.
-    fn parts(&self, member: &Member) -> Vec<String> {
+    /// What tells the run apart, beside its number; numbers as they are to be written.
+    fn parts(&self, member: &Member, written: fn(f64) -> f64) -> Vec<String> {
         let Some(labels) = &self.several.labels else {
             return Vec::new();
         };
         let method = labels.method.as_ref();
         let method = method.map(|_| self.several.plans[member.plan].method.title());
         let values = labels.parameters.iter().zip(&member.parameters);
-        let values = values.map(|(parameter, value)| format!("{parameter} = {value:?}"));
+        let values = values.map(|(name, value)| format!("{name} = {:?}", written(*value)));
         method.into_iter().chain(values).collect()
     }
 

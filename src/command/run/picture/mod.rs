@@ -23,6 +23,14 @@ use super::plan::Plan;
 use crate::build;
 use crate::compiler::Spec;
 
+/// So many runs that stopped early are named in a picture.
+const SHOWN: usize = 3;
+
+/// A number with six digits at most.
+pub fn rounded(value: f64) -> f64 {
+    format!("{value:.5e}").parse().unwrap_or(value)
+}
+
 /// A picture in the making.
 pub struct Picture<'a> {
     spec: &'a Spec,
@@ -30,6 +38,8 @@ pub struct Picture<'a> {
     /// How many runs there are.
     runs: usize,
     subtitle: String,
+    /// The names of runs that stopped early, and when.
+    stopped: Vec<(String, f64)>,
     drawn: Drawn,
 }
 
@@ -60,6 +70,7 @@ impl<'a> Picture<'a> {
             layout,
             runs,
             subtitle: String::new(),
+            stopped: Vec::new(),
             drawn: Drawn::Nothing(kind),
         }
     }
@@ -84,6 +95,27 @@ impl<'a> Picture<'a> {
         }
     }
 
+    /// Takes note that a run stopped early.
+    pub fn stopped(&mut self, name: &str, time: f64) {
+        self.stopped.push((name.to_owned(), time));
+    }
+
+    /// The second line at the end: which runs stopped early, too.
+    fn whole_line(&self) -> String {
+        let mut line = self.subtitle.clone();
+        for (name, time) in self.stopped.iter().take(SHOWN) {
+            let who = match self.runs {
+                1 => String::new(),
+                _ => format!("{name} "),
+            };
+            line.push_str(&format!("; {who}stopped at t = {}", rounded(*time)));
+        }
+        if let Some(more @ 1..) = self.stopped.len().checked_sub(SHOWN) {
+            line.push_str(&format!("; and {more} more"));
+        }
+        line
+    }
+
     fn second_line(&self, plan: &Plan) -> String {
         let (method, written) = (plan.method.title(), plan.pace.1.trim());
         match (self.runs, plan.pace.0) {
@@ -99,16 +131,15 @@ impl<'a> Picture<'a> {
         let (own, element) = columns.split_at(self.layout.invariants.end);
         let phase = |[x, y]: [usize; 2]| {
             let names = [columns[1 + x].clone(), columns[1 + y].clone()];
-            Phase::new(name, &self.subtitle, names)
+            Phase::new(name, "", names)
         };
         match kind {
             Kind::Components => {
                 let plot = Plot::new(name, own, self.layout.states, (0.0, plan.end()));
-                let plot = plot.subtitle(&self.subtitle).element(element);
-                Drawn::Components(Box::new(plot))
+                Drawn::Components(Box::new(plot.element(element)))
             }
             Kind::Compare => {
-                let compare = Compare::new(name, &self.subtitle, own, self.layout.states);
+                let compare = Compare::new(name, "", own, self.layout.states);
                 Drawn::Compare(compare)
             }
             Kind::Phase(axes) => {
@@ -117,13 +148,7 @@ impl<'a> Picture<'a> {
                 Drawn::Phase(phase(axes), axes, system.map(Box::new))
             }
             Kind::Section(section) => {
-                let mut phase = phase(section.axes);
-                let coordinate = &columns[1 + section.coordinate];
-                phase.subtitle(format!(
-                    "{}; {coordinate} rises through {}",
-                    self.subtitle, section.value
-                ));
-                Drawn::Section(phase, Box::new(Section::new(section)))
+                Drawn::Section(phase(section.axes), Box::new(Section::new(section)))
             }
             Kind::Orbit => match system(self.spec, start) {
                 Some(system) => Drawn::Orbit(Vec::new(), Box::new(system)),
@@ -164,14 +189,19 @@ impl<'a> Picture<'a> {
     /// The picture as SVG, and what there is to say about it.
     pub fn finish(self) -> (String, Option<String>) {
         let name = &*self.spec.model.name;
+        let line = self.whole_line();
         match self.drawn {
             Drawn::Nothing(_) => (
-                View::new(name, "", [(); 3].map(|()| String::new()), Vec::new()).to_svg(),
+                View::new(name, &line, [(); 3].map(|()| String::new()), Vec::new()).to_svg(),
                 None,
             ),
-            Drawn::Components(plot) => (plot.to_svg(), None),
-            Drawn::Compare(compare) => (compare.to_svg(), None),
+            Drawn::Components(plot) => (plot.subtitle(line).to_svg(), None),
+            Drawn::Compare(mut compare) => {
+                compare.subtitle(&line);
+                (compare.to_svg(), None)
+            }
             Drawn::Phase(mut phase, axes, system) => {
+                phase.subtitle(&line);
                 if let Some(system) = system {
                     phase.levels(&|(x, y)| {
                         let mut state = vec![0.0; 2];
@@ -181,13 +211,15 @@ impl<'a> Picture<'a> {
                 }
                 (phase.to_svg(), None)
             }
-            Drawn::Section(phase, section) => {
+            Drawn::Section(mut phase, section) => {
+                let coordinate = &self.layout.columns[1 + section.coordinate()];
+                phase.subtitle(&format!("{}; {line}", section.words(coordinate)));
                 let note = section.note(phase.dots());
                 (phase.to_svg(), note)
             }
             Drawn::Orbit(curves, system) => {
                 let names = [1, 2, 3].map(|k| self.layout.columns[k].clone());
-                let mut view = View::new(name, &self.subtitle, names, curves);
+                let mut view = View::new(name, &line, names, curves);
                 let energy = |point: &Point| energy(&system, point);
                 let surface = |point: &Point| casimir(&system, point);
                 let of = system.casimir_name(0);
@@ -198,7 +230,7 @@ impl<'a> Picture<'a> {
             }
             Drawn::Attitude(curves) => {
                 let axes = ["e1", "e2", "e3"].map(str::to_owned);
-                let mut view = View::new(name, &self.subtitle, axes, curves);
+                let mut view = View::new(name, &line, axes, curves);
                 view.sphere(
                     "where the third axis of the group element points to: its third column",
                 );

@@ -59,6 +59,16 @@ impl Section {
         found.map(|point| (point[axes[0]], point[axes[1]]))
     }
 
+    /// `m1 rises through 0.5`, where the coordinate has this name.
+    pub fn words(&self, coordinate: &str) -> String {
+        format!("{coordinate} rises through {}", self.chosen.value)
+    }
+
+    /// Which coordinate has a value.
+    pub fn coordinate(&self) -> usize {
+        self.chosen.coordinate
+    }
+
     /// What there is to say.
     pub fn note(&self, found: usize) -> Option<String> {
         if self.lost > 0 {
