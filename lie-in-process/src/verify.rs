@@ -105,10 +105,15 @@ impl Results {
         }
     }
 
+    /// The claims that do not hold.
+    pub fn failed_claims(&self) -> Vec<String> {
+        let failed = self.rows.iter().filter(|row| row.fails());
+        failed.map(Row::failure).collect()
+    }
+
     /// What does not hold: claims, then what speaks against kernels and measurements.
     pub fn failures(&self) -> Vec<String> {
-        let failed = self.rows.iter().filter(|row| row.fails());
-        let mut failures: Vec<String> = failed.map(Row::failure).collect();
+        let mut failures = self.failed_claims();
         failures.extend(self.evidence.failures());
         failures
     }
