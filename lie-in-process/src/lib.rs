@@ -1,15 +1,21 @@
 //! Runs, verifications and measurements of a declaration in the process that has read it, without a compiler of Rust.
 //!
 //! Requests and answers are those of [`lie_program`]: what is made here is served as a built program serves it, by
-//! [`lie_program::session::serve`], or a request at a time by [`Work`].
+//! [`lie_program::session::serve`], or a request at a time by [`Work`]. What the command and the Python package say of the answers
+//! alike is here too: [`verify`] with [`evidence`], [`stress`], [`report`], [`catalogue`].
 
 #![warn(missing_docs)]
 
 pub mod catalogue;
+pub mod evidence;
 pub mod families;
 pub mod list;
 pub mod members;
 pub mod report;
+pub mod stress;
+pub mod table;
+pub mod verify;
+pub mod words;
 
 use lie_codegen::methods::Choice;
 use lie_codegen::model::Model;

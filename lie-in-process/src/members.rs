@@ -12,7 +12,7 @@ use lie_runtime::driver::{
 };
 use lie_runtime::{ParameterError, Poisson, Scalar};
 use std::ops::{ControlFlow, Range};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 /// Lanes of double precision.
 type Wide = <f64 as Scalar>::Wide;
@@ -64,6 +64,25 @@ impl Member {
     }
 }
 
+/// What threads that run members have in common.
+#[derive(Debug, Default)]
+pub struct Watch {
+    /// Whether all is to end early.
+    pub stop: AtomicBool,
+    /// So many members are done.
+    pub done: AtomicUsize,
+}
+
+impl Watch {
+    fn stopped(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
+    }
+
+    fn done(&self, members: usize) {
+        self.done.fetch_add(members, Ordering::Relaxed);
+    }
+}
+
 /// Whether members of a method go in lanes: with a fixed step, and a method that is compiled for lanes.
 pub fn takes_lanes(choice: &Choice, options: &Options) -> bool {
     let fixed = matches!(options.pace, Pace::Step(_));
@@ -75,23 +94,23 @@ struct Kept<'a, S> {
     times: Vec<f64>,
     states: Vec<S>,
     last_alone: bool,
-    stop: &'a AtomicBool,
+    watch: &'a Watch,
 }
 
 impl<'a, S> Kept<'a, S> {
-    fn new(options: &Options, stop: &'a AtomicBool) -> Self {
+    fn new(options: &Options, watch: &'a Watch) -> Self {
         Self {
             times: Vec::new(),
             states: Vec::new(),
             last_alone: options.save == Save::Ends,
-            stop,
+            watch,
         }
     }
 }
 
 impl<S: Scalar> Observer<S, Dynamic<S>> for Kept<'_, S> {
     fn step(&mut self, _: &Dynamic<S>, _: Progress, _: &Vec<S>) -> ControlFlow<()> {
-        match self.stop.load(Ordering::Relaxed) {
+        match self.watch.stopped() {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),
         }
@@ -111,7 +130,7 @@ impl<S: Scalar> Observer<S, Dynamic<S>> for Kept<'_, S> {
 /// What a thread needs to run members.
 struct Worker<'a> {
     members: &'a Members<'a>,
-    stop: &'a AtomicBool,
+    watch: &'a Watch,
     alone: Method,
     together: Option<Method<Wide>>,
 }
@@ -126,7 +145,7 @@ enum Lost {
 
 impl Members<'_> {
     /// Runs some of the members, in order. Sets `stop` where the options suit no member, and ends early where it is set.
-    pub fn run(&self, some: Range<usize>, stop: &AtomicBool) -> Vec<Member> {
+    pub fn run(&self, some: Range<usize>, watch: &Watch) -> Vec<Member> {
         let Some(alone) = method(self.choice, self.tolerances) else {
             let none = |_| Member::failing(0.0, "there is no such method".to_owned());
             return some.map(none).collect();
@@ -135,13 +154,13 @@ impl Members<'_> {
         let together = lanes.then(|| method_in_lanes(self.choice, self.tolerances));
         let worker = Worker {
             members: self,
-            stop,
+            watch,
             alone,
             together: together.flatten(),
         };
         let mut found = Vec::with_capacity(some.len());
         let mut first = some.start;
-        while first < some.end && !stop.load(Ordering::Relaxed) {
+        while first < some.end && !watch.stopped() {
             let last = some.end.min(first + LANES);
             worker.group(first..last, &mut found);
             first = last;
@@ -191,6 +210,7 @@ impl Worker<'_> {
                 let side_by_side: Vec<_> = left.iter().map(|(_, system)| *system).collect();
                 match self.together(together, &side_by_side, &starts) {
                     Ok(lanes) => {
+                        self.watch.done(lanes.len());
                         for ((index, _), member) in left.drain(..).zip(lanes) {
                             all[index] = Some(member);
                         }
@@ -207,10 +227,16 @@ impl Worker<'_> {
             }
         }
         let alone = members.zip(systems).zip(all);
-        found.extend(alone.map(|((member, system), done)| match (done, system) {
-            (Some(done), _) => done,
-            (None, Ok(system)) => self.alone(system, &self.members.starts[member]),
-            (None, Err(error)) => Member::failing(0.0, error.to_string()),
+        found.extend(alone.map(|((member, system), done)| {
+            if let Some(done) = done {
+                return done;
+            }
+            let member = match system {
+                Ok(system) => self.alone(system, &self.members.starts[member]),
+                Err(error) => Member::failing(0.0, error.to_string()),
+            };
+            self.watch.done(1);
+            member
         }));
     }
 
@@ -233,7 +259,7 @@ impl Worker<'_> {
             span: (0.0, self.members.end),
         };
         let options = &self.members.options;
-        let mut kept = Kept::new(options, self.stop);
+        let mut kept = Kept::new(options, self.watch);
         match integrate(&problem, Forgotten(method.as_ref()), options, &mut kept) {
             Ok(_) => Ok((0..systems.len())
                 .map(|lane| Member {
@@ -254,7 +280,7 @@ impl Worker<'_> {
             span: (0.0, self.members.end),
         };
         let options = &self.members.options;
-        let mut kept = Kept::new(options, self.stop);
+        let mut kept = Kept::new(options, self.watch);
         let outcome = integrate(&problem, Forgotten(self.alone.as_ref()), options, &mut kept);
         let mut member = Member {
             times: kept.times,
@@ -275,7 +301,7 @@ impl Worker<'_> {
                 Member::failing(0.0, error.to_string())
             }
             Err(IntegrateError::Option(error)) => {
-                self.stop.store(true, Ordering::Relaxed);
+                self.watch.stop.store(true, Ordering::Relaxed);
                 Member {
                     refused: Some(error),
                     ..Member::default()

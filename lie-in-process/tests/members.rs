@@ -6,11 +6,10 @@ use lie_codegen::model::Model;
 use lie_codegen::plan::plan;
 use lie_dynamic::{Declared, Tolerances, method};
 use lie_in_process::list;
-use lie_in_process::members::{LANES, Member, Members, takes_lanes};
+use lie_in_process::members::{LANES, Member, Members, Watch, takes_lanes};
 use lie_jit::Jit;
 use lie_runtime::driver::{Options, Save};
 use lie_runtime::newton::NewtonOptions;
-use std::sync::atomic::AtomicBool;
 
 const COUNT: usize = 19;
 const STEP: f64 = 0.1;
@@ -53,14 +52,17 @@ fn bits(members: &[Member]) -> Vec<Vec<u64>> {
 }
 
 fn all(members: &Members<'_>) -> Vec<Member> {
-    members.run(0..members.starts.len(), &AtomicBool::new(false))
+    let watch = Watch::default();
+    let found = members.run(0..members.starts.len(), &watch);
+    assert_eq!(watch.done.into_inner(), found.len());
+    found
 }
 
 /// Each in a call of its own: groups of one are not run in lanes.
 fn alone(members: &Members<'_>) -> Vec<Member> {
-    let stop = AtomicBool::new(false);
+    let watch = Watch::default();
     let each = 0..members.starts.len();
-    each.flat_map(|member| members.run(member..member + 1, &stop))
+    each.flat_map(|member| members.run(member..member + 1, &watch))
         .collect()
 }
 

@@ -3,15 +3,16 @@
 
 use crate::choice;
 use crate::declaration::Declaration;
+use crate::progress::Progress;
 use lie_dynamic::method;
-use lie_in_process::members::{LANES, Member, Members};
+use lie_in_process::members::{LANES, Member, Members, Watch};
 use lie_runtime::driver::{Options, Pace, Save};
 use numpy::{
     IntoPyArray, PyArray1, PyArray3, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods as _,
 };
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// The most members that a thread takes at a time.
 const SHARE: usize = 64;
@@ -37,19 +38,19 @@ fn share(count: usize, threads: usize) -> usize {
 }
 
 /// All members, on so many threads.
-fn run(members: &Members<'_>, threads: usize) -> PyResult<Found> {
+fn run(members: &Members<'_>, threads: usize, mut progress: Progress) -> PyResult<Found> {
     let threads = threads.clamp(1, members.starts.len().max(1));
     let share = share(members.starts.len(), threads);
-    let (next, stop) = (AtomicUsize::new(0), AtomicBool::new(false));
+    let (next, watch) = (AtomicUsize::new(0), Watch::default());
     let work = || {
         let mut done: Vec<(usize, Member)> = Vec::new();
         loop {
             let first = next.fetch_add(share, Ordering::Relaxed);
-            if first >= members.starts.len() || stop.load(Ordering::Relaxed) {
+            if first >= members.starts.len() || watch.stop.load(Ordering::Relaxed) {
                 return done;
             }
             let last = (first + share).min(members.starts.len());
-            done.extend((first..last).zip(members.run(first..last, &stop)));
+            done.extend((first..last).zip(members.run(first..last, &watch)));
         }
     };
     let (found, interrupted) = std::thread::scope(|scope| {
@@ -60,14 +61,18 @@ fn run(members: &Members<'_>, threads: usize) -> PyResult<Found> {
             let error = PyRuntimeError::new_err("the machine gives no thread");
             return (Ok(Vec::new()), Err(error));
         }
-        let mut interrupted = Ok(());
+        let all = members.starts.len() as u64;
+        let mut interrupted = progress.say(0, all);
         while threads.iter().any(|thread| !thread.is_finished()) {
             std::thread::sleep(std::time::Duration::from_millis(1));
             if interrupted.is_ok() {
+                let done = watch.done.load(Ordering::Relaxed) as u64;
                 interrupted = Python::attach(|py| py.check_signals());
-                stop.fetch_or(interrupted.is_err(), Ordering::Relaxed);
+                interrupted = interrupted.and_then(|()| progress.tell(done, all));
             }
+            watch.stop.fetch_or(interrupted.is_err(), Ordering::Relaxed);
         }
+        let interrupted = interrupted.and_then(|()| progress.end());
         let found = threads.into_iter().map(|thread| thread.join());
         (found.collect::<Result<Vec<_>, _>>(), interrupted)
     });
@@ -132,6 +137,7 @@ pub fn ensemble<'py>(
     parameters: &PyReadonlyArray2<'py, f64>,
     starts: &PyReadonlyArray2<'py, f64>,
     asked: Asked,
+    progress: Option<Py<PyAny>>,
 ) -> PyResult<Saved<'py>> {
     let (choice, declared) = declaration.method(py, &asked.label)?;
     let tolerances = choice::tolerances(py, &choice, asked.tolerances, asked.pace.1)?;
@@ -162,7 +168,7 @@ pub fn ensemble<'py>(
         options,
         end: asked.end,
     };
-    let found = py.detach(|| run(&members, asked.threads))?;
+    let found = py.detach(|| run(&members, asked.threads, Progress::of("members", progress)))?;
     let shape = [members.starts.len(), found.times.len(), starts.shape()[1]];
     let states = found.states.into_pyarray(py).reshape(shape)?;
     Ok((found.times.into_pyarray(py), states, found.failures))

@@ -1,13 +1,11 @@
 //! Errors of methods beside the times that they take.
 
-use crate::declaration::{Declaration, choices, runs};
-use crate::talk::{not_here, talk};
+use crate::talk::Measurement;
 use lie_codegen::methods::Choice;
 use lie_codegen::model::Model;
 use lie_codegen::program::Purpose;
 use lie_measure::bench::{ClockKind, Found, Measure, Options, Plane};
-use lie_program::protocol::Start;
-use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 /// A run: method, "step" or "tolerance", its value; error, what is left of it across the orbit; seconds for a unit of time of
@@ -77,65 +75,59 @@ impl Results {
 /// What is asked for: the end, seconds for a run, the sense of errors, the surface of section.
 pub type Asked = (f64, f64, String, Option<(usize, f64)>);
 
-fn options((until, budget, measure, plane): Asked) -> PyResult<Options> {
-    let plane = plane.map(|(coordinate, value)| Plane { coordinate, value });
-    let measure = match measure.as_str() {
-        "state" => Measure::State,
-        "energy" => Measure::Energy,
-        "casimirs" => Measure::Casimirs,
-        "phase" => Measure::Phase,
-        "section" => Measure::Section(plane),
-        other => return Err(PyValueError::new_err(format!("no measure `{other}`"))),
-    };
-    Ok(Options {
-        until,
-        budget,
-        measure,
-    })
+/// Compares methods.
+pub struct Comparison(pub Asked);
+
+impl Comparison {
+    fn options(&self) -> PyResult<Options> {
+        let (until, budget, measure, plane) = &self.0;
+        let plane = plane.map(|(coordinate, value)| Plane { coordinate, value });
+        let measure = match measure.as_str() {
+            "state" => Measure::State,
+            "energy" => Measure::Energy,
+            "casimirs" => Measure::Casimirs,
+            "phase" => Measure::Phase,
+            "section" => Measure::Section(plane),
+            other => return Err(PyValueError::new_err(format!("no measure `{other}`"))),
+        };
+        Ok(Options {
+            until: *until,
+            budget: *budget,
+            measure,
+        })
+    }
 }
 
-/// The methods that `lie bench` takes, those that run here.
-fn usual(model: &Model) -> Vec<Choice> {
-    let mut usual = lie_in_process::list::fewer(model);
-    usual.retain(runs);
-    usual
-}
+impl Measurement for Comparison {
+    const PURPOSE: Purpose = Purpose::Bench;
+    const COMMAND: &'static str = "lie bench";
+    type Options = Options;
+    type Found = Found;
+    type Results = Results;
+    type Made = Results;
 
-/// Has the errors and times of these methods measured, of the usual ones where none is named.
-pub fn bench(
-    py: Python<'_>,
-    declaration: &Declaration,
-    labels: &[String],
-    start: Start,
-    asked: Asked,
-) -> PyResult<Results> {
-    let options = options(asked)?;
-    let casimirs = options.measure == Measure::Casimirs;
-    let made = declaration.with_model(py, |model| {
-        let choices = choices(&model, labels, usual)?;
-        let without = casimirs && model.casimirs.iter().all(|casimir| casimir.multivalued);
-        let work = lie_in_process::work(&model, &choices, Purpose::Bench, crate::clock::processor);
-        Ok((work, choices, without))
-    });
-    let (work, choices, without) =
-        made.map_err(|refused: crate::choice::Refused| refused.raise(py))?;
-    if without {
-        let text =
-            "the system has no Casimir with one branch: declare one, or take measure=\"energy\"";
-        return Err(PyValueError::new_err(text));
+    fn usual(model: &Model) -> Vec<Choice> {
+        lie_in_process::list::fewer(model)
     }
-    let work = work.ok_or_else(|| not_here(py, "lie bench"))?;
-    let request = lie_measure::Request {
-        methods: choices.iter().map(Choice::label).collect(),
-        start,
-        options,
-    };
-    let mut results = Results::default();
-    let outcome = talk(py, &*work, &request, |found| results.take(found))?;
-    outcome.checked("measurement")?;
-    match outcome.interrupted {
-        Some(other) if !other.is_instance_of::<PyKeyboardInterrupt>(py) => return Err(other),
-        interrupted => results.interrupted = interrupted.is_some(),
+
+    fn begin(&self, model: &Model) -> PyResult<(Options, Results)> {
+        let options = self.options()?;
+        let without = model.casimirs.iter().all(|casimir| casimir.multivalued);
+        if options.measure == Measure::Casimirs && without {
+            let text = "the system has no Casimir with one branch: declare one, or take measure=\"energy\"";
+            return Err(PyValueError::new_err(text));
+        }
+        Ok((options, Results::default()))
     }
-    Ok(results)
+
+    fn take(results: &mut Results, found: Found) {
+        results.take(found);
+    }
+
+    fn end(&self, results: Results, _: &Model, _: &[String], whole: bool) -> Results {
+        Results {
+            interrupted: !whole,
+            ..results
+        }
+    }
 }

@@ -221,18 +221,6 @@ pub fn made(declared: &Declared, parameters: &[f64]) -> PyResult<Dynamic<f64>> {
     system.map_err(|error| PyValueError::new_err(error.to_string()))
 }
 
-/// The choices of these labels; of all that `defaults` gives where there are none.
-pub fn choices(
-    model: &Model,
-    labels: &[String],
-    defaults: fn(&Model) -> Vec<Choice>,
-) -> Result<Vec<Choice>, Refused> {
-    match labels {
-        [] => Ok(defaults(model)),
-        labels => labels.iter().map(|label| wanted(model, label)).collect(),
-    }
-}
-
 /// Whether a method runs without a compiler of Rust.
 pub fn runs(choice: &Choice) -> bool {
     lie_dynamic::method(choice, lie_dynamic::Tolerances::default()).is_some()

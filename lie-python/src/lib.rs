@@ -10,7 +10,9 @@ mod declaration;
 mod errors;
 mod evaluate;
 mod observer;
+mod progress;
 mod report;
+mod stress;
 mod talk;
 mod trajectory;
 mod verify;
@@ -26,6 +28,9 @@ use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::collections::HashMap;
+
+/// Where a measurement starts: the values of the parameters, the state.
+type Begin = (Vec<f64>, Vec<f64>);
 
 /// A checked declaration, as the package sees it.
 #[pyclass(module = "liepoisson._core", frozen)]
@@ -144,20 +149,25 @@ impl Core {
         report::check(py, &self.0, deep)
     }
 
-    /// Every claim of these methods, of all that apply where none is named, measured from a state on; and what is wrong with
-    /// the measurements themselves.
+    /// Every claim of these methods, of all that apply where none is named, measured from a state on; and the kernels before the
+    /// declaration.
     fn verify(
         &self,
         py: Python<'_>,
         methods: Vec<String>,
-        parameters: Vec<f64>,
-        start: Vec<f64>,
+        from: Begin,
         options: (Option<f64>, u64),
-    ) -> PyResult<(Vec<verify::Fact>, Vec<String>)> {
-        self.measurable(py, |model| families::too_many(model, start.len()))?;
-        let start = self.start(parameters, start);
-        let found = verify::verify(py, &self.0, &methods, start, options)?;
-        Ok((found.facts, found.unsound))
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<verify::Facts> {
+        self.measurable(py, |model| families::too_many(model, from.1.len()))?;
+        let verification = verify::Verification {
+            text: &self.0.text,
+            parameters: from.0.clone(),
+            step: options.0,
+            seed: options.1,
+        };
+        self.subject(&methods, from, progress)
+            .measure(py, &verification)
     }
 
     /// Errors of these methods beside their times, of the usual ones where none is named.
@@ -165,17 +175,27 @@ impl Core {
         &self,
         py: Python<'_>,
         methods: Vec<String>,
-        parameters: Vec<f64>,
-        start: Vec<f64>,
+        from: Begin,
         asked: bench::Asked,
+        progress: Option<Py<PyAny>>,
     ) -> PyResult<bench::Results> {
-        self.measurable(py, |model| {
-            let help = "run says how energy and Casimirs drift";
-            let text = families::not_measured(model, "bench");
-            model.family.is_some().then(|| (text, help.to_owned()))
-        })?;
-        let start = self.start(parameters, start);
-        bench::bench(py, &self.0, &methods, start, asked)
+        self.no_family(py, "bench")?;
+        self.subject(&methods, from, progress)
+            .measure(py, &bench::Comparison(asked))
+    }
+
+    /// These methods at their limits, the usual ones where none is named, with so many steps of the long run.
+    fn stress(
+        &self,
+        py: Python<'_>,
+        methods: Vec<String>,
+        from: Begin,
+        steps: u64,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<stress::Limits> {
+        self.no_family(py, "stress")?;
+        self.subject(&methods, from, progress)
+            .measure(py, &stress::Stress(steps))
     }
 
     /// The generated Rust.
@@ -199,8 +219,9 @@ impl Core {
         &self,
         py: Python<'py>,
         asked: trajectory::Asked,
+        progress: Option<Py<PyAny>>,
     ) -> PyResult<(trajectory::Rows<'py>, Bound<'py, pyo3::types::PyDict>)> {
-        trajectory::run(py, &self.0, asked)
+        trajectory::run(py, &self.0, asked, progress)
     }
 
     /// A kernel at states, one in each row, in the coordinates that users give.
@@ -222,8 +243,9 @@ impl Core {
         parameters: PyReadonlyArray2<'py, f64>,
         starts: PyReadonlyArray2<'py, f64>,
         asked: batch::Asked,
+        progress: Option<Py<PyAny>>,
     ) -> PyResult<batch::Saved<'py>> {
-        batch::ensemble(py, &self.0, &parameters, &starts, asked)
+        batch::ensemble(py, &self.0, &parameters, &starts, asked, progress)
     }
 }
 
@@ -243,10 +265,28 @@ impl Core {
         }
     }
 
-    fn start(&self, parameters: Vec<f64>, initial: Vec<f64>) -> Start {
-        Start {
-            parameters: self.0.named(parameters).collect(),
-            initial,
+    fn no_family(&self, py: Python<'_>, what: &str) -> PyResult<()> {
+        self.measurable(py, |model| {
+            let help = "run says how energy and Casimirs drift";
+            let text = families::not_measured(model, what);
+            model.family.is_some().then(|| (text, help.to_owned()))
+        })
+    }
+
+    fn subject<'a>(
+        &'a self,
+        methods: &'a [String],
+        (parameters, initial): Begin,
+        progress: Option<Py<PyAny>>,
+    ) -> talk::Subject<'a> {
+        talk::Subject {
+            declaration: &self.0,
+            methods,
+            start: Start {
+                parameters: self.0.named(parameters).collect(),
+                initial,
+            },
+            progress,
         }
     }
 }
@@ -260,9 +300,16 @@ fn constant(text: &str) -> PyResult<f64> {
     })
 }
 
+/// Rows of cells as text in columns.
+#[pyfunction]
+fn columns(rows: Vec<Vec<String>>) -> String {
+    lie_in_process::table::text(&rows)
+}
+
 #[pymodule]
 fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<Core>()?;
     module.add_function(wrap_pyfunction!(constant, module)?)?;
+    module.add_function(wrap_pyfunction!(columns, module)?)?;
     Ok(())
 }

@@ -1,5 +1,6 @@
 //! Looks for Ctrl-C while a run goes on, and follows the group element.
 
+use crate::progress::Progress as Told;
 use lie_dynamic::Dynamic;
 use lie_runtime::Poisson;
 use lie_runtime::driver::{Assessed, Chosen, Motion, Observer, Progress, Reconstruction};
@@ -22,27 +23,33 @@ struct Seen {
     interrupted: Option<PyErr>,
     chosen: Option<f64>,
     missed: Option<f64>,
+    told: Told,
 }
 
-impl Default for Watch {
-    fn default() -> Self {
+impl Watch {
+    /// What hears how far it is.
+    pub fn new(told: Told) -> Self {
         Self(RefCell::new(Seen {
             left: STRIDE,
             looked: Instant::now(),
             interrupted: None,
             chosen: None,
             missed: None,
+            told,
         }))
     }
-}
 
-impl Watch {
     /// The exception that ended the run, if there was one.
     pub fn outcome(&self) -> PyResult<()> {
         match self.0.borrow_mut().interrupted.take() {
             Some(error) => Err(error),
             None => Ok(()),
         }
+    }
+
+    /// Says that the run came to its end.
+    pub fn ended(&self) -> PyResult<()> {
+        self.0.borrow_mut().told.end()
     }
 
     /// The error at the end, where it may be much larger than the tolerance; not a number where it cannot be told.
@@ -66,7 +73,7 @@ impl<P: Poisson<f64>> Observer<f64, P> for &Watch {
         self.0.borrow_mut().missed = assessed.missed().then_some(error);
     }
 
-    fn step(&mut self, _system: &P, _progress: Progress, _mu: &P::State) -> ControlFlow<()> {
+    fn step(&mut self, _system: &P, progress: Progress, _mu: &P::State) -> ControlFlow<()> {
         let mut seen = self.0.borrow_mut();
         seen.left -= 1;
         if seen.left > 0 {
@@ -77,7 +84,8 @@ impl<P: Poisson<f64>> Observer<f64, P> for &Watch {
             return ControlFlow::Continue(());
         }
         seen.looked = Instant::now();
-        match Python::attach(|py| py.check_signals()) {
+        let said = seen.told.tell(progress.step, progress.steps);
+        match said.and_then(|()| Python::attach(|py| py.check_signals())) {
             Ok(()) => ControlFlow::Continue(()),
             Err(error) => {
                 seen.interrupted = Some(error);

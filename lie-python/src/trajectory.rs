@@ -3,6 +3,7 @@
 use crate::choice::{self, unsupported};
 use crate::declaration::{Declaration, made};
 use crate::observer;
+use crate::progress::Progress as Told;
 use lie_runtime::Poisson as _;
 use lie_runtime::diagnostics::Forgotten;
 use lie_runtime::driver::{
@@ -43,6 +44,7 @@ pub fn run<'py>(
     py: Python<'py>,
     declaration: &Declaration,
     asked: Asked,
+    progress: Option<Py<PyAny>>,
 ) -> PyResult<(Rows<'py>, Bound<'py, PyDict>)> {
     let pace = asked.pace;
     let (choice, declared) = declaration.method(py, &asked.label)?;
@@ -69,7 +71,7 @@ pub fn run<'py>(
         span: (0.0, asked.end),
     };
     let (outcome, watch, elements) = py.detach(|| {
-        let watch = observer::Watch::default();
+        let watch = observer::Watch::new(Told::of("steps", progress));
         let method = lie_dynamic::method(&choice, tolerances);
         let mut elements = None;
         let outcome = method.map(|method| {
@@ -91,7 +93,10 @@ pub fn run<'py>(
     let outcome = outcome.ok_or_else(|| unsupported(py, &asked.label))?;
     let found = PyDict::new(py);
     let solution = match outcome {
-        Ok(solution) => solution,
+        Ok(solution) => {
+            watch.ended()?;
+            solution
+        }
         Err(SolveError::Option(error)) => return Err(PyValueError::new_err(error.to_string())),
         Err(SolveError::Step { error, solution }) => {
             found.set_item("step_number", error.step)?;

@@ -1,93 +1,102 @@
-//! What methods claim, measured on a system.
+//! What methods claim, measured on a system, and its kernels before the declaration.
 
-use crate::declaration::{Declaration, choices, runs};
-use crate::talk::{not_here, talk};
+use crate::talk::Measurement;
 use lie_codegen::methods::Choice;
 use lie_codegen::model::Model;
 use lie_codegen::program::Purpose;
-use lie_codegen::structure::smoothness;
+use lie_in_process::evidence::Evidence;
+use lie_in_process::verify::{Results, Row, options};
 use lie_measure::verify::{Found, Options};
-use lie_program::protocol::Start;
 use pyo3::prelude::*;
+use std::collections::BTreeMap;
 
 /// A fact: the method, its name, what is claimed, what was measured, the bound, the verdict, a note, the step.
-pub type Fact = (String, String, f64, f64, f64, String, String, f64);
+type Fact = (String, String, f64, f64, f64, String, String, f64);
 
 /// What was found.
-#[derive(Default)]
+#[derive(IntoPyObject)]
 pub struct Facts {
-    pub facts: Vec<Fact>,
-    /// What is wrong with the measurements themselves.
-    pub unsound: Vec<String>,
+    facts: Vec<Fact>,
+    /// What does not hold, in words.
+    failures: Vec<String>,
+    /// How far each kernel is from the declaration, in units of what is allowed; none of a family.
+    kernels: Option<BTreeMap<String, f64>>,
+    /// The same of the reference solution, where it is compared.
+    reference: Option<f64>,
+    /// A line on kernels.
+    summary: String,
+    complete: bool,
 }
 
-impl Facts {
-    fn take(&mut self, found: Found) {
-        match found {
-            Found::Finding { method, finding } => {
-                let verdict = serde_json::to_value(finding.verdict).unwrap_or_default();
-                self.facts.push((
-                    method,
-                    finding.fact.to_string(),
-                    finding.claim,
-                    finding.measured,
-                    finding.bound,
-                    verdict.as_str().unwrap_or_default().to_owned(),
-                    finding.note.to_string(),
-                    finding.step,
-                ));
-            }
-            Found::Broken { fact } => self.unsound.push(format!(
-                "{fact}: a spoiled map passes, the measurement says nothing"
-            )),
-            Found::Unsound { what } => self.unsound.push(format!(
-                "{what}: an equation with a known solution is not solved correctly"
-            )),
-            // these are for the command, which compares them with the declaration
-            Found::Ground(_) | Found::Kernel(_) | Found::Reference(_) => {}
-        }
+/// Verifies at a step, or at one that is found.
+pub struct Verification<'a> {
+    pub text: &'a str,
+    /// The values of the parameters.
+    pub parameters: Vec<f64>,
+    pub step: Option<f64>,
+    pub seed: u64,
+}
+
+fn fact(row: Row) -> Fact {
+    let Row { method, finding } = row;
+    let verdict = serde_json::to_value(finding.verdict).unwrap_or_default();
+    (
+        method,
+        finding.fact.to_string(),
+        finding.claim,
+        finding.measured,
+        finding.bound,
+        verdict.as_str().unwrap_or_default().to_owned(),
+        finding.note.to_string(),
+        finding.step,
+    )
+}
+
+impl Measurement for Verification<'_> {
+    const PURPOSE: Purpose = Purpose::Verify;
+    const COMMAND: &'static str = "lie verify";
+    type Options = Options;
+    type Found = Found;
+    type Results = Results;
+    type Made = Facts;
+
+    /// Every method that applies, at its default options.
+    fn usual(model: &Model) -> Vec<Choice> {
+        let known = lie_codegen::methods::applicability(model);
+        let apply = known.into_iter().filter(|(_, why)| why.is_none());
+        apply
+            .filter_map(|(id, _)| Choice::from_id(id).ok())
+            .collect()
     }
-}
 
-/// Every method that applies and runs in Python, at its default options.
-fn every(model: &Model) -> Vec<Choice> {
-    let known = lie_codegen::methods::applicability(model);
-    let apply = known.into_iter().filter(|(_, why)| why.is_none());
-    apply
-        .filter_map(|(id, _)| Choice::from_id(id).ok())
-        .filter(runs)
-        .collect()
-}
+    fn begin(&self, model: &Model) -> PyResult<(Options, Results)> {
+        let evidence = Evidence::of_spec(self.text, model, &self.parameters);
+        let options = options(model, self.step, self.seed);
+        Ok((options, Results::before(evidence)))
+    }
 
-/// Has every claim of these methods measured, of all that apply where none is named.
-pub fn verify(
-    py: Python<'_>,
-    declaration: &Declaration,
-    labels: &[String],
-    start: Start,
-    (step, seed): (Option<f64>, u64),
-) -> PyResult<Facts> {
-    let made = declaration.with_model(py, |model| {
-        let choices = choices(&model, labels, every)?;
-        let joints = smoothness::joints(&model);
-        let reach =
-            (!joints.is_empty()).then(|| smoothness::reached(&joints, u32::MAX).unwrap_or(0));
-        let work = lie_in_process::work(&model, &choices, Purpose::Verify, || None);
-        Ok((work, choices, reach))
-    });
-    let (work, choices, reach) =
-        made.map_err(|refused: crate::choice::Refused| refused.raise(py))?;
-    let work = work.ok_or_else(|| not_here(py, "lie verify"))?;
-    let request = lie_measure::Request {
-        methods: choices.iter().map(Choice::label).collect(),
-        start,
-        options: Options { seed, step, reach },
-    };
-    let mut facts = Facts::default();
-    let outcome = talk(py, &*work, &request, |found| facts.take(found))?;
-    outcome.checked("verification")?;
-    match outcome.interrupted {
-        Some(interrupted) => Err(interrupted),
-        None => Ok(facts),
+    fn take(results: &mut Results, found: Found) {
+        results.take(found);
+    }
+
+    fn end(&self, results: Results, _: &Model, _: &[String], whole: bool) -> Facts {
+        let kernels = results.evidence.kernels().map(|kernels| {
+            let named = kernels.into_iter();
+            named
+                .map(|(name, excess)| (name.to_owned(), excess))
+                .collect()
+        });
+        Facts {
+            // before the end kernels may be missing
+            failures: match whole {
+                true => results.failures(),
+                false => results.failed_claims(),
+            },
+            kernels,
+            reference: results.evidence.reference_excess(),
+            summary: results.evidence.summary(),
+            facts: results.rows.into_iter().map(fact).collect(),
+            complete: whole,
+        }
     }
 }

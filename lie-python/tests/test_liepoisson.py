@@ -192,7 +192,19 @@ def test_the_examples_of_the_documentation() -> None:
         found = doctest.testmod(module)
         assert found.failed == 0
         attempted += found.attempted
-    assert attempted > 20
+    # every example in the package is one of them
+    folder = pathlib.Path(lp.__file__).parent
+    written = sum(file.read_text("utf-8").count(">>> ") for file in folder.glob("*.py"))
+    assert attempted == written > 20
+
+
+def test_everything_public_is_described() -> None:
+    for name in lp.__all__:
+        thing = getattr(lp, name)
+        assert thing.__doc__ and "Alias for field" not in thing.__doc__, name
+        for of, member in vars(thing).items() if isinstance(thing, type) else ():
+            if not of.startswith("_") and (callable(member) or isinstance(member, property)):
+                assert member.__doc__, f"{name}.{of}"
 
 
 def test_pictures_and_text() -> None:

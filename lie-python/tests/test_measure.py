@@ -83,13 +83,18 @@ def test_other_senses_of_errors() -> None:
 
 def test_ctrl_c_keeps_what_was_measured() -> None:
     body = lp.System(**BODY)
-    interrupt_after(1.5)
+
+    def interrupt(done: int, total: int, what: str) -> None:
+        if what == "times":
+            os.kill(os.getpid(), signal.SIGINT)
+
     with pytest.raises(lp.Interrupted) as caught:
-        body.bench(t=10, budget=0.2)
+        body.bench("rk4", "gauss4", t=10, budget=0.01, progress=interrupt)
     assert isinstance(caught.value, KeyboardInterrupt)
     partial = caught.value.partial
     assert not partial.complete and len(partial) > 0 and "interrupted" in repr(partial)
     assert np.isfinite(partial["error"]).all() and (partial["seconds"] > 0).all()
+    assert not pickle.loads(pickle.dumps(caught.value)).partial.complete
 
 
 def test_a_check_says_what_the_system_is() -> None:

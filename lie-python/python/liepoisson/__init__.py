@@ -20,6 +20,7 @@ from ._check import Casimir, Check, Motion
 from ._errors import DeclarationError, IntegrationError, Interrupted, MethodError
 from ._methods import Method, Methods
 from ._solution import Ensemble, Solution
+from ._stress import Growth, Stress, StressCell
 from ._system import System, load
 from ._verification import Fact, Verification
 
@@ -31,6 +32,7 @@ __all__ = [
     "DeclarationError",
     "Ensemble",
     "Fact",
+    "Growth",
     "IntegrationError",
     "Interrupted",
     "Method",
@@ -38,6 +40,8 @@ __all__ = [
     "Methods",
     "Motion",
     "Solution",
+    "Stress",
+    "StressCell",
     "System",
     "Verification",
     "load",

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Mapping, Sequence
+import operator
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Union
 
 import numpy as np
@@ -13,6 +14,8 @@ from . import _core
 
 Array = npt.NDArray[np.float64]
 Number = Union[float, int, str]
+#: What hears how far long work is: what is done, of how much, what it is.
+Progress = Callable[[int, int, str], object]
 
 #: What people write from habit, and what it is called here.
 SLIPS = {
@@ -59,6 +62,32 @@ def number(value: Number, what: str) -> float:
         return float(value)
     except (TypeError, ValueError):
         raise TypeError(f"{what} must be a number or text such as '1/7', not {value!r}") from None
+
+
+def whole(value: Any, name: str, least: int) -> int:
+    """A whole number, of Python or of numpy, that is not smaller than this one."""
+    known = f"{least}, {least + 1}, {least + 2}, …"
+    try:
+        found = operator.index(value)
+    except TypeError:
+        raise TypeError(f"{name} must be {known}, not {value!r}") from None
+    if isinstance(value, bool):
+        raise TypeError(f"{name} must be {known}, not {value!r}")
+    if found < least:
+        raise ValueError(f"{name} must be {known}, not {found}")
+    if found >= 2**63:
+        raise ValueError(f"{name} is too large: {found}")
+    return found
+
+
+def heard(progress: Progress | None) -> Progress | None:
+    """What hears how far it is, if it can be called."""
+    if progress is None or callable(progress):
+        return progress
+    raise TypeError(
+        "progress is a function, such as progress=lambda done, total, what: print(done, total, what), "
+        f"not {progress!r}"
+    )
 
 
 def given(value: float | None, name: str, options: Mapping[str, list[str]]) -> float | None:

@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from . import _core
 from ._arguments import hint
 from ._pictures import image, new_figure, page, shown, table
 
@@ -137,10 +138,7 @@ class Bench:
     def __repr__(self) -> str:
         """A table: a line for each method, a column for each accuracy."""
         head, rows = self._table()
-        lines = [head, *rows]
-        widths = [max(len(row[k]) for row in lines) for k in range(len(head))]
-        text = ["  ".join(cell.ljust(width) for cell, width in zip(row, widths)) for row in lines]
-        return "\n".join([self._title(), *(line.rstrip() for line in text)])
+        return f"{self._title()}\n{_core.columns([head, *rows])}".rstrip()
 
     def plot(self, *, show: bool = False) -> Any:
         """Draws errors over times with matplotlib; returns the figure."""

@@ -1,3 +1,4 @@
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -5,6 +6,8 @@ import numpy.typing as npt
 from typing_extensions import TypeAlias
 
 Array: TypeAlias = npt.NDArray[np.float64]
+#: The values of the parameters and the initial state.
+Begin: TypeAlias = tuple[list[float], list[float]]
 
 class Core:
     text: str
@@ -28,26 +31,38 @@ class Core:
     def bench(
         self,
         methods: list[str],
-        parameters: list[float],
-        start: list[float],
+        begin: Begin,
         asked: tuple[float, float, str, tuple[int, float] | None],
+        progress: Callable[[int, int, str], object] | None,
     ) -> dict[str, Any]: ...
     def verify(
         self,
         methods: list[str],
-        parameters: list[float],
-        start: list[float],
+        begin: Begin,
         options: tuple[float | None, int],
-    ) -> tuple[list[tuple[str, str, float, float, float, str, str, float]], list[str]]: ...
+        progress: Callable[[int, int, str], object] | None,
+    ) -> dict[str, Any]: ...
+    def stress(
+        self,
+        methods: list[str],
+        begin: Begin,
+        steps: int,
+        progress: Callable[[int, int, str], object] | None,
+    ) -> dict[str, Any]: ...
     def rust(self, methods: list[str]) -> str: ...
     def equations(self) -> list[str]: ...
     def parameter_names(self) -> list[str]: ...
     def run(
-        self, asked: dict[str, Any]
+        self, asked: dict[str, Any], progress: Callable[[int, int, str], object] | None
     ) -> tuple[tuple[Array, Array, Array, Array], dict[str, object]]: ...
     def evaluate(self, kernel: str, parameters: list[float], states: Array) -> Array: ...
     def ensemble(
-        self, parameters: Array, starts: Array, asked: dict[str, Any]
+        self,
+        parameters: Array,
+        starts: Array,
+        asked: dict[str, Any],
+        progress: Callable[[int, int, str], object] | None,
     ) -> tuple[Array, Array, list[tuple[int, float, str]]]: ...
 
 def constant(text: str) -> float: ...
+def columns(rows: list[list[str]]) -> str: ...

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from ._bench import Bench
     from ._solution import Solution
 
 __all__ = ["DeclarationError", "IntegrationError", "Interrupted", "MethodError"]
@@ -52,9 +51,12 @@ class IntegrationError(RuntimeError):
 
 
 class Interrupted(KeyboardInterrupt):
-    """A measurement that Ctrl-C ended; ``partial`` is the :class:`Bench` of what there was."""
+    """A measurement that Ctrl-C ended.
 
-    def __init__(self, message: str, partial: Bench) -> None:
+    ``partial`` has what there was: a :class:`Bench`, a :class:`Stress` or a :class:`Verification`, whose ``complete`` is false.
+    """
+
+    def __init__(self, message: str, partial: Any) -> None:
         super().__init__(message)
         self.partial = partial
 

@@ -1,20 +1,34 @@
-"""What `bench` asks the core for, and what it makes of the answers."""
+"""What measurements ask the core for, and what they make of the answers."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
 from . import _core
-from ._arguments import UNTIL, Number, hint, number
+from ._arguments import UNTIL, Number, Progress, heard, hint, merged, number, whole
 from ._bench import MEASURES, Bench, BenchRow
 from ._errors import Interrupted
+from ._stress import Stress
+from ._verification import Verification
 
 if TYPE_CHECKING:
     from ._declared import Declared
 
+Result = TypeVar("Result", Bench, Stress, Verification)
+
+#: What each measurement chooses itself.
+OWN = {
+    "verify": {"tol": "measures at a step"},
+    "bench": {"h": "tries many steps", "tol": "tries many tolerances"},
+    "stress": {
+        "h": "finds a step and tries many",
+        "tol": "finds a step and tries many",
+        "t": "counts steps (`steps` of the long run)",
+    },
+}
 #: The longest span of the declaration that is taken.
 _SPAN = 20.0
 
@@ -50,17 +64,54 @@ def _plane(
     return system._core.coordinates.index(name), number(value, "the value of the section")
 
 
+def start_of(
+    system: Declared,
+    call: str,
+    x0: Any,
+    parameters: Mapping[str, Any] | None,
+    named: Mapping[str, Any],
+) -> tuple[list[float], list[float]]:
+    """The values of the parameters and the initial state; what a measurement chooses itself is no argument."""
+    for name, why in OWN[call].items():
+        if name in named and name not in system.parameters:
+            raise TypeError(f"no argument `{name}`: {call} {why}; leave it out")
+    values = system._values(merged(parameters, named))
+    return values, system._start(x0, values)
+
+
+def labels_of(call: str, methods: Sequence[Any]) -> list[str]:
+    """The methods, which are named one by one."""
+    if any(not isinstance(method, str) for method in methods):
+        example = ", ".join(f'"{name}"' for name in _flat(methods)) or '"rk4", "gauss4"'
+        raise TypeError(f"methods are given one by one, as text: {call}({example})")
+    if any(not method.strip() for method in methods):
+        raise ValueError(f'a method is empty: name it, such as {call}("midpoint"), or leave it out')
+    return list(methods)
+
+
+def _flat(methods: Sequence[Any]) -> list[str]:
+    """The names in a list that stands in their place."""
+    inner = [name for method in methods if isinstance(method, (list, tuple)) for name in method]
+    return [name for name in inner if isinstance(name, str)]
+
+
+def unless_interrupted(result: Result) -> Result:
+    """The result, unless Ctrl-C ended the measurement."""
+    if not result.complete:
+        raise Interrupted("interrupted; what was measured so far is in `partial`", result)
+    return result
+
+
 def measured(
     system: Declared,
     methods: Sequence[Any],
-    values: list[float],
-    start: list[float],
+    begin: tuple[list[float], list[float]],
     asked: tuple[Number | None, float, str, tuple[str, Number] | None],
+    progress: Progress | None,
 ) -> Bench:
     """Errors and times of these methods from a state on."""
     t, budget, measure, section = asked
-    if any(not isinstance(method, str) for method in methods):
-        raise TypeError('methods are given one by one, as text: bench("rk4", "gauss4")')
+    labels = labels_of("bench", methods)
     if measure not in MEASURES:
         raise ValueError(
             f"no measure `{measure}`{hint(str(measure), list(MEASURES))} There are: {', '.join(MEASURES)}"
@@ -69,7 +120,7 @@ def measured(
     if not (np.isfinite(budget) and budget > 0):
         raise ValueError(f"budget is {budget:g}, and must be seconds, such as budget=0.2")
     end, plane = _end(system, t), _plane(system, measure, section)
-    found = system._core.bench(list(methods), values, start, (end, budget, measure, plane))
+    found = system._core.bench(labels, begin, (end, budget, measure, plane), heard(progress))
     passed = found["section"]
     result = Bench(
         system.name,
@@ -82,6 +133,36 @@ def measured(
         "processor" if found["processor"] else "wall",
         not found["interrupted"],
     )
-    if not result.complete:
-        raise Interrupted("interrupted; what was measured so far is in `partial`", result)
-    return result
+    return unless_interrupted(result)
+
+
+def verified(
+    system: Declared,
+    methods: Sequence[Any],
+    begin: tuple[list[float], list[float]],
+    asked: tuple[Number | None, int],
+    progress: Progress | None,
+) -> Verification:
+    """The claims of these methods from a state on."""
+    h, seed = asked
+    step = None if h is None else number(h, "h")
+    if step is not None and (step == 0 or not np.isfinite(step)):
+        raise ValueError(
+            f"h is {step:g}, which measures nothing: give a step such as h=0.1, or leave it out"
+        )
+    options = (step, whole(seed, "seed", 0))
+    found = system._core.verify(labels_of("verify", methods), begin, options, heard(progress))
+    return unless_interrupted(Verification(found))
+
+
+def stressed(
+    system: Declared,
+    methods: Sequence[Any],
+    begin: tuple[list[float], list[float]],
+    steps: int,
+    progress: Progress | None,
+) -> Stress:
+    """These methods at their limits."""
+    count = whole(steps, "steps", 1)
+    found = system._core.stress(labels_of("stress", methods), begin, count, heard(progress))
+    return unless_interrupted(Stress(system.name, count, found))

@@ -10,17 +10,18 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ._arguments import Array, Number, merged, number, times_of
+from ._arguments import Array, Number, Progress, heard, merged, times_of, whole
 from ._bench import Bench
 from ._declared import Declared
 from ._errors import IntegrationError
 from ._functions import function_of
-from ._measure import measured
+from ._measure import measured, start_of, stressed, verified
 from ._members import members_of, table_of
 from ._notebook import page_of
 from ._sites import Sites
 from ._solution import Ensemble, Solution
-from ._verification import Fact, Verification
+from ._stress import Stress
+from ._verification import Verification
 
 __all__ = ["System", "load"]
 
@@ -53,6 +54,7 @@ class System(Declared):
         max_iterations: int | None = None,
         converge: str | None = None,
         group: str | None = None,
+        progress: Progress | None = None,
         parameters: Mapping[str, Number] | None = None,
         **named: Number,
     ) -> Solution:
@@ -65,6 +67,10 @@ class System(Declared):
         "fixed-point"), ``newton_tolerance`` (in units of round-off), ``max_iterations`` and ``converge`` ("state", "map",
         "tolerance") are for the solver of implicit methods. ``group="matrix"`` or ``"quaternion"`` follows the group element
         from the identity on (``run.group``).
+
+        ``progress`` is a function that is called now and then with what is done, of how much, and what that is, here
+        ``progress(steps, total, "steps")``; an exception that it raises ends the work. Nothing is printed otherwise, and a run of less than
+        a tenth of a second may not call it.
 
         Warnings: :class:`UserWarning` where the error at the end may be much larger than ``tol``.
 
@@ -85,7 +91,7 @@ class System(Declared):
         label = asked["label"]
         group = group if group is not None else options.get("group", [None])[0]
         asked.update(parameters=values, start=start, every=every, at=times, group=group)
-        (t_rows, mu, energy, casimirs), found = self._core.run(asked)
+        (t_rows, mu, energy, casimirs), found = self._core.run(asked, heard(progress))
         columns = {name: casimirs[:, index] for index, name in enumerate(self.casimirs)}
         family = self._core.family
         names = self._core.names_of_sites(values) if family else self.coordinates
@@ -140,6 +146,7 @@ class System(Declared):
         newton_tolerance: float | None = None,
         max_iterations: int | None = None,
         converge: str | None = None,
+        progress: Progress | None = None,
         parameters: Mapping[str, Any] | None = None,
         **named: Any,
     ) -> Ensemble:
@@ -148,7 +155,8 @@ class System(Declared):
         The ends are kept, or with ``every`` each so-manyth step, with ``at`` these times. With ``tol`` in the place of ``h`` each
         member has a step of its own, and `every` is not taken. Other arguments are those of :meth:`run`. The bits do not
         depend on the number of threads (all processors by default). A member that fails has rows of not-a-number from there
-        on, and is named in ``failures``. Of a group element that the declaration asks for, nothing is kept.
+        on, and is named in ``failures``. Of a group element that the declaration asks for, nothing is kept. ``progress`` hears how many
+        members are done, as in :meth:`run`.
 
         >>> body = System(algebra="so(3)", state=["x", "y", "z"], hamiltonian="x^2/2 + y^2/4 + z^2/6")
         >>> starts = [[1, 0.1, 0], [0, 1, 0.1]]
@@ -166,8 +174,7 @@ class System(Declared):
         for name in ("at", "every"):
             options.pop(name, None)
         end, _, times = times_of(t, at, every, options)
-        if threads is not None and threads < 1:
-            raise ValueError(f"threads must be 1, 2, 3, …, not {threads}")
+        count = (os.cpu_count() or 1) if threads is None else whole(threads, "threads", 1)
         solver: dict[str, object] = {
             "iteration": iteration,
             "newton_tolerance": newton_tolerance,
@@ -179,8 +186,8 @@ class System(Declared):
             raise TypeError(
                 "with a tolerance each member has a step of its own: give at=[…] in place of every"
             )
-        asked.update(every=every, at=times, threads=threads or os.cpu_count() or 1)
-        rows, states, failures = self._core.ensemble(table, starts, asked)
+        asked.update(every=every, at=times, threads=count)
+        rows, states, failures = self._core.ensemble(table, starts, asked, heard(progress))
         states = self._visible(states)
         if every is None and times is None:
             # where none came to its end there is no row
@@ -216,25 +223,26 @@ class System(Declared):
         h: Number | None = None,
         x0: Any = None,
         seed: int = 1,
+        progress: Progress | None = None,
         parameters: Mapping[str, Number] | None = None,
         **named: Number,
     ) -> Verification:
         """Measures what methods claim on this system: order, symmetry, invariants, the orbit, the Poisson structure.
 
         Without names, all methods that apply and run in Python, at their default options. ``h`` is the step at which facts are
-        measured; it is found where it is not given. Kernels are compared with the declaration by the command, `lie verify`.
+        measured; it is found where it is not given. The kernels of the system, from the vector field to the Casimirs, are compared with
+        the declaration as it was written. ``progress`` hears how far it is, as in :meth:`run`.
 
         >>> body = System(algebra="so(3)", state=["x", "y", "z"], hamiltonian="x^2/2 + y^2/4 + z^2/6")
-        >>> body.verify("rk4", "lie-midpoint", x0=[0.8, 0.1, 0.6]).passed
-        True
+        >>> found = body.verify("rk4", "lie-midpoint", x0=[0.8, 0.1, 0.6])
+        >>> found.passed, found.kernels["jacobian"] <= 1
+        (True, True)
 
-        Errors: :class:`MethodError` for a method that does not apply, :class:`ValueError` where nothing can be measured.
+        Errors: :class:`Interrupted`, a KeyboardInterrupt, where Ctrl-C ends it; its ``partial`` has what was measured.
+        :class:`MethodError` for a method that does not apply, :class:`ValueError` where nothing can be measured.
         """
-        values = self._values(merged(parameters, named))
-        start = self._start(x0, values)
-        step = None if h is None else number(h, "h")
-        facts, unsound = self._core.verify(list(methods), values, start, (step, seed))
-        return Verification([Fact(*fact) for fact in facts], unsound)
+        begin = start_of(self, "verify", x0, parameters, named)
+        return verified(self, methods, begin, (h, seed), progress)
 
     def bench(
         self,
@@ -244,6 +252,7 @@ class System(Declared):
         section: tuple[str, Number] | None = None,
         budget: float = 0.2,
         x0: Any = None,
+        progress: Progress | None = None,
         parameters: Mapping[str, Number] | None = None,
         **named: Number,
     ) -> Bench:
@@ -252,6 +261,7 @@ class System(Declared):
         Without names, the methods that `lie bench` takes, as far as they run in Python. ``t`` is the end, that of the
         declaration (at most 20), or 10. ``measure`` is the sense of errors: "state", "energy", "casimirs", "phase", or
         "section" with ``section=(coordinate, value)``. No run that takes longer than ``budget`` seconds is made more accurate.
+        ``progress`` hears how far it is, as in :meth:`run`.
 
         >>> body = System(algebra="so(3)", state=["x", "y", "z"], hamiltonian="x^2/2 + y^2/4 + z^2/6")
         >>> found = body.bench("rk4", "gauss4", t=1, budget=0.01, x0=[0.8, 0.1, 0.6])
@@ -263,12 +273,37 @@ class System(Declared):
         Errors: :class:`Interrupted`, a KeyboardInterrupt, where Ctrl-C ends it; its ``partial`` has what was measured.
         :class:`MethodError` for a method that does not apply, :class:`ValueError` where nothing can be measured.
         """
-        for name in ("h", "tol"):
-            if name in named and name not in self.parameters:
-                raise TypeError(f"no argument `{name}`: bench tries many steps; leave it out")
-        values = self._values(merged(parameters, named))
-        start = self._start(x0, values)
-        return measured(self, methods, values, start, (t, budget, measure, section))
+        begin = start_of(self, "bench", x0, parameters, named)
+        return measured(self, methods, begin, (t, budget, measure, section), progress)
+
+    def stress(
+        self,
+        *methods: str,
+        steps: int = 1_000_000,
+        x0: Any = None,
+        progress: Progress | None = None,
+        parameters: Mapping[str, Number] | None = None,
+        **named: Number,
+    ) -> Stress:
+        """Takes methods to the limits of steps, parameters and states, and through a long run.
+
+        Without names, the methods that `lie stress` takes, as far as they run in Python. Steps are tried from 1e-12 to 256
+        times h0 (0.2 over the largest rate of the field), parameters times 10 to 1e6, states times 1e-100 to 1e100, each component and
+        each Casimir near zero, 400 steps each; then a run of ``steps`` steps, and eight shorter ones that say how round-off grows. All
+        processors are used. ``progress`` hears how far it is, as in :meth:`run`.
+
+        >>> body = System(algebra="so(3)", state=["x", "y", "z"], hamiltonian="x^2/2 + y^2/4 + z^2/6")
+        >>> found = body.stress("rk4", "lie-midpoint", steps=10_000, x0=[0.8, 0.1, 0.6])
+        >>> found.passed
+        True
+        >>> [cell.outcome for cell in found.of("lie-midpoint") if cell.experiment == "long"]
+        ['kept']
+
+        Errors: :class:`Interrupted`, a KeyboardInterrupt, where Ctrl-C ends it; its ``partial`` has what was tried.
+        :class:`MethodError` for a method that does not apply, :class:`ValueError` where nothing can be tried.
+        """
+        begin = start_of(self, "stress", x0, parameters, named)
+        return stressed(self, methods, begin, steps, progress)
 
     def _repr_html_(self) -> str:
         return page_of(self)

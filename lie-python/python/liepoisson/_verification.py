@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import html
 import math
-from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
+from . import _core
 from ._pictures import page, table
 
 __all__ = ["Fact", "Verification"]
@@ -30,31 +31,28 @@ class Fact(NamedTuple):
 
 
 class Verification:
-    """The claims of methods, measured on a system.
+    """The claims of methods, measured on a system, and the kernels of the system, compared with its declaration.
 
-    ``facts``: a list of :class:`Fact`. ``passed``: whether every claim holds and every measurement would have noticed a
-    spoiled map. ``failures``: what does not, in words.
+    ``facts``: a list of :class:`Fact`. ``kernels``: of each kernel ("vector_field", "jacobian", …) the largest difference between what the
+    compiled code gives and the declaration as it was written, interpreted with derivatives of its own, in units of the round-off
+    allowed: at most 1 for one that is right; ``None`` of a family, whose kernels are not compared. ``reference``: the same of the
+    reference solution, ``None`` where it was not compared. ``failures``: what does not hold, in words: claims, kernels, and
+    measurements that would not have noticed a spoiled map. ``passed``: whether there is none. ``complete``: whether it came to
+    its end.
     """
 
-    def __init__(self, facts: Sequence[Fact], unsound: Sequence[str]) -> None:
-        self.facts = list(facts)
-        self.unsound = list(unsound)
-
-    @property
-    def failures(self) -> list[str]:
-        """What does not hold, in words."""
-        failed = [fact for fact in self.facts if fact.verdict == "fails"]
-        words = [
-            f"{fact.method}: {fact.fact} is claimed, {fact.measured:.1e} was measured, where "
-            f"{'at most' if fact.claim == 0 else 'at least'} {fact.bound:.1e} holds"
-            for fact in failed
-        ]
-        return words + self.unsound
+    def __init__(self, found: dict[str, Any]) -> None:
+        self.facts = [Fact(*fact) for fact in found["facts"]]
+        self.failures: list[str] = found["failures"]
+        self.kernels: dict[str, float] | None = found["kernels"]
+        self.reference: float | None = found["reference"]
+        self.complete: bool = found["complete"]
+        self._kernels: str = found["summary"]
 
     @property
     def passed(self) -> bool:
-        """Whether every claim holds."""
-        return not self.failures
+        """Whether it came to its end, and nothing fails."""
+        return self.complete and not self.failures
 
     def _table(self) -> tuple[list[str], list[list[str]]]:
         methods = list(dict.fromkeys(fact.method for fact in self.facts))
@@ -65,19 +63,24 @@ class Verification:
 
     def _summary(self) -> str:
         claimed = sum(fact.verdict in ("holds", "fails") for fact in self.facts)
-        return f"{claimed} claims, {len(self.failures)} fail"
+        fail = sum(fact.verdict == "fails" for fact in self.facts)
+        early = "" if self.complete else "interrupted: "
+        return f"{early}{claimed} claims, {fail} fail"
 
     def __repr__(self) -> str:
         """A table: a line for each method, a column for each fact that is claimed or measured."""
         head, body = self._table()
-        rows = [head, *body]
-        widths = [max(len(row[k]) for row in rows) for k in range(len(head))]
-        lines = ["  ".join(cell.ljust(width) for cell, width in zip(row, widths)) for row in rows]
-        return "\n".join(line.rstrip() for line in [*lines, self._summary(), *self.failures])
+        lines = [_core.columns([head, *body]) + self._kernels, self._summary()]
+        return "\n".join([*lines, *(f"failed: {failure}" for failure in self.failures)])
 
     def _repr_html_(self) -> str:
         failed = table(["what fails"], [[words] for words in self.failures])
-        return page(self._summary(), table(*self._table()), failed if self.failures else "")
+        return page(
+            self._summary(),
+            table(*self._table()),
+            f"<p>{html.escape(self._kernels)}</p>",
+            failed if self.failures else "",
+        )
 
 
 def _cell(fact: Fact) -> str:

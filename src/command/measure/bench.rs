@@ -4,12 +4,13 @@ use lie_codegen::diagnostic::Kind;
 use lie_codegen::methods::Choice;
 use lie_codegen::program::Purpose;
 use lie_in_process::list;
+use lie_in_process::table;
+use lie_in_process::words::short;
 use lie_measure::bench::{ClockKind, Found, Measure, Options, Plane, Point, Reference};
 use lie_poisson::plot::frontier::{Curve, Frontier};
 use lie_program::protocol::Obstacle;
 
 use super::quiet::{Quiet, percent, spread};
-use super::table::{self, short};
 use super::{Bed, Ended, bed, files, interrupted, sense};
 use crate::command::run::values::Given;
 use crate::command::{args, print};

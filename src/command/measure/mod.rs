@@ -1,14 +1,11 @@
 //! The commands that measure many methods on one system: `lie verify`, `lie bench`, `lie stress`.
 
 pub mod bench;
-mod evidence;
 mod files;
-mod growth;
 mod list;
 mod quiet;
 mod sense;
 pub mod stress;
-mod table;
 pub mod verify;
 
 use lie_codegen::diagnostic::Kind;

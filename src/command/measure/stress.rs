@@ -3,11 +3,12 @@
 use lie_codegen::diagnostic::Kind;
 use lie_codegen::program::Purpose;
 use lie_in_process::list;
-use lie_measure::stress::{Cell, Experiment, Found, Growth, Moved, Options, Outcome};
+use lie_in_process::stress::{self, Results, cell_text, methods};
+use lie_in_process::table;
+use lie_in_process::words::short;
+use lie_measure::stress::{Cell, Experiment, Growth, Moved, Options, Outcome};
 use lie_poisson::plot::map::{self, Cell as Square, Column, Map};
 
-use super::growth;
-use super::table::{self, short};
 use super::{Bed, Ended, bed, files, interrupted};
 use crate::command::run::values::Given;
 use crate::command::{args, print};
@@ -42,72 +43,6 @@ fn outcome(cell: &Cell) -> map::Outcome {
     }
 }
 
-/// What happened, in one line.
-fn text(cell: &Cell) -> String {
-    let experiment = cell.experiment.word();
-    let (value, step) = (short(cell.value), short(cell.step));
-    let place = format!("{}, {experiment} {} {value}", cell.method, cell.name);
-    match cell.outcome {
-        Outcome::Lost if cell.claimed <= 1.0 => {
-            format!(
-                "{place}, step {step}: {} after {} steps",
-                cell.what, cell.steps
-            )
-        }
-        Outcome::Lost => format!(
-            "{place}, step {step}: {} beyond {} times its round-off bound after {} steps",
-            cell.what,
-            short(cell.claimed),
-            cell.steps
-        ),
-        Outcome::Kept => format!(
-            "{place}: energy {} (grows {}), Casimirs {} (grows {}), {} iterations of the solver",
-            short(cell.energy.drift),
-            short(cell.energy.growth),
-            short(cell.casimirs.drift),
-            short(cell.casimirs.growth),
-            short(cell.newton)
-        ),
-        Outcome::Stopped | Outcome::Domain => format!("{place}, step {step}: {}", cell.what),
-    }
-}
-
-/// What the program has found.
-struct Results {
-    cells: Vec<Cell>,
-    growths: Vec<Growth>,
-    step: f64,
-}
-
-impl Results {
-    fn take(&mut self, found: Found) {
-        match found {
-            Found::Ground { step } => self.step = step,
-            Found::Growth(growth) => self.growths.push(growth),
-            Found::Cell(cell) => self.cells.push(cell),
-        }
-    }
-
-    fn of(&self, outcome: Outcome) -> Vec<&Cell> {
-        let of_outcome = self.cells.iter().filter(|cell| cell.outcome == outcome);
-        of_outcome.collect()
-    }
-
-    /// Says what is lost; whether anything is.
-    fn loses(&self) -> bool {
-        let lost = self.of(Outcome::Lost);
-        for cell in &lost {
-            eprintln!("lost: {}", text(cell));
-        }
-        let growths = self.growths.iter();
-        let growing: Vec<&Growth> = growths.filter(|growth| growth::is_lost(growth)).collect();
-        for growth in &growing {
-            eprintln!("lost: {}", growth::text(growth));
-        }
-        !lost.is_empty() || !growing.is_empty()
-    }
-}
-
 /// Stresses methods on a spec.
 ///
 /// # Errors
@@ -123,11 +58,7 @@ pub fn run(arguments: &args::Stress) -> Result<u8, Failure> {
     let plot = files::open("--plot", arguments.plot.as_deref(), &flags.spec)?;
     let interrupt = Interrupt::install();
     let program = bed.program(flags, Purpose::Stress, &interrupt)?;
-    let mut results = Results {
-        cells: Vec::new(),
-        growths: Vec::new(),
-        step: f64::NAN,
-    };
+    let mut results = Results::default();
     let options = Options { steps };
     let ended = bed.measure(flags, &program, options, &interrupt, &mut |found| {
         results.take(found);
@@ -141,7 +72,8 @@ pub fn run(arguments: &args::Stress) -> Result<u8, Failure> {
             .help("give another initial state with `--initial`")
             .into());
     }
-    sort(&mut results.cells, &bed);
+    let labels: Vec<String> = bed.choices.iter().map(|choice| choice.label()).collect();
+    results.sort(&labels, &bed.spec.model);
     let wanted = !results.cells.is_empty();
     let table = || csv(&results);
     files::write(out, arguments.out.as_deref(), wanted.then(table))?;
@@ -151,28 +83,11 @@ pub fn run(arguments: &args::Stress) -> Result<u8, Failure> {
     if let Ended::Interrupted(code) = ended {
         return Ok(interrupted(flags, code));
     }
-    Ok(u8::from(results.loses()))
-}
-
-/// In the order of methods and experiments, whatever ended first.
-fn sort(cells: &mut [Cell], bed: &Bed) {
-    let labels: Vec<String> = bed.choices.iter().map(|choice| choice.label()).collect();
-    let method = |cell: &Cell| labels.iter().position(|label| *label == cell.method);
-    // names of parameters, components and Casimirs keep the order in which they were declared
-    let model = &bed.spec.model;
-    let names: Vec<&str> = model
-        .parameters
-        .iter()
-        .map(|p| p.name.as_str())
-        .chain(model.coordinates.iter().map(|c| c.text.as_str()))
-        .chain(model.casimirs.iter().map(|c| c.name.as_str()))
-        .collect();
-    let name = |cell: &Cell| names.iter().position(|name| *name == cell.name);
-    cells.sort_by(|a, b| {
-        (method(a), a.experiment, name(a))
-            .cmp(&(method(b), b.experiment, name(b)))
-            .then(a.value.total_cmp(&b.value))
-    });
+    let losses = results.losses();
+    for loss in &losses {
+        eprintln!("lost: {loss}");
+    }
+    Ok(u8::from(!losses.is_empty()))
 }
 
 fn csv(results: &Results) -> String {
@@ -198,93 +113,39 @@ fn csv(results: &Results) -> String {
             cell.what.replace(',', ";")
         ));
     }
-    let growths = results.growths.iter().map(growth::csv);
+    let growths = results.growths.iter().map(growth_csv);
     growths.for_each(|line| text.push_str(&line));
     text
 }
 
-fn methods(cells: &[Cell]) -> Vec<&str> {
-    let mut methods: Vec<&str> = cells.iter().map(|cell| cell.method.as_str()).collect();
-    methods.dedup();
-    methods
-}
-
-const COLUMNS: [&str; 11] = [
-    "method",
-    "largest step",
-    "parameters",
-    "scales",
-    "near singular",
-    "long run: energy",
-    "grows",
-    "Casimirs",
-    "grows",
-    "Newton",
-    "round-off",
-];
-
-/// The line of a method.
-fn line(results: &Results, method: &str) -> Vec<String> {
-    let of = |experiments: &[Experiment]| {
-        let of_method = results.cells.iter().filter(|cell| cell.method == method);
-        of_method
-            .filter(|cell| experiments.contains(&cell.experiment))
-            .collect::<Vec<_>>()
+/// A line of the table of experiments: the exponent stands as the value.
+fn growth_csv(growth: &Growth) -> String {
+    let outcome = if stress::is_lost(growth) {
+        "lost"
+    } else {
+        "kept"
     };
-    // the last before the first that was not kept
-    let ladder = of(&[Experiment::Step]);
-    let kept = ladder
-        .iter()
-        .take_while(|cell| cell.outcome == Outcome::Kept);
-    let largest = kept.last().map_or("none".to_owned(), |cell| {
-        format!("{} h0", short(cell.value))
-    });
-    let mut row = vec![
-        method.to_owned(),
-        largest,
-        tally(&of(&[Experiment::Parameter])),
-        tally(&of(&[Experiment::Scale])),
-        tally(&of(&[Experiment::Component, Experiment::Casimir])),
-    ];
-    row.extend(long_run(of(&[Experiment::Long]).first().copied()));
-    let growth = results
-        .growths
-        .iter()
-        .find(|growth| growth.method == method);
-    row.push(growth.map_or_else(|| "–".to_owned(), growth::cell));
-    row
-}
-
-/// How many were kept of those that could be tried.
-fn tally(cells: &[&Cell]) -> String {
-    let count = |outcome| cells.iter().filter(|cell| cell.outcome == outcome).count();
-    let (kept, lost) = (count(Outcome::Kept), count(Outcome::Lost));
-    let mut text = format!("{kept} of {}", cells.len() - count(Outcome::Domain));
-    if lost > 0 {
-        text.push_str(&format!(", {lost} lost"));
-    }
-    text
-}
-
-fn long_run(cell: Option<&Cell>) -> [String; 5] {
-    match cell {
-        Some(cell) if matches!(cell.outcome, Outcome::Kept | Outcome::Lost) => [
-            cell.energy.drift,
-            cell.energy.growth,
-            cell.casimirs.drift,
-            cell.casimirs.growth,
-            cell.newton,
-        ]
-        .map(short),
-        Some(cell) => [&cell.what, "", "", "", ""].map(str::to_owned),
-        None => Default::default(),
-    }
+    let (energy, casimir) = match growth.invariant.as_str() {
+        "energy" => (growth.end, f64::NAN),
+        _ => (f64::NAN, growth.end),
+    };
+    format!(
+        "{},growth,{},{:?},{:?},{outcome},{},NaN,{energy:?},NaN,{casimir:?},NaN,{:?},standard error {:?} from {} steps on; \
+         {} states; largest {:?}\n",
+        growth.method,
+        growth.invariant,
+        growth.exponent,
+        growth.step,
+        growth.to,
+        growth.ratio,
+        growth.error,
+        growth.from,
+        growth.states,
+        growth.largest
+    )
 }
 
 fn report(bed: &Bed, results: &Results, steps: u64) -> String {
-    let mut rows = vec![COLUMNS.map(str::to_owned).to_vec()];
-    let methods = methods(&results.cells).into_iter();
-    rows.extend(methods.map(|method| line(results, method)));
     let mut text = format!(
         "{}: {} experiments, h0 = {}, {steps} steps of the long run at h0\n\n{}\n\
          kept of tried: no claimed invariant beyond its round-off bound, no step refused; drifts relative to the size of the terms;\n\
@@ -292,8 +153,8 @@ fn report(bed: &Bed, results: &Results, steps: u64) -> String {
         bed.spec.model.name,
         results.cells.len(),
         short(results.step),
-        table::text(&rows),
-        growth::legend(&results.growths),
+        table::text(&results.table()),
+        results.legend(),
     );
     let model = &bed.spec.model;
     let independent = model.casimirs_to_find();
@@ -307,7 +168,7 @@ fn report(bed: &Bed, results: &Results, steps: u64) -> String {
     if !stopped.is_empty() {
         text.push_str(&format!("\n{} stopped with a message:\n", stopped.len()));
         for cell in stopped {
-            text.push_str(&format!("  {}\n", self::text(cell)));
+            text.push_str(&format!("  {}\n", cell_text(cell)));
         }
     }
     text
@@ -326,7 +187,7 @@ fn picture(bed: &Bed, cells: &[Cell], step: f64) -> String {
             let cell = of_method.find(|cell| key(cell) == *wanted)?;
             Some(Square {
                 outcome: outcome(cell),
-                text: text(cell),
+                text: cell_text(cell),
             })
         });
         let choice = bed.choices.iter().find(|choice| choice.label() == method);

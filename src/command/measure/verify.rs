@@ -3,17 +3,17 @@
 use std::collections::BTreeMap;
 
 use lie_codegen::diagnostic::Kind;
-use lie_codegen::judge::Judge;
 use lie_codegen::program::Purpose;
-use lie_codegen::structure::smoothness;
+use lie_in_process::evidence::Evidence;
 use lie_in_process::list;
+use lie_in_process::table;
+use lie_in_process::verify::{Results, Row, options};
+use lie_in_process::words::{number, short};
 use lie_measure::facts::{Finding, Verdict};
-use lie_measure::verify::{Found, GroundFound as Ground, Options};
+use lie_measure::verify::GroundFound as Ground;
 use lie_program::protocol::Obstacle;
 use serde_json::{Map, Value, json};
 
-use super::evidence::Evidence;
-use super::table::{self, short};
 use super::{Ended, bed, interrupted};
 use crate::command::run::values::Given;
 use crate::command::{args, print};
@@ -31,111 +31,6 @@ const SINGLE: [&str; 7] = [
     "Poisson",
 ];
 
-/// One fact of one method.
-struct Row {
-    method: String,
-    finding: Finding,
-}
-
-impl Row {
-    fn fails(&self) -> bool {
-        self.finding.verdict == Verdict::Fails
-    }
-
-    fn is_claimed(&self) -> bool {
-        matches!(self.finding.verdict, Verdict::Holds | Verdict::Fails)
-    }
-
-    /// `fact: measured where at most bound is allowed`.
-    fn failure(&self) -> String {
-        let finding = &self.finding;
-        let bound = short(finding.bound);
-        let allowed = match finding.claim == 0.0 {
-            true => format!("at most {bound}"),
-            false => format!("at least {bound}"),
-        };
-        let (fact, measured) = (&finding.fact, short(finding.measured));
-        let mut text = format!(
-            "{}: {fact} is claimed, {measured} was measured, where {allowed} holds",
-            self.method
-        );
-        if finding.step.is_finite() {
-            text.push_str(&format!(" with a step of {}", short(finding.step)));
-        }
-        if !finding.note.is_empty() {
-            text.push_str(&format!(" ({})", finding.note));
-        }
-        text
-    }
-
-    /// What the table shows.
-    fn cell(&self) -> String {
-        let measured = short(self.finding.measured);
-        match self.finding.verdict {
-            Verdict::Absent => "–".to_owned(),
-            Verdict::Holds => format!("{measured} ✓"),
-            Verdict::Fails => format!("{measured} ✗"),
-            Verdict::NotClaimed => measured,
-        }
-    }
-
-    fn as_json(&self) -> Value {
-        let Finding {
-            claim,
-            measured,
-            bound,
-            step,
-            ..
-        } = self.finding;
-        json!({
-            "claim": number(claim), "measured": number(measured), "bound": number(bound),
-            "verdict": self.finding.verdict, "note": self.finding.note, "step": number(step),
-        })
-    }
-}
-
-/// A number, or null for what is none.
-fn number(value: f64) -> Value {
-    if value.is_finite() {
-        json!(value)
-    } else {
-        Value::Null
-    }
-}
-
-/// What the program has found.
-struct Results {
-    system: String,
-    ground: Option<Ground>,
-    rows: Vec<Row>,
-    evidence: Evidence,
-}
-
-impl Results {
-    fn take(&mut self, found: Found) {
-        match found {
-            Found::Ground(ground) => self.ground = Some(ground),
-            Found::Kernel(kernel) => self.evidence.kernel(kernel),
-            Found::Reference(solution) => self.evidence.reference(&solution),
-            Found::Broken { fact } => self.evidence.broken(fact),
-            Found::Unsound { what } => self.evidence.unsound(what),
-            Found::Finding { method, finding } => self.rows.push(Row { method, finding }),
-        }
-    }
-
-    /// Says what fails; whether nothing does.
-    fn holds(&self) -> bool {
-        let failed: Vec<&Row> = self.rows.iter().filter(|row| row.fails()).collect();
-        for row in &failed {
-            eprintln!("failed: {}", row.failure());
-        }
-        for failure in self.evidence.failures() {
-            eprintln!("failed: {failure}");
-        }
-        failed.is_empty() && self.evidence.holds()
-    }
-}
-
 /// Verifies methods on a spec.
 ///
 /// # Errors
@@ -147,26 +42,9 @@ pub fn run(arguments: &args::Verify) -> Result<u8, Failure> {
     let interrupt = Interrupt::install();
     let program = bed.program(flags, Purpose::Verify, &interrupt)?;
     let model = &bed.spec.model;
-    let joints = smoothness::joints(model);
-    let options = Options {
-        seed: arguments.seed.into(),
-        step,
-        reach: (!joints.is_empty()).then(|| smoothness::reached(&joints, u32::MAX).unwrap_or(0)),
-    };
-    // what a spec of a family declares is one site, and is not interpreted
-    let evidence = match model.family {
-        Some(_) => Evidence::without_judge(),
-        None => {
-            let judge = Judge::of_spec(&bed.spec.source.text, model, &bed.point.parameters);
-            Evidence::before(judge, model.is_lie_poisson())
-        }
-    };
-    let mut results = Results {
-        system: model.name.clone(),
-        ground: None,
-        rows: Vec::new(),
-        evidence,
-    };
+    let options = options(model, step, arguments.seed.into());
+    let (text, parameters) = (&bed.spec.source.text, &bed.point.parameters);
+    let mut results = Results::before(Evidence::of_spec(text, model, parameters));
     let ended = bed.measure(flags, &program, options, &interrupt, &mut |found| {
         results.take(found);
     })?;
@@ -181,14 +59,18 @@ pub fn run(arguments: &args::Verify) -> Result<u8, Failure> {
             .into());
     }
     if arguments.json {
-        print(&format!("{:#}\n", as_json(&results)))?;
+        print(&format!("{:#}\n", as_json(&model.name, &results)))?;
     } else {
-        print(&report(&results))?;
+        print(&report(&model.name, &results))?;
     }
     if let Ended::Interrupted(code) = ended {
         return Ok(interrupted(flags, code));
     }
-    Ok(u8::from(!results.holds()))
+    let failures = results.failures();
+    for failure in &failures {
+        eprintln!("failed: {failure}");
+    }
+    Ok(u8::from(!failures.is_empty()))
 }
 
 fn step(arguments: &args::Verify) -> Result<Option<f64>, Failure> {
@@ -204,6 +86,17 @@ fn step(arguments: &args::Verify) -> Result<Option<f64>, Failure> {
             .into());
     }
     Ok(Some(value))
+}
+
+/// What the table shows.
+fn cell(row: &Row) -> String {
+    let measured = short(row.finding.measured);
+    match row.finding.verdict {
+        Verdict::Absent => "–".to_owned(),
+        Verdict::Holds => format!("{measured} ✓"),
+        Verdict::Fails => format!("{measured} ✗"),
+        Verdict::NotClaimed => measured,
+    }
 }
 
 fn facts(rows: &[Row]) -> Vec<&str> {
@@ -242,7 +135,7 @@ fn steps(rows: &[Row], method: &str) -> String {
     }
 }
 
-fn report(results: &Results) -> String {
+fn report(system: &str, results: &Results) -> String {
     let rows = &results.rows;
     // what holds of the form and not of the method is summed up below the table
     let (folded, facts): (Vec<&str>, Vec<&str>) = facts(rows)
@@ -254,8 +147,8 @@ fn report(results: &Results) -> String {
     format!(
         "{}: {} methods, step {}, {} states, {} linear and {} quadratic first integrals, reference to {}\n\n{}\n\
          ✓ claimed and measured, ✗ claimed and not measured, no sign: not claimed; relative to the size of the terms\n\
-         {}{}{} claims, {} fail\n",
-        results.system,
+         {}{}\n{} claims, {} fail\n",
+        system,
         methods(rows).len(),
         number(|ground| ground.step),
         count(|ground| ground.states),
@@ -279,13 +172,13 @@ fn lines(rows: &[Row], facts: &[&str]) -> Vec<Vec<String>> {
     let header = ["method", "step"].into_iter().chain(facts.iter().copied());
     let mut lines = vec![header.map(str::to_owned).collect::<Vec<_>>()];
     for method in methods(rows) {
-        let cell = |fact: &&str| match by_place.get(&(method, *fact)) {
-            Some(row) if *fact == "order" => format!("{}: {}", row.finding.claim, row.cell()),
-            Some(row) => row.cell(),
+        let of = |fact: &&str| match by_place.get(&(method, *fact)) {
+            Some(row) if *fact == "order" => format!("{}: {}", row.finding.claim, cell(row)),
+            Some(row) => cell(row),
             None => "–".to_owned(),
         };
         let start = [method.to_owned(), steps(rows, method)];
-        lines.push(start.into_iter().chain(facts.iter().map(cell)).collect());
+        lines.push(start.into_iter().chain(facts.iter().map(of)).collect());
     }
     lines
 }
@@ -328,7 +221,7 @@ fn summary(rows: &[Row], folded: &[&str]) -> String {
     }
 }
 
-fn as_json(results: &Results) -> Value {
+fn as_json(system: &str, results: &Results) -> Value {
     let mut all = Map::new();
     for row in &results.rows {
         let method = all
@@ -339,7 +232,7 @@ fn as_json(results: &Results) -> Value {
     let ground = results.ground.as_ref();
     let of = |value: fn(&Ground) -> f64| ground.map_or(Value::Null, |ground| number(value(ground)));
     json!({
-        "system": results.system,
+        "system": system,
         "step": of(|ground| ground.step),
         "span": of(|ground| ground.span),
         "reference_error": of(|ground| ground.error),

@@ -1,12 +1,13 @@
-//! What the built program shows of itself, before a judge who interprets the declaration.
+//! What the kernels of a system give, before a judge who interprets the declaration.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use lie_codegen::judge::{Judge, Sample, Verdict};
+use lie_codegen::model::Model;
 use lie_measure::verify::{Kernel, Reference};
 use serde_json::{Value, json};
 
-use super::table::short;
+use crate::words::{larger, number, short};
 
 /// A spoiled value differs by this part of the largest: the judge must notice.
 const SPOILED: f64 = 1e-4;
@@ -51,8 +52,22 @@ const KERNELS: [&str; 13] = [
 ];
 
 impl Evidence {
-    /// Nothing yet, of a system with an algebra or without.
-    pub fn before(judge: Option<Judge>, has_algebra: bool) -> Self {
+    /// Nothing yet, of the system of a spec for values of its parameters.
+    pub fn of_spec(text: &str, model: &Model, parameters: &[f64]) -> Self {
+        // what a spec of a family declares is one site, and is not interpreted
+        if model.family.is_some() {
+            return Self {
+                judged: false,
+                wanted: &[],
+                ..Self::before(None, false)
+            };
+        }
+        let judge = Judge::of_spec(text, model, parameters);
+        Self::before(judge, model.is_lie_poisson())
+    }
+
+    /// The same of a judge, of a system with an algebra or without.
+    fn before(judge: Option<Judge>, has_algebra: bool) -> Self {
         Self {
             judge,
             judged: true,
@@ -68,15 +83,6 @@ impl Evidence {
             },
             broken: BTreeSet::new(),
             unsound: Vec::new(),
-        }
-    }
-
-    /// Of a system whose kernels are not compared with its declaration.
-    pub fn without_judge() -> Self {
-        Self {
-            judged: false,
-            wanted: &[],
-            ..Self::before(None, false)
         }
     }
 
@@ -133,11 +139,6 @@ impl Evidence {
         }
     }
 
-    /// Whether nothing speaks against the program.
-    pub fn holds(&self) -> bool {
-        self.failures().is_empty()
-    }
-
     /// What speaks against it.
     pub fn failures(&self) -> Vec<String> {
         let mut failures = Vec::new();
@@ -189,7 +190,7 @@ impl Evidence {
     /// One line.
     pub fn summary(&self) -> String {
         if !self.judged {
-            return "kernels: those of a family are not compared with its declaration\n".to_owned();
+            return "kernels: those of a family are not compared with its declaration".to_owned();
         }
         let excess = self.kernels.values().map(|verdict| verdict.excess);
         let worst = excess.fold(0.0, larger);
@@ -198,44 +199,40 @@ impl Evidence {
             None => "",
         };
         format!(
-            "{} kernels, {} samples: {} of the round-off allowed from the declaration as written{solution}\n",
+            "{} kernels, {} samples: {} of the round-off allowed from the declaration as written{solution}",
             self.kernels.len(),
             self.samples,
             short(worst),
         )
     }
 
+    /// How far each kernel is from the declaration, in units of the round-off allowed; none of a family.
+    pub fn kernels(&self) -> Option<BTreeMap<&str, f64>> {
+        let kernels = self.kernels.iter();
+        let excess = kernels.map(|(name, verdict)| (name.as_str(), verdict.excess));
+        self.judged.then(|| excess.collect())
+    }
+
+    /// How far the reference solution is from that of the declaration, in units of what is allowed, where the judge has one.
+    pub fn reference_excess(&self) -> Option<f64> {
+        self.reference
+    }
+
     /// The same as data.
     pub fn as_json(&self) -> Value {
-        let kernels: serde_json::Map<String, Value> = self
-            .kernels
-            .iter()
-            .map(|(name, verdict)| (name.clone(), number(verdict.excess)))
-            .collect();
+        let kernels = self.kernels().map(|kernels| {
+            let named = kernels.into_iter();
+            named
+                .map(|(name, excess)| (name.to_owned(), number(excess)))
+                .collect::<serde_json::Map<String, Value>>()
+        });
         json!({
-            "kernels": self.judged.then_some(kernels),
+            "kernels": kernels,
             "reference": self.reference.map(number),
             "broken_measurements": self.broken,
             "unsound_iterations": self.unsound,
             "failures": self.failures(),
         })
-    }
-}
-
-fn number(value: f64) -> Value {
-    if value.is_finite() {
-        json!(value)
-    } else {
-        Value::Null
-    }
-}
-
-/// The larger of two numbers; what is none wins.
-fn larger(a: f64, b: f64) -> f64 {
-    if a.is_nan() || b.is_nan() {
-        f64::NAN
-    } else {
-        f64::max(a, b)
     }
 }
 

@@ -46,23 +46,6 @@ fn block_text(rows: &[Vec<String>], columns: &[usize], widths: &[usize]) -> Stri
     text
 }
 
-/// A number in few characters: `3.1e-15`, `0`, `2.98`.
-pub fn short(value: f64) -> String {
-    if value == 0.0 {
-        "0".to_owned()
-    } else if value.is_infinite() {
-        "∞".to_owned()
-    } else if value.is_nan() {
-        "none".to_owned()
-    } else if value.fract() == 0.0 && value.abs() < 1e6 {
-        format!("{value}")
-    } else if (0.01..100.0).contains(&value.abs()) {
-        format!("{value:.2}")
-    } else {
-        format!("{value:.1e}")
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,0 +1,222 @@
+//! What methods did at their limits, in words.
+
+use lie_codegen::model::Model;
+use lie_measure::stress::{Cell, Experiment, Found, Growth, Outcome};
+
+use crate::words::short;
+
+/// What was found so far.
+pub struct Results {
+    /// The experiments.
+    pub cells: Vec<Cell>,
+    /// How round-off grows.
+    pub growths: Vec<Growth>,
+    /// The step h0 that all experiments share; not a number before it is known.
+    pub step: f64,
+}
+
+impl Default for Results {
+    fn default() -> Self {
+        Self {
+            cells: Vec::new(),
+            growths: Vec::new(),
+            step: f64::NAN,
+        }
+    }
+}
+
+impl Results {
+    /// Takes what was found.
+    pub fn take(&mut self, found: Found) {
+        match found {
+            Found::Ground { step } => self.step = step,
+            Found::Growth(growth) => self.growths.push(growth),
+            Found::Cell(cell) => self.cells.push(cell),
+        }
+    }
+
+    /// The experiments that came to this.
+    pub fn of(&self, outcome: Outcome) -> Vec<&Cell> {
+        let of_outcome = self.cells.iter().filter(|cell| cell.outcome == outcome);
+        of_outcome.collect()
+    }
+
+    /// What is lost, in words.
+    pub fn losses(&self) -> Vec<String> {
+        let lost = self.of(Outcome::Lost).into_iter().map(cell_text);
+        let growing = self.growths.iter().filter(|growth| is_lost(growth));
+        lost.chain(growing.map(growth_text)).collect()
+    }
+
+    /// Puts all into the order of methods and experiments, whatever ended first.
+    pub fn sort(&mut self, labels: &[String], model: &Model) {
+        let method = |method: &String| labels.iter().position(|label| label == method);
+        // names of parameters, components and Casimirs keep the order in which they were declared
+        let names: Vec<&str> = model
+            .parameters
+            .iter()
+            .map(|p| p.name.as_str())
+            .chain(model.coordinates.iter().map(|c| c.text.as_str()))
+            .chain(model.casimirs.iter().map(|c| c.name.as_str()))
+            .collect();
+        let name = |cell: &Cell| names.iter().position(|name| *name == cell.name);
+        self.cells.sort_by(|a, b| {
+            (method(&a.method), a.experiment, name(a))
+                .cmp(&(method(&b.method), b.experiment, name(b)))
+                .then(a.value.total_cmp(&b.value))
+        });
+        self.growths.sort_by_key(|growth| method(&growth.method));
+    }
+
+    /// A line for each method below a head.
+    pub fn table(&self) -> Vec<Vec<String>> {
+        let mut rows = vec![COLUMNS.map(str::to_owned).to_vec()];
+        let methods = methods(&self.cells).into_iter();
+        rows.extend(methods.map(|method| self.line(method)));
+        rows
+    }
+
+    /// The line of a method.
+    fn line(&self, method: &str) -> Vec<String> {
+        let of = |experiments: &[Experiment]| {
+            let of_method = self.cells.iter().filter(|cell| cell.method == method);
+            of_method
+                .filter(|cell| experiments.contains(&cell.experiment))
+                .collect::<Vec<_>>()
+        };
+        // the last before the first that was not kept
+        let ladder = of(&[Experiment::Step]);
+        let kept = ladder
+            .iter()
+            .take_while(|cell| cell.outcome == Outcome::Kept);
+        let largest = kept.last().map_or("none".to_owned(), |cell| {
+            format!("{} h0", short(cell.value))
+        });
+        let mut row = vec![
+            method.to_owned(),
+            largest,
+            tally(&of(&[Experiment::Parameter])),
+            tally(&of(&[Experiment::Scale])),
+            tally(&of(&[Experiment::Component, Experiment::Casimir])),
+        ];
+        row.extend(long_run(of(&[Experiment::Long]).first().copied()));
+        let growth = self.growths.iter().find(|growth| growth.method == method);
+        row.push(growth.map_or_else(|| "–".to_owned(), growth_cell));
+        row
+    }
+
+    /// What the column on round-off says.
+    pub fn legend(&self) -> String {
+        let Some(growth) = self.growths.iter().max_by_key(|growth| growth.states) else {
+            return String::new();
+        };
+        format!(
+            "round-off: the claimed invariant that moves most, root of the mean square over {} states near the initial one against \
+             the steps N, {} to {};\n  0.5 is a random walk, 1 a bias\n",
+            growth.states, growth.from, growth.to
+        )
+    }
+}
+
+const COLUMNS: [&str; 11] = [
+    "method",
+    "largest step",
+    "parameters",
+    "scales",
+    "near singular",
+    "long run: energy",
+    "grows",
+    "Casimirs",
+    "grows",
+    "Newton",
+    "round-off",
+];
+
+/// The methods of experiments that are in order.
+pub fn methods(cells: &[Cell]) -> Vec<&str> {
+    let mut methods: Vec<&str> = cells.iter().map(|cell| cell.method.as_str()).collect();
+    methods.dedup();
+    methods
+}
+
+/// How many were kept of those that could be tried.
+fn tally(cells: &[&Cell]) -> String {
+    let count = |outcome| cells.iter().filter(|cell| cell.outcome == outcome).count();
+    let (kept, lost) = (count(Outcome::Kept), count(Outcome::Lost));
+    let mut text = format!("{kept} of {}", cells.len() - count(Outcome::Domain));
+    if lost > 0 {
+        text.push_str(&format!(", {lost} lost"));
+    }
+    text
+}
+
+fn long_run(cell: Option<&Cell>) -> [String; 5] {
+    match cell {
+        Some(cell) if matches!(cell.outcome, Outcome::Kept | Outcome::Lost) => [
+            cell.energy.drift,
+            cell.energy.growth,
+            cell.casimirs.drift,
+            cell.casimirs.growth,
+            cell.newton,
+        ]
+        .map(short),
+        Some(cell) => [&cell.what, "", "", "", ""].map(str::to_owned),
+        None => Default::default(),
+    }
+}
+
+/// What happened in an experiment, in one line.
+pub fn cell_text(cell: &Cell) -> String {
+    let experiment = cell.experiment.word();
+    let (value, step) = (short(cell.value), short(cell.step));
+    let place = format!("{}, {experiment} {} {value}", cell.method, cell.name);
+    match cell.outcome {
+        Outcome::Lost if cell.claimed <= 1.0 => {
+            format!(
+                "{place}, step {step}: {} after {} steps",
+                cell.what, cell.steps
+            )
+        }
+        Outcome::Lost => format!(
+            "{place}, step {step}: {} beyond {} times its round-off bound after {} steps",
+            cell.what,
+            short(cell.claimed),
+            cell.steps
+        ),
+        Outcome::Kept => format!(
+            "{place}: energy {} (grows {}), Casimirs {} (grows {}), {} iterations of the solver",
+            short(cell.energy.drift),
+            short(cell.energy.growth),
+            short(cell.casimirs.drift),
+            short(cell.casimirs.growth),
+            short(cell.newton)
+        ),
+        Outcome::Stopped | Outcome::Domain => format!("{place}, step {step}: {}", cell.what),
+    }
+}
+
+/// Whether some state moved further than round-off does.
+pub fn is_lost(growth: &Growth) -> bool {
+    !matches!(growth.ratio, ratio if ratio <= 1.0)
+}
+
+/// As `length2 N^0.95 ± 0.03`.
+fn growth_cell(growth: &Growth) -> String {
+    format!(
+        "{} N^{:.2} ± {:.2}",
+        growth.invariant, growth.exponent, growth.error
+    )
+}
+
+/// How round-off grew, in one line.
+fn growth_text(growth: &Growth) -> String {
+    format!(
+        "{}, {} states near the initial one, step {}: {} beyond {} times its round-off bound after {} steps",
+        growth.method,
+        growth.states,
+        short(growth.step),
+        growth.invariant,
+        short(growth.ratio),
+        growth.to
+    )
+}

@@ -1,0 +1,120 @@
+//! What was verified: claims of methods, and kernels before the declaration.
+
+use lie_codegen::model::Model;
+use lie_codegen::structure::smoothness;
+use lie_measure::facts::{Finding, Verdict};
+use lie_measure::verify::{Found, GroundFound as Ground, Options};
+use serde_json::{Value, json};
+
+use crate::evidence::Evidence;
+use crate::words::{number, short};
+
+/// What is asked for of a system, at a step or at one that is found.
+pub fn options(model: &Model, step: Option<f64>, seed: u64) -> Options {
+    let joints = smoothness::joints(model);
+    let reach = (!joints.is_empty()).then(|| smoothness::reached(&joints, u32::MAX).unwrap_or(0));
+    Options { seed, step, reach }
+}
+
+/// One fact of one method.
+pub struct Row {
+    /// The method.
+    pub method: String,
+    /// What was measured.
+    pub finding: Finding,
+}
+
+impl Row {
+    /// Whether it is claimed and does not hold.
+    pub fn fails(&self) -> bool {
+        self.finding.verdict == Verdict::Fails
+    }
+
+    /// Whether it is claimed.
+    pub fn is_claimed(&self) -> bool {
+        matches!(self.finding.verdict, Verdict::Holds | Verdict::Fails)
+    }
+
+    /// `method: fact is claimed, … was measured, where at most … holds`.
+    pub fn failure(&self) -> String {
+        let finding = &self.finding;
+        let bound = short(finding.bound);
+        let allowed = match finding.claim == 0.0 {
+            true => format!("at most {bound}"),
+            false => format!("at least {bound}"),
+        };
+        let (fact, measured) = (&finding.fact, short(finding.measured));
+        let mut text = format!(
+            "{}: {fact} is claimed, {measured} was measured, where {allowed} holds",
+            self.method
+        );
+        if finding.step.is_finite() {
+            text.push_str(&format!(" with a step of {}", short(finding.step)));
+        }
+        if !finding.note.is_empty() {
+            text.push_str(&format!(" ({})", finding.note));
+        }
+        text
+    }
+
+    /// The same as data.
+    pub fn as_json(&self) -> Value {
+        let Finding {
+            claim,
+            measured,
+            bound,
+            step,
+            ..
+        } = self.finding;
+        json!({
+            "claim": number(claim), "measured": number(measured), "bound": number(bound),
+            "verdict": self.finding.verdict, "note": self.finding.note, "step": number(step),
+        })
+    }
+}
+
+/// What was found so far.
+pub struct Results {
+    /// What all measurements share.
+    pub ground: Option<Ground>,
+    /// The facts, method after method.
+    pub rows: Vec<Row>,
+    /// The kernels before the declaration.
+    pub evidence: Evidence,
+}
+
+impl Results {
+    /// Nothing yet.
+    pub fn before(evidence: Evidence) -> Self {
+        Self {
+            ground: None,
+            rows: Vec::new(),
+            evidence,
+        }
+    }
+
+    /// Takes what was found.
+    pub fn take(&mut self, found: Found) {
+        match found {
+            Found::Ground(ground) => self.ground = Some(ground),
+            Found::Kernel(kernel) => self.evidence.kernel(kernel),
+            Found::Reference(solution) => self.evidence.reference(&solution),
+            Found::Broken { fact } => self.evidence.broken(fact),
+            Found::Unsound { what } => self.evidence.unsound(what),
+            Found::Finding { method, finding } => self.rows.push(Row { method, finding }),
+        }
+    }
+
+    /// The claims that do not hold.
+    pub fn failed_claims(&self) -> Vec<String> {
+        let failed = self.rows.iter().filter(|row| row.fails());
+        failed.map(Row::failure).collect()
+    }
+
+    /// What does not hold: claims, then what speaks against kernels and measurements.
+    pub fn failures(&self) -> Vec<String> {
+        let mut failures = self.failed_claims();
+        failures.extend(self.evidence.failures());
+        failures
+    }
+}

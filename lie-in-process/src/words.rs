@@ -1,0 +1,37 @@
+//! Numbers in the words of measurements.
+
+use serde_json::{Value, json};
+
+/// A number in few characters: `3.1e-15`, `0`, `2.98`.
+pub fn short(value: f64) -> String {
+    if value == 0.0 {
+        "0".to_owned()
+    } else if value.is_infinite() {
+        "∞".to_owned()
+    } else if value.is_nan() {
+        "none".to_owned()
+    } else if value.fract() == 0.0 && value.abs() < 1e6 {
+        format!("{value}")
+    } else if (0.01..100.0).contains(&value.abs()) {
+        format!("{value:.2}")
+    } else {
+        format!("{value:.1e}")
+    }
+}
+
+/// A number, or null for what is none.
+pub fn number(value: f64) -> Value {
+    match value.is_finite() {
+        true => json!(value),
+        false => Value::Null,
+    }
+}
+
+/// The larger of two numbers; what is none wins.
+pub(crate) fn larger(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b.is_nan() {
+        f64::NAN
+    } else {
+        f64::max(a, b)
+    }
+}
