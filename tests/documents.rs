@@ -10,7 +10,7 @@ use lie_codegen::methods::{CATALOGUE, Choice, Method};
 mod common;
 
 use common::catalogue::words;
-use common::markdown::{blocks, blocks_in, links, marked, read};
+use common::markdown::{blocks_in, links, marked, read};
 
 const DOCUMENTS: [&str; 6] = [
     "README.md",

@@ -17,6 +17,10 @@ pub fn of(model: &Model) -> Vec<(&'static str, Vec<String>)> {
     if !brackets.is_empty() {
         all.push(("Brackets of the algebra:", brackets));
     }
+    let brackets = poisson_brackets(model, &names);
+    if !brackets.is_empty() {
+        all.push(("Poisson brackets:", brackets));
+    }
     let energy = match (&model.family, model.energy.expression()) {
         (Some(family), _) => Some(model.display_of_family(family)),
         (None, Some(hamiltonian)) => Some(model.display(hamiltonian.energy)),
@@ -104,13 +108,31 @@ fn brackets(model: &Model, names: &Names) -> Vec<String> {
             .join(" + ")
             .replace("(1)*", "")
             .replace("(-1)*", "-");
-        let name = |i: usize| identifier(&algebra.basis[i].text);
-        let left = format!(
-            "<mo>[</mo>{}<mo>,</mo>{}<mo>]</mo><mo>=</mo>",
-            name(i),
-            name(j)
-        );
-        formula(&text, names).replacen("<mrow>", &format!("<mrow>{left}"), 1)
+        let name = |i: usize| &*algebra.basis[i].text;
+        bracketed(['[', ']'], [name(i), name(j)], &text, names)
     };
     pairs.into_iter().map(bracket).collect()
+}
+
+/// `{q, p} = 1`, where structure constants do not say it all.
+fn poisson_brackets(model: &Model, names: &Names) -> Vec<String> {
+    let Some(matrix) = model.bracket.matrix() else {
+        return Vec::new();
+    };
+    if matrix.entries.len() > MOST {
+        let many = matrix.entries.len();
+        return vec![format!("<p>{many} brackets that are not zero</p>")];
+    }
+    let bracket = |&(i, j, value): &(usize, usize, _)| {
+        let name = |i: usize| &*model.coordinates[i].text;
+        bracketed(['{', '}'], [name(i), name(j)], &model.display(value), names)
+    };
+    matrix.entries.iter().map(bracket).collect()
+}
+
+/// A bracket of two names, and what it is.
+fn bracketed([open, close]: [char; 2], of: [&str; 2], value: &str, names: &Names) -> String {
+    let [first, second] = of.map(identifier);
+    let left = format!("<mo>{open}</mo>{first}<mo>,</mo>{second}<mo>{close}</mo><mo>=</mo>");
+    formula(value, names).replacen("<mrow>", &format!("<mrow>{left}"), 1)
 }

@@ -67,10 +67,9 @@ pub fn formula(text: &str, names: &Names) -> String {
 /// One side of an equation; `x'` is the derivative by the time.
 fn side(text: &str, names: &Names) -> Option<String> {
     if let Some(name) = text.strip_suffix('\'') {
-        return Some(format!(
-            "<msup><mrow>{}</mrow><mo>′</mo></msup>",
-            identifier(name)
-        ));
+        // a prime or a dot is hardly seen in fonts that are not made for mathematics
+        let over = format!("<mi>d</mi>{}", identifier(name));
+        return Some(fraction(&over, "<mi>d</mi><mi>t</mi>"));
     }
     if text.chars().all(|c| c.is_alphanumeric() || c == '_')
         && !text.starts_with(|c: char| c.is_ascii_digit())
@@ -324,7 +323,7 @@ mod tests {
     fn fractions_indices_and_signs() {
         let text = formula("m1' = -m1*m2/(2*I1) + sqrt(omega)^2", &names());
         assert!(
-            text.contains("<msub><mi>m</mi><mi>1</mi></msub></mrow><mo>′</mo></msup><mo>=</mo>"),
+            text.contains("<mrow><mi>d</mi><msub><mi>m</mi><mi>1</mi></msub></mrow><mrow><mi>d</mi><mi>t</mi></mrow>"),
             "{text}"
         );
         assert!(

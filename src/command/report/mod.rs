@@ -11,6 +11,7 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use lie_codegen::model::Model;
 use lie_poisson::plot::surface::Point;
 
 use super::args;
@@ -56,9 +57,9 @@ pub fn run(flags: &args::Report) -> Result<u8, Failure> {
     report.all()?;
     let code = report.interrupt.seen().unwrap_or(report.code);
     let lead = format!(
-        "A report by lie {}, made by `{}`.",
+        "A report by lie {}, made by <code>{}</code>.",
         env!("CARGO_PKG_VERSION"),
-        command_line(flags, &out)
+        page::escaped(&command_line(flags, &out))
     );
     let page = report.page.finish(&spec.model.name, &lead);
     file.replace(page.as_bytes())
@@ -117,6 +118,14 @@ fn command_line(flags: &args::Report, out: &Path) -> String {
     words.extend(flags.no_bench.then(|| "--no-bench".to_owned()));
     words.extend(["--out".to_owned(), out.display().to_string()]);
     shown(&words)
+}
+
+/// What the level surface of the Casimir of a three-dimensional system is called.
+fn leaf(model: &Model) -> &'static str {
+    match model.bracket.algebra() {
+        Some(_) => "coadjoint orbit",
+        None => "symplectic leaf",
+    }
 }
 
 /// A command line as a shell takes it.
@@ -309,16 +318,17 @@ impl Report<'_> {
         match model.dimension() {
             3 if model.family.is_none() => {
                 if let Some(scene) = self.scene() {
-                    self.page.section("On its coadjoint orbit");
+                    let surface = leaf(model);
+                    self.page.section(&format!("On its {surface}"));
                     self.page
-                        .scene(&scene, "The trajectory on its coadjoint orbit");
+                        .scene(&scene, &format!("The trajectory on its {surface}"));
                     let cut = if scene["closed"] == true {
                         ""
                     } else {
                         "; it is cut off around the trajectory"
                     };
                     self.page.note(&format!(
-                        "The surface is the coadjoint orbit, on which the Casimir has the value of the start{cut}. Grey: level \
+                        "The surface is the {surface}, on which the Casimir has the value of the start{cut}. Grey: level \
                          curves of the energy. The dot is where the trajectory starts; what is turned away is pale."
                     ));
                 }

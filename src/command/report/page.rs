@@ -101,9 +101,9 @@ impl Page {
         );
     }
 
-    /// The whole page.
+    /// The whole page; `lead` is HTML.
     pub fn finish(self, title: &str, lead: &str) -> String {
-        let (title, lead) = (escaped(title), escaped(lead));
+        let title = escaped(title);
         let (style, body) = (include_str!("page.css"), self.body);
         format!(
             "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\

@@ -45,7 +45,9 @@ pub fn scene(system: &Dynamic<f64>, axes: &[String], states: &[Point]) -> Option
     let every = states.len().div_ceil(MOST);
     let curve: Vec<Point> = states.iter().copied().step_by(every).collect();
     let middle = [0, 1, 2].map(|i| short(0.5 * (low[i] + high[i])));
-    let levels: Vec<Vec<f64>> = found.levels.iter().map(|level| line(level)).collect();
+    let border = found.surface.border();
+    let levels = found.levels.iter().chain(&border);
+    let levels: Vec<Vec<f64>> = levels.map(|level| line(level)).collect();
     Some(json!({
         "axes": axes,
         "middle": middle,
