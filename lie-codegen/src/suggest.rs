@@ -117,6 +117,24 @@ const ELSEWHERE: &[(&str, &[&str])] = &[
         "hamiltonian",
         &["h", "ham", "energy", "hamilton", "total_energy"],
     ),
+    (
+        "dopri5",
+        &[
+            "rk45",
+            "ode45",
+            "rkf45",
+            "dormand_prince",
+            "dp5",
+            "tsit5",
+            "dop853",
+        ],
+    ),
+    ("rk4", &["runge_kutta", "runge_kutta4", "classical_rk4"]),
+    (
+        "midpoint",
+        &["implicit_midpoint", "poisson_midpoint", "imr", "gauss2"],
+    ),
+    ("splitting2", &["strang", "verlet", "leapfrog"]),
     ("lagrangian", &["lagrange"]),
     (
         "casimirs",

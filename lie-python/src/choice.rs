@@ -167,7 +167,10 @@ impl Refused {
 pub fn wanted(model: &Model, label: &str) -> Result<Choice, Refused> {
     let choice = Choice::from_label(label).map_err(|unusable| Refused {
         text: unusable.message.clone(),
-        help: unusable.help.replace("`lie methods`", "`System.methods()`"),
+        help: unusable
+            .help
+            .replace("`lie methods`", "`System.methods()`")
+            .replace("are flags of `lie run`", "are arguments of run"),
     })?;
     match refusal(model, &choice) {
         None => Ok(choice),

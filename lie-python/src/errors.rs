@@ -62,6 +62,7 @@ pub fn shown(text: &str, diagnostic: &Diagnostic) -> String {
         }
     }
     if let Some(help) = &diagnostic.help {
+        let help = help.replace("`lie methods`", "`System.methods()`");
         message.push_str(&format!("\n  help: {help}"));
     }
     message

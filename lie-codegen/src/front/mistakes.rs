@@ -109,12 +109,16 @@ fn comma(
 ) -> Option<(String, String)> {
     let before = before.filter(|before| sign == ',' && ends_operand(before))?;
     let number = |token: &Token| matches!(token.kind, TokenKind::Number(_));
-    let help = if number(before) && rest.first().is_some_and(number) {
-        "a decimal number has a point, as in `0.5`"
-    } else {
-        "a comma stands between the arguments of a function only"
+    let behind = rest.first().filter(|token| number(before) && number(token));
+    let help = match behind {
+        Some(behind) => format!(
+            "a decimal number has a point: write `{}.{}`",
+            render_one(before),
+            render_one(behind)
+        ),
+        None => "a comma stands between the arguments of a function only".to_owned(),
     };
-    Some((format!("unexpected `,`{after}"), help.into()))
+    Some((format!("unexpected `,`{after}"), help))
 }
 
 /// `.5`

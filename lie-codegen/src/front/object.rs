@@ -127,7 +127,31 @@ pub fn wrong_type(value: &Value<'_>, what: &str, expected: &str) -> Diagnostic {
         place,
         format!("{what} is {expected}, not {}", value.kind()),
     )
-    .help(format!("write {expected}"))
+    .help(match (value.kind(), expected) {
+        (Type::String, "a list") => format!("write `{}`", as_list(value.raw())),
+        _ => format!("write {expected}"),
+    })
+}
+
+/// The parts of a string between commas, without its quotes; a comma in parentheses is none.
+pub fn parts(quoted: &str) -> Vec<&str> {
+    let mut depth = 0;
+    let parts = quoted.trim_matches('"').split(|c: char| {
+        depth += match c {
+            '(' | '[' | '{' => 1,
+            ')' | ']' | '}' => -1,
+            _ => 0,
+        };
+        c == ',' && depth == 0
+    });
+    let parts = parts.map(str::trim).filter(|part| !part.is_empty());
+    parts.collect()
+}
+
+/// The same as a list of strings.
+pub fn as_list(quoted: &str) -> String {
+    let quoted = parts(quoted).into_iter().map(|part| format!("\"{part}\""));
+    format!("[{}]", quoted.collect::<Vec<_>>().join(", "))
 }
 
 /// The text of a value that must be a string.

@@ -13,7 +13,7 @@ use std::path::Path;
 use quote::quote;
 
 use super::json::{self, Type, Value};
-use super::object::{Object, list, string, wrong_type};
+use super::object::{Object, as_list, list, parts, string, wrong_type};
 use super::reader::{self, Entries, Line, Read};
 use super::schema::Spec;
 use super::tables::Read as Table;
@@ -251,6 +251,12 @@ fn not_a_list(value: Value<'_>, state: &[Name], report: &mut Report) -> Diagnost
     let names: Vec<&str> = state.iter().map(|name| name.text.as_str()).collect();
     let help = match values {
         Some(values) => format!("write `[{}]`, in the order of the state", values.join(", ")),
+        None if value.kind() == Type::String && parts(value.raw()).len() == state.len() => {
+            format!(
+                "write `{}`, in the order of the state",
+                as_list(value.raw())
+            )
+        }
         None => format!(
             "write a list with one value for each of {}",
             names.join(", ")

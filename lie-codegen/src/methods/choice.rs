@@ -2,7 +2,7 @@
 
 use super::options::{Gradient, Lift, OptionError, Pieces, Retraction, Scheme, Tensor};
 use super::{CATALOGUE, find};
-use crate::suggest::did_you_mean;
+use crate::suggest::meant;
 
 /// A method with its options. Numbers are orders, except where stages are said.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -109,7 +109,7 @@ impl Choice {
         let known = CATALOGUE.iter().map(|m| m.id);
         Err(Unusable {
             message: format!("there is no method `{id}`"),
-            help: match did_you_mean(id, known) {
+            help: match meant(id, known) {
                 Some(near) => format!("did you mean `{near}`? `lie methods` lists all of them"),
                 None => "`lie methods` lists them".into(),
             },

@@ -1,6 +1,7 @@
 //! The options of methods, by the names of their flags.
 
 use super::Choice;
+use crate::suggest::{did_you_mean, listed};
 
 macro_rules! named {
     ($(#[$doc:meta])* $type:ident, $default:ident { $($(#[$variant_doc:meta])* $variant:ident = $name:literal,)+ }) => {
@@ -191,9 +192,11 @@ fn pick<T: Copy + PartialEq>(
         .find(|value| name(*value) == text)
         .ok_or_else(|| {
             let names: Vec<&str> = all.iter().map(|value| name(*value)).collect();
+            let near = did_you_mean(text, names.iter().copied());
+            let near = near.map_or(String::new(), |near| format!("did you mean `{near}`? "));
             OptionError::Value(
-                format!("there is no {what} `{text}`"),
-                format!("the {what}s here are {}", names.join(", ")),
+                format!("--{what} has no value `{text}`"),
+                format!("{near}here it may be {}", listed(&names)),
             )
         })
 }

@@ -18,6 +18,7 @@ from __future__ import annotations
 from ._bench import Bench, BenchRow
 from ._check import Casimir, Check, Motion
 from ._errors import DeclarationError, IntegrationError, Interrupted, MethodError
+from ._functions import Function
 from ._methods import Method, Methods
 from ._solution import Ensemble, Solution
 from ._stress import Growth, Stress, StressCell
@@ -32,6 +33,7 @@ __all__ = [
     "DeclarationError",
     "Ensemble",
     "Fact",
+    "Function",
     "Growth",
     "IntegrationError",
     "Interrupted",

@@ -50,18 +50,49 @@ UNTIL = 10.0
 
 
 def hint(name: str, known: Sequence[str]) -> str:
+    folded = {other.casefold(): other for other in reversed(known)}
     close = difflib.get_close_matches(name, known, n=1)
-    return f"; did you mean `{close[0]}`?" if close else ""
+    near = folded.get(name.casefold()) or (close[0] if close else None)
+    return f"; did you mean `{near}`?" if near else ""
+
+
+def among(name: object, known: Sequence[str]) -> str:
+    """What is meant by an unknown name, and what there is."""
+    near = hint(str(name), known) or "."
+    return f"{near} There are: {', '.join(known) or 'none'}"
+
+
+def floats(value: Any, what: str) -> Array:
+    """An array of double precision; complex numbers and text are none."""
+    try:
+        found = np.asarray(value)
+        if found.dtype.kind in "biuf" or found.dtype.kind == "O":
+            return found.astype(np.float64)
+    except (TypeError, ValueError):
+        raise TypeError(f"{what} must be an array of numbers, not {value!r}") from None
+    raise TypeError(f"{what} must be an array of real numbers, and has the type {found.dtype}")
+
+
+def word(value: Any, what: str, example: str) -> str | None:
+    """A word, or nothing."""
+    if value is None or isinstance(value, str):
+        return value
+    raise TypeError(f"{what} is text, such as {example!r}, not {value!r}")
 
 
 def number(value: Number, what: str) -> float:
     """A number, or an exact constant as text."""
     if isinstance(value, str):
-        return _core.constant(value)
+        try:
+            return _core.constant(value)
+        except ValueError as error:
+            raise ValueError(f"{what}: {error}; give a number, or text such as '1/7'") from None
     try:
-        return float(value)
+        if np.ndim(value) == 0 and not isinstance(value, (bool, np.bool_)):
+            return float(value)
     except (TypeError, ValueError):
-        raise TypeError(f"{what} must be a number or text such as '1/7', not {value!r}") from None
+        pass
+    raise TypeError(f"{what} must be a number or text such as '1/7', not {value!r}")
 
 
 def whole(value: Any, name: str, least: int) -> int:
@@ -94,7 +125,7 @@ def given(value: float | None, name: str, options: Mapping[str, list[str]]) -> f
     """What the call says, else what the declaration says."""
     if value is None and name in options:
         return _core.constant(options[name][0])
-    return None if value is None else float(value)
+    return None if value is None else number(value, name)
 
 
 def times_of(
@@ -103,18 +134,24 @@ def times_of(
     """The end, each so-manyth step that is saved, and the times that are saved in its place."""
     if at is not None and (t is not None or every is not None):
         raise TypeError("with `at` there is a row for each of its times: leave out t and every")
-    if every is not None and every < 1:
-        raise ValueError(f"every must be 1, 2, 3, …, not {every}")
+    if every is not None:
+        every = whole(every, "every", 1)
     if at is None and t is None and every is None:
         at = options.get("at")
     if at is not None:
         found = [number(time, "a time of at") for time in np.atleast_1d(at).tolist()]
         if not found:
             raise ValueError("`at` is empty: give it times, such as at=[0, 1, 2]")
+        if not np.isfinite(found).all():
+            raise ValueError(f"times of `at` must be finite, not {found}")
+        if min(found) < 0 < max(found):
+            raise ValueError("times of `at` lie on one side of 0: make a run for each side")
         found.sort(key=abs)
         return found[-1], 1, found
     until = options.get("until", [str(UNTIL)])
     end = _core.constant(until[0]) if t is None else number(t, "t")
+    if not np.isfinite(end):
+        raise ValueError(f"t is {end}, and must be finite")
     count = every if every is not None else int(options.get("every", ["1"])[0])
     return end, count, None
 
@@ -122,12 +159,25 @@ def times_of(
 def declared(name: str, value: object, options: Mapping[str, list[str]]) -> object:
     """An option of the solver: what the call says, else what the declaration says."""
     key = name.replace("_", "-")
-    if value is not None or key not in options:
-        return value
+    if value is not None:
+        return solver_option(name, value)
+    if key not in options:
+        return None
     text = options[key][0]
     if name == "newton_tolerance":
         return _core.constant(text)
     return int(_core.constant(text)) if name == "max_iterations" else text
+
+
+def solver_option(name: str, value: Any) -> object:
+    """An option of the solver as it is given."""
+    if value is None:
+        return None
+    if name == "newton_tolerance":
+        return number(value, name)
+    if name == "max_iterations":
+        return min(whole(value, name, 1), 2**31)
+    return word(value, name, "newton" if name == "iteration" else "state")
 
 
 def merged(parameters: Mapping[str, Any] | None, named: Mapping[str, Any]) -> dict[str, Any]:

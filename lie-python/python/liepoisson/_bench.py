@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from . import _core
-from ._arguments import hint
+from ._arguments import among
 from ._pictures import image, new_figure, page, shown, table
 
 __all__ = ["Bench", "BenchRow"]
@@ -90,11 +90,10 @@ class Bench:
         return np.array(values)
 
     def __getitem__(self, name: str) -> Any:
+        if not isinstance(name, str):
+            raise TypeError(f"columns have names, not {name!r}; rows are in `rows`")
         if name not in BenchRow._fields:
-            known = ", ".join(BenchRow._fields)
-            raise KeyError(
-                f"no column {name!r}{hint(str(name), BenchRow._fields)} There are: {known}"
-            )
+            raise KeyError(f"no column {name!r}{among(name, BenchRow._fields)}")
         return self._column(name, self.rows)
 
     def __len__(self) -> int:
@@ -104,10 +103,7 @@ class Bench:
         """The rows of a method, as a dictionary of numpy arrays."""
         rows = [row for row in self.rows if row.method == method]
         if not rows:
-            raise KeyError(
-                f"no rows of {method!r}{hint(str(method), self.methods)} "
-                f"There are: {', '.join(self.methods) or 'none'}"
-            )
+            raise KeyError(f"no rows of {method!r}{among(method, self.methods)}")
         return {name: self._column(name, rows) for name in BenchRow._fields if name != "method"}
 
     def fastest(self, error: float) -> list[BenchRow]:

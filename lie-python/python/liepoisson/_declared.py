@@ -6,6 +6,7 @@ import json
 import os
 import re
 from collections.abc import Mapping
+from numbers import Rational
 from typing import Any
 
 import numpy as np
@@ -17,6 +18,7 @@ from ._arguments import (
     VARIANTS,
     Array,
     Number,
+    among,
     declared,
     given,
     hint,
@@ -25,7 +27,7 @@ from ._arguments import (
 from ._check import Check
 from ._check import read as read_check
 from ._errors import DeclarationError
-from ._methods import Methods
+from ._methods import Methods, labels_of
 from ._sites import Sites
 
 
@@ -39,6 +41,10 @@ class Declared:
             if not isinstance(spec, str) or (spec.endswith(".json") and "{" not in spec):
                 raise TypeError(f"this is the name of a file: liepoisson.load({os.fspath(spec)!r})")
             text = spec
+        elif spec is not None and not isinstance(spec, Mapping):
+            raise TypeError(
+                f"a system is the text of a spec, a dictionary of its keys, or the keys by name, not {spec!r}"
+            )
         else:
             declaration = {"format": 1, "name": "System", **dict(spec or {}), **keys}
             algebra = declaration.get("algebra")
@@ -157,11 +163,16 @@ class Declared:
                 names = self._core.coordinates
             unknown = [name for name in x0 if name not in names]
             if unknown:
-                raise ValueError(f"no coordinate `{unknown[0]}`{hint(unknown[0], names)}")
+                raise ValueError(f"no coordinate `{unknown[0]}`{among(unknown[0], names)}")
             missing = [name for name in names if name not in x0]
             if missing:
                 raise ValueError(f"x0 lacks {', '.join(missing)}")
             x0 = [x0[name] for name in names]
+        if isinstance(x0, (list, tuple, np.ndarray)) and np.ndim(np.asarray(x0, dtype=object)) > 1:
+            raise ValueError(
+                f"x0 has the shape {np.shape(np.asarray(x0, dtype=object))}, and is one state of {len(names)} numbers; "
+                "ensemble takes many"
+            )
         start = [number(value, "an entry of x0") for value in np.atleast_1d(x0).tolist()]
         complete = self._core.complete([start])
         if complete is None:
@@ -184,7 +195,7 @@ class Declared:
                     method += f" --{name} {options[name][0]}"
         if not isinstance(method, str):
             raise TypeError(f"the method is its id as text, such as 'lie-midpoint', not {method!r}")
-        return method
+        return method.strip()
 
     def _asked(
         self,
@@ -208,13 +219,28 @@ class Declared:
         if h is None and tol is None:
             step = options.get("step")
             h = _core.constant(step[0]) if step else float(np.copysign(STEP, end))
-        if method is None:  # of the declaration's method
-            rtol, atol = tolerances
-            tolerances = (given(rtol, "rtol", options), given(atol, "atol", options))
-            solver = {name: declared(name, value, options) for name, value in solver.items()}
+        if h is not None:
+            h = number(h, "h")
+            if h == 0 or not np.isfinite(h):
+                raise ValueError(
+                    f"the step is {h:g}: give a finite one other than zero, such as h=0.1"
+                )
+            if h * end < 0:
+                raise ValueError(f"the step {h:g} leads away from t = {end:g}: give h={-h:g}")
+        if tol is not None:
+            tol = number(tol, "tol")
+            if not 0 < tol < 1:
+                raise ValueError(
+                    f"the tolerance is {tol:g}: give one between round-off and 1, such as tol=1e-6"
+                )
+        # what the declaration says of these belongs to its method
+        own = options if method is None else {}
+        rtol, atol = tolerances
+        tolerances = (given(rtol, "rtol", own), given(atol, "atol", own))
+        solver = {name: declared(name, value, own) for name, value in solver.items()}
         return {
             "label": label,
-            "pace": (None if h is None else number(h, "h"), None if tol is None else float(tol)),
+            "pace": (h, tol),
             "end": end,
             "tolerances": tolerances,
             "solver": solver,
@@ -252,7 +278,7 @@ class Declared:
 
     def rust(self, *methods: str) -> str:
         """The generated Rust, with fused code of these methods."""
-        return self._core.rust(list(methods))
+        return self._core.rust(labels_of("rust", methods))
 
     def latex(self) -> str:
         """The Hamiltonian and, where they are not too long, the equations of motion for LaTeX."""
@@ -274,7 +300,9 @@ def plain(value: Any) -> Any:
         return value.tolist()
     if isinstance(value, np.generic):
         return value.item()
-    raise TypeError(f"{value!r} cannot stand in a declaration")
+    if isinstance(value, Rational):
+        return str(value)
+    raise TypeError(f"{value!r} cannot stand in a declaration: give numbers and text")
 
 
 def as_latex(text: str) -> str:

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from . import _core
-from ._arguments import UNTIL, Number, Progress, heard, hint, merged, number, whole
+from ._arguments import UNTIL, Number, Progress, among, heard, merged, number, whole
 from ._bench import MEASURES, Bench, BenchRow
 from ._errors import Interrupted
+from ._methods import labels_of
 from ._stress import Stress
 from ._verification import Verification
 
@@ -57,10 +58,7 @@ def _plane(
         )
     name, value = section
     if name not in system.coordinates:
-        close = hint(str(name), system.coordinates)
-        raise ValueError(
-            f"section: no coordinate `{name}`{close} There are: {', '.join(system.coordinates)}"
-        )
+        raise ValueError(f"section: no coordinate `{name}`{among(name, system.coordinates)}")
     return system._core.coordinates.index(name), number(value, "the value of the section")
 
 
@@ -77,22 +75,6 @@ def start_of(
             raise TypeError(f"no argument `{name}`: {call} {why}; leave it out")
     values = system._values(merged(parameters, named))
     return values, system._start(x0, values)
-
-
-def labels_of(call: str, methods: Sequence[Any]) -> list[str]:
-    """The methods, which are named one by one."""
-    if any(not isinstance(method, str) for method in methods):
-        example = ", ".join(f'"{name}"' for name in _flat(methods)) or '"rk4", "gauss4"'
-        raise TypeError(f"methods are given one by one, as text: {call}({example})")
-    if any(not method.strip() for method in methods):
-        raise ValueError(f'a method is empty: name it, such as {call}("midpoint"), or leave it out')
-    return list(methods)
-
-
-def _flat(methods: Sequence[Any]) -> list[str]:
-    """The names in a list that stands in their place."""
-    inner = [name for method in methods if isinstance(method, (list, tuple)) for name in method]
-    return [name for name in inner if isinstance(name, str)]
 
 
 def unless_interrupted(result: Result) -> Result:
@@ -113,9 +95,7 @@ def measured(
     t, budget, measure, section = asked
     labels = labels_of("bench", methods)
     if measure not in MEASURES:
-        raise ValueError(
-            f"no measure `{measure}`{hint(str(measure), list(MEASURES))} There are: {', '.join(MEASURES)}"
-        )
+        raise ValueError(f"no measure `{measure}`{among(measure, list(MEASURES))}")
     budget = number(budget, "budget")
     if not (np.isfinite(budget) and budget > 0):
         raise ValueError(f"budget is {budget:g}, and must be seconds, such as budget=0.2")

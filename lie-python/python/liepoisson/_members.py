@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from ._arguments import Array
+from ._arguments import Array, floats
 from ._sites import Sites
 
 if TYPE_CHECKING:
@@ -19,7 +19,7 @@ def members_of(system: Declared, x0: npt.ArrayLike, parameters: Mapping[str, Any
     """The initial states, with what carries the time or the group element where the user left it out."""
     if system._core.family:
         return members_of_family(system, x0, parameters)
-    starts = np.ascontiguousarray(np.atleast_2d(np.asarray(x0, dtype=np.float64)))
+    starts = np.ascontiguousarray(np.atleast_2d(floats(x0, "x0")))
     n = system.dimension
     if starts.ndim == 2 and starts.shape[1] != len(system._core.coordinates):
         complete = system._core.complete(starts.tolist())
@@ -41,7 +41,7 @@ def members_of_family(system: Declared, x0: npt.ArrayLike, parameters: Mapping[s
         sites.append(Sites(system, system._values(chosen)))
         if sites[-1].shape != sites[0].shape:
             raise ValueError("all members of an ensemble have as many sites: run them one by one")
-    given = np.asarray(x0, dtype=np.float64)
+    given = floats(x0, "x0")
     one = given.shape in ((sites[0].dimension,), (*sites[0].shape, sites[0].each))
     return np.stack([sites[0].state(member) for member in (given[None] if one else given)])
 
@@ -57,5 +57,6 @@ def table_of(system: Declared, parameters: Mapping[str, Any], members: int) -> A
     table = np.tile(np.asarray(scalars, dtype=np.float64), (count, 1))
     for name, value in parameters.items():
         if np.size(value) > 1:
-            table[:, list(system.parameters).index(name)] = np.ravel(value)
+            column = floats(value, f"the parameter {name}")
+            table[:, list(system.parameters).index(name)] = np.ravel(column)
     return table

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import json
-from typing import NamedTuple
+from collections.abc import Sequence
+from typing import Any, NamedTuple
 
 from ._arguments import hint
 from ._pictures import page, table
@@ -91,3 +92,19 @@ def read(text: str) -> Methods:
         row.pop("built", None)
         found[row["id"]] = Method(preserves=kept, **row)
     return found
+
+
+def labels_of(call: str, methods: Sequence[Any]) -> list[str]:
+    """The methods, which are named one by one."""
+    if any(not isinstance(method, str) for method in methods):
+        example = ", ".join(f'"{name}"' for name in _flat(methods)) or '"rk4", "gauss4"'
+        raise TypeError(f"methods are given one by one, as text: {call}({example})")
+    if any(not method.strip() for method in methods):
+        raise ValueError(f'a method is empty: name it, such as {call}("midpoint"), or leave it out')
+    return list(methods)
+
+
+def _flat(methods: Sequence[Any]) -> list[str]:
+    """The names in a list that stands in their place."""
+    inner = [name for method in methods if isinstance(method, (list, tuple)) for name in method]
+    return [name for name in inner if isinstance(name, str)]

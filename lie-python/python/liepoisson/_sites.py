@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ._arguments import Array
+from ._arguments import Array, floats
 
 if TYPE_CHECKING:
     from ._declared import Declared
@@ -23,7 +23,7 @@ class Sites:
 
     def state(self, x0: Any) -> Array:
         """A state, from numbers in its order or from an array with a row of coordinates for each site."""
-        given = np.asarray(x0, dtype=np.float64)
+        given = floats(x0, "x0")
         if given.shape == (self.dimension,):
             return given
         if given.shape == (*self.shape, self.each):

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ._arguments import Array, hint
+from ._arguments import Array, among
 from ._pictures import image, new_figure, page, shown, table
 from ._sites import Sites
 
@@ -53,6 +53,10 @@ class Solution:
         self.group: Array | None = None
 
     def __getitem__(self, name: str) -> Array:
+        if not isinstance(name, str):
+            raise TypeError(
+                f"columns have names, not {name!r}; rows are those of `t` and `mu`, such as run.mu[0]"
+            )
         if name in self.coordinates:
             column: Array = self.mu[:, self.coordinates.index(name)]
             return column
@@ -63,7 +67,7 @@ class Solution:
         if name in self.casimirs:
             return self.casimirs[name]
         known = ["t", *self.coordinates, "energy", *self.casimirs]
-        raise KeyError(f"no column {name!r}{hint(str(name), known)} There are: {', '.join(known)}")
+        raise KeyError(f"no column {name!r}{among(name, known)}")
 
     def __len__(self) -> int:
         return len(self.t)

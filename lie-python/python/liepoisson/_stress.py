@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from . import _core
-from ._arguments import hint
+from ._arguments import among
 from ._pictures import image, new_figure, page, shown, table
 
 __all__ = ["Growth", "Stress", "StressCell"]
@@ -106,11 +106,10 @@ class Stress:
         return list(dict.fromkeys(cell.method for cell in self.cells))
 
     def __getitem__(self, name: str) -> Any:
+        if not isinstance(name, str):
+            raise TypeError(f"columns have names, not {name!r}; experiments are in `cells`")
         if name not in StressCell._fields:
-            known = ", ".join(StressCell._fields)
-            raise KeyError(
-                f"no column {name!r}{hint(str(name), StressCell._fields)} There are: {known}"
-            )
+            raise KeyError(f"no column {name!r}{among(name, StressCell._fields)}")
         return np.array([getattr(cell, name) for cell in self.cells])
 
     def __len__(self) -> int:
@@ -120,10 +119,7 @@ class Stress:
         """The experiments of a method."""
         cells = [cell for cell in self.cells if cell.method == method]
         if not cells:
-            raise KeyError(
-                f"no experiments of {method!r}{hint(str(method), self.methods)} "
-                f"There are: {', '.join(self.methods) or 'none'}"
-            )
+            raise KeyError(f"no experiments of {method!r}{among(method, self.methods)}")
         return cells
 
     def _title(self) -> str:

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import os
 import warnings
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from ._arguments import Array, Number, Progress, heard, merged, times_of, whole
+from ._arguments import Number, Progress, heard, merged, times_of, whole, word
 from ._bench import Bench
 from ._declared import Declared
 from ._errors import IntegrationError
-from ._functions import function_of
+from ._functions import Function
 from ._measure import measured, start_of, stressed, verified
 from ._members import members_of, table_of
 from ._notebook import page_of
@@ -89,7 +89,7 @@ class System(Declared):
         }
         asked = self._asked(method, (h, tol), end, options, (rtol, atol), solver)
         label = asked["label"]
-        group = group if group is not None else options.get("group", [None])[0]
+        group = word(group, "group", "matrix") or options.get("group", [None])[0]
         asked.update(parameters=values, start=start, every=every, at=times, group=group)
         (t_rows, mu, energy, casimirs), found = self._core.run(asked, heard(progress))
         columns = {name: casimirs[:, index] for index, name in enumerate(self.casimirs)}
@@ -186,7 +186,7 @@ class System(Declared):
             raise TypeError(
                 "with a tolerance each member has a step of its own: give at=[…] in place of every"
             )
-        asked.update(every=every, at=times, threads=count)
+        asked.update(every=None if every is None else int(every), at=times, threads=count)
         rows, states, failures = self._core.ensemble(table, starts, asked, heard(progress))
         states = self._visible(states)
         if every is None and times is None:
@@ -197,7 +197,7 @@ class System(Declared):
 
     def function(
         self, name: str, /, parameters: Mapping[str, Number] | None = None, **named: Number
-    ) -> Callable[..., Array]:
+    ) -> Function:
         """A function of the state, vectorised over leading axes: of shape (…, n).
 
         ``vector_field``, ``gradient``: (…, n). ``jacobian``, ``hessian``, ``poisson_matrix``: (…, n, n).
@@ -215,7 +215,7 @@ class System(Declared):
         >>> driven.function("hamiltonian")([0, 1, 0], 0.0).item()
         1.0
         """
-        return function_of(self, name, self._values(merged(parameters, named)))
+        return Function(self, name, self._values(merged(parameters, named)))
 
     def verify(
         self,

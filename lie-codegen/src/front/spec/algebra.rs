@@ -17,6 +17,11 @@ pub fn read(value: Value<'_>, parameters: &[String], report: &mut Report) -> Opt
         let named = named::parse(&line.tokens, line.place, report)?;
         return Some(named::standard(&named, line.place));
     }
+    if value.kind() != Type::Object {
+        let help = "write a name such as \"so(3)\", or an object with `basis` and `brackets`";
+        report.push(wrong_type(&value, "`algebra`", "a name or an object").help(help));
+        return None;
+    }
     let object = Object::read(value, "`algebra`", schema::Algebra::KEYS, report)?;
     if let Some(name) = object.get("named") {
         return by_name(value, name, &object, parameters, report);

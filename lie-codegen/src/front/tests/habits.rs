@@ -95,7 +95,7 @@ fn what_the_grammar_does_not_have_is_said_to_be_missing() {
         ("x[0]^2", "the name of the coordinate"),
         ("x.dot(y)", "without a module or an object"),
         ("x^2, y^2", "a comma stands between the arguments"),
-        ("0,5*x", "a decimal number has a point"),
+        ("0,5*x", "a decimal number has a point: write `0.5`"),
         ("atan(x, y)", "`atan2(a, b)`"),
         ("log(x, 2)", "`log(a)/log(b)`"),
         ("x\u{200b} + y", "remove it"),
@@ -194,6 +194,11 @@ fn an_initial_state_by_names_becomes_a_list() {
     let (_, message, help) = mistake("[1, 0.5, -2]", "\"random\"");
     assert_eq!(message, "`initial` is a list, not a string");
     assert_eq!(help, "write a list with one value for each of x, y, z");
+    let (_, _, help) = mistake("[1, 0.5, -2]", "\"1, 1/2, f(-2, 3)\"");
+    assert_eq!(
+        help,
+        "write `[\"1\", \"1/2\", \"f(-2, 3)\"]`, in the order of the state"
+    );
 }
 
 #[test]
