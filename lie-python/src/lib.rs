@@ -154,7 +154,7 @@ impl Core {
         start: Vec<f64>,
         options: (Option<f64>, u64),
     ) -> PyResult<(Vec<verify::Fact>, Vec<String>)> {
-        self.measurable(py, |model| families::too_many(model, start.len()))?;
+        self.measurable(py, |model| families::VERIFIED.exceeded(model, start.len()))?;
         let start = self.start(parameters, start);
         let found = verify::verify(py, &self.0, &methods, start, options)?;
         Ok((found.facts, found.unsound))

@@ -329,6 +329,8 @@ impl<P: Lift<f64> + Clone + 'static> Verify<P> {
                 let method = label.clone();
                 tell(session, Found::Finding { method, finding });
             }
+            let method = label.clone();
+            tell(session, Found::Measured { method });
         }
         Ok(())
     }

@@ -80,12 +80,22 @@ struct Results {
 }
 
 impl Results {
-    fn take(&mut self, found: Found) {
+    /// Takes what is found; answers the long run of a method, and what is lost.
+    fn take(&mut self, found: Found) -> Option<String> {
         match found {
             Found::Ground { step } => self.step = step,
             Found::Growth(growth) => self.growths.push(growth),
-            Found::Cell(cell) => self.cells.push(cell),
+            Found::Cell(cell) => {
+                let line = match cell.outcome {
+                    Outcome::Lost => Some(format!("lost: {}", text(&cell))),
+                    _ if cell.experiment == Experiment::Long => Some(text(&cell)),
+                    _ => None,
+                };
+                self.cells.push(cell);
+                return line;
+            }
         }
+        None
     }
 
     fn of(&self, outcome: Outcome) -> Vec<&Cell> {
@@ -117,8 +127,7 @@ pub fn run(arguments: &args::Stress) -> Result<u8, Failure> {
     let help = "give the number of steps of the long run, such as 1000000";
     let steps = Given::flag("--steps", &arguments.steps).count();
     let steps = steps.map_err(|message| message.help(help))?;
-    let bed = bed(flags, |spec| list::fewer(&spec.model))?;
-    bed.is_no_family("lie stress")?;
+    let bed = bed(flags, Purpose::Stress, |spec| list::fewer(&spec.model))?;
     let out = files::open("--out", arguments.out.as_deref(), &flags.spec)?;
     let plot = files::open("--plot", arguments.plot.as_deref(), &flags.spec)?;
     let interrupt = Interrupt::install();
@@ -130,7 +139,7 @@ pub fn run(arguments: &args::Stress) -> Result<u8, Failure> {
     };
     let options = Options { steps };
     let ended = bed.measure(flags, &program, options, &interrupt, &mut |found| {
-        results.take(found);
+        results.take(found)
     })?;
     if let Ended::Refused(_, why) = &ended {
         files::write(out, None, None)?;
@@ -160,14 +169,10 @@ fn sort(cells: &mut [Cell], bed: &Bed) {
     let method = |cell: &Cell| labels.iter().position(|label| *label == cell.method);
     // names of parameters, components and Casimirs keep the order in which they were declared
     let model = &bed.spec.model;
-    let names: Vec<&str> = model
-        .parameters
-        .iter()
-        .map(|p| p.name.as_str())
-        .chain(model.coordinates.iter().map(|c| c.text.as_str()))
-        .chain(model.casimirs.iter().map(|c| c.name.as_str()))
-        .collect();
-    let name = |cell: &Cell| names.iter().position(|name| *name == cell.name);
+    let layout = bed.layout();
+    let parameters = model.parameters.iter().map(|p| &p.name);
+    let names: Vec<&String> = parameters.chain(&layout.columns).collect();
+    let name = |cell: &Cell| names.iter().position(|name| **name == cell.name);
     cells.sort_by(|a, b| {
         (method(a), a.experiment, name(a))
             .cmp(&(method(b), b.experiment, name(b)))

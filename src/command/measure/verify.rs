@@ -112,7 +112,8 @@ struct Results {
 }
 
 impl Results {
-    fn take(&mut self, found: Found) {
+    /// Takes what is found; answers how a method did once all of it is known.
+    fn take(&mut self, found: Found) -> Option<String> {
         match found {
             Found::Ground(ground) => self.ground = Some(ground),
             Found::Kernel(kernel) => self.evidence.kernel(kernel),
@@ -120,7 +121,9 @@ impl Results {
             Found::Broken { fact } => self.evidence.broken(fact),
             Found::Unsound { what } => self.evidence.unsound(what),
             Found::Finding { method, finding } => self.rows.push(Row { method, finding }),
+            Found::Measured { method } => return Some(measured(&method, &self.rows)),
         }
+        None
     }
 
     /// Says what fails; whether nothing does.
@@ -136,6 +139,24 @@ impl Results {
     }
 }
 
+/// How a method did.
+fn measured(method: &str, rows: &[Row]) -> String {
+    let own = || rows.iter().filter(|row| row.method == method);
+    let failed: Vec<&str> = own()
+        .filter(|row| row.fails())
+        .map(|row| &*row.finding.fact)
+        .collect();
+    let claims = own().filter(|row| row.is_claimed()).count();
+    match failed.is_empty() {
+        true => format!("{method}: {claims} claims hold"),
+        false => format!(
+            "{method}: {} of {claims} claims fail: {}",
+            failed.len(),
+            failed.join(", ")
+        ),
+    }
+}
+
 /// Verifies methods on a spec.
 ///
 /// # Errors
@@ -143,7 +164,7 @@ impl Results {
 pub fn run(arguments: &args::Verify) -> Result<u8, Failure> {
     let flags = &arguments.measured;
     let step = step(arguments)?;
-    let bed = bed(flags, |spec| list::all(&spec.model))?;
+    let bed = bed(flags, Purpose::Verify, |spec| list::all(&spec.model))?;
     let interrupt = Interrupt::install();
     let program = bed.program(flags, Purpose::Verify, &interrupt)?;
     let model = &bed.spec.model;
@@ -168,7 +189,7 @@ pub fn run(arguments: &args::Verify) -> Result<u8, Failure> {
         evidence,
     };
     let ended = bed.measure(flags, &program, options, &interrupt, &mut |found| {
-        results.take(found);
+        results.take(found)
     })?;
     if let Ended::Refused(what, why) = &ended {
         let what = match what {
