@@ -54,13 +54,27 @@ pub fn load_with(path: &Path, effort: Effort) -> Result<Spec, Failure> {
     }
 }
 
+/// What to do about a path at which there is no file.
+fn remedy(path: &Path) -> String {
+    if path.as_os_str() == "-" {
+        return "a spec is a file; that of standard input is `/dev/stdin`".to_owned();
+    }
+    let entries = std::fs::read_dir(path).into_iter().flatten().flatten();
+    let specs = entries.map(|entry| entry.path());
+    let first = specs
+        .filter(|path| path.extension().is_some_and(|end| end == "json"))
+        .min();
+    match first {
+        Some(first) => format!("give a file in this folder, such as {}", first.display()),
+        None => "give the path of a JSON file, such as specs/se3_heavy_top.json".to_owned(),
+    }
+}
+
 fn read(path: &Path) -> Result<Source, Failure> {
     let name = path.display().to_string();
     let bytes = file::read(path).map_err(|error| {
         let message = Message::io(path, format!("the spec cannot be read: {error}"));
-        Failure::surroundings(
-            message.help("give the path of a JSON file, such as specs/se3_heavy_top.json"),
-        )
+        Failure::surroundings(message.help(remedy(path)))
     })?;
     if let Some(oversized) = file::oversized(bytes.len()) {
         let source = Rc::new(Source {

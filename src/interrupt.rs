@@ -12,8 +12,8 @@ use std::sync::atomic::{AtomicBool, AtomicU8, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-/// How long a thread may take after a signal.
-const GRACE: Duration = Duration::from_secs(10);
+/// How long a thread may take after a signal, as long as the programs that measure.
+const GRACE: Duration = Duration::from_secs(2);
 
 /// Remembers the signal, and holds what it is to end.
 #[derive(Clone, Default)]
@@ -27,8 +27,8 @@ struct Inner {
     busy: AtomicBool,
     /// What works stops when this end of its input is closed.
     lifeline: Mutex<Option<Box<dyn Send>>>,
-    /// Whether a thread of this process works, which cannot be ended alone.
-    here: AtomicBool,
+    /// Leaves a thread of this process behind, which cannot be ended alone.
+    leave: Mutex<Option<Box<dyn FnOnce() + Send>>>,
     /// The leader of the group of processes that builds.
     builder: Mutex<Option<u32>>,
 }
@@ -50,14 +50,15 @@ impl Interrupt {
             std::process::exit(i32::from(code));
         }
         self.stop();
-        if self.0.here.load(Ordering::SeqCst) {
+        self.leave_behind();
+    }
+
+    /// Has the thread that works time to end, and goes on without it after that.
+    fn leave_behind(&self) {
+        if let Some(leave) = lock(&self.0.leave).take() {
             std::thread::spawn(move || {
                 std::thread::sleep(GRACE);
-                let grace = GRACE.as_secs();
-                eprintln!(
-                    "cut off: what was going on did not end within {grace} s, and is lost; with --compile it ends at once"
-                );
-                std::process::exit(i32::from(code));
+                leave();
             });
         }
     }
@@ -74,12 +75,13 @@ impl Interrupt {
         // A signal that came before found nothing to stop.
         if self.seen().is_some() {
             self.stop();
+            self.leave_behind();
         }
     }
 
-    /// The same of a thread of this process; one that does not stop in time ends with the process.
-    pub fn watch_here(&self, input: Box<dyn Send>) {
-        self.0.here.store(true, Ordering::SeqCst);
+    /// The same of a thread of this process; `leave` is called where it does not stop in time.
+    pub fn watch_here(&self, input: Box<dyn Send>, leave: Box<dyn FnOnce() + Send>) {
+        *lock(&self.0.leave) = Some(leave);
         self.watch(input);
     }
 

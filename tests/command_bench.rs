@@ -62,6 +62,39 @@ fn points_picture_and_table() {
     );
 }
 
+/// Points are told when they are found, and again with better times.
+#[test]
+fn each_point_is_there_once() {
+    let folder = folder();
+    let out = folder.path().join("points.csv");
+    let measured = |methods: &str| -> Vec<String> {
+        lie(&format!(
+            "bench specs/so3_nonpolynomial.json {methods} --until 2 --budget 0.0005 --quiet --out {}",
+            out.display()
+        ))
+        .ok();
+        let text = std::fs::read_to_string(&out).expect("points");
+        let runs = text.lines().skip(1);
+        runs.map(|line| line.split(',').take(3).collect::<Vec<_>>().join(","))
+            .collect()
+    };
+    for methods in ["--methods rk4,midpoint", "--method rk4 --method midpoint"] {
+        let mut runs = measured(methods);
+        assert!(
+            runs.iter().any(|run| run.starts_with("rk4,step,")),
+            "{runs:?}"
+        );
+        assert!(
+            runs.iter().any(|run| run.starts_with("midpoint,step,")),
+            "{runs:?}"
+        );
+        let all = runs.len();
+        runs.sort();
+        runs.dedup();
+        assert!(all > 6 && runs.len() == all, "{runs:?}");
+    }
+}
+
 #[test]
 fn it_says_what_it_measures() {
     let call = "bench specs/so3_nonpolynomial.json --methods rk4 --until 2 --budget 0.0001 --quiet";

@@ -102,12 +102,22 @@ fn what_a_family_is_not_run_with_is_said() {
         "measure fewer sites, at most 21, as with `--param N=4`",
     );
     refused(
-        &format!("bench {CHAIN} --param N=4"),
-        "a family, which `lie bench` does not measure yet",
+        &format!("bench {CHAIN} --param N=33334"),
+        "measure fewer sites, at most 33333",
     );
     refused(
-        &format!("stress {CHAIN} --param N=4"),
-        "a family, which `lie stress` does not measure yet",
+        &format!("stress {CHAIN} --param N=22"),
+        "measure fewer sites, at most 21",
+    );
+    for command in ["bench", "stress"] {
+        refused(
+            &format!("{command} {CHAIN} --param N=4 --compile"),
+            "leave out `--compile`",
+        );
+    }
+    refused(
+        &format!("bench {CHAIN} --param N=4 --measure section --section x[4]=0"),
+        "unknown coordinate `x[4]`",
     );
 }
 
@@ -137,6 +147,83 @@ fn verify_measures_a_small_family() {
     assert!(small("splitting4", "quadratic Casimirs") && !small("rk4", "quadratic Casimirs"));
     assert!(small("splitting4", "Poisson") && !small("rk4", "Poisson"));
     assert!(small("splitting2", "symmetric") && !small("rk4", "symmetric"));
+}
+
+/// The error of each point of a method.
+fn errors(text: &str, method: &str) -> Vec<f64> {
+    let own = text
+        .lines()
+        .filter(|line| line.split(',').next() == Some(method));
+    own.filter_map(|line| line.split(',').nth(3)?.parse().ok())
+        .collect()
+}
+
+#[test]
+fn bench_measures_a_family_of_any_moderate_size() {
+    let folder = folder();
+    let out = folder.path().join("points.csv");
+    let bench = |rest: &str| {
+        let call = format!("bench {CHAIN} --quiet --out {} {rest}", out.display());
+        let run = lie(&call).ok();
+        (run.stdout, std::fs::read_to_string(&out).expect("points"))
+    };
+    // below and above what matrices are made for
+    for n in [8, 200] {
+        let methods = "--methods gauss8,splitting4,rk4 --until 2 --budget 0.02";
+        let (stdout, text) = bench(&format!("--param N={n} {methods}"));
+        assert!(stdout.contains("differs from gauss16 by "), "{stdout}");
+        for (method, least, most) in [("rk4", 10.0, 25.0), ("splitting4", 10.0, 25.0)] {
+            let errors = errors(&text, method);
+            let steep = errors.windows(2).map(|pair| pair[0] / pair[1]);
+            let steep = steep.filter(|ratio| (least..most).contains(ratio)).count();
+            assert!(steep >= 2, "{n} {method}: {errors:?}");
+        }
+        let least = errors(&text, "gauss8").into_iter().fold(1.0, f64::min);
+        assert!(least < 1e-9, "{n}: {text}");
+    }
+    // a splitting keeps every Casimir, the control does not
+    let (_, text) =
+        bench("--param N=8 --methods splitting4,rk4 --until 2 --budget 0.002 --measure casimirs");
+    let largest = |method: &str| errors(&text, method).into_iter().fold(0.0, f64::max);
+    assert!(
+        largest("splitting4") < 1e-13 && largest("rk4") > 1e-6,
+        "{text}"
+    );
+    let (stdout, _) = bench(
+        "--param N=4 --methods rk4 --budget 0.002 --until 9 --measure section --section z[3]=0",
+    );
+    assert!(stdout.contains("section: z[3] rises through 0"), "{stdout}");
+}
+
+#[test]
+fn stress_takes_a_small_family_to_its_limits() {
+    let folder = folder();
+    let out = folder.path().join("cells.csv");
+    let call = format!(
+        "stress {CHAIN} --param N=4 --methods splitting4,rk4 --steps 400 --quiet --out {}",
+        out.display()
+    );
+    let run = lie(&call).ok();
+    let text = std::fs::read_to_string(&out).expect("cells");
+    let has = |start: &str| text.lines().any(|line| line.starts_with(start));
+    assert!(
+        has("splitting4,component,x[3],") && has("splitting4,parameter,J,"),
+        "{text}"
+    );
+    assert!(has("splitting4,casimir,C1_mean,"), "{text}");
+    // the number of sites stays as it is
+    assert!(!text.contains(",parameter,N,"), "{text}");
+    let casimirs = |method: &str| -> f64 {
+        let start = format!("{method},long,");
+        let cell = text.lines().find(|line| line.starts_with(&start));
+        let field = cell.and_then(|cell| cell.split(',').nth(10)?.parse().ok());
+        field.expect("a drift")
+    };
+    assert!(
+        casimirs("splitting4") < 1e-13 && casimirs("rk4") > 1e-9,
+        "{text}"
+    );
+    assert!(run.stdout.contains("splitting4"), "{}", run.stdout);
 }
 
 /// The NPY file of an array.

@@ -226,6 +226,27 @@ fn plans_are_shown() {
 }
 
 #[test]
+fn a_path_that_is_no_spec_has_a_remedy() {
+    let run = lie("run specs");
+    assert_eq!(run.code, Some(1), "{run:?}");
+    assert!(
+        run.stderr
+            .contains("a file in this folder, such as specs/canonical_pendulum.json")
+    );
+    let run = lie("check -");
+    assert_eq!(run.code, Some(1), "{run:?}");
+    assert!(
+        run.stderr
+            .contains("that of standard input is `/dev/stdin`")
+    );
+    let run = lie("check tests/common");
+    assert!(
+        run.stderr.contains("give the path of a JSON file"),
+        "{run:?}"
+    );
+}
+
+#[test]
 fn methods_and_schema() {
     let methods = lie("methods").ok().stdout;
     for id in [
@@ -238,6 +259,9 @@ fn methods_and_schema() {
         "itoh-abe",
     ] {
         assert!(methods.contains(id), "{id}");
+    }
+    for line in methods.lines() {
+        assert!(line.chars().count() <= 100, "{line}");
     }
     let json = lie("methods --json").ok().stdout;
     let json: serde_json::Value = serde_json::from_str(&json).expect("JSON");

@@ -183,6 +183,16 @@ fn mistakes_have_their_place_and_a_remedy() {
     with("x,y,z\n1,2\n").error("state-length", &format!("{path}:2:1"));
     with("1,2\n").error("state-length", &format!("{path}:1:1"));
     with("a,b,c\n1,2,3\n").error("option", &format!("{path}:1:1"));
+    for (text, said) in [
+        ("1;2;3\n", "no commas stand between these numbers"),
+        ("1 2 3\n", "no commas stand between these numbers"),
+        ("1\t2\t3\n", "no commas stand between these numbers"),
+        ("t,x,y,z\n0,1,2,3\n", "`t` is not the name of a coordinate"),
+        ("x,y\n1,2\n", "these are not the names of the coordinates"),
+    ] {
+        let run = with(text).error("option", &format!("{path}:1:1"));
+        assert!(run.stderr.contains(said), "{text}: {}", run.stderr);
+    }
     with("1,2,3\n1,2,what\n").error("option", &format!("{path}:2:1"));
     with("# nothing\n").error("io", &path);
     lie(&format!("{BODY} --initial-file {path}.none")).error("io", &format!("{path}.none"));

@@ -60,6 +60,23 @@ fn what_is_written_runs() {
 }
 
 #[test]
+fn what_comes_next_can_be_typed() {
+    let folder = folder();
+    let made = lie_in(folder.path(), &["new", "my top's body"]).ok();
+    let next = made
+        .stdout
+        .lines()
+        .find_map(|line| line.strip_prefix("next: lie "));
+    let next = next.expect("what comes next");
+    assert_eq!(
+        next,
+        r"run 'my top'\''s body.json' --plot 'my top'\''s body.svg'"
+    );
+    let words = ["run", "my top's body.json", "--until", "0.1"];
+    lie_in(folder.path(), &words).ok();
+}
+
+#[test]
 fn nothing_is_overwritten_and_mistakes_have_a_remedy() {
     let folder = folder();
     lie_in(folder.path(), &["new", "body"]).ok();

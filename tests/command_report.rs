@@ -53,6 +53,18 @@ fn everything_is_on_the_page() {
     assert!(!text.contains("<math display=\"block\"><mrow></mrow>"));
 }
 
+#[test]
+fn a_family_has_a_page_with_all_that_is_measured() {
+    let text = page(&["tests/data/families/xxz_chain.json", "--until", "1"]);
+    for part in [
+        "<h2>Error against run time</h2>",
+        "splitting4",
+        "differs from gauss16 by",
+    ] {
+        assert!(text.contains(part), "{part}");
+    }
+}
+
 /// It opens without a network: nothing is loaded from elsewhere.
 #[test]
 fn nothing_comes_from_elsewhere() {

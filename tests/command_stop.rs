@@ -331,6 +331,69 @@ fn measurements_end_with_the_command() {
     }
 }
 
+/// Each run of the ladder takes twice as long as the one before, up to days: the signal meets a long one.
+#[test]
+fn one_long_run_of_a_benchmark_is_cut_short_and_those_before_it_are_kept() {
+    let folder = folder();
+    for (name, code) in [("-INT", 130), ("-TERM", 143)] {
+        let (out, plot) = (
+            folder.path().join("points.csv"),
+            folder.path().join("p.svg"),
+        );
+        let call = format!(
+            "bench specs/so3_free_rigid_body.json --methods midpoint,gonzalez --until 100 --budget 1e9 --out {} --plot {}",
+            out.display(),
+            plot.display()
+        );
+        let mut command = command(call.split_whitespace());
+        let command = command.stdout(Stdio::piped()).stderr(Stdio::piped());
+        let child = command.spawn().expect("lie starts");
+        std::thread::sleep(Duration::from_secs(6));
+        signal(&child, name);
+        let ended = Instant::now();
+        let output = child.wait_with_output().expect("lie ends");
+        let stderr = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(code), "{stderr}");
+        assert!(ended.elapsed() < Duration::from_secs(10), "{stderr}");
+        assert!(stderr.contains("Interrupted"), "{stderr}");
+        let text = std::fs::read_to_string(&out).expect("points");
+        let errors: Vec<f64> = text
+            .lines()
+            .filter(|line| line.starts_with("midpoint,step,"))
+            .filter_map(|line| line.split(',').nth(3)?.parse().ok())
+            .collect();
+        // of order 2, up to the run that was met
+        assert!(errors.len() > 6, "{text}");
+        let ratio = errors[5] / errors[6];
+        assert!((3.0..5.0).contains(&ratio), "{text}");
+        assert!(!text.contains("NaN") && !text.contains("inf"), "{text}");
+        let stdout = String::from_utf8_lossy(&output.stdout);
+        assert!(
+            stdout.lines().any(|line| line.starts_with("midpoint ")),
+            "{stdout}"
+        );
+        let svg = std::fs::read_to_string(&plot).expect("a picture");
+        assert!(svg.trim_end().ends_with("</svg>"));
+    }
+}
+
+/// The reference solution does not look for signals.
+#[test]
+fn what_does_not_end_is_left_behind() {
+    let call = "bench specs/so3_free_rigid_body.json --methods midpoint --until 1e6";
+    let mut command = command(call.split_whitespace());
+    let command = command.stdout(Stdio::piped()).stderr(Stdio::piped());
+    let child = command.spawn().expect("lie starts");
+    std::thread::sleep(Duration::from_secs(1));
+    signal(&child, "-TERM");
+    let ended = Instant::now();
+    let output = child.wait_with_output().expect("lie ends");
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(143), "{stderr}");
+    assert!(ended.elapsed() < Duration::from_secs(8), "{stderr}");
+    assert!(stderr.contains("Interrupted"), "{stderr}");
+}
+
 #[test]
 #[cfg(target_os = "linux")]
 fn a_signal_ends_the_build() {

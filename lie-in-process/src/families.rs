@@ -1,27 +1,64 @@
-//! What is measured of families.
+//! What is measured of families, and of how many sites.
 
+use lie_codegen::methods::Choice;
 use lie_codegen::model::Model;
+use lie_codegen::program::Purpose;
 
-/// The most coordinates of a family that is verified: matrices of all of them are computed.
-const MOST_COORDINATES: usize = 64;
-
-/// What stands against verifying a family of so many coordinates, and a remedy.
-pub fn too_many(model: &Model, coordinates: usize) -> Option<(String, String)> {
-    if model.family.is_none() || coordinates <= MOST_COORDINATES {
-        return None;
-    }
-    let text = format!(
-        "{} has {coordinates} coordinates, and matrices of all of them are computed up to {MOST_COORDINATES}",
-        model.name
-    );
-    let sites = MOST_COORDINATES / model.dimension();
-    Some((text, format!("measure fewer sites, at most {sites}")))
+/// The most coordinates of a family of which something is measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limit {
+    most: usize,
+    why: &'static str,
 }
 
-/// That a measurement does not take families.
-pub fn not_measured(model: &Model, what: &str) -> String {
-    format!(
-        "{} is a family, which `{what}` does not measure yet",
-        model.name
-    )
+/// Of `lie verify`.
+pub const VERIFIED: Limit = Limit {
+    most: 64,
+    why: "matrices of all of them are computed",
+};
+
+/// Of `lie bench`.
+pub const BENCHED: Limit = Limit {
+    most: 100_000,
+    why: "runs are compared with a reference solution of all of them",
+};
+
+/// Of `lie stress`.
+pub const STRESSED: Limit = Limit {
+    most: 64,
+    why: "each of them is made small by itself",
+};
+
+impl Limit {
+    /// That of a measurement; none of a run.
+    pub fn of(purpose: Purpose) -> Option<Self> {
+        match purpose {
+            Purpose::Verify => Some(VERIFIED),
+            Purpose::Bench => Some(BENCHED),
+            Purpose::Stress => Some(STRESSED),
+            Purpose::Run | Purpose::OnGroup(_) => None,
+        }
+    }
+
+    /// What stands against measuring a family of so many coordinates, and a remedy.
+    pub fn exceeded(&self, model: &Model, coordinates: usize) -> Option<(String, String)> {
+        let Self { most, why } = *self;
+        if model.family.is_none() || coordinates <= most {
+            return None;
+        }
+        let text = format!(
+            "{} has {coordinates} coordinates, and {why} up to {most}",
+            model.name
+        );
+        let sites = most / model.dimension();
+        Some((text, format!("measure fewer sites, at most {sites}")))
+    }
+}
+
+/// The method that confirms the reference solution: one that needs no matrix for a family.
+pub fn confirming(model: &Model) -> Choice {
+    match model.family {
+        Some(_) => Choice::Gauss(8),
+        None => Choice::Gauss(3),
+    }
 }

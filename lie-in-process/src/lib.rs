@@ -18,7 +18,7 @@ pub mod verify;
 pub mod words;
 
 use lie_codegen::methods::Choice;
-use lie_codegen::model::Model;
+use lie_codegen::model::{Model, Size};
 use lie_codegen::plan::plan;
 use lie_codegen::program::{Chart, Purpose, beside, compared};
 use lie_dynamic::{Declared, Dynamic, Method, at_defaults, at_defaults_over, method, method_over};
@@ -66,6 +66,8 @@ pub fn work(
         choices: choices.to_vec(),
         parameters: parameters.collect(),
         compared: compared(model, choices).into_iter().cloned().collect(),
+        confirming: families::confirming(model),
+        sizes: sizes(model),
         orbits: model.is_lie_poisson(),
     };
     Some(match purpose {
@@ -92,6 +94,10 @@ struct Declaration {
     choices: Vec<Choice>,
     parameters: Vec<(String, f64)>,
     compared: Vec<Choice>,
+    /// Confirms the reference solution.
+    confirming: Choice,
+    /// The parameters that say how many sites there are.
+    sizes: Vec<String>,
     orbits: bool,
 }
 
@@ -199,7 +205,8 @@ impl Declaration {
         session: &mut Session<'_>,
     ) -> Result<(), End> {
         let program = Bench::new(&self.parameters(), maker(&self.declared));
-        let mut program = program.clock(clock);
+        let confirming = made(&self.confirming, &Tolerances::default());
+        let mut program = program.clock(clock).confirmed_by(confirming);
         for choice in &self.choices {
             let (label, choice) = (choice.label(), choice.clone());
             program = match choice.is_adaptive() {
@@ -211,13 +218,24 @@ impl Declaration {
     }
 
     fn stress(&self, line: &str, session: &mut Session<'_>) -> Result<(), End> {
-        let mut program = Stress::new(&self.parameters(), maker(&self.declared));
+        let program = Stress::new(&self.parameters(), maker(&self.declared));
+        let mut program = program.leaving(&self.sizes);
         for choice in &self.choices {
             let (label, choice) = (choice.label(), choice.clone());
             program = program.any_method(&label, move || made(&choice, &Tolerances::default()));
         }
         program.work(line, session)
     }
+}
+
+/// The parameters of a family that say how many sites it has.
+fn sizes(model: &Model) -> Vec<String> {
+    let sizes = model.family.iter().flat_map(|family| &family.sizes);
+    let named = sizes.filter_map(|size| match size {
+        Size::Parameter(place) => Some(model.parameters[*place].name.clone()),
+        Size::Number(_) => None,
+    });
+    named.collect()
 }
 
 /// The chart of the driver.

@@ -1,6 +1,5 @@
 //! What methods did at their limits, in words.
 
-use lie_codegen::model::Model;
 use lie_measure::stress::{Cell, Experiment, Found, Growth, Outcome};
 
 use crate::words::short;
@@ -26,13 +25,22 @@ impl Default for Results {
 }
 
 impl Results {
-    /// Takes what was found.
-    pub fn take(&mut self, found: Found) {
+    /// Takes what was found; answers the long run of a method, and what is lost.
+    pub fn take(&mut self, found: Found) -> Option<String> {
         match found {
             Found::Ground { step } => self.step = step,
             Found::Growth(growth) => self.growths.push(growth),
-            Found::Cell(cell) => self.cells.push(cell),
+            Found::Cell(cell) => {
+                let line = match cell.outcome {
+                    Outcome::Lost => Some(format!("lost: {}", cell_text(&cell))),
+                    _ if cell.experiment == Experiment::Long => Some(cell_text(&cell)),
+                    _ => None,
+                };
+                self.cells.push(cell);
+                return line;
+            }
         }
+        None
     }
 
     /// The experiments that came to this.
@@ -48,21 +56,14 @@ impl Results {
         lost.chain(growing.map(growth_text)).collect()
     }
 
-    /// Puts all into the order of methods and experiments, whatever ended first.
-    pub fn sort(&mut self, labels: &[String], model: &Model) {
+    /// Puts all into the order of methods, experiments, and names of parameters, components and Casimirs, whatever ended
+    /// first; names that are not among these come in the order of their letters.
+    pub fn sort(&mut self, labels: &[String], names: &[String]) {
         let method = |method: &String| labels.iter().position(|label| label == method);
-        // names of parameters, components and Casimirs keep the order in which they were declared
-        let names: Vec<&str> = model
-            .parameters
-            .iter()
-            .map(|p| p.name.as_str())
-            .chain(model.coordinates.iter().map(|c| c.text.as_str()))
-            .chain(model.casimirs.iter().map(|c| c.name.as_str()))
-            .collect();
         let name = |cell: &Cell| names.iter().position(|name| *name == cell.name);
         self.cells.sort_by(|a, b| {
-            (method(&a.method), a.experiment, name(a))
-                .cmp(&(method(&b.method), b.experiment, name(b)))
+            (method(&a.method), a.experiment, name(a), &a.name)
+                .cmp(&(method(&b.method), b.experiment, name(b), &b.name))
                 .then(a.value.total_cmp(&b.value))
         });
         self.growths.sort_by_key(|growth| method(&growth.method));

@@ -93,8 +93,8 @@ impl Results {
         }
     }
 
-    /// Takes what was found.
-    pub fn take(&mut self, found: Found) {
+    /// Takes what was found; answers how a method did once all of it is known.
+    pub fn take(&mut self, found: Found) -> Option<String> {
         match found {
             Found::Ground(ground) => self.ground = Some(ground),
             Found::Kernel(kernel) => self.evidence.kernel(kernel),
@@ -102,6 +102,24 @@ impl Results {
             Found::Broken { fact } => self.evidence.broken(fact),
             Found::Unsound { what } => self.evidence.unsound(what),
             Found::Finding { method, finding } => self.rows.push(Row { method, finding }),
+            Found::Measured { method } => return Some(self.measured(&method)),
+        }
+        None
+    }
+
+    /// How a method did.
+    fn measured(&self, method: &str) -> String {
+        let own = || self.rows.iter().filter(|row| row.method == method);
+        let failed = own().filter(|row| row.fails());
+        let failed: Vec<&str> = failed.map(|row| &*row.finding.fact).collect();
+        let claims = own().filter(|row| row.is_claimed()).count();
+        match failed.is_empty() {
+            true => format!("{method}: {claims} claims hold"),
+            false => format!(
+                "{method}: {} of {claims} claims fail: {}",
+                failed.len(),
+                failed.join(", ")
+            ),
         }
     }
 

@@ -12,10 +12,21 @@ use std::time::{Duration, Instant};
 /// How often a program says how far it is.
 const PROGRESS: Duration = Duration::from_millis(120);
 
+/// Whether the input of a session has ended, for work that does not talk to it.
+#[derive(Clone, Debug, Default)]
+pub struct Interruption(Arc<AtomicBool>);
+
+impl Interruption {
+    /// Whether it has.
+    pub fn is_there(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
+}
+
 /// What a program talks to while it works.
 pub struct Session<'a> {
     output: &'a mut dyn Write,
-    interrupted: Arc<AtomicBool>,
+    interrupted: Interruption,
     reported: Instant,
     lost: Option<io::Error>,
 }
@@ -23,10 +34,10 @@ pub struct Session<'a> {
 impl<'a> Session<'a> {
     /// A session that nobody interrupts.
     pub fn undisturbed(output: &'a mut dyn Write) -> Self {
-        Self::new(output, Arc::default())
+        Self::new(output, Interruption::default())
     }
 
-    fn new(output: &'a mut dyn Write, interrupted: Arc<AtomicBool>) -> Self {
+    fn new(output: &'a mut dyn Write, interrupted: Interruption) -> Self {
         Self {
             output,
             interrupted,
@@ -101,7 +112,12 @@ impl<'a> Session<'a> {
 
     /// Whether the input has ended.
     pub fn is_interrupted(&self) -> bool {
-        self.interrupted.load(Ordering::Relaxed)
+        self.interrupted.is_there()
+    }
+
+    /// Tells the same elsewhere.
+    pub fn interruption(&self) -> Interruption {
+        self.interrupted.clone()
     }
 
     pub(crate) fn flush(&mut self) {
@@ -203,13 +219,13 @@ fn last(session: &mut Session<'_>, end: End) -> u8 {
 }
 
 /// Becomes true when the input ends.
-fn lifeline(mut input: Box<dyn BufRead + Send>, grace: Option<Duration>) -> Arc<AtomicBool> {
-    let ended = Arc::new(AtomicBool::new(false));
-    let flag = Arc::clone(&ended);
+fn lifeline(mut input: Box<dyn BufRead + Send>, grace: Option<Duration>) -> Interruption {
+    let ended = Interruption::default();
+    let flag = ended.clone();
     std::thread::spawn(move || {
         // an error of the input ends the run as its end does
         let _ = io::copy(&mut input, &mut io::sink());
-        flag.store(true, Ordering::Relaxed);
+        flag.0.store(true, Ordering::Relaxed);
         if let Some(grace) = grace {
             std::thread::sleep(grace);
             std::process::exit(i32::from(End::Interrupted.code()));

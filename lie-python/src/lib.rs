@@ -159,7 +159,7 @@ impl Core {
         options: (Option<f64>, u64),
         progress: Option<Py<PyAny>>,
     ) -> PyResult<verify::Facts> {
-        self.measurable(py, |model| families::too_many(model, from.1.len()))?;
+        self.measurable(py, |model| families::VERIFIED.exceeded(model, from.1.len()))?;
         let verification = verify::Verification {
             text: &self.0.text,
             parameters: from.0.clone(),
@@ -179,7 +179,7 @@ impl Core {
         asked: bench::Asked,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<bench::Results> {
-        self.no_family(py, "bench")?;
+        self.measurable(py, |model| families::BENCHED.exceeded(model, from.1.len()))?;
         self.subject(&methods, from, progress)
             .measure(py, &bench::Comparison(asked))
     }
@@ -193,7 +193,7 @@ impl Core {
         steps: u64,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<stress::Limits> {
-        self.no_family(py, "stress")?;
+        self.measurable(py, |model| families::STRESSED.exceeded(model, from.1.len()))?;
         self.subject(&methods, from, progress)
             .measure(py, &stress::Stress(steps))
     }
@@ -263,14 +263,6 @@ impl Core {
             None => Ok(()),
             Some((text, help)) => Err(PyValueError::new_err(format!("{text}\n  help: {help}"))),
         }
-    }
-
-    fn no_family(&self, py: Python<'_>, what: &str) -> PyResult<()> {
-        self.measurable(py, |model| {
-            let help = "run says how energy and Casimirs drift";
-            let text = families::not_measured(model, what);
-            model.family.is_some().then(|| (text, help.to_owned()))
-        })
     }
 
     fn subject<'a>(

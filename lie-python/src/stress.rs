@@ -120,7 +120,11 @@ impl Measurement for Stress {
     }
 
     fn end(&self, mut results: Results, model: &Model, labels: &[String], whole: bool) -> Limits {
-        results.sort(labels, model);
+        let parameters = model.parameters.iter().map(|p| p.name.clone());
+        let coordinates = model.coordinates.iter().map(|c| c.text.to_string());
+        let casimirs = model.casimirs.iter().map(|c| c.name.to_string());
+        let names: Vec<String> = parameters.chain(coordinates).chain(casimirs).collect();
+        results.sort(labels, &names);
         Limits {
             step: results.step,
             losses: results.losses(),

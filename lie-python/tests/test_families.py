@@ -70,13 +70,23 @@ def test_small_ones_are_verified() -> None:
         ring.verify("rk4", N=100)
 
 
+def test_small_ones_are_measured() -> None:
+    ring = lp.System(**RING)
+    found = ring.bench("rk4", "splitting2", N=4, t=1, budget=0.01)
+    assert {row.method for row in found.rows} == {"rk4", "splitting2"}
+    assert min(found["error"]) < 1e-6 < max(found["error"])
+    limits = ring.stress("splitting2", N=4, steps=500)
+    assert {cell.name for cell in limits.cells} >= {"J", "z[3]"}
+
+
 @pytest.mark.parametrize(
     ("call", "message"),
     [
         (lambda ring: ring.run(x0=[1, 2, 3], N=4), r"give \(12,\), .*, or \(4, 3\)"),
         (lambda ring: ring.run(N=2.5), "a whole number"),
         (lambda ring: ring.run("midpoint"), "keeps no matrix"),
-        (lambda ring: ring.bench("rk4"), "a family, which `bench` does not measure yet"),
+        (lambda ring: ring.bench("rk4", N=40_000), "fewer sites, at most 33333"),
+        (lambda ring: ring.stress("rk4", N=100), "fewer sites, at most 21"),
         (lambda ring: ring.ensemble(np.zeros((2, 12)), "rk4", N=[4, 5]), "as many sites"),
     ],
 )

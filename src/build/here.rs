@@ -9,5 +9,6 @@ use super::talk::Worker;
 
 /// What serves requests for methods on a system in this program; none where a program has to be built.
 pub fn here(model: &Model, choices: &[Choice], purpose: Purpose) -> Option<Worker> {
-    lie_in_process::work(model, choices, purpose, clock::processor).map(Worker::Here)
+    let work = lie_in_process::work(model, choices, purpose, clock::processor);
+    work.map(|work| Worker::Here(work.into()))
 }

@@ -4,6 +4,7 @@
 use std::io::{self, BufRead, BufReader, BufWriter, Read, Write as _};
 use std::path::PathBuf;
 use std::process::{Child, ChildStderr, Command, Stdio};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use lie_codegen::diagnostic::Kind;
 use lie_in_process::Work;
@@ -46,7 +47,7 @@ pub enum Worker {
     /// A built program.
     Program(PathBuf),
     /// A thread of this program.
-    Here(Box<Work>),
+    Here(Arc<Work>),
 }
 
 impl Worker {
@@ -104,25 +105,57 @@ fn fault(how: &str) -> crate::message::Message {
     )
 }
 
-/// An output that nobody may listen to any more: why is known on the other side, which also ends the work.
-struct Unheard<W>(W);
+/// An output that nobody may listen to any more: why is known on the other side, which also ends the work. It can be closed
+/// from elsewhere, so that whoever listens does not wait for what does not end.
+struct Unheard<W>(Arc<Mutex<Option<W>>>);
+
+impl<W> Clone for Unheard<W> {
+    fn clone(&self) -> Self {
+        Self(Arc::clone(&self.0))
+    }
+}
+
+impl<W: io::Write> Unheard<W> {
+    fn new(output: W) -> Self {
+        Self(Arc::new(Mutex::new(Some(output))))
+    }
+
+    fn close(&self) {
+        drop(self.lock().take());
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Option<W>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// Closes an output when it is dropped.
+struct CloseAtEnd<W: io::Write>(Unheard<W>);
+
+impl<W: io::Write> Drop for CloseAtEnd<W> {
+    fn drop(&mut self) {
+        self.0.close();
+    }
+}
 
 impl<W: io::Write> io::Write for Unheard<W> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        match self.0.write(bytes) {
-            Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(bytes.len()),
-            written => written,
+        match self.lock().as_mut().map(|output| output.write(bytes)) {
+            None => Ok(bytes.len()),
+            Some(Err(error)) if error.kind() == io::ErrorKind::BrokenPipe => Ok(bytes.len()),
+            Some(written) => written,
         }
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        self.0.flush()
+        self.lock().as_mut().map_or(Ok(()), io::Write::flush)
     }
 }
 
-/// Has a thread serve a request, by pipes: what is said, and how it is ended, is as with a program.
+/// Has a thread serve a request, by pipes: what is said, and how it is ended, is as with a program. After a signal, a thread
+/// that does not end in time is left behind, to end with this process: what it has said is kept.
 fn talk_here<R: DeserializeOwned>(
-    work: &Work,
+    work: &Arc<Work>,
     request: &impl Serialize,
     interrupt: &Interrupt,
     found: &mut Take<'_, R>,
@@ -132,17 +165,30 @@ fn talk_here<R: DeserializeOwned>(
     line.push(b'\n');
     let (questions, mut asks) = io::pipe()?;
     let (answers, says) = io::pipe()?;
-    let (heard, code) = std::thread::scope(|scope| {
-        let served = scope.spawn(move || {
-            let mut output = BufWriter::with_capacity(1 << 16, Unheard(says));
-            serve(None, Box::new(BufReader::new(questions)), &mut output, work)
-        });
-        let _ = asks.write_all(&line);
-        interrupt.watch_here(Box::new(asks));
-        let heard = hear(answers, found, progress);
-        interrupt.stop();
-        (heard, served.join().ok())
+    let says = Unheard::new(says);
+    let (work, output) = (Arc::clone(work), says.clone());
+    let served = std::thread::spawn(move || {
+        // dropped last, also where the work panics: nobody waits for more
+        let _end = CloseAtEnd(output.clone());
+        let mut output = BufWriter::with_capacity(1 << 16, output);
+        serve(
+            None,
+            Box::new(BufReader::new(questions)),
+            &mut output,
+            &*work,
+        )
     });
+    let _ = asks.write_all(&line);
+    let leave = says.clone();
+    interrupt.watch_here(Box::new(asks), Box::new(move || leave.close()));
+    let heard = hear(answers, found, progress);
+    interrupt.stop();
+    if let (Ok(None) | Err(Deaf::NotUnderstood(_)), Some(signal)) = (&heard, interrupt.seen())
+        && !served.is_finished()
+    {
+        return Ok(Outcome::Interrupted(signal));
+    }
+    let code = served.join().ok();
     Ok(match heard {
         Ok(end) => outcome(
             code.map(i32::from),

@@ -1,8 +1,12 @@
 //! The command line, as clap reads it. Values that may be exact constants stay text here.
 
+mod measured;
+
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+
+pub use measured::{Bench, Measured, Sense, Stress, Verify};
 
 /// Structure-preserving integrators for Lie–Poisson systems.
 #[derive(Debug, Parser)]
@@ -90,8 +94,8 @@ pub struct New {
 /// `lie report`.
 #[derive(Args, Debug)]
 #[command(
-    after_help = "Exit codes: 0 the page is written, 1 a file cannot be, 2 invalid input, 3 a run stopped early and the
-page says why, 130 Ctrl-C, 143 SIGTERM, 129 SIGHUP."
+    after_help = "Exit codes: 0 the page is written, 1 a file cannot be, 2 invalid input, 3 a run stopped early and the \
+        page says why, 130 Ctrl-C, 143 SIGTERM, 129 SIGHUP."
 )]
 pub struct Report {
     /// The spec file
@@ -183,10 +187,10 @@ pub struct Methods {
 /// `lie run`.
 #[derive(Args, Clone, Debug, Default)]
 #[command(after_help = "Numbers may be exact constants: 1/7, -1/2, cos(11/10).
-Flags override the `run` keys of the spec; without either: --method lie-midpoint (midpoint
-if the bracket is not the Lie–Poisson bracket of an algebra) --step 0.01 --until 10.
-Exit codes: 0 done, 1 surroundings failed, 2 invalid input, 3 integration stopped early, 130 Ctrl-C, 143 SIGTERM,
-129 SIGHUP: ended in order, rows kept.")]
+Flags override the `run` keys of the spec; without either: --method lie-midpoint (midpoint \
+    if the bracket is not the Lie–Poisson bracket of an algebra) --step 0.01 --until 10.
+Exit codes: 0 done, 1 surroundings failed, 2 invalid input, 3 integration stopped early, 130 Ctrl-C, 143 SIGTERM, \
+    129 SIGHUP: ended in order, rows kept.")]
 pub struct Run {
     /// The spec file
     #[arg(value_name = "SPEC", required = true)]
@@ -323,134 +327,6 @@ impl MethodOptions {
         };
         value.as_ref().map(|value| (flag, value))
     }
-}
-
-/// What the commands that measure many methods share.
-#[derive(Args, Clone, Debug, Default)]
-pub struct Measured {
-    /// The spec file
-    #[arg(value_name = "SPEC")]
-    pub spec: PathBuf,
-    /// The methods, separated by commas, each an id (with every option that applies) or an id with
-    /// options: `midpoint,lie-midpoint --retraction cayley`; all that apply without it
-    #[arg(long, value_name = "LIST")]
-    pub methods: Option<String>,
-    /// Sets a parameter (repeatable)
-    #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]
-    pub param: Vec<String>,
-    /// Initial state, separated by commas
-    #[arg(long, value_name = "V1,V2,…", allow_hyphen_values = true)]
-    pub initial: Option<String>,
-    /// Says nothing on stderr unless something fails
-    #[arg(long)]
-    pub quiet: bool,
-    /// Build a program with cargo and measure that, in place of machine code made here (bench then compares with the crate
-    /// ode_solvers too)
-    #[arg(long)]
-    pub compile: bool,
-    /// Which processor to compile for (the results are the same, bit for bit); as --fma, implies --compile
-    #[arg(long, value_enum)]
-    pub cpu: Option<Cpu>,
-    /// Rounds a product and its sum once (faster; other digits than on a processor without it)
-    #[arg(long)]
-    pub fma: bool,
-}
-
-/// `lie verify`.
-#[derive(Args, Debug)]
-#[command(
-    after_help = "Exit codes: 0 every claim holds, 1 a claim fails, 2 invalid input, 130 Ctrl-C, 143 SIGTERM, 129 SIGHUP."
-)]
-pub struct Verify {
-    #[command(flatten)]
-    pub measured: Measured,
-    /// The step at which facts are measured (default: from the Jacobian of the vector field)
-    #[arg(long, value_name = "H", allow_hyphen_values = true)]
-    pub step: Option<String>,
-    /// Seed of the states near the initial one
-    #[arg(
-        long,
-        value_name = "N",
-        default_value_t = 1,
-        allow_hyphen_values = true
-    )]
-    pub seed: u32,
-    /// Prints one JSON object in place of the table
-    #[arg(long)]
-    pub json: bool,
-}
-
-/// `lie bench`.
-#[derive(Args, Debug)]
-#[command(
-    after_help = "Without --until, the end is taken from the spec's `run`, but is at most 20; without either it is 10.
-energy and casimirs need no reference solution: they can be measured over any span (--until 1e6 --budget 5).
-Exit codes: 0 done, 1 the reference solution was not confirmed, 2 invalid input, 130 Ctrl-C,
-143 SIGTERM, 129 SIGHUP."
-)]
-pub struct Bench {
-    #[command(flatten)]
-    pub measured: Measured,
-    /// Final time
-    #[arg(long, value_name = "T", allow_hyphen_values = true)]
-    pub until: Option<String>,
-    /// Seconds that a single run may take
-    #[arg(long, value_name = "SECONDS", allow_hyphen_values = true)]
-    pub budget: Option<String>,
-    /// The error that is set against run time
-    #[arg(long, value_enum, default_value_t)]
-    pub measure: Sense,
-    /// The surface of `--measure section`: where this coordinate rises through this value; the middle of the
-    /// coordinate that moves most without it
-    #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]
-    pub section: Option<String>,
-    /// Draws error against run time
-    #[arg(long, value_name = "FILE.svg")]
-    pub plot: Option<PathBuf>,
-    /// Writes every measured point as CSV
-    #[arg(long, value_name = "FILE.csv")]
-    pub out: Option<PathBuf>,
-}
-
-/// `--measure`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub enum Sense {
-    /// Of the state at the end
-    #[default]
-    State,
-    /// The largest drift of the energy over the run
-    Energy,
-    /// The largest drift of a Casimir over the run
-    Casimirs,
-    /// The time by which the end is ahead of the exact solution, or behind
-    Phase,
-    /// The distance from the exact points on a surface of section
-    Section,
-}
-
-/// `lie stress`.
-#[derive(Args, Debug)]
-#[command(
-    after_help = "Exit codes: 0 no claimed invariant is lost without a message, 1 one is, 2 invalid input, 130 Ctrl-C,
-143 SIGTERM, 129 SIGHUP."
-)]
-pub struct Stress {
-    #[command(flatten)]
-    pub measured: Measured,
-    /// Steps of the long run
-    #[arg(
-        long,
-        value_name = "N",
-        default_value = "10000000",
-        allow_hyphen_values = true
-    )]
-    pub steps: String,
-    /// Draws a map of what happened
-    #[arg(long, value_name = "FILE.svg")]
-    pub plot: Option<PathBuf>,
-    /// Writes every experiment as CSV
-    #[arg(long, value_name = "FILE.csv")]
-    pub out: Option<PathBuf>,
 }
 
 /// `--format`.

@@ -48,8 +48,8 @@ fn table() -> String {
             method.id.to_owned(),
             method.order.to_string(),
             format!(
-                "{:9} {}",
-                if method.symmetric { "symmetric" } else { "" },
+                "{:5} {}",
+                if method.symmetric { "symm." } else { "" },
                 if method.explicit {
                     "explicit"
                 } else {
@@ -57,12 +57,13 @@ fn table() -> String {
                 }
             ),
             catalogue::kept(method),
-            format!("{need}[{number}]"),
+            format!("{need} [{number}]"),
         ]);
     }
     let mut text = aligned(&rows);
     text.push_str(
-        "\nOrbit: the coadjoint orbit, with it every Casimir. Poisson: each step is a Poisson map; if\n\
+        "\nSymm.: symmetric, a step of -h undoes a step of h.\n\
+         Orbit: the coadjoint orbit, with it every Casimir. Poisson: each step is a Poisson map; if\n\
          constant: where the Poisson matrix is constant.\n",
     );
     text.push_str("\nWhat they need, by the number before the reference:\n");

@@ -11,6 +11,7 @@ mod new;
 mod report;
 mod run;
 mod schema;
+mod shell;
 pub mod usage;
 
 use std::io::{self, Write as _};

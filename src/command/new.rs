@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use lie_codegen::compile::compile_spec;
 use lie_codegen::diagnostic::Diagnostic;
 
-use super::{args, print};
+use super::{args, print, shell};
 use crate::message::{Failure, Message};
 
 /// Moments of inertia that are all different: without that some motions rest.
@@ -38,11 +38,13 @@ pub fn run(arguments: &args::New) -> Result<u8, Failure> {
         };
         Failure::surroundings(message.help(help))
     })?;
-    let path = path.display();
+    let path = path.display().to_string();
+    let picture = format!("{}.svg", arguments.name.trim_end_matches(".json"));
     print(&format!(
-        "{path}: {} coordinates of {algebra}, with a kinetic energy\nnext: lie run {path} --plot {}.svg\n",
+        "{path}: {} coordinates of {algebra}, with a kinetic energy\nnext: lie run {} --plot {}\n",
         coordinates.len(),
-        arguments.name.trim_end_matches(".json")
+        shell::word(&path),
+        shell::word(&picture)
     ))?;
     Ok(0)
 }

@@ -19,8 +19,13 @@ pub enum Found {
     },
     /// What the seconds are.
     Clock(ClockKind),
-    /// A run that came to its end.
+    /// A run that came to its end; of what is told again, times have become better.
     Point(Point),
+    /// All runs of a method came to their ends, once.
+    Climbed {
+        /// The method.
+        method: String,
+    },
     /// One that did not.
     Stopped {
         /// The method.
@@ -74,6 +79,13 @@ impl Accuracy {
             Self::Step => "step",
             Self::Tolerance => "tolerance",
         }
+    }
+}
+
+impl Point {
+    /// Whether it is of the same run.
+    pub fn is_again(&self, before: &Self) -> bool {
+        (self.control, self.value) == (before.control, before.value) && self.method == before.method
     }
 }
 

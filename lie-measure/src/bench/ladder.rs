@@ -8,9 +8,9 @@ use super::measure::{Judge, Judged, Wanted};
 use super::timing::{Clock, Spent, summary};
 use crate::facts::rate;
 use lie_program::protocol::End;
-use lie_program::session::Session;
+use lie_program::session::{Interruption, Session};
 use lie_runtime::Poisson;
-use runs::{Run, by_control, by_pieces, by_steps};
+use runs::{How, Run, by_control, by_pieces, by_steps};
 
 /// Rounds of timing; between two runs of one point all others run once.
 const ROUNDS: usize = 7;
@@ -45,40 +45,59 @@ pub(super) struct Ladder<'a, P: Poisson<f64>> {
     pub(super) budget: f64,
     pub(super) label: &'a str,
     pub(super) clock: &'a Clock,
+    /// Ends a run between two steps.
+    pub(super) stop: &'a Interruption,
+    /// How far the whole is, before this ladder: parts done, and all of them.
+    pub(super) before: (u64, u64),
 }
 
 impl<'a, P: Poisson<f64>> Ladder<'a, P> {
+    /// Tells of each run as soon as it has come to its end.
+    ///
+    /// # Errors
+    /// The session ends.
     pub(super) fn climb(
         self,
         entry: &'a Entry<P>,
         session: &mut Session<'_>,
         rungs: &mut Vec<Rung<'a>>,
-    ) {
+    ) -> Result<(), End> {
         let Self {
-            system, mu, until, ..
+            system,
+            mu,
+            until,
+            stop,
+            ..
         } = self;
         let rate = rate(system, mu);
         match entry {
             Entry::Method(make) => {
                 let first = (until.abs() * rate / 6.0).ceil().max(2.0) as u64;
                 let steps = (0..26).map(|k| first << k);
+                let how = How {
+                    stop,
+                    by_pieces: false,
+                };
                 self.go(
                     Accuracy::Step,
                     steps.map(|steps| (until / steps as f64, steps)),
-                    &move |(h, steps)| by_steps(system, &*make(), mu, h, steps),
+                    &move |(h, steps)| by_steps(system, &*make(), mu, (h, steps), how),
                     &|(h, steps), wanted, see| {
-                        runs::see_steps(system, &*make(), mu, (h, steps), wanted, see)
+                        runs::see_steps(system, &*make(), mu, (h, steps), how, wanted, see)
                     },
                     session,
                     rungs,
-                );
+                )
             }
             Entry::Adaptive(make) => self.go(
                 Accuracy::Tolerance,
                 tolerances(),
-                &move |(tolerance, _)| by_pieces(system, &*make(tolerance), mu, until, rate),
+                &move |(tolerance, _)| {
+                    by_pieces(system, &*make(tolerance), mu, (until, rate), stop)
+                },
                 &|(tolerance, _), wanted, see| {
-                    runs::see_pieces(system, &*make(tolerance), mu, (until, rate), wanted, see)
+                    let span = (until, rate);
+                    runs::see_pieces(system, &*make(tolerance), mu, span, stop, wanted, see)
                 },
                 session,
                 rungs,
@@ -104,10 +123,17 @@ impl<'a, P: Poisson<f64>> Ladder<'a, P> {
         look: &LookAt<'_, P::State>,
         session: &mut Session<'_>,
         rungs: &mut Vec<Rung<'a>>,
-    ) {
+    ) -> Result<(), End> {
         let mut at_floor = 0;
         let mut best = f64::INFINITY;
+        let (done, all) = self.before;
         for (index, value) in values.enumerate() {
+            let word = control.word();
+            session.stage(
+                done,
+                all,
+                &format!("{}, {word} {:.3e}", self.label, value.0),
+            )?;
             let (mut outcome, mut first) = self.clock.spent(|| run(value));
             if index == 0 && first.seconds > self.budget {
                 // the first run of all may compile what it calls
@@ -119,6 +145,8 @@ impl<'a, P: Poisson<f64>> Ladder<'a, P> {
                 let judged = self.judge.of(self.system, &run.end, &look)?;
                 Ok((run, judged))
             });
+            // what was cut short says nothing
+            session.goes_on()?;
             let error = outcome
                 .as_ref()
                 .map_or(f64::NAN, |(_, judged)| judged.error);
@@ -131,7 +159,7 @@ impl<'a, P: Poisson<f64>> Ladder<'a, P> {
             match outcome {
                 Ok((outcome, judged)) if error.is_finite() => {
                     let run = run.clone();
-                    rungs.push(Rung {
+                    let rung = Rung {
                         point: self.point(control, value.0, &judged, &outcome),
                         first,
                         samples: Vec::new(),
@@ -139,7 +167,9 @@ impl<'a, P: Poisson<f64>> Ladder<'a, P> {
                             // its result is known; it only has to take place
                             let _ = std::hint::black_box(run(std::hint::black_box(value)));
                         }),
-                    });
+                    };
+                    super::tell(session, Found::Point(rung.timed(self.until)));
+                    rungs.push(rung);
                 }
                 Ok(_) => super::tell(session, stopped("a number is not finite")),
                 Err(why) => super::tell(session, stopped(&why)),
@@ -151,6 +181,7 @@ impl<'a, P: Poisson<f64>> Ladder<'a, P> {
                 break;
             }
         }
+        Ok(())
     }
 
     fn point(&self, control: Accuracy, value: f64, judged: &Judged, run: &Run<P::State>) -> Point {
@@ -175,12 +206,14 @@ fn tolerances() -> impl Iterator<Item = (f64, u64)> {
     (4..28).map(|k| (10_f64.powf(-0.5 * f64::from(k)), 0))
 }
 
-/// Times every run, round after round, so that a slow moment of the machine does not fall on one method alone.
+/// Times every run, round after round, so that a slow moment of the machine does not fall on one method alone. After each
+/// round the points are told again, with the best times so far.
 ///
 /// # Errors
 /// The session ends.
 pub(super) fn time(
     rungs: &mut [Rung<'_>],
+    until: f64,
     clock: &Clock,
     session: &mut Session<'_>,
 ) -> Result<(), End> {
@@ -196,7 +229,11 @@ pub(super) fn time(
             }
             let times = (SAMPLE / rung.first.seconds).ceil().clamp(1.0, 1e5) as u32;
             let ((), spent) = clock.spent(|| (0..times).for_each(|_| (rung.run)()));
+            session.goes_on()?;
             rung.samples.push(spent.over(f64::from(times)));
+        }
+        for rung in &*rungs {
+            super::tell(session, Found::Point(rung.timed(until)));
         }
     }
     Ok(())

@@ -78,6 +78,7 @@ pub struct Bench<P: Poisson<f64>> {
     blueprint: Blueprint<P>,
     entries: Vec<(String, Entry<P>)>,
     clock: Clock,
+    confirming: Made<P>,
 }
 
 impl<P: Implicit<f64, Gauss6> + 'static> Bench<P> {
@@ -90,6 +91,7 @@ impl<P: Implicit<f64, Gauss6> + 'static> Bench<P> {
             blueprint: Blueprint::new(parameters, build),
             entries: Vec::new(),
             clock: Clock::wall(),
+            confirming: Box::new(Gauss6),
         }
     }
 
@@ -98,6 +100,12 @@ impl<P: Implicit<f64, Gauss6> + 'static> Bench<P> {
     pub fn clock(self, processor: fn() -> Option<f64>) -> Self {
         let clock = Clock::new(processor);
         Self { clock, ..self }
+    }
+
+    /// Confirms the reference solution by this method in place of `gauss6`.
+    #[must_use]
+    pub fn confirmed_by(self, confirming: Box<dyn AnyMethod<f64, P>>) -> Self {
+        Self { confirming, ..self }
     }
 
     /// Adds a method under the name by which requests ask for it.
@@ -168,44 +176,41 @@ impl<P: Implicit<f64, Gauss6> + 'static> Bench<P> {
         let request = request(line)?;
         let Built { system, mu } = self.blueprint.build(&request.start)?;
         let Options { until, budget, .. } = request.options;
-        let (judge, floor) = judge(&system, &mu, &request.options, session)?;
+        let (judge, floor) = judge(&system, &mu, &request.options, &*self.confirming, session)?;
         tell(session, Found::Clock(self.clock.kind()));
         let asked_for = |(label, entry): &&(String, Entry<P>)| {
             matches!(entry, Entry::Control(_)) || request.methods.iter().any(|m| m == label)
         };
         let wanted: Vec<_> = self.entries.iter().filter(asked_for).collect();
+        let stop = session.interruption();
         let mut rungs = Vec::new();
-        let mut climb = || {
-            for (index, (label, entry)) in wanted.iter().enumerate() {
-                session.stage(index as u64, (wanted.len() * 4) as u64, label)?;
-                let ladder = Ladder {
-                    system: &system,
-                    mu: &mu,
-                    judge: &judge,
-                    until,
-                    floor,
-                    budget,
-                    label,
-                    clock: &self.clock,
-                };
-                ladder.climb(entry, session, &mut rungs);
-            }
-            ladder::time(&mut rungs, &self.clock, session)
-        };
-        // what there is so far is shown, whatever ended it
-        let ended = climb();
-        for rung in &rungs {
-            tell(session, Found::Point(rung.timed(until)));
+        for (index, (label, entry)) in wanted.iter().enumerate() {
+            let ladder = Ladder {
+                system: &system,
+                mu: &mu,
+                judge: &judge,
+                until,
+                floor,
+                budget,
+                label,
+                clock: &self.clock,
+                stop: &stop,
+                before: (index as u64, (wanted.len() * 4) as u64),
+            };
+            ladder.climb(entry, session, &mut rungs)?;
+            let method = label.clone();
+            tell(session, Found::Climbed { method });
         }
-        ended
+        ladder::time(&mut rungs, until, &self.clock, session)
     }
 }
 
 /// What runs are compared with, and the least error that says something.
-fn judge<P: Implicit<f64, Gauss6>>(
+fn judge<P: Poisson<f64>>(
     system: &P,
     mu: &P::State,
     options: &Options,
+    confirming: &dyn AnyMethod<f64, P>,
     session: &mut Session<'_>,
 ) -> Result<(Judge<P::State>, f64), End> {
     let Options { until, measure, .. } = *options;
@@ -221,7 +226,7 @@ fn judge<P: Implicit<f64, Gauss6>>(
         return Ok((judge, floor));
     }
     session.stage(0, 1, "the reference solution")?;
-    let (exact, reliable) = confirmed(system, mu, until, session)?;
+    let (exact, reliable) = confirmed(system, mu, until, confirming, session)?;
     let rate = rate(system, mu);
     let judge = match measure {
         Measure::Phase => Judge::Phase { exact, rate },
@@ -259,10 +264,11 @@ fn no_section<P: Poisson<f64>>(system: &P, until: f64, why: &NoSection) -> End {
 }
 
 /// The reference solution, which is told of.
-fn confirmed<P: Implicit<f64, Gauss6>>(
+fn confirmed<P: Poisson<f64>>(
     system: &P,
     mu: &P::State,
     until: f64,
+    confirming: &dyn AnyMethod<f64, P>,
     session: &mut Session<'_>,
 ) -> Result<(P::State, Reference), End> {
     let exact = reference(system, mu, until).ok_or_else(|| {
@@ -276,23 +282,26 @@ fn confirmed<P: Implicit<f64, Gauss6>>(
         let why = format!("the state does not move until t = {until:?}");
         return Err(End::refused(Obstacle::Still, why));
     }
-    let difference = confirm(system, mu, until, &exact.mu);
+    let difference = confirm(system, mu, until, &exact.mu, confirming);
     let reliable = Reference { error, difference };
     tell(session, Found::Reference(reliable));
     if difference > 1e-8 {
-        let why = format!("extrapolation and gauss6 differ by {difference:.1e} at t = {until:?}");
+        let why = format!(
+            "extrapolation and Gauss collocation differ by {difference:.1e} at t = {until:?}"
+        );
         return Err(End::refused(Obstacle::Reference, why));
     }
     Ok((exact.mu, reliable))
 }
 
-/// The relative difference of the three-stage Gauss method, at steps that are halved until it no longer
+/// The relative difference of a second method, at steps that are halved until it no longer
 /// falls.
-fn confirm<P: Implicit<f64, Gauss6>>(
+fn confirm<P: Poisson<f64>>(
     system: &P,
     mu: &P::State,
     until: f64,
     exact: &P::State,
+    confirming: &dyn AnyMethod<f64, P>,
 ) -> f64 {
     let mut steps = (until.abs() * rate(system, mu)).ceil().max(8.0) as u64;
     let mut best = f64::INFINITY;
@@ -300,7 +309,7 @@ fn confirm<P: Implicit<f64, Gauss6>>(
         let h = until / steps as f64;
         let mut state = mu.clone();
         let newton = NewtonOptions::default();
-        let mut stepper = Gauss6.any_stepper(system, h, &newton);
+        let mut stepper = confirming.any_stepper(system, h, &newton);
         if stepper.advance(&mut state, steps).is_ok() {
             let difference = relative_error(&state, exact);
             if difference > 0.5 * best && best < 1e-9 {

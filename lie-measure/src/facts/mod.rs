@@ -66,36 +66,39 @@ const NEWTON: f64 = 1.25;
 const EXCHANGES: f64 = 0.1;
 
 /// Measures everything that `subject` claims; says what comes next, which in many dimensions may take long.
-pub fn verify<P: Lift<f64>>(
+///
+/// # Errors
+/// What `next` answers: nothing more is measured then.
+pub fn verify<P: Lift<f64>, E>(
     system: &P,
     lifted: &P::Lifted,
     ground: &Ground<P>,
     subject: &Subject<P>,
-    next: &mut dyn FnMut(&'static str),
-) -> Vec<Finding> {
+    next: &mut dyn FnMut(&'static str) -> Result<(), E>,
+) -> Result<Vec<Finding>, E> {
     let method = &*subject.method;
-    next("order");
+    next("order")?;
     let mut findings = vec![order::finding(system, ground, subject)];
-    next("symmetric");
+    next("symmetric")?;
     findings.push(symmetry(system, ground, method));
-    next("iterations");
+    next("iterations")?;
     findings.extend(iterations(system, ground, method, subject.composed));
     findings.push(failing::finding(system, ground, subject));
-    next("invariants");
+    next("invariants")?;
     findings.extend(invariants::findings(system, ground, method));
-    next("orbit");
+    next("orbit")?;
     findings.push(orbit(system, ground, method));
-    next("Poisson");
+    next("Poisson")?;
     findings.push(poisson::<P>(lifted, ground, &*subject.lifted));
     if let Some(plain) = &subject.plain {
-        next("generic form");
+        next("generic form")?;
         findings.push(plain::finding(system, ground, method, plain));
     }
     if let Some(check) = ground.group {
-        next("group");
+        next("group")?;
         findings.push(check(system, ground, method, subject.beside));
     }
-    findings
+    Ok(findings)
 }
 
 /// Runs a measurement at h, and where a step fails at half of it, and so on; returns the step that worked.

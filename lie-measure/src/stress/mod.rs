@@ -48,6 +48,8 @@ talk!(Options, Found);
 pub struct Stress<P: Poisson<f64>> {
     blueprint: Blueprint<P>,
     methods: Vec<(String, Make<P>)>,
+    /// Parameters that keep their values.
+    left: Vec<String>,
 }
 
 /// What is done with a method.
@@ -78,7 +80,15 @@ impl<P: Poisson<f64> + Sync> Stress<P> {
         Self {
             blueprint: Blueprint::new(parameters, build),
             methods: Vec::new(),
+            left: Vec::new(),
         }
+    }
+
+    /// Leaves these parameters as they are, such as those that say how many coordinates there are.
+    #[must_use]
+    pub fn leaving(mut self, parameters: &[String]) -> Self {
+        self.left.extend_from_slice(parameters);
+        self
     }
 
     /// Adds a method under the name by which requests ask for it.

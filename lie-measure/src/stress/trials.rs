@@ -48,7 +48,9 @@ impl<P: Poisson<f64> + Sync> Stress<P> {
         }];
         trials.extend(steps(&plain, step));
         let names: Vec<&str> = self.blueprint.names().collect();
-        trials.extend(parameters(&plain, &names));
+        let changed = names.iter().enumerate();
+        let changed = changed.filter(|(_, name)| !self.left.iter().any(|left| left == *name));
+        trials.extend(parameters(&plain, changed));
         trials.extend(scales(&plain));
         trials.extend(components(&plain, system));
         trials.extend(casimirs(&plain, system));
@@ -74,8 +76,10 @@ fn steps(plain: &Trial, step: f64) -> impl Iterator<Item = Trial> {
 }
 
 /// Each multiplied by powers of ten.
-fn parameters(plain: &Trial, names: &[&str]) -> impl Iterator<Item = Trial> {
-    let places = names.iter().enumerate();
+fn parameters<'a>(
+    plain: &Trial,
+    places: impl Iterator<Item = (usize, &'a &'a str)>,
+) -> impl Iterator<Item = Trial> {
     let factors = places.flat_map(|place| (1..=6).map(move |k| (place, 10_f64.powi(k))));
     factors.map(|((index, name), factor)| {
         let mut parameters = plain.parameters.clone();

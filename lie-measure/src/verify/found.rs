@@ -31,6 +31,11 @@ pub enum Found {
         /// What was measured.
         finding: facts::Finding,
     },
+    /// All facts of a method were told.
+    Measured {
+        /// The method.
+        method: String,
+    },
 }
 
 /// What all measurements share.

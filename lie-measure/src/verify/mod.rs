@@ -312,14 +312,8 @@ impl<P: Lift<f64> + Clone + 'static> Verify<P> {
                 session.stage(0, all, "the measurements on a spoiled map")?;
                 controls(&system, &lifted, &ground, &subject, session);
             }
-            let mut ended = Ok(());
-            let mut next = |fact: &str| {
-                if ended.is_ok() {
-                    ended = session.stage(done, all, &format!("{label}, {fact}"));
-                }
-            };
-            let findings = verify(&system, &lifted, &ground, &subject, &mut next);
-            ended?;
+            let mut next = |fact: &str| session.stage(done, all, &format!("{label}, {fact}"));
+            let findings = verify(&system, &lifted, &ground, &subject, &mut next)?;
             if broken_comparison(&system, &ground, &subject) {
                 let fact = "generic form".to_owned();
                 tell(session, Found::Broken { fact });
@@ -329,6 +323,8 @@ impl<P: Lift<f64> + Clone + 'static> Verify<P> {
                 let method = label.clone();
                 tell(session, Found::Finding { method, finding });
             }
+            let method = label.clone();
+            tell(session, Found::Measured { method });
         }
         Ok(())
     }

@@ -3,9 +3,8 @@
 use lie_codegen::diagnostic::Kind;
 use lie_codegen::methods::Choice;
 use lie_codegen::program::Purpose;
-use lie_in_process::list;
-use lie_in_process::table;
 use lie_in_process::words::short;
+use lie_in_process::{families, list, table};
 use lie_measure::bench::{ClockKind, Found, Measure, Options, Plane, Point, Reference};
 use lie_poisson::plot::frontier::{Curve, Frontier};
 use lie_program::protocol::Obstacle;
@@ -35,12 +34,17 @@ struct Results {
 }
 
 impl Results {
-    fn take(&mut self, found: Found) {
+    /// Takes what is found; answers how a method did in its runs, before their times are measured again.
+    fn take(&mut self, found: Found) -> Option<String> {
         match found {
             Found::Reference(reference) => self.reference = Some(reference),
             Found::Section { plane, passages } => self.section = Some((plane, passages)),
             Found::Clock(clock) => self.clock = clock,
-            Found::Point(point) => self.points.push(point),
+            Found::Point(point) => match self.points.iter_mut().find(|p| point.is_again(p)) {
+                Some(known) => *known = point,
+                None => self.points.push(point),
+            },
+            Found::Climbed { method } => return Some(climbed(&method, &self.points)),
             Found::Stopped {
                 method,
                 control,
@@ -52,6 +56,23 @@ impl Results {
                     .push(format!("{method}, {control} {value:?}: {why}"));
             }
         }
+        None
+    }
+}
+
+/// The errors of a method, and the time of the best run.
+fn climbed(method: &str, points: &[Point]) -> String {
+    let own: Vec<&Point> = points.iter().filter(|p| p.method == method).collect();
+    let best = own.iter().min_by(|a, b| a.error.total_cmp(&b.error));
+    match (own.iter().map(|p| p.error).reduce(f64::max), best) {
+        (Some(largest), Some(best)) => format!(
+            "{method}: {} runs, errors {} to {} in {} microseconds per unit of time",
+            own.len(),
+            short(largest),
+            short(best.error),
+            micro(best.seconds)
+        ),
+        _ => format!("{method}: no run came to its end"),
     }
 }
 
@@ -62,8 +83,7 @@ impl Results {
 pub fn run(arguments: &args::Bench) -> Result<u8, Failure> {
     let flags = &arguments.measured;
     let budget = positive("--budget", arguments.budget.as_ref())?.unwrap_or(0.2);
-    let bed = bed(flags, |spec| list::fewer(&spec.model))?;
-    bed.is_no_family("lie bench")?;
+    let bed = bed(flags, Purpose::Bench, |spec| list::fewer(&spec.model))?;
     let until = until(arguments, &bed)?;
     let measure = sense::measure(arguments, &bed)?;
     let out = files::open("--out", arguments.out.as_deref(), &flags.spec)?;
@@ -77,7 +97,7 @@ pub fn run(arguments: &args::Bench) -> Result<u8, Failure> {
         measure,
     };
     let ended = bed.measure(flags, &program, options, &interrupt, &mut |found| {
-        results.take(found);
+        results.take(found)
     })?;
     if let Ended::Refused(what, why) = &ended {
         files::write(out, None, None)?;
@@ -282,15 +302,16 @@ fn cells(lines: &[Line<'_>], measure: Measure) -> Vec<Vec<String>> {
 fn basis(bed: &Bed, results: &Results) -> String {
     let mut text = match results.reference {
         Some(Reference { error, difference }) => format!(
-            "reference: extrapolation, error about {}; differs from gauss6 by {}\n",
+            "reference: extrapolation, error about {}; differs from {} by {}\n",
             short(error),
+            families::confirming(&bed.spec.model).label(),
             short(difference)
         ),
         None => "largest over every step; of methods that show no steps over 32 times or more\n"
             .to_owned(),
     };
     if let Some((Plane { coordinate, value }, passages)) = results.section {
-        let name = &bed.spec.model.coordinates[coordinate].text;
+        let name = sense::coordinate(bed, coordinate);
         let times = match passages {
             1 => "once".to_owned(),
             _ => format!("{passages} times"),
@@ -389,4 +410,52 @@ fn picture(bed: &Bed, options: &Options, points: &[Point], reference: Option<Ref
         curves: curves.collect(),
     }
     .to_svg()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use lie_measure::bench::Accuracy;
+
+    fn point(method: &str, value: f64, error: f64, seconds: f64) -> Found {
+        Found::Point(Point {
+            method: method.to_owned(),
+            control: Accuracy::Step,
+            value,
+            error,
+            across: None,
+            seconds,
+            median: seconds,
+            wall: seconds,
+            steps: 1,
+            evaluations: 1,
+            newton: 1,
+        })
+    }
+
+    #[test]
+    fn what_is_told_again_has_better_times() {
+        let mut results = Results::default();
+        for found in [
+            point("rk4", 0.1, 1e-3, 3e-6),
+            point("rk4", 0.05, 6e-5, 6e-6),
+            point("midpoint", 0.1, 2e-3, 5e-6),
+        ] {
+            assert_eq!(results.take(found), None);
+        }
+        let method = "rk4".to_owned();
+        assert_eq!(
+            results.take(Found::Climbed { method }).as_deref(),
+            Some("rk4: 2 runs, errors 1.0e-3 to 6.0e-5 in 6.00 microseconds per unit of time")
+        );
+        assert_eq!(results.take(point("rk4", 0.1, 1e-3, 2e-6)), None);
+        let times: Vec<f64> = results.points.iter().map(|p| p.seconds).collect();
+        assert_eq!(times, [2e-6, 6e-6, 5e-6]);
+        let method = "midpoint --none".to_owned();
+        let line = results.take(Found::Climbed { method });
+        assert_eq!(
+            line.as_deref(),
+            Some("midpoint --none: no run came to its end")
+        );
+    }
 }

@@ -11,7 +11,7 @@ pub mod verify;
 use lie_codegen::diagnostic::Kind;
 use lie_codegen::methods::Choice;
 use lie_codegen::program::{Purpose, program};
-use lie_in_process::families;
+use lie_in_process::families::Limit;
 use lie_program::protocol::Obstacle;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -19,6 +19,7 @@ use serde::de::DeserializeOwned;
 use super::args::{self, Measured};
 use super::run::bar::Bar;
 use super::run::impossible;
+use super::run::layout::Layout;
 use super::run::plan::{self, Point};
 use crate::build::talk::{Outcome, Worker};
 use crate::build::{self, Processor, Request};
@@ -51,7 +52,11 @@ pub enum Ended {
 ///
 /// # Errors
 /// Every mistake.
-pub fn bed(flags: &Measured, defaults: impl Fn(&Spec) -> Vec<Choice>) -> Result<Bed, Failure> {
+pub fn bed(
+    flags: &Measured,
+    purpose: Purpose,
+    defaults: impl Fn(&Spec) -> Vec<Choice>,
+) -> Result<Bed, Failure> {
     let spec = compiler::load(&flags.spec)?;
     let as_run = args::Run {
         param: flags.param.clone(),
@@ -61,15 +66,18 @@ pub fn bed(flags: &Measured, defaults: impl Fn(&Spec) -> Vec<Choice>) -> Result<
     let mut mistakes = Vec::new();
     let mut keep = |messages: Vec<Message>| mistakes.extend(messages);
     let start = plan::start(&spec, &as_run).map_err(&mut keep).ok();
-    let choices = match &flags.methods {
-        Some(text) => list::parse(text, &spec.model).map_err(&mut keep).ok(),
-        None => Some(defaults(&spec)),
+    let choices = match flags.methods.is_empty() {
+        true => Some(defaults(&spec)),
+        false => {
+            let parsed = list::parse(&flags.methods.join(","), &spec.model);
+            parsed.map_err(&mut keep).ok()
+        }
     };
     let (Some(point), Some(choices)) = (start, choices) else {
         return Err(Failure::invalid(mistakes));
     };
     if spec.model.family.is_some() {
-        small(&spec, &point)?;
+        measurable(flags, purpose, &spec, &point)?;
     }
     if !flags.quiet {
         render::print(&spec.warnings());
@@ -81,9 +89,25 @@ pub fn bed(flags: &Measured, defaults: impl Fn(&Spec) -> Vec<Choice>) -> Result<
     })
 }
 
-/// Refuses a family of more coordinates than matrices of all of them are computed for.
-fn small(spec: &Spec, point: &Point) -> Result<(), Failure> {
-    let Some((text, help)) = families::too_many(&spec.model, point.initial.len()) else {
+/// Refuses a family of more coordinates than are measured, and one to be measured by a built program where none is made.
+fn measurable(
+    flags: &Measured,
+    purpose: Purpose,
+    spec: &Spec,
+    point: &Point,
+) -> Result<(), Failure> {
+    if flags.is_compiled() && purpose != Purpose::Verify {
+        let text = format!(
+            "{} is a family, which this command measures by machine code of its own alone",
+            spec.model.name
+        );
+        let help = "leave out `--compile`, `--cpu` and `--fma`; `lie run` times a built program";
+        let message = Message::option("--compile", text);
+        return Err(message.help(help).into());
+    }
+    let limit = Limit::of(purpose);
+    let exceeded = limit.and_then(|limit| limit.exceeded(&spec.model, point.initial.len()));
+    let Some((text, help)) = exceeded else {
         return Ok(());
     };
     let help = format!("{help}, as with `--param N=4`: the kernels of a site are the same");
@@ -94,18 +118,12 @@ fn small(spec: &Spec, point: &Point) -> Result<(), Failure> {
 }
 
 impl Bed {
-    /// Refuses a family.
-    ///
-    /// # Errors
-    /// It is one.
-    pub fn is_no_family(&self, command: &str) -> Result<(), Failure> {
+    /// The columns of a run; of a family those of all sites.
+    pub fn layout(&self) -> Layout {
         let model = &self.spec.model;
-        if model.family.is_none() {
-            return Ok(());
-        }
-        let text = families::not_measured(model, command);
-        let help = "`lie verify` measures a small one; `lie run` says how much energy and Casimirs drift and how long a step takes";
-        Err(Message::option("SPEC", text).help(help).into())
+        let names = model.parameters.iter().map(|p| p.name.clone());
+        let parameters = names.zip(self.point.parameters.iter().copied()).collect();
+        Layout::of(model, None, &parameters)
     }
 
     /// What measures these methods: this program, or one that is built.
@@ -118,8 +136,9 @@ impl Bed {
         purpose: Purpose,
         interrupt: &Interrupt,
     ) -> Result<Worker, Failure> {
-        let compiled = flags.compile || flags.fma || flags.cpu.is_some();
-        if !compiled && let Some(worker) = build::here(&self.spec.model, &self.choices, purpose) {
+        if !flags.is_compiled()
+            && let Some(worker) = build::here(&self.spec.model, &self.choices, purpose)
+        {
             return Ok(worker);
         }
         let request = Request {
@@ -132,7 +151,8 @@ impl Bed {
         Ok(Worker::Program(build::program(&request, interrupt)?))
     }
 
-    /// Has a program measure everything; `found` takes what it finds.
+    /// Has a program measure everything; `found` takes what it finds, and answers what is worth a line while the rest is
+    /// measured. A terminal shows it.
     ///
     /// # Errors
     /// The program cannot be started, or dies.
@@ -142,7 +162,7 @@ impl Bed {
         worker: &Worker,
         options: O,
         interrupt: &Interrupt,
-        found: &mut dyn FnMut(R),
+        found: &mut dyn FnMut(R) -> Option<String>,
     ) -> Result<Ended, Failure> {
         let request = lie_measure::Request {
             methods: self.choices.iter().map(Choice::label).collect(),
@@ -154,7 +174,9 @@ impl Bed {
             &request,
             interrupt,
             &mut |what, _| {
-                found(what);
+                if let Some(line) = found(what) {
+                    bar.say(&line);
+                }
                 Ok(())
             },
             &mut |progress| match &progress.stage {

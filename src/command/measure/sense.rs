@@ -9,6 +9,9 @@ use crate::command::args::{self, Sense};
 use crate::command::run::values::Given;
 use crate::message::{Failure, Message};
 
+/// So many coordinates are listed where one is not known.
+const LISTED: usize = 24;
+
 /// What the flags ask for.
 ///
 /// # Errors
@@ -43,9 +46,8 @@ pub fn measure(arguments: &args::Bench, bed: &Bed) -> Result<Measure, Failure> {
 
 /// `NAME=VALUE`.
 fn surface(text: &str, bed: &Bed) -> Result<Plane, Message> {
-    let model = &bed.spec.model;
-    let shown = model.shown_coordinates();
-    let names = || shown.iter().map(|&i| model.coordinates[i].text.as_str());
+    let layout = bed.layout();
+    let names = || layout.coordinates().iter().map(String::as_str);
     let given = Given::flag("--section", text);
     let Some(equals) = text.find('=') else {
         let example = names().next().unwrap_or("x").to_owned();
@@ -60,6 +62,11 @@ fn surface(text: &str, bed: &Bed) -> Result<Plane, Message> {
             .wrong(format!("unknown coordinate `{name}`"));
         return Err(message.help(match did_you_mean(name.as_str(), names()) {
             Some(near) => format!("did you mean `{near}`?"),
+            None if layout.states > LISTED => format!(
+                "there are {} coordinates: {}, …",
+                layout.states,
+                names().take(LISTED).collect::<Vec<_>>().join(", ")
+            ),
             None => format!(
                 "the coordinates are {}",
                 names().collect::<Vec<_>>().join(", ")
@@ -67,9 +74,20 @@ fn surface(text: &str, bed: &Bed) -> Result<Plane, Message> {
         }));
     };
     Ok(Plane {
-        coordinate: shown[place],
+        coordinate: match bed.spec.model.family {
+            Some(_) => place,
+            None => bed.spec.model.shown_coordinates()[place],
+        },
         value: given.part(equals + 1..text.len()).number()?,
     })
+}
+
+/// The name of a coordinate by its place in the state.
+pub fn coordinate(bed: &Bed, place: usize) -> String {
+    match bed.spec.model.family {
+        Some(_) => bed.layout().coordinates()[place].clone(),
+        None => bed.spec.model.coordinates[place].text.clone(),
+    }
 }
 
 /// What times are given to, in the head of the table.

@@ -52,8 +52,7 @@ pub fn run(arguments: &args::Stress) -> Result<u8, Failure> {
     let help = "give the number of steps of the long run, such as 1000000";
     let steps = Given::flag("--steps", &arguments.steps).count();
     let steps = steps.map_err(|message| message.help(help))?;
-    let bed = bed(flags, |spec| list::fewer(&spec.model))?;
-    bed.is_no_family("lie stress")?;
+    let bed = bed(flags, Purpose::Stress, |spec| list::fewer(&spec.model))?;
     let out = files::open("--out", arguments.out.as_deref(), &flags.spec)?;
     let plot = files::open("--plot", arguments.plot.as_deref(), &flags.spec)?;
     let interrupt = Interrupt::install();
@@ -61,7 +60,7 @@ pub fn run(arguments: &args::Stress) -> Result<u8, Failure> {
     let mut results = Results::default();
     let options = Options { steps };
     let ended = bed.measure(flags, &program, options, &interrupt, &mut |found| {
-        results.take(found);
+        results.take(found)
     })?;
     if let Ended::Refused(_, why) = &ended {
         files::write(out, None, None)?;
@@ -73,7 +72,10 @@ pub fn run(arguments: &args::Stress) -> Result<u8, Failure> {
             .into());
     }
     let labels: Vec<String> = bed.choices.iter().map(|choice| choice.label()).collect();
-    results.sort(&labels, &bed.spec.model);
+    let parameters = bed.spec.model.parameters.iter();
+    let parameters = parameters.map(|parameter| parameter.name.clone());
+    let names: Vec<String> = parameters.chain(bed.layout().columns).collect();
+    results.sort(&labels, &names);
     let wanted = !results.cells.is_empty();
     let table = || csv(&results);
     files::write(out, arguments.out.as_deref(), wanted.then(table))?;

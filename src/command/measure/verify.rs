@@ -38,7 +38,7 @@ const SINGLE: [&str; 7] = [
 pub fn run(arguments: &args::Verify) -> Result<u8, Failure> {
     let flags = &arguments.measured;
     let step = step(arguments)?;
-    let bed = bed(flags, |spec| list::all(&spec.model))?;
+    let bed = bed(flags, Purpose::Verify, |spec| list::all(&spec.model))?;
     let interrupt = Interrupt::install();
     let program = bed.program(flags, Purpose::Verify, &interrupt)?;
     let model = &bed.spec.model;
@@ -46,7 +46,7 @@ pub fn run(arguments: &args::Verify) -> Result<u8, Failure> {
     let (text, parameters) = (&bed.spec.source.text, &bed.point.parameters);
     let mut results = Results::before(Evidence::of_spec(text, model, parameters));
     let ended = bed.measure(flags, &program, options, &interrupt, &mut |found| {
-        results.take(found);
+        results.take(found)
     })?;
     if let Ended::Refused(what, why) = &ended {
         let what = match what {

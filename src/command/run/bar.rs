@@ -87,6 +87,11 @@ impl Bar {
         }
     }
 
+    /// Says something above the bar, on a terminal alone.
+    pub fn say(&self, line: &str) {
+        self.bar.println(line);
+    }
+
     pub fn clear(&self) {
         self.bar.finish_and_clear();
     }

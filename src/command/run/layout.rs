@@ -29,6 +29,11 @@ impl Layout {
         }
     }
 
+    /// The names of the coordinates.
+    pub fn coordinates(&self) -> &[String] {
+        &self.columns[1..=self.states]
+    }
+
     /// The columns of a system, with those of a group element.
     fn new(model: &Model, chart: Option<Chart>) -> Self {
         let states = model.shown_coordinates();

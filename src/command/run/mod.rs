@@ -1,7 +1,7 @@
 //! `lie run`: integrates a spec with its generated, compiled code.
 
 pub mod bar;
-mod layout;
+pub mod layout;
 pub mod outputs;
 pub mod picture;
 pub mod plan;

@@ -2,7 +2,8 @@
 
 use super::super::measure::Wanted;
 use super::super::{RunControl, Watch};
-use lie_runtime::diagnostics::AnyMethod;
+use lie_program::session::Interruption;
+use lie_runtime::diagnostics::{AnyMethod, AnyStepper};
 use lie_runtime::newton::NewtonOptions;
 use lie_runtime::{Poisson, State};
 
@@ -10,6 +11,9 @@ use lie_runtime::{Poisson, State};
 const PIECE: f64 = 2000.0;
 /// Where a method shows nothing but its end, so many runs show what lies before.
 const LOOKS: u64 = 32;
+/// So many coordinates are advanced by a step between two looks for an interruption: about a hundred microseconds, beside
+/// which a look costs nothing.
+const BETWEEN: usize = 1024;
 
 /// A run that has come to its end.
 pub(super) struct Run<V> {
@@ -19,25 +23,80 @@ pub(super) struct Run<V> {
     pub(super) newton: u64,
 }
 
+/// How a run is made.
+#[derive(Clone, Copy)]
+pub(super) struct How<'a> {
+    /// Ends it between two steps.
+    pub(super) stop: &'a Interruption,
+    /// Whether a step may take long: it consists of many.
+    pub(super) by_pieces: bool,
+}
+
+/// A run on its way.
+struct Way<'a, V> {
+    stepper: Box<dyn AnyStepper<f64, V> + 'a>,
+    stop: &'a Interruption,
+    /// Steps between two looks for an interruption.
+    between: u64,
+    /// Steps of this size that were made; of a method that chooses its own they consist of many.
+    done: u64,
+    run: Run<V>,
+}
+
+impl<'a, V: State<f64>> Way<'a, V> {
+    fn new<P: Poisson<f64, State = V>>(
+        system: &'a P,
+        method: &dyn AnyMethod<f64, P>,
+        mu: &V,
+        h: f64,
+        how: How<'a>,
+    ) -> Self {
+        let steps = (BETWEEN / system.dimension().max(1)).max(1) as u64;
+        Self {
+            stepper: method.any_stepper(system, h, &NewtonOptions::default()),
+            stop: how.stop,
+            between: if how.by_pieces { 1 } else { steps },
+            done: 0,
+            run: Run {
+                end: mu.clone(),
+                steps: 0,
+                evaluations: 0,
+                newton: 0,
+            },
+        }
+    }
+
+    /// Goes on to this step.
+    fn go(&mut self, to: u64) -> Result<(), String> {
+        while self.done < to {
+            if self.stop.is_there() {
+                return Err("interrupted".to_owned());
+            }
+            let more = self.between.min(to - self.done);
+            let stats = self.stepper.advance(&mut self.run.end, more);
+            let stats = stats.map_err(|(further, failure)| {
+                format!("step {}: {failure}", self.done + further + 1)
+            })?;
+            self.done += more;
+            self.run.steps += stats.accepted;
+            self.run.evaluations += stats.evaluations;
+            self.run.newton += stats.newton;
+        }
+        Ok(())
+    }
+}
+
 /// In steps of one size.
 pub(super) fn by_steps<P: Poisson<f64>>(
     system: &P,
     method: &dyn AnyMethod<f64, P>,
     mu: &P::State,
-    h: f64,
-    steps: u64,
+    (h, steps): (f64, u64),
+    how: How<'_>,
 ) -> Result<Run<P::State>, String> {
-    let mut end = mu.clone();
-    let mut stepper = method.any_stepper(system, h, &NewtonOptions::default());
-    match stepper.advance(&mut end, steps) {
-        Ok(stats) => Ok(Run {
-            end,
-            steps: stats.accepted,
-            evaluations: stats.evaluations,
-            newton: stats.newton,
-        }),
-        Err((step, failure)) => Err(format!("step {}: {failure}", step + 1)),
-    }
+    let mut way = Way::new(system, method, mu, h, how);
+    way.go(steps)?;
+    Ok(way.run)
 }
 
 /// Every step, or the last grid points before the times.
@@ -46,31 +105,24 @@ pub(super) fn see_steps<P: Poisson<f64>>(
     method: &dyn AnyMethod<f64, P>,
     mu: &P::State,
     (h, steps): (f64, u64),
+    how: How<'_>,
     wanted: &Wanted<'_>,
     see: &mut dyn FnMut(f64, &P::State),
 ) -> Result<(), String> {
-    let mut state = mu.clone();
-    let mut stepper = method.any_stepper(system, h, &NewtonOptions::default());
-    let mut done = 0;
-    let mut go = |to: u64, state: &mut P::State| {
-        let went = stepper.advance(state, to - done);
-        let step = done + 1;
-        done = to;
-        went.map_err(|(more, failure)| format!("step {}: {failure}", step + more))
-    };
+    let mut way = Way::new(system, method, mu, h, how);
     match wanted {
         Wanted::Every => {
             for step in 1..=steps {
-                go(step, &mut state)?;
-                see(h * step as f64, &state);
+                way.go(step)?;
+                see(h * step as f64, &way.run.end);
             }
         }
         Wanted::At(times) => {
             let mut at = 0;
             for time in *times {
                 at = ((time / h) as u64).clamp(at, steps);
-                go(at, &mut state)?;
-                see(h * at as f64, &state);
+                way.go(at)?;
+                see(h * at as f64, &way.run.end);
             }
         }
     }
@@ -86,11 +138,15 @@ pub(super) fn by_pieces<P: Poisson<f64>>(
     system: &P,
     method: &dyn AnyMethod<f64, P>,
     mu: &P::State,
-    until: f64,
-    rate: f64,
+    (until, rate): (f64, f64),
+    stop: &Interruption,
 ) -> Result<Run<P::State>, String> {
     let pieces = pieces(until, rate);
-    by_steps(system, method, mu, until / pieces as f64, pieces)
+    let how = How {
+        stop,
+        by_pieces: true,
+    };
+    by_steps(system, method, mu, (until / pieces as f64, pieces), how)
 }
 
 /// The ends of the pieces, where there are many; else by runs of their own, whose steps but the last are those of the
@@ -100,6 +156,7 @@ pub(super) fn see_pieces<P: Poisson<f64>>(
     method: &dyn AnyMethod<f64, P>,
     mu: &P::State,
     (until, rate): (f64, f64),
+    stop: &Interruption,
     wanted: &Wanted<'_>,
     see: &mut dyn FnMut(f64, &P::State),
 ) -> Result<(), String> {
@@ -108,7 +165,11 @@ pub(super) fn see_pieces<P: Poisson<f64>>(
     let times = match wanted {
         Wanted::Every if pieces >= LOOKS => {
             let grid = (until / pieces as f64, pieces);
-            return see_steps(system, method, mu, grid, wanted, see);
+            let how = How {
+                stop,
+                by_pieces: true,
+            };
+            return see_steps(system, method, mu, grid, how, wanted, see);
         }
         Wanted::Every => {
             let part = |k| until * k as f64 / LOOKS as f64;
@@ -118,7 +179,7 @@ pub(super) fn see_pieces<P: Poisson<f64>>(
         Wanted::At(times) => *times,
     };
     for &time in times {
-        let run = by_pieces(system, method, mu, time, rate)?;
+        let run = by_pieces(system, method, mu, (time, rate), stop)?;
         see(time, &run.end);
     }
     Ok(())

@@ -159,7 +159,7 @@ fn attitude(spec: &Spec, several: &Several, given: &Given) -> Result<Kind, Messa
 }
 
 fn coordinate(layout: &Layout, given: &Given) -> Result<usize, Message> {
-    let names = &layout.columns[1..=layout.states];
+    let names = layout.coordinates();
     let name = given.text.trim();
     names.iter().position(|known| known == name).ok_or_else(|| {
         let message = given.wrong(format!("unknown coordinate `{name}`"));

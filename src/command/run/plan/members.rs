@@ -371,10 +371,26 @@ fn permutation(fields: &[&str], names: &[&str], place: &Place) -> Result<Vec<usi
     order
         .filter(|order| order.len() == fields.len())
         .ok_or_else(|| {
-            let text = "these are not the names of the coordinates".to_owned();
+            if separated_otherwise(fields) {
+                let text = "no commas stand between these numbers".to_owned();
+                let message = Message::new(Kind::Option, text).at(place.clone());
+                return message.help("write a state in each line, such as `0.1,0.2,0.3`");
+            }
+            let odd = fields.iter().find(|field| !names.contains(field));
+            let text = match odd {
+                Some(odd) => format!("`{odd}` is not the name of a coordinate"),
+                None => "these are not the names of the coordinates".to_owned(),
+            };
             let message = Message::new(Kind::Option, text).at(place.clone());
             message.help(format!("write `{}`, in any order", names.join(",")))
         })
+}
+
+/// Whether a line without commas consists of numbers.
+fn separated_otherwise(fields: &[&str]) -> bool {
+    let [line] = fields else { return false };
+    let mut parts = line.split([';', '\t', ' ']).filter(|part| !part.is_empty());
+    parts.all(|part| crate::compiler::constant(part).is_ok())
 }
 
 fn numbers(fields: &[&str], place: &Place) -> Result<Vec<f64>, Message> {

@@ -1,0 +1,265 @@
+//! The sections of the page.
+
+use lie_codegen::model::Model;
+use lie_poisson::plot::surface::Point;
+
+use super::call::Said;
+use super::{Report, mathematics, scene};
+use crate::build;
+use crate::command::method;
+use crate::command::run::values::Given;
+use crate::message::{Failure, STOPPED};
+
+/// Methods that are compared where none are given: those of them that apply.
+const COMPARED: [&str; 7] = [
+    "lie-midpoint",
+    "midpoint",
+    "gauss4",
+    "gauss8",
+    "splitting4",
+    "rk4",
+    "dopri5",
+];
+/// Seconds that a single run of the comparison may take.
+const BUDGET: &str = "0.02";
+
+impl Report<'_> {
+    pub(super) fn mathematics(&mut self) -> Result<(), Failure> {
+        let words = ["check".to_owned(), self.spec_word()];
+        let Some((line, said)) = self.call(&words, &[])? else {
+            return Ok(());
+        };
+        self.page.section("The system");
+        let model = &self.spec.model;
+        for (title, formulas) in mathematics::of(model) {
+            self.page.text(title);
+            self.page.formulas(&formulas);
+        }
+        let text = std::fs::read_to_string(&self.flags.spec).unwrap_or_default();
+        self.page.folded("The declaration", &text);
+        self.page.section("What is known of it");
+        self.page.command(&line);
+        // methods and operations are long, and stand at the end
+        let (known, rest) = said
+            .out
+            .split_once("  operations ")
+            .unwrap_or((&said.out, ""));
+        self.page.preformatted(known);
+        self.page.preformatted(&said.error);
+        if !rest.is_empty() {
+            self.page.folded(
+                "Operations of its kernels, and the methods that apply",
+                &format!("  operations {rest}"),
+            );
+        }
+        Ok(())
+    }
+
+    /// Its rows, components over time, and where it moves.
+    pub(super) fn trajectory(&mut self) -> Result<(), Failure> {
+        let methods: Vec<String> = self.flags.method.first().into_iter().cloned().collect();
+        let words = self.run_words(&methods);
+        let files = [("--out", "rows.csv"), ("--plot", "components.svg")];
+        let Some((line, said)) = self.call(&words, &files)? else {
+            return Ok(());
+        };
+        self.page.section("A trajectory");
+        self.page.command(&line);
+        self.ended(&said);
+        self.figure("components.svg");
+        self.space(&words)
+    }
+
+    /// What a run said, and whether it stopped early.
+    fn ended(&mut self, said: &Said) {
+        match said.code {
+            0 => self.page.preformatted(&said.error),
+            code => {
+                self.code = self.code.max(code);
+                let text = if code == STOPPED {
+                    "The run stopped early; what was computed before is shown."
+                } else {
+                    "The run failed."
+                };
+                self.page.text(text);
+                self.page.stopped(&said.error);
+            }
+        }
+    }
+
+    fn figure(&mut self, file: &str) {
+        if let Ok(svg) = std::fs::read_to_string(self.folder.join(file))
+            && svg.contains("<svg")
+        {
+            self.page.picture(&svg);
+        }
+    }
+
+    /// The orbit of a three-dimensional algebra, the phase portrait of a plane.
+    fn space(&mut self, words: &[String]) -> Result<(), Failure> {
+        let model = &self.spec.model;
+        match model.dimension() {
+            3 if model.family.is_none() => {
+                if let Some(scene) = self.scene() {
+                    let surface = leaf(model);
+                    self.page.section(&format!("On its {surface}"));
+                    self.page
+                        .scene(&scene, &format!("The trajectory on its {surface}"));
+                    let cut = if scene["closed"] == true {
+                        ""
+                    } else {
+                        "; it is cut off around the trajectory"
+                    };
+                    self.page.note(&format!(
+                        "The surface is the {surface}, on which the Casimir has the value of the start{cut}. Grey: level \
+                         curves of the energy. The dot is where the trajectory starts; what is turned away is pale."
+                    ));
+                }
+                Ok(())
+            }
+            2 if model.family.is_none() => {
+                let picture = [words, &["--picture".to_owned(), "phase".to_owned()]].concat();
+                let Some((line, _)) =
+                    self.call(&picture, &[("--out", "phase.csv"), ("--plot", "phase.svg")])?
+                else {
+                    return Ok(());
+                };
+                self.page.section("Its phase portrait");
+                self.page.command(&line);
+                self.figure("phase.svg");
+                Ok(())
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn scene(&self) -> Option<serde_json::Value> {
+        let text = std::fs::read_to_string(self.folder.join("rows.csv")).ok()?;
+        let mut lines = text.lines();
+        let names: Vec<String> = lines
+            .next()?
+            .split(',')
+            .skip(1)
+            .take(3)
+            .map(str::to_owned)
+            .collect();
+        let states = lines.map_while(|line| {
+            let mut entries = line
+                .split(',')
+                .skip(1)
+                .map(|entry| entry.parse::<f64>().ok().filter(|x| x.is_finite()));
+            Some([entries.next()??, entries.next()??, entries.next()??])
+        });
+        let states: Vec<Point> = states.collect();
+        let values = self.spec.model.parameters.iter().map(|parameter| {
+            let given = self.flags.param.iter().rev().find_map(|given| {
+                let (name, value) = given.split_once('=')?;
+                (name.trim() == parameter.name)
+                    .then(|| Given::flag("--param", value).number().ok())?
+            });
+            given.unwrap_or(parameter.default_value)
+        });
+        let values: Vec<f64> = values.collect();
+        let system = build::declared(&self.spec.model)?.system(&values).ok()?;
+        scene::scene(&system, &names, &states)
+    }
+
+    pub(super) fn comparison(&mut self) -> Result<(), Failure> {
+        let words = self.run_words(&self.flags.method);
+        let files = [("--out", "runs.csv"), ("--plot", "compare.svg")];
+        let Some((line, said)) = self.call(&words, &files)? else {
+            return Ok(());
+        };
+        self.page.section("The methods side by side");
+        self.page.command(&line);
+        self.ended(&said);
+        self.figure("compare.svg");
+        Ok(())
+    }
+
+    pub(super) fn bench(&mut self) -> Result<(), Failure> {
+        let methods = match self.flags.method.as_slice() {
+            [] | [_] => {
+                let apply = COMPARED.iter().map(|id| (*id).to_owned());
+                let apply = apply.filter(|id| {
+                    method::find(id)
+                        .is_ok_and(|choice| method::applies(choice, &self.spec.model).is_ok())
+                });
+                let own = self
+                    .flags
+                    .method
+                    .iter()
+                    .filter(|own| !COMPARED.contains(&own.as_str()))
+                    .cloned();
+                apply.chain(own).collect::<Vec<_>>()
+            }
+            several => several.to_vec(),
+        };
+        let mut words = vec![
+            "bench".to_owned(),
+            self.spec_word(),
+            "--methods".to_owned(),
+            methods.join(","),
+        ];
+        words.extend(["--budget".to_owned(), BUDGET.to_owned()]);
+        for (flag, value) in [
+            ("--until", &self.flags.until),
+            ("--initial", &self.flags.initial),
+        ] {
+            words.extend(
+                value
+                    .iter()
+                    .flat_map(|value| [flag.to_owned(), value.clone()]),
+            );
+        }
+        words.extend(
+            self.flags
+                .param
+                .iter()
+                .flat_map(|value| ["--param".to_owned(), value.clone()]),
+        );
+        let Some((line, said)) = self.call(&words, &[("--plot", "bench.svg")])? else {
+            return Ok(());
+        };
+        self.page.section("Error against run time");
+        self.page.command(&line);
+        self.figure("bench.svg");
+        match said.code {
+            0 => self.page.folded("The measured values", &said.out),
+            _ => self.page.stopped(&said.error),
+        }
+        Ok(())
+    }
+
+    pub(super) fn code(&mut self) -> Result<(), Failure> {
+        let mut words = vec!["expand".to_owned(), self.spec_word()];
+        words.extend(
+            self.flags
+                .method
+                .first()
+                .into_iter()
+                .flat_map(|method| ["--method".to_owned(), method.clone()]),
+        );
+        let Some((line, said)) = self.call(&words, &[])? else {
+            return Ok(());
+        };
+        self.page.section("The generated code");
+        self.page.command(&line);
+        match said.code {
+            0 => self.page.folded(
+                &format!("{} lines of Rust", said.out.lines().count()),
+                &said.out,
+            ),
+            _ => self.page.stopped(&said.error),
+        }
+        Ok(())
+    }
+}
+
+/// What the level surface of the Casimir of a three-dimensional system is called.
+fn leaf(model: &Model) -> &'static str {
+    match model.bracket.algebra() {
+        Some(_) => "coadjoint orbit",
+        None => "symplectic leaf",
+    }
+}
