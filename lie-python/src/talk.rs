@@ -22,7 +22,7 @@ use std::time::Duration;
 const PAUSE: Duration = Duration::from_millis(5);
 
 /// A kind of measurement: what is asked for, and what becomes of the answers.
-pub trait Measurement: Send {
+pub trait Measurement: Sync {
     /// What measures it.
     const PURPOSE: Purpose;
     /// The command that does the same.
@@ -63,10 +63,7 @@ pub struct Subject<'a> {
 
 impl Subject<'_> {
     /// Has it measured, without the interpreter's lock.
-    pub fn measure<M: Measurement>(self, py: Python<'_>, measurement: &M) -> PyResult<M::Made>
-    where
-        M: Sync,
-    {
+    pub fn measure<M: Measurement>(self, py: Python<'_>, measurement: &M) -> PyResult<M::Made> {
         let Self {
             declaration,
             methods,

@@ -229,7 +229,7 @@ class System(Declared):
     ) -> Verification:
         """Measures what methods claim on this system: order, symmetry, invariants, the orbit, the Poisson structure.
 
-        Without names, all methods that apply and run in Python, at their default options. ``h`` is the step at which facts are
+        Without names, all methods that apply, at their default options. ``h`` is the step at which facts are
         measured; it is found where it is not given. The kernels of the system, from the vector field to the Casimirs, are compared with
         the declaration as it was written. ``progress`` hears how far it is, as in :meth:`run`.
 
@@ -258,7 +258,7 @@ class System(Declared):
     ) -> Bench:
         """Measures errors of methods beside the times that they take, each at one step or tolerance after the other.
 
-        Without names, the methods that `lie bench` takes, as far as they run in Python. ``t`` is the end, that of the
+        Without names, the methods that `lie bench` takes. ``t`` is the end, that of the
         declaration (at most 20), or 10. ``measure`` is the sense of errors: "state", "energy", "casimirs", "phase", or
         "section" with ``section=(coordinate, value)``. No run that takes longer than ``budget`` seconds is made more accurate.
         ``progress`` hears how far it is, as in :meth:`run`.
@@ -287,7 +287,7 @@ class System(Declared):
     ) -> Stress:
         """Takes methods to the limits of steps, parameters and states, and through a long run.
 
-        Without names, the methods that `lie stress` takes, as far as they run in Python. Steps are tried from 1e-12 to 256
+        Without names, the methods that `lie stress` takes. Steps are tried from 1e-12 to 256
         times h0 (0.2 over the largest rate of the field), parameters times 10 to 1e6, states times 1e-100 to 1e100, each component and
         each Casimir near zero, 400 steps each; then a run of ``steps`` steps, and eight shorter ones that say how round-off grows. All
         processors are used. ``progress`` hears how far it is, as in :meth:`run`.
