@@ -404,5 +404,9 @@ fn other_hamiltonians_are_refused() {
     }
     let run = common::lie("run specs/se3_heavy_top.json --method splitting4 --pieces other");
     let run = run.error("option", "command line: --pieces");
-    assert!(run.stderr.contains("found, coordinate"), "{}", run.stderr);
+    assert!(
+        run.stderr.contains("`found`, `coordinate`"),
+        "{}",
+        run.stderr
+    );
 }
