@@ -22,32 +22,30 @@ COMMANDS = ["check", "expand", "run", "verify --methods lie-midpoint", "bench --
 
 
 def measured(lie, spec, budget, *flags):
-    """Seconds for a unit of time and the error of each run, by method and step."""
+    """Seconds for a unit of time and the error of each run, by method and step or tolerance."""
     with tempfile.NamedTemporaryFile(suffix=".csv") as out:
         command = [lie, "bench", spec, "--budget", str(budget), "--quiet", "--out", out.name, *flags]
         subprocess.run(command, cwd=ROOT, check=True, capture_output=True)
         with open(out.name) as rows:
             return {
-                (row["method"], row["value"]): (float(row["seconds_per_unit_time"]), row["error"], float(row["steps"]))
+                (row["method"], row["value"]): (float(row["seconds_per_unit_time"]), row["error"])
                 for row in csv.DictReader(rows)
             }
 
 
 def rows_of(lie, spec, budget, rounds):
-    """By method: the median of the ratios, and nanoseconds a step of the longest run."""
-    ratios, steps = {}, {}
+    """The median of the ratios of each method."""
+    ratios = {}
     for _ in range(rounds):
         here = measured(lie, spec, budget)
         built = measured(lie, spec, budget, "--compile")
-        for (method, value), (seconds, error, count) in here.items():
+        for (method, value), (seconds, error) in here.items():
             if (method, value) not in built:
                 continue
-            other, its_error, _ = built[method, value]
+            other, its_error = built[method, value]
             if error != its_error:
                 raise SystemExit(f"{spec} {method} {value}: errors {error} and {its_error}")
             ratios.setdefault(method, []).append(seconds / other)
-            if count > steps.get(method, (0,))[0]:
-                steps[method] = (count, seconds, other)
     return {method: statistics.median(all) for method, all in ratios.items()}
 
 
@@ -77,9 +75,11 @@ def table_of_commands(arguments):
     with tempfile.TemporaryDirectory() as folder:
         for command in COMMANDS:
             name, *flags = command.split()
-            out = {"run": ["--out", f"{folder}/out.csv"], "report": ["--out", f"{folder}/out.html"]}.get(name, [])
+            ending = {"run": "csv", "report": "html"}.get(name)
+            out = ["--out", f"{folder}/out.{ending}"] if ending else []
             call = [arguments.lie, name, arguments.specs[0], *flags, *out]
-            print(f"| `lie {name} {Path(arguments.specs[0]).stem} {' '.join(flags)}` | {seconds_of(call):.2f} |".replace(" `", "`"))
+            shown = " ".join(["lie", name, Path(arguments.specs[0]).stem, *flags])
+            print(f"| `{shown}` | {seconds_of(call):.2f} |")
 
 
 def main():
