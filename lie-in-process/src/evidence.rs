@@ -5,9 +5,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use lie_codegen::judge::{Judge, Sample, Verdict};
 use lie_codegen::model::Model;
 use lie_measure::verify::{Kernel, Reference};
+use lie_runtime::scalar::Scalar;
 use serde_json::{Value, json};
 
-use crate::words::{larger, number, short};
+use crate::words::{number, short};
 
 /// A spoiled value differs by this part of the largest: the judge must notice.
 const SPOILED: f64 = 1e-4;
@@ -101,7 +102,9 @@ impl Evidence {
         let Reference { span, start, end } = solution;
         let judge = self.judge.as_ref();
         if let Some(excess) = judge.and_then(|judge| judge.solution(start, *span, end)) {
-            let worst = self.reference.map_or(excess, |worst| larger(worst, excess));
+            let worst = self
+                .reference
+                .map_or(excess, |worst| Scalar::max(worst, excess));
             self.reference = Some(worst);
         }
     }
@@ -193,7 +196,7 @@ impl Evidence {
             return "kernels: those of a family are not compared with its declaration".to_owned();
         }
         let excess = self.kernels.values().map(|verdict| verdict.excess);
-        let worst = excess.fold(0.0, larger);
+        let worst = excess.fold(0.0, Scalar::max);
         let solution = match self.reference {
             Some(_) => ", and so does the reference solution",
             None => "",

@@ -113,7 +113,7 @@ impl Results {
         };
         format!(
             "round-off: the claimed invariant that moves most, root of the mean square over {} states near the initial one against \
-             the steps N, {} to {};\n  0.5 is a random walk, 1 a bias\n",
+             the steps N, {} to {}; 0.5 is a random walk, 1 a bias\n",
             growth.states, growth.from, growth.to
         )
     }

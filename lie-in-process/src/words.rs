@@ -19,19 +19,18 @@ pub fn short(value: f64) -> String {
     }
 }
 
+/// So many of something: `1 step`, `2 steps`.
+pub fn counted(count: u64, what: &str) -> String {
+    match count {
+        1 => format!("1 {what}"),
+        _ => format!("{count} {what}s"),
+    }
+}
+
 /// A number, or null for what is none.
 pub fn number(value: f64) -> Value {
     match value.is_finite() {
         true => json!(value),
         false => Value::Null,
-    }
-}
-
-/// The larger of two numbers; what is none wins.
-pub(crate) fn larger(a: f64, b: f64) -> f64 {
-    if a.is_nan() || b.is_nan() {
-        f64::NAN
-    } else {
-        f64::max(a, b)
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::basis::{Basis, dot};
 use lie_runtime::poisson::Poisson;
+use lie_runtime::scalar::Scalar;
 use lie_runtime::state::State;
 
 /// First integrals are sought in so many coordinates at most: the monomials grow with their square.
@@ -89,7 +90,7 @@ pub fn integrals<P: Poisson<f64>>(
         .into_iter()
         .map(|coefficients| {
             let defects = fresh.iter().map(|row| dot(row, &coefficients).abs());
-            let defect = defects.fold(0.0, f64::max);
+            let defect = defects.fold(0.0, Scalar::max);
             Integral {
                 coefficients,
                 defect,

@@ -4,6 +4,7 @@ use crate::basis::{Basis, norm};
 use crate::random::Random;
 use lie_runtime::matrix::SquareMatrix;
 use lie_runtime::poisson::LiePoisson;
+use lie_runtime::scalar::Scalar;
 use lie_runtime::state::State;
 
 /// Steps of a descent; one that needs as many is near no point.
@@ -109,7 +110,7 @@ fn action<P: LiePoisson<f64>>(system: &P, xi: &P::State) -> f64 {
             .map(|j| matrix.get(i, j).abs())
             .sum::<f64>()
     };
-    (0..system.dimension()).map(row).fold(0.0, f64::max)
+    (0..system.dimension()).map(row).fold(0.0, Scalar::max)
 }
 
 fn pairs<'a, V: State<f64>>(a: &'a V, b: &'a V) -> impl Iterator<Item = (f64, f64)> + 'a {

@@ -107,12 +107,25 @@ pub enum Stroke {
     Dashed,
     /// A line without marks; a point that is not finite leaves a gap.
     Curve,
-    /// The same, thin and grey, behind the others.
+    /// The same in dashes, over a curve with the same points, which shows between them.
+    Over,
+    /// A curve that is thin and grey, behind the others.
     Level,
     /// Dots alone.
     Dots,
     /// Pale dots behind the others.
     Behind,
+}
+
+impl Stroke {
+    /// The attribute of its dashes.
+    fn dashes(self) -> &'static str {
+        match self {
+            Self::Dashed => " stroke-dasharray=\"5 3\"",
+            Self::Over => " stroke-dasharray=\"6 7\"",
+            _ => "",
+        }
+    }
 }
 
 /// Points of one kind.
@@ -244,19 +257,19 @@ impl Chart {
 /// A line or dots at places.
 fn mark(svg: &mut Svg, series: &Series, places: &[Place]) {
     let paint = series.paint();
-    let dashes = match series.stroke {
-        Stroke::Line => "",
-        Stroke::Curve | Stroke::Level => {
-            let stroke = format!("stroke=\"{paint}\" stroke-width=\"2\"");
+    let dashes = series.stroke.dashes();
+    match series.stroke {
+        Stroke::Line | Stroke::Dashed => {}
+        Stroke::Curve | Stroke::Over | Stroke::Level => {
+            let stroke = format!("stroke=\"{paint}\" stroke-width=\"2\"{dashes}");
             return svg.polyline(places.iter().copied(), &stroke);
         }
-        Stroke::Dashed => "stroke-dasharray=\"5 3\"",
         Stroke::Dots | Stroke::Behind => {
             let radius = if places.len() < FEW_DOTS { 2.0 } else { 0.9 };
             return svg.discs(places, radius, paint);
         }
-    };
-    let stroke = format!("stroke=\"{paint}\" stroke-width=\"1.5\" {dashes}");
+    }
+    let stroke = format!("stroke=\"{paint}\" stroke-width=\"1.5\"{dashes}");
     svg.polyline(places.iter().copied(), &stroke);
     for &place in places {
         svg.disc(place, 2.2, &format!("fill=\"{paint}\""));
@@ -312,13 +325,13 @@ impl<'a> Frame<'a> {
         for series in back.into_iter().chain(front) {
             let places = series.points.iter().map(|point| self.place(*point));
             let places: Vec<Option<Place>> = places.collect();
-            if let Stroke::Curve | Stroke::Level = series.stroke {
-                let width = if series.stroke == Stroke::Curve {
-                    1.3
-                } else {
-                    0.8
+            if let Stroke::Curve | Stroke::Over | Stroke::Level = series.stroke {
+                let width = match series.stroke {
+                    Stroke::Level => 0.8,
+                    _ => 1.3,
                 };
-                let stroke = format!("stroke=\"{}\" stroke-width=\"{width}\"", series.paint());
+                let (paint, dashes) = (series.paint(), series.stroke.dashes());
+                let stroke = format!("stroke=\"{paint}\" stroke-width=\"{width}\"{dashes}");
                 for piece in places.split(Option::is_none) {
                     match piece {
                         [Some(place)] => {

@@ -103,7 +103,7 @@ impl Compare {
             let absolute = |run: &Run| reference(run.first[place], run.scale).is_none();
             let runs = || self.runs.iter().filter(|run| !run.first.is_empty());
             let all = runs().any(absolute);
-            let series = self.runs.iter().enumerate().filter_map(|(colour, run)| {
+            let curves = self.runs.iter().enumerate().filter_map(|(colour, run)| {
                 let first = *run.first.get(place)?;
                 let divisor = if all { 1.0 } else { first.abs() };
                 let error = |&(t, error): &(f64, f64)| (t, (error / divisor).max(ROUND_OFF));
@@ -111,13 +111,19 @@ impl Compare {
                 let points = pieces
                     .iter()
                     .flat_map(|piece| piece.iter().map(error).chain([gap]));
-                Some(Series {
-                    name: run.name.clone(),
-                    colour,
-                    stroke: Stroke::Curve,
-                    points: points.collect(),
-                })
+                Some((&run.name, colour, points.collect::<Vec<_>>()))
             });
+            let mut series: Vec<Series> = Vec::new();
+            for (name, colour, points) in curves {
+                let drawn = series.iter().any(|other| same(&other.points, &points));
+                let stroke = if drawn { Stroke::Over } else { Stroke::Curve };
+                series.push(Series {
+                    name: name.clone(),
+                    colour,
+                    stroke,
+                    points,
+                });
+            }
             panels.push(Panel {
                 title: format!(
                     "{} error of {name}",
@@ -125,7 +131,7 @@ impl Compare {
                 ),
                 x: Axis::linear("t"),
                 y: Axis::logarithmic(""),
-                series: series.collect(),
+                series,
             });
         }
         let chart = Chart {
@@ -136,4 +142,13 @@ impl Compare {
         };
         chart.to_svg()
     }
+}
+
+/// Whether one curve would hide the other; gaps are alike.
+fn same(a: &[(f64, f64)], b: &[(f64, f64)]) -> bool {
+    let alike = |x: f64, y: f64| x == y || (x.is_nan() && y.is_nan());
+    a.len() == b.len()
+        && a.iter()
+            .zip(b)
+            .all(|(a, b)| alike(a.0, b.0) && alike(a.1, b.1))
 }

@@ -328,3 +328,24 @@ fn a_panel_without_points_says_so() {
     phase.dot((1.0, 2.0));
     assert!(!phase.to_svg().contains("nothing to draw"));
 }
+
+/// The picture of two runs whose energy is off by these parts of t.
+fn two_runs(slopes: [f64; 2]) -> String {
+    let columns = ["t", "x", "y", "energy"].map(str::to_owned);
+    let mut compare = compare::Compare::new("Two runs", "", &columns, 2);
+    for (name, slope) in ["first", "second"].into_iter().zip(slopes) {
+        compare.begin(name, (0.0, 10.0));
+        for k in 0..=100 {
+            let t = 0.1 * f64::from(k);
+            compare.push(&[t, t.cos(), t.sin(), 1.0 + slope * t]);
+        }
+    }
+    compare.to_svg()
+}
+
+#[test]
+fn of_two_runs_with_the_same_errors_both_are_seen() {
+    let dashes = |svg: &str| svg.matches("stroke-dasharray").count();
+    assert!(dashes(&two_runs([1e-3, 1e-3])) > 0);
+    assert_eq!(dashes(&two_runs([1e-3, 2e-3])), 0);
+}

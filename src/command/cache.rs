@@ -1,5 +1,7 @@
 //! `lie cache`: where built programs are kept, how much they take, and how they are removed.
 
+use lie_in_process::words::counted;
+
 use super::{args, print};
 use crate::build::{cache_failure, cache_limit, cache_programs, cache_root, cache_size};
 use crate::message::Failure;
@@ -13,11 +15,12 @@ const FOLDERS: [&str; 3] = ["programs", "target", "runtime"];
 /// `io`: there is no folder for it, or something in it cannot be removed.
 pub fn run(arguments: &args::Cache) -> Result<u8, Failure> {
     let root = cache_root()?;
-    let (size, programs) = (cache_size(&root), cache_programs(&root).len());
+    let size = cache_size(&root);
+    let programs = counted(cache_programs(&root).len() as u64, "program");
     let place = root.display();
     if !arguments.clear {
         let text = format!(
-            "{place}\n{programs} programs, {:.1} MB in all, of at most {:.0} MB\n\
+            "{place}\n{programs}, {:.1} MB in all, of at most {:.0} MB\n\
              LIE_CACHE_DIR chooses another folder, LIE_CACHE_MB another limit: beyond it the programs go that were not \
              used for longest\n`lie cache --clear` empties it: what is needed is built again\n",
             megabytes(size),
@@ -32,7 +35,7 @@ pub fn run(arguments: &args::Cache) -> Result<u8, Failure> {
         }
     }
     print(&format!(
-        "{place}: {programs} programs removed, {:.1} MB\n",
+        "{place}: {programs} removed, {:.1} MB\n",
         megabytes(size)
     ))?;
     Ok(0)

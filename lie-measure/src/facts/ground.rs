@@ -7,6 +7,7 @@ use crate::random::Random;
 use lie_runtime::diagnostics::reference;
 use lie_runtime::matrix::SquareMatrix;
 use lie_runtime::poisson::{LiePoisson, Lift, Poisson};
+use lie_runtime::scalar::Scalar;
 use lie_runtime::state::{State, Unknown};
 use lie_runtime::structure::MatrixGroup;
 
@@ -80,7 +81,10 @@ impl<P: Lift<f64>> Ground<P> {
         step: Option<f64>,
     ) -> Result<Self, String> {
         let states = states(system, initial, seed)?;
-        let rate = states.iter().map(|mu| rate(system, mu)).fold(0.0, f64::max);
+        let rate = states
+            .iter()
+            .map(|mu| rate(system, mu))
+            .fold(0.0, Scalar::max);
         if rate <= 0.0 || !rate.is_finite() {
             return Err(
                 "the vector field does not change with the state (its Jacobian is zero or not \
@@ -224,9 +228,7 @@ pub(crate) fn rate<P: Poisson<f64>>(system: &P, mu: &P::State) -> f64 {
             .map(|j| jacobian.get(i, j).abs())
             .sum::<f64>()
     };
-    (0..system.dimension())
-        .map(row)
-        .fold(0.0, |m, x| if x.is_nan() { x } else { f64::max(m, x) })
+    (0..system.dimension()).map(row).fold(0.0, Scalar::max)
 }
 
 /// The same from differences of the field along random signs: where they are those of a row, its entry of the derivative is
@@ -245,10 +247,7 @@ fn estimated_rate<P: Poisson<f64>>(system: &P, mu: &P::State) -> f64 {
         }
         system.vector_field(&near, &mut moved);
         let pairs = moved.as_slice().iter().zip(field.as_slice());
-        largest = pairs.fold(largest, |m, (a, b)| {
-            let x = (a - b).abs() / length;
-            if x.is_nan() { x } else { f64::max(m, x) }
-        });
+        largest = pairs.fold(largest, |m, (a, b)| Scalar::max(m, (a - b).abs() / length));
     }
     largest
 }
@@ -260,7 +259,7 @@ fn structure<P: Poisson<f64>>(system: &P, mu: &P::State) -> f64 {
         (0..system.dimension()).flat_map(|i| (0..system.dimension()).map(move |j| (i, j)));
     let largest = entries
         .map(|(i, j)| matrix.get(i, j).abs())
-        .fold(0.0, f64::max);
+        .fold(0.0, Scalar::max);
     let size = mu.as_slice().iter().fold(0.0, |m, x| f64::max(m, x.abs()));
     if largest > 0.0 { largest / size } else { 1.0 }
 }
@@ -270,15 +269,25 @@ mod tests {
     use super::*;
     use lie_runtime::family::LateMatrix;
 
-    /// Masses on a ring with springs of constant 2: `x_i' = p_i`, `p_i' = 2 (x_(i-1) - 2 x_i + x_(i+1))`, without a matrix.
-    struct Ring(usize);
+    /// Masses on a ring with springs of constant k: `x_i' = p_i`, `p_i' = k (x_(i-1) - 2 x_i + x_(i+1))`, without a matrix.
+    /// The constant of the first equation is another.
+    struct Ring {
+        sites: usize,
+        first: f64,
+    }
+
+    impl Ring {
+        fn constant(&self, i: usize) -> f64 {
+            if i == 0 { self.first } else { 2.0 }
+        }
+    }
 
     impl Poisson<f64> for Ring {
         type State = Vec<f64>;
         type Jacobian = LateMatrix<f64>;
 
         fn dimension(&self) -> usize {
-            2 * self.0
+            2 * self.sites
         }
         fn name(&self) -> &'static str {
             "Ring"
@@ -296,25 +305,27 @@ mod tests {
             false
         }
         fn zero_state(&self) -> Vec<f64> {
-            vec![0.0; 2 * self.0]
+            vec![0.0; 2 * self.sites]
         }
         fn zero_jacobian(&self) -> LateMatrix<f64> {
-            LateMatrix::new(2 * self.0)
+            LateMatrix::new(2 * self.sites)
         }
         fn vector_field(&self, mu: &Vec<f64>, out: &mut Vec<f64>) {
-            let n = self.0;
+            let n = self.sites;
             for i in 0..n {
                 out[i] = mu[n + i];
-                out[n + i] = 2.0 * (mu[(i + n - 1) % n] - 2.0 * mu[i] + mu[(i + 1) % n]);
+                let around = mu[(i + n - 1) % n] - 2.0 * mu[i] + mu[(i + 1) % n];
+                out[n + i] = self.constant(i) * around;
             }
         }
         fn jacobian(&self, _: &Vec<f64>, out: &mut LateMatrix<f64>) {
-            let n = self.0;
+            let n = self.sites;
             for i in 0..n {
                 out.set(i, n + i, 1.0);
-                out.set(n + i, (i + n - 1) % n, 2.0);
-                out.set(n + i, i, -4.0);
-                out.set(n + i, (i + 1) % n, 2.0);
+                let k = self.constant(i);
+                out.set(n + i, (i + n - 1) % n, k);
+                out.set(n + i, i, -2.0 * k);
+                out.set(n + i, (i + 1) % n, k);
             }
         }
         fn hamiltonian(&self, _: &Vec<f64>) -> f64 {
@@ -331,11 +342,23 @@ mod tests {
     fn a_rate_without_a_matrix_is_that_of_the_matrix() {
         let mut random = Random::new(5);
         for sites in [4, 32, 33, 200] {
-            let ring = Ring(sites);
+            let ring = Ring { sites, first: 2.0 };
             let mu = random.near(&ring.zero_state(), 0.7);
             // 2 + 4 + 2; from 65 coordinates on by differences
             assert!((rate(&ring, &mu) - 8.0).abs() < 1e-5, "{sites}");
             assert!((estimated_rate(&ring, &mu) - 8.0).abs() < 1e-5, "{sites}");
+        }
+    }
+
+    #[test]
+    fn a_row_that_is_not_a_number_is_not_lost_behind_the_others() {
+        for sites in [4, 200] {
+            let ring = Ring {
+                sites,
+                first: f64::NAN,
+            };
+            let mu = Random::new(5).near(&ring.zero_state(), 0.7);
+            assert!(rate(&ring, &mu).is_nan(), "{sites}");
         }
     }
 }

@@ -7,6 +7,7 @@ use lie_runtime::diagnostics::AnyMethod;
 use lie_runtime::driver::Stats;
 use lie_runtime::newton::NewtonOptions;
 use lie_runtime::poisson::Lift;
+use lie_runtime::scalar::Scalar;
 use lie_runtime::state::State;
 
 /// Numbers of steps over the span, by factors of about the fourth root of 2.
@@ -254,10 +255,7 @@ fn error<P: Lift<f64>>(
 /// The largest difference of a component over the largest component.
 pub(crate) fn relative_error<V: State<f64>>(state: &V, exact: &V) -> f64 {
     let pairs = state.as_slice().iter().zip(exact.as_slice());
-    let largest = pairs.fold(0.0, |m, (a, b)| {
-        let d = (a - b).abs();
-        if d.is_nan() { d } else { f64::max(m, d) }
-    });
+    let largest = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, Scalar::max);
     if largest == 0.0 {
         return 0.0;
     }

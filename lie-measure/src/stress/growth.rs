@@ -15,6 +15,7 @@ use crate::random::Random;
 use lie_runtime::diagnostics::AnyMethod;
 use lie_runtime::newton::NewtonOptions;
 use lie_runtime::poisson::Poisson;
+use lie_runtime::scalar::Scalar;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// States that are followed.
@@ -111,7 +112,7 @@ pub(super) fn growth<P: Poisson<f64>>(
         exponent: exponent(&errors, invariant, &points)?,
         end: (
             largest(invariant).sqrt(),
-            errors.iter().map(last).fold(0.0, f64::max),
+            errors.iter().map(last).fold(0.0, Scalar::max),
         ),
         steps: (points[0], *points.last()?),
         states: errors.len(),

@@ -144,14 +144,13 @@ impl<P: Poisson<f64> + Sync> Stress<P> {
         }
         let trials = self.trials(&system, &request.start, step, long)?;
         let mut tasks: Vec<Task> = trials.into_iter().map(Task::Trial).collect();
-        // what takes longest comes first: the long run, then growth
         let growth = Task::Growth {
             parameters: self.blueprint.values(&request.start)?,
             mu: request.start.initial.clone(),
             step,
             steps: long / SHARE,
         };
-        tasks.insert(1, growth);
+        tasks.push(growth);
         let wanted = |label: &str| request.methods.iter().any(|method| method == label);
         let jobs: Vec<Job<'_, P>> = tasks
             .iter()

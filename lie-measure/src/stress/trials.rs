@@ -22,7 +22,7 @@ pub(super) struct Trial {
 }
 
 impl<P: Poisson<f64> + Sync> Stress<P> {
-    /// All trials, the long run first: it takes longest.
+    /// All trials, the long run last: it takes longest, and an interrupt before it leaves the map of the others.
     pub(super) fn trials(
         &self,
         system: &P,
@@ -39,14 +39,7 @@ impl<P: Poisson<f64> + Sync> Stress<P> {
             step: Some(step),
             steps: STEPS,
         };
-        let mut trials = vec![Trial {
-            experiment: Experiment::Long,
-            name: "steps".to_owned(),
-            value: long as f64,
-            steps: long,
-            ..plain.clone()
-        }];
-        trials.extend(steps(&plain, step));
+        let mut trials: Vec<Trial> = steps(&plain, step).collect();
         let names: Vec<&str> = self.blueprint.names().collect();
         let changed = names.iter().enumerate();
         let changed = changed.filter(|(_, name)| !self.left.iter().any(|left| left == *name));
@@ -54,6 +47,13 @@ impl<P: Poisson<f64> + Sync> Stress<P> {
         trials.extend(scales(&plain));
         trials.extend(components(&plain, system));
         trials.extend(casimirs(&plain, system));
+        trials.push(Trial {
+            experiment: Experiment::Long,
+            name: "steps".to_owned(),
+            value: long as f64,
+            steps: long,
+            ..plain
+        });
         Ok(trials)
     }
 }

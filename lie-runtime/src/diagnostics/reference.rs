@@ -9,6 +9,7 @@
 //! [doi:10.1007/978-3-540-78862-1](https://doi.org/10.1007/978-3-540-78862-1).
 
 use crate::poisson::Poisson;
+use crate::scalar::Scalar;
 use crate::state::{State, Unknown};
 
 const MAX_STEPS: u64 = 2_000_000;
@@ -35,7 +36,7 @@ pub fn reference<P: Poisson<f64>>(
     let (fine, first) = run(system, mu, t, 6, 1e-15)?;
     let (other, second) = run(system, mu, t, 7, 1e-15)?;
     let pairs = fine.as_slice().iter().zip(other.as_slice());
-    let error = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    let error = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, Scalar::max);
     Some(Reference {
         mu: fine,
         error,
@@ -132,10 +133,7 @@ fn extrapolate<P: Poisson<f64>>(
                 .map(|(e, a)| e + (e - a) * factor)
                 .collect();
             let change = entry.iter().zip(&better).map(|(a, b)| (a - b).abs());
-            error = change.fold(
-                0.0,
-                |m, x| if x.is_nan() { f64::NAN } else { f64::max(m, x) },
-            );
+            error = change.fold(0.0, Scalar::max);
             next.push(entry);
             entry = better;
         }

@@ -1,23 +1,23 @@
 //! `lie bench`: the error at the end of a run against the time that it takes.
 
+mod picture;
+mod table;
+
 use lie_codegen::diagnostic::Kind;
-use lie_codegen::methods::Choice;
 use lie_codegen::program::Purpose;
 use lie_in_process::words::short;
-use lie_in_process::{families, list, table};
+use lie_in_process::{families, list, table::text as aligned};
 use lie_measure::bench::{ClockKind, Found, Measure, Options, Plane, Point, Reference};
-use lie_poisson::plot::frontier::{Curve, Frontier};
 use lie_program::protocol::Obstacle;
 
-use super::quiet::{Quiet, percent, spread};
-use super::{Bed, Ended, bed, files, interrupted, sense};
+use self::table::{cells, lines, micro};
+use super::quiet::Quiet;
+use super::{Bed, Ended, bed, below, files, interrupted, sense};
 use crate::command::run::values::Given;
 use crate::command::{args, print};
 use crate::interrupt::Interrupt;
 use crate::message::{Failure, Message, SURROUNDINGS};
 
-/// Accuracies of the table.
-const TARGETS: [f64; 4] = [1e-3, 1e-6, 1e-9, 1e-12];
 /// The longest default span.
 const SPAN: f64 = 20.0;
 
@@ -105,7 +105,7 @@ pub fn run(arguments: &args::Bench) -> Result<u8, Failure> {
         return Err(refused(&bed.spec.model.name, *what, why));
     }
     let points = &results.points;
-    let picture = || picture(&bed, &options, points, results.reference);
+    let picture = || picture::draw(&bed, &options, points, results.reference);
     let wanted = !points.is_empty();
     files::write(
         out,
@@ -205,99 +205,6 @@ fn csv(points: &[Point], measure: Measure) -> String {
     text
 }
 
-/// The points of each method, in the order of the catalogue.
-fn by_method(points: &[Point]) -> Vec<(&str, Vec<&Point>)> {
-    let mut all: Vec<(&str, Vec<&Point>)> = Vec::new();
-    for point in points {
-        match all.iter_mut().find(|(method, _)| *method == point.method) {
-            Some((_, points)) => points.push(point),
-            None => all.push((&point.method, vec![point])),
-        }
-    }
-    all
-}
-
-/// The time to an error, between the points by their logarithms; of the fastest way there.
-fn time_to(points: &[&Point], target: f64) -> Option<f64> {
-    let reaching = points.iter().filter(|point| point.error <= target);
-    let reached = reaching.map(|point| point.seconds).reduce(f64::min)?;
-    let pairs = points.windows(2).filter_map(|pair| {
-        let [a, b] = pair else { return None };
-        if a.error <= target || b.error > target {
-            return None;
-        }
-        let part = (target / a.error).ln() / (b.error.max(1e-17) / a.error).ln();
-        Some((a.seconds.ln() + part * (b.seconds / a.seconds).ln()).exp())
-    });
-    Some(pairs.fold(reached, f64::min))
-}
-
-/// How a method does: the times to the targets, its least error, its name and order.
-struct Line<'a> {
-    times: Vec<Option<f64>>,
-    least: f64,
-    /// The least error across the orbit, beside that of the phase.
-    across: Option<f64>,
-    method: &'a str,
-    order: String,
-    spread: f64,
-}
-
-/// The methods by the time to 1e-6; those that do not come there behind, by how far they come.
-fn lines<'a>(bed: &Bed, points: &'a [Point]) -> Vec<Line<'a>> {
-    let line = |(method, points): (&'a str, Vec<&Point>)| {
-        let times = TARGETS.iter().map(|&target| time_to(&points, target));
-        let order = order_of(bed, method).map_or("–".to_owned(), |order| order.to_string());
-        Line {
-            times: times.collect(),
-            least: points.iter().map(|p| p.error).fold(f64::INFINITY, f64::min),
-            across: points.iter().filter_map(|p| p.across).reduce(f64::min),
-            method,
-            order,
-            spread: spread(&points),
-        }
-    };
-    let mut lines: Vec<Line<'_>> = by_method(points).into_iter().map(line).collect();
-    let key = |line: &Line<'_>| line.times[1].unwrap_or(f64::INFINITY);
-    lines.sort_by(|a, b| {
-        let by_time = key(a).total_cmp(&key(b));
-        by_time.then(a.least.total_cmp(&b.least))
-    });
-    lines
-}
-
-/// The table of these.
-fn cells(lines: &[Line<'_>], measure: Measure) -> Vec<Vec<String>> {
-    let fastest: Vec<f64> = (0..TARGETS.len())
-        .map(|k| {
-            let times = lines.iter().filter_map(|line| line.times[k]);
-            times.fold(f64::INFINITY, f64::min)
-        })
-        .collect();
-    let mut cells = vec![vec!["method".to_owned(), "order".to_owned()]];
-    cells[0].extend(TARGETS.iter().map(|target| format!("to {target:.0e}")));
-    cells[0].push(sense::least(measure).to_owned());
-    if measure == Measure::Phase {
-        cells[0].push("least across".to_owned());
-    }
-    cells[0].push("spread".to_owned());
-    for line in lines {
-        let mut row = vec![line.method.to_owned(), line.order.clone()];
-        for (time, fastest) in line.times.iter().zip(&fastest) {
-            row.push(match time {
-                Some(time) if time <= fastest => format!("{} *", micro(*time)),
-                Some(time) => micro(*time),
-                None => "–".to_owned(),
-            });
-        }
-        row.push(short(line.least));
-        row.extend(line.across.map(short));
-        row.push(percent(line.spread));
-        cells.push(row);
-    }
-    cells
-}
-
 /// What errors are taken against, in a line or two.
 fn basis(bed: &Bed, results: &Results) -> String {
     let mut text = match results.reference {
@@ -334,10 +241,11 @@ fn report(bed: &Bed, options: &Options, results: &Results, quiet: &Quiet, engine
         bed.spec.model.name,
         sense::head(measure),
         basis(bed, results),
-        table::text(&cells(&lines(bed, &results.points), measure)),
+        aligned(&cells(&lines(bed, &results.points), measure)),
     );
-    text.push_str(&format!("\n* the fastest\n{}\n", quiet.text()));
-    text.push_str(&format!("measured: {engine}\n"));
+    let times = quiet.text();
+    let said = format!("\n* the fastest\n{times}\nmeasured: {engine}\n");
+    text.push_str(&below(&said));
     if !results.stopped.is_empty() {
         let count = results.stopped.len();
         text.push_str(&format!("\n{count} runs did not come to their end:\n"));
@@ -348,68 +256,16 @@ fn report(bed: &Bed, options: &Options, results: &Results, quiet: &Quiet, engine
     text
 }
 
-fn micro(seconds: f64) -> String {
-    let value = seconds * 1e6;
-    let digits = (2 - value.abs().log10().floor() as i32).clamp(0, 4) as usize;
-    format!("{value:.digits$}")
-}
-
-fn order_of(bed: &Bed, label: &str) -> Option<u32> {
-    let choice = bed.choices.iter().find(|choice| choice.label() == label)?;
-    choice.entry().map(|method| method.order)
-}
-
-/// The name of a method without its order and options; the base of a composition belongs to it.
-fn family(label: &str) -> String {
-    let id = label.split(' ').next().unwrap_or(label);
-    id.chars().filter(|c| !c.is_ascii_digit()).collect()
-}
-
-/// What a method keeps, in a few words; compositions keep what their base keeps.
-fn class(choice: Option<&Choice>) -> String {
-    let Some(method) = choice.and_then(|choice| choice.solved().entry()) else {
-        return "controls".to_owned();
-    };
-    let kept = method.preserves;
-    let words = match (kept.poisson, kept.orbit, kept.energy) {
-        (true, _, true) => "Poisson and energy",
-        (true, _, false) if method.explicit => "Poisson, explicit",
-        (true, _, false) => "Poisson",
-        (false, true, true) => "orbit and energy",
-        (false, true, false) => "orbit",
-        (false, false, true) => "energy, quadratic Casimirs",
-        (false, false, false) if kept.quadratic_invariants => "quadratic invariants",
-        _ => "controls",
-    };
-    words.to_owned()
-}
-
-fn picture(bed: &Bed, options: &Options, points: &[Point], reference: Option<Reference>) -> String {
-    let errors = sense::axis(options.measure, options.until);
-    let curves = by_method(points).into_iter().map(|(method, points)| {
-        let choice = bed.choices.iter().find(|choice| choice.label() == method);
-        let control = class(choice) == "controls";
-        Curve {
-            name: choice.map_or(method.to_owned(), Choice::title),
-            class: class(choice),
-            family: family(method),
-            order: choice
-                .and_then(Choice::entry)
-                .map_or(if method.ends_with("853") { 8 } else { 5 }, |m| m.order),
-            control,
-            points: points.iter().map(|p| (p.seconds, p.error)).collect(),
+/// The points of each method, in the order of the catalogue.
+fn by_method(points: &[Point]) -> Vec<(&str, Vec<&Point>)> {
+    let mut all: Vec<(&str, Vec<&Point>)> = Vec::new();
+    for point in points {
+        match all.iter_mut().find(|(method, _)| *method == point.method) {
+            Some((_, points)) => points.push(point),
+            None => all.push((&point.method, vec![point])),
         }
-    });
-    Frontier {
-        title: format!("{}: error against run time", bed.spec.model.name),
-        subtitle: format!(
-            "{errors} against run time per unit of time; bold: fastest in the panel at some error; band: \
-             fastest of the catalogue"
-        ),
-        floor: reference.map_or(f64::NAN, |reference| reference.error.max(reference.difference)),
-        curves: curves.collect(),
     }
-    .to_svg()
+    all
 }
 
 #[cfg(test)]

@@ -101,6 +101,17 @@ pub fn head(measure: Measure) -> &'static str {
     }
 }
 
+/// What is measured, in a word or two: the title of the picture.
+pub fn word(measure: Measure) -> &'static str {
+    match measure {
+        Measure::State => "error",
+        Measure::Energy => "energy drift",
+        Measure::Casimirs => "Casimir drift",
+        Measure::Phase => "difference in time",
+        Measure::Section(_) => "distance on the section",
+    }
+}
+
 /// The errors of the picture, in words.
 pub fn axis(measure: Measure, until: f64) -> String {
     match measure {

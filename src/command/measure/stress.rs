@@ -9,7 +9,7 @@ use lie_in_process::words::short;
 use lie_measure::stress::{Cell, Experiment, Growth, Moved, Options, Outcome};
 use lie_poisson::plot::map::{self, Cell as Square, Column, Map};
 
-use super::{Bed, Ended, bed, files, interrupted};
+use super::{Bed, Ended, bed, below, files, interrupted};
 use crate::command::run::values::Given;
 use crate::command::{args, print};
 use crate::interrupt::Interrupt;
@@ -149,15 +149,17 @@ fn growth_csv(growth: &Growth) -> String {
 
 fn report(bed: &Bed, results: &Results, steps: u64) -> String {
     let mut text = format!(
-        "{}: {} experiments, h0 = {}, {steps} steps of the long run at h0\n\n{}\n\
-         kept of tried: no claimed invariant beyond its round-off bound, no step refused; drifts relative to the size of the terms;\n\
-         grows: the last tenth of the run over the first\n{}",
+        "{}: {} experiments, h0 = {}, {steps} steps of the long run at h0\n\n{}\n",
         bed.spec.model.name,
         results.cells.len(),
         short(results.step),
         table::text(&results.table()),
-        results.legend(),
     );
+    text.push_str(&below(&format!(
+        "kept of tried: no claimed invariant beyond its round-off bound, no step refused; drifts relative to the size of the terms\n\
+         grows: the last tenth of the run over the first\n{}",
+        results.legend()
+    )));
     let model = &bed.spec.model;
     let independent = model.casimirs_to_find();
     if model.casimirs.len() < independent {

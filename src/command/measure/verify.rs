@@ -14,7 +14,7 @@ use lie_measure::verify::GroundFound as Ground;
 use lie_program::protocol::Obstacle;
 use serde_json::{Map, Value, json};
 
-use super::{Ended, bed, interrupted};
+use super::{Ended, bed, below, interrupted};
 use crate::command::run::values::Given;
 use crate::command::{args, print};
 use crate::interrupt::Interrupt;
@@ -144,10 +144,8 @@ fn report(system: &str, results: &Results) -> String {
     let ground = results.ground.as_ref();
     let number = |of: fn(&Ground) -> f64| short(ground.map_or(f64::NAN, of));
     let count = |of: fn(&Ground) -> usize| ground.map_or(String::new(), |g| of(g).to_string());
-    format!(
-        "{}: {} methods, step {}, {} states, {} linear and {} quadratic first integrals, reference to {}\n\n{}\n\
-         ✓ claimed and measured, ✗ claimed and not measured, no sign: not claimed; relative to the size of the terms\n\
-         {}{}\n{} claims, {} fail\n",
+    let head = format!(
+        "{}: {} methods, step {}, {} states, {} linear and {} quadratic first integrals, reference to {}",
         system,
         methods(rows).len(),
         number(|ground| ground.step),
@@ -155,12 +153,17 @@ fn report(system: &str, results: &Results) -> String {
         count(|ground| ground.linear),
         count(|ground| ground.quadratic),
         number(|ground| ground.error),
-        table::text(&lines(rows, &facts)),
+    );
+    let said = format!(
+        "✓ claimed and measured, ✗ claimed and not measured, no sign: not claimed; relative to the size of the terms\n\
+         {}{}\n{} claims, {} fail\n",
         summary(rows, &folded),
         results.evidence.summary(),
         rows.iter().filter(|row| row.is_claimed()).count(),
         rows.iter().filter(|row| row.fails()).count(),
-    )
+    );
+    let table = table::text(&lines(rows, &facts));
+    format!("{}\n\n{table}\n{}", below(&head), below(&said))
 }
 
 /// The table: a line for each method, a column for each fact.

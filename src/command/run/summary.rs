@@ -2,6 +2,7 @@
 
 use std::time::Duration;
 
+use lie_in_process::words::counted;
 use lie_poisson::plot::reference;
 use lie_program::protocol::Work;
 use lie_runtime::diagnostics::InvariantDrift;
@@ -140,7 +141,10 @@ pub fn line(title: &str, work: &Work, drift: &Drift, time: Duration) -> String {
 
 fn steps(title: &str, work: &Work, drift: &Drift, time: Duration) -> String {
     let (steps, end, seconds) = (work.steps, drift.time, time.as_secs_f64());
-    format!("{title}: {steps} steps to t = {end:?} in {seconds:.3} s")
+    format!(
+        "{title}: {} to t = {end:?} in {seconds:.3} s",
+        counted(steps, "step")
+    )
 }
 
 #[cfg(test)]

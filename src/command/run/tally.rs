@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 use std::time::Duration;
 
+use lie_in_process::words::counted;
 use lie_program::protocol::Work;
 
 use super::plan::Several;
@@ -103,7 +104,12 @@ impl Tally {
                 steps,
                 worst,
             } = method;
-            let _ = write!(text, "{title}: {runs} runs of {steps} steps in all");
+            let _ = write!(
+                text,
+                "{title}: {} of {} in all",
+                counted(*runs as u64, "run"),
+                counted(*steps, "step")
+            );
             if *stopped > 0 {
                 let _ = write!(text, ", {stopped} more that stopped early");
             }
