@@ -401,7 +401,8 @@ impl Code {
 }
 
 impl Instruction {
-    fn moved(self, to: &dyn Fn(Register) -> Register) -> Self {
+    /// The same with its operands in other registers.
+    pub(crate) fn moved(self, to: &dyn Fn(Register) -> Register) -> Self {
         match self {
             Self::Add(a, b) => Self::Add(to(a), to(b)),
             Self::Sub(a, b) => Self::Sub(to(a), to(b)),

@@ -3,11 +3,12 @@
 use crate::code::Code;
 use crate::elimination::Elimination;
 use crate::kernels::ARGUMENTS;
+use crate::straight::Step;
 use lie_codegen::methods::{Choice, Gradient};
 use lie_codegen::plan::{Constants, Function, Fused, Generating, Item, Method, Plan, Solver};
 use smallvec::SmallVec;
 use std::collections::HashMap;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// A code by its place; none where the plan has no such kernel.
 pub(crate) type Place = Option<usize>;
@@ -118,6 +119,8 @@ pub(crate) struct Compiled {
     pub realization: Option<crate::realization::Codes>,
     pub family: Option<crate::family::Codes>,
     pub casimir_degrees: Vec<Option<u32>>,
+    /// The steps that were asked for as one program, with those that are none.
+    steps: Mutex<HashMap<Choice, Option<Arc<Step>>>>,
 }
 
 /// Codes in the making.
@@ -314,6 +317,28 @@ impl Compiled {
             realization,
             family,
             casimir_degrees,
+            steps: Mutex::default(),
         }
+    }
+
+    /// The step of a method as one program, made where it is asked for the first time.
+    pub fn step_of(
+        self: &Arc<Self>,
+        choice: &Choice,
+        make: impl FnOnce(&Choice, &Arc<Self>) -> Option<Step>,
+    ) -> Option<Arc<Step>> {
+        let mut steps = self.steps.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(known) = steps.get(choice) {
+            return known.clone();
+        }
+        let step = make(choice, self).map(Arc::new);
+        steps.insert(choice.clone(), step.clone());
+        step
+    }
+
+    /// Whether the step of a method was asked for before.
+    pub fn knows_step(&self, choice: &Choice) -> bool {
+        let steps = self.steps.lock().unwrap_or_else(PoisonError::into_inner);
+        steps.contains_key(choice)
     }
 }

@@ -72,6 +72,11 @@ pub trait Machine<S>: Send + Sync {
         });
     }
 
+    /// The same engine for other codes, each set of which is compiled once; none where there is nothing better than the interpreter.
+    fn of(&self, _codes: &Arc<[Code]>) -> Option<Arc<dyn Machine<S>>> {
+        None
+    }
+
     /// The same codes over the lanes of the scalar; none where there is nothing better than the interpreter.
     fn wide(&self) -> Option<Arc<dyn Machine<S::Wide>>>
     where

@@ -2,17 +2,20 @@
 
 use crate::family::OfSite;
 use crate::interpreter::Interpreter;
+use crate::methods::is_compiled_for_lanes;
 use crate::system::Dynamic;
 use crate::values::Values;
+use lie_codegen::methods::Choice;
 use lie_runtime::Scalar;
 use lie_runtime::family::Family;
 use std::sync::Arc;
 
 impl<S: Scalar> Dynamic<S> {
-    /// Whether systems of this declaration can be side by side: not where a velocity is followed along its branch, which
-    /// makes another system of each.
-    pub fn takes_lanes(&self) -> bool {
-        !self.is_by_legendre()
+    /// Whether systems of this declaration can be side by side by a method of [`method_in_lanes`](crate::method_in_lanes): not where
+    /// a velocity is followed along its branch, which makes another system of each, nor where the method is compiled for lanes
+    /// as one program alone and its step is none.
+    pub fn takes_lanes(&self, choice: &Choice) -> bool {
+        !self.is_by_legendre() && (is_compiled_for_lanes(choice) || self.step_of(choice).is_some())
     }
 
     /// Up to eight systems of one declaration as one system over lanes, with the parameters of each. The first fills the lanes
@@ -31,7 +34,7 @@ impl<S: Scalar> Dynamic<S> {
         });
         assert!(systems.len() <= 8, "there are eight lanes");
         assert!(one_declaration, "the systems are of different declarations");
-        assert!(first.takes_lanes(), "the system does not take lanes");
+        assert!(!first.is_by_legendre(), "the system does not take lanes");
         let compiled = &first.values.compiled;
         let gather = |values: fn(&Self) -> &[S]| -> Vec<S::Wide> {
             let of_lane = |lane: usize| values(systems.get(lane).copied().unwrap_or(first));

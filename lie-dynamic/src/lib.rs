@@ -50,6 +50,7 @@ mod methods;
 mod names;
 mod realization;
 mod series;
+mod straight;
 mod structure;
 mod system;
 mod traits;
@@ -63,4 +64,5 @@ pub use layout::{Lengths, SLICES};
 pub use methods::{
     Method, Tolerances, at_defaults, at_defaults_over, method, method_in_lanes, method_over,
 };
+pub use straight::PATIENCE;
 pub use system::{Declared, Dynamic};

@@ -1,5 +1,6 @@
 //! The methods of the catalogue over systems made at run time.
 
+use crate::straight::Straight;
 use crate::system::Dynamic;
 use lie_codegen::methods::{Choice, Gradient, Lift, Pieces, Retraction, Scheme, Tensor};
 use lie_codegen::structure::lifts::Smallest;
@@ -102,7 +103,10 @@ fn scheme_of(scheme: Scheme) -> m::Scheme {
 
 /// The method of a choice with its own defaults: series at the tolerance at which they are exact on every grid.
 pub fn at_defaults(choice: &Choice) -> Option<Method> {
-    at_defaults_over(choice)
+    match choice {
+        Choice::Taylor | Choice::LieTaylor => at_defaults_over(choice),
+        other => method(other, Tolerances::default()),
+    }
 }
 
 /// The same over any scalar.
@@ -119,7 +123,10 @@ pub fn at_defaults_over<S: Scalar>(choice: &Choice) -> Option<Method<S>> {
 ///
 /// Of double precision, so that all methods are compiled once, here, and not with every crate that asks for one.
 pub fn method(choice: &Choice, tolerances: Tolerances) -> Option<Method> {
-    method_over(choice, tolerances)
+    match explicit(choice) {
+        Some(apart) => Some(Box::new(Straight::patient(choice, apart))),
+        None => method_over(choice, tolerances),
+    }
 }
 
 /// The same over any scalar.
@@ -129,15 +136,10 @@ pub fn method_over<S: Scalar>(choice: &Choice, tolerances: Tolerances) -> Option
         Choice::Gauss(stages) => gauss(*stages),
         Choice::LieMidpoint(Retraction::Exp) => boxed(m::LieMidpoint::exp()),
         Choice::LieMidpoint(Retraction::Cayley) => boxed(m::LieMidpoint::cayley()),
-        Choice::LieEuler => boxed(m::LieEuler),
-        Choice::Rkmk(2) => boxed(m::Rkmk2),
-        Choice::Rkmk(3) => boxed(m::Rkmk3),
-        Choice::Rkmk(4) => boxed(m::Rkmk4),
-        Choice::Rkmk(6) => boxed(m::Rkmk6),
-        Choice::CrouchGrossman3 => boxed(m::CrouchGrossman3),
-        Choice::CommutatorFree4 => boxed(m::CommutatorFree4),
         Choice::MoserVeselov => boxed(m::MoserVeselov),
-        Choice::Compose(order, scheme, base) => compose(*order, *scheme, base, tolerances),
+        Choice::Compose(order, scheme, base) => compose(*order, *scheme, base, move |base| {
+            method_over(base, tolerances)
+        }),
         Choice::Generating(2, Retraction::Exp) => boxed(m::Generating2::exp()),
         Choice::Generating(4, Retraction::Exp) => boxed(m::Generating4::exp()),
         Choice::Generating(6, Retraction::Exp) => boxed(m::Generating6::exp()),
@@ -147,7 +149,6 @@ pub fn method_over<S: Scalar>(choice: &Choice, tolerances: Tolerances) -> Option
         Choice::Collective(order, lift) => collective(*order, *lift),
         Choice::Isospectral(order) => isospectral(*order),
         Choice::SphericalMidpoint => boxed(m::SphericalMidpoint),
-        Choice::Splitting(order, scheme, pieces) => splitting(*order, *scheme, *pieces),
         Choice::DiscreteGradient(gradient, Tensor::Midpoint) => match gradient {
             Gradient::Gonzalez => boxed(m::Gonzalez),
             Gradient::MeanValue => boxed(m::MeanValue),
@@ -168,18 +169,48 @@ pub fn method_over<S: Scalar>(choice: &Choice, tolerances: Tolerances) -> Option
         Choice::Taylor => boxed(m::Taylor::with_tolerance(tolerances.rtol)),
         Choice::LieTaylor => boxed(m::LieTaylor::with_tolerance(tolerances.rtol)),
         Choice::Exact => boxed(m::Exact),
-        Choice::Rk4 => boxed(m::Rk4),
         Choice::Dopri5 => boxed(m::Dopri5 {
             rtol: tolerances.rtol,
             atol: tolerances.atol,
         }),
-        other => crate::lagrangian::method(other),
+        other => explicit(other).or_else(|| crate::lagrangian::method(other)),
     }
 }
 
-/// The method of a choice over lanes, for systems side by side ([`Dynamic::in_lanes`]); none of methods that are not compiled for them:
-/// each costs the compiler of this crate's users as much as a method over numbers, those with all stages in registers many times that.
+/// The methods without a solver whose steps depend on mu alone.
+pub(crate) fn explicit<S: Scalar>(choice: &Choice) -> Option<Method<S>> {
+    match choice {
+        Choice::LieEuler => boxed(m::LieEuler),
+        Choice::Rkmk(2) => boxed(m::Rkmk2),
+        Choice::Rkmk(3) => boxed(m::Rkmk3),
+        Choice::Rkmk(4) => boxed(m::Rkmk4),
+        Choice::Rkmk(6) => boxed(m::Rkmk6),
+        Choice::CrouchGrossman3 => boxed(m::CrouchGrossman3),
+        Choice::CommutatorFree4 => boxed(m::CommutatorFree4),
+        Choice::Splitting(order, scheme, pieces) => splitting(*order, *scheme, *pieces),
+        Choice::Compose(order, scheme, base) => compose(*order, *scheme, base, explicit),
+        Choice::Rk4 => boxed(m::Rk4),
+        _ => None,
+    }
+}
+
+/// The method of a choice over lanes, for systems side by side ([`Dynamic::in_lanes`]) that take it ([`Dynamic::takes_lanes`]): what
+/// is explicit has steps that are one program, which is compiled for lanes as for numbers. Of the others few are compiled for
+/// lanes: each costs the compiler of this crate's users as much as a method over numbers, those with all stages in registers
+/// many times that.
 pub fn method_in_lanes(
+    choice: &Choice,
+    tolerances: Tolerances,
+) -> Option<Method<<f64 as Scalar>::Wide>> {
+    if let Some(method) = compiled_for_lanes(choice, tolerances) {
+        return Some(method);
+    }
+    let claims = explicit::<f64>(choice)?.claims();
+    Some(Box::new(Straight::at_once(choice, claims)))
+}
+
+/// The methods that are compiled for lanes.
+fn compiled_for_lanes(
     choice: &Choice,
     tolerances: Tolerances,
 ) -> Option<Method<<f64 as Scalar>::Wide>> {
@@ -188,9 +219,15 @@ pub fn method_in_lanes(
         Choice::Gauss(2) => boxed(m::Gauss4),
         Choice::LieMidpoint(Retraction::Exp) => boxed(m::LieMidpoint::exp()),
         Choice::Taylor => boxed(m::Taylor::with_tolerance(tolerances.rtol)),
-        Choice::Rk4 => boxed(m::Rk4),
+        // kernel by kernel for families, whose steps are loops over their sites
+        Choice::Rk4 => Some(Box::new(Straight::patient(choice, boxed(m::Rk4)?))),
         _ => None,
     }
+}
+
+/// Whether a method is compiled for lanes.
+pub(crate) fn is_compiled_for_lanes(choice: &Choice) -> bool {
+    compiled_for_lanes(choice, Tolerances::default()).is_some()
 }
 
 fn gauss<S: Scalar>(stages: usize) -> Option<Method<S>> {
@@ -297,20 +334,20 @@ fn isospectral<S: Scalar>(order: u32) -> Option<Method<S>> {
     }
 }
 
+/// A composition of steps of its base, which `make` makes.
 fn compose<S: Scalar>(
     order: u32,
     scheme: Scheme,
     base: &Choice,
-    tolerances: Tolerances,
+    make: impl Fn(&Choice) -> Option<Method<S>> + 'static,
 ) -> Option<Method<S>> {
     let claims = Claims {
         order,
-        ..method_over::<S>(base, tolerances)?.claims()
+        ..make(base)?.claims()
     };
     let (base, scheme) = (base.clone(), scheme_of(scheme));
     let choose = move |_: &Dynamic<S>| -> Method<S> {
-        let base = method_over(&base, tolerances);
-        let base = Base(base.unwrap_or_else(|| unreachable!("the base was there before")));
+        let base = Base(make(&base).unwrap_or_else(|| unreachable!("the base was there before")));
         match order {
             4 => Box::new(m::Compose4::new(base).scheme(scheme)),
             6 => Box::new(m::Compose6::new(base).scheme(scheme)),

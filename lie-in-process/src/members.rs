@@ -194,7 +194,9 @@ impl Worker<'_> {
         if let Some(together) = &self.together {
             let there = systems.iter().enumerate();
             let there = there.filter_map(|(index, system)| Some((index, system.as_ref().ok()?)));
-            let mut left: Vec<_> = there.filter(|(_, system)| system.takes_lanes()).collect();
+            let mut left: Vec<_> = there
+                .filter(|(_, system)| system.takes_lanes(self.members.choice))
+                .collect();
             // families of other sizes are other systems
             if let Some(sizes) = left.first().map(|(_, system)| system.sizes()) {
                 left.retain(|(_, system)| system.sizes() == sizes);

@@ -2,7 +2,7 @@
 
 use crate::columns::{Along, Columns};
 use crate::compile::{Compiler, Shape};
-use crate::{Entry, Function, LONGEST, Memory};
+use crate::{Entry, Function, LONGEST, Memory, Others};
 use lie_dynamic::{Code, Frame, Interpreter, Machine, Targets};
 use lie_runtime::Scalar;
 use std::sync::{Arc, OnceLock};
@@ -21,6 +21,7 @@ pub struct Lanes {
     entries: Vec<OnceLock<Option<(Entry, Function, Memory)>>>,
     codes: Arc<[Code]>,
     along: Along,
+    others: Others<Self>,
     interpreted: Interpreter,
 }
 
@@ -30,6 +31,7 @@ impl Lanes {
             entries: codes.iter().map(|_| OnceLock::new()).collect(),
             codes: Arc::clone(codes),
             along: Along::new(codes.len()),
+            others: Others::new(),
             interpreted: Interpreter::new(Arc::clone(codes)),
         }
     }
@@ -53,6 +55,10 @@ impl Machine<Wide> for Lanes {
             Some((entry, function, _)) => entry.call(*function, frame, targets),
             None => self.interpreted.run(code, frame, targets),
         }
+    }
+
+    fn of(&self, codes: &Arc<[Code]>) -> Option<Arc<dyn Machine<Wide>>> {
+        Some(self.others.of(codes, || Some(Self::new(codes)))?)
     }
 
     fn along(

@@ -19,7 +19,7 @@ use lanes::{Lanes, Wide};
 use lie_dynamic::{Code, Engine, Frame, Interpreted, Lengths, Machine, Targets, place_by_place};
 use lie_runtime::Scalar;
 use std::mem::ManuallyDrop;
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// The engine of Cranelift. Where the processor is none that it knows, codes are interpreted.
 #[derive(Clone, Copy, Debug, Default)]
@@ -93,7 +93,28 @@ struct Compiled {
     codes: Arc<[Code]>,
     wide: OnceLock<Arc<Lanes>>,
     along: Along,
+    others: Others<Self>,
     _memory: Memory,
+}
+
+/// Machines for other codes than those of a plan, each with the codes that it was made of.
+struct Others<M>(Mutex<Vec<(Arc<[Code]>, Option<Arc<M>>)>>);
+
+impl<M> Others<M> {
+    fn new() -> Self {
+        Self(Mutex::new(Vec::new()))
+    }
+
+    /// The machine of these codes, made where it is asked for the first time.
+    fn of(&self, codes: &Arc<[Code]>, make: impl FnOnce() -> Option<M>) -> Option<Arc<M>> {
+        let mut all = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, machine)) = all.iter().find(|(known, _)| Arc::ptr_eq(known, codes)) {
+            return machine.clone();
+        }
+        let machine = make().map(Arc::new);
+        all.push((Arc::clone(codes), machine.clone()));
+        machine
+    }
 }
 
 impl Compiled {
@@ -119,6 +140,7 @@ impl Compiled {
             codes: Arc::clone(codes),
             wide: OnceLock::new(),
             along: Along::new(codes.len()),
+            others: Others::new(),
             _memory: memory,
         })
     }
@@ -188,6 +210,11 @@ impl Machine<f64> for Compiled {
         place_by_place(done..places, columns, to, |at, out| {
             self.run(code, &frame.at(at), [out, &mut []]);
         });
+    }
+
+    fn of(&self, codes: &Arc<[Code]>) -> Option<Arc<dyn Machine<f64>>> {
+        let make = || Self::new(codes, Interpreted.machine(codes));
+        Some(self.others.of(codes, make)?)
     }
 
     fn wide(&self) -> Option<Arc<dyn Machine<Wide>>> {

@@ -1,0 +1,158 @@
+//! Steps that are one program have the bits of steps kernel by kernel.
+
+use lie_codegen::compile::compile_spec;
+use lie_codegen::methods::Choice;
+use lie_codegen::plan::plan;
+use lie_dynamic::{Declared, Dynamic, Interpreted, PATIENCE, Tolerances, method};
+use lie_in_process::list;
+use lie_jit::Jit;
+use lie_runtime::diagnostics::AnyStepper;
+use lie_runtime::newton::NewtonOptions;
+
+/// A declaration of the project, run by machine code and by the interpreter, which makes all steps kernel by kernel.
+struct Both {
+    choices: Vec<Choice>,
+    compiled: Dynamic<f64>,
+    interpreted: Dynamic<f64>,
+}
+
+impl Both {
+    fn new(name: &str) -> Self {
+        let path = format!("{}/../specs/{name}", env!("CARGO_MANIFEST_DIR"));
+        let model = compile_spec(&std::fs::read_to_string(path).unwrap()).unwrap();
+        let there = |choice: &Choice| method(choice, Tolerances::default()).is_some();
+        let choices: Vec<_> = list::all(&model).into_iter().filter(there).collect();
+        let plan = plan(&model, &choices);
+        Self {
+            choices,
+            compiled: Declared::new(plan.clone(), &Jit).system(&[]).unwrap(),
+            interpreted: Declared::new(plan, &Interpreted).system(&[]).unwrap(),
+        }
+    }
+}
+
+fn stepper<'a>(
+    system: &'a Dynamic<f64>,
+    choice: &Choice,
+    h: f64,
+) -> Box<dyn AnyStepper<f64, Vec<f64>> + 'a> {
+    let method = method(choice, Tolerances::default()).unwrap();
+    method.any_stepper(system, h, &NewtonOptions::default())
+}
+
+/// The state after some steps, and how the last one ended.
+fn end(
+    system: &Dynamic<f64>,
+    choice: &Choice,
+    h: f64,
+    mu: &[f64],
+    steps: u32,
+) -> (Vec<u64>, String) {
+    let mut stepper = stepper(system, choice, h);
+    let mut mu = mu.to_vec();
+    let mut last = String::new();
+    for _ in 0..steps {
+        last = format!("{:?}", stepper.step(&mut mu));
+    }
+    (mu.iter().map(|x| x.to_bits()).collect(), last)
+}
+
+#[test]
+fn on_every_spec() {
+    let folder = format!("{}/../specs", env!("CARGO_MANIFEST_DIR"));
+    let files = std::fs::read_dir(folder).unwrap();
+    let names = files.map(|file| file.unwrap().file_name().into_string().unwrap());
+    let (mut whole, mut apart) = (0, Vec::new());
+    for name in names.filter(|name| name.ends_with(".json") && !name.contains("schema")) {
+        let both = Both::new(&name);
+        let Some(mu) = both.compiled.initial_state() else {
+            continue;
+        };
+        for choice in &both.choices {
+            let claims = method(choice, Tolerances::default()).unwrap().claims();
+            if both.compiled.step_code(choice).is_none() {
+                if claims.explicit && !claims.own_steps {
+                    apart.push(format!("{name} {}", choice.label()));
+                }
+                continue;
+            }
+            whole += 1;
+            let found = end(&both.compiled, choice, 0.07, &mu, 40);
+            let expected = end(&both.interpreted, choice, 0.07, &mu, 40);
+            assert_eq!(found, expected, "{name} {}", choice.label());
+            // the control: another step size
+            let other = end(&both.compiled, choice, 0.070_000_000_1, &mu, 40);
+            assert_ne!(found.0, other.0, "{name} {}", choice.label());
+        }
+    }
+    // what is left: series with as many terms as a number asks for, and the Legendre transform's iteration
+    let left = |label: &String| {
+        let known = [
+            "su3_quadratic",
+            "so3_quartic_lagrangian",
+            " exact",
+            " taylor",
+            " lie-taylor",
+        ];
+        !known.iter().any(|known| label.contains(known))
+    };
+    apart.retain(left);
+    assert!(apart.is_empty(), "{apart:#?}");
+    assert!(whole > 300, "{whole}");
+}
+
+fn explicit() -> Vec<Choice> {
+    ["rk4", "rkmk4", "cf4", "splitting2", "splitting6"]
+        .map(|id| Choice::from_id(id).unwrap())
+        .to_vec()
+}
+
+#[test]
+fn within_a_run() {
+    let both = Both::new("se3_heavy_top.json");
+    let mu = both.compiled.initial_state().unwrap();
+    for choice in explicit() {
+        for steps in [PATIENCE - 1, PATIENCE, PATIENCE + 1, PATIENCE + 100] {
+            let system = both.compiled.with_parameters(&[]).unwrap();
+            let found = end(&system, &choice, 0.01, &mu, steps);
+            let expected = end(&both.interpreted, &choice, 0.01, &mu, steps);
+            assert_eq!(found, expected, "{} {steps}", choice.label());
+        }
+    }
+}
+
+#[test]
+fn a_step_that_is_not_finite_is_refused_and_leaves_the_state() {
+    let both = Both::new("se3_heavy_top.json");
+    for choice in explicit() {
+        assert!(both.compiled.step_code(&choice).is_some());
+        for size in [1e200, f64::MAX, f64::INFINITY, f64::NAN] {
+            let mu: Vec<f64> = (1..7).map(|k| size * f64::from(k)).collect();
+            let found = end(&both.compiled, &choice, 0.1, &mu, 1);
+            let expected = end(&both.interpreted, &choice, 0.1, &mu, 1);
+            let refused = found.1.contains("NotFinite");
+            assert!(refused || size.is_finite(), "{} {found:?}", choice.label());
+            assert_eq!(found, expected, "{}", choice.label());
+        }
+    }
+}
+
+#[test]
+fn the_motion_on_the_group_is_shown_all_the_same() {
+    use lie_runtime::diagnostics::Motions;
+    let both = Both::new("se3_heavy_top.json");
+    let mu = both.compiled.initial_state().unwrap();
+    for choice in explicit() {
+        assert!(both.compiled.step_code(&choice).is_some());
+        let shown = |system| {
+            let (mut mu, mut motions) = (mu.clone(), Motions(Vec::new()));
+            let mut stepper = stepper(system, &choice, 0.1);
+            stepper.step(&mut mu).unwrap();
+            stepper.step_with_motions(&mut mu, &mut motions).unwrap();
+            format!("{mu:?} {motions:?}")
+        };
+        let found = shown(&both.compiled);
+        assert!(found.len() > 100, "{found}");
+        assert_eq!(found, shown(&both.interpreted), "{}", choice.label());
+    }
+}
