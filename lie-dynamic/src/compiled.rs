@@ -3,7 +3,7 @@
 use crate::code::Code;
 use crate::elimination::Elimination;
 use crate::kernels::ARGUMENTS;
-use crate::straight::Step;
+use crate::straight::{Programs, Step};
 use lie_codegen::methods::{Choice, Gradient};
 use lie_codegen::plan::{Constants, Function, Fused, Generating, Item, Method, Plan, Solver};
 use smallvec::SmallVec;
@@ -119,8 +119,37 @@ pub(crate) struct Compiled {
     pub realization: Option<crate::realization::Codes>,
     pub family: Option<crate::family::Codes>,
     pub casimir_degrees: Vec<Option<u32>>,
-    /// The steps that were asked for as one program, with those that are none.
-    steps: Mutex<HashMap<Choice, Option<Arc<Step>>>>,
+    /// Steps as one program.
+    pub steps: Asked<Step>,
+    /// Equations as programs.
+    pub equations: Asked<Programs>,
+}
+
+/// What was asked for of methods, with where there is none.
+#[derive(Debug)]
+pub(crate) struct Asked<T>(Mutex<HashMap<Choice, Option<Arc<T>>>>);
+
+impl<T> Asked<T> {
+    fn new() -> Self {
+        Self(Mutex::new(HashMap::new()))
+    }
+
+    /// That of a method, made where it is asked for the first time.
+    pub fn get(&self, choice: &Choice, make: impl FnOnce() -> Option<T>) -> Option<Arc<T>> {
+        let mut all = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(known) = all.get(choice) {
+            return known.clone();
+        }
+        let made = make().map(Arc::new);
+        all.insert(choice.clone(), made.clone());
+        made
+    }
+
+    /// What was found where it was asked for before.
+    pub fn known(&self, choice: &Choice) -> Option<Option<Arc<T>>> {
+        let all = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        all.get(choice).cloned()
+    }
 }
 
 /// Codes in the making.
@@ -317,28 +346,8 @@ impl Compiled {
             realization,
             family,
             casimir_degrees,
-            steps: Mutex::default(),
+            steps: Asked::new(),
+            equations: Asked::new(),
         }
-    }
-
-    /// The step of a method as one program, made where it is asked for the first time.
-    pub fn step_of(
-        self: &Arc<Self>,
-        choice: &Choice,
-        make: impl FnOnce(&Choice, &Arc<Self>) -> Option<Step>,
-    ) -> Option<Arc<Step>> {
-        let mut steps = self.steps.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(known) = steps.get(choice) {
-            return known.clone();
-        }
-        let step = make(choice, self).map(Arc::new);
-        steps.insert(choice.clone(), step.clone());
-        step
-    }
-
-    /// Whether the step of a method was asked for before.
-    pub fn knows_step(&self, choice: &Choice) -> bool {
-        let steps = self.steps.lock().unwrap_or_else(PoisonError::into_inner);
-        steps.contains_key(choice)
     }
 }

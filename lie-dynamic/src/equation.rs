@@ -3,6 +3,7 @@
 use crate::compiled::{Call, FusedCodes, Given};
 use crate::elimination::{Blocks, Elimination, Scratch};
 use crate::kernels::ARGUMENTS;
+use crate::straight;
 use crate::system::Dynamic;
 use lie_codegen::methods::Choice;
 use lie_codegen::plan::{Chart, Ending, Fused, Guess, Item, Partner, Solver};
@@ -31,11 +32,19 @@ pub struct Planned<'a, S: Scalar, G> {
     fused: Option<Running<'a, S>>,
     elimination: Option<&'a Elimination>,
     scratch: RefCell<Scratch<S>>,
+    /// Where the equation is not fused, its residual and its Jacobian as programs.
+    programs: Option<straight::Running<S>>,
 }
 
 impl<'a, S: Scalar, G> Planned<'a, S, G> {
     /// The equation of a step of size h, `generic` being the generic one of the same step.
-    pub fn new(system: &'a Dynamic<S>, choice: &Choice, h: S, generic: G) -> Self {
+    pub(crate) fn new(
+        system: &'a Dynamic<S>,
+        choice: &Choice,
+        h: S,
+        generic: G,
+        write: straight::Write,
+    ) -> Self {
         let solver = system.values.compiled.solvers.get(choice);
         let (mut fused, mut elimination) = (None, None);
         match solver {
@@ -62,6 +71,10 @@ impl<'a, S: Scalar, G> Planned<'a, S, G> {
             }
             Some(Solver::Generic(_)) | None => {}
         }
+        let programs = match &fused {
+            Some(_) => None,
+            None => straight::Running::new(system, choice, h, write),
+        };
         Self {
             system,
             h,
@@ -69,6 +82,7 @@ impl<'a, S: Scalar, G> Planned<'a, S, G> {
             fused,
             elimination,
             scratch: RefCell::default(),
+            programs,
         }
     }
 }
@@ -158,7 +172,12 @@ where
     fn set_base(&mut self, mu: &Vec<S>) {
         match &mut self.fused {
             Some(fused) => fused.base.copy_from_slice(mu),
-            None => self.generic.set_base(mu),
+            None => {
+                self.generic.set_base(mu);
+                if let Some(programs) = &mut self.programs {
+                    programs.set_base(mu);
+                }
+            }
         }
     }
 
@@ -206,7 +225,11 @@ where
 
     fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
         let Some(fused) = &mut self.fused else {
-            return self.generic.residual(unknown, residual);
+            let programs = self.programs.as_mut();
+            if !programs.is_some_and(|programs| programs.residual(self.system, unknown, residual)) {
+                self.generic.residual(unknown, residual);
+            }
+            return;
         };
         let (unknown, call) = (unknown.part(0), &fused.codes.residual);
         fused.prepare(self.system, unknown);
@@ -221,7 +244,12 @@ where
         matrix: &mut Self::Matrix,
     ) {
         let Some(fused) = &mut self.fused else {
-            return self.generic.linearize(unknown, residual, matrix);
+            let system = self.system;
+            let programs = self.programs.as_mut();
+            if !programs.is_some_and(|p| p.linearize(system, unknown, residual, matrix)) {
+                self.generic.linearize(unknown, residual, matrix);
+            }
+            return;
         };
         let (unknown, call) = (unknown.part(0), &fused.codes.linearize);
         fused.prepare(self.system, unknown);

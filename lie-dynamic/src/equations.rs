@@ -4,6 +4,7 @@ use crate::either::Either;
 use crate::equation::Planned;
 use crate::generating;
 use crate::gradient;
+use crate::straight::{Recorded, write};
 use crate::system::Dynamic;
 use lie_codegen::methods::{Choice, Gradient, Lift, Retraction, Tensor};
 use lie_codegen::plan::{Partner, Solver};
@@ -12,6 +13,17 @@ use lie_core::generic;
 use lie_runtime::methods as m;
 use lie_runtime::{Implicit, Scalar};
 
+/// How something of the equation of a method is written down.
+macro_rules! written {
+    ($method:ty) => {
+        |system, h, what| {
+            let equation =
+                Implicit::<Recorded, $method>::equation(system, &<$method>::default(), h);
+            write(equation, system, what)
+        }
+    };
+}
+
 /// The equation of a method: its type, its row in the catalogue, the generic equation.
 macro_rules! planned {
     ($($method:ty, $choice:expr, $generic:ty;)+) => {
@@ -19,7 +31,7 @@ macro_rules! planned {
             impl<S: Scalar> Implicit<S, $method> for Dynamic<S> {
                 type Equation<'a> = Planned<'a, S, $generic> where Self: 'a;
                 fn equation<'a>(&'a self, _method: &$method, h: S) -> Self::Equation<'a> {
-                    Planned::new(self, &$choice, h, <$generic>::new(self, h))
+                    Planned::new(self, &$choice, h, <$generic>::new(self, h), written!($method))
                 }
             }
         )+
@@ -58,7 +70,7 @@ macro_rules! cohen_hairer {
                         }
                         _ => Either::First(generic::CohenHairerStep::new(self, h)),
                     };
-                    Planned::new(self, &choice, h, equation)
+                    Planned::new(self, &choice, h, equation, written!(m::CohenHairer<$stages>))
                 }
             }
         )+
@@ -74,7 +86,8 @@ impl<S: Scalar> Implicit<S, m::CohenHairer<1>> for Dynamic<S> {
         Self: 'a;
     fn equation<'a>(&'a self, _method: &m::CohenHairer<1>, h: S) -> Self::Equation<'a> {
         let equation = generic::DiscreteGradientStep::new(self, h);
-        Planned::new(self, &Choice::CohenHairer(2), h, equation)
+        let choice = Choice::CohenHairer(2);
+        Planned::new(self, &choice, h, equation, written!(m::CohenHairer<1>))
     }
 }
 
@@ -106,7 +119,7 @@ macro_rules! along {
                     let function = generating::Planned::new(self, $suffix, h, function);
                     let equation = generic::$equation::with_function(self, function, h);
                     let choice = Choice::Generating($order, Retraction::$retraction);
-                    Planned::new(self, &choice, h, equation)
+                    Planned::new(self, &choice, h, equation, written!(m::Generating<m::$retraction, $order>))
                 }
             }
         )+
@@ -128,7 +141,8 @@ macro_rules! stages {
                 >> where Self: 'a;
                 fn equation<'a>(&'a self, _method: &m::Isospectral<$stages>, h: S) -> Self::Equation<'a> {
                     let equation = generic::StageMomenta::new(self, h);
-                    Planned::new(self, &Choice::Isospectral($order), h, equation)
+                    let choice = Choice::Isospectral($order);
+                    Planned::new(self, &choice, h, equation, written!(m::Isospectral<$stages>))
                 }
             }
 
@@ -145,7 +159,8 @@ macro_rules! stages {
                 >> where Self: 'a;
                 fn equation<'a>(&'a self, _method: &m::Collective<m::Hopf, $stages>, h: S) -> Self::Equation<'a> {
                     let equation = generic::StageMomenta::new(self, h);
-                    Planned::new(self, &Choice::Collective($order, Lift::Hopf), h, equation)
+                    let choice = Choice::Collective($order, Lift::Hopf);
+                    Planned::new(self, &choice, h, equation, written!(m::Collective<m::Hopf, $stages>))
                 }
             }
         )+
@@ -163,7 +178,8 @@ macro_rules! orbit_energy {
                 >> where Self: 'a;
                 fn equation<'a>(&'a self, _method: &m::OrbitEnergy<m::$gradient>, h: S) -> Self::Equation<'a> {
                     let equation = generic::OrbitEnergyStep::new(self, h);
-                    Planned::new(self, &Choice::OrbitEnergy(Gradient::$gradient), h, equation)
+                    let choice = Choice::OrbitEnergy(Gradient::$gradient);
+                    Planned::new(self, &choice, h, equation, written!(m::OrbitEnergy<m::$gradient>))
                 }
             }
         )+
@@ -185,7 +201,8 @@ impl<S: Scalar> Implicit<S, m::MoserVeselov> for Dynamic<S> {
             false => Either::First(generic::DiscreteTop::new(self, h)),
             true => Either::Second(generic::DiscreteBody::new(self, h)),
         };
-        Planned::new(self, &Choice::MoserVeselov, h, equation)
+        let choice = Choice::MoserVeselov;
+        Planned::new(self, &choice, h, equation, written!(m::MoserVeselov))
     }
 }
 
@@ -207,6 +224,13 @@ impl<S: Scalar> Implicit<S, m::GeneratingSecondKind2> for Dynamic<S> {
         let function = generic::SecondKind2::new(self, h);
         let function = generating::Planned::new(self, "SecondKind2", h, function);
         let equation = generic::SecondKind::with_function(self, function);
-        Planned::new(self, &Choice::GeneratingSecondKind2, h, equation)
+        let choice = Choice::GeneratingSecondKind2;
+        Planned::new(
+            self,
+            &choice,
+            h,
+            equation,
+            written!(m::GeneratingSecondKind2),
+        )
     }
 }

@@ -1,14 +1,17 @@
-//! Steps as one program: of a method without a solver all kernels of a step, and the sums between them, run as one code.
+//! Steps and equations as one program: of a method without a solver all kernels of a step, and the sums between them, run as one
+//! code, and so do the residual and the Jacobian of an equation that the plan does not fuse.
 //!
-//! The step is written down once: the method makes it over a scalar that records its operations, and a kernel that it calls is put
-//! in its place. The operations and their order are those of the step itself, so that the bits are.
+//! What is to be one program is written down once: the method makes its step, or the equation computes its residual, over a
+//! scalar that records its operations, and a kernel that is called is put in its place. The operations and their order are those
+//! of the step itself, so that the bits are. What depends on the step size alone is a program of its own, run once.
 
+mod equation;
 mod record;
 
 use crate::code::{Code, Source};
 use crate::compiled::Compiled;
 use crate::interpreter::Interpreter;
-use crate::kernels::Machine;
+use crate::kernels::{ARGUMENTS, Machine};
 use crate::methods::{Method, explicit};
 use crate::system::Dynamic;
 use crate::values::Values;
@@ -18,71 +21,111 @@ use lie_runtime::diagnostics::{AnyMethod, AnyStepper, Claims, Forgotten, Forgott
 use lie_runtime::methods::{FactorSink, Method as _, StepFailure, StepReport, Stepper};
 use lie_runtime::newton::{FailureReason, NewtonOptions};
 use lie_runtime::scalar::Mask;
-use record::{Inlined, Recorded, recorded};
+use record::{Inlined, written};
 use std::sync::Arc;
 
-/// So many steps of a run are made kernel by kernel, before the step is compiled as a whole: what that costs is less than what
-/// as many steps gain.
+pub(crate) use equation::{Programs, Running, Write, write};
+pub(crate) use record::Recorded;
+
+/// So many steps of a run are made kernel by kernel, and so many residuals computed, before a program of the whole is compiled: what
+/// that costs is less than what as many gain.
 pub const PATIENCE: u32 = 1500;
 
-/// A step as one code: of mu, the step size, parameters and constants it makes the state at the end, and behind it numbers that
-/// are all finite where the step is good.
+/// Numbers of these sources.
+fn all(count: usize, source: impl Fn(u32) -> Source) -> Vec<Recorded> {
+    (0..count as u32)
+        .map(|place| Recorded::of(source(place)))
+        .collect()
+}
+
+/// A system of these codes that writes down what it does.
+fn recording(compiled: &Arc<Compiled>) -> Dynamic<Recorded> {
+    let plan = &compiled.plan;
+    Dynamic {
+        values: Values {
+            compiled: Arc::clone(compiled),
+            machine: Arc::new(Inlined(Arc::clone(&compiled.codes))),
+            parameters: all(plan.parameters.len(), Source::Parameter),
+            constants: all(plan.constants.entries.len(), Source::System),
+        },
+        branch: None,
+        family: None,
+    }
+}
+
+/// A step as two codes. Of mu, parameters, constants and what the first makes of the step size, the second makes the state at the
+/// end, and behind it numbers that are all finite where the step is good.
 #[derive(Debug)]
 pub(crate) struct Step {
     codes: Arc<[Code]>,
     report: StepReport,
-    results: usize,
 }
 
 impl Step {
     /// The step of a method for systems of these codes; none where it is not one program.
     fn new(choice: &Choice, compiled: &Arc<Compiled>) -> Option<Self> {
-        let plan = &compiled.plan;
-        let (dimension, parameters) = (plan.dimension(), plan.parameters.len());
         let method = explicit::<Recorded>(choice)?;
-        let all = |count: usize, source: fn(u32) -> Source| -> Vec<Recorded> {
-            (0..count as u32)
-                .map(|place| Recorded::of(source(place)))
-                .collect()
-        };
-        let (code, report) = recorded(|| {
-            let mut mu = all(dimension, |place| Source::Argument(0, place));
-            let system = Dynamic {
-                values: Values {
-                    compiled: Arc::clone(compiled),
-                    machine: Arc::new(Inlined(Arc::clone(&compiled.codes))),
-                    parameters: all(parameters, Source::Parameter),
-                    constants: all(plan.constants.entries.len(), Source::System),
-                },
-                branch: None,
-                family: None,
-            };
+        let ((mu, report), written) = written(|| {
+            let system = recording(compiled);
+            let mut mu = all(compiled.plan.dimension(), |place| {
+                Source::Argument(0, place)
+            });
             let h = Recorded::of(Source::Step);
             let mut stepper = method.any_stepper(&system, h, &NewtonOptions::default());
             let report = stepper.step(&mut mu).ok()?;
             Some((mu, report))
         })?;
+        let stored = [mu, written.asked()].concat();
         Some(Self {
-            results: code.stores.len(),
-            codes: Arc::from([code]),
+            codes: Arc::from(written.codes(&stored, &[])),
             report,
         })
     }
 }
 
 impl<S: Scalar> Dynamic<S> {
-    /// The step of a method as one code; none where it is not one.
-    pub(crate) fn step_of(&self, choice: &Choice) -> Option<Arc<Step>> {
-        if self.family.is_some() || self.is_by_legendre() {
-            return None;
-        }
-        self.values.compiled.step_of(choice, Step::new)
+    /// Whether anything of it can be written down: not loops over sites, nor an iteration within a kernel.
+    fn is_written(&self) -> bool {
+        self.family.is_none() && !self.is_by_legendre()
     }
 
-    /// The step of a method without a solver as one code, which stores the state at the end and, behind it, numbers that are all
-    /// finite where the step is good; none where the step is not one program.
-    pub fn step_code(&self, choice: &Choice) -> Option<Code> {
-        self.step_of(choice).map(|step| step.codes[0].clone())
+    /// The step of a method as one program; none where it is not one.
+    pub(crate) fn step_of(&self, choice: &Choice) -> Option<Arc<Step>> {
+        if !self.is_written() {
+            return None;
+        }
+        let compiled = &self.values.compiled;
+        compiled.steps.get(choice, || Step::new(choice, compiled))
+    }
+
+    /// How many programs of the whole a method has by now: its step, or the residual of its equation and the residual with the
+    /// Jacobian. 0 as well where the plan fuses its equation.
+    pub fn programs(&self, choice: &Choice) -> usize {
+        let compiled = &self.values.compiled;
+        let step = compiled.steps.known(choice).flatten();
+        let equation = compiled.equations.known(choice).flatten();
+        usize::from(step.is_some()) + equation.map_or(0, |programs| programs.count())
+    }
+}
+
+/// Two codes that are ready to run, with the results of the first.
+struct Ready<S> {
+    machine: Arc<dyn Machine<S>>,
+    of_step: Vec<S>,
+}
+
+impl<S: Scalar> Ready<S> {
+    /// By the engine of a system, or by the interpreter where that is asked for; none where there is no engine.
+    fn new(system: &Dynamic<S>, codes: &Arc<[Code]>, h: S, interpret: bool) -> Option<Self> {
+        let interpreter =
+            || -> Arc<dyn Machine<S>> { Arc::new(Interpreter::new(Arc::clone(codes))) };
+        let machine = system.values.machine.of(codes);
+        let machine = machine.or_else(|| interpret.then(interpreter))?;
+        let mut of_step = vec![S::zero(); codes[0].stores.len()];
+        let scalars = [h];
+        let frame = system.values.frame([&[]; ARGUMENTS], &[], &scalars);
+        machine.run(0, &frame, [&mut of_step, &mut []]);
+        Some(Self { machine, of_step })
     }
 }
 
@@ -127,7 +170,7 @@ impl<S: Scalar> AnyMethod<S, Dynamic<S>> for Straight<S> {
     ) -> Box<dyn AnyStepper<S, Vec<S>> + 'a> {
         let apart = self.apart.as_ref();
         let apart = apart.map(|method| Forgotten(method.as_ref()).stepper(system, h, newton));
-        let known = system.values.compiled.knows_step(&self.choice);
+        let known = system.values.compiled.steps.known(&self.choice).is_some();
         let mut stepper = StraightStepper {
             system,
             choice: self.choice.clone(),
@@ -146,7 +189,7 @@ impl<S: Scalar> AnyMethod<S, Dynamic<S>> for Straight<S> {
 /// A step that is ready to run.
 struct Whole<S> {
     step: Arc<Step>,
-    machine: Arc<dyn Machine<S>>,
+    ready: Ready<S>,
     results: Vec<S>,
 }
 
@@ -166,25 +209,25 @@ impl<S: Scalar> StraightStepper<'_, S> {
         let Some(step) = self.system.step_of(&self.choice) else {
             return;
         };
-        let machine = self.system.values.machine.of(&step.codes);
-        let interpreter =
-            || -> Arc<dyn Machine<S>> { Arc::new(Interpreter::new(Arc::clone(&step.codes))) };
-        // no faster than kernel by kernel, but for who has nothing else
-        let machine = machine.or_else(|| self.apart.is_none().then(interpreter));
-        let Some(machine) = machine else { return };
-        self.whole = Some(Whole {
-            machine,
-            results: vec![S::zero(); step.results],
-            step,
-        });
+        // interpreted it is no faster than kernel by kernel, but for who has nothing else
+        let alone = self.apart.is_none();
+        let [h] = self.step_size;
+        if let Some(ready) = Ready::new(self.system, &step.codes, h, alone) {
+            self.whole = Some(Whole {
+                ready,
+                results: vec![S::zero(); step.codes[1].stores.len()],
+                step,
+            });
+        }
     }
 }
 
 impl<S: Scalar> Whole<S> {
     /// Runs the step from mu: in which lanes it is good. The state at its end comes first among the results.
     fn run(&mut self, system: &Dynamic<S>, step_size: &[S], mu: &[S]) -> S::Mask {
-        let frame = system.values.frame([mu, &[], &[], &[]], &[], step_size);
-        self.machine.run(0, &frame, [&mut self.results, &mut []]);
+        let Ready { machine, of_step } = &self.ready;
+        let frame = system.values.frame([mu, &[], &[], &[]], of_step, step_size);
+        machine.run(1, &frame, [&mut self.results, &mut []]);
         let asked = self.results[mu.len()..].iter();
         asked.fold(S::Mask::splat(true), |all, number| all & number.finite())
     }

@@ -58,54 +58,140 @@ impl Record {
         first
     }
 
-    /// The code that stores these numbers, without what they do not need.
-    fn code(&self, stored: &[Register]) -> Code {
+    /// The numbers that others need, each with whether it depends on an argument; none of what nothing needs.
+    fn needed(&self, stored: &[Register]) -> Vec<Option<bool>> {
         let needed: Vec<Cell<bool>> = vec![Cell::new(false); self.sources.len()];
         let need = |number: Register| {
             needed[number as usize].set(true);
             number
         };
-        stored.iter().for_each(|number| {
+        for number in stored {
             need(*number);
-        });
-        let mut kept = Vec::new();
+        }
         for (instruction, first) in self.instructions.iter().rev() {
             let numbers = *first as usize..(first + instruction.width()) as usize;
             if needed[numbers].iter().any(Cell::get) {
                 instruction.moved(&need);
-                kept.push((instruction, *first));
             }
         }
-        let mut places = vec![0; self.sources.len()];
-        let mut sources = Vec::new();
-        for (number, source) in self.sources.iter().enumerate() {
-            if let (Some(source), true) = (source, needed[number].get()) {
-                places[number] = sources.len() as Register;
-                sources.push(*source);
-            }
-        }
-        let mut next = sources.len() as Register;
-        let mut instructions = Vec::with_capacity(kept.len());
-        for (instruction, first) in kept.into_iter().rev() {
-            instructions.push(instruction.moved(&|number| places[number as usize]));
+        let varies: Vec<Cell<bool>> = self.sources.iter().map(is_argument).collect();
+        for (instruction, first) in &self.instructions {
+            let any = Cell::new(false);
+            instruction.moved(&|number| {
+                any.set(any.get() || varies[number as usize].get());
+                number
+            });
             for part in 0..instruction.width() {
-                places[(first + part) as usize] = next;
+                varies[(first + part) as usize].set(any.get());
+            }
+        }
+        let both = needed.iter().zip(&varies);
+        both.map(|(needed, varies)| needed.get().then(|| varies.get()))
+            .collect()
+    }
+
+    /// The codes that store these numbers, without what they do not need: first what depends on no argument and is run once for
+    /// a step size, which the second has as constants of it.
+    fn codes(&self, stored: [&[Register]; 2]) -> [Code; 2] {
+        let all = stored.concat();
+        let needed = self.needed(&all);
+        let mut kept = Vec::new();
+        // what the instructions and the stores that depend on arguments take from those that do not
+        let taken = RefCell::new(Vec::new());
+        let is_result = |number: Register| self.sources[number as usize].is_none();
+        let take = |number: Register| {
+            let constant = needed[number as usize] == Some(false) && is_result(number);
+            if constant && !taken.borrow().contains(&number) {
+                taken.borrow_mut().push(number);
+            }
+            number
+        };
+        for (instruction, first) in &self.instructions {
+            let numbers = *first as usize..(first + instruction.width()) as usize;
+            let Some(varies) = needed[numbers].iter().find_map(|number| *number) else {
+                continue;
+            };
+            if varies {
+                instruction.moved(&take);
+            }
+            kept.push((*instruction, *first, varies));
+        }
+        for number in all {
+            take(number);
+        }
+        let taken = taken.into_inner();
+        let constants = kept.iter().filter(|(.., varies)| !varies);
+        let constants = constants.map(|(instruction, first, _)| (*instruction, *first));
+        let varying = kept.iter().filter(|(.., varies)| *varies);
+        let varying = varying.map(|(instruction, first, _)| (*instruction, *first));
+        [
+            self.code(constants, &[], [&taken, &[]]),
+            self.code(varying, &taken, stored),
+        ]
+    }
+
+    /// The code of some instructions, to which other numbers are constants of the step size.
+    fn code(
+        &self,
+        instructions: impl Iterator<Item = (Instruction, Register)>,
+        constants: &[Register],
+        stored: [&[Register]; 2],
+    ) -> Code {
+        let instructions: Vec<_> = instructions.collect();
+        let mut sources = Vec::new();
+        let places = RefCell::new(vec![None; self.sources.len()]);
+        let mut source = |number: Register| {
+            let place = &mut places.borrow_mut()[number as usize];
+            let constant = constants.iter().position(|constant| *constant == number);
+            let constant = constant.map(|place| Source::OfStep(place as u32));
+            let from = constant.or(self.sources[number as usize]);
+            if let (None, Some(from)) = (*place, from) {
+                *place = Some(sources.len() as Register);
+                sources.push(from);
+            }
+        };
+        for (instruction, _) in &instructions {
+            let operands = RefCell::new(Vec::new());
+            instruction.moved(&|number| {
+                operands.borrow_mut().push(number);
+                number
+            });
+            operands.into_inner().into_iter().for_each(&mut source);
+        }
+        stored.concat().into_iter().for_each(&mut source);
+        let mut places = places.into_inner();
+        let mut next = sources.len() as Register;
+        let place_of = |places: &[Option<Register>], number: Register| {
+            places[number as usize].unwrap_or_else(|| unreachable!("numbers come before their use"))
+        };
+        let mut moved = Vec::with_capacity(instructions.len());
+        for (instruction, first) in instructions {
+            moved.push(instruction.moved(&|number| place_of(&places, number)));
+            for part in 0..instruction.width() {
+                places[(first + part) as usize] = Some(next);
                 next += 1;
             }
         }
-        let stores = (0..).zip(stored).map(|(entry, number)| Store {
-            target: 0,
-            entry,
-            register: places[*number as usize],
+        let stores = (0..).zip(stored).flat_map(|(target, numbers)| {
+            let places = &places;
+            (0..).zip(numbers).map(move |(entry, number)| Store {
+                target,
+                entry,
+                register: place_of(places, *number),
+            })
         });
         Code {
-            sources,
-            instructions,
             stores: stores.collect(),
+            sources,
+            instructions: moved,
             registers: next,
             clear: [None, None],
         }
     }
+}
+
+fn is_argument(source: &Option<Source>) -> Cell<bool> {
+    Cell::new(matches!(source, Some(Source::Argument(..))))
 }
 
 /// What tells sources apart; numbers by their bits, so that 0 and -0 are two.
@@ -123,24 +209,35 @@ fn key(source: Source) -> (u8, u64, u64) {
     }
 }
 
-/// Writes down what is done in `run`, which gives the numbers to store and something else: the code that stores them, behind them
-/// those of which it was asked whether they are finite. None where `run` gives none, or the values decide what is done.
-pub(super) fn recorded<T>(run: impl FnOnce() -> Option<(Vec<Recorded>, T)>) -> Option<(Code, T)> {
+/// What was written down.
+pub(crate) struct Written(Record);
+
+/// Writes down what is done in `run`. None where it gives none, or the values decide what is done.
+pub(crate) fn written<T>(run: impl FnOnce() -> Option<T>) -> Option<(T, Written)> {
     let before = RECORD.replace(Record::default());
     let given = run();
     let record = RECORD.replace(before);
-    let (numbers, rest) = given?;
-    if record.branched {
-        return None;
+    (!record.branched).then_some((given?, Written(record)))
+}
+
+impl Written {
+    /// The numbers of which it was asked whether they are finite.
+    pub fn asked(&self) -> Vec<Recorded> {
+        self.0.asked.iter().copied().map(Recorded).collect()
     }
-    let numbers = numbers.iter().map(|number| number.0);
-    let stored: Vec<Register> = numbers.chain(record.asked.iter().copied()).collect();
-    Some((record.code(&stored), rest))
+
+    /// The codes that store these numbers as a vector and a matrix, the second with the results of the first as constants of the
+    /// step size.
+    pub fn codes(&self, vector: &[Recorded], matrix: &[Recorded]) -> [Code; 2] {
+        let [vector, matrix] =
+            [vector, matrix].map(|numbers| numbers.iter().map(|x| x.0).collect::<Vec<_>>());
+        self.0.codes([&vector, &matrix])
+    }
 }
 
 /// A number of the record.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Recorded(Register);
+pub(crate) struct Recorded(Register);
 
 impl Recorded {
     /// The number of a source.
@@ -168,7 +265,7 @@ impl Recorded {
 }
 
 /// Codes whose instructions are written down one by one.
-pub(super) struct Inlined(pub Arc<[Code]>);
+pub(crate) struct Inlined(pub Arc<[Code]>);
 
 impl Machine<Recorded> for Inlined {
     fn run(&self, code: usize, frame: &Frame<'_, Recorded>, mut targets: Targets<'_, Recorded>) {
