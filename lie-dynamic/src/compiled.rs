@@ -8,7 +8,8 @@ use lie_codegen::methods::{Choice, Gradient};
 use lie_codegen::plan::{Constants, Function, Fused, Generating, Item, Method, Plan, Solver};
 use smallvec::SmallVec;
 use std::collections::HashMap;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// A code by its place; none where the plan has no such kernel.
 pub(crate) type Place = Option<usize>;
@@ -127,16 +128,26 @@ pub(crate) struct Compiled {
 
 /// What was asked for of methods, with where there is none.
 #[derive(Debug)]
-pub(crate) struct Asked<T>(Mutex<HashMap<Choice, Option<Arc<T>>>>);
+pub(crate) struct Asked<T> {
+    known: Mutex<HashMap<Choice, Option<Arc<T>>>>,
+    hurry: AtomicBool,
+}
 
 impl<T> Asked<T> {
     fn new() -> Self {
-        Self(Mutex::new(HashMap::new()))
+        Self {
+            known: Mutex::new(HashMap::new()),
+            hurry: AtomicBool::new(false),
+        }
+    }
+
+    fn all(&self) -> MutexGuard<'_, HashMap<Choice, Option<Arc<T>>>> {
+        self.known.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// That of a method, made where it is asked for the first time.
     pub fn get(&self, choice: &Choice, make: impl FnOnce() -> Option<T>) -> Option<Arc<T>> {
-        let mut all = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut all = self.all();
         if let Some(known) = all.get(choice) {
             return known.clone();
         }
@@ -145,10 +156,19 @@ impl<T> Asked<T> {
         made
     }
 
-    /// What was found where it was asked for before.
-    pub fn known(&self, choice: &Choice) -> Option<Option<Arc<T>>> {
-        let all = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        all.get(choice).cloned()
+    /// That of a method where it was asked for before.
+    pub fn known(&self, choice: &Choice) -> Option<Arc<T>> {
+        self.all().get(choice).cloned().flatten()
+    }
+
+    /// From now on nobody waits.
+    pub fn hurry(&self) {
+        self.hurry.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether there is nothing to wait for: it was asked for before, or nobody waits.
+    pub fn at_once(&self, choice: &Choice) -> bool {
+        self.hurry.load(Ordering::Relaxed) || self.all().contains_key(choice)
     }
 }
 

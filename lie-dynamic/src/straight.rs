@@ -27,9 +27,9 @@ use std::sync::Arc;
 pub(crate) use equation::{Programs, Running, Write, write};
 pub(crate) use record::Recorded;
 
-/// So many steps of a run are made kernel by kernel, and so many residuals computed, before a program of the whole is compiled: what
-/// that costs is less than what as many gain.
-pub const PATIENCE: u32 = 1500;
+/// So many steps of a run are made kernel by kernel before a program of the whole is compiled: what that costs is less than what as
+/// many gain.
+pub const PATIENCE: u32 = 4000;
 
 /// Numbers of these sources.
 fn all(count: usize, source: impl Fn(u32) -> Source) -> Vec<Recorded> {
@@ -102,8 +102,8 @@ impl<S: Scalar> Dynamic<S> {
     /// Jacobian. 0 as well where the plan fuses its equation.
     pub fn programs(&self, choice: &Choice) -> usize {
         let compiled = &self.values.compiled;
-        let step = compiled.steps.known(choice).flatten();
-        let equation = compiled.equations.known(choice).flatten();
+        let step = compiled.steps.known(choice);
+        let equation = compiled.equations.known(choice);
         usize::from(step.is_some()) + equation.map_or(0, |programs| programs.count())
     }
 }
@@ -170,16 +170,16 @@ impl<S: Scalar> AnyMethod<S, Dynamic<S>> for Straight<S> {
     ) -> Box<dyn AnyStepper<S, Vec<S>> + 'a> {
         let apart = self.apart.as_ref();
         let apart = apart.map(|method| Forgotten(method.as_ref()).stepper(system, h, newton));
-        let known = system.values.compiled.steps.known(&self.choice).is_some();
+        let at_once = system.values.compiled.steps.at_once(&self.choice);
         let mut stepper = StraightStepper {
             system,
             choice: self.choice.clone(),
             step_size: [h],
-            waits: if known { 0 } else { PATIENCE },
+            waits: if at_once { 0 } else { PATIENCE },
             whole: None,
             apart,
         };
-        if known || stepper.apart.is_none() {
+        if at_once || stepper.apart.is_none() {
             stepper.compile();
         }
         Box::new(stepper)

@@ -48,6 +48,13 @@ impl Declared {
         Self { compiled, machine }
     }
 
+    /// From now on steps and equations of its systems are one program from the first step of a run on, not after
+    /// [`PATIENCE`](crate::PATIENCE) steps: for many runs that are short.
+    pub fn without_patience(&self) {
+        self.compiled.steps.hurry();
+        self.compiled.equations.hurry();
+    }
+
     /// The system of these parameters, in the order of their names; those that are left out have their defaults. Nothing is
     /// compiled again.
     ///

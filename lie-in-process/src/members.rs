@@ -1,11 +1,11 @@
-//! Many trajectories of one declaration: members of an ensemble or of a sweep, eight at a time in lanes by the methods that are
-//! compiled for lanes.
+//! Many trajectories of one declaration: members of an ensemble or of a sweep, eight at a time in lanes by explicit methods, whose
+//! step is one program, and by the methods that are compiled for lanes.
 //!
 //! Every lane has the bits of the member run alone, so that nobody can tell which members were side by side. A member that
 //! fails is run again alone, and says what it says alone; the others of its group are run again without it.
 
 use lie_codegen::methods::Choice;
-use lie_dynamic::{Declared, Dynamic, Method, Tolerances, method, method_in_lanes};
+use lie_dynamic::{Declared, Dynamic, Method, PATIENCE, Tolerances, method, method_in_lanes};
 use lie_runtime::diagnostics::Forgotten;
 use lie_runtime::driver::{
     IntegrateError, Observer, OptionError, Options, Pace, Problem, Progress, Save, integrate,
@@ -150,6 +150,9 @@ impl Members<'_> {
             let none = |_| Member::failing(0.0, "there is no such method".to_owned());
             return some.map(none).collect();
         };
+        if self.steps() > f64::from(PATIENCE) {
+            self.declared.without_patience();
+        }
         let lanes = takes_lanes(self.choice, &self.options);
         let together = lanes.then(|| method_in_lanes(self.choice, self.tolerances));
         let worker = Worker {
@@ -167,6 +170,14 @@ impl Members<'_> {
         }
         found.resize_with(some.len(), Member::default);
         found
+    }
+
+    /// The steps of all members; none where each run chooses its own.
+    fn steps(&self) -> f64 {
+        match self.options.pace {
+            Pace::Step(step) => (self.end / step).abs() * self.starts.len() as f64,
+            Pace::Tolerance(_) => 0.0,
+        }
     }
 
     fn parameters(&self, member: usize) -> &[f64] {

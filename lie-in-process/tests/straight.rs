@@ -12,6 +12,7 @@ use lie_runtime::newton::NewtonOptions;
 /// A declaration of the project, run by machine code and by the interpreter, which makes all steps kernel by kernel.
 struct Both {
     choices: Vec<Choice>,
+    declared: Declared,
     compiled: Dynamic<f64>,
     interpreted: Dynamic<f64>,
 }
@@ -23,9 +24,11 @@ impl Both {
         let there = |choice: &Choice| method(choice, Tolerances::default()).is_some();
         let choices: Vec<_> = list::all(&model).into_iter().filter(there).collect();
         let plan = plan(&model, &choices);
+        let declared = Declared::new(plan.clone(), &Jit);
         Self {
             choices,
-            compiled: Declared::new(plan.clone(), &Jit).system(&[]).unwrap(),
+            compiled: declared.system(&[]).unwrap(),
+            declared,
             interpreted: Declared::new(plan, &Interpreted).system(&[]).unwrap(),
         }
     }
@@ -57,11 +60,6 @@ fn end(
     (mu.iter().map(|x| x.to_bits()).collect(), last)
 }
 
-/// Makes so many steps that all are one program that can be.
-fn warm(system: &Dynamic<f64>, choice: &Choice, mu: &[f64]) {
-    end(system, choice, 1e-3, mu, PATIENCE);
-}
-
 #[test]
 fn on_every_spec() {
     let folder = format!("{}/../specs", env!("CARGO_MANIFEST_DIR"));
@@ -70,13 +68,14 @@ fn on_every_spec() {
     let (mut steps, mut jacobians, mut apart) = (0, 0, Vec::new());
     for name in names.filter(|name| name.ends_with(".json") && !name.contains("schema")) {
         let both = Both::new(&name);
+        both.declared.without_patience();
         let Some(mu) = both.compiled.initial_state() else {
             continue;
         };
         for choice in &both.choices {
             let label = format!("{name} {}", choice.label());
             let claims = method(choice, Tolerances::default()).unwrap().claims();
-            warm(&both.compiled, choice, &mu);
+            let found = end(&both.compiled, choice, 0.07, &mu, 40);
             match (both.compiled.programs(choice), claims.explicit) {
                 (0, true) if claims.own_steps => continue,
                 (0, true) => apart.push(label.clone()),
@@ -84,7 +83,6 @@ fn on_every_spec() {
                 (count, true) => steps += count,
                 (count, false) => jacobians += count - 1,
             }
-            let found = end(&both.compiled, choice, 0.07, &mu, 40);
             let expected = end(&both.interpreted, choice, 0.07, &mu, 40);
             assert_eq!(found, expected, "{label}");
             // the control: another step size
@@ -135,12 +133,7 @@ fn within_a_run() {
 fn a_step_that_is_not_finite_is_refused_and_leaves_the_state() {
     let both = Both::new("se3_heavy_top.json");
     for choice in explicit() {
-        warm(
-            &both.compiled,
-            &choice,
-            &both.compiled.initial_state().unwrap(),
-        );
-        assert_eq!(both.compiled.programs(&choice), 1);
+        both.declared.without_patience();
         for size in [1e200, f64::MAX, f64::INFINITY, f64::NAN] {
             let mu: Vec<f64> = (1..7).map(|k| size * f64::from(k)).collect();
             let found = end(&both.compiled, &choice, 0.1, &mu, 1);
@@ -158,12 +151,7 @@ fn the_motion_on_the_group_is_shown_all_the_same() {
     let both = Both::new("se3_heavy_top.json");
     let mu = both.compiled.initial_state().unwrap();
     for choice in explicit() {
-        warm(
-            &both.compiled,
-            &choice,
-            &both.compiled.initial_state().unwrap(),
-        );
-        assert_eq!(both.compiled.programs(&choice), 1);
+        both.declared.without_patience();
         let shown = |system| {
             let (mut mu, mut motions) = (mu.clone(), Motions(Vec::new()));
             let mut stepper = stepper(system, &choice, 0.1);

@@ -101,6 +101,9 @@ impl Programs {
     }
 }
 
+/// An equation is evaluated so often in a step, about, and gains as much less by an evaluation.
+const EVALUATIONS: u32 = 5;
+
 /// An equation whose programs are run, once it was evaluated often enough.
 pub(crate) struct Running<S> {
     write: Write,
@@ -126,13 +129,13 @@ impl<S: Scalar> Running<S> {
             choice: choice.clone(),
             h: [h],
             base: system.zero_state(),
-            waits: PATIENCE,
+            waits: PATIENCE * EVALUATIONS,
             residual: None,
             linearize: None,
             vector: Vec::new(),
             matrix: Vec::new(),
         };
-        if system.values.compiled.equations.known(choice).is_some() {
+        if system.values.compiled.equations.at_once(choice) {
             running.waits = 0;
             running.compile(system);
         }
