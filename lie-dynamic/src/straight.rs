@@ -7,6 +7,7 @@
 
 mod equation;
 mod record;
+mod recorded;
 
 use crate::code::{Code, Source};
 use crate::compiled::Compiled;
@@ -21,11 +22,12 @@ use lie_runtime::diagnostics::{AnyMethod, AnyStepper, Claims, Forgotten, Forgott
 use lie_runtime::methods::{FactorSink, Method as _, StepFailure, StepReport, Stepper};
 use lie_runtime::newton::{FailureReason, NewtonOptions};
 use lie_runtime::scalar::Mask;
-use record::{Inlined, written};
+use record::written;
+use recorded::Inlined;
 use std::sync::Arc;
 
 pub(crate) use equation::{Programs, Running, Write, write};
-pub(crate) use record::Recorded;
+pub(crate) use recorded::Recorded;
 
 /// So many steps of a run are made kernel by kernel before a program of the whole is compiled: what that costs is less than what as
 /// many gain.

@@ -1,7 +1,7 @@
 //! The residual of an equation, and its Jacobian, as one program each.
 
-use super::record::{Recorded, Written, written};
-use super::{PATIENCE, Ready, all, recording};
+use super::record::{Written, written};
+use super::{PATIENCE, Ready, Recorded, all, recording};
 use crate::code::{Code, Source};
 use crate::compiled::Compiled;
 use crate::elimination::Blocks;
