@@ -5,7 +5,7 @@ use crate::code::{Code, Instruction, Number, Register, Source, Store};
 use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
 
-/// A step of more instructions is not one program: it takes long to compile, and calls cost little beside it.
+/// A longer step is not made one program: compiling it takes long, and calls cost little beside its arithmetic.
 const LONGEST: usize = 20_000;
 
 /// What is written down. Numbers go by their order of coming into being.
@@ -35,6 +35,9 @@ pub(super) fn with<T>(use_it: impl FnOnce(&mut Record) -> T) -> T {
 impl Record {
     /// The number of a source.
     pub fn source(&mut self, source: Source) -> Register {
+        if self.branched {
+            return 0;
+        }
         let next = self.sources.len() as Register;
         *self.known.entry(key(source)).or_insert_with(|| {
             self.sources.push(Some(source));
@@ -42,13 +45,21 @@ impl Record {
         })
     }
 
+    /// The value of a number that is written out.
+    pub fn exact(&self, number: Register) -> Option<f64> {
+        match self.sources.get(number as usize) {
+            Some(Some(Source::Number(Number::Exact(value)))) => Some(*value),
+            _ => None,
+        }
+    }
+
     /// The first number that the instruction gives.
     pub fn push(&mut self, instruction: Instruction) -> Register {
-        let first = self.sources.len() as Register;
-        if self.instructions.len() == LONGEST {
-            self.branched = true;
+        self.branched |= self.instructions.len() == LONGEST;
+        if self.branched {
             return 0;
         }
+        let first = self.sources.len() as Register;
         self.instructions.push((instruction, first));
         let count = instruction.width() as usize;
         self.sources.extend(std::iter::repeat_n(None, count));
@@ -95,11 +106,14 @@ impl Record {
         let mut kept = Vec::new();
         // what the instructions and the stores that depend on arguments take from those that do not
         let taken = RefCell::new(Vec::new());
-        let is_result = |number: Register| self.sources[number as usize].is_none();
+        let constants = RefCell::new(vec![None; self.sources.len()]);
         let take = |number: Register| {
-            let constant = needed[number as usize] == Some(false) && is_result(number);
-            if constant && !taken.borrow().contains(&number) {
-                taken.borrow_mut().push(number);
+            let place = number as usize;
+            let constant = needed[place] == Some(false) && self.sources[place].is_none();
+            if constant && constants.borrow()[place].is_none() {
+                let mut taken = taken.borrow_mut();
+                constants.borrow_mut()[place] = Some(Source::OfStep(taken.len() as u32));
+                taken.push(number);
             }
             number
         };
@@ -116,22 +130,28 @@ impl Record {
         for number in all {
             take(number);
         }
-        let taken = taken.into_inner();
-        let constants = kept.iter().filter(|(.., varies)| !varies);
-        let constants = constants.map(|(instruction, first, _)| (*instruction, *first));
-        let varying = kept.iter().filter(|(.., varies)| *varies);
-        let varying = varying.map(|(instruction, first, _)| (*instruction, *first));
+        let (taken, constants) = (taken.into_inner(), constants.into_inner());
+        let of = |varying: bool| {
+            let kept = kept.iter().filter(move |(.., varies)| *varies == varying);
+            kept.map(|(instruction, first, _)| (*instruction, *first))
+        };
         [
-            self.code(constants, &[], [&taken, &[]]),
-            self.code(varying, &taken, stored),
+            self.code(of(false), &self.sources, [&taken, &[]]),
+            self.code(of(true), &self.with(constants), stored),
         ]
     }
 
-    /// The code of some instructions, to which other numbers are constants of the step size.
+    /// The sources, these among them.
+    fn with(&self, others: Vec<Option<Source>>) -> Vec<Option<Source>> {
+        let both = others.into_iter().zip(&self.sources);
+        both.map(|(other, source)| other.or(*source)).collect()
+    }
+
+    /// The code of some instructions, given the sources of numbers that are not their results.
     fn code(
         &self,
         instructions: impl Iterator<Item = (Instruction, Register)>,
-        constants: &[Register],
+        from: &[Option<Source>],
         stored: [&[Register]; 2],
     ) -> Code {
         let instructions: Vec<_> = instructions.collect();
@@ -139,10 +159,7 @@ impl Record {
         let places = RefCell::new(vec![None; self.sources.len()]);
         let mut source = |number: Register| {
             let place = &mut places.borrow_mut()[number as usize];
-            let constant = constants.iter().position(|constant| *constant == number);
-            let constant = constant.map(|place| Source::OfStep(place as u32));
-            let from = constant.or(self.sources[number as usize]);
-            if let (None, Some(from)) = (*place, from) {
+            if let (None, Some(from)) = (*place, from[number as usize]) {
                 *place = Some(sources.len() as Register);
                 sources.push(from);
             }
@@ -209,11 +226,19 @@ fn key(source: Source) -> (u8, u64, u64) {
 /// What was written down.
 pub(crate) struct Written(Record);
 
-/// Writes down what is done in `run`. None where it gives none, or the values decide what is done.
+/// Writes down what is done in `run`. None where it gives none, or where values decide what is done.
 pub(crate) fn written<T>(run: impl FnOnce() -> Option<T>) -> Option<(T, Written)> {
-    let before = RECORD.replace(Record::default());
+    /// What was there before comes back, whatever happens.
+    struct Before(Record);
+    impl Drop for Before {
+        fn drop(&mut self) {
+            RECORD.replace(std::mem::take(&mut self.0));
+        }
+    }
+    let before = Before(RECORD.replace(Record::default()));
     let given = run();
-    let record = RECORD.replace(before);
+    let record = RECORD.replace(Record::default());
+    drop(before);
     (!record.branched).then_some((given?, Written(record)))
 }
 

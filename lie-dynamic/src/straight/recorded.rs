@@ -10,7 +10,7 @@ use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssi
 use std::sync::Arc;
 
 /// A number of the record.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Recorded(pub(super) Register);
 
 impl Recorded {
@@ -64,6 +64,16 @@ impl Machine<Recorded> for Inlined {
         for store in &code.stores {
             targets[usize::from(store.target)][store.entry as usize] =
                 registers[store.register as usize];
+        }
+    }
+}
+
+/// Whether two numbers are equal depends on their values, unless both are written out.
+impl PartialEq for Recorded {
+    fn eq(&self, other: &Self) -> bool {
+        match with(|record| [record.exact(self.0), record.exact(other.0)]) {
+            [Some(one), Some(other)] => one == other,
+            _ => Self::branch(self.0 == other.0),
         }
     }
 }
@@ -181,7 +191,7 @@ impl Scalar for Recorded {
     fn less_equal(self, _other: Self) -> bool {
         Self::branch(false)
     }
-    /// It is: a step that meets another number is refused, by whoever runs the code.
+    /// Taken to be finite; whoever runs the code refuses a step where the number is not.
     fn finite(self) -> bool {
         with(|record| record.asked.push(self.0));
         true
