@@ -112,7 +112,7 @@ fn the_cache_is_shown_and_emptied() {
     std::fs::write(program.join("program"), vec![0; 3_000_000]).expect("a file");
     let shown = lie_in(folder.path(), &["cache"]).ok();
     assert!(
-        shown.stdout.contains("1 programs, 3.0 MB"),
+        shown.stdout.contains("1 program, 3.0 MB"),
         "{}",
         shown.stdout
     );

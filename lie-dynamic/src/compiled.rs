@@ -8,7 +8,6 @@ use lie_codegen::methods::{Choice, Gradient};
 use lie_codegen::plan::{Constants, Function, Fused, Generating, Item, Method, Plan, Solver};
 use smallvec::SmallVec;
 use std::collections::HashMap;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// A code by its place; none where the plan has no such kernel.
@@ -126,23 +125,17 @@ pub(crate) struct Compiled {
     pub equations: Asked<Programs>,
 }
 
-/// What was asked for of methods, with where there is none.
+/// What was made for each method; `None` where there is none.
 #[derive(Debug)]
-pub(crate) struct Asked<T> {
-    known: Mutex<HashMap<Choice, Option<Arc<T>>>>,
-    hurry: AtomicBool,
-}
+pub(crate) struct Asked<T>(Mutex<HashMap<Choice, Option<Arc<T>>>>);
 
 impl<T> Asked<T> {
     fn new() -> Self {
-        Self {
-            known: Mutex::new(HashMap::new()),
-            hurry: AtomicBool::new(false),
-        }
+        Self(Mutex::new(HashMap::new()))
     }
 
     fn all(&self) -> MutexGuard<'_, HashMap<Choice, Option<Arc<T>>>> {
-        self.known.lock().unwrap_or_else(PoisonError::into_inner)
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// That of a method, made where it is asked for the first time.
@@ -159,16 +152,6 @@ impl<T> Asked<T> {
     /// That of a method where it was asked for before.
     pub fn known(&self, choice: &Choice) -> Option<Arc<T>> {
         self.all().get(choice).cloned().flatten()
-    }
-
-    /// From now on nobody waits.
-    pub fn hurry(&self) {
-        self.hurry.store(true, Ordering::Relaxed);
-    }
-
-    /// Whether there is nothing to wait for: it was asked for before, or nobody waits.
-    pub fn at_once(&self, choice: &Choice) -> bool {
-        self.hurry.load(Ordering::Relaxed) || self.all().contains_key(choice)
     }
 }
 

@@ -72,7 +72,18 @@ pub trait Machine<S>: Send + Sync {
         });
     }
 
-    /// The same engine for other codes, each set of which is compiled once; none where there is nothing better than the interpreter.
+    /// Whether [`Machine::of`] makes machines.
+    fn compiles(&self) -> bool {
+        false
+    }
+
+    /// Whether [`Machine::of`] has made a machine for these codes.
+    fn has(&self, _codes: &Arc<[Code]>) -> bool {
+        false
+    }
+
+    /// A machine of the same engine for other codes, made once for each set of them; none where the engine cannot make one, or
+    /// nothing better than the interpreter.
     fn of(&self, _codes: &Arc<[Code]>) -> Option<Arc<dyn Machine<S>>> {
         None
     }

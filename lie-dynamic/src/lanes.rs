@@ -11,9 +11,10 @@ use lie_runtime::family::Family;
 use std::sync::Arc;
 
 impl<S: Scalar> Dynamic<S> {
-    /// Whether systems of this declaration can be side by side by a method of [`method_in_lanes`](crate::method_in_lanes): not where
-    /// a velocity is followed along its branch, which makes another system of each, nor where the method is compiled for lanes
-    /// as one program alone and its step is none.
+    /// Whether systems of this declaration can be side by side by a method of [`method_in_lanes`](crate::method_in_lanes).
+    ///
+    /// Where a velocity is followed along its branch they cannot: each becomes another system. By an explicit method that is not
+    /// compiled for lanes they can where its step is one program.
     pub fn takes_lanes(&self, choice: &Choice) -> bool {
         !self.is_by_legendre() && (is_compiled_for_lanes(choice) || self.step_of(choice).is_some())
     }
@@ -50,6 +51,7 @@ impl<S: Scalar> Dynamic<S> {
             machine: first.values.machine.wide().unwrap_or_else(|| interpreter()),
             parameters: gather(|system| &system.values.parameters),
             constants: gather(|system| &system.values.constants),
+            hurry: first.values.hurry,
         };
         let family = first.sizes();
         let family = family.map(|sizes| Family::new(OfSite::new(values.clone()), sizes));

@@ -194,10 +194,11 @@ pub(crate) fn explicit<S: Scalar>(choice: &Choice) -> Option<Method<S>> {
     }
 }
 
-/// The method of a choice over lanes, for systems side by side ([`Dynamic::in_lanes`]) that take it ([`Dynamic::takes_lanes`]): what
-/// is explicit has steps that are one program, which is compiled for lanes as for numbers. Of the others few are compiled for
-/// lanes: each costs the compiler of this crate's users as much as a method over numbers, those with all stages in registers
-/// many times that.
+/// The method of a choice over lanes, for systems side by side ([`Dynamic::in_lanes`]) that take it ([`Dynamic::takes_lanes`]).
+///
+/// Explicit methods: the step is one program, which is compiled for lanes as for numbers. Others: the few that are compiled for
+/// lanes. Each costs the compiler of this crate's users as much as a method over numbers, those with all stages in registers many
+/// times that.
 pub fn method_in_lanes(
     choice: &Choice,
     tolerances: Tolerances,
@@ -225,8 +226,8 @@ fn compiled_for_lanes(
     }
 }
 
-/// Whether a method is compiled for lanes.
-pub(crate) fn is_compiled_for_lanes(choice: &Choice) -> bool {
+/// Whether a method is compiled for lanes; the others of [`method_in_lanes`] run there as programs of the whole.
+pub fn is_compiled_for_lanes(choice: &Choice) -> bool {
     compiled_for_lanes(choice, Tolerances::default()).is_some()
 }
 

@@ -1,12 +1,13 @@
-//! Steps and equations as one program: of a method without a solver all kernels of a step, and the sums between them, run as one
-//! code, and so do the residual and the Jacobian of an equation that the plan does not fuse.
+//! Steps and equations as one program. A step of an explicit method runs as one program: its kernels and the sums between them.
+//! So do the residual and the Jacobian of an equation that the plan does not fuse.
 //!
-//! What is to be one program is written down once: the method makes its step, or the equation computes its residual, over a
-//! scalar that records its operations, and a kernel that is called is put in its place. The operations and their order are those
-//! of the step itself, so that the bits are. What depends on the step size alone is a program of its own, run once.
+//! Nobody writes these programs. The method makes one step, or the equation computes its residual, over a scalar that records its
+//! operations; the code of a kernel stands in place of its call. The operations and their order are those of the step kernel by
+//! kernel, so the bits are the same. What depends on the step size alone is a program of its own, run once.
 
 mod equation;
 mod record;
+mod recorded;
 
 use crate::code::{Code, Source};
 use crate::compiled::Compiled;
@@ -21,14 +22,15 @@ use lie_runtime::diagnostics::{AnyMethod, AnyStepper, Claims, Forgotten, Forgott
 use lie_runtime::methods::{FactorSink, Method as _, StepFailure, StepReport, Stepper};
 use lie_runtime::newton::{FailureReason, NewtonOptions};
 use lie_runtime::scalar::Mask;
-use record::{Inlined, written};
+use record::written;
+use recorded::Inlined;
 use std::sync::Arc;
 
 pub(crate) use equation::{Programs, Running, Write, write};
-pub(crate) use record::Recorded;
+pub(crate) use recorded::Recorded;
 
-/// So many steps of a run are made kernel by kernel before a program of the whole is compiled: what that costs is less than what as
-/// many gain.
+/// Steps that a stepper makes kernel by kernel before it compiles a program of the whole; one whose program has more instructions
+/// makes as many steps as that. So many steps gain more than the compilation costs.
 pub const PATIENCE: u32 = 4000;
 
 /// Numbers of these sources.
@@ -47,14 +49,15 @@ fn recording(compiled: &Arc<Compiled>) -> Dynamic<Recorded> {
             machine: Arc::new(Inlined(Arc::clone(&compiled.codes))),
             parameters: all(plan.parameters.len(), Source::Parameter),
             constants: all(plan.constants.entries.len(), Source::System),
+            hurry: true,
         },
         branch: None,
         family: None,
     }
 }
 
-/// A step as two codes. Of mu, parameters, constants and what the first makes of the step size, the second makes the state at the
-/// end, and behind it numbers that are all finite where the step is good.
+/// A step as two codes. The second computes the state at the end, then numbers that are all finite where the step is good. It reads
+/// mu, parameters, constants and the results of the first, which reads the step size.
 #[derive(Debug)]
 pub(crate) struct Step {
     codes: Arc<[Code]>,
@@ -84,27 +87,71 @@ impl Step {
 }
 
 impl<S: Scalar> Dynamic<S> {
-    /// Whether anything of it can be written down: not loops over sites, nor an iteration within a kernel.
-    fn is_written(&self) -> bool {
+    /// Whether anything of it can be recorded: loops over sites cannot, nor can an iteration within a kernel.
+    fn is_recordable(&self) -> bool {
         self.family.is_none() && !self.is_by_legendre()
+    }
+
+    /// Whether steppers compile programs of the whole when they are made: where the engine has these, or nobody waits.
+    fn compiles_at_once(&self, known: Option<&Arc<[Code]>>) -> bool {
+        let machine = &self.values.machine;
+        let there = known.is_some_and(|codes| machine.has(codes));
+        machine.compiles() && (self.values.hurry || there)
     }
 
     /// The step of a method as one program; none where it is not one.
     pub(crate) fn step_of(&self, choice: &Choice) -> Option<Arc<Step>> {
-        if !self.is_written() {
+        if !self.is_recordable() {
             return None;
         }
         let compiled = &self.values.compiled;
         compiled.steps.get(choice, || Step::new(choice, compiled))
     }
 
-    /// How many programs of the whole a method has by now: its step, or the residual of its equation and the residual with the
-    /// Jacobian. 0 as well where the plan fuses its equation.
+    /// How many programs of the whole the engine runs for a method by now: its step, or the residual of its equation and the
+    /// residual with the Jacobian. 0 where the plan fuses the equation.
     pub fn programs(&self, choice: &Choice) -> usize {
         let compiled = &self.values.compiled;
         let step = compiled.steps.known(choice);
         let equation = compiled.equations.known(choice);
-        usize::from(step.is_some()) + equation.map_or(0, |programs| programs.count())
+        let steps = step.iter().map(|step| &step.codes);
+        let equations = equation.iter().flat_map(|programs| programs.codes());
+        let made = |codes: &&Arc<[Code]>| self.values.machine.of(codes).is_some();
+        steps.chain(equations).filter(made).count()
+    }
+}
+
+/// How long a stepper waits for its program of the whole.
+struct Wait {
+    left: u32,
+    /// How often it is counted in a step.
+    times: u32,
+    /// Whether the program was recorded, so that its length is known.
+    recorded: bool,
+}
+
+impl Wait {
+    /// Counted so many times in a step; `none` where there is nothing to wait for.
+    fn new(times: u32, none: bool) -> Self {
+        Self {
+            left: if none { 0 } else { PATIENCE * times },
+            times,
+            recorded: none,
+        }
+    }
+
+    /// Counts; whether the program is due. `record` tells its instructions.
+    #[inline]
+    fn is_over(&mut self, record: impl FnOnce() -> usize) -> bool {
+        if self.left == 0 {
+            return false;
+        }
+        self.left -= 1;
+        if self.left == 0 && !self.recorded {
+            self.recorded = true;
+            self.left = (record() as u32).saturating_sub(PATIENCE) * self.times;
+        }
+        self.left == 0
     }
 }
 
@@ -115,7 +162,7 @@ struct Ready<S> {
 }
 
 impl<S: Scalar> Ready<S> {
-    /// By the engine of a system, or by the interpreter where that is asked for; none where there is no engine.
+    /// By the engine of a system, or by the interpreter where that is asked for; none where the engine makes no machine.
     fn new(system: &Dynamic<S>, codes: &Arc<[Code]>, h: S, interpret: bool) -> Option<Self> {
         let interpreter =
             || -> Arc<dyn Machine<S>> { Arc::new(Interpreter::new(Arc::clone(codes))) };
@@ -170,18 +217,22 @@ impl<S: Scalar> AnyMethod<S, Dynamic<S>> for Straight<S> {
     ) -> Box<dyn AnyStepper<S, Vec<S>> + 'a> {
         let apart = self.apart.as_ref();
         let apart = apart.map(|method| Forgotten(method.as_ref()).stepper(system, h, newton));
-        let at_once = system.values.compiled.steps.at_once(&self.choice);
+        let known = system.values.compiled.steps.known(&self.choice);
+        let known = known.as_ref().map(|step| &step.codes);
+        let at_once = apart.is_none() || system.compiles_at_once(known);
         let mut stepper = StraightStepper {
             system,
             choice: self.choice.clone(),
             step_size: [h],
-            waits: if at_once { 0 } else { PATIENCE },
+            wait: Wait::new(1, at_once || !system.values.machine.compiles()),
             whole: None,
             apart,
         };
-        if at_once || stepper.apart.is_none() {
+        if at_once {
             stepper.compile();
         }
+        let makes_steps = stepper.apart.is_some() || stepper.whole.is_some();
+        assert!(makes_steps, "the system does not take lanes by this method");
         Box::new(stepper)
     }
 }
@@ -198,8 +249,7 @@ struct StraightStepper<'a, S: Scalar> {
     system: &'a Dynamic<S>,
     choice: Choice,
     step_size: [S; 1],
-    /// Steps to be made until the step is compiled.
-    waits: u32,
+    wait: Wait,
     whole: Option<Whole<S>>,
     apart: Option<ForgottenStepper<'a, Vec<S>, S>>,
 }
@@ -209,7 +259,7 @@ impl<S: Scalar> StraightStepper<'_, S> {
         let Some(step) = self.system.step_of(&self.choice) else {
             return;
         };
-        // interpreted it is no faster than kernel by kernel, but for who has nothing else
+        // interpreted, a program is no faster than kernels; it is used only where there is nothing else
         let alone = self.apart.is_none();
         let [h] = self.step_size;
         if let Some(ready) = Ready::new(self.system, &step.codes, h, alone) {
@@ -258,11 +308,13 @@ impl<S: Scalar> Stepper<S> for StraightStepper<'_, S> {
         mu: &mut Vec<S>,
         sink: &mut K,
     ) -> Result<StepReport, StepFailure> {
-        if self.waits > 0 {
-            self.waits -= 1;
-            if self.waits == 0 {
-                self.compile();
-            }
+        let (system, choice) = (self.system, &self.choice);
+        let length = || {
+            let step = system.step_of(choice);
+            step.map_or(0, |step| step.codes[1].instructions.len())
+        };
+        if self.wait.is_over(length) {
+            self.compile();
         }
         let whole = self.whole.as_mut().filter(|_| !K::ACTIVE);
         let whole = whole.map(|whole| (whole.run(self.system, &self.step_size, mu), whole));

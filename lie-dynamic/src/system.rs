@@ -48,13 +48,6 @@ impl Declared {
         Self { compiled, machine }
     }
 
-    /// From now on steps and equations of its systems are one program from the first step of a run on, not after
-    /// [`PATIENCE`](crate::PATIENCE) steps: for many runs that are short.
-    pub fn without_patience(&self) {
-        self.compiled.steps.hurry();
-        self.compiled.equations.hurry();
-    }
-
     /// The system of these parameters, in the order of their names; those that are left out have their defaults. Nothing is
     /// compiled again.
     ///
@@ -66,6 +59,7 @@ impl Declared {
             machine: Arc::clone(&self.machine),
             parameters: Vec::new(),
             constants: Vec::new(),
+            hurry: false,
         };
         let system = Dynamic {
             values,
@@ -131,6 +125,14 @@ impl Dynamic<f64> {
             branch: None,
             family,
         })
+    }
+
+    /// The same system without the wait of [`PATIENCE`](crate::PATIENCE) steps: its steppers compile programs of the whole when they
+    /// are made. That pays where many runs are short.
+    #[must_use]
+    pub fn without_patience(mut self) -> Self {
+        self.values.hurry = true;
+        self
     }
 
     /// The declared initial state for the parameters of the system.

@@ -12,6 +12,8 @@ pub(crate) struct Values<S> {
     pub machine: Arc<dyn Machine<S>>,
     pub parameters: Vec<S>,
     pub constants: Vec<S>,
+    /// Whether programs of the whole are compiled at once, see [`Dynamic::without_patience`](crate::Dynamic::without_patience).
+    pub hurry: bool,
 }
 
 impl<S: Clone> Clone for Values<S> {
@@ -21,6 +23,7 @@ impl<S: Clone> Clone for Values<S> {
             machine: Arc::clone(&self.machine),
             parameters: self.parameters.clone(),
             constants: self.constants.clone(),
+            hurry: self.hurry,
         }
     }
 }
@@ -88,6 +91,7 @@ impl<S: Scalar> Values<S> {
             machine: machine.unwrap_or_else(|| interpreter()),
             parameters: all(&self.parameters),
             constants: all(&self.constants),
+            hurry: self.hurry,
         }
     }
 }

@@ -204,7 +204,10 @@ impl Declaration {
         line: &str,
         session: &mut Session<'_>,
     ) -> Result<(), End> {
-        let program = Bench::new(&self.parameters(), maker(&self.declared));
+        // what is compiled is compiled before a time is taken
+        let (declared, parameters) = (self.declared.clone(), self.parameters());
+        let build = move |values: &[f64]| Ok(declared.system(values)?.without_patience());
+        let program = Bench::new(&parameters, build);
         let confirming = made(&self.confirming, &Tolerances::default());
         let mut program = program.clock(clock).confirmed_by(confirming);
         for choice in &self.choices {

@@ -5,7 +5,9 @@
 //! fails is run again alone, and says what it says alone; the others of its group are run again without it.
 
 use lie_codegen::methods::Choice;
-use lie_dynamic::{Declared, Dynamic, Method, PATIENCE, Tolerances, method, method_in_lanes};
+use lie_dynamic::{
+    Declared, Dynamic, Method, PATIENCE, Tolerances, is_compiled_for_lanes, method, method_in_lanes,
+};
 use lie_runtime::diagnostics::Forgotten;
 use lie_runtime::driver::{
     IntegrateError, Observer, OptionError, Options, Pace, Problem, Progress, Save, integrate,
@@ -83,12 +85,6 @@ impl Watch {
     }
 }
 
-/// Whether members of a method go in lanes: with a fixed step, and a method that is compiled for lanes.
-pub fn takes_lanes(choice: &Choice, options: &Options) -> bool {
-    let fixed = matches!(options.pace, Pace::Step(_));
-    fixed && method_in_lanes(choice, Tolerances::default()).is_some()
-}
-
 /// Keeps the rows of a run, and ends it where the whole is to end.
 struct Kept<'a, S> {
     times: Vec<f64>,
@@ -150,10 +146,7 @@ impl Members<'_> {
             let none = |_| Member::failing(0.0, "there is no such method".to_owned());
             return some.map(none).collect();
         };
-        if self.steps() > f64::from(PATIENCE) {
-            self.declared.without_patience();
-        }
-        let lanes = takes_lanes(self.choice, &self.options);
+        let lanes = self.takes_lanes();
         let together = lanes.then(|| method_in_lanes(self.choice, self.tolerances));
         let worker = Worker {
             members: self,
@@ -170,6 +163,19 @@ impl Members<'_> {
         }
         found.resize_with(some.len(), Member::default);
         found
+    }
+
+    /// Whether members go in lanes: with a fixed step, and a method that is compiled for lanes, or where there are steps enough,
+    /// one whose step is compiled as a whole.
+    pub fn takes_lanes(&self) -> bool {
+        let fixed = matches!(self.options.pace, Pace::Step(_));
+        let apart = is_compiled_for_lanes(self.choice) || self.is_long();
+        fixed && apart && method_in_lanes(self.choice, self.tolerances).is_some()
+    }
+
+    /// Whether all members together make so many steps that programs of the whole pay.
+    fn is_long(&self) -> bool {
+        self.steps() > f64::from(PATIENCE)
     }
 
     /// The steps of all members; none where each run chooses its own.
@@ -189,7 +195,13 @@ impl Members<'_> {
 
     /// The systems of members: one for all where they have the same parameters.
     fn systems(&self, members: Range<usize>) -> Vec<Result<Dynamic<f64>, ParameterError>> {
-        let made = |member| self.declared.system(self.parameters(member));
+        let made = |member| {
+            let system = self.declared.system(self.parameters(member))?;
+            Ok(match self.is_long() {
+                true => system.without_patience(),
+                false => system,
+            })
+        };
         match self.parameters.len() {
             1 => vec![made(members.start); members.len()],
             _ => members.map(made).collect(),

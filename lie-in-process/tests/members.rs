@@ -6,7 +6,7 @@ use lie_codegen::model::Model;
 use lie_codegen::plan::plan;
 use lie_dynamic::{Declared, Tolerances, method};
 use lie_in_process::list;
-use lie_in_process::members::{LANES, Member, Members, Watch, takes_lanes};
+use lie_in_process::members::{LANES, Member, Members, Watch};
 use lie_jit::Jit;
 use lie_runtime::driver::{Options, Save};
 use lie_runtime::newton::NewtonOptions;
@@ -89,7 +89,7 @@ fn different(name: &str, save: Save, newton: NewtonOptions) -> (usize, Vec<Strin
         if bits(&found) != bits(&expected) || failures(&found) != failures(&expected) {
             different.push(choice.label());
         }
-        compared += usize::from(takes_lanes(choice, &members.options));
+        compared += usize::from(members.takes_lanes());
         members.starts[9][0] *= 1.0 + 1e-9;
         if bits(&all(&members)) == bits(&expected) && expected[9].failed.is_none() {
             different.push(format!("{} does not see a change", choice.label()));
@@ -216,10 +216,53 @@ fn a_group_that_fails_late_keeps_its_rows() {
 
 #[test]
 fn with_a_tolerance_members_are_alone() {
-    let choices = choices();
-    assert!(takes_lanes(&choices[1], &Options::new(STEP)));
-    assert!(!takes_lanes(&choices[1], &Options::tolerance(1e-6)));
-    let dopri5 = Choice::from_id("dopri5").unwrap();
-    assert!(!takes_lanes(&dopri5, &Options::new(STEP)));
+    let [gauss4, dopri5] = ["gauss4", "dopri5"].map(|id| Choice::from_id(id).unwrap());
+    let declared = top(&[gauss4.clone(), dopri5.clone()]);
+    let mut members = sweep(&declared, &gauss4, Save::Ends);
+    assert!(members.takes_lanes());
+    members.options = Options::tolerance(1e-6);
+    assert!(!members.takes_lanes());
+    assert!(!sweep(&declared, &dopri5, Save::Ends).takes_lanes());
     assert_eq!(LANES, 8);
+}
+
+/// Members one by one, each by a declaration of its own: so few steps are made kernel by kernel.
+fn kernel_by_kernel(members: &Members<'_>) -> Vec<Member> {
+    let each = members.starts.iter().zip(&members.parameters);
+    let run = |(start, parameters): (&Vec<f64>, &Vec<f64>)| {
+        let declared = top(std::slice::from_ref(members.choice));
+        let one = Members {
+            declared: &declared,
+            parameters: vec![parameters.clone()],
+            starts: vec![start.clone()],
+            options: members.options.clone(),
+            ..*members
+        };
+        let member = all(&one).remove(0);
+        assert_eq!(declared.system(&[]).unwrap().programs(members.choice), 0);
+        member
+    };
+    each.map(run).collect()
+}
+
+#[test]
+fn steps_and_equations_that_are_one_program() {
+    for id in ["rk4", "cf4", "splitting4", "compose4(splitting2)", "gauss4"] {
+        let choice = Choice::from_id(id).unwrap();
+        let declared = top(std::slice::from_ref(&choice));
+        let mut members = sweep(&declared, &choice, Save::Every(50));
+        let short = members.takes_lanes();
+        assert_eq!(short, id == "rk4" || id == "gauss4", "{id}");
+        members.options = Options::new(STEP / 10.0).save(Save::Every(50));
+        assert!(members.takes_lanes(), "{id}");
+        members.starts[2][0] = f64::NAN;
+        members.parameters[12][0] = 0.0;
+        let found = all(&members);
+        assert!(declared.system(&[]).unwrap().programs(&choice) > 0, "{id}");
+        let expected = kernel_by_kernel(&members);
+        assert_eq!(bits(&found), bits(&expected), "{id}");
+        assert_eq!(failures(&found), failures(&expected), "{id}");
+        let failed = found.iter().filter(|member| member.failed.is_some());
+        assert_eq!(failed.count(), 2, "{id}");
+    }
 }

@@ -74,6 +74,9 @@ impl Compiler {
             ("enable_verifier", "false"),
             ("is_pic", "false"),
             ("use_colocated_libcalls", "false"),
+            // a program of a whole step may have a frame larger than a page
+            ("enable_probestack", "true"),
+            ("probestack_strategy", "inline"),
         ] {
             flags.set(name, value).ok()?;
         }

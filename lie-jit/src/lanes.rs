@@ -57,6 +57,14 @@ impl Machine<Wide> for Lanes {
         }
     }
 
+    fn compiles(&self) -> bool {
+        true
+    }
+
+    fn has(&self, codes: &Arc<[Code]>) -> bool {
+        self.others.has(codes)
+    }
+
     fn of(&self, codes: &Arc<[Code]>) -> Option<Arc<dyn Machine<Wide>>> {
         Some(self.others.of(codes, || Some(Self::new(codes)))?)
     }

@@ -19,7 +19,7 @@ use lanes::{Lanes, Wide};
 use lie_dynamic::{Code, Engine, Frame, Interpreted, Lengths, Machine, Targets, place_by_place};
 use lie_runtime::Scalar;
 use std::mem::ManuallyDrop;
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 /// The engine of Cranelift. Where the processor is none that it knows, codes are interpreted.
 #[derive(Clone, Copy, Debug, Default)]
@@ -98,16 +98,28 @@ struct Compiled {
 }
 
 /// Machines for other codes than those of a plan, each with the codes that it was made of.
-struct Others<M>(Mutex<Vec<(Arc<[Code]>, Option<Arc<M>>)>>);
+struct Others<M>(Mutex<Vec<Made<M>>>);
+
+type Made<M> = (Arc<[Code]>, Option<Arc<M>>);
 
 impl<M> Others<M> {
     fn new() -> Self {
         Self(Mutex::new(Vec::new()))
     }
 
+    fn all(&self) -> MutexGuard<'_, Vec<Made<M>>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn has(&self, codes: &Arc<[Code]>) -> bool {
+        self.all()
+            .iter()
+            .any(|(known, _)| Arc::ptr_eq(known, codes))
+    }
+
     /// The machine of these codes, made where it is asked for the first time.
     fn of(&self, codes: &Arc<[Code]>, make: impl FnOnce() -> Option<M>) -> Option<Arc<M>> {
-        let mut all = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut all = self.all();
         if let Some((_, machine)) = all.iter().find(|(known, _)| Arc::ptr_eq(known, codes)) {
             return machine.clone();
         }
@@ -210,6 +222,14 @@ impl Machine<f64> for Compiled {
         place_by_place(done..places, columns, to, |at, out| {
             self.run(code, &frame.at(at), [out, &mut []]);
         });
+    }
+
+    fn compiles(&self) -> bool {
+        true
+    }
+
+    fn has(&self, codes: &Arc<[Code]>) -> bool {
+        self.others.has(codes)
     }
 
     fn of(&self, codes: &Arc<[Code]>) -> Option<Arc<dyn Machine<f64>>> {

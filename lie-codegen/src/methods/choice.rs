@@ -221,16 +221,24 @@ impl Choice {
     /// `lie-midpoint --retraction cayley`.
     ///
     /// # Errors
-    /// An id that cannot be used, or an option that the method does not have.
+    /// An id that cannot be used, an option that the method does not have, or one that is there twice.
     pub fn from_label(label: &str) -> Result<Self, Unusable> {
         let mut parts = label.split("--");
         let mut choice = Self::from_id(parts.next().unwrap_or_default())?;
+        let mut names = Vec::new();
         for option in parts {
             let (name, value) = option
                 .trim()
                 .split_once([' ', '='])
                 .unwrap_or((option.trim(), ""));
             let id = choice.id();
+            if names.contains(&name) {
+                return Err(Unusable {
+                    message: format!("`--{name}` of {id} is there twice"),
+                    help: "leave one of the two out".into(),
+                });
+            }
+            names.push(name);
             choice = choice
                 .with_option(name, value.trim())
                 .map_err(|error| match error {
@@ -351,5 +359,20 @@ impl Choice {
             Self::Compose(_, _, base) => base,
             other => other,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_option_that_is_there_twice_is_refused() {
+        let label = "lie-midpoint --retraction cayley";
+        assert!(Choice::from_label(label).is_ok());
+        let twice = Choice::from_label(&format!("{label} --retraction exp"));
+        let message = twice.map_err(|unusable| unusable.message);
+        let expected = "`--retraction` of lie-midpoint is there twice";
+        assert_eq!(message, Err(expected.to_owned()));
     }
 }

@@ -3,6 +3,7 @@
 //! Generated code overrides them where fusing pays; a test holds each generated kernel equal to the
 //! form given here.
 
+mod blocks;
 mod cayley_midpoint;
 mod cayley_variational;
 mod chart;

@@ -1,7 +1,7 @@
 //! The equation of collective symplectic Runge–Kutta methods in the momenta of their stages.
 
+use super::blocks::factor;
 use super::kernels::direction;
-use super::matrix_stages::factor;
 use super::tableau::{Tableau, gauss_tableau};
 use crate::equation::Equation;
 use crate::matrix::{SquareMatrix, StageMatrix};

@@ -1,7 +1,7 @@
 //! The residual of an equation, and its Jacobian, as one program each.
 
-use super::record::{Recorded, Written, written};
-use super::{PATIENCE, Ready, all, recording};
+use super::record::{Written, written};
+use super::{Ready, Recorded, Wait, all, recording};
 use crate::code::{Code, Source};
 use crate::compiled::Compiled;
 use crate::elimination::Blocks;
@@ -26,10 +26,12 @@ pub(crate) type Numbers = [Vec<Recorded>; 2];
 /// Writes down something of the equation of a step, for a system and a step size.
 pub(crate) type Write = fn(&Dynamic<Recorded>, Recorded, What) -> Option<Numbers>;
 
-/// More parts of an unknown are not arguments beside the state.
+/// An unknown of more parts does not fit the arguments of a code, beside the state.
 const PARTS: usize = ARGUMENTS - 1;
-/// Nor are matrices of more entries stored one by one.
+/// A larger matrix is not stored entry by entry.
 const ENTRIES: usize = 10_000;
+/// A step evaluates its equation about so often, and each evaluation gains that much less than a step does.
+const EVALUATIONS: u32 = 5;
 
 /// Something of an equation, of the state that is the first argument and the parts of the unknown behind it.
 pub(crate) fn write<E>(mut equation: E, system: &Dynamic<Recorded>, what: What) -> Option<Numbers>
@@ -81,7 +83,7 @@ impl Programs {
             let (numbers, written): (Numbers, Written) =
                 written(|| write(&recording(compiled), Recorded::of(Source::Step), what))?;
             let [vector, matrix] = numbers;
-            // what is asked of numbers on the way the program does not answer
+            // a program does not report numbers that were asked whether they are finite, so there is none
             written
                 .asked()
                 .is_empty()
@@ -92,17 +94,16 @@ impl Programs {
             linearize: codes(What::Linearize),
         })
     }
-}
 
-impl Programs {
-    /// How many there are.
-    pub fn count(&self) -> usize {
-        1 + usize::from(self.linearize.is_some())
+    /// The codes of each.
+    pub fn codes(&self) -> impl Iterator<Item = &Arc<[Code]>> {
+        [&self.residual].into_iter().chain(&self.linearize)
+    }
+
+    fn length(&self) -> usize {
+        self.codes().map(|codes| codes[1].instructions.len()).sum()
     }
 }
-
-/// An equation is evaluated so often in a step, about, and gains as much less by an evaluation.
-const EVALUATIONS: u32 = 5;
 
 /// An equation whose programs are run, once it was evaluated often enough.
 pub(crate) struct Running<S> {
@@ -110,7 +111,7 @@ pub(crate) struct Running<S> {
     choice: Choice,
     h: [S; 1],
     base: Vec<S>,
-    waits: u32,
+    wait: Wait,
     residual: Option<Ready<S>>,
     linearize: Option<Ready<S>>,
     vector: Vec<S>,
@@ -121,22 +122,25 @@ impl<S: Scalar> Running<S> {
     /// Of the equation of a method; none where nothing of it is written down.
     pub fn new(system: &Dynamic<S>, choice: &Choice, h: S, write: Write) -> Option<Self> {
         // what is being written down is not run
-        if TypeId::of::<S>() == TypeId::of::<Recorded>() || !system.is_written() {
+        let recording = TypeId::of::<S>() == TypeId::of::<Recorded>();
+        if recording || !system.is_recordable() || !system.values.machine.compiles() {
             return None;
         }
+        let known = system.values.compiled.equations.known(choice);
+        let known = known.as_ref().map(|programs| &programs.residual);
+        let at_once = system.compiles_at_once(known);
         let mut running = Self {
             write,
             choice: choice.clone(),
             h: [h],
             base: system.zero_state(),
-            waits: PATIENCE * EVALUATIONS,
+            wait: Wait::new(EVALUATIONS, at_once),
             residual: None,
             linearize: None,
             vector: Vec::new(),
             matrix: Vec::new(),
         };
-        if system.values.compiled.equations.at_once(choice) {
-            running.waits = 0;
+        if at_once {
             running.compile(system);
         }
         Some(running)
@@ -146,13 +150,17 @@ impl<S: Scalar> Running<S> {
         self.base.copy_from_slice(mu);
     }
 
+    fn programs(&self, system: &Dynamic<S>) -> Option<Arc<Programs>> {
+        let compiled = &system.values.compiled;
+        let make = || Programs::new(compiled, self.write);
+        compiled.equations.get(&self.choice, make)
+    }
+
     #[cold]
     fn compile(&mut self, system: &Dynamic<S>) {
-        let compiled = &system.values.compiled;
-        let programs = compiled
-            .equations
-            .get(&self.choice, || Programs::new(compiled, self.write));
-        let Some(programs) = programs else { return };
+        let Some(programs) = self.programs(system) else {
+            return;
+        };
         let ready = |codes| Ready::new(system, codes, self.h[0], false);
         self.residual = ready(&programs.residual);
         self.linearize = programs.linearize.as_ref().and_then(ready);
@@ -166,12 +174,15 @@ impl<S: Scalar> Running<S> {
     }
 
     fn wait(&mut self, system: &Dynamic<S>) {
-        if self.waits > 0 {
-            self.waits -= 1;
-            if self.waits == 0 {
-                self.compile(system);
-            }
+        let mut wait = std::mem::replace(&mut self.wait, Wait::new(0, true));
+        let length = || {
+            self.programs(system)
+                .map_or(0, |programs| programs.length())
+        };
+        if wait.is_over(length) {
+            self.compile(system);
         }
+        self.wait = wait;
     }
 
     /// Computes the residual; false where it is not run as a program.

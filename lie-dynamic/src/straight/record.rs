@@ -1,30 +1,25 @@
-//! A scalar whose arithmetic is written down: what a step does becomes a code.
+//! What is written down of a computation, and the codes that do the same.
 
+use super::Recorded;
 use crate::code::{Code, Instruction, Number, Register, Source, Store};
-use crate::kernels::{Frame, Machine, Targets};
-use lie_codegen::symbolic::Function;
-use lie_runtime::Scalar;
-use lie_runtime::scalar::Pack;
 use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
-use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
-use std::sync::Arc;
 
-/// A step of more instructions is not one program: it takes long to compile, and calls cost little beside it.
+/// A longer step is not made one program: compiling it takes long, and calls cost little beside its arithmetic.
 const LONGEST: usize = 20_000;
 
 /// What is written down. Numbers go by their order of coming into being.
 #[derive(Default)]
-struct Record {
+pub(super) struct Record {
     /// For each number its source, or none of a result.
     sources: Vec<Option<Source>>,
     known: HashMap<(u8, u64, u64), Register>,
     /// Each with the first number that it gives.
     instructions: Vec<(Instruction, Register)>,
     /// Numbers that were asked whether they are finite.
-    asked: Vec<Register>,
+    pub asked: Vec<Register>,
     /// Whether something was asked that the values decide.
-    branched: bool,
+    pub branched: bool,
 }
 
 thread_local! {
@@ -32,12 +27,17 @@ thread_local! {
     static RECORD: RefCell<Record> = RefCell::default();
 }
 
-fn with<T>(use_it: impl FnOnce(&mut Record) -> T) -> T {
+/// Does something with the record of this thread.
+pub(super) fn with<T>(use_it: impl FnOnce(&mut Record) -> T) -> T {
     RECORD.with_borrow_mut(use_it)
 }
 
 impl Record {
-    fn source(&mut self, source: Source) -> Register {
+    /// The number of a source.
+    pub fn source(&mut self, source: Source) -> Register {
+        if self.branched {
+            return 0;
+        }
         let next = self.sources.len() as Register;
         *self.known.entry(key(source)).or_insert_with(|| {
             self.sources.push(Some(source));
@@ -45,13 +45,21 @@ impl Record {
         })
     }
 
+    /// The value of a number that is written out.
+    pub fn exact(&self, number: Register) -> Option<f64> {
+        match self.sources.get(number as usize) {
+            Some(Some(Source::Number(Number::Exact(value)))) => Some(*value),
+            _ => None,
+        }
+    }
+
     /// The first number that the instruction gives.
-    fn push(&mut self, instruction: Instruction) -> Register {
-        let first = self.sources.len() as Register;
-        if self.instructions.len() == LONGEST {
-            self.branched = true;
+    pub fn push(&mut self, instruction: Instruction) -> Register {
+        self.branched |= self.instructions.len() == LONGEST;
+        if self.branched {
             return 0;
         }
+        let first = self.sources.len() as Register;
         self.instructions.push((instruction, first));
         let count = instruction.width() as usize;
         self.sources.extend(std::iter::repeat_n(None, count));
@@ -98,11 +106,14 @@ impl Record {
         let mut kept = Vec::new();
         // what the instructions and the stores that depend on arguments take from those that do not
         let taken = RefCell::new(Vec::new());
-        let is_result = |number: Register| self.sources[number as usize].is_none();
+        let constants = RefCell::new(vec![None; self.sources.len()]);
         let take = |number: Register| {
-            let constant = needed[number as usize] == Some(false) && is_result(number);
-            if constant && !taken.borrow().contains(&number) {
-                taken.borrow_mut().push(number);
+            let place = number as usize;
+            let constant = needed[place] == Some(false) && self.sources[place].is_none();
+            if constant && constants.borrow()[place].is_none() {
+                let mut taken = taken.borrow_mut();
+                constants.borrow_mut()[place] = Some(Source::OfStep(taken.len() as u32));
+                taken.push(number);
             }
             number
         };
@@ -119,22 +130,28 @@ impl Record {
         for number in all {
             take(number);
         }
-        let taken = taken.into_inner();
-        let constants = kept.iter().filter(|(.., varies)| !varies);
-        let constants = constants.map(|(instruction, first, _)| (*instruction, *first));
-        let varying = kept.iter().filter(|(.., varies)| *varies);
-        let varying = varying.map(|(instruction, first, _)| (*instruction, *first));
+        let (taken, constants) = (taken.into_inner(), constants.into_inner());
+        let of = |varying: bool| {
+            let kept = kept.iter().filter(move |(.., varies)| *varies == varying);
+            kept.map(|(instruction, first, _)| (*instruction, *first))
+        };
         [
-            self.code(constants, &[], [&taken, &[]]),
-            self.code(varying, &taken, stored),
+            self.code(of(false), &self.sources, [&taken, &[]]),
+            self.code(of(true), &self.with(constants), stored),
         ]
     }
 
-    /// The code of some instructions, to which other numbers are constants of the step size.
+    /// The sources, these among them.
+    fn with(&self, others: Vec<Option<Source>>) -> Vec<Option<Source>> {
+        let both = others.into_iter().zip(&self.sources);
+        both.map(|(other, source)| other.or(*source)).collect()
+    }
+
+    /// The code of some instructions, given the sources of numbers that are not their results.
     fn code(
         &self,
         instructions: impl Iterator<Item = (Instruction, Register)>,
-        constants: &[Register],
+        from: &[Option<Source>],
         stored: [&[Register]; 2],
     ) -> Code {
         let instructions: Vec<_> = instructions.collect();
@@ -142,10 +159,7 @@ impl Record {
         let places = RefCell::new(vec![None; self.sources.len()]);
         let mut source = |number: Register| {
             let place = &mut places.borrow_mut()[number as usize];
-            let constant = constants.iter().position(|constant| *constant == number);
-            let constant = constant.map(|place| Source::OfStep(place as u32));
-            let from = constant.or(self.sources[number as usize]);
-            if let (None, Some(from)) = (*place, from) {
+            if let (None, Some(from)) = (*place, from[number as usize]) {
                 *place = Some(sources.len() as Register);
                 sources.push(from);
             }
@@ -212,11 +226,19 @@ fn key(source: Source) -> (u8, u64, u64) {
 /// What was written down.
 pub(crate) struct Written(Record);
 
-/// Writes down what is done in `run`. None where it gives none, or the values decide what is done.
+/// Writes down what is done in `run`. None where it gives none, or where values decide what is done.
 pub(crate) fn written<T>(run: impl FnOnce() -> Option<T>) -> Option<(T, Written)> {
-    let before = RECORD.replace(Record::default());
+    /// What was there before comes back, whatever happens.
+    struct Before(Record);
+    impl Drop for Before {
+        fn drop(&mut self) {
+            RECORD.replace(std::mem::take(&mut self.0));
+        }
+    }
+    let before = Before(RECORD.replace(Record::default()));
     let given = run();
-    let record = RECORD.replace(before);
+    let record = RECORD.replace(Record::default());
+    drop(before);
     (!record.branched).then_some((given?, Written(record)))
 }
 
@@ -232,187 +254,5 @@ impl Written {
         let [vector, matrix] =
             [vector, matrix].map(|numbers| numbers.iter().map(|x| x.0).collect::<Vec<_>>());
         self.0.codes([&vector, &matrix])
-    }
-}
-
-/// A number of the record.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Recorded(Register);
-
-impl Recorded {
-    /// The number of a source.
-    pub fn of(source: Source) -> Self {
-        Self(with(|record| record.source(source)))
-    }
-
-    fn number(number: Number) -> Self {
-        Self::of(Source::Number(number))
-    }
-
-    fn result(instruction: Instruction) -> Self {
-        Self(with(|record| record.push(instruction)))
-    }
-
-    fn call(self, function: Function) -> Self {
-        Self::result(Instruction::Call(function, self.0))
-    }
-
-    /// An answer that depends on the values.
-    fn branch<T>(answer: T) -> T {
-        with(|record| record.branched = true);
-        answer
-    }
-}
-
-/// Codes whose instructions are written down one by one.
-pub(crate) struct Inlined(pub Arc<[Code]>);
-
-impl Machine<Recorded> for Inlined {
-    fn run(&self, code: usize, frame: &Frame<'_, Recorded>, mut targets: Targets<'_, Recorded>) {
-        let code = &self.0[code];
-        let mut registers = Vec::with_capacity(code.registers as usize);
-        for source in &code.sources {
-            registers.push(match source.place() {
-                Some((slice, entry)) => frame.slices()[slice][entry],
-                None => Recorded::of(*source),
-            });
-        }
-        for instruction in &code.instructions {
-            let moved = instruction.moved(&|register| registers[register as usize].0);
-            let Recorded(first) = Recorded::result(moved);
-            registers.extend((0..moved.width()).map(|part| Recorded(first + part)));
-        }
-        for (target, clear) in targets.iter_mut().zip(code.clear) {
-            if let Some(count) = clear {
-                target[..count as usize].fill(Recorded::zero());
-            }
-        }
-        for store in &code.stores {
-            targets[usize::from(store.target)][store.entry as usize] =
-                registers[store.register as usize];
-        }
-    }
-}
-
-impl Default for Recorded {
-    fn default() -> Self {
-        Self::zero()
-    }
-}
-
-macro_rules! operators {
-    ($($trait:ident $method:ident $assign:ident $assigned:ident;)+) => {$(
-        impl $trait for Recorded {
-            type Output = Self;
-            fn $method(self, other: Self) -> Self {
-                Self::result(Instruction::$trait(self.0, other.0))
-            }
-        }
-        impl $assign for Recorded {
-            fn $assigned(&mut self, other: Self) {
-                *self = $trait::$method(*self, other);
-            }
-        }
-    )+};
-}
-operators! {
-    Add add AddAssign add_assign;
-    Sub sub SubAssign sub_assign;
-    Mul mul MulAssign mul_assign;
-    Div div DivAssign div_assign;
-}
-
-impl Neg for Recorded {
-    type Output = Self;
-    fn neg(self) -> Self {
-        Self::result(Instruction::Neg(self.0))
-    }
-}
-
-macro_rules! functions {
-    ($($name:ident $function:ident,)+) => {$(
-        fn $name(self) -> Self {
-            self.call(Function::$function)
-        }
-    )+};
-}
-
-impl Scalar for Recorded {
-    type Lane = Self;
-    type Mask = bool;
-    type Wide = Pack<Self>;
-    const LANES: usize = 1;
-
-    fn zero() -> Self {
-        Self::from_f64(0.0)
-    }
-    fn one() -> Self {
-        Self::from_f64(1.0)
-    }
-    fn ratio(numerator: f64, denominator: f64) -> Self {
-        Self::number(Number::Ratio(numerator, denominator))
-    }
-    fn constant(high: f64, low: f64) -> Self {
-        Self::number(Number::Parts(high, low))
-    }
-    fn from_f64(value: f64) -> Self {
-        Self::number(Number::Exact(value))
-    }
-    fn epsilon() -> Self {
-        Self::from_f64(f64::EPSILON)
-    }
-
-    fn splat(lane: Self) -> Self {
-        lane
-    }
-    fn lane(self, _index: usize) -> Self {
-        self
-    }
-    fn with_lane(self, _index: usize, lane: Self) -> Self {
-        lane
-    }
-    fn to_f64(self) -> f64 {
-        Self::branch(f64::NAN)
-    }
-    fn gather(numbers: [Self; 8]) -> Self::Wide {
-        Pack(numbers)
-    }
-    fn scatter(wide: Self::Wide) -> [Self; 8] {
-        wide.0
-    }
-
-    fn abs(self) -> Self {
-        Self::branch(self)
-    }
-    fn sqrt(self) -> Self {
-        Self::result(Instruction::Sqrt(self.0))
-    }
-    functions! {
-        exp Exp, log Log, sin Sin, cos Cos, tan Tan, asin Asin, acos Acos, atan Atan, sinh Sinh, cosh Cosh, tanh Tanh,
-        cbrt Cbrt, log1p Log1p, expm1 Expm1, asinh Asinh, acosh Acosh, atanh Atanh,
-    }
-    fn atan2(self, x: Self) -> Self {
-        Self::result(Instruction::Atan2(self.0, x.0))
-    }
-    fn powf(self, exponent: Self) -> Self {
-        Self::result(Instruction::Power(self.0, exponent.0))
-    }
-
-    fn max(self, _other: Self) -> Self {
-        Self::branch(self)
-    }
-    fn less(self, _other: Self) -> bool {
-        Self::branch(false)
-    }
-    fn less_equal(self, _other: Self) -> bool {
-        Self::branch(false)
-    }
-    /// It is: a step that meets another number is refused, by whoever runs the code.
-    fn finite(self) -> bool {
-        with(|record| record.asked.push(self.0));
-        true
-    }
-    fn select(mask: bool, yes: Self, no: Self) -> Self {
-        if mask { yes } else { no }
     }
 }

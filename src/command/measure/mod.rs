@@ -54,7 +54,12 @@ const WIDTH: usize = 100;
 /// What is said below a table, a sentence or two a line; long lines go on below, moved in.
 fn below(sentences: &str) -> String {
     let options = textwrap::Options::new(WIDTH).subsequent_indent("  ");
-    textwrap::fill(sentences, options)
+    let folded = |line: &str| textwrap::fill(line, &options);
+    sentences
+        .split('\n')
+        .map(folded)
+        .collect::<Vec<_>>()
+        .join("\n")
 }
 
 /// Reads and checks what the commands share.

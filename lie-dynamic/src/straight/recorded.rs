@@ -1,0 +1,202 @@
+//! A scalar whose arithmetic is written down.
+
+use super::record::with;
+use crate::code::{Code, Instruction, Number, Register, Source};
+use crate::kernels::{Frame, Machine, Targets};
+use lie_codegen::symbolic::Function;
+use lie_runtime::Scalar;
+use lie_runtime::scalar::Pack;
+use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
+use std::sync::Arc;
+
+/// A number of the record.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Recorded(pub(super) Register);
+
+impl Recorded {
+    /// The number of a source.
+    pub fn of(source: Source) -> Self {
+        Self(with(|record| record.source(source)))
+    }
+
+    fn number(number: Number) -> Self {
+        Self::of(Source::Number(number))
+    }
+
+    fn result(instruction: Instruction) -> Self {
+        Self(with(|record| record.push(instruction)))
+    }
+
+    fn call(self, function: Function) -> Self {
+        Self::result(Instruction::Call(function, self.0))
+    }
+
+    /// An answer that depends on the values.
+    fn branch<T>(answer: T) -> T {
+        with(|record| record.branched = true);
+        answer
+    }
+}
+
+/// Codes whose instructions are written down one by one.
+pub(crate) struct Inlined(pub Arc<[Code]>);
+
+impl Machine<Recorded> for Inlined {
+    fn run(&self, code: usize, frame: &Frame<'_, Recorded>, mut targets: Targets<'_, Recorded>) {
+        let code = &self.0[code];
+        let mut registers = Vec::with_capacity(code.registers as usize);
+        for source in &code.sources {
+            registers.push(match source.place() {
+                Some((slice, entry)) => frame.slices()[slice][entry],
+                None => Recorded::of(*source),
+            });
+        }
+        for instruction in &code.instructions {
+            let moved = instruction.moved(&|register| registers[register as usize].0);
+            let Recorded(first) = Recorded::result(moved);
+            registers.extend((0..moved.width()).map(|part| Recorded(first + part)));
+        }
+        for (target, clear) in targets.iter_mut().zip(code.clear) {
+            if let Some(count) = clear {
+                target[..count as usize].fill(Recorded::zero());
+            }
+        }
+        for store in &code.stores {
+            targets[usize::from(store.target)][store.entry as usize] =
+                registers[store.register as usize];
+        }
+    }
+}
+
+/// Whether two numbers are equal depends on their values, unless both are written out.
+impl PartialEq for Recorded {
+    fn eq(&self, other: &Self) -> bool {
+        match with(|record| [record.exact(self.0), record.exact(other.0)]) {
+            [Some(one), Some(other)] => one == other,
+            _ => Self::branch(self.0 == other.0),
+        }
+    }
+}
+
+impl Default for Recorded {
+    fn default() -> Self {
+        Self::zero()
+    }
+}
+
+macro_rules! operators {
+    ($($trait:ident $method:ident $assign:ident $assigned:ident;)+) => {$(
+        impl $trait for Recorded {
+            type Output = Self;
+            fn $method(self, other: Self) -> Self {
+                Self::result(Instruction::$trait(self.0, other.0))
+            }
+        }
+        impl $assign for Recorded {
+            fn $assigned(&mut self, other: Self) {
+                *self = $trait::$method(*self, other);
+            }
+        }
+    )+};
+}
+operators! {
+    Add add AddAssign add_assign;
+    Sub sub SubAssign sub_assign;
+    Mul mul MulAssign mul_assign;
+    Div div DivAssign div_assign;
+}
+
+impl Neg for Recorded {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Self::result(Instruction::Neg(self.0))
+    }
+}
+
+macro_rules! functions {
+    ($($name:ident $function:ident,)+) => {$(
+        fn $name(self) -> Self {
+            self.call(Function::$function)
+        }
+    )+};
+}
+
+impl Scalar for Recorded {
+    type Lane = Self;
+    type Mask = bool;
+    type Wide = Pack<Self>;
+    const LANES: usize = 1;
+
+    fn zero() -> Self {
+        Self::from_f64(0.0)
+    }
+    fn one() -> Self {
+        Self::from_f64(1.0)
+    }
+    fn ratio(numerator: f64, denominator: f64) -> Self {
+        Self::number(Number::Ratio(numerator, denominator))
+    }
+    fn constant(high: f64, low: f64) -> Self {
+        Self::number(Number::Parts(high, low))
+    }
+    fn from_f64(value: f64) -> Self {
+        Self::number(Number::Exact(value))
+    }
+    fn epsilon() -> Self {
+        Self::from_f64(f64::EPSILON)
+    }
+
+    fn splat(lane: Self) -> Self {
+        lane
+    }
+    fn lane(self, _index: usize) -> Self {
+        self
+    }
+    fn with_lane(self, _index: usize, lane: Self) -> Self {
+        lane
+    }
+    fn to_f64(self) -> f64 {
+        Self::branch(f64::NAN)
+    }
+    fn gather(numbers: [Self; 8]) -> Self::Wide {
+        Pack(numbers)
+    }
+    fn scatter(wide: Self::Wide) -> [Self; 8] {
+        wide.0
+    }
+
+    fn abs(self) -> Self {
+        Self::branch(self)
+    }
+    fn sqrt(self) -> Self {
+        Self::result(Instruction::Sqrt(self.0))
+    }
+    functions! {
+        exp Exp, log Log, sin Sin, cos Cos, tan Tan, asin Asin, acos Acos, atan Atan, sinh Sinh, cosh Cosh, tanh Tanh,
+        cbrt Cbrt, log1p Log1p, expm1 Expm1, asinh Asinh, acosh Acosh, atanh Atanh,
+    }
+    fn atan2(self, x: Self) -> Self {
+        Self::result(Instruction::Atan2(self.0, x.0))
+    }
+    fn powf(self, exponent: Self) -> Self {
+        Self::result(Instruction::Power(self.0, exponent.0))
+    }
+
+    fn max(self, _other: Self) -> Self {
+        Self::branch(self)
+    }
+    fn less(self, _other: Self) -> bool {
+        Self::branch(false)
+    }
+    fn less_equal(self, _other: Self) -> bool {
+        Self::branch(false)
+    }
+    /// Taken to be finite; whoever runs the code refuses a step where the number is not.
+    fn finite(self) -> bool {
+        with(|record| record.asked.push(self.0));
+        true
+    }
+    fn select(mask: bool, yes: Self, no: Self) -> Self {
+        if mask { yes } else { no }
+    }
+}
