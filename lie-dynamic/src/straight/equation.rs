@@ -161,9 +161,9 @@ impl<S: Scalar> Running<S> {
         let Some(programs) = self.programs(system) else {
             return;
         };
-        let ready = |codes| Ready::new(system, codes, self.h[0], false);
-        self.residual = ready(&programs.residual);
-        self.linearize = programs.linearize.as_ref().and_then(ready);
+        let codes = [Some(&programs.residual), programs.linearize.as_ref()];
+        let [h] = self.h;
+        [self.residual, self.linearize] = codes.map(|codes| Ready::new(system, codes?, h, false));
         let stored = |target: u8| {
             let codes = programs.linearize.as_ref().unwrap_or(&programs.residual);
             let stores = codes[1].stores.iter();
