@@ -109,6 +109,19 @@ fn what_a_family_is_not_run_with_is_said() {
         &format!("stress {CHAIN} --param N=22"),
         "measure fewer sites, at most 21",
     );
+    refused(
+        &format!("run {CHAIN} --param N=4 --group matrix"),
+        "the group elements of the sites of a family are not followed",
+    );
+    for (picture, text) in [
+        ("orbit", "is a family"),
+        ("attitude", "no group of rotations"),
+    ] {
+        refused(
+            &format!("run {CHAIN} --param N=4 --picture {picture} --plot picture.svg"),
+            text,
+        );
+    }
     for command in ["bench", "stress"] {
         refused(
             &format!("{command} {CHAIN} --param N=4 --compile"),

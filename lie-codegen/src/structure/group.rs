@@ -29,8 +29,11 @@ impl Group {
     }
 }
 
-/// The group of a system, if its algebra has matrices and the group element is no part of the state.
+/// The group of a system, if its algebra has matrices and the group element is no part of the state; none of a family.
 pub fn group(model: &Model) -> Option<Group> {
+    if model.family.is_some() {
+        return None;
+    }
     let Bracket::Lie(algebra) = &model.bracket else {
         return None;
     };
@@ -57,6 +60,10 @@ pub fn group(model: &Model) -> Option<Group> {
 pub fn refusal(model: &Model, quaternion: bool) -> Option<(String, String)> {
     let Some(group) = group(model) else {
         return Some(match &model.bracket {
+            _ if model.family.is_some() => (
+                "the group elements of the sites of a family are not followed".into(),
+                "leave the option out".into(),
+            ),
             Bracket::Lie(algebra) if algebra.representation.is_none() => (
                 "the algebra declares no `matrices`".into(),
                 "declare the matrix of each basis element: the group element is a matrix of their size".into(),

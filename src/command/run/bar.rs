@@ -24,7 +24,7 @@ pub struct Bar {
 impl Bar {
     /// A bar that counts steps; none without a terminal.
     pub fn new(wanted: bool) -> Self {
-        let template = "{bar:40} {percent}% of {len} steps, {rate} per second, {eta} left";
+        let template = "{wide_bar} {percent}% of {len} steps, {rate} per second, {eta} left";
         Self {
             line: None,
             ..Self::of(wanted, template)
@@ -33,7 +33,7 @@ impl Bar {
 
     /// A bar that counts parts of the work and names the one that it is at; without a terminal, lines.
     pub fn of_stages(wanted: bool) -> Self {
-        Self::of(wanted, "{bar:40} {percent}%, {elapsed}: {msg}")
+        Self::of(wanted, "{bar:30} {percent}%, {elapsed}: {wide_msg}")
     }
 
     fn of(wanted: bool, template: &str) -> Self {
@@ -90,6 +90,11 @@ impl Bar {
     /// Says something above the bar, on a terminal alone.
     pub fn say(&self, line: &str) {
         self.bar.println(line);
+    }
+
+    /// Does what writes to the terminal while the bar is away.
+    pub fn aside<T>(&self, write: impl FnOnce() -> T) -> T {
+        self.bar.suspend(write)
     }
 
     pub fn clear(&self) {

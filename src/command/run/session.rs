@@ -55,12 +55,14 @@ impl Session<'_> {
             let goes_on = matches!(outcome, Outcome::Done | Outcome::Stopped(_));
             let done = matches!(outcome, Outcome::Done);
             if !self.flags.quiet && done {
-                self.say(number, member, &received, start.elapsed(), &mut tally);
+                let time = start.elapsed();
+                bar.aside(|| self.say(number, member, &received, time, &mut tally));
             }
             if let (Outcome::Stopped(stop), Some((picture, ..))) = (&outcome, &mut picture) {
                 picture.stopped(&self.short_name(number, member), stop.time);
             }
-            let code = self.ended(number, member, outcome, &received.drift, &mut tally);
+            let drift = &received.drift;
+            let code = bar.aside(|| self.ended(number, member, outcome, drift, &mut tally));
             match code {
                 Ok(0) => {}
                 other => ended = other,

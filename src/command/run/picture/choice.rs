@@ -120,6 +120,12 @@ fn orbit(spec: &Spec, given: &Given) -> Result<Kind, Message> {
     let n = model.dimension();
     let other = "`--picture phase` draws one coordinate against another for every system";
     let refuse = |text: String| Err(given.wrong(text).help(other));
+    if model.family.is_some() {
+        return refuse(format!(
+            "{} is a family, and orbits are drawn of systems with 3 coordinates",
+            model.name
+        ));
+    }
     if n != 3 {
         return refuse(format!(
             "{} has {n} coordinates, and orbits are drawn of systems with 3",
