@@ -12,7 +12,8 @@ use lie_program::protocol::Obstacle;
 
 use self::table::{cells, lines, micro};
 use super::quiet::Quiet;
-use super::{Bed, Ended, bed, below, files, interrupted, sense};
+use super::{Bed, Ended, bed, files, interrupted, sense};
+use crate::command::fold::folded;
 use crate::command::run::values::Given;
 use crate::command::{args, print};
 use crate::interrupt::Interrupt;
@@ -245,7 +246,7 @@ fn report(bed: &Bed, options: &Options, results: &Results, quiet: &Quiet, engine
     );
     let times = quiet.text();
     let said = format!("\n* the fastest\n{times}\nmeasured: {engine}\n");
-    text.push_str(&below(&said));
+    text.push_str(&folded(&said));
     if !results.stopped.is_empty() {
         let count = results.stopped.len();
         text.push_str(&format!("\n{count} runs did not come to their end:\n"));

@@ -9,7 +9,8 @@ use lie_in_process::words::short;
 use lie_measure::stress::{Cell, Experiment, Growth, Moved, Options, Outcome};
 use lie_poisson::plot::map::{self, Cell as Square, Column, Map};
 
-use super::{Bed, Ended, bed, below, files, interrupted};
+use super::{Bed, Ended, bed, files, interrupted};
+use crate::command::fold::folded;
 use crate::command::run::values::Given;
 use crate::command::{args, print};
 use crate::interrupt::Interrupt;
@@ -155,7 +156,7 @@ fn report(bed: &Bed, results: &Results, steps: u64) -> String {
         short(results.step),
         table::text(&results.table()),
     );
-    text.push_str(&below(&format!(
+    text.push_str(&folded(&format!(
         "kept of tried: no claimed invariant beyond its round-off bound, no step refused; drifts relative to the size of the terms\n\
          grows: the last tenth of the run over the first\n{}",
         results.legend()

@@ -14,7 +14,8 @@ use lie_measure::verify::GroundFound as Ground;
 use lie_program::protocol::Obstacle;
 use serde_json::{Map, Value, json};
 
-use super::{Ended, bed, below, interrupted};
+use super::{Ended, bed, interrupted};
+use crate::command::fold::folded;
 use crate::command::run::values::Given;
 use crate::command::{args, print};
 use crate::interrupt::Interrupt;
@@ -138,7 +139,7 @@ fn steps(rows: &[Row], method: &str) -> String {
 fn report(system: &str, results: &Results) -> String {
     let rows = &results.rows;
     // what holds of the form and not of the method is summed up below the table
-    let (folded, facts): (Vec<&str>, Vec<&str>) = facts(rows)
+    let (summed, facts): (Vec<&str>, Vec<&str>) = facts(rows)
         .into_iter()
         .partition(|fact| OF_THE_FORM.contains(fact) && all_hold(rows, fact));
     let ground = results.ground.as_ref();
@@ -157,13 +158,13 @@ fn report(system: &str, results: &Results) -> String {
     let said = format!(
         "✓ claimed and measured, ✗ claimed and not measured, no sign: not claimed; relative to the size of the terms\n\
          {}{}\n{} claims, {} fail\n",
-        summary(rows, &folded),
+        summary(rows, &summed),
         results.evidence.summary(),
         rows.iter().filter(|row| row.is_claimed()).count(),
         rows.iter().filter(|row| row.fails()).count(),
     );
     let table = table::text(&lines(rows, &facts));
-    format!("{}\n\n{table}\n{}", below(&head), below(&said))
+    format!("{}\n\n{table}\n{}", folded(&head), folded(&said))
 }
 
 /// The table: a line for each method, a column for each fact.
@@ -201,8 +202,8 @@ fn all_hold(rows: &[Row], fact: &str) -> bool {
 }
 
 /// One line on the facts that hold everywhere.
-fn summary(rows: &[Row], folded: &[&str]) -> String {
-    let parts: Vec<String> = folded
+fn summary(rows: &[Row], summed: &[&str]) -> String {
+    let parts: Vec<String> = summed
         .iter()
         .map(|fact| {
             let of_fact = rows.iter().map(|row| &row.finding);
