@@ -147,7 +147,7 @@ fn many_runs_are_summed_up() {
     .ok();
     assert!(!run.stderr.contains("run 0, "), "{}", run.stderr);
     assert!(
-        run.stderr.contains("rk4: 100 runs of 1000 steps in all"),
+        run.stderr.contains("rk4: 100 runs, 100000 steps in total"),
         "{}",
         run.stderr
     );
@@ -215,4 +215,25 @@ fn mistakes_have_their_place_and_a_remedy() {
     }
     lie(&format!("{BODY} --param I1=1:2:10000000")).error("limit", "command line: --param");
     lie(&format!("{BODY} --initial 1,2,3 --initial-file {path}")).error("option", "");
+}
+
+#[test]
+fn a_tolerance_of_several_runs_says_what_it_has_chosen() {
+    let said = |options: &str| {
+        let run = lie(&format!("run specs/so3_free_rigid_body.json {options}")).ok();
+        run.stderr.split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    let run = said("--tol 1e-6 --until 5 --param I1=1:2:2");
+    for text in [
+        "gauss16 was picked in place of midpoint, which the spec names",
+        "run 0, I1 = 1.0, step ",
+        "run 1, I1 = 2.0, step ",
+    ] {
+        assert!(run.contains(text), "{text}: {run}");
+    }
+    assert_eq!(run.matches("was picked").count(), 1, "{run}");
+    assert!(!run.contains("round-off of so many"), "{run}");
+    let run = said("--tol 1e-14 --until 1 --method rk4 --param I1=1.5:2:2");
+    assert!(run.contains("2 runs: the round-off of so many steps"), "{run}");
+    assert!(!run.contains("was picked"), "{run}");
 }
