@@ -330,7 +330,14 @@ fn wrong_measures() {
     let run = body("--measure section --section x=3").error("option", "command line: --section");
     assert!(run.stderr.contains("does not pass 3"), "{}", run.stderr);
     let run = lie("bench specs/canonical_pendulum.json --methods midpoint --measure casimirs");
-    run.error("option", "command line: --measure");
+    let run = run.error("option", "command line: --measure");
+    assert!(run.stderr.contains("has no Casimir"), "{}", run.stderr);
+    let run = lie(
+        "bench tests/data/declarations/pass/time.json --methods midpoint --measure energy",
+    )
+    .error("option", "command line: --measure");
+    let said = "the energy is not conserved";
+    assert!(run.stderr.contains(said), "{}", run.stderr);
 }
 
 #[test]
