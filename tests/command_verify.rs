@@ -82,6 +82,7 @@ fn as_json() {
     let run = lie("verify specs/so3_nonpolynomial.json --methods midpoint,lie-midpoint,rk4,dopri5 --quiet --json --seed 4").ok();
     let value: serde_json::Value = serde_json::from_str(&run.stdout).expect("JSON");
     assert_eq!(value["failed"], 0);
+    assert_eq!(value["interrupted"], false);
     let order = &value["methods"]["rk4"]["order"];
     assert_eq!(order["claim"], 4.0);
     assert!((order["measured"].as_f64().expect("a number") - 4.0).abs() < 0.3);

@@ -60,7 +60,9 @@ pub fn run(arguments: &args::Verify) -> Result<u8, Failure> {
             .into());
     }
     if arguments.json {
-        print(&format!("{:#}\n", as_json(&model.name, &results)))?;
+        let interrupted = matches!(ended, Ended::Interrupted(_));
+        let value = as_json(&model.name, &results, interrupted);
+        print(&format!("{value:#}\n"))?;
     } else {
         print(&report(&model.name, &results))?;
     }
@@ -225,7 +227,8 @@ fn summary(rows: &[Row], summed: &[&str]) -> String {
     }
 }
 
-fn as_json(system: &str, results: &Results) -> Value {
+/// What was found; where a signal has ended the measurement, it says that more was to come.
+fn as_json(system: &str, results: &Results, interrupted: bool) -> Value {
     let mut all = Map::new();
     for row in &results.rows {
         let method = all
@@ -246,5 +249,6 @@ fn as_json(system: &str, results: &Results) -> Value {
         "methods": all,
         "judge": results.evidence.as_json(),
         "failed": results.rows.iter().filter(|row| row.fails()).count(),
+        "interrupted": interrupted,
     })
 }
