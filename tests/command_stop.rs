@@ -97,6 +97,25 @@ fn control_c_keeps_the_rows() {
     assert!(whole_rows(&out) > 10);
 }
 
+/// `timeout` signals the command and then its group.
+#[test]
+fn two_signals_at_once_are_one() {
+    let folder = folder();
+    let (out, plot) = (
+        folder.path().join("rows.csv"),
+        folder.path().join("rows.svg"),
+    );
+    let child = start(&out, &format!("--plot {}", plot.display()));
+    signal(&child, "-INT");
+    signal(&child, "-INT");
+    let output = child.wait_with_output().expect("lie ends");
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(130), "{stderr}");
+    assert!(stderr.contains("Interrupted at t = "), "{stderr}");
+    let svg = std::fs::read_to_string(&plot).expect("a picture");
+    assert!(svg.trim_end().ends_with("</svg>"), "it is whole");
+}
+
 #[test]
 #[cfg(target_os = "linux")]
 fn a_kill_keeps_whole_rows_and_ends_the_program() {
