@@ -237,3 +237,21 @@ fn a_tolerance_of_several_runs_says_what_it_has_chosen() {
     assert!(run.contains("2 runs: the round-off of so many steps"), "{run}");
     assert!(!run.contains("was picked"), "{run}");
 }
+
+#[test]
+fn an_option_behind_a_method_and_as_a_flag_is_refused_where_no_other_method_takes_it() {
+    let of = |other: &str| {
+        let label = "lie-midpoint --retraction cayley";
+        let methods = ["--method", other, "--method", label, "--retraction", "exp"];
+        let output = common::command(BODY.split_whitespace().chain(methods)).output();
+        let output = output.expect("lie starts");
+        let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
+        (output.status.code(), stderr)
+    };
+    let (code, stderr) = of("rk4");
+    assert_eq!(code, Some(2), "{stderr}");
+    assert!(stderr.contains("cayley` has its own"), "{stderr}");
+    assert!(stderr.contains("leave out `--retraction`"), "{stderr}");
+    let (code, stderr) = of("generating2");
+    assert_eq!(code, Some(0), "{stderr}");
+}

@@ -7,7 +7,7 @@ use lie_codegen::diagnostic::Kind;
 use lie_program::protocol::Start;
 
 use super::super::values::Given;
-use super::{Plan, Planned, Planner, Point, npy, plan};
+use super::{Foreign, Plan, Planned, Planner, Point, npy, plan};
 use crate::command::args;
 use crate::compiler::Spec;
 use crate::message::{Message, Place, Source};
@@ -142,10 +142,14 @@ fn plans(spec: &Spec, flags: &args::Run) -> Result<Vec<Plan>, Vec<Message>> {
             mistakes.push(message.clone());
         }
     };
-    for (option, message) in &found[0].foreign {
-        let of_none = |other: &Planned| other.foreign.iter().any(|(name, _)| name == option);
-        if found.iter().all(of_none) {
-            say(message);
+    for foreign in &found[0].foreign {
+        let same = |other: &&Foreign| other.name == foreign.name;
+        let of_each = found.iter().map(|other| other.foreign.iter().find(same));
+        let of_each: Option<Vec<&Foreign>> = of_each.collect();
+        // none takes it: that one of them has a value of its own says more than that the others cannot have one
+        if let Some(of_each) = of_each {
+            let own = of_each.iter().find(|other| other.own);
+            say(&own.unwrap_or(&foreign).message);
         }
     }
     let mut plans: Vec<Plan> = Vec::new();
