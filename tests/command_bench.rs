@@ -345,6 +345,8 @@ fn wrong_options() {
     let bench = |rest: &str| lie(&format!("bench specs/so3_free_rigid_body.json {rest}"));
     bench("--methods nope").error("method", "command line: --methods");
     bench("--until 0").error("option", "command line: --until");
+    let run = bench("--param I1=1:2:3").error("option", "command line: --param");
+    assert!(run.stderr.contains("a range of values"), "{}", run.stderr);
     bench("--budget -1").error("option", "command line: --budget");
     bench("--plot specs/so3_free_rigid_body.json").error("option", "command line: --plot");
     let run = bench("--out /no/such/folder/x.csv");

@@ -116,6 +116,13 @@ impl Planner<'_> {
                 self.mistakes.push(message.help("set it once"));
             }
             let part = given.part(equals + 1..text.len());
+            if let Some((first, _)) = part.text.split_once(':') {
+                // those of `lie run` are taken apart before
+                let text = format!("`{}` is a range of values, which `lie run` alone takes", part.text.trim());
+                let help = format!("give one value, such as `--param {name}={}`, and call the command for each", first.trim());
+                self.mistakes.push(part.wrong(text).help(help));
+                continue;
+            }
             let Some(value) = self.keep(part.number()) else {
                 continue;
             };
