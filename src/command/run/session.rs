@@ -12,7 +12,7 @@ use super::layout::Layout;
 use super::picture::{Form, Picture, rounded};
 use super::plan::{Member, Plan, Several};
 use super::reception::{Received, Reception};
-use super::summary::{self, Drift};
+use super::summary::{self, Drift, Steps};
 use super::tally::{MOST_LINES, Tally};
 use super::{impossible, outputs};
 use crate::build::talk::{Outcome, Worker};
@@ -187,8 +187,12 @@ impl Session<'_> {
                 eprintln!("{}", folded(&note));
             }
             let title = title(self.spec, plan, received.step);
-            let adaptive = plan.method.is_adaptive();
-            let text = summary::text(&title, work, adaptive, drift, time);
+            let whose = match (plan.method.is_adaptive(), plan.pace.0) {
+                (false, _) => Steps::Constant,
+                (true, Pace::Step(_)) => Steps::Own,
+                (true, Pace::Tolerance(_)) => Steps::OwnByTolerance,
+            };
+            let text = summary::text(&title, work, whose, drift, time);
             eprint!("{}", folded(&text));
         } else if self.several.members.len() <= MOST_LINES {
             let mut title = self.named(number, member);
