@@ -101,6 +101,7 @@ fn a_run_that_stops_early_does_not_keep_the_others_from_theirs() {
         run.stderr
             .contains("error: run 0, rk4: the integration stopped")
     );
+    assert!(!run.stderr.contains("0 iterations"), "rk4 solves nothing");
     let of = |number: &str| {
         let all = rows(&run, 2);
         all.iter().filter(|(labels, _)| labels[0] == number).count()

@@ -4,6 +4,7 @@ use std::io::{self, IsTerminal as _};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use lie_in_process::words::counted;
 use lie_program::protocol::{Obstacle, Stop};
 use lie_runtime::driver::Pace;
 
@@ -357,8 +358,18 @@ fn word(outcome: &Outcome) -> &'static str {
 }
 
 fn stopped_text(stop: &Stop) -> String {
+    let Stop {
+        step, time, reason, ..
+    } = stop;
+    // nothing is iterated in an explicit step
+    let solver = match stop.iterations {
+        0 => String::new(),
+        iterations => {
+            let iterations = counted(iterations.into(), "iteration");
+            format!(" ({iterations}, residual {:?})", stop.residual)
+        }
+    };
     format!(
-        "the integration stopped in step {} at t = {:?}: {} ({} iterations, residual {:?})\nthe rows so far are written",
-        stop.step, stop.time, stop.reason, stop.iterations, stop.residual
+        "the integration stopped in step {step} at t = {time:?}: {reason}{solver}\nthe rows so far are written"
     )
 }

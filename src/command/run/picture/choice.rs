@@ -120,6 +120,12 @@ fn orbit(spec: &Spec, given: &Given) -> Result<Kind, Message> {
     let n = model.dimension();
     let other = "`--picture phase` draws one coordinate against another for every system";
     let refuse = |text: String| Err(given.wrong(text).help(other));
+    if model.configuration.as_ref().is_some_and(|c| c.time) {
+        return refuse(format!(
+            "the Hamiltonian of {} depends on the time, and an orbit has level curves of one that does not",
+            model.name
+        ));
+    }
     if n != 3 {
         return refuse(format!(
             "{} has {n} coordinates, and orbits are drawn of systems with 3",
@@ -202,9 +208,16 @@ fn section(
 ) -> Result<Kind, Message> {
     let n = spec.model.dimension();
     if n < 3 || layout.states != n || build::declared(&spec.model).is_none() {
-        let text = match n {
-            0..3 => "a section needs three coordinates",
-            _ => "sections are drawn of systems that the command runs itself, without time",
+        let model = &spec.model;
+        let name = &model.name;
+        let text = if model.configuration.as_ref().is_some_and(|c| c.time) {
+            format!("the Hamiltonian of {name} depends on the time, and sections are drawn of systems without it")
+        } else if model.family.is_some() {
+            format!("{name} is a family, and sections are drawn of single systems")
+        } else if n < 3 {
+            "a section needs three coordinates".to_owned()
+        } else {
+            format!("the Hamiltonian of {name} is not known to the command as an expression")
         };
         return Err(given.wrong(text).help("take `--picture phase`"));
     }

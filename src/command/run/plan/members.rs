@@ -4,6 +4,7 @@ use std::path::Path;
 use std::rc::Rc;
 
 use lie_codegen::diagnostic::Kind;
+use lie_in_process::words::counted;
 use lie_program::protocol::Start;
 
 use super::super::values::Given;
@@ -357,7 +358,11 @@ fn lines(spec: &Spec, text: String, path: &Path) -> Result<States, Message> {
         let mut values = numbers(&fields, &place)?;
         if let Some(order) = &order {
             if values.len() != order.len() {
-                let text = format!("{} values below {} names", values.len(), order.len());
+                let text = format!(
+                "{} below {}",
+                counted(values.len() as u64, "value"),
+                counted(order.len() as u64, "name")
+            );
                 let message = Message::new(Kind::StateLength, text).at(place);
                 return Err(message.help("give each line a value for each name"));
             }
@@ -375,7 +380,7 @@ fn permutation(fields: &[&str], names: &[&str], place: &Place) -> Result<Vec<usi
     order
         .filter(|order| order.len() == fields.len())
         .ok_or_else(|| {
-            if separated_otherwise(fields) {
+            if matches!(fields, [line] if without_commas(line)) {
                 let text = "no commas stand between these numbers".to_owned();
                 let message = Message::new(Kind::Option, text).at(place.clone());
                 return message.help("write a state in each line, such as `0.1,0.2,0.3`");
@@ -390,11 +395,12 @@ fn permutation(fields: &[&str], names: &[&str], place: &Place) -> Result<Vec<usi
         })
 }
 
-/// Whether a line without commas consists of numbers.
-fn separated_otherwise(fields: &[&str]) -> bool {
-    let [line] = fields else { return false };
-    let mut parts = line.split([';', '\t', ' ']).filter(|part| !part.is_empty());
-    parts.all(|part| crate::compiler::constant(part).is_ok())
+/// Whether a text consists of several numbers, with something other than commas between them.
+pub(super) fn without_commas(text: &str) -> bool {
+    let parts = text.split([';', '\t', ' ']);
+    let parts: Vec<&str> = parts.filter(|part| !part.is_empty()).collect();
+    let number = |part: &&str| crate::compiler::constant(part).is_ok();
+    parts.len() > 1 && parts.iter().all(number)
 }
 
 fn numbers(fields: &[&str], place: &Place) -> Result<Vec<f64>, Message> {

@@ -17,7 +17,7 @@ impl Planner<'_> {
     pub(super) fn of_family(&mut self, family: &Family, parameters: &[f64]) -> Option<Vec<f64>> {
         let n = self.spec.model.dimension();
         let Some([rows, columns]) = family.sites(parameters) else {
-            let text = "the number of sites is a whole number, at least 1";
+            let text = "the number of sites is a whole number from 1 to 2147483648";
             let message = Message::new(Kind::Domain, text).at_option("--param");
             self.mistakes
                 .push(message.help("write it like `--param N=1000`"));

@@ -4,9 +4,10 @@ use lie_codegen::check::domain;
 use lie_codegen::diagnostic::Kind;
 use lie_codegen::front::names::normalised;
 use lie_codegen::suggest::did_you_mean;
+use lie_in_process::words::counted;
 
 use super::super::values::Given;
-use super::members::States;
+use super::members::{States, without_commas};
 use super::{Planner, Point};
 use crate::message::{Message, Place};
 
@@ -52,7 +53,8 @@ impl Planner<'_> {
             }
         };
         let Some(state) = state else {
-            let text = format!("{} values for a state of {wanted}", values.len());
+            let given = counted(values.len() as u64, "value");
+            let text = format!("{given} for a state of {wanted}");
             let message = Message::new(Kind::StateLength, text).at(place.clone());
             let names = self.shown().join(", ");
             self.mistakes
@@ -146,7 +148,15 @@ impl Planner<'_> {
             let given = Given::flag("--initial", text);
             let parts = given.split();
             if model.complete_state(&vec![0.0; parts.len()]).is_none() {
-                let text = format!("{} values for a state of {dimension}", parts.len());
+                let text = match parts.as_slice() {
+                    [_] if without_commas(text) => {
+                        "no commas stand between these numbers".to_owned()
+                    }
+                    parts => format!(
+                        "{} for a state of {dimension}",
+                        counted(parts.len() as u64, "value")
+                    ),
+                };
                 let mut message = given.wrong(text);
                 message.kind = Kind::StateLength;
                 self.mistakes.push(message.help(self.example()));
