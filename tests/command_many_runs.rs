@@ -184,6 +184,11 @@ fn mistakes_have_their_place_and_a_remedy() {
     with("x,y,z\n1,2\n").error("state-length", &format!("{path}:2:1"));
     with("1,2\n").error("state-length", &format!("{path}:1:1"));
     with("a,b,c\n1,2,3\n").error("option", &format!("{path}:1:1"));
+    let run = with("1,2\n3,4\n5,6\n").error("state-length", &format!("{path}:1:1"));
+    let once = "2 values for a state of 3, as in 2 more rows";
+    assert!(run.stderr.contains(once), "{}", run.stderr);
+    assert_eq!(run.stderr.matches("error[").count(), 1, "{}", run.stderr);
+    with("\u{feff}x,y,z\n1,2,3\n").ok();
     for (text, said) in [
         ("1;2;3\n", "no commas stand between these numbers"),
         ("1 2 3\n", "no commas stand between these numbers"),

@@ -292,7 +292,9 @@ fn states(spec: &Spec, path: &Path) -> Result<States, Message> {
             let help = "write a state in each line, or save an array by `numpy.save`";
             unread("it is neither text nor an array of NumPy".to_owned(), help)
         })?;
-        lines(spec, text, path)?
+        // Excel marks the order of bytes, which UTF-8 does not have
+        let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
+        lines(spec, text.to_owned(), path)?
     };
     match states.all.len() {
         0 => Err(unread(

@@ -27,6 +27,7 @@ impl Planner<'_> {
             return Vec::new();
         };
         let mut points = Vec::new();
+        let before = self.mistakes.len();
         for (values, place) in &states.all {
             if let Some(initial) = self.of_file(values, place, &parameters) {
                 let parameters = parameters.clone();
@@ -36,6 +37,8 @@ impl Planner<'_> {
                 });
             }
         }
+        let of_rows = self.mistakes.split_off(before);
+        self.mistakes.extend(said_once(of_rows));
         points
     }
 
@@ -210,4 +213,23 @@ impl Planner<'_> {
             .push(Message::new(Kind::Domain, text).at_option(flag).help(help));
         false
     }
+}
+
+/// The mistakes of rows, each with the number of other rows that have it.
+fn said_once(mistakes: Vec<Message>) -> impl Iterator<Item = Message> {
+    let mut all: Vec<(Message, u64)> = Vec::new();
+    for message in mistakes {
+        let known = all.iter_mut().find(|(known, _)| known.text == message.text);
+        match known {
+            Some((_, more)) => *more += 1,
+            None => all.push((message, 0)),
+        }
+    }
+    all.into_iter().map(|(mut message, more)| {
+        if more > 0 {
+            let more = counted(more, "more row");
+            message.text.push_str(&format!(", as in {more}"));
+        }
+        message
+    })
 }
