@@ -11,13 +11,18 @@ const CLAUSE: usize = 56;
 /// The same text with no line over 100 characters, as far as spaces allow: a line breaks between clauses where these are
 /// short. What goes on below is moved in.
 pub fn folded(text: &str) -> String {
+    text.split('\n').map(line).collect::<Vec<_>>().join("\n")
+}
+
+fn line(line: &str) -> String {
+    let own = line.len() - line.trim_start_matches(' ').len();
+    let indent = " ".repeat(own + 2);
     let options = Options::new(WIDTH)
-        .subsequent_indent("  ")
+        .subsequent_indent(&indent)
         .break_words(false)
         .word_separator(WordSeparator::Custom(pieces))
         .word_splitter(WordSplitter::NoHyphenation);
-    let lines = text.split('\n').map(|line| textwrap::fill(line, &options));
-    lines.collect::<Vec<_>>().join("\n")
+    textwrap::fill(line, options)
 }
 
 /// What stays together: short clauses, and of long ones the words.

@@ -237,11 +237,15 @@ fn basis(bed: &Bed, results: &Results) -> String {
 
 fn report(bed: &Bed, options: &Options, results: &Results, quiet: &Quiet, engine: &str) -> String {
     let Options { until, measure, .. } = *options;
-    let mut text = format!(
-        "{}, to t = {until}: microseconds per unit of time to {}\n{}\n{}",
+    let head = format!(
+        "{}, to t = {until}: microseconds per unit of time to {}\n{}",
         bed.spec.model.name,
         sense::head(measure),
         basis(bed, results),
+    );
+    let mut text = format!(
+        "{}\n{}",
+        folded(&head),
         aligned(&cells(&lines(bed, &results.points), measure)),
     );
     let times = quiet.text();
