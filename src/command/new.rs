@@ -6,6 +6,7 @@ use std::path::PathBuf;
 
 use lie_codegen::compile::compile_spec;
 use lie_codegen::diagnostic::Diagnostic;
+use lie_in_process::words::counted;
 
 use super::{args, print, shell};
 use crate::message::{Failure, Message};
@@ -41,8 +42,8 @@ pub fn run(arguments: &args::New) -> Result<u8, Failure> {
     let path = path.display().to_string();
     let picture = format!("{}.svg", arguments.name.trim_end_matches(".json"));
     print(&format!(
-        "{path}: {} coordinates of {algebra}, with a kinetic energy\nnext: lie run {} --plot {}\n",
-        coordinates.len(),
+        "{path}: {} of {algebra}, with a kinetic energy\nnext: lie run {} --plot {}\n",
+        counted(coordinates.len() as u64, "coordinate"),
         shell::word(&path),
         shell::word(&picture)
     ))?;

@@ -8,7 +8,7 @@ use lie_in_process::evidence::Evidence;
 use lie_in_process::list;
 use lie_in_process::table;
 use lie_in_process::verify::{Results, Row, options};
-use lie_in_process::words::{number, short};
+use lie_in_process::words::{counted, number, short};
 use lie_measure::facts::{Finding, Verdict};
 use lie_measure::verify::GroundFound as Ground;
 use lie_program::protocol::Obstacle;
@@ -148,9 +148,9 @@ fn report(system: &str, results: &Results) -> String {
     let number = |of: fn(&Ground) -> f64| short(ground.map_or(f64::NAN, of));
     let count = |of: fn(&Ground) -> usize| ground.map_or(String::new(), |g| of(g).to_string());
     let head = format!(
-        "{}: {} methods, step {}, {} states, {} linear and {} quadratic first integrals, reference to {}",
+        "{}: {}, step {}, {} states, {} linear and {} quadratic first integrals, reference to {}",
         system,
-        methods(rows).len(),
+        counted(methods(rows).len() as u64, "method"),
         number(|ground| ground.step),
         count(|ground| ground.states),
         count(|ground| ground.linear),
@@ -223,7 +223,10 @@ fn summary(rows: &[Row], summed: &[&str]) -> String {
         .collect();
     match parts.is_empty() {
         true => String::new(),
-        false => format!("also hold, of so many methods: {}\n", parts.join(", ")),
+        false => format!(
+            "these hold too, each with the number of methods: {}\n",
+            parts.join(", ")
+        ),
     }
 }
 

@@ -2,6 +2,7 @@
 
 use lie_codegen::structure::group;
 use lie_codegen::suggest::did_you_mean;
+use lie_in_process::words::counted;
 
 use super::section::Chosen;
 use crate::build;
@@ -128,8 +129,9 @@ fn orbit(spec: &Spec, given: &Given) -> Result<Kind, Message> {
     }
     if n != 3 {
         return refuse(format!(
-            "{} has {n} coordinates, and orbits are drawn of systems with 3",
-            model.name
+            "{} has {}, and orbits are drawn of systems with 3",
+            model.name,
+            counted(n as u64, "coordinate")
         ));
     }
     if model.casimirs.len() != 1 {
