@@ -332,10 +332,9 @@ fn wrong_measures() {
     let run = lie("bench specs/canonical_pendulum.json --methods midpoint --measure casimirs");
     let run = run.error("option", "command line: --measure");
     assert!(run.stderr.contains("has no Casimir"), "{}", run.stderr);
-    let run = lie(
-        "bench tests/data/declarations/pass/time.json --methods midpoint --measure energy",
-    )
-    .error("option", "command line: --measure");
+    let run =
+        lie("bench tests/data/declarations/pass/time.json --methods midpoint --measure energy")
+            .error("option", "command line: --measure");
     let said = "the energy is not conserved";
     assert!(run.stderr.contains(said), "{}", run.stderr);
 }

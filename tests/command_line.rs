@@ -323,10 +323,7 @@ fn messages_name_the_true_reason() {
             format!("{body} --initial 1;2;3"),
             "no commas stand between these numbers",
         ),
-        (
-            format!("{body} --initial 1"),
-            "1 value for a state of 3",
-        ),
+        (format!("{body} --initial 1"), "1 value for a state of 3"),
         (
             format!("{time} --picture orbit"),
             "the Hamiltonian of Broken depends on the time",

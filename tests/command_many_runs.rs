@@ -240,7 +240,10 @@ fn a_tolerance_of_several_runs_says_what_it_has_chosen() {
     assert_eq!(run.matches("was picked").count(), 1, "{run}");
     assert!(!run.contains("round-off of so many"), "{run}");
     let run = said("--tol 1e-14 --until 1 --method rk4 --param I1=1.5:2:2");
-    assert!(run.contains("2 runs: the round-off of so many steps"), "{run}");
+    assert!(
+        run.contains("2 runs: the round-off of so many steps"),
+        "{run}"
+    );
     assert!(!run.contains("was picked"), "{run}");
 }
 

@@ -54,12 +54,19 @@ mod tests {
         let lines: Vec<String> = folded(&long).lines().map(str::to_owned).collect();
         assert_eq!(lines.len(), 3, "{lines:?}");
         assert_eq!(lines[1], "  lie-midpoint,");
-        assert_eq!(lines[2], format!("  {}", "x".repeat(120)), "a path stays whole");
+        assert_eq!(
+            lines[2],
+            format!("  {}", "x".repeat(120)),
+            "a path stays whole"
+        );
     }
 
     #[test]
     fn short_clauses_stay_whole() {
-        let long = format!("{}: one thing, 1.02 iterations per step", "word ".repeat(15).trim());
+        let long = format!(
+            "{}: one thing, 1.02 iterations per step",
+            "word ".repeat(15).trim()
+        );
         let (first, second) = (" one thing,", "  1.02 iterations per step");
         let found = folded(&long);
         assert!(found.ends_with(&format!("{first}\n{second}")), "{found}");

@@ -23,7 +23,10 @@ const MOST_PARAMETERS: usize = 12;
 pub fn run(arguments: &args::New) -> Result<u8, Failure> {
     let algebra = arguments.algebra.trim();
     if arguments.name.starts_with('-') {
-        let text = format!("`{}` begins with a hyphen, and would be read as an option", arguments.name);
+        let text = format!(
+            "`{}` begins with a hyphen, and would be read as an option",
+            arguments.name
+        );
         let help = "take a name such as `spinning_top`";
         return Err(Message::option("NAME", text).help(help).into());
     }

@@ -224,7 +224,10 @@ impl Choice {
     /// An id that cannot be used, an option that the method does not have, or one that is there twice.
     pub fn from_label(label: &str) -> Result<Self, Unusable> {
         let id = label.split("--").next().unwrap_or_default().trim();
-        if let (true, Some((_, options))) = (id.contains('(') && !id.ends_with(')'), label.split_once("--")) {
+        if let (true, Some((_, options))) = (
+            id.contains('(') && !id.ends_with(')'),
+            label.split_once("--"),
+        ) {
             let options = options.replacen(')', "", 1);
             return Err(Unusable {
                 message: "the options of a composition stand behind its parenthesis".into(),

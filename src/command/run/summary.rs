@@ -171,7 +171,13 @@ mod tests {
             newton: 5,
             ..Work::default()
         };
-        let text = text("T", &work, Steps::Constant, &drift, Duration::from_millis(1500));
+        let text = text(
+            "T",
+            &work,
+            Steps::Constant,
+            &drift,
+            Duration::from_millis(1500),
+        );
         assert_eq!(
             text,
             "T: 2 steps to t = 1.0 in 1.500 s, 2.50 Newton iterations per step\n\

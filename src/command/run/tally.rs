@@ -84,7 +84,11 @@ impl Tally {
         method.steps += received.work.steps;
         let size = received.step;
         let (least, most) = method.sizes.unwrap_or((size, size));
-        let shorter = if size.abs() < least.abs() { size } else { least };
+        let shorter = if size.abs() < least.abs() {
+            size
+        } else {
+            least
+        };
         let longer = if size.abs() > most.abs() { size } else { most };
         method.sizes = Some((shorter, longer));
         for (name, error, relative) in received.drift.errors() {
@@ -144,7 +148,11 @@ impl Tally {
                 let _ = write!(text, ", step sizes {least:?} to {most:?}");
             }
             if *stopped > 0 {
-                let _ = write!(text, ", and {} that stopped early", counted(*stopped as u64, "run"));
+                let _ = write!(
+                    text,
+                    ", and {} that stopped early",
+                    counted(*stopped as u64, "run")
+                );
             }
             if !worst.is_empty() {
                 let one = |w: &Worst| {

@@ -83,7 +83,9 @@ impl Given {
         let value = self.number()?;
         if value > MOST {
             let text = format!("`{}` is more than can be counted", self.text.trim());
-            Err(self.wrong(text).help("give a number up to 2^53, which is 9007199254740992"))
+            Err(self
+                .wrong(text)
+                .help("give a number up to 2^53, which is 9007199254740992"))
         } else if value.fract() == 0.0 && value >= 1.0 {
             Ok(value as u64)
         } else {

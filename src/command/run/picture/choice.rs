@@ -213,7 +213,9 @@ fn section(
         let model = &spec.model;
         let name = &model.name;
         let text = if model.configuration.as_ref().is_some_and(|c| c.time) {
-            format!("the Hamiltonian of {name} depends on the time, and sections are drawn of systems without it")
+            format!(
+                "the Hamiltonian of {name} depends on the time, and sections are drawn of systems without it"
+            )
         } else if model.family.is_some() {
             format!("{name} is a family, and sections are drawn of single systems")
         } else if n < 3 {

@@ -361,10 +361,10 @@ fn lines(spec: &Spec, text: String, path: &Path) -> Result<States, Message> {
         if let Some(order) = &order {
             if values.len() != order.len() {
                 let text = format!(
-                "{} below {}",
-                counted(values.len() as u64, "value"),
-                counted(order.len() as u64, "name")
-            );
+                    "{} below {}",
+                    counted(values.len() as u64, "value"),
+                    counted(order.len() as u64, "name")
+                );
                 let message = Message::new(Kind::StateLength, text).at(place);
                 return Err(message.help("give each line a value for each name"));
             }

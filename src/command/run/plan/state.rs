@@ -123,8 +123,14 @@ impl Planner<'_> {
             let part = given.part(equals + 1..text.len());
             if let Some((first, _)) = part.text.split_once(':') {
                 // those of `lie run` are taken apart before
-                let text = format!("`{}` is a range of values, which `lie run` alone takes", part.text.trim());
-                let help = format!("give one value, such as `--param {name}={}`, and call the command for each", first.trim());
+                let text = format!(
+                    "`{}` is a range of values, which `lie run` alone takes",
+                    part.text.trim()
+                );
+                let help = format!(
+                    "give one value, such as `--param {name}={}`, and call the command for each",
+                    first.trim()
+                );
                 self.mistakes.push(part.wrong(text).help(help));
                 continue;
             }

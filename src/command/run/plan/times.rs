@@ -172,10 +172,7 @@ impl Planner<'_> {
             let steps = end / step;
             let text = match steps.is_finite() {
                 true => format!("{steps:.1e} steps are more than can be counted"),
-                false => format!(
-                    "so many steps of {} cannot be counted",
-                    given.text.trim()
-                ),
+                false => format!("so many steps of {} cannot be counted", given.text.trim()),
             };
             self.mistakes.push(
                 given
