@@ -5,6 +5,7 @@ mod npy;
 mod sites;
 mod solver;
 mod state;
+mod states;
 mod times;
 
 use lie_codegen::methods::{Choice, OptionError};

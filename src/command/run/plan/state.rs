@@ -7,7 +7,7 @@ use lie_codegen::suggest::did_you_mean;
 use lie_in_process::words::counted;
 
 use super::super::values::Given;
-use super::members::{States, without_commas};
+use super::states::{States, without_commas};
 use super::{Planner, Point};
 use crate::message::{Message, Place};
 
