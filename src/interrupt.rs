@@ -1,4 +1,4 @@
-//! Signals end a run in order, rows kept and children ended; a second one ends it at once.
+//! Signals end a run in order, rows kept and children ended; a second one, later than 0.2 seconds, ends it at once.
 //!
 //! | signal | sent by | exit code |
 //! |---|---|---|
@@ -9,11 +9,13 @@
 use std::io;
 use std::process::{Command, Output, Stdio};
 use std::sync::atomic::{AtomicBool, AtomicU8, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::time::Duration;
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
+use std::time::{Duration, Instant};
 
 /// How long a thread may take after a signal, as long as the programs that measure.
 const GRACE: Duration = Duration::from_secs(2);
+/// Signals within this time are one: who signals a process and its group, as `timeout` does, means it once.
+const ONE: Duration = Duration::from_millis(200);
 
 /// Remembers the signal, and holds what it is to end.
 #[derive(Clone, Default)]
@@ -23,6 +25,8 @@ pub struct Interrupt(Arc<Inner>);
 struct Inner {
     /// The exit code of the first signal; 0 before.
     code: AtomicU8,
+    /// When the first signal came.
+    first: OnceLock<Instant>,
     /// Set while there is something to end in order.
     busy: AtomicBool,
     /// What works stops when this end of its input is closed.
@@ -42,7 +46,13 @@ impl Interrupt {
     }
 
     fn raise(&self, code: u8) {
-        let again = self.0.code.swap(code, Ordering::SeqCst) != 0;
+        let now = Instant::now();
+        let first = *self.0.first.get_or_init(|| now);
+        let again = self.seen().is_some();
+        if again && now.duration_since(first) < ONE {
+            return;
+        }
+        self.0.code.store(code, Ordering::SeqCst);
         if let Some(builder) = *lock(&self.0.builder) {
             kill_group(builder);
         }

@@ -330,7 +330,13 @@ fn wrong_measures() {
     let run = body("--measure section --section x=3").error("option", "command line: --section");
     assert!(run.stderr.contains("does not pass 3"), "{}", run.stderr);
     let run = lie("bench specs/canonical_pendulum.json --methods midpoint --measure casimirs");
-    run.error("option", "command line: --measure");
+    let run = run.error("option", "command line: --measure");
+    assert!(run.stderr.contains("has no Casimir"), "{}", run.stderr);
+    let run =
+        lie("bench tests/data/declarations/pass/time.json --methods midpoint --measure energy")
+            .error("option", "command line: --measure");
+    let said = "the energy is not conserved";
+    assert!(run.stderr.contains(said), "{}", run.stderr);
 }
 
 #[test]
@@ -338,6 +344,8 @@ fn wrong_options() {
     let bench = |rest: &str| lie(&format!("bench specs/so3_free_rigid_body.json {rest}"));
     bench("--methods nope").error("method", "command line: --methods");
     bench("--until 0").error("option", "command line: --until");
+    let run = bench("--param I1=1:2:3").error("option", "command line: --param");
+    assert!(run.stderr.contains("a range of values"), "{}", run.stderr);
     bench("--budget -1").error("option", "command line: --budget");
     bench("--plot specs/so3_free_rigid_body.json").error("option", "command line: --plot");
     let run = bench("--out /no/such/folder/x.csv");

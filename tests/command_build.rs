@@ -498,3 +498,23 @@ fn ordinary_runs_leave_no_drafts_behind() {
         }
     }
 }
+
+#[test]
+fn to_show_the_cache_does_not_make_it() {
+    let folder = folder();
+    let cache = folder.path().join("none/cache");
+    let mut show = common::command(["cache"]);
+    let output = show
+        .env("LIE_CACHE_DIR", &cache)
+        .output()
+        .expect("lie runs");
+    assert!(output.status.success());
+    let stdout = String::from_utf8_lossy(&output.stdout);
+    assert!(stdout.contains("0 programs, 0.0 MB in total"), "{stdout}");
+    assert!(
+        stdout
+            .lines()
+            .all(|line| line.chars().count() <= 100 || line.starts_with('/'))
+    );
+    assert!(!cache.exists() && !folder.path().join("none").exists());
+}

@@ -304,3 +304,38 @@ fn a_reader_that_goes_away_is_no_mistake() {
         );
     }
 }
+
+#[test]
+fn messages_name_the_true_reason() {
+    let body = "run specs/so3_free_rigid_body.json";
+    let time = "run tests/data/declarations/pass/time.json --until 1 --plot a.svg";
+    let chain = "run tests/data/families/xxz_chain.json --plot a.svg";
+    for (call, said) in [
+        (
+            format!("{body} --every 18446744073709551615"),
+            "is more than can be counted",
+        ),
+        (
+            format!("{body} --step 1e-320"),
+            "so many steps of 1e-320 cannot be counted",
+        ),
+        (
+            format!("{body} --initial 1;2;3"),
+            "no commas stand between these numbers",
+        ),
+        (format!("{body} --initial 1"), "1 value for a state of 3"),
+        (
+            format!("{time} --picture orbit"),
+            "the Hamiltonian of Broken depends on the time",
+        ),
+        (
+            format!("{chain} --picture section:x[0]=0"),
+            "is a family, and sections are drawn of single systems",
+        ),
+        (format!("{chain} --param N=1e12"), "from 1 to 2147483648"),
+    ] {
+        let run = lie(&call);
+        assert_eq!(run.code, Some(2), "{call}: {}", run.stderr);
+        assert!(run.stderr.contains(said), "{call}: {}", run.stderr);
+    }
+}

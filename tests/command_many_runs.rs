@@ -101,6 +101,7 @@ fn a_run_that_stops_early_does_not_keep_the_others_from_theirs() {
         run.stderr
             .contains("error: run 0, rk4: the integration stopped")
     );
+    assert!(!run.stderr.contains("0 iterations"), "rk4 solves nothing");
     let of = |number: &str| {
         let all = rows(&run, 2);
         all.iter().filter(|(labels, _)| labels[0] == number).count()
@@ -147,7 +148,7 @@ fn many_runs_are_summed_up() {
     .ok();
     assert!(!run.stderr.contains("run 0, "), "{}", run.stderr);
     assert!(
-        run.stderr.contains("rk4: 100 runs of 1000 steps in all"),
+        run.stderr.contains("rk4: 100 runs, 100000 steps in total"),
         "{}",
         run.stderr
     );
@@ -183,6 +184,11 @@ fn mistakes_have_their_place_and_a_remedy() {
     with("x,y,z\n1,2\n").error("state-length", &format!("{path}:2:1"));
     with("1,2\n").error("state-length", &format!("{path}:1:1"));
     with("a,b,c\n1,2,3\n").error("option", &format!("{path}:1:1"));
+    let run = with("1,2\n3,4\n5,6\n").error("state-length", &format!("{path}:1:1"));
+    let once = "2 values for a state of 3, as in 2 more rows";
+    assert!(run.stderr.contains(once), "{}", run.stderr);
+    assert_eq!(run.stderr.matches("error[").count(), 1, "{}", run.stderr);
+    with("\u{feff}x,y,z\n1,2,3\n").ok();
     for (text, said) in [
         ("1;2;3\n", "no commas stand between these numbers"),
         ("1 2 3\n", "no commas stand between these numbers"),
@@ -215,4 +221,46 @@ fn mistakes_have_their_place_and_a_remedy() {
     }
     lie(&format!("{BODY} --param I1=1:2:10000000")).error("limit", "command line: --param");
     lie(&format!("{BODY} --initial 1,2,3 --initial-file {path}")).error("option", "");
+}
+
+#[test]
+fn a_tolerance_of_several_runs_says_what_it_has_chosen() {
+    let said = |options: &str| {
+        let run = lie(&format!("run specs/so3_free_rigid_body.json {options}")).ok();
+        run.stderr.split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    let run = said("--tol 1e-6 --until 5 --param I1=1:2:2");
+    for text in [
+        "gauss16 was picked in place of midpoint, which the spec names",
+        "run 0, I1 = 1.0, step ",
+        "run 1, I1 = 2.0, step ",
+    ] {
+        assert!(run.contains(text), "{text}: {run}");
+    }
+    assert_eq!(run.matches("was picked").count(), 1, "{run}");
+    assert!(!run.contains("round-off of so many"), "{run}");
+    let run = said("--tol 1e-14 --until 1 --method rk4 --param I1=1.5:2:2");
+    assert!(
+        run.contains("2 runs: the round-off of so many steps"),
+        "{run}"
+    );
+    assert!(!run.contains("was picked"), "{run}");
+}
+
+#[test]
+fn an_option_behind_a_method_and_as_a_flag_is_refused_where_no_other_method_takes_it() {
+    let of = |other: &str| {
+        let label = "lie-midpoint --retraction cayley";
+        let methods = ["--method", other, "--method", label, "--retraction", "exp"];
+        let output = common::command(BODY.split_whitespace().chain(methods)).output();
+        let output = output.expect("lie starts");
+        let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
+        (output.status.code(), stderr)
+    };
+    let (code, stderr) = of("rk4");
+    assert_eq!(code, Some(2), "{stderr}");
+    assert!(stderr.contains("cayley` has its own"), "{stderr}");
+    assert!(stderr.contains("leave out `--retraction`"), "{stderr}");
+    let (code, stderr) = of("generating2");
+    assert_eq!(code, Some(0), "{stderr}");
 }

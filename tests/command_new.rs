@@ -101,6 +101,10 @@ fn nothing_is_overwritten_and_mistakes_have_a_remedy() {
     );
     assert!(wrong.stderr.contains("help: "), "{}", wrong.stderr);
     assert_eq!(lie_in(folder.path(), &["new", "7"]).code, Some(2));
+    let hyphen = lie_in(folder.path(), &["new", "--", "-x"]);
+    assert_eq!(hyphen.code, Some(2), "{}", hyphen.stderr);
+    assert!(hyphen.stderr.contains("help: "), "{}", hyphen.stderr);
+    assert!(!folder.path().join("-x.json").exists());
     assert!(!folder.path().join("other.json").exists());
 }
 

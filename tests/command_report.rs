@@ -183,6 +183,27 @@ fn several_methods() {
     assert_eq!(without(&first), without(&second));
 }
 
+#[test]
+fn a_range_of_values_is_for_runs() {
+    let folder = folder();
+    let out = folder.path().join("page.html");
+    let run = report(&[BODY, "--param", "I1=1:2:3"], &out);
+    let run = run.error("option", "command line: --param");
+    for text in ["which `lie run` alone takes", "`--param I1=1`"] {
+        assert!(run.stderr.contains(text), "{text}: {}", run.stderr);
+    }
+    assert!(!out.exists());
+}
+
+#[test]
+fn a_method_with_an_option_is_reported() {
+    let label = "lie-midpoint --retraction cayley";
+    let text = page(&[BODY, "--until", "2", "--no-bench", "--method", label]);
+    let line = format!("lie expand {BODY} --method &#39;{label}&#39;");
+    assert!(text.contains(&line), "a line that a shell takes");
+    assert!(text.contains("CayleyMidpoint"), "the code of this option");
+}
+
 /// A browser runs the page without an error, and draws the orbit.
 #[test]
 fn a_browser_draws_it() {

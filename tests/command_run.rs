@@ -431,3 +431,15 @@ fn a_tolerance_that_cannot_be_is_refused() {
         assert!(run.stderr.contains("help: "), "{options}: {}", run.stderr);
     }
 }
+
+#[test]
+fn nothing_is_said_to_be_unknown_where_the_error_is_zero() {
+    for options in ["--until 0", "--initial 0,0,0"] {
+        let run = lie(&format!(
+            "run specs/so3_free_rigid_body.json --tol 1e-8 {options}"
+        ))
+        .ok();
+        assert!(run.stderr.contains("tolerance 1e-8"), "{}", run.stderr);
+        assert!(!run.stderr.contains("warning"), "{options}: {}", run.stderr);
+    }
+}

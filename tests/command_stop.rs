@@ -97,6 +97,25 @@ fn control_c_keeps_the_rows() {
     assert!(whole_rows(&out) > 10);
 }
 
+/// `timeout` signals the command and then its group.
+#[test]
+fn two_signals_at_once_are_one() {
+    let folder = folder();
+    let (out, plot) = (
+        folder.path().join("rows.csv"),
+        folder.path().join("rows.svg"),
+    );
+    let child = start(&out, &format!("--plot {}", plot.display()));
+    signal(&child, "-INT");
+    signal(&child, "-INT");
+    let output = child.wait_with_output().expect("lie ends");
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(130), "{stderr}");
+    assert!(stderr.contains("Interrupted at t = "), "{stderr}");
+    let svg = std::fs::read_to_string(&plot).expect("a picture");
+    assert!(svg.trim_end().ends_with("</svg>"), "it is whole");
+}
+
 #[test]
 #[cfg(target_os = "linux")]
 fn a_kill_keeps_whole_rows_and_ends_the_program() {
@@ -329,6 +348,20 @@ fn measurements_end_with_the_command() {
         assert!(ended.elapsed() < Duration::from_secs(20), "{call}");
         assert!(stderr.contains("Interrupted"), "{call}: {stderr}");
     }
+}
+
+/// What is missing from a measurement cannot have failed.
+#[test]
+fn an_interrupted_verification_says_so_in_json() {
+    let mut command = command("verify specs/se3_heavy_top.json --json --quiet".split(' '));
+    let command = command.stdout(Stdio::piped()).stderr(Stdio::piped());
+    let child = command.spawn().expect("lie starts");
+    std::thread::sleep(Duration::from_secs(1));
+    signal(&child, "-INT");
+    let output = child.wait_with_output().expect("lie ends");
+    assert_eq!(output.status.code(), Some(130));
+    let value: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    assert_eq!(value["interrupted"], true);
 }
 
 /// Each run of the ladder takes twice as long as the one before, up to days: the signal meets a long one.

@@ -8,7 +8,7 @@ use lie_measure::verify::{Kernel, Reference};
 use lie_runtime::scalar::Scalar;
 use serde_json::{Value, json};
 
-use crate::words::{number, short};
+use crate::words::{counted, number, short};
 
 /// A spoiled value differs by this part of the largest: the judge must notice.
 const SPOILED: f64 = 1e-4;
@@ -197,14 +197,16 @@ impl Evidence {
         }
         let excess = self.kernels.values().map(|verdict| verdict.excess);
         let worst = excess.fold(0.0, Scalar::max);
-        let solution = match self.reference {
-            Some(_) => ", and so does the reference solution",
-            None => "",
-        };
+        let solution = self.reference.map_or(String::new(), |excess| {
+            format!(
+                "; the reference solution differs by {} of what is allowed",
+                short(excess)
+            )
+        });
         format!(
-            "{} kernels, {} samples: {} of the round-off allowed from the declaration as written{solution}",
-            self.kernels.len(),
-            self.samples,
+            "{}, {}: at most {} of the allowed round-off away from the declaration as written{solution}",
+            counted(self.kernels.len() as u64, "kernel"),
+            counted(self.samples as u64, "sample"),
             short(worst),
         )
     }

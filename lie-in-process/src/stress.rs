@@ -179,7 +179,7 @@ pub fn cell_text(cell: &Cell) -> String {
             )
         }
         Outcome::Lost => format!(
-            "{place}, step {step}: {} beyond {} times its round-off bound after {} steps",
+            "{place}, step {step}: {} up to {} times the round-off bound after {} steps",
             cell.what,
             short(cell.claimed),
             cell.steps
@@ -212,7 +212,7 @@ fn growth_cell(growth: &Growth) -> String {
 /// How round-off grew, in one line.
 fn growth_text(growth: &Growth) -> String {
     format!(
-        "{}, {} states near the initial one, step {}: {} beyond {} times its round-off bound after {} steps",
+        "{}, {} states near the initial one, step {}: {} up to {} times its round-off bound after {} steps",
         growth.method,
         growth.states,
         short(growth.step),

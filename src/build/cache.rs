@@ -7,21 +7,29 @@ use lie_codegen::diagnostic::Kind;
 
 use crate::message::{Failure, Message};
 
-/// The cache folder: `$LIE_CACHE_DIR`, else `lie-poisson` in the platform's folder for caches.
+/// The cache folder, made if it is not there.
 ///
 /// # Errors
 /// `io` if no such folder is known or can be created, or if others could put programs into it.
 pub fn root() -> Result<PathBuf, Failure> {
+    let root = place()?;
+    create(&root).map_err(|error| failure(&root, &error))?;
+    is_ours(&root)?;
+    Ok(root)
+}
+
+/// Where the cache folder is or would be: `$LIE_CACHE_DIR`, else `lie-poisson` in the platform's folder for caches.
+///
+/// # Errors
+/// `io` if no such folder is known.
+pub fn place() -> Result<PathBuf, Failure> {
     let variable = |name: &str| std::env::var_os(name).filter(|value| !value.is_empty());
     let root = chosen(&variable).ok_or_else(|| {
         let text = "no folder for the cache: none of LIE_CACHE_DIR, XDG_CACHE_HOME, HOME is set";
         let help = "set LIE_CACHE_DIR to a folder that can be written";
         Failure::surroundings(Message::new(Kind::Io, text).help(help))
     })?;
-    let root = std::path::absolute(&root).unwrap_or(root);
-    create(&root).map_err(|error| failure(&root, &error))?;
-    is_ours(&root)?;
-    Ok(root)
+    Ok(std::path::absolute(&root).unwrap_or(root))
 }
 
 /// Makes the folder, for its owner alone: programs come from it.

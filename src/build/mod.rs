@@ -31,7 +31,7 @@ use lie_codegen::program::Purpose;
 
 use crate::interrupt::Interrupt;
 use crate::message::{Failure, Message};
-pub use cache::{failure as cache_failure, root as cache_root};
+pub use cache::{failure as cache_failure, place as cache_place};
 use cause::Cause;
 use entry::Entry;
 pub use here::here;

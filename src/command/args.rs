@@ -165,7 +165,8 @@ pub struct Expand {
     /// The spec file
     #[arg(value_name = "SPEC")]
     pub spec: PathBuf,
-    /// Emits fused code for this method (repeatable), in place of the spec's `methods`
+    /// Emits fused code for this method (repeatable), in place of the spec's `methods`: an id, with every option that
+    /// applies, or with options such as "lie-midpoint --retraction cayley"
     #[arg(long, value_name = "ID")]
     pub method: Vec<String>,
     /// The path at which the code finds the runtime, where another crate re-exports it [default: ::lie_runtime]

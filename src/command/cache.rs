@@ -2,8 +2,9 @@
 
 use lie_in_process::words::counted;
 
+use super::fold::folded;
 use super::{args, print};
-use crate::build::{cache_failure, cache_limit, cache_programs, cache_root, cache_size};
+use crate::build::{cache_failure, cache_limit, cache_place, cache_programs, cache_size};
 use crate::message::Failure;
 
 /// What is in the cache beside the programs: all of it can be made again.
@@ -14,19 +15,19 @@ const FOLDERS: [&str; 3] = ["programs", "target", "runtime"];
 /// # Errors
 /// `io`: there is no folder for it, or something in it cannot be removed.
 pub fn run(arguments: &args::Cache) -> Result<u8, Failure> {
-    let root = cache_root()?;
+    let root = cache_place()?;
     let size = cache_size(&root);
     let programs = counted(cache_programs(&root).len() as u64, "program");
     let place = root.display();
     if !arguments.clear {
         let text = format!(
-            "{place}\n{programs}, {:.1} MB in all, of at most {:.0} MB\n\
-             LIE_CACHE_DIR chooses another folder, LIE_CACHE_MB another limit: beyond it the programs go that were not \
-             used for longest\n`lie cache --clear` empties it: what is needed is built again\n",
+            "{place}\n{programs}, {:.1} MB in total, of at most {:.0} MB\n\
+             LIE_CACHE_DIR chooses another folder, LIE_CACHE_MB another limit: beyond it, the programs that were unused for \
+             the longest time are removed\n`lie cache --clear` empties it: what is needed is built again\n",
             megabytes(size),
             megabytes(cache_limit()?)
         );
-        print(&text)?;
+        print(&folded(&text))?;
         return Ok(0);
     }
     for folder in FOLDERS.map(|folder| root.join(folder)) {

@@ -27,8 +27,14 @@ pub fn run(arguments: &args::Expand) -> Result<u8, Failure> {
         }
     }
     for id in &arguments.method {
-        match method::find(id).and_then(|choice| method::applies(choice, &spec.model)) {
-            Ok(choice) => choices.push(choice),
+        match method::all(id, &spec.model) {
+            Ok(found) => {
+                for choice in found {
+                    if !choices.contains(&choice) {
+                        choices.push(choice);
+                    }
+                }
+            }
             Err(message) => mistakes.push(message.at_option("--method")),
         }
     }
@@ -38,8 +44,6 @@ pub fn run(arguments: &args::Expand) -> Result<u8, Failure> {
     render::print(&spec.warnings());
     if arguments.method.is_empty() {
         choices = compile::declared_choices(&spec.model);
-    } else {
-        choices = compile::with_options(&spec.model, &choices);
     }
     if arguments.plan {
         print(&plan(&spec.model, &choices).to_string())?;

@@ -1,5 +1,6 @@
 //! Methods as options name them.
 
+use lie_codegen::compile::with_options;
 use lie_codegen::diagnostic::Kind;
 use lie_codegen::methods::{self, Choice};
 use lie_codegen::model::Model;
@@ -35,6 +36,23 @@ pub fn labelled(text: &str) -> Result<Choice, Message> {
     }
     Choice::from_label(text.trim())
         .map_err(|unusable| Message::new(Kind::Method, unusable.message).help(unusable.help))
+}
+
+/// The methods that an entry of a list stands for: with options the method alone, without them every option of it that
+/// applies to a system.
+///
+/// # Errors
+/// As of [`labelled`] and [`applies`].
+pub fn all(text: &str, model: &Model) -> Result<Vec<Choice>, Message> {
+    let choice = labelled(text.trim())?;
+    let all = match text.contains("--") {
+        true => Vec::new(),
+        false => with_options(model, std::slice::from_ref(&choice)),
+    };
+    match all.is_empty() {
+        true => applies(choice, model).map(|choice| vec![choice]),
+        false => Ok(all),
+    }
 }
 
 /// Whether a method has an option of this name.

@@ -4,6 +4,7 @@ pub mod args;
 mod cache;
 mod check;
 mod expand;
+mod fold;
 mod measure;
 pub mod method;
 mod methods;

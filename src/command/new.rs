@@ -6,6 +6,7 @@ use std::path::PathBuf;
 
 use lie_codegen::compile::compile_spec;
 use lie_codegen::diagnostic::Diagnostic;
+use lie_in_process::words::counted;
 
 use super::{args, print, shell};
 use crate::message::{Failure, Message};
@@ -21,6 +22,14 @@ const MOST_PARAMETERS: usize = 12;
 /// `option` for an algebra or a name that is none, `io` where the file is there already or cannot be written.
 pub fn run(arguments: &args::New) -> Result<u8, Failure> {
     let algebra = arguments.algebra.trim();
+    if arguments.name.starts_with('-') {
+        let text = format!(
+            "`{}` begins with a hyphen, and would be read as an option",
+            arguments.name
+        );
+        let help = "take a name such as `spinning_top`";
+        return Err(Message::option("NAME", text).help(help).into());
+    }
     let name = type_name(&arguments.name)?;
     let coordinates = coordinates(&name, algebra)?;
     let text = spec(&name, algebra, &coordinates);
@@ -41,8 +50,8 @@ pub fn run(arguments: &args::New) -> Result<u8, Failure> {
     let path = path.display().to_string();
     let picture = format!("{}.svg", arguments.name.trim_end_matches(".json"));
     print(&format!(
-        "{path}: {} coordinates of {algebra}, with a kinetic energy\nnext: lie run {} --plot {}\n",
-        coordinates.len(),
+        "{path}: {} of {algebra}, with a kinetic energy\nnext: lie run {} --plot {}\n",
+        counted(coordinates.len() as u64, "coordinate"),
         shell::word(&path),
         shell::word(&picture)
     ))?;
@@ -103,17 +112,22 @@ fn spec(name: &str, algebra: &str, coordinates: &[String]) -> String {
     let (mut parameters, mut terms) = (Vec::new(), Vec::new());
     for (place, coordinate) in (0_u32..).zip(coordinates) {
         // 1, 4/3, 5/3, … in thirds
-        let (above, below) = (FIRST + place, FIRST);
         if few {
-            parameters.push(format!(r#""I{}": "{above}/{below}""#, place + 1));
+            let moment = fraction(FIRST + place, FIRST);
+            parameters.push(format!(r#""I{}": "{moment}""#, place + 1));
             terms.push(format!("{coordinate}^2/(2*I{})", place + 1));
         } else {
-            terms.push(format!("{below}*{coordinate}^2/{}", 2 * above));
+            let (above, below) = reduced(FIRST, 2 * (FIRST + place));
+            let factor = match above {
+                1 => String::new(),
+                above => format!("{above}*"),
+            };
+            terms.push(format!("{factor}{coordinate}^2/{below}"));
         }
     }
-    let initial = (0_i32..).zip(coordinates).map(|(place, _)| {
+    let initial = (0_u32..).zip(coordinates).map(|(place, _)| {
         let sign = if place % 2 == 0 { "" } else { "-" };
-        format!(r#""{sign}{}/10""#, 5 - place % 4)
+        format!(r#""{sign}{}""#, fraction(5 - place % 4, 10))
     });
     let initial: Vec<String> = initial.collect();
     let state: Vec<String> = coordinates.iter().map(|name| format!("{name:?}")).collect();
@@ -133,4 +147,33 @@ fn spec(name: &str, algebra: &str, coordinates: &[String]) -> String {
         r#""run": { "method": "lie-midpoint", "step": "1/50", "until": 20 }"#.to_owned(),
     ]);
     format!("{{\n  {}\n}}\n", lines.join(",\n  "))
+}
+
+/// A fraction in lowest terms.
+fn reduced(above: u32, below: u32) -> (u32, u32) {
+    let (mut divisor, mut rest) = (above, below);
+    while rest > 0 {
+        (divisor, rest) = (rest, divisor % rest);
+    }
+    (above / divisor, below / divisor)
+}
+
+/// The same as text: `4/3`, `2`.
+fn fraction(above: u32, below: u32) -> String {
+    match reduced(above, below) {
+        (above, 1) => above.to_string(),
+        (above, below) => format!("{above}/{below}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fractions_are_in_lowest_terms() {
+        let some = [(3, 3), (4, 3), (6, 3), (5, 10), (4, 10), (3, 10)];
+        let texts = some.map(|(above, below)| fraction(above, below));
+        assert_eq!(texts, ["1", "4/3", "2", "1/2", "2/5", "3/10"]);
+    }
 }

@@ -95,7 +95,7 @@ impl Choice {
             return Err(Unusable {
                 message: format!("`--{option}` is not part of a method id"),
                 help: format!(
-                    "write `{}` and give the option as a flag of its own",
+                    "write `{}`: `methods` has every option that applies, and `run` has a key for each",
                     id.trim()
                 ),
             });
@@ -223,6 +223,17 @@ impl Choice {
     /// # Errors
     /// An id that cannot be used, an option that the method does not have, or one that is there twice.
     pub fn from_label(label: &str) -> Result<Self, Unusable> {
+        let id = label.split("--").next().unwrap_or_default().trim();
+        if let (true, Some((_, options))) = (
+            id.contains('(') && !id.ends_with(')'),
+            label.split_once("--"),
+        ) {
+            let options = options.replacen(')', "", 1);
+            return Err(Unusable {
+                message: "the options of a composition stand behind its parenthesis".into(),
+                help: format!("write `{id}) --{}`", options.trim()),
+            });
+        }
         let mut parts = label.split("--");
         let mut choice = Self::from_id(parts.next().unwrap_or_default())?;
         let mut names = Vec::new();
@@ -374,5 +385,14 @@ mod tests {
         let message = twice.map_err(|unusable| unusable.message);
         let expected = "`--retraction` of lie-midpoint is there twice";
         assert_eq!(message, Err(expected.to_owned()));
+    }
+
+    #[test]
+    fn options_of_a_composition_stand_behind_it() {
+        let inside = "compose4(lie-midpoint --retraction cayley)";
+        let help = Choice::from_label(inside).map_err(|unusable| unusable.help);
+        let right = "compose4(lie-midpoint) --retraction cayley";
+        assert_eq!(help, Err(format!("write `{right}`")));
+        assert!(Choice::from_label(right).is_ok());
     }
 }

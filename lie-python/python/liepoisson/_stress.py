@@ -132,8 +132,8 @@ class Stress:
     def __repr__(self) -> str:
         """A table: a line for each method."""
         legend = (
-            "kept of tried: no claimed invariant beyond its round-off bound, no step refused; drifts relative to the size of\n"
-            "the terms; grows: the last tenth of the run over the first\n"
+            "m of n: m of the n experiments were kept, with no claimed invariant beyond its round-off bound and no step\n"
+            "refused; drifts are relative to the size of the terms\ngrows: the last tenth of the run over the first\n"
         )
         text = f"{self._title()}\n\n{_core.columns(self._table)}\n{legend}{self._legend}"
         return text + "".join(f"lost: {loss}\n" for loss in self.lost)

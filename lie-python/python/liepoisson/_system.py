@@ -117,7 +117,7 @@ class System(Declared):
                 f"the error at the end is about {error:.1e} of the state, more than the tolerance {asked['pace'][1]:g}: "
                 f"errors grow on this orbit, or {label} cannot keep it"
                 if np.isfinite(error)
-                else "the error at the end is not known: telling it takes too many steps, or failed"
+                else "the error at the end is not known: the run that would tell it takes over 200,000 steps, or stopped early"
             )
             warnings.warn(text, stacklevel=2)
         if "why" in found:

@@ -39,6 +39,10 @@ pub(super) fn assess<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
     first: &Chosen,
 ) -> Result<(f64, Assessed), IntegrateError> {
     let (tolerance, span) = (first.tolerance, problem.span.1 - problem.span.0);
+    if span == 0.0 {
+        let error = Some(0.0);
+        return Ok((first.step, Assessed { tolerance, error }));
+    }
     let mut step = first.step;
     let mut attempt = 0;
     loop {
@@ -140,7 +144,12 @@ impl<S: Scalar, P: Poisson<S>, M: Method<S, P>> Ended<'_, S, P, M> {
             .ok()?;
         let size = self.end.max_norm();
         last.0.axpy(S::from_f64(-1.0), self.end);
-        let error = largest(last.0.max_norm() / size) / (1.0 - left);
+        let difference = last.0.max_norm();
+        if largest(difference) == 0.0 {
+            // also of a state that is zero, of which nothing is a part
+            return Some(0.0);
+        }
+        let error = largest(difference / size) / (1.0 - left);
         error.is_finite().then_some(error)
     }
 }

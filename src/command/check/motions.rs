@@ -6,6 +6,8 @@ use lie_codegen::check::motions::{End, Motions};
 use lie_codegen::model::Model;
 use lie_in_process::report::motions::named;
 
+use crate::command::fold::folded;
+
 /// The constants by lines.
 pub(super) fn write(
     model: &Model,
@@ -15,10 +17,8 @@ pub(super) fn write(
     let motions = match motions {
         Ok(motions) => motions,
         Err(reason) => {
-            return writeln!(
-                text,
-                "  other constants of the motion: not looked for: {reason}"
-            );
+            let line = format!("  other constants of the motion: not looked for: {reason}");
+            return writeln!(text, "{}", folded(&line));
         }
     };
     let count = match motions.found.len() {
@@ -26,22 +26,16 @@ pub(super) fn write(
         count => format!("{count} found"),
     };
     let degree = motions.searched;
-    write!(
-        text,
-        "  other constants of the motion, polynomials of degree up to {degree}: {count}"
-    )?;
-    match motions.end {
-        End::All => writeln!(text, "; there can be no more on a generic orbit")?,
-        End::Degree => writeln!(text)?,
-        End::Large => writeln!(
-            text,
-            "; of higher degree there are too many to be looked for"
-        )?,
-        End::Spent => writeln!(
-            text,
-            "; the search ended with its budget: `lie check --deep` goes on"
-        )?,
-    }
+    let end = match motions.end {
+        End::All => "; there can be no more on a generic orbit",
+        End::Degree => "",
+        End::Large => "; of higher degree there are too many to be looked for",
+        End::Spent => "; the search ended with its budget: `lie check --deep` goes on",
+    };
+    let line = format!(
+        "  other constants of the motion, polynomials of degree up to {degree}: {count}{end}"
+    );
+    writeln!(text, "{}", folded(&line))?;
     for (index, (function, degree)) in named(model, motions).into_iter().enumerate() {
         let kind = match degree {
             1 => " (linear: H is invariant under the flow of this element of the algebra)",

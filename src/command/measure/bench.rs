@@ -5,14 +5,15 @@ mod table;
 
 use lie_codegen::diagnostic::Kind;
 use lie_codegen::program::Purpose;
-use lie_in_process::words::short;
+use lie_in_process::words::{counted, short};
 use lie_in_process::{families, list, table::text as aligned};
 use lie_measure::bench::{ClockKind, Found, Measure, Options, Plane, Point, Reference};
 use lie_program::protocol::Obstacle;
 
 use self::table::{cells, lines, micro};
 use super::quiet::Quiet;
-use super::{Bed, Ended, bed, below, files, interrupted, sense};
+use super::{Bed, Ended, bed, files, interrupted, sense};
+use crate::command::fold::folded;
 use crate::command::run::values::Given;
 use crate::command::{args, print};
 use crate::interrupt::Interrupt;
@@ -66,8 +67,8 @@ fn climbed(method: &str, points: &[Point]) -> String {
     let best = own.iter().min_by(|a, b| a.error.total_cmp(&b.error));
     match (own.iter().map(|p| p.error).reduce(f64::max), best) {
         (Some(largest), Some(best)) => format!(
-            "{method}: {} runs, errors {} to {} in {} microseconds per unit of time",
-            own.len(),
+            "{method}: {}, errors {} to {} in {} microseconds per unit of time",
+            counted(own.len() as u64, "run"),
             short(largest),
             short(best.error),
             micro(best.seconds)
@@ -214,7 +215,7 @@ fn basis(bed: &Bed, results: &Results) -> String {
             families::confirming(&bed.spec.model).label(),
             short(difference)
         ),
-        None => "largest over every step; of methods that show no steps over 32 times or more\n"
+        None => "largest over all steps; for methods that show no steps, over at least 32 times\n"
             .to_owned(),
     };
     if let Some((Plane { coordinate, value }, passages)) = results.section {
@@ -236,19 +237,23 @@ fn basis(bed: &Bed, results: &Results) -> String {
 
 fn report(bed: &Bed, options: &Options, results: &Results, quiet: &Quiet, engine: &str) -> String {
     let Options { until, measure, .. } = *options;
-    let mut text = format!(
-        "{}, to t = {until}: microseconds per unit of time to {}\n{}\n{}",
+    let head = format!(
+        "{}, to t = {until}: microseconds per unit of time to {}\n{}",
         bed.spec.model.name,
         sense::head(measure),
         basis(bed, results),
+    );
+    let mut text = format!(
+        "{}\n{}",
+        folded(&head),
         aligned(&cells(&lines(bed, &results.points), measure)),
     );
     let times = quiet.text();
     let said = format!("\n* the fastest\n{times}\nmeasured: {engine}\n");
-    text.push_str(&below(&said));
+    text.push_str(&folded(&said));
     if !results.stopped.is_empty() {
-        let count = results.stopped.len();
-        text.push_str(&format!("\n{count} runs did not come to their end:\n"));
+        let runs = counted(results.stopped.len() as u64, "run");
+        text.push_str(&format!("\n{runs} stopped early:\n"));
         for line in &results.stopped {
             text.push_str(&format!("  {line}\n"));
         }

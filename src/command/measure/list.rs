@@ -1,6 +1,5 @@
 //! Lists of methods: `midpoint,lie-midpoint --retraction cayley,compose4(midpoint)`.
 
-use lie_codegen::compile::with_options;
 use lie_codegen::methods::Choice;
 use lie_codegen::model::Model;
 
@@ -18,18 +17,7 @@ pub fn parse(text: &str, model: &Model) -> Result<Vec<Choice>, Vec<Message>> {
     let mut mistakes = Vec::new();
     for given in whole.split() {
         let place = given.wrong("").place;
-        let chosen = method::labelled(given.text.trim()).and_then(|choice| {
-            let all = if given.text.contains("--") {
-                Vec::new()
-            } else {
-                with_options(model, std::slice::from_ref(&choice))
-            };
-            match all.is_empty() {
-                true => method::applies(choice, model).map(|choice| vec![choice]),
-                false => Ok(all),
-            }
-        });
-        match chosen {
+        match method::all(&given.text, model) {
             Ok(chosen) => {
                 for choice in chosen {
                     if !choices.contains(&choice) {

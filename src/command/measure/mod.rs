@@ -48,20 +48,6 @@ pub enum Ended {
     Refused(Obstacle, String),
 }
 
-/// The longest line of what is said below a table, in characters.
-const WIDTH: usize = 100;
-
-/// What is said below a table, a sentence or two a line; long lines go on below, moved in.
-fn below(sentences: &str) -> String {
-    let options = textwrap::Options::new(WIDTH).subsequent_indent("  ");
-    let folded = |line: &str| textwrap::fill(line, &options);
-    sentences
-        .split('\n')
-        .map(folded)
-        .collect::<Vec<_>>()
-        .join("\n")
-}
-
 /// Reads and checks what the commands share.
 ///
 /// # Errors

@@ -15,7 +15,8 @@ const LISTED: usize = 24;
 /// What the flags ask for.
 ///
 /// # Errors
-/// A surface without its measure, or that is none; Casimirs of a system that has none.
+/// A surface without its measure, or that is none; the energy of a system that depends on the time; Casimirs of a system
+/// that has none.
 pub fn measure(arguments: &args::Bench, bed: &Bed) -> Result<Measure, Failure> {
     let plane = arguments.section.as_deref();
     let plane = plane.map(|text| surface(text, bed)).transpose()?;
@@ -28,15 +29,37 @@ pub fn measure(arguments: &args::Bench, bed: &Bed) -> Result<Measure, Failure> {
     }
     Ok(match arguments.measure {
         Sense::State => Measure::State,
-        Sense::Energy => Measure::Energy,
+        Sense::Energy => {
+            let model = &bed.spec.model;
+            if model.configuration.as_ref().is_some_and(|c| c.time) {
+                let text = format!(
+                    "the Hamiltonian of {} depends on the time, so that the energy is not conserved and its drift says nothing",
+                    model.name
+                );
+                let message = Message::option("--measure", text);
+                let help = "measure `state`, or `casimirs` where the system has one";
+                return Err(message.help(help).into());
+            }
+            Measure::Energy
+        }
         Sense::Phase => Measure::Phase,
         Sense::Section => Measure::Section(plane),
         Sense::Casimirs => {
             let model = &bed.spec.model;
             if model.casimirs.iter().all(|casimir| casimir.multivalued) {
-                let text = format!("{} declares no Casimir with one branch", model.name);
+                let text = match (model.casimirs.len(), model.casimirs_to_find()) {
+                    (0, 0) => format!("{} has no Casimir", model.name),
+                    (0, _) => format!("no Casimir of {} is known", model.name),
+                    _ => format!(
+                        "every Casimir of {} jumps between branches, so that its drift says nothing",
+                        model.name
+                    ),
+                };
                 let message = Message::option("--measure", text);
-                let help = "declare one in the spec, or measure `energy`";
+                let help = match model.casimirs_to_find() {
+                    0 => "measure `state` or `energy`",
+                    _ => "declare one in the spec, or measure `state` or `energy`",
+                };
                 return Err(message.help(help).into());
             }
             Measure::Casimirs

@@ -5,11 +5,12 @@ use lie_codegen::program::Purpose;
 use lie_in_process::list;
 use lie_in_process::stress::{self, Results, cell_text, methods};
 use lie_in_process::table;
-use lie_in_process::words::short;
+use lie_in_process::words::{counted, short};
 use lie_measure::stress::{Cell, Experiment, Growth, Moved, Options, Outcome};
 use lie_poisson::plot::map::{self, Cell as Square, Column, Map};
 
-use super::{Bed, Ended, bed, below, files, interrupted};
+use super::{Bed, Ended, bed, files, interrupted};
+use crate::command::fold::folded;
 use crate::command::run::values::Given;
 use crate::command::{args, print};
 use crate::interrupt::Interrupt;
@@ -149,14 +150,16 @@ fn growth_csv(growth: &Growth) -> String {
 
 fn report(bed: &Bed, results: &Results, steps: u64) -> String {
     let mut text = format!(
-        "{}: {} experiments, h0 = {}, {steps} steps of the long run at h0\n\n{}\n",
+        "{}: {}, h0 = {}, {} of the long run at h0\n\n{}\n",
         bed.spec.model.name,
-        results.cells.len(),
+        counted(results.cells.len() as u64, "experiment"),
         short(results.step),
+        counted(steps, "step"),
         table::text(&results.table()),
     );
-    text.push_str(&below(&format!(
-        "kept of tried: no claimed invariant beyond its round-off bound, no step refused; drifts relative to the size of the terms\n\
+    text.push_str(&folded(&format!(
+        "m of n: m of the n experiments were kept, with no claimed invariant beyond its round-off bound and no step refused; \
+         drifts are relative to the size of the terms\n\
          grows: the last tenth of the run over the first\n{}",
         results.legend()
     )));

@@ -8,13 +8,14 @@ use lie_in_process::evidence::Evidence;
 use lie_in_process::list;
 use lie_in_process::table;
 use lie_in_process::verify::{Results, Row, options};
-use lie_in_process::words::{number, short};
+use lie_in_process::words::{counted, number, short};
 use lie_measure::facts::{Finding, Verdict};
 use lie_measure::verify::GroundFound as Ground;
 use lie_program::protocol::Obstacle;
 use serde_json::{Map, Value, json};
 
-use super::{Ended, bed, below, interrupted};
+use super::{Ended, bed, interrupted};
+use crate::command::fold::folded;
 use crate::command::run::values::Given;
 use crate::command::{args, print};
 use crate::interrupt::Interrupt;
@@ -59,7 +60,9 @@ pub fn run(arguments: &args::Verify) -> Result<u8, Failure> {
             .into());
     }
     if arguments.json {
-        print(&format!("{:#}\n", as_json(&model.name, &results)))?;
+        let interrupted = matches!(ended, Ended::Interrupted(_));
+        let value = as_json(&model.name, &results, interrupted);
+        print(&format!("{value:#}\n"))?;
     } else {
         print(&report(&model.name, &results))?;
     }
@@ -138,16 +141,16 @@ fn steps(rows: &[Row], method: &str) -> String {
 fn report(system: &str, results: &Results) -> String {
     let rows = &results.rows;
     // what holds of the form and not of the method is summed up below the table
-    let (folded, facts): (Vec<&str>, Vec<&str>) = facts(rows)
+    let (summed, facts): (Vec<&str>, Vec<&str>) = facts(rows)
         .into_iter()
         .partition(|fact| OF_THE_FORM.contains(fact) && all_hold(rows, fact));
     let ground = results.ground.as_ref();
     let number = |of: fn(&Ground) -> f64| short(ground.map_or(f64::NAN, of));
     let count = |of: fn(&Ground) -> usize| ground.map_or(String::new(), |g| of(g).to_string());
     let head = format!(
-        "{}: {} methods, step {}, {} states, {} linear and {} quadratic first integrals, reference to {}",
+        "{}: {}, step {}, {} states, {} linear and {} quadratic first integrals, reference to {}",
         system,
-        methods(rows).len(),
+        counted(methods(rows).len() as u64, "method"),
         number(|ground| ground.step),
         count(|ground| ground.states),
         count(|ground| ground.linear),
@@ -157,13 +160,13 @@ fn report(system: &str, results: &Results) -> String {
     let said = format!(
         "✓ claimed and measured, ✗ claimed and not measured, no sign: not claimed; relative to the size of the terms\n\
          {}{}\n{} claims, {} fail\n",
-        summary(rows, &folded),
+        summary(rows, &summed),
         results.evidence.summary(),
         rows.iter().filter(|row| row.is_claimed()).count(),
         rows.iter().filter(|row| row.fails()).count(),
     );
     let table = table::text(&lines(rows, &facts));
-    format!("{}\n\n{table}\n{}", below(&head), below(&said))
+    format!("{}\n\n{table}\n{}", folded(&head), folded(&said))
 }
 
 /// The table: a line for each method, a column for each fact.
@@ -201,8 +204,8 @@ fn all_hold(rows: &[Row], fact: &str) -> bool {
 }
 
 /// One line on the facts that hold everywhere.
-fn summary(rows: &[Row], folded: &[&str]) -> String {
-    let parts: Vec<String> = folded
+fn summary(rows: &[Row], summed: &[&str]) -> String {
+    let parts: Vec<String> = summed
         .iter()
         .map(|fact| {
             let of_fact = rows.iter().map(|row| &row.finding);
@@ -220,11 +223,15 @@ fn summary(rows: &[Row], folded: &[&str]) -> String {
         .collect();
     match parts.is_empty() {
         true => String::new(),
-        false => format!("also hold, of so many methods: {}\n", parts.join(", ")),
+        false => format!(
+            "these hold too, each with the number of methods: {}\n",
+            parts.join(", ")
+        ),
     }
 }
 
-fn as_json(system: &str, results: &Results) -> Value {
+/// What was found; where a signal has ended the measurement, it says that more was to come.
+fn as_json(system: &str, results: &Results, interrupted: bool) -> Value {
     let mut all = Map::new();
     for row in &results.rows {
         let method = all
@@ -245,5 +252,6 @@ fn as_json(system: &str, results: &Results) -> Value {
         "methods": all,
         "judge": results.evidence.as_json(),
         "failed": results.rows.iter().filter(|row| row.fails()).count(),
+        "interrupted": interrupted,
     })
 }

@@ -12,7 +12,7 @@ mod sections;
 use std::path::{Path, PathBuf};
 
 use super::args;
-use super::run::outputs;
+use super::run::{outputs, plan};
 use crate::compiler::{self, Spec};
 use crate::interrupt::Interrupt;
 use crate::message::{Failure, Message};
@@ -26,6 +26,12 @@ use page::Page;
 /// Invalid input, and a file that cannot be written; a run that stops early still has its page.
 pub fn run(flags: &args::Report) -> Result<u8, Failure> {
     let spec = compiler::load(&flags.spec)?;
+    let start = args::Run {
+        param: flags.param.clone(),
+        initial: flags.initial.clone(),
+        ..args::Run::default()
+    };
+    plan::start(&spec, &start).map_err(Failure::invalid)?;
     let out = out(flags)?;
     let file = Destination::file(&out).map_err(|error| outputs::unwritable(&out, &error))?;
     let folder =

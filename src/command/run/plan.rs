@@ -5,6 +5,7 @@ mod npy;
 mod sites;
 mod solver;
 mod state;
+mod states;
 mod times;
 
 use lie_codegen::methods::{Choice, OptionError};
@@ -63,8 +64,17 @@ struct Planned {
     /// The plan, where there are no mistakes.
     plan: Option<Plan>,
     mistakes: Vec<Message>,
-    /// Options that the method does not have, which may belong to another one.
-    foreign: Vec<(String, Message)>,
+    /// Options that the method does not take, which may belong to another one.
+    foreign: Vec<Foreign>,
+}
+
+/// An option that the method does not take.
+struct Foreign {
+    name: String,
+    /// What is to be said if no other method takes it.
+    message: Message,
+    /// Whether the method has it, with a value of its own.
+    own: bool,
 }
 
 /// Finds the mistakes of all options but those of the start, for the first method that is given.
@@ -140,8 +150,7 @@ struct Planner<'a> {
     spec: &'a Spec,
     flags: &'a args::Run,
     mistakes: Vec<Message>,
-    /// Options that the method does not have: their names, and what is to be said if no other method has them.
-    foreign: Vec<(String, Message)>,
+    foreign: Vec<Foreign>,
 }
 
 impl<'a> Planner<'a> {
@@ -209,10 +218,13 @@ impl<'a> Planner<'a> {
         let found = method::labelled(&id.text).map_err(|message| message.at(place.clone()));
         let mut choice = self.keep(found)?;
         for name in method::OPTIONS {
+            let flag = self.flags.method_options.get(name);
             if id.text.contains(&format!("--{name}")) {
+                if let Some((flag, text)) = flag {
+                    self.twice(name, &Given::flag(flag, text), &id.text);
+                }
                 continue;
             }
-            let flag = self.flags.method_options.get(name);
             let given = match flag {
                 Some((flag, text)) => Some(Given::flag(flag, text)),
                 None => self.in_spec(name).into_iter().next(),
@@ -262,6 +274,21 @@ impl<'a> Planner<'a> {
     fn foreign(&mut self, name: &str, given: &Given, choice: &Choice) {
         let text = format!("`{name}` is not an option of {}", choice.id());
         let message = given.wrong(text).help(method::help_on_options(choice));
-        self.foreign.push((name.to_owned(), message));
+        self.foreign.push(Foreign {
+            name: name.to_owned(),
+            message,
+            own: false,
+        });
+    }
+
+    /// A flag of which the method has another value behind its id.
+    fn twice(&mut self, name: &str, given: &Given, label: &str) {
+        let text = format!("no method takes this flag: `{}` has its own", label.trim());
+        let help = format!("leave out `--{name}`, or what stands behind the method");
+        self.foreign.push(Foreign {
+            name: name.to_owned(),
+            message: given.wrong(text).help(help),
+            own: true,
+        });
     }
 }

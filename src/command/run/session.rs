@@ -4,6 +4,7 @@ use std::io::{self, IsTerminal as _};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use lie_in_process::words::counted;
 use lie_program::protocol::{Obstacle, Stop};
 use lie_runtime::driver::Pace;
 
@@ -12,11 +13,12 @@ use super::layout::Layout;
 use super::picture::{Form, Picture, rounded};
 use super::plan::{Member, Plan, Several};
 use super::reception::{Received, Reception};
-use super::summary::{self, Drift};
+use super::summary::{self, Drift, Steps};
 use super::tally::{MOST_LINES, Tally};
 use super::{impossible, outputs};
 use crate::build::talk::{Outcome, Worker};
 use crate::command::args;
+use crate::command::fold::folded;
 use crate::compiler::Spec;
 use crate::interrupt::Interrupt;
 use crate::message::{Failure, Message, STOPPED};
@@ -43,6 +45,9 @@ impl Session<'_> {
         mut picture: Option<(Picture<'_>, Form, Destination)>,
     ) -> Result<u8, Failure> {
         let clock = Instant::now();
+        if !self.flags.quiet {
+            self.say_what_was_picked();
+        }
         let mut tally = Tally::new(self.several);
         let mut ended = Ok(0);
         // Rows that scroll by on the same terminal say enough.
@@ -86,7 +91,7 @@ impl Session<'_> {
             }
         }
         if !self.flags.quiet {
-            eprint!("{}", tally.text(clock.elapsed()));
+            eprint!("{}", folded(&tally.text(clock.elapsed())));
         }
         ended
     }
@@ -149,6 +154,25 @@ impl Session<'_> {
         Ok((outcome, received.map_err(|error| self.lost(error))?))
     }
 
+    /// Why the method is the one it is, where a tolerance has chosen it.
+    fn say_what_was_picked(&self) {
+        let Some(plan) = self.several.plans.iter().find(|plan| plan.picked) else {
+            return;
+        };
+        let mut options = self.spec.model.run.iter();
+        let of_spec = options.find(|option| option.name.text == "method");
+        let of_spec = of_spec.and_then(|option| option.values.first());
+        let replaced = of_spec.map_or(String::new(), |(method, _)| {
+            format!(" in place of {}, which the spec names", method.trim())
+        });
+        let text = format!(
+            "{} was picked{replaced}: it applies to every system, has order 16, and keeps quadratic Casimirs and a quadratic \
+             energy to round-off; --method chooses another",
+            plan.method.id()
+        );
+        eprintln!("{}", folded(&text));
+    }
+
     /// Says what a run has done.
     fn say(
         &self,
@@ -160,21 +184,29 @@ impl Session<'_> {
     ) {
         let plan = &self.several.plans[member.plan];
         let (work, drift) = (&received.work, &received.drift);
-        tally.take(member.plan, number, work, drift);
+        tally.take(member.plan, number, received);
         if self.several.labels.is_none() {
-            say_of_tolerance(plan, received);
+            for note in of_tolerance(received) {
+                eprintln!("{}", folded(&note));
+            }
             let title = title(self.spec, plan, received.step);
-            let adaptive = plan.method.is_adaptive();
-            eprint!("{}", summary::text(&title, work, adaptive, drift, time));
-        } else {
-            if received.missed() {
-                let run = self.named(number, member);
-                eprintln!("warning: {run} may miss the tolerance");
+            let whose = match (plan.method.is_adaptive(), plan.pace.0) {
+                (false, _) => Steps::Constant,
+                (true, Pace::Step(_)) => Steps::Own,
+                (true, Pace::Tolerance(_)) => Steps::OwnByTolerance,
+            };
+            let text = summary::text(&title, work, whose, drift, time);
+            eprint!("{}", folded(&text));
+        } else if self.several.members.len() <= MOST_LINES {
+            let mut title = self.named(number, member);
+            if let Some(warning) = missed(received) {
+                eprintln!("{}", folded(&format!("warning: {title}: {warning}")));
             }
-            if self.several.members.len() <= MOST_LINES {
-                let title = self.named(number, member);
-                eprint!("{}", summary::line(&title, work, drift, time));
+            if let Pace::Tolerance(_) = plan.pace.0 {
+                title.push_str(&format!(", step {:?}", received.step));
             }
+            let text = summary::line(&title, work, drift, time);
+            eprint!("{}", folded(&text));
         }
     }
 
@@ -280,38 +312,37 @@ fn title(spec: &Spec, plan: &Plan, step: f64) -> String {
     let written = plan.pace.1.trim();
     match plan.pace.0 {
         Pace::Step(_) => format!("{name}, {method}, step {written}"),
-        Pace::Tolerance(_) => format!("{name}, {method}, tolerance {written}, step {step:.4e}"),
+        Pace::Tolerance(_) => format!("{name}, {method}, tolerance {written}, step {step:?}"),
     }
 }
 
-/// Why the method is the one it is, and what the tolerance may miss.
-fn say_of_tolerance(plan: &Plan, received: &Received) {
-    if plan.picked {
-        eprintln!(
-            "{} was picked: it applies to every system, has order 16, and keeps quadratic Casimirs and a quadratic energy to \
-             round-off; --method chooses another",
-            plan.method.id()
-        );
-    }
+/// What a tolerance has led to.
+fn of_tolerance(received: &Received) -> Vec<String> {
+    let mut notes = Vec::new();
     if received.at_round_off {
-        eprintln!("the round-off of this many steps may exceed the tolerance");
+        notes.push("the round-off of this many steps may exceed the tolerance".to_owned());
     }
     if let Some((parts, time)) = received.divided {
-        eprintln!(
+        notes.push(format!(
             "from t = {time:.6} on each step was made in {parts} parts: the motion is faster there than at the start"
-        );
+        ));
     }
+    notes.extend(missed(received).map(|warning| format!("warning: {warning}")));
+    notes
+}
+
+/// How far the tolerance may be missed, if it may.
+fn missed(received: &Received) -> Option<String> {
     match received.assessed {
-        Some((error, true)) if error.is_nan() => {
-            eprintln!(
-                "warning: the error at the end is not known: telling it takes too many steps, or failed"
-            );
-        }
-        Some((error, true)) => eprintln!(
-            "warning: the error at the end is about {error:.1e} of the state, more than the tolerance: errors grow on this orbit, \
-             or the method cannot keep it"
+        Some((error, true)) if error.is_nan() => Some(
+            "the error at the end is not known: the run that would tell it takes over 200,000 steps, or stopped early"
+                .to_owned(),
         ),
-        _ => {}
+        Some((error, true)) => Some(format!(
+            "the error at the end is about {error:.1e} of the state, more than the tolerance: errors grow on this orbit, \
+             or the method cannot keep it"
+        )),
+        _ => None,
     }
 }
 
@@ -329,8 +360,18 @@ fn word(outcome: &Outcome) -> &'static str {
 }
 
 fn stopped_text(stop: &Stop) -> String {
+    let Stop {
+        step, time, reason, ..
+    } = stop;
+    // nothing is iterated in an explicit step
+    let solver = match stop.iterations {
+        0 => String::new(),
+        iterations => {
+            let iterations = counted(iterations.into(), "iteration");
+            format!(" ({iterations}, residual {:?})", stop.residual)
+        }
+    };
     format!(
-        "the integration stopped in step {} at t = {:?}: {} ({} iterations, residual {:?})\nthe rows so far are written",
-        stop.step, stop.time, stop.reason, stop.iterations, stop.residual
+        "the integration stopped in step {step} at t = {time:?}: {reason}{solver}\nthe rows so far are written"
     )
 }

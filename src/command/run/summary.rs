@@ -98,21 +98,30 @@ fn iterations(work: &Work) -> String {
     }
 }
 
+/// Whose steps a method makes.
+#[derive(Clone, Copy, PartialEq)]
+pub enum Steps {
+    /// Those of the grid.
+    Constant,
+    /// Its own, within a grid that was given.
+    Own,
+    /// Its own, within a grid that follows from a tolerance.
+    OwnByTolerance,
+}
+
 /// What was done, and how well the invariants were kept; for a method that chooses its own steps, how many those
 /// were, and whether it had a choice.
-pub fn text(title: &str, work: &Work, adaptive: bool, drift: &Drift, time: Duration) -> String {
+pub fn text(title: &str, work: &Work, whose: Steps, drift: &Drift, time: Duration) -> String {
     let mut text = steps(title, work, drift, time);
     let steps = work.steps;
     if work.newton > 0 && steps > 0 {
         text.push_str(&iterations(work));
     }
-    if adaptive {
-        let (own, refused) = (work.accepted, work.rejected);
-        text.push_str(&format!(
-            ", {own} adaptive steps within these, {refused} refused"
-        ));
+    if whose != Steps::Constant {
+        let own = counted(work.accepted, "adaptive step");
+        text.push_str(&format!(", {own} within these, {} refused", work.rejected));
     }
-    if adaptive && work.accepted == steps && work.rejected == 0 {
+    if whose == Steps::Own && work.accepted == steps && work.rejected == 0 {
         text.push_str(
             "\n--step decided the size of every step, and the tolerances of none; give a larger --step to \
              let them decide",
@@ -162,7 +171,13 @@ mod tests {
             newton: 5,
             ..Work::default()
         };
-        let text = text("T", &work, false, &drift, Duration::from_millis(1500));
+        let text = text(
+            "T",
+            &work,
+            Steps::Constant,
+            &drift,
+            Duration::from_millis(1500),
+        );
         assert_eq!(
             text,
             "T: 2 steps to t = 1.0 in 1.500 s, 2.50 Newton iterations per step\n\
@@ -201,17 +216,21 @@ mod tests {
     #[test]
     fn adaptive_methods_say_how_many_steps_were_their_own() {
         let drift = Drift::new(&[]);
-        let of = |accepted, rejected| {
+        let of_steps = |whose, accepted, rejected| {
             let work = Work {
                 steps: 10,
                 accepted,
                 rejected,
                 ..Work::default()
             };
-            text("T", &work, true, &drift, Duration::ZERO)
+            text("T", &work, whose, &drift, Duration::ZERO)
         };
+        let of = |accepted, rejected| of_steps(Steps::Own, accepted, rejected);
         assert!(of(25, 2).contains(", 25 adaptive steps within these, 2 refused\n"));
         assert!(!of(25, 2).contains("larger --step") && !of(10, 1).contains("larger --step"));
         assert!(of(10, 0).contains("give a larger --step"));
+        // no --step was given
+        assert!(!of_steps(Steps::OwnByTolerance, 10, 0).contains("--step"));
+        assert!(of(1, 2).contains(", 1 adaptive step within these, 2 refused\n"));
     }
 }

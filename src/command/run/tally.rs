@@ -4,10 +4,11 @@ use std::fmt::Write as _;
 use std::time::Duration;
 
 use lie_in_process::words::counted;
-use lie_program::protocol::Work;
+use lie_runtime::driver::Pace;
 
 use super::plan::Several;
-use super::summary::{Drift, short};
+use super::reception::Received;
+use super::summary::short;
 
 /// So many runs are reported one by one.
 pub const MOST_LINES: usize = 24;
@@ -19,7 +20,15 @@ pub struct Tally {
     methods: Vec<OfMethod>,
     /// Whether there are too many for a line each.
     many: bool,
+    /// Whether steps are chosen by a tolerance.
+    by_tolerance: bool,
     stops: usize,
+    /// Runs that round-off may keep from their tolerance.
+    at_round_off: u64,
+    /// Runs in which steps were divided.
+    divided: u64,
+    /// Runs that may have missed their tolerance.
+    missed: u64,
 }
 
 struct OfMethod {
@@ -27,6 +36,8 @@ struct OfMethod {
     runs: usize,
     stopped: usize,
     steps: u64,
+    /// The shortest and the longest step, by their sizes.
+    sizes: Option<(f64, f64)>,
     /// The largest error of each invariant by name, the run that has it, and whether it is relative.
     worst: Vec<Worst>,
 }
@@ -46,21 +57,41 @@ impl Tally {
             runs: 0,
             stopped: 0,
             steps: 0,
+            sizes: None,
             worst: Vec::new(),
         });
         Self {
             methods: methods.collect(),
             many: several.members.len() > MOST_LINES,
+            by_tolerance: several
+                .plans
+                .iter()
+                .any(|plan| matches!(plan.pace.0, Pace::Tolerance(_))),
             stops: 0,
+            at_round_off: 0,
+            divided: 0,
+            missed: 0,
         }
     }
 
     /// Takes a run that reached its end.
-    pub fn take(&mut self, method: usize, run: usize, work: &Work, drift: &Drift) {
+    pub fn take(&mut self, method: usize, run: usize, received: &Received) {
+        self.at_round_off += u64::from(received.at_round_off);
+        self.divided += u64::from(received.divided.is_some());
+        self.missed += u64::from(received.missed());
         let method = &mut self.methods[method];
         method.runs += 1;
-        method.steps += work.steps;
-        for (name, error, relative) in drift.errors() {
+        method.steps += received.work.steps;
+        let size = received.step;
+        let (least, most) = method.sizes.unwrap_or((size, size));
+        let shorter = if size.abs() < least.abs() {
+            size
+        } else {
+            least
+        };
+        let longer = if size.abs() > most.abs() { size } else { most };
+        method.sizes = Some((shorter, longer));
+        for (name, error, relative) in received.drift.errors() {
             let known = method.worst.iter_mut();
             let found = known
                 .into_iter()
@@ -91,8 +122,10 @@ impl Tally {
         let mut text = String::new();
         if self.stops > MOST_STOPS {
             let more = self.stops - MOST_STOPS;
-            let _ = writeln!(text, "{more} more runs stopped early");
+            let more = counted(more as u64, "more run");
+            let _ = writeln!(text, "{more} stopped early");
         }
+        text.push_str(&self.of_tolerance());
         if !self.many {
             return text;
         }
@@ -102,16 +135,24 @@ impl Tally {
                 runs,
                 stopped,
                 steps,
+                sizes,
                 worst,
             } = method;
             let _ = write!(
                 text,
-                "{title}: {} of {} in all",
+                "{title}: {}, {} in total",
                 counted(*runs as u64, "run"),
                 counted(*steps, "step")
             );
+            if let (Some((least, most)), true) = (sizes, self.by_tolerance) {
+                let _ = write!(text, ", step sizes {least:?} to {most:?}");
+            }
             if *stopped > 0 {
-                let _ = write!(text, ", {stopped} more that stopped early");
+                let _ = write!(
+                    text,
+                    ", and {} that stopped early",
+                    counted(*stopped as u64, "run")
+                );
             }
             if !worst.is_empty() {
                 let one = |w: &Worst| {
@@ -128,6 +169,25 @@ impl Tally {
             text.push('\n');
         }
         let _ = writeln!(text, "{:.3} s", time.as_secs_f64());
+        text
+    }
+
+    /// What tolerances have led to, in how many of several runs.
+    fn of_tolerance(&self) -> String {
+        let mut text = String::new();
+        let mut say = |runs: u64, what: &str| {
+            if runs > 0 {
+                let _ = writeln!(text, "{}{what}", counted(runs, "run"));
+            }
+        };
+        let round_off = ": the round-off of so many steps may exceed the tolerance";
+        say(self.at_round_off, round_off);
+        let divided = " with divided steps: the motion becomes faster than at the start";
+        say(self.divided, divided);
+        if self.many && self.missed > 0 {
+            let runs = counted(self.missed, "run");
+            let _ = writeln!(text, "warning: {runs} may miss the tolerance");
+        }
         text
     }
 }

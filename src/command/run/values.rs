@@ -8,6 +8,9 @@ use lie_codegen::diagnostic::{Diagnostic, Kind, Origin};
 use crate::compiler;
 use crate::message::{Message, Place, Source};
 
+/// Beyond 2^53 not every whole number is a double.
+const MOST: f64 = 9_007_199_254_740_992.0;
+
 /// The text of one option, and where it was given.
 #[derive(Clone, Debug)]
 pub struct Given {
@@ -78,8 +81,12 @@ impl Given {
     /// The value as a whole number that is at least 1.
     pub fn count(&self) -> Result<u64, Message> {
         let value = self.number()?;
-        // Beyond 2^53 not every whole number is a double.
-        if value.fract() == 0.0 && (1.0..=9_007_199_254_740_992.0).contains(&value) {
+        if value > MOST {
+            let text = format!("`{}` is more than can be counted", self.text.trim());
+            Err(self
+                .wrong(text)
+                .help("give a number up to 2^53, which is 9007199254740992"))
+        } else if value.fract() == 0.0 && value >= 1.0 {
             Ok(value as u64)
         } else {
             let text = format!("`{}` is not a whole number of at least 1", self.text.trim());

@@ -152,7 +152,7 @@ fn sizes(
             }
         };
         if found.value(&model.defaults()).is_none() {
-            let message = "the number of sites is a whole number, at least 1";
+            let message = "the number of sites is a whole number from 1 to 2147483648";
             let help = "write such a number, or give the parameter one";
             report.push(Diagnostic::new(Kind::Number, size.origin(), message).help(help));
             return None;

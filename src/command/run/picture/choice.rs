@@ -2,6 +2,7 @@
 
 use lie_codegen::structure::group;
 use lie_codegen::suggest::did_you_mean;
+use lie_in_process::words::counted;
 
 use super::section::Chosen;
 use crate::build;
@@ -126,10 +127,17 @@ fn orbit(spec: &Spec, given: &Given) -> Result<Kind, Message> {
             model.name
         ));
     }
+    if model.configuration.as_ref().is_some_and(|c| c.time) {
+        return refuse(format!(
+            "the Hamiltonian of {} depends on the time, and an orbit has level curves of one that does not",
+            model.name
+        ));
+    }
     if n != 3 {
         return refuse(format!(
-            "{} has {n} coordinates, and orbits are drawn of systems with 3",
-            model.name
+            "{} has {}, and orbits are drawn of systems with 3",
+            model.name,
+            counted(n as u64, "coordinate")
         ));
     }
     if model.casimirs.len() != 1 {
@@ -208,9 +216,18 @@ fn section(
 ) -> Result<Kind, Message> {
     let n = spec.model.dimension();
     if n < 3 || layout.states != n || build::declared(&spec.model).is_none() {
-        let text = match n {
-            0..3 => "a section needs three coordinates",
-            _ => "sections are drawn of systems that the command runs itself, without time",
+        let model = &spec.model;
+        let name = &model.name;
+        let text = if model.configuration.as_ref().is_some_and(|c| c.time) {
+            format!(
+                "the Hamiltonian of {name} depends on the time, and sections are drawn of systems without it"
+            )
+        } else if model.family.is_some() {
+            format!("{name} is a family, and sections are drawn of single systems")
+        } else if n < 3 {
+            "a section needs three coordinates".to_owned()
+        } else {
+            format!("the Hamiltonian of {name} is not known to the command as an expression")
         };
         return Err(given.wrong(text).help("take `--picture phase`"));
     }

@@ -1,20 +1,18 @@
 //! Several runs in one: methods, values of parameters, initial states.
 
-use std::path::Path;
-use std::rc::Rc;
-
 use lie_codegen::diagnostic::Kind;
 use lie_program::protocol::Start;
 
 use super::super::values::Given;
-use super::{Plan, Planned, Planner, Point, npy, plan};
+use super::states::{States, states};
+use super::{Foreign, Plan, Planned, Planner, Point, plan};
 use crate::command::args;
 use crate::compiler::Spec;
-use crate::message::{Message, Place, Source};
+use crate::message::Message;
 use crate::output::Labels;
 
 /// The most runs of one command.
-const MOST: usize = 1_000_000;
+pub(super) const MOST: usize = 1_000_000;
 
 /// Runs: of each method those of all values of the parameters, and of these those of all initial states.
 #[derive(Debug)]
@@ -142,10 +140,14 @@ fn plans(spec: &Spec, flags: &args::Run) -> Result<Vec<Plan>, Vec<Message>> {
             mistakes.push(message.clone());
         }
     };
-    for (option, message) in &found[0].foreign {
-        let of_none = |other: &Planned| other.foreign.iter().any(|(name, _)| name == option);
-        if found.iter().all(of_none) {
-            say(message);
+    for foreign in &found[0].foreign {
+        let same = |other: &&Foreign| other.name == foreign.name;
+        let of_each = found.iter().map(|other| other.foreign.iter().find(same));
+        let of_each: Option<Vec<&Foreign>> = of_each.collect();
+        // none takes it: that one of them has a value of its own says more than that the others cannot have one
+        if let Some(of_each) = of_each {
+            let own = of_each.iter().find(|other| other.own);
+            say(&own.unwrap_or(&foreign).message);
         }
     }
     let mut plans: Vec<Plan> = Vec::new();
@@ -263,144 +265,4 @@ fn values(given: &Given, range: &str) -> Result<Vec<f64>, Message> {
         false => from + (to - from) * (k as f64 / last),
     };
     Ok((0..count).map(value).collect())
-}
-
-/// Initial states from a file.
-#[derive(Default)]
-pub(super) struct States {
-    /// The numbers of each, and where they stand.
-    pub(super) all: Vec<(Vec<f64>, Place)>,
-}
-
-fn states(spec: &Spec, path: &Path) -> Result<States, Message> {
-    let unread = |text: String, help: &str| Message::io(path, text).help(help);
-    let bytes = std::fs::read(path).map_err(|error| {
-        unread(
-            format!("it cannot be read: {error}"),
-            "give a file of initial states, CSV or NPY",
-        )
-    })?;
-    let states = if bytes.starts_with(b"\x93NUMPY") {
-        array(&bytes, path)?
-    } else {
-        let text = String::from_utf8(bytes).map_err(|_| {
-            let help = "write a state in each line, or save an array by `numpy.save`";
-            unread("it is neither text nor an array of NumPy".to_owned(), help)
-        })?;
-        lines(spec, text, path)?
-    };
-    match states.all.len() {
-        0 => Err(unread(
-            "it has no state".to_owned(),
-            "write a state in each line",
-        )),
-        1..=MOST => Ok(states),
-        more => {
-            let text = format!("it has {more} states, and {MOST} runs can be made at once");
-            Err(unread(text, "split the file"))
-        }
-    }
-}
-
-/// The rows of an array.
-fn array(bytes: &[u8], path: &Path) -> Result<States, Message> {
-    let array =
-        npy::parse(bytes).map_err(|fault| Message::io(path, fault.text).help(fault.help))?;
-    let width = match array.shape.as_slice() {
-        [_, width] => *width,
-        shape => {
-            let text = format!("its shape is {shape:?}");
-            let help = "write an array with two axes, a row for each state";
-            return Err(Message::io(path, text).help(help));
-        }
-    };
-    let place = |row: usize| Place::File(format!("{}, row {row}", path.display()));
-    let rows = array.values.chunks_exact(width.max(1)).enumerate();
-    Ok(States {
-        all: rows.map(|(k, row)| (row.to_vec(), place(k))).collect(),
-    })
-}
-
-/// The lines of a table, below the names of the coordinates or without them.
-fn lines(spec: &Spec, text: String, path: &Path) -> Result<States, Message> {
-    let source = Rc::new(Source {
-        path: path.display().to_string(),
-        text,
-    });
-    let shown = spec.model.shown_coordinates().into_iter();
-    let names: Vec<&str> = shown
-        .map(|i| spec.model.coordinates[i].text.as_str())
-        .collect();
-    let mut order: Option<Vec<usize>> = None;
-    let mut all = Vec::new();
-    let (mut at, mut first) = (0, true);
-    for line in source.text.split_inclusive('\n') {
-        let start = at;
-        at += line.len();
-        let content = line.trim();
-        if content.is_empty() || content.starts_with('#') {
-            continue;
-        }
-        let from = start + line.find(content).unwrap_or(0);
-        let place = Place::Text(Rc::clone(&source), from..from + content.len());
-        let fields: Vec<&str> = content.split(',').map(str::trim).collect();
-        let number = crate::compiler::constant(fields[0]).is_ok();
-        let header = std::mem::take(&mut first) && !number;
-        if header {
-            order = Some(permutation(&fields, &names, &place)?);
-            continue;
-        }
-        let mut values = numbers(&fields, &place)?;
-        if let Some(order) = &order {
-            if values.len() != order.len() {
-                let text = format!("{} values below {} names", values.len(), order.len());
-                let message = Message::new(Kind::StateLength, text).at(place);
-                return Err(message.help("give each line a value for each name"));
-            }
-            values = order.iter().map(|&k| values[k]).collect();
-        }
-        all.push((values, place));
-    }
-    Ok(States { all })
-}
-
-/// Where the value of each coordinate stands in a line.
-fn permutation(fields: &[&str], names: &[&str], place: &Place) -> Result<Vec<usize>, Message> {
-    let find = |name: &&str| fields.iter().position(|field| field == name);
-    let order: Option<Vec<usize>> = names.iter().map(find).collect();
-    order
-        .filter(|order| order.len() == fields.len())
-        .ok_or_else(|| {
-            if separated_otherwise(fields) {
-                let text = "no commas stand between these numbers".to_owned();
-                let message = Message::new(Kind::Option, text).at(place.clone());
-                return message.help("write a state in each line, such as `0.1,0.2,0.3`");
-            }
-            let odd = fields.iter().find(|field| !names.contains(field));
-            let text = match odd {
-                Some(odd) => format!("`{odd}` is not the name of a coordinate"),
-                None => "these are not the names of the coordinates".to_owned(),
-            };
-            let message = Message::new(Kind::Option, text).at(place.clone());
-            message.help(format!("write `{}`, in any order", names.join(",")))
-        })
-}
-
-/// Whether a line without commas consists of numbers.
-fn separated_otherwise(fields: &[&str]) -> bool {
-    let [line] = fields else { return false };
-    let mut parts = line.split([';', '\t', ' ']).filter(|part| !part.is_empty());
-    parts.all(|part| crate::compiler::constant(part).is_ok())
-}
-
-fn numbers(fields: &[&str], place: &Place) -> Result<Vec<f64>, Message> {
-    let number = |field: &&str| {
-        let value = crate::compiler::constant(field).ok();
-        value.filter(|value| value.is_finite()).ok_or_else(|| {
-            let text = format!("`{field}` is not a finite number");
-            let message = Message::new(Kind::Option, text).at(place.clone());
-            message.help("give numbers such as 0.01 or 1/7, with commas between them")
-        })
-    };
-    fields.iter().map(number).collect()
 }

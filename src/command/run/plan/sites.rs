@@ -4,6 +4,7 @@ use std::path::Path;
 
 use lie_codegen::diagnostic::{Kind, Origin};
 use lie_codegen::model::{Family, Start};
+use lie_in_process::words::counted;
 use lie_runtime::family::unit_spheres;
 
 use super::super::values::Given;
@@ -17,7 +18,7 @@ impl Planner<'_> {
     pub(super) fn of_family(&mut self, family: &Family, parameters: &[f64]) -> Option<Vec<f64>> {
         let n = self.spec.model.dimension();
         let Some([rows, columns]) = family.sites(parameters) else {
-            let text = "the number of sites is a whole number, at least 1";
+            let text = "the number of sites is a whole number from 1 to 2147483648";
             let message = Message::new(Kind::Domain, text).at_option("--param");
             self.mistakes
                 .push(message.help("write it like `--param N=1000`"));
@@ -41,8 +42,10 @@ impl Planner<'_> {
         let parts = given.split();
         if parts.len() != n * sites {
             let text = format!(
-                "{} values for {sites} sites of {n} coordinates",
-                parts.len()
+                "{} for {} of {}",
+                counted(parts.len() as u64, "value"),
+                counted(sites as u64, "site"),
+                counted(n as u64, "coordinate")
             );
             let mut message = given.wrong(text);
             message.kind = Kind::StateLength;

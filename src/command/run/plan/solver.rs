@@ -6,7 +6,7 @@ use lie_runtime::driver::Pace;
 use lie_runtime::newton::{Convergence, NewtonOptions};
 
 use super::super::values::Given;
-use super::Planner;
+use super::{Foreign, Planner};
 use crate::command::method;
 use crate::message::Message;
 
@@ -61,7 +61,11 @@ impl Planner<'_> {
     /// spec gives it and another method was asked for.
     fn out_of_place(&mut self, flag: &str, is_flag: bool, message: Message) {
         if is_flag || (self.flags.method.is_empty() && !self.picks()) {
-            self.foreign.push((name(flag).to_owned(), message));
+            self.foreign.push(Foreign {
+                name: name(flag).to_owned(),
+                message,
+                own: false,
+            });
         }
     }
 

@@ -4,9 +4,10 @@ use lie_codegen::check::domain;
 use lie_codegen::diagnostic::Kind;
 use lie_codegen::front::names::normalised;
 use lie_codegen::suggest::did_you_mean;
+use lie_in_process::words::counted;
 
 use super::super::values::Given;
-use super::members::States;
+use super::states::{States, without_commas};
 use super::{Planner, Point};
 use crate::message::{Message, Place};
 
@@ -26,6 +27,7 @@ impl Planner<'_> {
             return Vec::new();
         };
         let mut points = Vec::new();
+        let before = self.mistakes.len();
         for (values, place) in &states.all {
             if let Some(initial) = self.of_file(values, place, &parameters) {
                 let parameters = parameters.clone();
@@ -35,6 +37,8 @@ impl Planner<'_> {
                 });
             }
         }
+        let of_rows = self.mistakes.split_off(before);
+        self.mistakes.extend(said_once(of_rows));
         points
     }
 
@@ -52,7 +56,8 @@ impl Planner<'_> {
             }
         };
         let Some(state) = state else {
-            let text = format!("{} values for a state of {wanted}", values.len());
+            let given = counted(values.len() as u64, "value");
+            let text = format!("{given} for a state of {wanted}");
             let message = Message::new(Kind::StateLength, text).at(place.clone());
             let names = self.shown().join(", ");
             self.mistakes
@@ -116,6 +121,19 @@ impl Planner<'_> {
                 self.mistakes.push(message.help("set it once"));
             }
             let part = given.part(equals + 1..text.len());
+            if let Some((first, _)) = part.text.split_once(':') {
+                // those of `lie run` are taken apart before
+                let text = format!(
+                    "`{}` is a range of values, which `lie run` alone takes",
+                    part.text.trim()
+                );
+                let help = format!(
+                    "give one value, such as `--param {name}={}`, and call the command for each",
+                    first.trim()
+                );
+                self.mistakes.push(part.wrong(text).help(help));
+                continue;
+            }
             let Some(value) = self.keep(part.number()) else {
                 continue;
             };
@@ -139,7 +157,15 @@ impl Planner<'_> {
             let given = Given::flag("--initial", text);
             let parts = given.split();
             if model.complete_state(&vec![0.0; parts.len()]).is_none() {
-                let text = format!("{} values for a state of {dimension}", parts.len());
+                let text = match parts.as_slice() {
+                    [_] if without_commas(text) => {
+                        "no commas stand between these numbers".to_owned()
+                    }
+                    parts => format!(
+                        "{} for a state of {dimension}",
+                        counted(parts.len() as u64, "value")
+                    ),
+                };
                 let mut message = given.wrong(text);
                 message.kind = Kind::StateLength;
                 self.mistakes.push(message.help(self.example()));
@@ -193,4 +219,23 @@ impl Planner<'_> {
             .push(Message::new(Kind::Domain, text).at_option(flag).help(help));
         false
     }
+}
+
+/// The mistakes of rows, each with the number of other rows that have it.
+fn said_once(mistakes: Vec<Message>) -> impl Iterator<Item = Message> {
+    let mut all: Vec<(Message, u64)> = Vec::new();
+    for message in mistakes {
+        let known = all.iter_mut().find(|(known, _)| known.text == message.text);
+        match known {
+            Some((_, more)) => *more += 1,
+            None => all.push((message, 0)),
+        }
+    }
+    all.into_iter().map(|(mut message, more)| {
+        if more > 0 {
+            let more = counted(more, "more row");
+            message.text.push_str(&format!(", as in {more}"));
+        }
+        message
+    })
 }

@@ -169,7 +169,11 @@ impl Planner<'_> {
             let help = "backwards in time, both the step and the end are negative";
             self.mistakes.push(end_given.wrong(text).help(help));
         } else if end / step > 9e15 {
-            let text = format!("{:.1e} steps are more than can be counted", end / step);
+            let steps = end / step;
+            let text = match steps.is_finite() {
+                true => format!("{steps:.1e} steps are more than can be counted"),
+                false => format!("so many steps of {} cannot be counted", given.text.trim()),
+            };
             self.mistakes.push(
                 given
                     .wrong(text)
