@@ -1,12 +1,14 @@
 //! A coadjoint orbit of a three-dimensional algebra in space: the level surface of a Casimir, with level curves of the energy.
 
-use super::surface::{Field, Point, Surface, onto};
+use super::surface::{Field, Point, Surface, dot, onto};
 
 /// Level curves of the energy.
 const LEVELS: usize = 11;
 /// Cells along a side of the box of an orbit: while its size is looked for, and in the end.
 const COARSE: usize = 16;
 const FINE: usize = 44;
+/// Energies that differ by no more than this part of what they are made of differ by round-off.
+const ROUND_OFF: f64 = 1e-11;
 
 /// An orbit in space.
 #[derive(Clone, Debug)]
@@ -17,6 +19,8 @@ pub struct Contours {
     pub closed: bool,
     /// Level curves of the energy on it.
     pub levels: Vec<Vec<Point>>,
+    /// Whether the energy is the same everywhere on it, up to round-off: there are no level curves then.
+    pub constant: bool,
 }
 
 /// The orbit of a point, with level curves of the energy; `bounds` are the least and the largest coordinates of a curve on it.
@@ -36,12 +40,29 @@ pub fn contours(
     if surface.triangles.is_empty() {
         return None;
     }
-    let values: Vec<f64> = surface.points.iter().map(|p| energy(p).0).collect();
+    let found: Vec<(f64, Point)> = surface.points.iter().map(energy).collect();
+    let values: Vec<f64> = found.iter().map(|found| found.0).collect();
     let finite = || values.iter().copied().filter(|value| value.is_finite());
     let (low, high) = (
         finite().fold(f64::INFINITY, f64::min),
         finite().fold(f64::NEG_INFINITY, f64::max),
     );
+    // along the gradient the energy changes even where it is constant on the orbit
+    let size = surface.bounds().map_or(0.0, |(low, high)| {
+        (0..3).map(|i| high[i] - low[i]).fold(0.0, f64::max)
+    });
+    let slope = found.iter().map(|(_, slope)| dot(slope, slope).sqrt());
+    let slope = slope.filter(|x| x.is_finite()).fold(0.0, f64::max);
+    let scale = low.abs().max(high.abs()).max(slope * size);
+    let constant = high - low <= ROUND_OFF * scale;
+    if constant {
+        return Some(Contours {
+            surface,
+            closed,
+            levels: Vec::new(),
+            constant,
+        });
+    }
     let mut levels = Vec::new();
     for k in 1..=LEVELS {
         let level = low + (high - low) * k as f64 / (LEVELS + 1) as f64;
@@ -57,6 +78,7 @@ pub fn contours(
         surface,
         closed,
         levels,
+        constant,
     })
 }
 
@@ -98,4 +120,33 @@ fn whole(function: &Field<'_>, near: &Point, (low, high): (Point, Point)) -> (Su
         Surface::new(function, &from, &to, FINE).part_at(near),
         false,
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn square(point: &Point) -> (f64, Point) {
+        (dot(point, point), point.map(|x| 2.0 * x))
+    }
+
+    #[test]
+    fn where_the_energy_is_constant_there_are_no_level_curves() {
+        let start = [0.6, 0.0, 0.8];
+        let bounds = ([-0.6, -0.6, 0.8], [0.6, 0.6, 0.8]);
+        let energies: [&Field<'_>; 3] = [
+            &|p| (0.5 * square(p).0, *p),
+            // nothing is left of it on the sphere but round-off
+            &|p| (square(p).0 - 1.0, p.map(|x| 2.0 * x)),
+            &|_| (3.0, [0.0; 3]),
+        ];
+        for energy in energies {
+            let found = contours(&square, energy, &start, bounds).unwrap();
+            assert!(found.closed && found.constant && found.levels.is_empty());
+        }
+        // the control: a little energy along one axis is no round-off
+        let little = |p: &Point| (0.5 * square(p).0 + 1e-6 * p[2], [p[0], p[1], p[2] + 1e-6]);
+        let found = contours(&square, &little, &start, bounds).unwrap();
+        assert!(!found.constant && found.levels.len() >= LEVELS);
+    }
 }

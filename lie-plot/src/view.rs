@@ -164,8 +164,8 @@ impl View {
         }
     }
 
-    /// The orbit on which the first curve lies, the level surface of a Casimir, with level curves of the energy. False where
-    /// there is no surface through its first point.
+    /// The orbit on which the first curve lies, the level surface of a Casimir, with level curves of the energy; the note says
+    /// what the surface is. False where there is no surface through its first point.
     pub fn orbit(&mut self, casimir: &Field<'_>, energy: &Field<'_>, note: &str) -> bool {
         let Some(curve) = self.curves.first() else {
             return false;
@@ -189,7 +189,11 @@ impl View {
         for chain in &found.levels {
             self.contours.add(chain, &normal);
         }
-        self.note = note.to_owned();
+        let levels = match found.constant {
+            true => "H is constant on it",
+            false => "grey: level curves of H on it",
+        };
+        self.note = format!("{note}; {levels}");
         if !found.closed {
             self.note.push_str("; cut off around the curve");
             for chain in found.surface.border() {

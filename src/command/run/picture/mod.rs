@@ -223,7 +223,7 @@ impl<'a> Picture<'a> {
                 let energy = |point: &Point| energy(&system, point);
                 let surface = |point: &Point| casimir(&system, point);
                 let of = system.casimir_name(0);
-                let note = format!("surface: {of} as at the start; grey: level curves of H on it");
+                let note = format!("surface: {of} as at the start");
                 let found = view.orbit(&surface, &energy, &note);
                 let none = "there is no surface through the initial state: it is a point orbit";
                 (view.to_svg(), (!found).then(|| none.to_owned()))
