@@ -37,6 +37,9 @@ const TETRAHEDRA: [[usize; 4]; 6] = [
     [0, 5, 1, 7],
 ];
 
+/// Steps that bring corners onto the surface.
+const SETTLED: usize = 5;
+
 pub(crate) fn dot(a: &Point, b: &Point) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
@@ -68,14 +71,14 @@ impl Surface {
                     let corners = CORNERS.map(|[a, b, c]| [i + a, j + b, k + c]);
                     for tetrahedron in TETRAHEDRA {
                         let four = tetrahedron.map(|c| corners[c]);
-                        surface.cut(&four, &values, &number, &place, &mut edges);
+                        surface.cut(function, &four, &values, &number, &place, &mut edges);
                     }
                 }
             }
         }
         for point in &mut surface.points {
-            for _ in 0..3 {
-                *point = onto(point, &[(function, 0.0)]);
+            for _ in 0..SETTLED {
+                *point = nearer(function, point);
             }
         }
         surface
@@ -84,6 +87,7 @@ impl Surface {
     /// The triangles of the surface in a tetrahedron.
     fn cut(
         &mut self,
+        function: &Field<'_>,
         four: &[[usize; 3]; 4],
         values: &[f64],
         number: &impl Fn([usize; 3]) -> usize,
@@ -99,10 +103,9 @@ impl Surface {
             let key = (number(four[a]), number(four[b]));
             let key = (key.0.min(key.1), key.0.max(key.1));
             *edges.entry(key).or_insert_with(|| {
-                let part = value(a) / (value(a) - value(b));
                 let (p, q) = (place(four[a]), place(four[b]));
-                self.points
-                    .push([0, 1, 2].map(|i| p[i] + part * (q[i] - p[i])));
+                let found = between(function, (p, value(a)), (q, value(b)));
+                self.points.push(found);
                 self.points.len() - 1
             })
         };
@@ -280,6 +283,43 @@ impl Surface {
         }
         curves
     }
+}
+
+/// Where a function vanishes on an edge, about: on the straight line between its values, or in smaller parts where the function
+/// is steep at one end, as a logarithm.
+fn between(function: &Field<'_>, mut p: (Point, f64), mut q: (Point, f64)) -> Point {
+    let near = 0.05 * (p.1 - q.1).abs();
+    let along = |p: &Point, q: &Point, part: f64| [0, 1, 2].map(|i| p[i] + part * (q[i] - p[i]));
+    for round in 0..24 {
+        // by halves in every second round: an end that stays holds the line up
+        let part = match round % 2 {
+            0 => p.1 / (p.1 - q.1),
+            _ => 0.5,
+        };
+        let point = along(&p.0, &q.0, part);
+        let value = function(&point).0;
+        if !value.is_finite() || value.abs() <= near {
+            return point;
+        }
+        match (value < 0.0) == (p.1 < 0.0) {
+            true => p = (point, value),
+            false => q = (point, value),
+        }
+    }
+    along(&p.0, &q.0, 0.5)
+}
+
+/// A step of Newton's method to where a function vanishes, shorter where a whole one does not come nearer, as at the border
+/// of its domain.
+fn nearer(function: &Field<'_>, point: &Point) -> Point {
+    let (off, wanted) = (function(point).0.abs(), onto(point, &[(function, 0.0)]));
+    let steps = [1.0, 0.5, 0.25, 0.1, 0.03];
+    let mut tried = steps.map(|part| [0, 1, 2].map(|i| point[i] + part * (wanted[i] - point[i])));
+    tried[0] = wanted;
+    let found = tried
+        .into_iter()
+        .find(|point| function(point).0.abs() < off);
+    found.unwrap_or(*point)
 }
 
 /// A step of Newton's method, the shortest, from a point to where one or two functions have given values.
