@@ -237,6 +237,16 @@ fn mistakes() {
             "{picture}"
         );
     }
+    // groups that have no rotations of space
+    for spec in [
+        "e2_pendulum",
+        "heisenberg_h3",
+        "so4_manakov",
+        "su3_quadratic",
+    ] {
+        of(spec, "--plot a.svg --picture attitude --group matrix")
+            .error("option", "command line: --picture");
+    }
     top("--plot a.jpg").error("option", "command line: --plot");
     of("canonical_pendulum", "--plot a.svg --picture section")
         .error("option", "command line: --picture");
