@@ -152,6 +152,22 @@ fn phase_attitude_and_several_runs() {
 }
 
 #[test]
+fn runs_from_many_states_are_named_by_their_numbers() {
+    let folder = folder();
+    let states = folder.path().join("states.csv");
+    let rows = (0..40).map(|k| format!("0.{k:02},0.5\n"));
+    std::fs::write(&states, rows.collect::<String>()).expect("states");
+    let two = "--method midpoint --method gauss4 --picture phase";
+    let call = format!(
+        "specs/canonical_pendulum.json --until 1 {two} --initial-file {}",
+        states.display()
+    );
+    let svg = draw(folder.path(), &call);
+    assert!(svg.contains(">run 0, midpoint<") && svg.contains(">run 79, gauss4<"));
+    assert!(!svg.contains(">gauss4<"));
+}
+
+#[test]
 fn a_long_run_has_no_larger_file() {
     let folder = folder();
     let length = |until: u32, kind: &str| {

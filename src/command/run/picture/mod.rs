@@ -19,7 +19,7 @@ pub use file::{Form, form};
 use section::Section;
 
 use super::layout::Layout;
-use super::plan::Plan;
+use super::plan::{Plan, Several};
 use crate::build;
 use crate::compiler::Spec;
 
@@ -35,8 +35,7 @@ pub fn rounded(value: f64) -> f64 {
 pub struct Picture<'a> {
     spec: &'a Spec,
     layout: Layout,
-    /// How many runs there are.
-    runs: usize,
+    several: &'a Several,
     subtitle: String,
     /// The names of runs that stopped early, and when.
     stopped: Vec<(String, f64)>,
@@ -63,12 +62,12 @@ fn system(spec: &Spec, start: &Start) -> Option<Dynamic<f64>> {
 }
 
 impl<'a> Picture<'a> {
-    /// A picture of so many runs, the rows of which have this layout.
-    pub fn new(spec: &'a Spec, layout: Layout, kind: Kind, runs: usize) -> Self {
+    /// A picture of runs, the rows of which have this layout.
+    pub fn new(spec: &'a Spec, layout: Layout, kind: Kind, several: &'a Several) -> Self {
         Self {
             spec,
             layout,
-            runs,
+            several,
             subtitle: String::new(),
             stopped: Vec::new(),
             drawn: Drawn::Nothing(kind),
@@ -104,7 +103,7 @@ impl<'a> Picture<'a> {
     fn whole_line(&self) -> String {
         let mut line = self.subtitle.clone();
         for (name, time) in self.stopped.iter().take(SHOWN) {
-            let who = match self.runs {
+            let who = match self.several.members.len() {
                 1 => String::new(),
                 _ => format!("{name} "),
             };
@@ -117,12 +116,15 @@ impl<'a> Picture<'a> {
     }
 
     fn second_line(&self, plan: &Plan) -> String {
-        let (method, written) = (plan.method.title(), plan.pace.1.trim());
-        match (self.runs, plan.pace.0) {
-            (1, Pace::Step(_)) => format!("{method}, h = {written}"),
-            (1, Pace::Tolerance(_)) => format!("{method}, tolerance {written}"),
-            (runs, Pace::Step(_)) => format!("{runs} runs, h = {written}"),
-            (runs, Pace::Tolerance(_)) => format!("{runs} runs, tolerance {written}"),
+        let written = plan.pace.1.trim();
+        let who = match (self.several.members.len(), self.several.method()) {
+            (1, _) => plan.method.title(),
+            (runs, Some(method)) => format!("{runs} runs of {method}"),
+            (runs, None) => format!("{runs} runs"),
+        };
+        match plan.pace.0 {
+            Pace::Step(_) => format!("{who}, h = {written}"),
+            Pace::Tolerance(_) => format!("{who}, tolerance {written}"),
         }
     }
 

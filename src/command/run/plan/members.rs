@@ -7,7 +7,7 @@ use lie_codegen::diagnostic::Kind;
 use lie_program::protocol::Start;
 
 use super::super::values::Given;
-use super::{Plan, Planned, Planner, Point, npy, plan};
+use super::{Member, Plan, Planned, Planner, Point, Several, npy, plan};
 use crate::command::args;
 use crate::compiler::Spec;
 use crate::message::{Message, Place, Source};
@@ -15,28 +15,6 @@ use crate::output::Labels;
 
 /// The most runs of one command.
 const MOST: usize = 1_000_000;
-
-/// Runs: of each method those of all values of the parameters, and of these those of all initial states.
-#[derive(Debug)]
-pub struct Several {
-    /// A plan for each method.
-    pub plans: Vec<Plan>,
-    /// The runs.
-    pub members: Vec<Member>,
-    /// What tells them apart; nothing for one run alone.
-    pub labels: Option<Labels>,
-}
-
-/// One of several runs.
-#[derive(Clone, Debug)]
-pub struct Member {
-    /// Which of the plans.
-    pub plan: usize,
-    /// The values of the parameters that have several.
-    pub parameters: Vec<f64>,
-    /// Where it starts.
-    pub start: Start,
-}
 
 /// Finds the mistakes of all options, then answers.
 ///
