@@ -34,6 +34,12 @@ fn faces(normal: &Point) -> bool {
     dot(normal, &camera()[2]) >= 0.0
 }
 
+/// Whether what lies between bounds reaches visibly beyond others.
+fn beyond((low, high): (Point, Point), (from, to): (Point, Point)) -> bool {
+    let size = (0..3).map(|i| to[i] - from[i]).fold(0.0, f64::max);
+    (0..3).any(|i| low[i] < from[i] - 0.05 * size || high[i] > to[i] + 0.05 * size)
+}
+
 /// A colour mixed with white: where lines cross, it stays as pale as it is.
 fn pale(paint: &str) -> String {
     let part = |at: usize| u16::from_str_radix(&paint[at..at + 2], 16).unwrap_or(0);
@@ -164,9 +170,9 @@ impl View {
         }
     }
 
-    /// The orbit on which the first curve lies, the level surface of a Casimir, with level curves of the energy; the note says
+    /// The orbit on which the first curve lies, the level surface of a Casimir, with level curves of the energy if one is given; the note says
     /// what the surface is. False where there is no surface through its first point.
-    pub fn orbit(&mut self, casimir: &Field<'_>, energy: &Field<'_>, note: &str) -> bool {
+    pub fn orbit(&mut self, casimir: &Field<'_>, energy: Option<&Field<'_>>, note: &str) -> bool {
         let Some(curve) = self.curves.first() else {
             return false;
         };
@@ -189,11 +195,19 @@ impl View {
         for chain in &found.levels {
             self.contours.add(chain, &normal);
         }
-        let levels = match found.constant {
-            true => "H is constant on it",
-            false => "grey: level curves of H on it",
+        self.note = match (energy.is_some(), found.constant) {
+            (false, _) => note.to_owned(),
+            (true, true) => format!("{note}; H is constant on it"),
+            (true, false) => format!("{note}; grey: level curves of H on it"),
         };
-        self.note = format!("{note}; {levels}");
+        if found.closed
+            && found
+                .surface
+                .bounds()
+                .is_some_and(|surface| beyond(bounds, surface))
+        {
+            self.note.push_str("; the curve has left it");
+        }
         if !found.closed {
             self.note.push_str("; cut off around the curve");
             for chain in found.surface.border() {

@@ -24,7 +24,7 @@ pub fn scene(system: &Dynamic<f64>, axes: &[String], states: &[Point]) -> Option
     let (low, high) = (bounds(f64::min), bounds(f64::max));
     let casimir = |point: &Point| casimir(system, point);
     let energy = |point: &Point| energy(system, point);
-    let found = contours(&casimir, &energy, first, (low, high))?;
+    let found = contours(&casimir, Some(&energy), first, (low, high))?;
     let (low, high) = found.surface.bounds()?;
     let size = (0..3)
         .map(|i| (high[i] - low[i]).powi(2))

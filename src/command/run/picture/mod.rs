@@ -8,7 +8,7 @@ use lie_dynamic::Dynamic;
 use lie_poisson::plot::Plot;
 use lie_poisson::plot::compare::Compare;
 use lie_poisson::plot::phase::Phase;
-use lie_poisson::plot::surface::Point;
+use lie_poisson::plot::surface::{Field, Point};
 use lie_poisson::plot::view::{OnSurface, View};
 use lie_program::protocol::Start;
 use lie_runtime::Poisson as _;
@@ -25,6 +25,8 @@ use crate::compiler::Spec;
 
 /// So many runs that stopped early are named in a picture.
 const SHOWN: usize = 3;
+/// What is said where each run has an energy of its own.
+const NO_LEVELS: &str = "; no level curves of H: parameters differ between runs";
 
 /// A number with six digits at most.
 pub fn rounded(value: f64) -> f64 {
@@ -112,6 +114,14 @@ impl<'a> Picture<'a> {
         if let Some(more @ 1..) = self.stopped.len().checked_sub(SHOWN) {
             line.push_str(&format!("; and {more} more"));
         }
+        let would = match self.drawn {
+            Drawn::Orbit(..) => true,
+            Drawn::Phase(..) => self.spec.model.dimension() == 2,
+            _ => false,
+        };
+        if would && !self.has_levels() {
+            line.push_str(NO_LEVELS);
+        }
         line
     }
 
@@ -126,6 +136,11 @@ impl<'a> Picture<'a> {
             Pace::Step(_) => format!("{who}, h = {written}"),
             Pace::Tolerance(_) => format!("{who}, tolerance {written}"),
         }
+    }
+
+    /// Whether one energy is that of all runs, so that its level curves say something of each.
+    fn has_levels(&self) -> bool {
+        !self.several.parameters_differ()
     }
 
     fn first(&self, kind: Kind, plan: &Plan, start: &Start) -> Drawn {
@@ -146,7 +161,7 @@ impl<'a> Picture<'a> {
             }
             Kind::Phase(axes) => {
                 let plane = self.spec.model.dimension() == 2;
-                let system = system(self.spec, start).filter(|_| plane);
+                let system = system(self.spec, start).filter(|_| plane && self.has_levels());
                 Drawn::Phase(phase(axes), axes, system.map(Box::new))
             }
             Kind::Section(section) => {
@@ -192,6 +207,8 @@ impl<'a> Picture<'a> {
     pub fn finish(self) -> (String, Option<String>) {
         let name = &*self.spec.model.name;
         let line = self.whole_line();
+        let levels = self.has_levels();
+        let several = self.several.members.len() > 1;
         match self.drawn {
             Drawn::Nothing(_) => (
                 View::new(name, &line, [(); 3].map(|()| String::new()), Vec::new()).to_svg(),
@@ -225,8 +242,10 @@ impl<'a> Picture<'a> {
                 let energy = |point: &Point| energy(&system, point);
                 let surface = |point: &Point| casimir(&system, point);
                 let of = system.casimir_name(0);
-                let note = format!("surface: {of} as at the start");
-                let found = view.orbit(&surface, &energy, &note);
+                let whose = if several { " of the first run" } else { "" };
+                let note = format!("surface: {of} as at the start{whose}");
+                let energy: &Field<'_> = &energy;
+                let found = view.orbit(&surface, levels.then_some(energy), &note);
                 let none = "there is no surface through the initial state: it is a point orbit";
                 (view.to_svg(), (!found).then(|| none.to_owned()))
             }

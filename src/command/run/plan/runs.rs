@@ -35,6 +35,13 @@ impl Several {
             _ => None,
         }
     }
+
+    /// Whether runs differ in parameters.
+    pub fn parameters_differ(&self) -> bool {
+        let mut starts = self.members.iter().map(|member| &member.start.parameters);
+        let first = starts.next();
+        starts.any(|other| Some(other) != first)
+    }
 }
 
 /// One of several runs.
