@@ -152,6 +152,74 @@ fn phase_attitude_and_several_runs() {
 }
 
 #[test]
+fn level_curves_are_those_of_all_runs_or_of_none() {
+    let folder = folder();
+    let pendulum = "specs/canonical_pendulum.json --until 5 --picture phase --param g=1";
+    let body = format!("{BODY} --until 5 --picture orbit --param I2=2.5 --param I1=1");
+    for (call, level) in [(pendulum, "#c4c4c4"), (&*body, "#a8a8a8")] {
+        let stroke = format!("stroke=\"{level}\"");
+        let said = "no level curves of H: parameters differ between runs";
+        let svg = draw(folder.path(), call);
+        assert!(
+            lines(&svg, &stroke).len() > 5 && !svg.contains(said),
+            "{call}"
+        );
+        let svg = draw(folder.path(), &format!("{call}:2:3"));
+        assert!(
+            lines(&svg, &stroke).is_empty() && svg.contains(said),
+            "{call}"
+        );
+        assert!(!svg.contains("level curves of H on it"), "{call}");
+    }
+    // a sweep of one method names it
+    let svg = draw(folder.path(), &format!("{pendulum}:2:3"));
+    assert!(svg.contains("3 runs of midpoint, h = 0.05"));
+}
+
+#[test]
+fn an_energy_that_is_constant_on_the_orbit_has_no_level_curves() {
+    let folder = folder();
+    let equal = "--param I1=1 --param I2=1 --param I3=1";
+    let svg = draw(
+        folder.path(),
+        &format!("{BODY} --until 5 {equal} --picture orbit"),
+    );
+    assert!(lines(&svg, "stroke=\"#a8a8a8\"").is_empty());
+    assert!(svg.contains("surface: norm2 as at the start; H is constant on it"));
+    assert!(svg.len() < 100_000, "{}", svg.len());
+}
+
+#[test]
+fn a_curve_that_leaves_its_orbit_does_not_make_it_a_point() {
+    let folder = folder();
+    let path = folder.path().join("picture.svg");
+    let run = lie(&format!(
+        "run specs/so3_free_rigid_body.json --method rk4 --step 6 --until 600 --picture orbit --out {} --plot {}",
+        folder.path().join("rows.csv").display(),
+        path.display()
+    ));
+    assert!(!run.stderr.contains("point orbit"), "{}", run.stderr);
+    let svg = std::fs::read_to_string(path).expect("a picture");
+    assert!(svg.contains("curve has left it") && !svg.contains("an orbit by itself"));
+}
+
+#[test]
+fn runs_from_many_states_are_named_by_their_numbers() {
+    let folder = folder();
+    let states = folder.path().join("states.csv");
+    let rows = (0..40).map(|k| format!("0.{k:02},0.5\n"));
+    std::fs::write(&states, rows.collect::<String>()).expect("states");
+    let two = "--method midpoint --method gauss4 --picture phase";
+    let call = format!(
+        "specs/canonical_pendulum.json --until 1 {two} --initial-file {}",
+        states.display()
+    );
+    let svg = draw(folder.path(), &call);
+    assert!(svg.contains(">run 0, midpoint<") && svg.contains(">run 79, gauss4<"));
+    assert!(!svg.contains(">gauss4<"));
+}
+
+#[test]
 fn a_long_run_has_no_larger_file() {
     let folder = folder();
     let length = |until: u32, kind: &str| {
@@ -236,6 +304,16 @@ fn mistakes() {
             run.stderr.contains("command line: --picture") && run.stderr.contains("help: "),
             "{picture}"
         );
+    }
+    // groups that have no rotations of space
+    for spec in [
+        "e2_pendulum",
+        "heisenberg_h3",
+        "so4_manakov",
+        "su3_quadratic",
+    ] {
+        of(spec, "--plot a.svg --picture attitude --group matrix")
+            .error("option", "command line: --picture");
     }
     top("--plot a.jpg").error("option", "command line: --plot");
     of("canonical_pendulum", "--plot a.svg --picture section")

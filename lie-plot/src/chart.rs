@@ -12,7 +12,7 @@
 //! assert!(picture.to_svg().contains("rk4"));
 //! ```
 
-use super::svg::{FAINT, INK, Place, Svg, width_of};
+use super::svg::{FAINT, INK, Place, Svg, thinned, width_of};
 use super::ticks::Axis as Ticks;
 
 const PANEL: Place = (300.0, 260.0);
@@ -25,6 +25,9 @@ const LINE: f64 = 17.0;
 const SAMPLE: f64 = 29.0;
 /// What stands in a panel in which there is nothing to draw.
 const EMPTY: &str = "nothing to draw";
+
+/// Pixels between the places of a level curve.
+const FINEST: f64 = 1.5;
 
 /// Dots that are so few are larger.
 const FEW_DOTS: usize = 400;
@@ -338,6 +341,10 @@ impl<'a> Frame<'a> {
                             svg.disc(*place, 2.5, &format!("fill=\"{}\"", series.paint()));
                         }
                         [] => {}
+                        _ if series.stroke == Stroke::Level => {
+                            let places: Vec<Place> = piece.iter().flatten().copied().collect();
+                            svg.polyline(thinned(&places, FINEST), &stroke);
+                        }
                         _ => svg.polyline(piece.iter().flatten().copied(), &stroke),
                     }
                 }

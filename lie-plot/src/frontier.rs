@@ -1,7 +1,7 @@
 //! Error against run time of many methods, both logarithmic.
 //!
 //! One panel for each class of methods that keep the same, with all other curves in grey behind; colour tells the
-//! family, dashes and markers the order. Curves on the front of their class (no other in it is faster at an error) are
+//! family, dashes and markers the order, dots between dashes and hollow markers the variants of one order. Curves on the front of their class (no other in it is faster at an error) are
 //! drawn in full strength with their names in bold; a pale band follows what is fastest of all classes.
 //!
 //! ```
@@ -14,14 +14,17 @@
 //!     control: true,
 //!     points: vec![(1e-6, 1e-3), (2e-6, 6e-5)],
 //! };
-//! let picture = Frontier { title: "Top".into(), subtitle: String::new(), floor: 1e-14, curves: vec![curve] };
+//! let (title, axis) = ("Top".into(), "error".into());
+//! let picture = Frontier { title, subtitle: String::new(), axis, floor: 1e-14, curves: vec![curve] };
 //! assert!(picture.to_svg().contains("rk4"));
 //! ```
 
 mod front;
+mod look;
 
 use super::svg::{FAINT, INK, Place, Svg, width_of};
 use front::{fastest, front};
+use look::{Look, looks};
 
 const WIDTH: f64 = 1160.0;
 const HEAD: f64 = 76.0;
@@ -39,11 +42,6 @@ const LINE: f64 = 15.0;
 /// Curves of a panel at most, unless one family has more.
 const CURVES: usize = 12;
 
-/// Colours of families: neighbours in the list differ in hue and in lightness.
-const COLOURS: [&str; 16] = [
-    "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#332288", "#882255", "#44aa99",
-    "#999933", "#56b4e9", "#aa4466", "#117733", "#6699cc", "#b8860b", "#7f3fbf", "#4d4d00",
-];
 /// One method.
 #[derive(Clone, Debug)]
 pub struct Curve {
@@ -66,8 +64,10 @@ pub struct Curve {
 pub struct Frontier {
     /// Its title.
     pub title: String,
-    /// A second line.
+    /// A second line; what is bold, pale and grey is said after it.
     pub subtitle: String,
+    /// What the axis at the left shows, in a word or two.
+    pub axis: String,
     /// The error of the reference: below it nothing is known.
     pub floor: f64,
     /// The methods.
@@ -138,11 +138,26 @@ impl Frontier {
             let longest = row.iter().map(|panel| panel.legend().0).max().unwrap_or(0);
             top += TITLE + PANEL.1 + BELOW + LINE * longest as f64 + 22.0;
         }
-        let subtitle = match self.subtitle.as_str() {
-            "" => "grey: the others".to_owned(),
-            text => format!("{text}; grey: the others"),
-        };
-        body.page((WIDTH, top), &self.title, &subtitle)
+        body.page(
+            (WIDTH, top),
+            &self.title,
+            &self.second_line(&panels, &curves),
+        )
+    }
+
+    /// The second line of the picture: what is bold and pale is explained where there is some.
+    fn second_line(&self, panels: &[Panel<'_>], curves: &[Curve]) -> String {
+        let mut parts = vec![self.subtitle.clone()];
+        let bold = |panel: &Panel<'_>| front(&panel.curves, self.floor).contains(&true);
+        if panels.iter().any(bold) {
+            parts.push(format!("bold: fastest in the panel at some {}", self.axis));
+        }
+        if fastest(curves).len() > 1 {
+            parts.push("band: fastest of the catalogue".to_owned());
+        }
+        parts.push("grey: the others".to_owned());
+        parts.retain(|part| !part.is_empty());
+        parts.join("; ")
     }
 
     fn panel(&self, svg: &mut Svg, scale: &Scale, panel: &Panel<'_>, all: &[Curve]) {
@@ -155,30 +170,22 @@ impl Frontier {
             let grey = "stroke=\"#d4d4d4\" stroke-width=\"0.8\"";
             svg.polyline(scale.line(&curve.points), grey);
         }
-        let mut families: Vec<&str> = Vec::new();
-        for curve in &panel.curves {
-            if !families.contains(&curve.family.as_str()) {
-                families.push(&curve.family);
-            }
-        }
-        let colour = |curve: &Curve| {
-            let place = families.iter().position(|family| *family == curve.family);
-            COLOURS[place.unwrap_or(0) % COLOURS.len()]
-        };
+        let looks = looks(&panel.curves);
         let front = front(&panel.curves, self.floor);
         for front_too in [false, true] {
-            for (curve, on_front) in panel.curves.iter().zip(&front) {
+            for ((curve, look), on_front) in panel.curves.iter().zip(&looks).zip(&front) {
                 if *on_front == front_too {
-                    draw(svg, curve, colour(curve), *on_front, scale);
+                    draw(svg, curve, look, *on_front, scale);
                 }
             }
         }
         self.say_floor(svg, scale);
         let (rows, column) = panel.legend();
-        for (index, (curve, on_front)) in panel.curves.iter().zip(&front).enumerate() {
+        let entries = panel.curves.iter().zip(&looks).zip(&front);
+        for (index, ((curve, look), on_front)) in entries.enumerate() {
             let x = x - 34.0 + column * (index / rows) as f64;
             let y = y + PANEL.1 + BELOW + LINE * (index % rows) as f64;
-            legend(svg, (x, y), curve, colour(curve), *on_front);
+            legend(svg, (x, y), curve, look, *on_front);
         }
     }
 
@@ -238,7 +245,7 @@ impl Frontier {
         let below = (left + 0.5 * PANEL.0, bottom + 32.0);
         svg.text(below, 12.0, &faint, "run time");
         let side = (left - 48.0, top + 0.5 * PANEL.1);
-        svg.turned_text(side, -90.0, 12.0, &faint, "error");
+        svg.turned_text(side, -90.0, 12.0, &faint, &self.axis);
     }
 
     /// Names the band below the error of the reference, over the curves that end in it.
@@ -326,71 +333,29 @@ fn draw_front(svg: &mut Svg, curves: &[Curve], scale: &Scale) {
     svg.polyline(scale.line(&fastest(curves)), band);
 }
 
-/// Dashes by order: the higher, the more solid.
-fn dashes(order: u32) -> &'static str {
-    match order {
-        0..=1 => "1 4",
-        2 => "3 3",
-        3 => "6 3 1 3",
-        4 => "9 3",
-        5 => "14 3 2 3",
-        _ => "",
-    }
-}
-
-fn marker(svg: &mut Svg, at: Place, order: u32, size: f64, colour: &str) {
-    let (x, y) = at;
-    let mut polygon = |part: f64, corners: u32, turned: f64| {
-        let corner = |k: u32| {
-            let angle = (turned + 360.0 * f64::from(k) / f64::from(corners)).to_radians();
-            let radius = part * size;
-            (x + radius * angle.cos(), y + radius * angle.sin())
-        };
-        svg.polygon((0..corners).map(corner), colour);
-    };
-    match order {
-        0..=1 => {
-            let stroke = format!("stroke=\"{colour}\"");
-            svg.line((x - size, y - size), (x + size, y + size), &stroke);
-            svg.line((x - size, y + size), (x + size, y - size), &stroke);
-        }
-        2 => svg.disc(at, size, &format!("fill=\"{colour}\"")),
-        3 => polygon(1.3, 3, -90.0),
-        4 => polygon(1.3, 4, 45.0),
-        5 => polygon(1.3, 5, -90.0),
-        6 => polygon(1.3, 6, 0.0),
-        _ => polygon(1.5, 4, 0.0),
-    }
-}
-
-fn draw(svg: &mut Svg, curve: &Curve, colour: &str, on_front: bool, scale: &Scale) {
+fn draw(svg: &mut Svg, curve: &Curve, look: &Look, on_front: bool, scale: &Scale) {
     let (width, opacity, size) = if on_front {
         (2.0, 1.0, 3.0)
     } else {
         (1.1, 0.75, 2.2)
     };
-    let stroke = stroke(curve, colour, width);
+    let stroke = look.stroke(width);
     svg.group(&format!("opacity=\"{opacity}\""), &curve.name, |svg| {
         svg.polyline(scale.line(&curve.points), &stroke);
         for place in scale.line(&curve.points) {
-            marker(svg, place, curve.order, size, colour);
+            look.marker(svg, place, size);
         }
     });
 }
 
-fn stroke(curve: &Curve, colour: &str, width: f64) -> String {
-    let dashes = dashes(curve.order);
-    format!("stroke=\"{colour}\" stroke-width=\"{width}\" stroke-dasharray=\"{dashes}\"")
-}
-
-fn legend(svg: &mut Svg, (x, y): Place, curve: &Curve, colour: &str, on_front: bool) {
+fn legend(svg: &mut Svg, (x, y): Place, curve: &Curve, look: &Look, on_front: bool) {
     let (width, weight) = if on_front {
         (2.0, "bold")
     } else {
         (1.2, "normal")
     };
-    svg.line((x, y), (x + 26.0, y), &stroke(curve, colour, width));
-    marker(svg, (x + 13.0, y), curve.order, 3.0, colour);
+    svg.line((x, y), (x + 26.0, y), &look.stroke(width));
+    look.marker(svg, (x + 13.0, y), 3.0);
     let style = format!("font-weight=\"{weight}\" fill=\"{INK}\"");
     svg.text((x + SAMPLE, y + 4.0), 11.0, &style, &curve.name);
 }

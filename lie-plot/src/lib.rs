@@ -19,6 +19,7 @@
 
 mod bins;
 pub mod chart;
+mod clip;
 pub mod compare;
 pub mod contours;
 mod draw;

@@ -37,6 +37,9 @@ const TETRAHEDRA: [[usize; 4]; 6] = [
     [0, 5, 1, 7],
 ];
 
+/// Steps that bring corners onto the surface.
+const SETTLED: usize = 5;
+
 pub(crate) fn dot(a: &Point, b: &Point) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
@@ -68,14 +71,14 @@ impl Surface {
                     let corners = CORNERS.map(|[a, b, c]| [i + a, j + b, k + c]);
                     for tetrahedron in TETRAHEDRA {
                         let four = tetrahedron.map(|c| corners[c]);
-                        surface.cut(&four, &values, &number, &place, &mut edges);
+                        surface.cut(function, &four, &values, &number, &place, &mut edges);
                     }
                 }
             }
         }
         for point in &mut surface.points {
-            for _ in 0..3 {
-                *point = onto(point, &[(function, 0.0)]);
+            for _ in 0..SETTLED {
+                *point = nearer(function, point);
             }
         }
         surface
@@ -84,6 +87,7 @@ impl Surface {
     /// The triangles of the surface in a tetrahedron.
     fn cut(
         &mut self,
+        function: &Field<'_>,
         four: &[[usize; 3]; 4],
         values: &[f64],
         number: &impl Fn([usize; 3]) -> usize,
@@ -99,10 +103,9 @@ impl Surface {
             let key = (number(four[a]), number(four[b]));
             let key = (key.0.min(key.1), key.0.max(key.1));
             *edges.entry(key).or_insert_with(|| {
-                let part = value(a) / (value(a) - value(b));
                 let (p, q) = (place(four[a]), place(four[b]));
-                self.points
-                    .push([0, 1, 2].map(|i| p[i] + part * (q[i] - p[i])));
+                let found = between(function, (p, value(a)), (q, value(b)));
+                self.points.push(found);
                 self.points.len() - 1
             })
         };
@@ -216,6 +219,21 @@ impl Surface {
         chains
     }
 
+    /// The curves on which a coordinate has one of so many values between its extremes.
+    pub fn net(&self, count: usize) -> Vec<Vec<Point>> {
+        let Some((low, high)) = self.bounds() else {
+            return Vec::new();
+        };
+        let lines = (0..3).flat_map(|axis| {
+            let values: Vec<f64> = self.points.iter().map(|point| point[axis]).collect();
+            (1..=count).flat_map(move |k| {
+                let part = k as f64 / (count + 1) as f64;
+                self.curves(&values, low[axis] + part * (high[axis] - low[axis]))
+            })
+        });
+        lines.collect()
+    }
+
     /// The curves on which a function of the corners has a value, each a chain of points on edges of triangles.
     pub fn curves(&self, values: &[f64], level: f64) -> Vec<Vec<Point>> {
         let above = |at: usize| values[at] >= level;
@@ -267,6 +285,43 @@ impl Surface {
     }
 }
 
+/// Where a function vanishes on an edge, about: on the straight line between its values, or in smaller parts where the function
+/// is steep at one end, as a logarithm.
+fn between(function: &Field<'_>, mut p: (Point, f64), mut q: (Point, f64)) -> Point {
+    let near = 0.05 * (p.1 - q.1).abs();
+    let along = |p: &Point, q: &Point, part: f64| [0, 1, 2].map(|i| p[i] + part * (q[i] - p[i]));
+    for round in 0..24 {
+        // by halves in every second round: an end that stays holds the line up
+        let part = match round % 2 {
+            0 => p.1 / (p.1 - q.1),
+            _ => 0.5,
+        };
+        let point = along(&p.0, &q.0, part);
+        let value = function(&point).0;
+        if !value.is_finite() || value.abs() <= near {
+            return point;
+        }
+        match (value < 0.0) == (p.1 < 0.0) {
+            true => p = (point, value),
+            false => q = (point, value),
+        }
+    }
+    along(&p.0, &q.0, 0.5)
+}
+
+/// A step of Newton's method to where a function vanishes, shorter where a whole one does not come nearer, as at the border
+/// of its domain.
+fn nearer(function: &Field<'_>, point: &Point) -> Point {
+    let (off, wanted) = (function(point).0.abs(), onto(point, &[(function, 0.0)]));
+    let steps = [1.0, 0.5, 0.25, 0.1, 0.03];
+    let mut tried = steps.map(|part| [0, 1, 2].map(|i| point[i] + part * (wanted[i] - point[i])));
+    tried[0] = wanted;
+    let found = tried
+        .into_iter()
+        .find(|point| function(point).0.abs() < off);
+    found.unwrap_or(*point)
+}
+
 /// A step of Newton's method, the shortest, from a point to where one or two functions have given values.
 pub fn onto(point: &Point, wanted: &[(&Field<'_>, f64)]) -> Point {
     let rows: Vec<(f64, Point)> = wanted
@@ -301,83 +356,4 @@ pub fn onto(point: &Point, wanted: &[(&Field<'_>, f64)]) -> Point {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn sphere(point: &Point) -> (f64, Point) {
-        (dot(point, point) - 4.0, point.map(|x| 2.0 * x))
-    }
-
-    /// `x y + z`.
-    fn saddle(&[x, y, z]: &Point) -> (f64, Point) {
-        (x * y + z, [y, x, 1.0])
-    }
-
-    #[test]
-    fn a_sphere_is_closed_and_its_points_lie_on_it() {
-        let surface = Surface::new(&sphere, &[-2.3, -2.4, -2.5], &[2.6, 2.5, 2.4], 20);
-        // Euler's number of a sphere, where every edge has two triangles
-        let edges = surface.triangles.len() * 3 / 2;
-        assert_eq!(surface.points.len() + surface.triangles.len() - edges, 2);
-        let off = surface.points.iter().map(|p| sphere(p).0.abs());
-        assert!(off.fold(0.0, f64::max) < 1e-12);
-        let area: f64 = surface.triangles.iter().map(|t| area(&surface, t)).sum();
-        assert!(
-            (area / (16.0 * std::f64::consts::PI) - 1.0).abs() < 0.02,
-            "{area}"
-        );
-    }
-
-    fn area(surface: &Surface, triangle: &[usize; 3]) -> f64 {
-        let [a, b, c] = triangle.map(|at| surface.points[at]);
-        let (u, v) = (
-            [0, 1, 2].map(|i| b[i] - a[i]),
-            [0, 1, 2].map(|i| c[i] - a[i]),
-        );
-        (dot(&u, &u) * dot(&v, &v) - dot(&u, &v).powi(2))
-            .max(0.0)
-            .sqrt()
-            / 2.0
-    }
-
-    #[test]
-    fn of_two_sheets_one_is_taken() {
-        // z^2 - x^2 - y^2 = 1
-        let sheets =
-            |&[x, y, z]: &Point| (z * z - x * x - y * y - 1.0, [-2.0 * x, -2.0 * y, 2.0 * z]);
-        let both = Surface::new(&sheets, &[-3.0; 3], &[3.1; 3], 24);
-        let upper = both.part_at(&[0.0, 0.0, 1.0]);
-        assert!(both.points.iter().any(|p| p[2] < 0.0));
-        assert!(upper.points.iter().all(|p| p[2] > 0.0));
-        assert!(!upper.points.is_empty() && upper.points.len() < both.points.len());
-        // it ends at the sides of the box and at its top, in a closed line; a sphere ends nowhere
-        let border = upper.border();
-        assert_eq!(border.len(), 1);
-        assert_eq!(border[0].first(), border[0].last());
-        let at_side = |p: &Point| p[2] > 3.0 || p.iter().any(|x| *x < -2.9 || *x > 3.0);
-        assert!(border[0].len() > 20 && border[0].iter().all(at_side));
-        let closed = Surface::new(&sphere, &[-2.5; 3], &[2.6; 3], 24);
-        assert!(closed.border().is_empty());
-    }
-
-    #[test]
-    fn curves_hang_together_and_are_brought_onto_both_levels() {
-        let surface = Surface::new(&sphere, &[-2.5; 3], &[2.6; 3], 24);
-        let values: Vec<f64> = surface.points.iter().map(|p| saddle(p).0).collect();
-        let curves = surface.curves(&values, 0.5);
-        assert!(!curves.is_empty() && curves.len() < 8, "{}", curves.len());
-        for curve in &curves {
-            // closed on a closed surface
-            assert_eq!(curve.first(), curve.last());
-            for point in curve {
-                let mut on = *point;
-                let before = (saddle(&on).0 - 0.5).abs() + sphere(&on).0.abs();
-                for _ in 0..4 {
-                    on = onto(&on, &[(&sphere, 0.0), (&saddle, 0.5)]);
-                }
-                let after = (saddle(&on).0 - 0.5).abs() + sphere(&on).0.abs();
-                assert!(after < 1e-12 && before < 0.2, "{before} {after}");
-            }
-        }
-    }
-}
+mod tests;

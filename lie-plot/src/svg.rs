@@ -7,6 +7,9 @@ pub const INK: &str = "#222";
 /// What is beside the point.
 pub const FAINT: &str = "#666";
 
+/// From a line of the head to the next.
+const LINE: f64 = 18.0;
+
 /// A place in pixels, from the upper left corner.
 pub type Place = (f64, f64);
 
@@ -15,17 +18,28 @@ pub type Place = (f64, f64);
 pub struct Svg(String);
 
 impl Svg {
-    /// The file of a picture with these parts, under a title and a second line.
+    /// The file of a picture with these parts, under a title and a second line; where that is too long for the width it goes on
+    /// below, and the parts move down.
     pub fn page(&self, (width, height): Place, title: &str, subtitle: &str) -> String {
         let mut head = Self::default();
         let white = "width=\"100%\" height=\"100%\" fill=\"white\"";
         let _ = writeln!(head.0, "<title>{}</title>\n<rect {white}/>", escaped(title));
         head.text((20.0, 32.0), 22.0, &format!("fill=\"{INK}\""), title);
-        head.text((20.0, 55.0), 14.0, &format!("fill=\"{FAINT}\""), subtitle);
+        let lines = wrapped(subtitle, width - 40.0, 14.0);
+        for (number, line) in lines.iter().enumerate() {
+            let at = (20.0, 55.0 + LINE * number as f64);
+            head.text(at, 14.0, &format!("fill=\"{FAINT}\""), line);
+        }
+        let down = LINE * lines.len().saturating_sub(1) as f64;
+        let height = height + down;
+        let body = match down > 0.0 {
+            true => format!("<g transform=\"translate(0 {down})\">\n{}</g>\n", self.0),
+            false => self.0.clone(),
+        };
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width:.0}\" height=\"{height:.0}\" \
              viewBox=\"0 0 {width:.0} {height:.0}\" font-family=\"sans-serif\" stroke-linejoin=\"round\">\n{}{}</svg>\n",
-            head.0, self.0
+            head.0, body
         )
     }
 
@@ -81,9 +95,9 @@ impl Svg {
         self.through("polyline", places, &format!("fill=\"none\" {attributes}"));
     }
 
-    /// A filled polygon.
-    pub fn polygon(&mut self, places: impl IntoIterator<Item = Place>, fill: &str) {
-        self.through("polygon", places, &format!("fill=\"{fill}\""));
+    /// A closed polygon.
+    pub fn polygon(&mut self, places: impl IntoIterator<Item = Place>, attributes: &str) {
+        self.through("polygon", places, attributes);
     }
 
     fn through(&mut self, shape: &str, places: impl IntoIterator<Item = Place>, attributes: &str) {
@@ -160,6 +174,23 @@ pub fn thinned(places: &[Place], distance: f64) -> Vec<Place> {
 pub fn width_of(text: &str, size: f64, bold: bool) -> f64 {
     let letter = if bold { 0.70 } else { 0.62 };
     letter * size * text.chars().count() as f64
+}
+
+/// A text in lines that are as wide as that at most, divided between words.
+fn wrapped(text: &str, width: f64, size: f64) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    for word in text.split(' ') {
+        let Some(line) = lines.last_mut() else { break };
+        let longer = format!("{line} {word}");
+        if line.is_empty() {
+            word.clone_into(line);
+        } else if width_of(&longer, size, false) <= width {
+            *line = longer;
+        } else {
+            lines.push(word.to_owned());
+        }
+    }
+    lines
 }
 
 fn escaped(text: &str) -> String {

@@ -2,6 +2,8 @@
 
 use super::*;
 
+mod benches;
+
 fn drawn(columns: usize, states: usize, rows: impl Iterator<Item = Vec<f64>>) -> String {
     let names: Vec<String> = (0..columns).map(|k| format!("c{k}")).collect();
     let mut plot =
@@ -132,48 +134,6 @@ fn collide(texts: &[(f64, f64, String)], size: f64, sample: f64, width: f64) -> 
                 .iter()
                 .any(|(other, line, _)| line == y && other > x && end > *other - sample)
     })
-}
-
-#[test]
-fn legends_of_error_against_time_do_not_collide() {
-    use frontier::{Curve, Frontier};
-    let names = [
-        "orbit-energy (mean-value)",
-        "compose4(orbit-energy)",
-        "orbit-energy",
-        "rk4",
-    ];
-    let curve = |name: &str, class: &str| Curve {
-        name: name.to_owned(),
-        class: class.to_owned(),
-        family: name.to_owned(),
-        order: 2,
-        control: false,
-        points: vec![(1e-6, 1e-3), (2e-6, 6e-5)],
-    };
-    let curves = ["orbit", "energy", "Poisson"].iter();
-    let curves = curves.flat_map(|class| names.map(|name| curve(name, class)));
-    let picture = Frontier {
-        title: String::new(),
-        subtitle: String::new(),
-        floor: 1e-14,
-        curves: curves.collect(),
-    };
-    let svg = picture.to_svg();
-    let mut names = texts(&svg, "11");
-    names.retain(|(.., text)| text.contains("orbit") || text == "rk4");
-    assert_eq!(names.len(), 12);
-    assert!(!collide(&names, 11.0, 31.0, 1160.0), "{names:?}");
-    // the control: in two columns, as they stood before, they do
-    let before = |(index, name): (usize, &(f64, f64, String))| {
-        let (x, y) = (172.0 * (index % 2) as f64, (index / 2) as f64);
-        (x, y, name.2.clone())
-    };
-    let before: Vec<_> = names[..4].iter().enumerate().map(before).collect();
-    assert!(collide(&before, 11.0, 31.0, 1160.0));
-    for text in ["run time", ">error<", "grey: the others"] {
-        assert!(svg.contains(text), "{text}");
-    }
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Pictures of space: what a curve on a coadjoint orbit or on the sphere of directions looks like from outside.
 
 use super::chart::paint;
+use super::clip::{around, clipped};
 use super::contours::contours;
 use super::surface::{Field, Point, dot};
 use super::svg::{FAINT, INK, Place, Svg, thinned};
@@ -13,6 +14,12 @@ const HEAD: f64 = 80.0;
 const LINE: f64 = 18.0;
 /// Pixels between the places of a line.
 const FINEST: f64 = 2.5;
+
+/// How far around a surface a curve that has left it is followed, in sizes of the surface.
+const LEEWAY: f64 = 0.5;
+/// So many sizes beyond a surface a curve that began on it has left it; and one that began elsewhere has diverged.
+const VISIBLE: f64 = 0.05;
+const FAR: f64 = 10.0;
 
 /// From where one looks: turned about the third axis, and from above.
 const AZIMUTH: f64 = 0.6;
@@ -32,6 +39,12 @@ fn projected(point: &Point) -> Place {
 /// Whether a surface with this normal faces the eye.
 fn faces(normal: &Point) -> bool {
     dot(normal, &camera()[2]) >= 0.0
+}
+
+/// Whether what lies between bounds reaches beyond others by so many of their sizes.
+fn beyond((low, high): (Point, Point), (from, to): (Point, Point), sizes: f64) -> bool {
+    let size = (0..3).map(|i| to[i] - from[i]).fold(0.0, f64::max);
+    (0..3).any(|i| low[i] < from[i] - sizes * size || high[i] > to[i] + sizes * size)
 }
 
 /// A colour mixed with white: where lines cross, it stays as pale as it is.
@@ -145,6 +158,8 @@ pub struct View {
     outline: Lines,
     /// Where a surface is cut off.
     border: Lines,
+    /// Where curves that have left the surface are cut off.
+    frame: Option<(Place, Place)>,
     /// What the lines behind the curves are.
     note: String,
 }
@@ -160,13 +175,14 @@ impl View {
             contours: Lines::default(),
             outline: Lines::default(),
             border: Lines::default(),
+            frame: None,
             note: String::new(),
         }
     }
 
-    /// The orbit on which the first curve lies, the level surface of a Casimir, with level curves of the energy. False where
-    /// there is no surface through its first point.
-    pub fn orbit(&mut self, casimir: &Field<'_>, energy: &Field<'_>, note: &str) -> bool {
+    /// The orbit on which the first curve lies, the level surface of a Casimir, with level curves of the energy if one is given; the note says
+    /// what the surface is. False where there is no surface through its first point.
+    pub fn orbit(&mut self, casimir: &Field<'_>, energy: Option<&Field<'_>>, note: &str) -> bool {
         let Some(curve) = self.curves.first() else {
             return false;
         };
@@ -189,7 +205,14 @@ impl View {
         for chain in &found.levels {
             self.contours.add(chain, &normal);
         }
-        self.note = note.to_owned();
+        self.note = match (energy.is_some(), found.constant) {
+            (false, _) => note.to_owned(),
+            (true, true) => format!("{note}; H is constant on it"),
+            (true, false) => format!("{note}; grey: level curves of H on it"),
+        };
+        if let (true, Some(surface)) = (found.closed, found.surface.bounds()) {
+            self.follow_to(surface, found.surface.points.iter().map(projected));
+        }
         if !found.closed {
             self.note.push_str("; cut off around the curve");
             for chain in found.surface.border() {
@@ -197,6 +220,37 @@ impl View {
             }
         }
         true
+    }
+
+    /// Curves that leave a surface are followed a little beyond it alone: others may lie on surfaces that are larger, but not
+    /// by far.
+    fn follow_to(&mut self, surface: (Point, Point), shadow: impl Iterator<Item = Place>) {
+        let reaches = |curve: &OnSurface, sizes: f64| {
+            let bounds = curve.bounds;
+            bounds.is_some_and(|bounds| beyond(bounds, surface, sizes))
+        };
+        let left = |(place, curve): (usize, &OnSurface)| {
+            reaches(curve, if place == 0 { VISIBLE } else { FAR })
+        };
+        let (gone, others): (Vec<_>, Vec<_>) = self
+            .curves
+            .iter()
+            .enumerate()
+            .partition(|curve| left(*curve));
+        if gone.is_empty() {
+            return;
+        }
+        let traces = others
+            .iter()
+            .flat_map(|(_, curve)| [&curve.front, &curve.back]);
+        let corners = traces.filter_map(Trace::bounds);
+        let corners = corners.flat_map(|(low, high)| [low, high]);
+        self.frame = around(shadow.chain(corners)).map(|((a, b), (c, d))| {
+            let margin = LEEWAY * (c - a).max(d - b);
+            ((a - margin, b - margin), (c + margin, d + margin))
+        });
+        let who = if self.curves.len() > 1 { "a" } else { "the" };
+        self.note.push_str(&format!("; {who} curve has left it"));
     }
 
     /// The unit sphere with circles of latitude and longitude.
@@ -232,10 +286,11 @@ impl View {
         let corners = corners.flat_map(|(low, high)| [low, high]);
         let lines = self.contours.all().chain(self.outline.all());
         let lines = lines.chain(self.border.all()).copied();
-        let bounds = corners.chain(lines).fold(None, |bounds, (x, y): Place| {
-            let ((a, b), (c, d)) = bounds.unwrap_or(((x, y), (x, y)));
-            Some(((a.min(x), b.min(y)), (c.max(x), d.max(y))))
-        });
+        let (low, high) = self
+            .frame
+            .unwrap_or(((f64::MIN, f64::MIN), (f64::MAX, f64::MAX)));
+        let kept = |(x, y): Place| (x.clamp(low.0, high.0), y.clamp(low.1, high.1));
+        let bounds = around(corners.chain(lines).map(kept));
         let ((left, bottom), (right, top)) = bounds.unwrap_or(((-1.0, -1.0), (1.0, 1.0)));
         let size = (right - left).max(top - bottom);
         let size = if size > 0.0 { 1.06 * size } else { 1.0 };
@@ -248,7 +303,11 @@ impl View {
         };
         let mut svg = Svg::default();
         let mut draw = |pieces: &[Vec<Place>], attributes: &str| {
-            for piece in pieces.iter().filter(|piece| piece.len() > 1) {
+            let inside = pieces.iter().flat_map(|piece| match self.frame {
+                Some(frame) => clipped(piece, frame),
+                None => vec![piece.clone()],
+            });
+            for piece in inside.filter(|piece| piece.len() > 1) {
                 let places: Vec<Place> = piece.iter().map(place).collect();
                 svg.polyline(thinned(&places, FINEST), attributes);
             }
@@ -332,3 +391,6 @@ impl View {
         y + 6.0
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,5 +1,7 @@
 //! The group of the declared matrices, on which the motion beside that of mu goes.
 
+use std::ops::Range;
+
 use crate::ast::Invariance;
 use crate::exact::Rational;
 use crate::model::{Bracket, Model};
@@ -26,6 +28,26 @@ impl Group {
                 let mut sums = pairs.map(|(i, j)| &matrix[i][j] + &matrix[j][i]);
                 sums.all(|sum| sum.is_zero())
             })
+    }
+
+    /// Whether the leading block of three rows and columns of every group element is a rotation, and not of all of them the
+    /// identity: the blocks of the algebra are antisymmetric, and nothing of the other rows and columns comes into them.
+    pub fn turns_space(&self) -> bool {
+        let zero = |rows: Range<usize>, columns: Range<usize>| {
+            self.matrices.iter().all(|matrix| {
+                let mut rows = matrix[rows.clone()].iter();
+                rows.all(|row| row[columns.clone()].iter().all(Rational::is_zero))
+            })
+        };
+        let antisymmetric = |matrix: &Vec<Vec<Rational>>| {
+            let mut pairs = (0..3).flat_map(|i| (0..=i).map(move |j| (i, j)));
+            pairs.all(|(i, j)| (&matrix[i][j] + &matrix[j][i]).is_zero())
+        };
+        self.size >= 3
+            && self.matrices.iter().all(antisymmetric)
+            && !zero(0..3, 0..3)
+            // the block of a product is the product of the blocks where one of the corners beside it is empty
+            && (zero(3..self.size, 0..3) || zero(0..3, 3..self.size))
     }
 }
 
@@ -84,4 +106,35 @@ pub fn refusal(model: &Model, quaternion: bool) -> Option<(String, String)> {
             "write `matrix`".into(),
         )
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compile::compile_spec;
+
+    #[test]
+    fn which_groups_turn_space() {
+        let turns = |name: &str| {
+            let path = format!("{}/../specs/{name}.json", env!("CARGO_MANIFEST_DIR"));
+            let model = compile_spec(&std::fs::read_to_string(path).unwrap()).unwrap();
+            group(&model).unwrap().turns_space()
+        };
+        // the last has translations in a fourth column
+        for name in ["so3_free_rigid_body", "se3_heavy_top"] {
+            assert!(turns(name), "{name}");
+        }
+        let others = [
+            // rotations of a plane, and shears, of size 3
+            "e2_pendulum",
+            "heisenberg_h3",
+            // antisymmetric, but other rows come into the first three
+            "so4_manakov",
+            "su3_quadratic",
+            "sl2_quadratic",
+        ];
+        for name in others {
+            assert!(!turns(name), "{name}");
+        }
+    }
 }

@@ -5,14 +5,14 @@ use super::Curve;
 /// The error below which a method is measured against others.
 const SERIOUS: f64 = 1e-2;
 
-/// Which curves have a point that no other curve beats in both.
+/// Which curves have a point that no other curve beats in both; the floor is no number where errors need no reference.
 pub(super) fn front(curves: &[&Curve], floor: f64) -> Vec<bool> {
     let on_front = |curve: &Curve| {
         // errors of the size of the solution are no contest, nor are those that nobody knows
         let serious = curve
             .points
             .iter()
-            .filter(|point| point.1 < SERIOUS && point.1 > floor);
+            .filter(|point| point.1 < SERIOUS && (floor.is_nan() || point.1 > floor));
         serious.into_iter().any(|&(seconds, error)| {
             let others = curves.iter().filter(|other| other.name != curve.name);
             let beaten = others

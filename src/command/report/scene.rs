@@ -9,6 +9,8 @@ use crate::command::run::picture::{casimir, energy};
 
 /// Points of the trajectory at most.
 const MOST: usize = 4000;
+/// Values of each coordinate that have lines on a surface without level curves.
+const NET: usize = 7;
 
 /// The lines of a scene: of each the coordinates of its points, then the normals of the surface there. None where there is no
 /// surface.
@@ -22,7 +24,7 @@ pub fn scene(system: &Dynamic<f64>, axes: &[String], states: &[Point]) -> Option
     let (low, high) = (bounds(f64::min), bounds(f64::max));
     let casimir = |point: &Point| casimir(system, point);
     let energy = |point: &Point| energy(system, point);
-    let found = contours(&casimir, &energy, first, (low, high))?;
+    let found = contours(&casimir, Some(&energy), first, (low, high))?;
     let (low, high) = found.surface.bounds()?;
     let size = (0..3)
         .map(|i| (high[i] - low[i]).powi(2))
@@ -45,14 +47,19 @@ pub fn scene(system: &Dynamic<f64>, axes: &[String], states: &[Point]) -> Option
     let every = states.len().div_ceil(MOST);
     let curve: Vec<Point> = states.iter().copied().step_by(every).collect();
     let middle = [0, 1, 2].map(|i| short(0.5 * (low[i] + high[i])));
-    let border = found.surface.border();
-    let levels = found.levels.iter().chain(&border);
+    let mut behind = found.surface.border();
+    if found.constant {
+        // so that the surface is seen
+        behind.extend(found.surface.net(NET));
+    }
+    let levels = found.levels.iter().chain(&behind);
     let levels: Vec<Vec<f64>> = levels.map(|level| line(level)).collect();
     Some(json!({
         "axes": axes,
         "middle": middle,
         "size": short(size),
         "closed": found.closed,
+        "constant": found.constant,
         "levels": levels,
         "curves": [line(&curve)],
     }))

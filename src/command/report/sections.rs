@@ -110,9 +110,14 @@ impl Report<'_> {
                     } else {
                         "; it is cut off around the trajectory"
                     };
+                    let grey = if scene["constant"] == true {
+                        "The energy is constant on it; grey: lines on which a coordinate is constant."
+                    } else {
+                        "Grey: level curves of the energy."
+                    };
                     self.page.note(&format!(
-                        "The surface is the {surface}, on which the Casimir has the value of the start{cut}. Grey: level \
-                         curves of the energy. The dot is where the trajectory starts; what is turned away is pale."
+                        "The surface is the {surface}, on which the Casimir has the value of the start{cut}. {grey} The dot is \
+                         where the trajectory starts; what is turned away is pale."
                     ));
                 }
                 Ok(())

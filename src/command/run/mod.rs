@@ -59,7 +59,7 @@ pub fn run(flags: &args::Run) -> Result<u8, Failure> {
         labels: several.labels.clone(),
     };
     let picture = kind.zip(outputs.plot).map(|(kind, (form, destination))| {
-        let picture = Picture::new(&spec, layout, kind, several.members.len());
+        let picture = Picture::new(&spec, layout, kind, &several);
         (picture, form, destination)
     });
     Session {

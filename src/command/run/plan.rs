@@ -2,6 +2,7 @@
 
 mod members;
 mod npy;
+mod runs;
 mod sites;
 mod solver;
 mod state;
@@ -15,7 +16,8 @@ use lie_program::protocol::{Start, Times, Tolerances};
 use lie_runtime::driver::Pace;
 use lie_runtime::newton::NewtonOptions;
 
-pub use members::{Member, Several, several};
+pub use members::several;
+pub use runs::{Member, Several};
 
 use super::values::Given;
 use crate::command::args;

@@ -220,17 +220,7 @@ impl Session<'_> {
     /// `midpoint, k = 1.2`, where that tells it apart: as a picture has room for it.
     fn short_name(&self, number: usize, member: &Member) -> String {
         let parts = self.parts(member, rounded);
-        let with =
-            |other: &Member| other.plan == member.plan && other.parameters == member.parameters;
-        let alone = self
-            .several
-            .members
-            .iter()
-            .take(MOST_LINES)
-            .filter(|m| with(m))
-            .count()
-            < 2;
-        match parts.is_empty() || !alone {
+        match parts.is_empty() || self.several.repeated(number) {
             true => [vec![format!("run {number}")], parts].concat().join(", "),
             false => parts.join(", "),
         }

@@ -59,11 +59,11 @@ pub(super) fn draw(
             bed.spec.model.name,
             sense::word(options.measure)
         ),
-        subtitle: format!(
-            "{errors} against run time per unit of time; bold: fastest in the panel at some error; band: \
-             fastest of the catalogue"
-        ),
-        floor: reference.map_or(f64::NAN, |reference| reference.error.max(reference.difference)),
+        subtitle: format!("{errors} against run time per unit of time"),
+        axis: sense::word(options.measure).to_owned(),
+        floor: reference.map_or(f64::NAN, |reference| {
+            reference.error.max(reference.difference)
+        }),
         curves: curves.collect(),
     }
     .to_svg()

@@ -158,9 +158,14 @@ fn orbit(spec: &Spec, given: &Given) -> Result<Kind, Message> {
 
 fn attitude(spec: &Spec, several: &Several, given: &Given) -> Result<Kind, Message> {
     let followed = several.plans.iter().all(|plan| plan.chart.is_some());
-    let size = group::group(&spec.model).map(|group| group.size);
-    if size.is_none_or(|size| size < 3) {
-        let text = format!("{} has no group of rotations", spec.model.name);
+    let name = &spec.model.name;
+    let wrong = match group::group(&spec.model) {
+        None => Some(format!("{name} has no group of matrices that is followed")),
+        Some(group) => (!group.turns_space()).then(|| {
+            format!("the matrices of {name} do not begin with a rotation of three rows and columns")
+        }),
+    };
+    if let Some(text) = wrong {
         return Err(given.wrong(text).help("`--picture phase` draws any system"));
     }
     match followed {

@@ -8,7 +8,7 @@ use lie_dynamic::Dynamic;
 use lie_poisson::plot::Plot;
 use lie_poisson::plot::compare::Compare;
 use lie_poisson::plot::phase::Phase;
-use lie_poisson::plot::surface::Point;
+use lie_poisson::plot::surface::{Field, Point};
 use lie_poisson::plot::view::{OnSurface, View};
 use lie_program::protocol::Start;
 use lie_runtime::Poisson as _;
@@ -19,12 +19,14 @@ pub use file::{Form, form};
 use section::Section;
 
 use super::layout::Layout;
-use super::plan::Plan;
+use super::plan::{Plan, Several};
 use crate::build;
 use crate::compiler::Spec;
 
 /// So many runs that stopped early are named in a picture.
 const SHOWN: usize = 3;
+/// What is said where each run has an energy of its own.
+const NO_LEVELS: &str = "; no level curves of H: parameters differ between runs";
 
 /// A number with six digits at most.
 pub fn rounded(value: f64) -> f64 {
@@ -35,8 +37,7 @@ pub fn rounded(value: f64) -> f64 {
 pub struct Picture<'a> {
     spec: &'a Spec,
     layout: Layout,
-    /// How many runs there are.
-    runs: usize,
+    several: &'a Several,
     subtitle: String,
     /// The names of runs that stopped early, and when.
     stopped: Vec<(String, f64)>,
@@ -63,12 +64,12 @@ fn system(spec: &Spec, start: &Start) -> Option<Dynamic<f64>> {
 }
 
 impl<'a> Picture<'a> {
-    /// A picture of so many runs, the rows of which have this layout.
-    pub fn new(spec: &'a Spec, layout: Layout, kind: Kind, runs: usize) -> Self {
+    /// A picture of runs, the rows of which have this layout.
+    pub fn new(spec: &'a Spec, layout: Layout, kind: Kind, several: &'a Several) -> Self {
         Self {
             spec,
             layout,
-            runs,
+            several,
             subtitle: String::new(),
             stopped: Vec::new(),
             drawn: Drawn::Nothing(kind),
@@ -104,7 +105,7 @@ impl<'a> Picture<'a> {
     fn whole_line(&self) -> String {
         let mut line = self.subtitle.clone();
         for (name, time) in self.stopped.iter().take(SHOWN) {
-            let who = match self.runs {
+            let who = match self.several.members.len() {
                 1 => String::new(),
                 _ => format!("{name} "),
             };
@@ -113,17 +114,33 @@ impl<'a> Picture<'a> {
         if let Some(more @ 1..) = self.stopped.len().checked_sub(SHOWN) {
             line.push_str(&format!("; and {more} more"));
         }
+        let would = match self.drawn {
+            Drawn::Orbit(..) => true,
+            Drawn::Phase(..) => self.spec.model.dimension() == 2,
+            _ => false,
+        };
+        if would && !self.has_levels() {
+            line.push_str(NO_LEVELS);
+        }
         line
     }
 
     fn second_line(&self, plan: &Plan) -> String {
-        let (method, written) = (plan.method.title(), plan.pace.1.trim());
-        match (self.runs, plan.pace.0) {
-            (1, Pace::Step(_)) => format!("{method}, h = {written}"),
-            (1, Pace::Tolerance(_)) => format!("{method}, tolerance {written}"),
-            (runs, Pace::Step(_)) => format!("{runs} runs, h = {written}"),
-            (runs, Pace::Tolerance(_)) => format!("{runs} runs, tolerance {written}"),
+        let written = plan.pace.1.trim();
+        let who = match (self.several.members.len(), self.several.method()) {
+            (1, _) => plan.method.title(),
+            (runs, Some(method)) => format!("{runs} runs of {method}"),
+            (runs, None) => format!("{runs} runs"),
+        };
+        match plan.pace.0 {
+            Pace::Step(_) => format!("{who}, h = {written}"),
+            Pace::Tolerance(_) => format!("{who}, tolerance {written}"),
         }
+    }
+
+    /// Whether one energy is that of all runs, so that its level curves say something of each.
+    fn has_levels(&self) -> bool {
+        !self.several.parameters_differ()
     }
 
     fn first(&self, kind: Kind, plan: &Plan, start: &Start) -> Drawn {
@@ -144,7 +161,7 @@ impl<'a> Picture<'a> {
             }
             Kind::Phase(axes) => {
                 let plane = self.spec.model.dimension() == 2;
-                let system = system(self.spec, start).filter(|_| plane);
+                let system = system(self.spec, start).filter(|_| plane && self.has_levels());
                 Drawn::Phase(phase(axes), axes, system.map(Box::new))
             }
             Kind::Section(section) => {
@@ -190,6 +207,8 @@ impl<'a> Picture<'a> {
     pub fn finish(self) -> (String, Option<String>) {
         let name = &*self.spec.model.name;
         let line = self.whole_line();
+        let levels = self.has_levels();
+        let several = self.several.members.len() > 1;
         match self.drawn {
             Drawn::Nothing(_) => (
                 View::new(name, &line, [(); 3].map(|()| String::new()), Vec::new()).to_svg(),
@@ -223,8 +242,10 @@ impl<'a> Picture<'a> {
                 let energy = |point: &Point| energy(&system, point);
                 let surface = |point: &Point| casimir(&system, point);
                 let of = system.casimir_name(0);
-                let note = format!("surface: {of} as at the start; grey: level curves of H on it");
-                let found = view.orbit(&surface, &energy, &note);
+                let whose = if several { " of the first run" } else { "" };
+                let note = format!("surface: {of} as at the start{whose}");
+                let energy: &Field<'_> = &energy;
+                let found = view.orbit(&surface, levels.then_some(energy), &note);
                 let none = "there is no surface through the initial state: it is a point orbit";
                 (view.to_svg(), (!found).then(|| none.to_owned()))
             }

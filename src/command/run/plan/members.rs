@@ -5,7 +5,7 @@ use lie_program::protocol::Start;
 
 use super::super::values::Given;
 use super::states::{States, states};
-use super::{Foreign, Plan, Planned, Planner, Point, plan};
+use super::{Foreign, Member, Plan, Planned, Planner, Point, Several, plan};
 use crate::command::args;
 use crate::compiler::Spec;
 use crate::message::Message;
@@ -13,28 +13,6 @@ use crate::output::Labels;
 
 /// The most runs of one command.
 pub(super) const MOST: usize = 1_000_000;
-
-/// Runs: of each method those of all values of the parameters, and of these those of all initial states.
-#[derive(Debug)]
-pub struct Several {
-    /// A plan for each method.
-    pub plans: Vec<Plan>,
-    /// The runs.
-    pub members: Vec<Member>,
-    /// What tells them apart; nothing for one run alone.
-    pub labels: Option<Labels>,
-}
-
-/// One of several runs.
-#[derive(Clone, Debug)]
-pub struct Member {
-    /// Which of the plans.
-    pub plan: usize,
-    /// The values of the parameters that have several.
-    pub parameters: Vec<f64>,
-    /// Where it starts.
-    pub start: Start,
-}
 
 /// Finds the mistakes of all options, then answers.
 ///
