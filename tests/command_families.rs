@@ -115,7 +115,7 @@ fn what_a_family_is_not_run_with_is_said() {
     );
     for (picture, text) in [
         ("orbit", "is a family"),
-        ("attitude", "no group of rotations"),
+        ("attitude", "no group of matrices that is followed"),
     ] {
         refused(
             &format!("run {CHAIN} --param N=4 --picture {picture} --plot picture.svg"),

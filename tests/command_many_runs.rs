@@ -148,7 +148,7 @@ fn many_runs_are_summed_up() {
     .ok();
     assert!(!run.stderr.contains("run 0, "), "{}", run.stderr);
     assert!(
-        run.stderr.contains("rk4: 100 runs, 100000 steps in total"),
+        run.stderr.contains("rk4: 100 runs, 1000 steps in total"),
         "{}",
         run.stderr
     );

@@ -158,7 +158,7 @@ fn level_curves_are_those_of_all_runs_or_of_none() {
     let body = format!("{BODY} --until 5 --picture orbit --param I2=2.5 --param I1=1");
     for (call, level) in [(pendulum, "#c4c4c4"), (&*body, "#a8a8a8")] {
         let stroke = format!("stroke=\"{level}\"");
-        let said = "no level curves of H: parameters differ between runs";
+        let said = "no level curves of H: parameters differ";
         let svg = draw(folder.path(), call);
         assert!(
             lines(&svg, &stroke).len() > 5 && !svg.contains(said),
