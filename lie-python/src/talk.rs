@@ -222,7 +222,8 @@ fn converse<F: DeserializeOwned + Send>(
             .join()
             .unwrap_or_else(|_| Err(io::Error::other("a thread failed")))?;
         if matches!((&end, &interrupted), (Some(End::Done), None)) {
-            progress.end()?;
+            // what was measured stays, also where the last word is answered with Ctrl-C
+            interrupted = progress.end().err();
         }
         Ok(Outcome { end, interrupted })
     })

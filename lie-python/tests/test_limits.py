@@ -85,10 +85,20 @@ def test_ctrl_c_keeps_what_was_tried() -> None:
             os.kill(os.getpid(), signal.SIGINT)
 
     with pytest.raises(lp.Interrupted) as caught:
-        body.stress("rk4", "lie-midpoint", "gauss4", steps=20_000, progress=interrupt)
+        body.stress("rk4", "lie-midpoint", "gauss4", steps=10**9, progress=interrupt)
     partial = caught.value.partial
-    assert not partial.complete and not partial.passed and 10 < len(partial) < 150
+    # the long runs come last
+    assert not partial.complete and not partial.passed and len(partial) > 10
+    assert not any(cell.experiment == "long" for cell in partial.cells)
     assert "interrupted" in repr(partial)
+
+    def at_the_end(done: int, total: int, what: str) -> None:
+        if done == total:
+            os.kill(os.getpid(), signal.SIGINT)
+
+    with pytest.raises(lp.Interrupted) as caught:
+        body.stress("rk4", steps=1000, progress=at_the_end)
+    assert any(cell.experiment == "long" for cell in caught.value.partial.cells)
 
     def at_second(done: int, total: int, what: str) -> None:
         if done == 1:
