@@ -99,9 +99,9 @@ impl<S: Scalar> Dynamic<S> {
         machine.compiles() && (self.values.hurry || there)
     }
 
-    /// The step of a method as one program; none where it is not one.
+    /// The step of a method as one program; none where it is not one, nor where nothing would compile it.
     pub(crate) fn step_of(&self, choice: &Choice) -> Option<Arc<Step>> {
-        if !self.is_recordable() {
+        if cfg!(target_arch = "wasm32") || !self.is_recordable() {
             return None;
         }
         let compiled = &self.values.compiled;

@@ -33,6 +33,8 @@ pub struct Results {
     stopped: Vec<Stopped>,
     /// The estimated error of the reference solution, and its distance from a second one.
     reference: Option<(f64, f64)>,
+    /// Errors below it are not told from 0.
+    floor: f64,
     /// The place of the coordinate of the surface of section, its value, how often it is passed.
     section: Option<(usize, f64, u64)>,
     /// Whether times are those of the processor.
@@ -44,7 +46,10 @@ pub struct Results {
 impl Results {
     fn take(&mut self, found: Found) {
         match found {
-            Found::Reference(found) => self.reference = Some((found.error, found.difference)),
+            Found::Reference(found) => {
+                self.reference = Some((found.error, found.difference));
+                self.floor = found.floor;
+            }
             Found::Section { plane, passages } => {
                 self.section = Some((plane.coordinate, plane.value, passages));
             }

@@ -123,7 +123,11 @@ impl<S: Scalar> Running<S> {
     pub fn new(system: &Dynamic<S>, choice: &Choice, h: S, write: Write) -> Option<Self> {
         // what is being written down is not run
         let recording = TypeId::of::<S>() == TypeId::of::<Recorded>();
-        if recording || !system.is_recordable() || !system.values.machine.compiles() {
+        if cfg!(target_arch = "wasm32")
+            || recording
+            || !system.is_recordable()
+            || !system.values.machine.compiles()
+        {
             return None;
         }
         let known = system.values.compiled.equations.known(choice);
@@ -173,7 +177,15 @@ impl<S: Scalar> Running<S> {
         self.matrix = vec![S::zero(); stored(1)];
     }
 
+    #[inline]
     fn wait(&mut self, system: &Dynamic<S>) {
+        if self.wait.left > 0 {
+            self.count(system);
+        }
+    }
+
+    #[inline(never)]
+    fn count(&mut self, system: &Dynamic<S>) {
         let mut wait = std::mem::replace(&mut self.wait, Wait::new(0, true));
         let length = || {
             self.programs(system)

@@ -49,6 +49,9 @@ pub struct Reference {
     /// The relative difference from a second method.
     #[serde(with = "number")]
     pub difference: f64,
+    /// Errors of the chosen measure below this are not told from 0.
+    #[serde(with = "number")]
+    pub floor: f64,
 }
 
 /// What seconds are counted by.

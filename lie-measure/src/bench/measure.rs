@@ -89,20 +89,6 @@ impl<V: State<f64>> Judge<V> {
         }
     }
 
-    /// Below what errors of this measure say nothing, for a reference solution with this relative error.
-    pub(super) fn floor<P: Poisson<f64, State = V>>(&self, system: &P, relative: f64) -> f64 {
-        let least = 4.0 * f64::EPSILON;
-        match self {
-            Self::Drift { .. } => least,
-            Self::State(_) | Self::Section(_) => relative.max(least),
-            Self::Phase { exact, .. } => {
-                let mut field = exact.clone();
-                system.vector_field(exact, &mut field);
-                relative.max(least) * exact.max_norm() / field.max_norm()
-            }
-        }
-    }
-
     /// The error of a run with this end; `look` shows the rest of it.
     pub(super) fn of<P: Poisson<f64, State = V>>(
         &self,

@@ -222,11 +222,10 @@ fn judge<P: Poisson<f64>>(
             return Err(End::refused(Obstacle::Still, why));
         }
         let judge = Judge::drift(system, mu, measure == Measure::Casimirs);
-        let floor = judge.floor(system, 0.0);
-        return Ok((judge, floor));
+        return Ok((judge, ROUND_OFF));
     }
     session.stage(0, 1, "the reference solution")?;
-    let (exact, reliable) = confirmed(system, mu, until, confirming, session)?;
+    let (exact, floor) = confirmed(system, mu, options, confirming, session)?;
     let rate = rate(system, mu);
     let judge = match measure {
         Measure::Phase => Judge::Phase { exact, rate },
@@ -244,7 +243,6 @@ fn judge<P: Poisson<f64>>(
         }
         _ => Judge::State(exact),
     };
-    let floor = judge.floor(system, reliable.error.max(reliable.difference));
     Ok((judge, floor))
 }
 
@@ -263,14 +261,27 @@ fn no_section<P: Poisson<f64>>(system: &P, until: f64, why: &NoSection) -> End {
     End::refused(Obstacle::Section, why)
 }
 
-/// The reference solution, which is told of.
+/// Relative errors below this are round-off.
+const ROUND_OFF: f64 = 4.0 * f64::EPSILON;
+
+/// The error of a measure that a relative error of the state at the end amounts to.
+fn in_measure<P: Poisson<f64>>(system: &P, end: &P::State, relative: f64, measure: Measure) -> f64 {
+    if measure != Measure::Phase {
+        return relative;
+    }
+    let mut field = end.clone();
+    system.vector_field(end, &mut field);
+    relative * end.max_norm() / field.max_norm()
+}
+
+/// The reference solution, which is told of, with the least error that is told from 0.
 fn confirmed<P: Poisson<f64>>(
     system: &P,
     mu: &P::State,
-    until: f64,
+    &Options { until, measure, .. }: &Options,
     confirming: &dyn AnyMethod<f64, P>,
     session: &mut Session<'_>,
-) -> Result<(P::State, Reference), End> {
+) -> Result<(P::State, f64), End> {
     let exact = reference(system, mu, until).ok_or_else(|| {
         let why = "a number becomes infinite, or the steps too small";
         End::refused(Obstacle::Reference, why)
@@ -283,15 +294,23 @@ fn confirmed<P: Poisson<f64>>(
         return Err(End::refused(Obstacle::Still, why));
     }
     let difference = confirm(system, mu, until, &exact.mu, confirming);
-    let reliable = Reference { error, difference };
-    tell(session, Found::Reference(reliable));
+    let relative = error.max(difference).max(ROUND_OFF);
+    let floor = in_measure(system, &exact.mu, relative, measure);
+    tell(
+        session,
+        Found::Reference(Reference {
+            error,
+            difference,
+            floor,
+        }),
+    );
     if difference > 1e-8 {
         let why = format!(
             "extrapolation and Gauss collocation differ by {difference:.1e} at t = {until:?}"
         );
         return Err(End::refused(Obstacle::Reference, why));
     }
-    Ok((exact.mu, reliable))
+    Ok((exact.mu, floor))
 }
 
 /// The relative difference of a second method, at steps that are halved until it no longer

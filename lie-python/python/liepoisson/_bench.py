@@ -52,8 +52,8 @@ class Bench:
     ``rows``: a list of :class:`BenchRow`. ``bench["error"]`` is a column as a numpy array, ``of(method)`` the columns of one
     method. ``stopped``: runs that did not come to their end: method, control, value, reason. ``measure`` and ``t``: what was asked
     for. ``reference``: the estimated error of the exact solution that runs are compared with, and its distance from
-    a second one, ``None`` where none is needed. ``section``: coordinate, value and passages of the surface of section, else
-    ``None``. ``clock``: "processor" or "wall". ``complete``: whether it came to its end.
+    a second one, ``None`` where none is needed. ``floor``: errors below it are not told from 0; 0 where there is no such
+    solution. ``section``: coordinate, value and passages of the surface of section, else ``None``. ``clock``: "processor" or "wall". ``complete``: whether it came to its end.
     """
 
     def __init__(
@@ -64,6 +64,7 @@ class Bench:
         rows: Sequence[BenchRow],
         stopped: Sequence[tuple[str, str, float, str]],
         reference: tuple[float, float] | None,
+        floor: float,
         section: tuple[str, float, int] | None,
         clock: str,
         complete: bool,
@@ -74,6 +75,7 @@ class Bench:
         self.rows = list(rows)
         self.stopped = list(stopped)
         self.reference = reference
+        self.floor = floor
         self.section = section
         self.clock = clock
         self.complete = complete
@@ -117,11 +119,15 @@ class Bench:
 
     def _table(self) -> tuple[list[str], list[list[str]]]:
         head = ["method", *(f"to {target:.0e}" for target in _TARGETS), "least error"]
-        times = [{row.method: row.seconds for row in self.fastest(error)} for error in _TARGETS]
+        times = [
+            {row.method: row.seconds for row in self.fastest(error)} if error >= self.floor else {}
+            for error in _TARGETS
+        ]
         rows = []
         for method in self.methods:
             cells = [f"{time[method] * 1e6:.3g}" if method in time else "–" for time in times]
-            rows.append([method, *cells, f"{self.of(method)['error'].min():.1e}"])
+            least = self.of(method)["error"].min()
+            rows.append([method, *cells, f"< {self.floor:.1e}" if least < self.floor else f"{least:.1e}"])
         return head, rows
 
     def _title(self) -> str:

@@ -109,6 +109,7 @@ def measured(
         [BenchRow(*row) for row in found["rows"]],
         found["stopped"],
         found["reference"],
+        found["floor"],
         None if passed is None else (system._core.coordinates[passed[0]], passed[1], passed[2]),
         "processor" if found["processor"] else "wall",
         not found["interrupted"],

@@ -209,11 +209,16 @@ fn csv(points: &[Point], measure: Measure) -> String {
 /// What errors are taken against, in a line or two.
 fn basis(bed: &Bed, results: &Results) -> String {
     let mut text = match results.reference {
-        Some(Reference { error, difference }) => format!(
-            "reference: extrapolation, error about {}; differs from {} by {}\n",
+        Some(Reference {
+            error,
+            difference,
+            floor,
+        }) => format!(
+            "reference: extrapolation, error about {}; differs from {} by {}; errors below {} are not told from 0\n",
             short(error),
             families::confirming(&bed.spec.model).label(),
-            short(difference)
+            short(difference),
+            short(floor)
         ),
         None => "largest over all steps; for methods that show no steps, over at least 32 times\n"
             .to_owned(),
@@ -246,7 +251,11 @@ fn report(bed: &Bed, options: &Options, results: &Results, quiet: &Quiet, engine
     let mut text = format!(
         "{}\n{}",
         folded(&head),
-        aligned(&cells(&lines(bed, &results.points), measure)),
+        aligned(&cells(
+            &lines(bed, &results.points, results.reference),
+            measure,
+            results.reference
+        )),
     );
     let times = quiet.text();
     let said = format!("\n* the fastest\n{times}\nmeasured: {engine}\n");
@@ -278,8 +287,8 @@ mod tests {
     use super::*;
     use lie_measure::bench::Accuracy;
 
-    fn point(method: &str, value: f64, error: f64, seconds: f64) -> Found {
-        Found::Point(Point {
+    pub(super) fn point(method: &str, value: f64, error: f64, seconds: f64) -> Point {
+        Point {
             method: method.to_owned(),
             control: Accuracy::Step,
             value,
@@ -291,7 +300,7 @@ mod tests {
             steps: 1,
             evaluations: 1,
             newton: 1,
-        })
+        }
     }
 
     #[test]
@@ -302,14 +311,17 @@ mod tests {
             point("rk4", 0.05, 6e-5, 6e-6),
             point("midpoint", 0.1, 2e-3, 5e-6),
         ] {
-            assert_eq!(results.take(found), None);
+            assert_eq!(results.take(Found::Point(found)), None);
         }
         let method = "rk4".to_owned();
         assert_eq!(
             results.take(Found::Climbed { method }).as_deref(),
             Some("rk4: 2 runs, errors 1.0e-3 to 6.0e-5 in 6.00 microseconds per unit of time")
         );
-        assert_eq!(results.take(point("rk4", 0.1, 1e-3, 2e-6)), None);
+        assert_eq!(
+            results.take(Found::Point(point("rk4", 0.1, 1e-3, 2e-6))),
+            None
+        );
         let times: Vec<f64> = results.points.iter().map(|p| p.seconds).collect();
         assert_eq!(times, [2e-6, 6e-6, 5e-6]);
         let method = "midpoint --none".to_owned();

@@ -61,9 +61,7 @@ pub(super) fn draw(
         ),
         subtitle: format!("{errors} against run time per unit of time"),
         axis: sense::word(options.measure).to_owned(),
-        floor: reference.map_or(f64::NAN, |reference| {
-            reference.error.max(reference.difference)
-        }),
+        floor: reference.map_or(f64::NAN, |reference| reference.floor),
         curves: curves.collect(),
     }
     .to_svg()

@@ -4,13 +4,17 @@ use super::by_method;
 use crate::command::measure::quiet::{percent, spread};
 use crate::command::measure::{Bed, sense};
 use lie_in_process::words::short;
-use lie_measure::bench::{Measure, Point};
+use lie_measure::bench::{Measure, Point, Reference};
 
 /// Accuracies of the table.
 const TARGETS: [f64; 4] = [1e-3, 1e-6, 1e-9, 1e-12];
 
-/// The time to an error, between the points by their logarithms; of the fastest way there.
-fn time_to(points: &[&Point], target: f64) -> Option<f64> {
+/// The time to an error, between the points by their logarithms; of the fastest way there. None to an error below the least one
+/// that is told from 0.
+fn time_to(points: &[&Point], target: f64, floor: f64) -> Option<f64> {
+    if target < floor {
+        return None;
+    }
     let reaching = points.iter().filter(|point| point.error <= target);
     let reached = reaching.map(|point| point.seconds).reduce(f64::min)?;
     let pairs = points.windows(2).filter_map(|pair| {
@@ -22,6 +26,14 @@ fn time_to(points: &[&Point], target: f64) -> Option<f64> {
         Some((a.seconds.ln() + part * (b.seconds / a.seconds).ln()).exp())
     });
     Some(pairs.fold(reached, f64::min))
+}
+
+/// An error, or that it is below the least one that is told from 0.
+fn error(value: f64, floor: f64) -> String {
+    match value < floor {
+        true => format!("< {}", short(floor)),
+        false => short(value),
+    }
 }
 
 /// How a method does: the times to the targets, its least error, its name and order.
@@ -36,9 +48,16 @@ pub(super) struct Line<'a> {
 }
 
 /// The methods by the time to 1e-6; those that do not come there behind, by how far they come.
-pub(super) fn lines<'a>(bed: &Bed, points: &'a [Point]) -> Vec<Line<'a>> {
+pub(super) fn lines<'a>(
+    bed: &Bed,
+    points: &'a [Point],
+    reference: Option<Reference>,
+) -> Vec<Line<'a>> {
+    let floor = reference.map_or(0.0, |reference| reference.floor);
     let line = |(method, points): (&'a str, Vec<&Point>)| {
-        let times = TARGETS.iter().map(|&target| time_to(&points, target));
+        let times = TARGETS
+            .iter()
+            .map(|&target| time_to(&points, target, floor));
         let order = order_of(bed, method).map_or("–".to_owned(), |order| order.to_string());
         Line {
             times: times.collect(),
@@ -59,7 +78,14 @@ pub(super) fn lines<'a>(bed: &Bed, points: &'a [Point]) -> Vec<Line<'a>> {
 }
 
 /// The table of these.
-pub(super) fn cells(lines: &[Line<'_>], measure: Measure) -> Vec<Vec<String>> {
+pub(super) fn cells(
+    lines: &[Line<'_>],
+    measure: Measure,
+    reference: Option<Reference>,
+) -> Vec<Vec<String>> {
+    let [floor, floor_across] = reference.map_or([0.0; 2], |reference| {
+        [reference.floor, reference.error.max(reference.difference)]
+    });
     let fastest: Vec<f64> = (0..TARGETS.len())
         .map(|k| {
             let times = lines.iter().filter_map(|line| line.times[k]);
@@ -82,8 +108,8 @@ pub(super) fn cells(lines: &[Line<'_>], measure: Measure) -> Vec<Vec<String>> {
                 None => "–".to_owned(),
             });
         }
-        row.push(short(line.least));
-        row.extend(line.across.map(short));
+        row.push(error(line.least, floor));
+        row.extend(line.across.map(|across| error(across, floor_across)));
         row.push(percent(line.spread));
         cells.push(row);
     }
@@ -100,4 +126,25 @@ pub(super) fn micro(seconds: f64) -> String {
 fn order_of(bed: &Bed, label: &str) -> Option<u32> {
     let choice = bed.choices.iter().find(|choice| choice.label() == label)?;
     choice.entry().map(|method| method.order)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::point;
+    use super::*;
+
+    #[test]
+    fn below_the_floor_nothing_is_told() {
+        let points = [
+            point("rk4", 0.1, 1e-4, 1e-6),
+            point("rk4", 0.01, 1e-12, 1e-4),
+        ];
+        let points: Vec<&Point> = points.iter().collect();
+        let time = time_to(&points, 1e-8, 1e-9).unwrap();
+        assert!((time - 1e-5).abs() < 1e-12, "{time}");
+        assert_eq!(time_to(&points, 1e-12, 0.0), Some(1e-4));
+        assert_eq!(time_to(&points, 1e-12, 1e-11), None);
+        assert_eq!(error(3e-12, 2e-12), "3.0e-12");
+        assert_eq!(error(1e-12, 2e-12), "< 2.0e-12");
+    }
 }
