@@ -353,3 +353,18 @@ fn wrong_options() {
     assert_eq!(run.code, Some(1));
     run.says("io", "/no/such/folder/x.csv");
 }
+
+/// What was measured is said where it cannot be written.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_leaves_the_table() {
+    let folder = folder();
+    let out = folder.path().join("full.csv");
+    std::os::unix::fs::symlink("/dev/full", &out).expect("a link");
+    let run = lie(&format!(
+        "bench specs/so3_free_rigid_body.json --methods rk4 --until 1 --budget 0.01 --out {}",
+        out.display()
+    ));
+    assert_eq!(run.code, Some(1));
+    assert!(run.stdout.contains("to 1e-3") && run.stderr.contains("No space left"));
+}

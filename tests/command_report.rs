@@ -249,3 +249,18 @@ fn a_browser_draws_it() {
         "an empty canvas is seen"
     );
 }
+
+/// Three coordinates alone are no orbit: a surface needs a Casimir. A comparison that cannot be made does not take the page with it.
+#[test]
+fn systems_without_an_orbit_or_a_comparison() {
+    let folder = folder();
+    let path = spec(folder.path(), |spec| {
+        spec["algebra"] = "bianchi(IV)".into();
+        spec["casimirs"] = serde_json::json!([]);
+    });
+    let name = path.to_str().expect("UTF-8");
+    let text = page(&[name, "--until", "1", "--no-bench"]);
+    assert!(!text.contains("id=\"orbit\""));
+    let still = page(&[BODY, "--initial", "1, 0, 0", "--until", "1"]);
+    assert!(still.contains("nothing can be compared on FreeRigidBody"));
+}

@@ -251,6 +251,41 @@ fn a_step_over_a_singularity_stops_the_run() {
     assert!(rows.len() > 10 && rows.iter().flatten().all(|value| value.is_finite()));
 }
 
+/// Points of a representation, from its columns, move as the state does, whatever the invariance.
+#[test]
+fn methods_on_points_of_a_right_invariant_system() {
+    let end = |method: &str| {
+        let run = lie(&format!(
+            "run tests/data/declarations/pass/right_invariance.json --quiet --method {method} --step 0.01 --until 1"
+        ));
+        let (_, rows) = run.ok().csv();
+        rows.last().expect("the last row")[1..4].to_vec()
+    };
+    let exact = end("gauss8");
+    for method in ["isospectral8", "collective8", "collective16"] {
+        for (one, other) in end(method).iter().zip(&exact) {
+            assert!((one - other).abs() < 1e-12, "{method}: {one} and {other}");
+        }
+    }
+}
+
+/// The increments of a rotation at a constant rate are linear in time: their high coefficients are round-off, single ones zero.
+#[test]
+fn a_series_whose_last_terms_are_round_off_goes_on() {
+    let folder = folder();
+    let path = spec(folder.path(), |spec| {
+        spec["hamiltonian"] = "(x + y + z)^2".into();
+        spec["initial"] = serde_json::json!(["3/10", "2/5", "1/2"]);
+    });
+    for tolerance in ["1e-12", "1e-15"] {
+        let run = lie(&format!(
+            "run {} --quiet --method lie-taylor --rtol {tolerance} --step 1/20 --until 7",
+            path.display()
+        ));
+        assert_eq!(run.ok().csv().1.len(), 141);
+    }
+}
+
 #[test]
 fn fused_multiply_add_has_other_bits_and_is_asked_for() {
     let flags = "--method rk4 --step 0.05 --until 2";

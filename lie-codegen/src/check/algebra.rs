@@ -37,9 +37,15 @@ impl Algebra {
     fn opposite(self) -> Self {
         let mut representation = self.representation;
         if let Some(representation) = &mut representation {
-            // The triple product of three matrices changes its sign with them.
+            // What is dual changes its sign with the matrices, and so does the triple product of three of them.
             let dual = representation.dual.iter_mut().flatten();
-            let matrices = representation.matrices.iter_mut().chain(dual);
+            let columns = representation.columns.iter_mut();
+            let covectors = columns.flat_map(|columns| &mut columns.covectors);
+            let matrices = representation
+                .matrices
+                .iter_mut()
+                .chain(dual)
+                .chain(covectors);
             for entry in matrices.flatten().flatten() {
                 *entry = -&*entry;
             }

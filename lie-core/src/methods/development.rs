@@ -75,12 +75,17 @@ impl Pace {
                 (last, before) = (f64::max(last, a), f64::max(before, b));
             }
             if scale <= 0.0 {
+                let first = (0..count).fold(0.0, |first: f64, i| first.max(entry(1, i)));
                 let ratio = if last > 0.0 && order > 1 {
-                    before / last
+                    match before > 0.0 {
+                        true => before / last,
+                        // the last one alone is not zero where all of them are round-off
+                        false => exp2(log2(first / last) / (order - 1) as f64),
+                    }
                 } else {
                     1.0
                 };
-                scale = (0..count).fold(0.0, |scale: f64, i| scale.max(entry(1, i) * ratio));
+                scale = first * ratio;
             }
             let radius = |size: f64, order: usize| match size > 0.0 {
                 true => exp2(log2(scale / size) / order as f64),

@@ -108,14 +108,13 @@ pub fn run(arguments: &args::Bench) -> Result<u8, Failure> {
     let points = &results.points;
     let picture = || picture::draw(&bed, &options, points, results.reference);
     let wanted = !points.is_empty();
-    files::write(
-        out,
-        arguments.out.as_deref(),
-        wanted.then(|| csv(points, measure)),
-    )?;
-    files::write(plot, arguments.plot.as_deref(), wanted.then(picture))?;
     let quiet = Quiet::of(points, results.clock);
-    print(&report(&bed, &options, &results, &quiet, program.engine()))?;
+    // a file that cannot be written does not take the table with it, nor the other way round
+    let printed = print(&report(&bed, &options, &results, &quiet, program.engine()));
+    let table = || csv(points, measure);
+    let written = files::write(out, arguments.out.as_deref(), wanted.then(table));
+    files::write(plot, arguments.plot.as_deref(), wanted.then(picture))?;
+    written.and(printed)?;
     if let (Some(warning), false) = (quiet.warning(), flags.quiet) {
         eprintln!("warning: {warning}");
     }

@@ -79,10 +79,12 @@ pub fn run(arguments: &args::Stress) -> Result<u8, Failure> {
     results.sort(&labels, &names);
     let wanted = !results.cells.is_empty();
     let table = || csv(&results);
-    files::write(out, arguments.out.as_deref(), wanted.then(table))?;
     let picture = || picture(&bed, &results.cells, results.step);
+    // a file that cannot be written does not take the table with it, nor the other way round
+    let printed = print(&report(&bed, &results, steps));
+    let written = files::write(out, arguments.out.as_deref(), wanted.then(table));
     files::write(plot, arguments.plot.as_deref(), wanted.then(picture))?;
-    print(&report(&bed, &results, steps))?;
+    written.and(printed)?;
     if let Ended::Interrupted(code) = ended {
         return Ok(interrupted(flags, code));
     }

@@ -55,9 +55,30 @@ pub(super) struct Said {
 }
 
 impl Report<'_> {
-    /// Calls the command with these words; files that they name are in the folder of the report, and are shown by their
-    /// names. None where a signal has ended the report.
+    /// Calls the command with these words. None where a signal has ended the report.
+    ///
+    /// # Errors
+    /// Invalid input, which the called command has told of.
     pub(super) fn call(
+        &mut self,
+        words: &[String],
+        files: &[(&str, &str)],
+    ) -> Result<Option<(String, Said)>, Failure> {
+        let called = self.attempt(words, files)?;
+        if let Some((_, said)) = &called
+            && said.code == INVALID
+        {
+            eprint!("{}", said.error);
+            return Err(Failure {
+                messages: Vec::new(),
+                code: INVALID,
+            });
+        }
+        Ok(called)
+    }
+
+    /// The same, whatever the command says. Files that the words name are in the folder of the report, and are shown by their names.
+    pub(super) fn attempt(
         &mut self,
         words: &[String],
         files: &[(&str, &str)],
@@ -96,14 +117,6 @@ impl Report<'_> {
             out: text(&output.stdout),
             error: text(&output.stderr),
         };
-        if said.code == INVALID {
-            // the command has said what is wrong with the input
-            eprint!("{}", said.error);
-            return Err(Failure {
-                messages: Vec::new(),
-                code: INVALID,
-            });
-        }
         Ok(Some((shell::line(&line), said)))
     }
 

@@ -7,6 +7,7 @@ use super::call::Said;
 use super::{Report, mathematics, scene};
 use crate::build;
 use crate::command::method;
+use crate::command::run::picture::choice::no_orbit;
 use crate::command::run::values::Given;
 use crate::message::{Failure, STOPPED};
 
@@ -83,6 +84,7 @@ impl Report<'_> {
                 };
                 self.page.text(text);
                 self.page.stopped(&said.error);
+                eprint!("{}", said.error);
             }
         }
     }
@@ -99,7 +101,7 @@ impl Report<'_> {
     fn space(&mut self, words: &[String]) -> Result<(), Failure> {
         let model = &self.spec.model;
         match model.dimension() {
-            3 if model.family.is_none() => {
+            3 if model.family.is_none() && no_orbit(model).is_none() => {
                 if let Some(scene) = self.scene() {
                     let surface = leaf(model);
                     self.page.section(&format!("On its {surface}"));
@@ -223,7 +225,8 @@ impl Report<'_> {
                 .iter()
                 .flat_map(|value| ["--param".to_owned(), value.clone()]),
         );
-        let Some((line, said)) = self.call(&words, &[("--plot", "bench.svg")])? else {
+        // what a comparison alone cannot do, at an equilibrium for one, is said in its section
+        let Some((line, said)) = self.attempt(&words, &[("--plot", "bench.svg")])? else {
             return Ok(());
         };
         self.page.section("Error against run time");

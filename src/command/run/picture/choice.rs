@@ -1,5 +1,6 @@
 //! `--picture`: components, orbit, phase, section, attitude, compare.
 
+use lie_codegen::model::Model;
 use lie_codegen::structure::group;
 use lie_codegen::suggest::did_you_mean;
 use lie_in_process::words::counted;
@@ -117,43 +118,56 @@ fn few(kind: Kind, several: &Several) -> Result<Kind, Message> {
 }
 
 fn orbit(spec: &Spec, given: &Given) -> Result<Kind, Message> {
-    let model = &spec.model;
+    match no_orbit(&spec.model) {
+        Some(why) => Err(given.wrong(why).help(elsewhere(&spec.model))),
+        None => Ok(Kind::Orbit),
+    }
+}
+
+/// What is drawn of systems of which a picture says nothing.
+fn elsewhere(model: &Model) -> &'static str {
+    match model.dimension() {
+        1 if model.family.is_none() => "take `--picture components`",
+        _ => "take `--picture phase`, which draws one coordinate against another",
+    }
+}
+
+/// Why no orbit is drawn of a system; none where one is.
+pub fn no_orbit(model: &Model) -> Option<String> {
     let n = model.dimension();
-    let other = "`--picture phase` draws one coordinate against another for every system";
-    let refuse = |text: String| Err(given.wrong(text).help(other));
     if model.family.is_some() {
-        return refuse(format!(
+        return Some(format!(
             "{} is a family, and orbits are drawn of systems with 3 coordinates",
             model.name
         ));
     }
     if model.configuration.as_ref().is_some_and(|c| c.time) {
-        return refuse(format!(
+        return Some(format!(
             "the Hamiltonian of {} depends on the time, and an orbit has level curves of one that does not",
             model.name
         ));
     }
     if n != 3 {
-        return refuse(format!(
+        return Some(format!(
             "{} has {}, and orbits are drawn of systems with 3",
             model.name,
             counted(n as u64, "coordinate")
         ));
     }
     if model.casimirs.len() != 1 {
-        return refuse(format!(
+        return Some(format!(
             "{} has {} Casimirs, and an orbit that is a surface has one",
             model.name,
             model.casimirs.len()
         ));
     }
     if build::declared(model).is_none() {
-        return refuse(format!(
+        return Some(format!(
             "the Hamiltonian of {} is not known to the command as an expression",
             model.name
         ));
     }
-    Ok(Kind::Orbit)
+    None
 }
 
 fn attitude(spec: &Spec, several: &Several, given: &Given) -> Result<Kind, Message> {
@@ -166,7 +180,7 @@ fn attitude(spec: &Spec, several: &Several, given: &Given) -> Result<Kind, Messa
         }),
     };
     if let Some(text) = wrong {
-        return Err(given.wrong(text).help("`--picture phase` draws any system"));
+        return Err(given.wrong(text).help(elsewhere(&spec.model)));
     }
     match followed {
         true => Ok(Kind::Attitude),
@@ -234,7 +248,7 @@ fn section(
         } else {
             format!("the Hamiltonian of {name} is not known to the command as an expression")
         };
-        return Err(given.wrong(text).help("take `--picture phase`"));
+        return Err(given.wrong(text).help(elsewhere(model)));
     }
     let (place, value) = match rest {
         None => (0, 0.0),

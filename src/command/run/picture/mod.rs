@@ -1,6 +1,6 @@
 //! What `--plot` draws of runs, as `--picture` says.
 
-mod choice;
+pub mod choice;
 mod file;
 mod section;
 
