@@ -129,3 +129,19 @@ def test_what_is_none_of_that_is_refused(number: int) -> None:
     call, error, says = WRONG[number]
     with pytest.raises(error, match=says):
         call(body())
+
+
+def test_one_state_goes_with_many_parameters_and_the_declared_times_have_the_end() -> None:
+    body = lp.System(
+        algebra="so(3)",
+        state=["x", "y", "z"],
+        parameters={"a": 2},
+        hamiltonian="x^2/a + y^2 + z^2/3",
+        run={"at": [1, 3, 2]},
+    )
+    many = body.ensemble([0.8, 0.1, 0.6], "rk4", h=0.1, a=np.array([1.0, 2.0]))
+    assert many.t.tolist() == [3.0]
+    alone = body.run("rk4", h=0.1, t=3, x0=[0.8, 0.1, 0.6], a=2.0)
+    assert (many.mu[1] == alone.mu[-1]).all()
+    with pytest.raises(TypeError, match="leave out"):
+        body.ensemble([0.8, 0.1, 0.6], "rk4", h=0.1, at=[1, 2], every=2)

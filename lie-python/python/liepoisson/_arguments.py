@@ -56,18 +56,27 @@ def hint(name: str, known: Sequence[str]) -> str:
     return f"; did you mean `{near}`?" if near else ""
 
 
+# so many names of what there is are told
+_NAMED = 40
+
+
 def among(name: object, known: Sequence[str]) -> str:
     """What is meant by an unknown name, and what there is."""
     near = hint(str(name), known) or "."
-    return f"{near} There are: {', '.join(known) or 'none'}"
+    more = ", …" if len(known) > _NAMED else ""
+    return f"{near} There are: {', '.join(known[:_NAMED]) or 'none'}{more}"
 
 
 def floats(value: Any, what: str) -> Array:
     """An array of double precision; complex numbers and text are none."""
+    if np.ma.is_masked(value):
+        raise TypeError(f"{what} is masked: give all of its numbers, such as {what}.filled(0)")
     try:
         found = np.asarray(value)
         if found.dtype.kind in "biuf" or found.dtype.kind == "O":
             return found.astype(np.float64)
+    except OverflowError:
+        raise ValueError(f"{what} has a number beyond the range of double precision") from None
     except (TypeError, ValueError):
         raise TypeError(f"{what} must be an array of numbers, not {value!r}") from None
     raise TypeError(f"{what} must be an array of real numbers, and has the type {found.dtype}")
@@ -90,6 +99,8 @@ def number(value: Number, what: str) -> float:
     try:
         if np.ndim(value) == 0 and not isinstance(value, (bool, np.bool_)):
             return float(value)
+    except OverflowError:
+        raise ValueError(f"{what} is beyond the range of double precision") from None
     except (TypeError, ValueError):
         pass
     raise TypeError(f"{what} must be a number or text such as '1/7', not {value!r}")
@@ -148,12 +159,17 @@ def times_of(
             raise ValueError("times of `at` lie on one side of 0: make a run for each side")
         found.sort(key=abs)
         return found[-1], 1, found
-    until = options.get("until", [str(UNTIL)])
+    last = max(options.get("at", [str(UNTIL)]), key=lambda time: abs(_core.constant(time)))
+    until = options.get("until", [last])
     end = _core.constant(until[0]) if t is None else number(t, "t")
     if not np.isfinite(end):
         raise ValueError(f"t is {end}, and must be finite")
-    count = every if every is not None else int(options.get("every", ["1"])[0])
-    return end, count, None
+    if every is None:
+        told = _core.constant(options.get("every", ["1"])[0])
+        if not (told.is_integer() and told >= 1):
+            raise ValueError(f"`every` of the declaration is {told:g}, and must be 1, 2, 3, …")
+        every = int(told)
+    return end, every, None
 
 
 def declared(name: str, value: object, options: Mapping[str, list[str]]) -> object:

@@ -127,7 +127,9 @@ class Bench:
         for method in self.methods:
             cells = [f"{time[method] * 1e6:.3g}" if method in time else "–" for time in times]
             least = self.of(method)["error"].min()
-            rows.append([method, *cells, f"< {self.floor:.1e}" if least < self.floor else f"{least:.1e}"])
+            rows.append(
+                [method, *cells, f"< {self.floor:.1e}" if least < self.floor else f"{least:.1e}"]
+            )
         return head, rows
 
     def _title(self) -> str:

@@ -27,6 +27,7 @@ from ._arguments import (
 from ._check import Check
 from ._check import read as read_check
 from ._errors import DeclarationError
+from ._latex import as_latex
 from ._methods import Methods, labels_of
 from ._sites import Sites
 
@@ -290,6 +291,7 @@ class Declared:
                 for line in lines
                 if not line.startswith(tuple(f"{name}'" for name in hidden))
             ]
+        lines = lines or [r"the Hamiltonian is not known as a formula"]
         body = r" \\ ".join(as_latex(line).replace("=", "&=", 1) for line in lines)
         return r"\begin{aligned}" + body + r"\end{aligned}"
 
@@ -303,18 +305,3 @@ def plain(value: Any) -> Any:
     if isinstance(value, Rational):
         return str(value)
     raise TypeError(f"{value!r} cannot stand in a declaration: give numbers and text")
-
-
-def as_latex(text: str) -> str:
-    # sums over the sites of a family, and their indices
-    axis = r"(\w+) in ([^,:]*?)\.\.([^,:]*)"
-    text = re.sub(
-        rf"sum\(({axis}(?:, {axis})?): ",
-        lambda head: re.sub(axis + r"(?:, )?", r"\\sum_{\2 \\le \1 < \3} ", head[1]) + "(",
-        text,
-    )
-    text = re.sub(r"\[([^\]]*)\]", r"_{\1}", text)
-    text = re.sub(r"([A-Za-z]+)_?(\d+)(?![\d^])", r"\1_{\2}", text)
-    text = re.sub(r"\^(\d+)", r"^{\1}", text)
-    text = re.sub(r"\b(sqrt|exp|log|sin|cos|tan)\(", r"\\\1(", text)
-    return text.replace("*", r"\,")

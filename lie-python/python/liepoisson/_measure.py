@@ -44,8 +44,13 @@ def _end(system: Declared, t: Number | None) -> float:
     return end
 
 
+def _names(system: Declared, values: list[float]) -> list[str]:
+    """The coordinates, of a family those of all sites."""
+    return system._core.names_of_sites(values) if system._core.family else system._core.coordinates
+
+
 def _plane(
-    system: Declared, measure: str, section: tuple[str, Number] | None
+    system: Declared, names: list[str], measure: str, section: tuple[str, Number] | None
 ) -> tuple[int, float] | None:
     if section is None:
         return None
@@ -57,9 +62,10 @@ def _plane(
             f"section is a coordinate and its value, such as {example}, not {section!r}"
         )
     name, value = section
-    if name not in system.coordinates:
-        raise ValueError(f"section: no coordinate `{name}`{among(name, system.coordinates)}")
-    return system._core.coordinates.index(name), number(value, "the value of the section")
+    shown = names if system._core.family else system.coordinates
+    if name not in shown:
+        raise ValueError(f"section: no coordinate `{name}`{among(name, shown)}")
+    return names.index(name), number(value, "the value of the section")
 
 
 def start_of(
@@ -99,9 +105,10 @@ def measured(
     budget = number(budget, "budget")
     if not (np.isfinite(budget) and budget > 0):
         raise ValueError(f"budget is {budget:g}, and must be seconds, such as budget=0.2")
-    end, plane = _end(system, t), _plane(system, measure, section)
+    end, plane = _end(system, t), _plane(system, _names(system, begin[0]), measure, section)
     found = system._core.bench(labels, begin, (end, budget, measure, plane), heard(progress))
     passed = found["section"]
+    names = _names(system, begin[0])
     result = Bench(
         system.name,
         measure,
@@ -110,7 +117,7 @@ def measured(
         found["stopped"],
         found["reference"],
         found["floor"],
-        None if passed is None else (system._core.coordinates[passed[0]], passed[1], passed[2]),
+        None if passed is None else (names[passed[0]], passed[1], passed[2]),
         "processor" if found["processor"] else "wall",
         not found["interrupted"],
     )

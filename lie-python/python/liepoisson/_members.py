@@ -17,8 +17,22 @@ if TYPE_CHECKING:
 
 def members_of(system: Declared, x0: npt.ArrayLike, parameters: Mapping[str, Any]) -> Array:
     """The initial states, with what carries the time or the group element where the user left it out."""
+    if x0 is None:
+        raise TypeError("the initial states are missing: one in each row of x0, or a single one")
+    if any(np.size(value) == 0 for value in parameters.values()):
+        raise ValueError("a parameter is an empty array: there are no members")
     if system._core.family:
-        return members_of_family(system, x0, parameters)
+        return _each(members_of_family(system, x0, parameters), parameters)
+    return _each(_members_of_one(system, x0), parameters)
+
+
+def _each(starts: Array, parameters: Mapping[str, Any]) -> Array:
+    """A single initial state for each member that the parameters make."""
+    members = max((np.size(value) for value in parameters.values()), default=1)
+    return np.repeat(starts, members, axis=0) if len(starts) == 1 else starts
+
+
+def _members_of_one(system: Declared, x0: npt.ArrayLike) -> Array:
     starts = np.ascontiguousarray(np.atleast_2d(floats(x0, "x0")))
     n = system.dimension
     if starts.ndim == 2 and starts.shape[1] != len(system._core.coordinates):
@@ -43,14 +57,17 @@ def members_of_family(system: Declared, x0: npt.ArrayLike, parameters: Mapping[s
             raise ValueError("all members of an ensemble have as many sites: run them one by one")
     given = floats(x0, "x0")
     one = given.shape in ((sites[0].dimension,), (*sites[0].shape, sites[0].each))
-    return np.stack([sites[0].state(member) for member in (given[None] if one else given)])
+    states = [sites[0].state(member) for member in np.atleast_1d(given[None] if one else given)]
+    return np.reshape(states, (len(states), sites[0].dimension))
 
 
 def table_of(system: Declared, parameters: Mapping[str, Any], members: int) -> Array:
     """The values of the parameters: a row for each member, or one for all."""
     lengths = {name: np.size(value) for name, value in parameters.items()}
     if any(length not in (1, members) for length in lengths.values()):
-        raise ValueError(f"parameters have lengths {lengths}, x0 has {members} members")
+        raise ValueError(
+            f"parameters have lengths {lengths}, x0 has {members} members: give as many values as rows, or one of either"
+        )
     varied = any(length > 1 for length in lengths.values())
     count = members if varied else 1
     scalars = system._values({name: np.ravel(value)[0] for name, value in parameters.items()})

@@ -115,6 +115,8 @@ class Solution:
 
     def plot(self, *, show: bool = False) -> Any:
         """Draws the components and the errors of the invariants with matplotlib; returns the figure."""
+        if not len(self.t):
+            raise ValueError("there are no rows to draw")
         figure = new_figure((8, 6), "plot()")
         self._draw(figure)
         return shown(figure, show)

@@ -150,7 +150,7 @@ class System(Declared):
         parameters: Mapping[str, Any] | None = None,
         **named: Any,
     ) -> Ensemble:
-        """Many trajectories, from the rows of ``x0`` (shape (m, n)); parameters may be arrays of length m.
+        """Many trajectories, from the rows of ``x0`` (shape (m, n)); parameters may be arrays of length m, and x0 a single state.
 
         The ends are kept, or with ``every`` each so-manyth step, with ``at`` these times. With ``tol`` in the place of ``h`` each
         member has a step of its own, and `every` is not taken. Other arguments are those of :meth:`run`. The bits do not
@@ -170,10 +170,7 @@ class System(Declared):
         starts = members_of(self, x0, parameters)
         table = table_of(self, parameters, len(starts))
         options = self._core.run_options()
-        # rows of the declaration are for single runs
-        for name in ("at", "every"):
-            options.pop(name, None)
-        end, _, times = times_of(t, at, every, options)
+        end, _, times = times_of(t, at, 1 if every is None and at is None else every, options)
         count = (os.cpu_count() or 1) if threads is None else whole(threads, "threads", 1)
         solver: dict[str, object] = {
             "iteration": iteration,
