@@ -9,6 +9,7 @@
 pub mod catalogue;
 pub mod evidence;
 pub mod families;
+pub mod formula;
 pub mod list;
 pub mod members;
 pub mod report;

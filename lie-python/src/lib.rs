@@ -214,6 +214,11 @@ impl Core {
         self.0.with_model(py, |model| report::equations(&model))
     }
 
+    /// Lines of these as LaTeX, one below the other.
+    fn latex(&self, py: Python<'_>, lines: Vec<String>) -> String {
+        self.0.with_model(py, |model| report::latex(&model, &lines))
+    }
+
     /// One trajectory: times, states, energies and Casimirs; the step; what ended it early.
     fn run<'py>(
         &self,

@@ -7,6 +7,7 @@ use lie_codegen::methods::{CATALOGUE, Choice, applicability};
 use lie_codegen::model::Model;
 use lie_dynamic::Dynamic;
 use lie_in_process::catalogue;
+use lie_in_process::formula::{Latex, formula, names};
 use lie_in_process::report::Report;
 use pyo3::prelude::*;
 use serde_json::{Value, json};
@@ -41,6 +42,13 @@ pub fn equations(model: &Model) -> Vec<String> {
         (_, Some(family)) => vec![format!("H = {}", model.display_of_family(family))],
         _ => explicit,
     }
+}
+
+/// Formulas of a system as lines of LaTeX.
+pub fn latex(model: &Model, lines: &[String]) -> String {
+    let names = names(model);
+    let lines = lines.iter().map(|line| formula(line, &names, &Latex));
+    lines.collect::<Vec<_>>().join(r" \\ ")
 }
 
 /// Whether a method runs without a compiler of Rust; a composition by that of the midpoint rule.

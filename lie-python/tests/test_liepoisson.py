@@ -216,6 +216,25 @@ def test_pictures_and_text() -> None:
     assert "gauss4" in repr(run)
 
 
+def test_latex_shows_what_was_written() -> None:
+    top = lp.System(
+        algebra="so(3)",
+        state=["x1", "y", "z"],
+        parameters={"k_rot": 2},
+        hamiltonian="x1^2/2 + k_rot*y^2",
+    )
+    assert r"x_{1}' &=" in top.latex() and r"k_{\mathrm{rot}}" in top.latex()
+    ring = lp.System(
+        algebra="so(3)^N",
+        state=["x[i]", "y[i]", "z[i]"],
+        parameters={"N": 4},
+        hamiltonian="sum(i in 0..N: x[i])^2/(2*N)",
+    )
+    assert r"\left(\sum_{0 \le i < N} x_{i}\right)^{2}" in ring.latex()
+    quartic = pathlib.Path(__file__).parents[2] / "specs" / "so3_quartic_lagrangian.json"
+    assert lp.load(quartic).latex().count(r"\text{the Hamiltonian is not known") == 1
+
+
 def test_every_key_of_a_run_in_the_declaration_counts() -> None:
     def run(**keys: object) -> lp.Solution:
         return lp.System(BODY, initial=START, run=keys).run()

@@ -33,7 +33,7 @@ mod text;
 mod token;
 mod vectors;
 
-pub use names::Names;
+pub use names::{Names, PIECEWISE};
 pub use place::line_column;
 pub use schema::schema;
 

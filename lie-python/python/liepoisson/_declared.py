@@ -27,7 +27,6 @@ from ._arguments import (
 from ._check import Check
 from ._check import read as read_check
 from ._errors import DeclarationError
-from ._latex import as_latex
 from ._methods import Methods, labels_of
 from ._sites import Sites
 
@@ -291,8 +290,7 @@ class Declared:
                 for line in lines
                 if not line.startswith(tuple(f"{name}'" for name in hidden))
             ]
-        lines = lines or [r"the Hamiltonian is not known as a formula"]
-        body = r" \\ ".join(as_latex(line).replace("=", "&=", 1) for line in lines)
+        body = self._core.latex(lines) or r"\text{the Hamiltonian is not known as a formula}"
         return r"\begin{aligned}" + body + r"\end{aligned}"
 
 

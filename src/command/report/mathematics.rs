@@ -3,6 +3,7 @@
 use lie_codegen::front::Names;
 use lie_codegen::model::Model;
 use lie_codegen::plan::plan;
+use lie_in_process::formula::names;
 
 use super::mathml::{formula, identifier};
 
@@ -64,23 +65,6 @@ pub fn of(model: &Model) -> Vec<(&'static str, Vec<String>)> {
         }
     }
     all
-}
-
-/// The names that formulas contain.
-fn names(model: &Model) -> Names {
-    let coordinates = model.coordinates.iter().map(|name| name.text.clone());
-    let parameters = model
-        .parameters
-        .iter()
-        .map(|parameter| parameter.name.clone());
-    let basis = model
-        .bracket
-        .algebra()
-        .into_iter()
-        .flat_map(|algebra| algebra.basis.iter());
-    let basis = basis.map(|name| name.text.clone());
-    let all: Names = coordinates.chain(parameters).chain(basis).collect();
-    all.of_family(model.family.is_some())
 }
 
 /// `[e1, e2] = e3`
