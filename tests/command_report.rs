@@ -122,6 +122,7 @@ fn what_was_computed_stays() {
         &out,
     );
     assert_eq!(run.code, Some(3), "{}", run.stderr);
+    assert!(run.stderr.contains("stopped in step"), "{}", run.stderr);
     let text = std::fs::read_to_string(&out).expect("the page");
     assert!(text.contains("stopped early") && text.contains("class=\"stopped\""));
     assert!(

@@ -1,5 +1,5 @@
-"""100,000 rigid bodies with initial states of the normal distribution until t = 10, by lie-poisson, heyoka's batches and SciPy, side by side: the table of
-docs/python.md.
+"""100,000 rigid bodies with initial states of the normal distribution until t = 10, by lie-poisson, heyoka's batches and SciPy, side by
+side: the table of docs/python.md.
 
     pip install liepoisson scipy heyoka
     python tools/ensembles.py [--members 100000] [--rounds 3]
@@ -106,9 +106,9 @@ def main():
     try:
         import heyoka
 
-        for tolerance in (2.2e-16, 1e-8):
-            run = heyoka_batches(factors, tolerance)
-            rows.append((f"heyoka {heyoka.__version__}, batches of 8, tolerance {tolerance:g}", 1, 1.0, lambda r=run: r(start)))
+        for tolerance in ("2.2e-16", "1e-8"):
+            run = heyoka_batches(factors, float(tolerance))
+            rows.append((f"heyoka {heyoka.__version__}, batches of 8, tolerance {tolerance}", 1, 1.0, lambda r=run: r(start)))
     except ImportError:
         print("heyoka is left out: pip install heyoka", file=sys.stderr)
     try:
@@ -133,7 +133,7 @@ def main():
     print("|---|---|---|---|")
     for name, error in errors.items():
         cells = [f"{statistics.median(times[name, threads]):.3g}" if (name, threads) in times else "" for threads in (1, 2)]
-        print(f"| {name} | {cells[0]} | {cells[1]} | {error:.0e} |")
+        print(f"| {name} | {cells[0]} | {cells[1]} | {error:.0e} |".replace("e-0", "e-"))
 
 
 if __name__ == "__main__":

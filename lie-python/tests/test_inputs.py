@@ -143,5 +143,6 @@ def test_one_state_goes_with_many_parameters_and_the_declared_times_have_the_end
     assert many.t.tolist() == [3.0]
     alone = body.run("rk4", h=0.1, t=3, x0=[0.8, 0.1, 0.6], a=2.0)
     assert (many.mu[1] == alone.mu[-1]).all()
+    assert body.run("rk4", h=0.1, every=10, x0=[0.8, 0.1, 0.6]).t.tolist() == [0, 1, 2, 3]
     with pytest.raises(TypeError, match="leave out"):
         body.ensemble([0.8, 0.1, 0.6], "rk4", h=0.1, at=[1, 2], every=2)

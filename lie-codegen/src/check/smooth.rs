@@ -25,7 +25,8 @@ fn warning(joint: &Joint) -> Option<(String, &'static str)> {
     match joint.jump? {
         0 => Some((
             format!(
-                "the function jumps where {place}: no energy is kept across it, no method has an order there, and `taylor` and `lie-taylor` go on as if it were not there"
+                "the function jumps where {place}: no energy is kept across it, no method has an order there, and `taylor` and `lie-taylor` \
+                 go on as if it were not there"
             ),
             "make the branches equal where they meet",
         )),

@@ -251,3 +251,53 @@ impl Factorisation<'_> {
 fn local(i: usize, j: usize) -> Ident {
     format_ident!("_a{i}_{j}")
 }
+
+/// `factor` and `solve` of the Jacobian of an equation: written out, or from an index list where that would be long.
+pub(super) fn methods(elimination: &Elimination) -> TokenStream {
+    let (fill, multiplications) = (elimination.fill.len(), elimination.multiplications());
+    let cost =
+        format!("{fill} entries of fill-in: {multiplications} multiplications with the solution.");
+    if !elimination.is_unrolled() {
+        let doc = format!(" Sparse elimination from an index list, {cost}");
+        return quote! {
+            #[doc = #doc]
+            fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
+                Self::ELIMINATION.factor(matrix)
+            }
+
+            fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
+                Self::ELIMINATION.solve(factors, residual);
+            }
+        };
+    }
+    let factor = elimination.factor_tokens(&|i, j| place("matrix", i, j), &|i, j, value| {
+        let place = place("matrix", i, j);
+        quote! { #place = #value; }
+    });
+    let solve = elimination.solve_tokens(&|i, j| place("factors", i, j), &|i| {
+        let i = index(i);
+        quote! { residual[#i] }
+    });
+    let doc = format!(
+        " Sparse elimination in the order {:?}, {cost}",
+        elimination.order
+    );
+    quote! {
+        #[doc = #doc]
+        #[inline]
+        fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
+            #factor
+        }
+
+        #[inline]
+        fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
+            #solve
+        }
+    }
+}
+
+/// An entry of a matrix.
+fn place(matrix: &str, i: usize, j: usize) -> TokenStream {
+    let (matrix, i, j) = (ident(matrix), index(i), index(j));
+    quote! { #matrix[(#i, #j)] }
+}

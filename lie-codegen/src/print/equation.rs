@@ -3,11 +3,10 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-use super::Printer;
 use super::function::{Body, Owner, matrix_entries, vector_writes};
 use super::names::{ident, index};
+use super::{Printer, elimination};
 use crate::derive::Shape;
-use crate::plan::elimination::Elimination;
 use crate::plan::{Chart, Constants, Ending, Function, Fused, Guess, Motion, Partner};
 use crate::schedule::Value;
 use crate::symbolic::Symbol;
@@ -143,7 +142,7 @@ impl Printer<'_> {
         let ending = self.ending(fused);
         let guess = initial_guess(fused.guess);
         let left_out = left_out(fused);
-        let elimination = elimination_methods(&fused.elimination);
+        let elimination = elimination::methods(&fused.elimination);
         let motion = self.motion(fused);
         let chart = fused.chart.map(|chart| self.within_chart(fused, chart));
         let cost = fused.costs().map(jacobian_cost);
@@ -357,54 +356,4 @@ fn initial_guess(guess: Guess) -> Option<TokenStream> {
             ::lie_runtime::State::axpy(unknown, #factor, &field);
         }
     })
-}
-
-/// `factor` and `solve` of the Jacobian of an equation: written out, or from an index list where that would be long.
-fn elimination_methods(elimination: &Elimination) -> TokenStream {
-    let (fill, multiplications) = (elimination.fill.len(), elimination.multiplications());
-    let cost =
-        format!("{fill} entries of fill-in: {multiplications} multiplications with the solution.");
-    if !elimination.is_unrolled() {
-        let doc = format!(" Sparse elimination from an index list, {cost}");
-        return quote! {
-            #[doc = #doc]
-            fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
-                Self::ELIMINATION.factor(matrix)
-            }
-
-            fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-                Self::ELIMINATION.solve(factors, residual);
-            }
-        };
-    }
-    let factor = elimination.factor_tokens(&|i, j| place("matrix", i, j), &|i, j, value| {
-        let place = place("matrix", i, j);
-        quote! { #place = #value; }
-    });
-    let solve = elimination.solve_tokens(&|i, j| place("factors", i, j), &|i| {
-        let i = index(i);
-        quote! { residual[#i] }
-    });
-    let doc = format!(
-        " Sparse elimination in the order {:?}, {cost}",
-        elimination.order
-    );
-    quote! {
-        #[doc = #doc]
-        #[inline]
-        fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
-            #factor
-        }
-
-        #[inline]
-        fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-            #solve
-        }
-    }
-}
-
-/// An entry of a matrix.
-fn place(matrix: &str, i: usize, j: usize) -> TokenStream {
-    let (matrix, i, j) = (ident(matrix), index(i), index(j));
-    quote! { #matrix[(#i, #j)] }
 }
