@@ -14,10 +14,10 @@ pub struct DeclarationPage;
 
 /// The code of the book's tutorial in Rust.
 #[cfg(doctest)]
-#[doc = include_str!("../book/src/tutorials/engineer.md")]
+#[doc = include_str!("../docs/book/src/tutorials/engineer.md")]
 pub struct BookEngineer;
 
 /// The code of the book's page on the language.
 #[cfg(doctest)]
-#[doc = include_str!("../book/src/reference/language.md")]
+#[doc = include_str!("../docs/book/src/reference/language.md")]
 pub struct BookLanguage;

@@ -7,7 +7,7 @@ mod bits;
 mod cpython;
 #[path = "common/random.rs"]
 mod random;
-#[path = "../lie-wasm/tests/wasmi_engine/mod.rs"]
+#[path = "../crates/lie-wasm/tests/wasmi_engine/mod.rs"]
 mod wasmi_engine;
 
 use bits::{Differences, STEP, entries, kernels, trajectory};

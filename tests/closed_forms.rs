@@ -1,5 +1,5 @@
 //! Closed forms of functions of `ad*_x`, against values of 50 digits straight from the structure constants
-//! (`tools/closed_forms.py`).
+//! (`lab/tools/closed_forms.py`).
 //!
 //! The error must stay below 16 units of round-off times the condition: what relative changes of round-off of the entries of
 //! x and mu do to the result.

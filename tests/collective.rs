@@ -139,7 +139,7 @@ fn reference_steps_of_spins() {
     assert!(error::<FreeRigidBody>("moser_veselov", &SphericalMidpoint) > 1e-6);
 }
 
-/// Values of `tools/spin_steps.py`: by definition, and through the Hopf map and its lift.
+/// Values of `lab/tools/spin_steps.py`: by definition, and through the Hopf map and its lift.
 #[test]
 fn two_coupled_spins() {
     let system = TwoSpins::<f64>::default().system().expect("valid");

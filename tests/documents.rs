@@ -197,7 +197,9 @@ fn places_in_the_documents_exist() {
         let links = links.filter(|link| !link.starts_with("http"));
         let marked = marked(&text);
         let paths = marked.iter().filter(|word| {
-            let folders = ["lie-", "src/", "specs/", "tests/", "docs/", "tools/"];
+            let folders = [
+                "lie-", "src/", "specs/", "tests/", "docs/", "crates/", "lab/",
+            ];
             word.contains('/')
                 && !word.contains(' ')
                 && folders.iter().any(|folder| word.starts_with(folder))
@@ -238,33 +240,36 @@ fn dependencies(manifest: &str) -> Vec<String> {
 
 #[test]
 fn no_arrow_between_crates_points_back() {
-    assert_eq!(dependencies("lie-core/Cargo.toml"), [""; 0]);
-    assert_eq!(dependencies("lie-codegen/Cargo.toml"), ["lie-core"]);
+    assert_eq!(dependencies("crates/lie-core/Cargo.toml"), [""; 0]);
+    assert_eq!(dependencies("crates/lie-codegen/Cargo.toml"), ["lie-core"]);
     assert_eq!(dependencies("lie-macros/Cargo.toml"), ["lie-codegen"]);
     assert_eq!(
         dependencies("lie-runtime/Cargo.toml"),
         ["lie-core", "lie-macros"]
     );
-    assert_eq!(dependencies("lie-dense/Cargo.toml"), ["lie-runtime"]);
-    assert_eq!(dependencies("lie-program/Cargo.toml"), ["lie-runtime"]);
+    assert_eq!(dependencies("crates/lie-dense/Cargo.toml"), ["lie-runtime"]);
     assert_eq!(
-        dependencies("lie-measure/Cargo.toml"),
+        dependencies("crates/lie-program/Cargo.toml"),
+        ["lie-runtime"]
+    );
+    assert_eq!(
+        dependencies("crates/lie-measure/Cargo.toml"),
         ["lie-program", "lie-runtime"]
     );
     assert_eq!(
-        dependencies("lie-dynamic/Cargo.toml"),
+        dependencies("crates/lie-dynamic/Cargo.toml"),
         ["lie-codegen", "lie-core", "lie-runtime"]
     );
     assert_eq!(
-        dependencies("lie-jit/Cargo.toml"),
+        dependencies("crates/lie-jit/Cargo.toml"),
         ["lie-codegen", "lie-dynamic", "lie-runtime"]
     );
     assert_eq!(
-        dependencies("lie-wasm/Cargo.toml"),
+        dependencies("crates/lie-wasm/Cargo.toml"),
         ["lie-dynamic", "lie-runtime"]
     );
     assert_eq!(
-        dependencies("lie-in-process/Cargo.toml"),
+        dependencies("crates/lie-in-process/Cargo.toml"),
         [
             "lie-codegen",
             "lie-dynamic",
@@ -287,7 +292,7 @@ fn no_arrow_between_crates_points_back() {
             "lie-runtime"
         ]
     );
-    assert_eq!(dependencies("lie-plot/Cargo.toml"), [""; 0]);
+    assert_eq!(dependencies("crates/lie-plot/Cargo.toml"), [""; 0]);
 }
 
 #[test]

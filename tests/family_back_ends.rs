@@ -5,7 +5,7 @@
 mod bits;
 #[path = "common/random.rs"]
 mod random;
-#[path = "../lie-wasm/tests/wasmi_engine/mod.rs"]
+#[path = "../crates/lie-wasm/tests/wasmi_engine/mod.rs"]
 mod wasmi_engine;
 
 use bits::{Differences, entries, kernels, trajectory};

@@ -33,7 +33,7 @@ fn per_call(program: &Path, form: &str, kernel: &str) -> (f64, String) {
 fn program() -> Option<&'static Path> {
     static PROGRAM: OnceLock<Option<PathBuf>> = OnceLock::new();
     let program = PROGRAM.get_or_init(|| {
-        let systems = Path::new(env!("CARGO_MANIFEST_DIR")).join("spec-systems");
+        let systems = Path::new(env!("CARGO_MANIFEST_DIR")).join("crates/spec-systems");
         let needs = format!("spec-systems = {{ path = {systems:?} }}");
         callgrind::build("instruction_counts", &["std"], &needs)
     });

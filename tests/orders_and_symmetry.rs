@@ -1,5 +1,5 @@
 //! What the constants of each method promise, measured with golden code: order, symmetry, the Poisson
-//! structure; each beside a control that must fail the same assertion. Drifts are in `long-runs`.
+//! structure; each beside a control that must fail the same assertion. Drifts are in `lab`.
 
 #[macro_use]
 #[path = "common/systems.rs"]

@@ -1,4 +1,4 @@
-//! The measured cases beside other integrators, `benches/peers`, which is outside the workspace: what they say of specs is so.
+//! The measured cases beside other integrators, `lab/peers`, which is outside the workspace: what they say of specs is so.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -45,8 +45,8 @@ fn mistakes(case: &Value, spec: &Value, reference: &Value) -> Vec<String> {
 #[test]
 fn the_cases_fit_their_specs() {
     let (cases, references) = (
-        json("benches/peers/cases.json"),
-        json("benches/peers/references.json"),
+        json("lab/peers/cases.json"),
+        json("lab/peers/references.json"),
     );
     let mut found = 0;
     for (name, case) in cases.as_object().expect("cases by name") {
@@ -64,8 +64,8 @@ fn the_cases_fit_their_specs() {
 #[test]
 fn a_case_of_another_spec_is_noticed() {
     let (cases, references) = (
-        json("benches/peers/cases.json"),
-        json("benches/peers/references.json"),
+        json("lab/peers/cases.json"),
+        json("lab/peers/references.json"),
     );
     let top = json("specs/se3_heavy_top.json");
     let found = mistakes(&cases["A"], &top, &references["A"]);
@@ -74,7 +74,7 @@ fn a_case_of_another_spec_is_noticed() {
 
 #[test]
 fn the_page_has_a_place_for_every_case() {
-    let (page, cases) = (read("docs/peers.md"), json("benches/peers/cases.json"));
+    let (page, cases) = (read("lab/docs/peers.md"), json("lab/peers/cases.json"));
     for name in cases.as_object().expect("cases by name").keys() {
         for kind in ["table", "settings"] {
             let mark = format!("<!-- {kind} {name} -->");

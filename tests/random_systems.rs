@@ -1,4 +1,4 @@
-//! Twelve random systems (tools/random_systems.py, seed 2018) by the command, against references
+//! Twelve random systems (lab/tools/random_systems.py, seed 2018) by the command, against references
 //! that share no code with the compiler.
 
 mod common;

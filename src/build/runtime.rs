@@ -131,7 +131,7 @@ mod tests {
         let found = files.iter().find(|(path, _)| path == nested);
         assert_eq!(
             found.map(|(_, text)| *text),
-            Some(&*read("lie-core/src/newton/solver.rs"))
+            Some(&*read("crates/lie-core/src/newton/solver.rs"))
         );
     }
 

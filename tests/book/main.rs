@@ -19,7 +19,7 @@ use std::path::{Path, PathBuf};
 use common::markdown::read;
 
 /// Where the pages are.
-const FOLDER: &str = "book/src";
+const FOLDER: &str = "docs/book/src";
 
 /// Whether files are to be written instead of compared.
 fn update() -> bool {

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The program `benches/NAME/main.rs`, in a crate of its own that needs the runtime with these features and what else is said;
+/// The program `lab/benches/NAME/main.rs`, in a crate of its own that needs the runtime with these features and what else is said;
 /// none, which it says, without valgrind.
 pub fn build(name: &str, features: &[&str], needs: &str) -> Option<PathBuf> {
     if Command::new("valgrind").arg("--version").output().is_err() {
@@ -13,7 +13,7 @@ pub fn build(name: &str, features: &[&str], needs: &str) -> Option<PathBuf> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     std::fs::create_dir_all(&folder).expect("a folder");
-    let source = root.join("benches").join(name).join("main.rs");
+    let source = root.join("lab/benches").join(name).join("main.rs");
     let runtime = root.join("lie-runtime");
     let manifest = format!(
         "[package]\nname = \"{name}\"\nedition = \"2024\"\n\n\

@@ -1,0 +1,175 @@
+//! Steps and equations that are one program have the bits of those kernel by kernel.
+
+use lie_codegen::compile::compile_spec;
+use lie_codegen::methods::Choice;
+use lie_codegen::plan::plan;
+use lie_dynamic::{Declared, Dynamic, Interpreted, PATIENCE, Tolerances, method};
+use lie_in_process::list;
+use lie_jit::Jit;
+use lie_runtime::diagnostics::AnyStepper;
+use lie_runtime::newton::NewtonOptions;
+
+/// A declaration of the project, run by machine code and by the interpreter, which makes all steps kernel by kernel.
+struct Both {
+    choices: Vec<Choice>,
+    compiled: Dynamic<f64>,
+    interpreted: Dynamic<f64>,
+}
+
+impl Both {
+    fn new(name: &str) -> Self {
+        let path = format!("{}/../../specs/{name}", env!("CARGO_MANIFEST_DIR"));
+        let model = compile_spec(&std::fs::read_to_string(path).unwrap()).unwrap();
+        let there = |choice: &Choice| method(choice, Tolerances::default()).is_some();
+        let choices: Vec<_> = list::all(&model).into_iter().filter(there).collect();
+        let plan = plan(&model, &choices);
+        Self {
+            choices,
+            compiled: Declared::new(plan.clone(), &Jit).system(&[]).unwrap(),
+            interpreted: Declared::new(plan, &Interpreted).system(&[]).unwrap(),
+        }
+    }
+}
+
+fn stepper<'a>(
+    system: &'a Dynamic<f64>,
+    choice: &Choice,
+    h: f64,
+) -> Box<dyn AnyStepper<f64, Vec<f64>> + 'a> {
+    let method = method(choice, Tolerances::default()).unwrap();
+    method.any_stepper(system, h, &NewtonOptions::default())
+}
+
+/// The state after some steps, and how the last one ended.
+fn end(
+    system: &Dynamic<f64>,
+    choice: &Choice,
+    h: f64,
+    mu: &[f64],
+    steps: u32,
+) -> (Vec<u64>, String) {
+    let mut stepper = stepper(system, choice, h);
+    let mut mu = mu.to_vec();
+    let mut last = String::new();
+    for _ in 0..steps {
+        last = format!("{:?}", stepper.step(&mut mu));
+    }
+    (mu.iter().map(|x| x.to_bits()).collect(), last)
+}
+
+#[test]
+fn on_every_spec() {
+    let folder = format!("{}/../../specs", env!("CARGO_MANIFEST_DIR"));
+    let files = std::fs::read_dir(folder).unwrap();
+    let names = files.map(|file| file.unwrap().file_name().into_string().unwrap());
+    let (mut steps, mut equations, mut apart) = (0, [0; 3], Vec::new());
+    for name in names.filter(|name| name.ends_with(".json") && !name.contains("schema")) {
+        let both = Both::new(&name);
+        let hurried = both.compiled.clone().without_patience();
+        let Some(mu) = hurried.initial_state() else {
+            continue;
+        };
+        for choice in &both.choices {
+            let label = format!("{name} {}", choice.label());
+            let claims = method(choice, Tolerances::default()).unwrap().claims();
+            for h in [0.07, -0.07] {
+                let found = end(&hurried, choice, h, &mu, 40);
+                let expected = end(&both.interpreted, choice, h, &mu, 40);
+                assert_eq!(found, expected, "{label}, {h}");
+                // the control: another step size
+                let other = end(&hurried, choice, h * (1.0 + 1e-9), &mu, 40);
+                assert!(found.0 != other.0 || choice.id() == "exact", "{label}");
+            }
+            match (hurried.programs(choice), claims.explicit) {
+                (0, true) if claims.own_steps || choice.id() == "exact" => {}
+                (0, true) => apart.push(label),
+                (count, true) => steps += count,
+                (count, false) => equations[count] += 1,
+            }
+        }
+    }
+    // the exponential of su(3) is a series that ends by the size of its terms; the quartic Lagrangian's velocity is iterated for
+    apart.retain(|label| {
+        let exponential = label.starts_with("su3_quadratic") && !label.ends_with("rk4");
+        !exponential && !label.starts_with("so3_quartic_lagrangian")
+    });
+    assert!(apart.is_empty(), "{apart:#?}");
+    // steps, residuals alone, residuals with Jacobians; docs/back_ends.md quotes them
+    assert_eq!((steps, equations[1], equations[2]), (352, 50, 108));
+}
+
+fn explicit() -> Vec<Choice> {
+    ["rk4", "rkmk4", "cf4", "splitting2", "splitting6"]
+        .map(|id| Choice::from_id(id).unwrap())
+        .to_vec()
+}
+
+/// Equations are evaluated several times in a step, and wait for five times as many evaluations.
+#[test]
+fn equations_within_a_run() {
+    for id in ["gauss4", "gauss6"] {
+        let choice = Choice::from_id(id).unwrap();
+        let both = Both::new("se3_heavy_top.json");
+        let mu = both.compiled.initial_state().unwrap();
+        let steps = 3 * PATIENCE;
+        let found = end(&both.compiled, &choice, 0.05, &mu, steps);
+        assert_eq!(both.compiled.programs(&choice), 2, "{id}");
+        assert_eq!(
+            found,
+            end(&both.interpreted, &choice, 0.05, &mu, steps),
+            "{id}"
+        );
+    }
+}
+
+#[test]
+fn within_a_run() {
+    let both = Both::new("se3_heavy_top.json");
+    let mu = both.compiled.initial_state().unwrap();
+    for choice in explicit() {
+        for steps in [PATIENCE - 1, PATIENCE, PATIENCE + 1, PATIENCE + 100] {
+            // a declaration of its own, which knows no programs yet
+            let both = Both::new("se3_heavy_top.json");
+            let system = &both.compiled;
+            let found = end(system, &choice, 0.01, &mu, steps);
+            let expected = end(&both.interpreted, &choice, 0.01, &mu, steps);
+            assert_eq!(found, expected, "{} {steps}", choice.label());
+        }
+    }
+}
+
+#[test]
+fn a_step_that_is_not_finite_is_refused_and_leaves_the_state() {
+    let both = Both::new("se3_heavy_top.json");
+    for choice in explicit() {
+        let hurried = both.compiled.clone().without_patience();
+        for size in [1e200, f64::MAX, f64::INFINITY, f64::NAN] {
+            let mu: Vec<f64> = (1..7).map(|k| size * f64::from(k)).collect();
+            let found = end(&hurried, &choice, 0.1, &mu, 1);
+            let expected = end(&both.interpreted, &choice, 0.1, &mu, 1);
+            let refused = found.1.contains("NotFinite");
+            assert!(refused || size.is_finite(), "{} {found:?}", choice.label());
+            assert_eq!(found, expected, "{}", choice.label());
+        }
+    }
+}
+
+#[test]
+fn the_motion_on_the_group_is_shown_all_the_same() {
+    use lie_runtime::diagnostics::Motions;
+    let both = Both::new("se3_heavy_top.json");
+    let mu = both.compiled.initial_state().unwrap();
+    for choice in explicit() {
+        let hurried = both.compiled.clone().without_patience();
+        let shown = |system| {
+            let (mut mu, mut motions) = (mu.clone(), Motions(Vec::new()));
+            let mut stepper = stepper(system, &choice, 0.1);
+            stepper.step(&mut mu).unwrap();
+            stepper.step_with_motions(&mut mu, &mut motions).unwrap();
+            format!("{mu:?} {motions:?}")
+        };
+        let found = shown(&hurried);
+        assert!(found.len() > 100, "{found}");
+        assert_eq!(found, shown(&both.interpreted), "{}", choice.label());
+    }
+}
