@@ -23,6 +23,8 @@
 //! [doi:10.1007/978-3-642-65027-7](https://doi.org/10.1007/978-3-642-65027-7).
 #![cfg_attr(doc, doc = include_str!("../docs/katex.html"))]
 
+pub mod counted;
+
 use crate::scalar::{Mask, Scalar};
 
 /// The largest `FIRST + COUNT` of the functions here.

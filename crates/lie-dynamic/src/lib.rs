@@ -62,8 +62,8 @@ pub use interpreter::{Interpreted, Interpreter, phi, stumpff};
 pub use kernels::{Engine, Frame, Machine, Targets, place_by_place};
 pub use layout::{Lengths, SLICES};
 pub use methods::{
-    Method, Tolerances, at_defaults, at_defaults_over, is_compiled_for_lanes, method,
-    method_in_lanes, method_over,
+    Method, Tolerances, at_defaults, at_defaults_dual, is_compiled_for_lanes, method, method_dual,
+    method_in_lanes,
 };
 pub use straight::PATIENCE;
 pub use system::{Declared, Dynamic};

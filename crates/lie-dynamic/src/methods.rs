@@ -4,10 +4,10 @@ use crate::straight::Straight;
 use crate::system::Dynamic;
 use lie_codegen::methods::{Choice, Gradient, Lift, Pieces, Retraction, Scheme, Tensor};
 use lie_codegen::structure::lifts::Smallest;
-use lie_runtime::Scalar;
 use lie_runtime::diagnostics::{AnyMethod, AnyStepper, Claims, Forgotten, ForgottenStepper};
 use lie_runtime::methods::{self as m, Facts, Preserves};
 use lie_runtime::newton::NewtonOptions;
+use lie_runtime::{Dual, Scalar};
 
 /// Tolerances of adaptive methods.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -109,8 +109,13 @@ pub fn at_defaults(choice: &Choice) -> Option<Method> {
     }
 }
 
+/// The same over dual numbers.
+pub fn at_defaults_dual(choice: &Choice) -> Option<Method<Dual<f64>>> {
+    at_defaults_over(choice)
+}
+
 /// The same over any scalar.
-pub fn at_defaults_over<S: Scalar>(choice: &Choice) -> Option<Method<S>> {
+fn at_defaults_over<S: Scalar>(choice: &Choice) -> Option<Method<S>> {
     match choice {
         Choice::Taylor => boxed(m::Taylor::default()),
         Choice::LieTaylor => boxed(m::LieTaylor::default()),
@@ -129,8 +134,13 @@ pub fn method(choice: &Choice, tolerances: Tolerances) -> Option<Method> {
     }
 }
 
+/// The same over dual numbers, for tangents of steps.
+pub fn method_dual(choice: &Choice, tolerances: Tolerances) -> Option<Method<Dual<f64>>> {
+    method_over(choice, tolerances)
+}
+
 /// The same over any scalar.
-pub fn method_over<S: Scalar>(choice: &Choice, tolerances: Tolerances) -> Option<Method<S>> {
+pub(crate) fn method_over<S: Scalar>(choice: &Choice, tolerances: Tolerances) -> Option<Method<S>> {
     match choice {
         Choice::Midpoint => boxed(m::ImplicitMidpoint),
         Choice::Gauss(stages) => gauss(*stages),

@@ -22,7 +22,7 @@ use lie_codegen::methods::Choice;
 use lie_codegen::model::{Model, Size};
 use lie_codegen::plan::plan;
 use lie_codegen::program::{Chart, Purpose, beside, compared};
-use lie_dynamic::{Declared, Dynamic, Method, at_defaults, at_defaults_over, method, method_over};
+use lie_dynamic::{Declared, Dynamic, Method, at_defaults, at_defaults_dual, method, method_dual};
 use lie_jit::Jit;
 use lie_measure::verify::Kind;
 use lie_measure::{Bench, Stress, Verify};
@@ -160,11 +160,11 @@ impl Declaration {
             program = program.any_method(&label, kind, move |tolerances| match series {
                 true => (
                     there(at_defaults(&choice)),
-                    there(at_defaults_over(&choice)),
+                    there(at_defaults_dual(&choice)),
                 ),
                 false => (
                     made(&choice, tolerances),
-                    there(method_over(&choice, of_dynamic(tolerances))),
+                    there(method_dual(&choice, of_dynamic(tolerances))),
                 ),
             });
         }

@@ -150,3 +150,36 @@ fn single_precision_too() {
         }
     }
 }
+
+/// A count as a value gives the bits of a count as a type.
+fn compare<const COUNT: usize>(x: f64) -> usize {
+    let dual = Dual::new(x, 1.0);
+    let pairs = [
+        (stumpff::<_, 0, COUNT>(dual), counted::stumpff(COUNT, dual)),
+        (phi::<_, 0, COUNT>(dual), counted::phi(COUNT, dual)),
+    ];
+    let bits = |dual: &Dual<f64>| (dual.value.to_bits(), dual.derivative.to_bits());
+    for (array, all) in pairs {
+        let (known, rest) = all.split_at(COUNT);
+        let known = known.iter().map(bits);
+        assert!(array.iter().map(bits).eq(known), "{COUNT} {x}");
+        assert!(rest.iter().all(|value| bits(value) == (0, 0)));
+    }
+    2 * COUNT
+}
+
+/// In every range of the argument, and on both sides of every bound.
+#[test]
+fn counts_as_values() {
+    let bounds = [1.0 / 16.0, 1.0, 4.0, 16.0, 1e3];
+    let beside = bounds.map(|bound: f64| [bound, bound.next_down(), bound.next_up(), 0.7 * bound]);
+    let arguments = beside.into_iter().flatten().chain([0.0]);
+    let mut compared = 0;
+    for x in arguments.flat_map(|x| [x, -x]) {
+        macro_rules! each {
+            ($($count:literal)+) => { $(compared += compare::<$count>(x);)+ };
+        }
+        each!(1 2 3 4 5 6 7 8 9 10 11 12 13 14);
+    }
+    assert_eq!(compared, 42 * 2 * 105);
+}
