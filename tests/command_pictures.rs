@@ -263,23 +263,32 @@ fn a_run_that_stops_early_is_said_to() {
     assert!(code == Some(0) && !svg.contains("stopped"));
 }
 
+/// Each form is written, or refused before anything runs, by a program that was built without it.
 #[test]
 fn pixels_and_pages() {
     let folder = folder();
-    for (name, start) in [
-        ("p.png", &b"\x89PNG"[..]),
-        ("p.pdf", b"%PDF"),
-        ("p.SVG", b"<svg"),
+    for (name, start, built) in [
+        ("p.SVG", &b"<svg"[..], true),
+        ("p.png", b"\x89PNG", cfg!(feature = "raster")),
+        ("p.pdf", b"%PDF", cfg!(feature = "raster")),
     ] {
         let path = folder.path().join(name);
-        lie(&format!(
+        let rows = folder.path().join(name).with_extension("csv");
+        let run = lie(&format!(
             "run {BODY} --quiet --until 5 --out {} --plot {}",
-            folder.path().join("rows.csv").display(),
+            rows.display(),
             path.display()
-        ))
-        .ok();
-        let bytes = std::fs::read(&path).expect("a picture");
-        assert!(bytes.starts_with(start) && bytes.len() > 5_000, "{name}");
+        ));
+        if built {
+            run.ok();
+            let bytes = std::fs::read(&path).expect("a picture");
+            assert!(bytes.starts_with(start) && bytes.len() > 5_000, "{name}");
+        } else {
+            let run = run.error("option", "command line: --plot");
+            assert!(run.stderr.contains("--features raster"), "{}", run.stderr);
+            assert!(!path.exists());
+        }
+        _ = std::fs::remove_file(rows);
     }
 }
 

@@ -2,6 +2,8 @@
 
 pub mod choice;
 mod file;
+#[cfg(feature = "raster")]
+mod raster;
 mod section;
 
 use lie_dynamic::Dynamic;
