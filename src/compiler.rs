@@ -110,7 +110,7 @@ fn read(path: &Path) -> Result<Source, Failure> {
 /// # Errors
 /// What is wrong with it; places count from the beginning of `text`.
 pub fn constant(text: &str) -> Result<f64, Diagnostic> {
-    lie_codegen::check::constant(text).map_err(|diagnostics| {
+    lie_codegen::compile::constant(text).map_err(|diagnostics| {
         let first = diagnostics.into_iter().next();
         first.unwrap_or_else(|| Diagnostic::placeless(Kind::Number, "not a constant"))
     })

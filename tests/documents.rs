@@ -3,8 +3,8 @@
 use std::path::Path;
 use std::process::Command;
 
-use lie_codegen::algebra::constructors::FAMILIES;
 use lie_codegen::compile::{compile_spec, declared_choices, expand};
+use lie_codegen::constructors::FAMILIES;
 use lie_codegen::methods::{CATALOGUE, Choice, Method};
 
 mod common;

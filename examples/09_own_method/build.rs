@@ -3,8 +3,8 @@
 #![allow(missing_docs)]
 
 use lie_codegen::compile::{compile_spec, expand_with};
+use lie_codegen::derive::trace::{Formulas, step};
 use lie_codegen::plan::Own;
-use lie_codegen::trace::{Formulas, step};
 use std::path::Path;
 
 #[allow(dead_code)]

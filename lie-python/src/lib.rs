@@ -291,7 +291,7 @@ impl Core {
 /// The value of an exact constant such as `1/7` or `cos(11/10)`.
 #[pyfunction]
 fn constant(text: &str) -> PyResult<f64> {
-    lie_codegen::check::constant(text).map_err(|diagnostics| {
+    lie_codegen::compile::constant(text).map_err(|diagnostics| {
         let first = diagnostics.into_iter().next();
         PyValueError::new_err(first.map_or_else(|| "not a constant".to_owned(), |d| d.message))
     })

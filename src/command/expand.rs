@@ -1,8 +1,8 @@
 //! `lie expand`: prints the generated code of a spec, or the plan of it.
 
+use lie_codegen::ast::Runtime;
 use lie_codegen::compile;
 use lie_codegen::plan::plan;
-use lie_codegen::print::Runtime;
 
 use super::{args, method, print};
 use crate::compiler;

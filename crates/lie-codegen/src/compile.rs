@@ -5,9 +5,9 @@ use std::path::Path;
 use proc_macro2::TokenStream;
 
 use crate::ast::Declaration;
-use crate::check::{Effort, check, check_with};
+use crate::check::{self, Effort, check, check_with};
 use crate::diagnostic::{Diagnostic, Report};
-use crate::front::{Body, spec};
+use crate::front::{Body, parse_constant_text, spec};
 use crate::methods::{Choice, refusal};
 use crate::model::Model;
 use crate::plan::{Own, plan, plan_with};
@@ -103,4 +103,17 @@ pub fn with_options(model: &Model, choices: &[Choice]) -> Vec<Choice> {
         }
     }
     all
+}
+
+/// The value of an exact constant (`1/7`, `-1/2`, `cos(11/10)`), in double precision; it need not
+/// be finite there.
+///
+/// # Errors
+/// Every mistake in it; places count the bytes of `text`.
+pub fn constant(text: &str) -> Result<f64, Vec<Diagnostic>> {
+    let mut report = Report::new();
+    let expr = parse_constant_text(text, 0, &mut report);
+    let value = expr.and_then(|expr| check::constant(&expr, &mut report));
+    report.gate()?;
+    value.ok_or_else(|| report.into_diagnostics())
 }

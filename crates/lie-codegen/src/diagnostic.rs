@@ -30,6 +30,15 @@ pub fn not_shown(count: usize) -> Option<String> {
     ))
 }
 
+/// The word for so many things.
+pub fn plural(count: usize, word: &str) -> String {
+    if count == 1 {
+        word.to_string()
+    } else {
+        format!("{word}s")
+    }
+}
+
 /// The place of a token: a span of the macro input, or a byte range of the spec file.
 #[derive(Clone, Copy, Debug)]
 pub enum Origin {

@@ -11,7 +11,7 @@ use crate::compile::{compile_declaration, declared_choices, generate};
 use crate::diagnostic::{Diagnostic, Kind, MOST_SHOWN, Origin, Report, not_shown};
 use crate::front::{Body, Parsed, declaration, file, line_column, spec};
 use crate::model::Model;
-use crate::print::of_this_version;
+use crate::print::{of_this_version, rooted};
 
 /// What `lie_poisson! { input }` expands to; `manifest` is the folder that spec paths start from.
 pub fn expand_macro(input: TokenStream, manifest: &Path) -> TokenStream {
@@ -120,7 +120,7 @@ fn failure(parsed: &Parsed, diagnostics: &[Diagnostic]) -> TokenStream {
         syn::Error::new(span, visible(&message)).into_compile_error()
     });
     let stub = parsed.name.as_ref().map(|name| stub(parsed, name));
-    let stub = stub.map(|stub| parsed.runtime.root(stub));
+    let stub = stub.map(|stub| rooted(stub, &parsed.runtime));
     quote! { #(#errors)* #rest #stub }
 }
 

@@ -19,6 +19,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
+use crate::ast::Runtime;
 use crate::characters::visible;
 use crate::compile::{compile_spec, declared_choices, expand, with_options};
 use crate::diagnostic::{Diagnostic, MOST_SHOWN, Origin, not_shown};
@@ -26,7 +27,6 @@ use crate::front::line_column;
 use crate::methods::Choice;
 use crate::model::Model;
 use crate::plan::plan;
-use crate::print::Runtime;
 use source::Declared;
 
 /// The environment variable that makes [`Golden::check`] write instead of compare.

@@ -37,7 +37,7 @@ impl Chart {
     /// The names of the columns.
     pub fn columns(self, size: usize) -> Vec<String> {
         match self {
-            Self::Matrix => crate::check::configuration::entries_of("g", size),
+            Self::Matrix => crate::model::configuration::entries_of("g", size),
             Self::Quaternion => (0..4).map(|k| format!("q{k}")).collect(),
         }
     }

@@ -1,6 +1,7 @@
 //! What was verified: claims of methods, and kernels before the declaration.
 
 use lie_codegen::model::Model;
+use lie_codegen::prove::joints::reached;
 use lie_codegen::structure::smoothness;
 use lie_measure::facts::{Finding, Verdict};
 use lie_measure::verify::{Found, GroundFound as Ground, Options};
@@ -12,7 +13,7 @@ use crate::words::{number, short};
 /// What is asked for of a system, at a step or at one that is found.
 pub fn options(model: &Model, step: Option<f64>, seed: u64) -> Options {
     let joints = smoothness::joints(model);
-    let reach = (!joints.is_empty()).then(|| smoothness::reached(&joints, u32::MAX).unwrap_or(0));
+    let reach = (!joints.is_empty()).then(|| reached(&joints, u32::MAX).unwrap_or(0));
     Options { seed, step, reach }
 }
 

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use lie_codegen::structure::smoothness::{Joint, reached};
+use lie_codegen::prove::joints::{Joint, reached};
 use lie_in_process::report::joints::{Methods, across};
 
 /// The joints by lines, and what methods lose.

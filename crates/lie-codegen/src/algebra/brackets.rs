@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use super::linear::bracket_value;
-use super::{Scope, StructureConstants};
+use super::StructureConstants;
 use crate::ast::Bracket;
 use crate::diagnostic::{Diagnostic, Kind, Report};
 use crate::exact::{Budget, Exhausted, Fraction};
+use crate::linear::{Scope, bracket_value};
 
 type Form = Vec<(usize, Fraction)>;
 

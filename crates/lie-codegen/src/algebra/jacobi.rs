@@ -6,11 +6,12 @@ use num_bigint::BigInt;
 use num_integer::Integer;
 use num_traits::One;
 
+use super::StructureConstants;
 use super::ring::Ring;
-use super::{Scope, StructureConstants};
 use crate::ast::Algebra;
 use crate::diagnostic::{Diagnostic, Kind, Report};
 use crate::exact::{Budget, Exhausted, Fraction, Rational};
+use crate::linear::Scope;
 
 /// Longer common denominators cost more than they save.
 const MAX_DENOMINATOR_BITS: u64 = 1024;

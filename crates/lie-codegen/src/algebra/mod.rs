@@ -3,18 +3,14 @@
 
 pub mod brackets;
 mod constants;
-pub mod constructors;
 mod envelope;
 pub mod jacobi;
-mod linear;
 pub mod quadratic;
 pub mod rank;
 pub mod representation;
 mod ring;
-mod scope;
 mod sparse;
 mod triple;
-pub(crate) mod walk;
 
 #[cfg(test)]
 pub(crate) mod known;
@@ -23,9 +19,4 @@ mod tests;
 
 pub use constants::StructureConstants;
 pub use envelope::Columns;
-pub use linear::{rational, rational_form};
 pub use representation::{Representation, TripleEntry};
-pub use scope::Scope;
-
-/// Work allowed for the exact checks of one algebra: seconds, not minutes.
-pub(crate) const WORK: u64 = 20_000_000;

@@ -1,13 +1,13 @@
 //! Matrix representations: `rho(e_i) rho(e_j) - rho(e_j) rho(e_i) = sum_k C_ij^k rho(e_k)`.
 
 use super::envelope::Columns;
-use super::linear::rational;
 use super::sparse::SparseMatrix;
-use super::{Scope, StructureConstants, envelope, triple};
+use super::{StructureConstants, envelope, triple};
 use crate::ast::{Algebra, Expr, Matrix};
 use crate::diagnostic::{Diagnostic, Kind, Report};
 use crate::exact::span::{NoSpan, Span};
 use crate::exact::{Budget, Exhausted, Fraction, Rational};
+use crate::linear::{Scope, rational};
 
 /// Entries of all matrices together that are still looked at.
 const MAX_ENTRIES: usize = 4_000_000;

@@ -3,6 +3,7 @@ use super::sparse::SparseMatrix;
 use super::*;
 use crate::exact::span::Span;
 use crate::exact::{Budget, Fraction, Rational};
+use crate::linear::WORK;
 
 fn budget() -> Budget {
     Budget::new(WORK)

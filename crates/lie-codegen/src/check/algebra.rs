@@ -1,12 +1,10 @@
 //! The algebra: brackets, Jacobi identity, representation.
 
-use super::expression;
-use crate::algebra::{
-    Representation, Scope, StructureConstants, WORK, brackets, jacobi, representation,
-};
+use crate::algebra::{Representation, StructureConstants, brackets, jacobi, representation};
 use crate::ast::{self, Declaration, Invariance};
 use crate::diagnostic::Report;
 use crate::exact::{Budget, Fraction};
+use crate::linear::{Scope, WORK};
 use crate::model;
 use crate::symbolic::Graph;
 
@@ -27,7 +25,7 @@ impl Algebra {
         };
         model::Algebra {
             basis: declaration.basis().to_vec(),
-            constants: turned.constants.map(|value| expression(graph, value)),
+            constants: turned.constants.map(|value| graph.rational_function(value)),
             exact: turned.constants,
             representation: turned.representation,
         }

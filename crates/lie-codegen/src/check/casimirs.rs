@@ -1,11 +1,11 @@
 //! Casimirs: `{C, x_i} = sum_j dC/dx_j Pi_ji = 0` for all `i`, proven by a normal form.
 
-use super::degree::degree;
-use super::normal::NormalForm;
-use super::proof::{Proof, examine};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::exact::{Budget, Rational};
 use crate::model::PoissonMatrix;
+use crate::prove::degree::degree;
+use crate::prove::normal::NormalForm;
+use crate::prove::proof::{Proof, examine};
 use crate::symbolic::{ExprId, Graph, Symbol};
 
 /// Work allowed for one Casimir.
@@ -49,7 +49,7 @@ pub fn check(
                 continue;
             }
         };
-        let why = if coordinate == super::configuration::TIME_MOMENTUM {
+        let why = if coordinate == crate::model::configuration::TIME_MOMENTUM {
             "it depends on the time".to_owned()
         } else {
             format!("{{{}, {coordinate}}} = {shown}", candidate.name)

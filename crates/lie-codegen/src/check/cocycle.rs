@@ -1,13 +1,13 @@
 //! Constants that are added to a Lie–Poisson bracket: a 2-cocycle of the algebra.
 
-use super::normal::NormalForm;
 use super::poisson::{Entry, symbol_name};
-use super::proof::{Proof, examine};
 use crate::algebra::StructureConstants;
 use crate::ast::{Declaration, Expr, ExprKind, Structure};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::exact::Budget;
 use crate::model::Parameter;
+use crate::prove::normal::NormalForm;
+use crate::prove::proof::{Proof, examine};
 use crate::symbolic::{ExprId, Graph, Symbol};
 
 /// Work allowed for the identity.

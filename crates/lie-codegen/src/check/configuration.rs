@@ -13,137 +13,11 @@
 mod larger;
 
 use crate::ast::{Algebra, Bracket, Declaration, Expr, ExprKind, Invariance, Name, Structure};
-use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
+use crate::diagnostic::{Diagnostic, Kind, Origin, Report, plural};
 use crate::exact::Rational;
+use crate::limits::MAX_DIMENSION;
+use crate::model::configuration::{Configuration, TIME, TIME_MOMENTUM, UNIT};
 use larger::Builder;
-
-/// The name of the momentum of the time. A user's name does not begin with an underscore.
-pub const TIME_MOMENTUM: &str = "_p";
-/// The name of the central coordinate.
-pub const UNIT: &str = "_one";
-/// The time in expressions.
-pub const TIME: &str = "t";
-
-/// How the coordinates of a system on `T*G`, or on `T*(G x R)`, are ordered.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Configuration {
-    /// The momenta come first: this many, with that of the time.
-    pub momenta: usize,
-    /// Name and size of the group element, whose entries follow.
-    pub group: Option<(String, usize)>,
-    /// Whether the Hamiltonian depends on the time.
-    pub time: bool,
-}
-
-impl Configuration {
-    /// Whether a coordinate is one of the three that carry the time, which no user named.
-    pub fn is_hidden(&self, coordinate: usize) -> bool {
-        let entries = self.group.as_ref().map_or(0, |(_, size)| size * size);
-        self.time && (coordinate + 1 == self.momenta || coordinate >= self.momenta + entries)
-    }
-
-    /// The momenta without that of the time.
-    pub fn own_momenta(&self) -> usize {
-        self.momenta - usize::from(self.time)
-    }
-
-    /// What the coordinates are.
-    pub fn description(&self) -> String {
-        let own = self.own_momenta();
-        // beside the time alone they may be any coordinates
-        let what = match self.group {
-            Some(_) => "momenta",
-            None => "coordinates",
-        };
-        let mut parts = vec![format!("{own} {what}")];
-        if let Some((name, size)) = &self.group {
-            parts.push(format!(
-                "the {size} x {size} entries of the group element {name}"
-            ));
-        }
-        if self.time {
-            parts.push("the time with its momentum and a unit".into());
-        }
-        parts.join(", ")
-    }
-
-    /// Why a method that knows the declared algebra alone does not apply, whatever that algebra is.
-    pub fn refusal(&self) -> &'static str {
-        match (&self.group, self.time) {
-            (Some(_), false) => {
-                "it is for the declared algebra alone, and the group element makes that larger"
-            }
-            (None, _) => "it is for the declared algebra alone, and the time makes that larger",
-            (Some(_), true) => {
-                "it is for the declared algebra alone, and the group element and the time make that larger"
-            }
-        }
-    }
-
-    /// The number of coordinates.
-    pub fn dimension(&self) -> usize {
-        let size = self.group.as_ref().map_or(0, |(_, size)| *size);
-        self.momenta + size * size + 2 * usize::from(self.time)
-    }
-
-    /// A coordinate of the state at rest at the identity, at time 0.
-    pub fn at_rest(&self, coordinate: usize) -> f64 {
-        let size = self.group.as_ref().map_or(0, |(_, size)| *size);
-        let unit = self.time && coordinate + 1 == self.dimension();
-        let diagonal = coordinate
-            .checked_sub(self.momenta)
-            .is_some_and(|place| place < size * size && place % (size + 1) == 0);
-        f64::from(u8::from(unit || diagonal))
-    }
-
-    /// The names of the entries of the group element, row by row.
-    pub fn entries(&self) -> Vec<String> {
-        self.group
-            .as_ref()
-            .map_or_else(Vec::new, |(name, size)| entries_of(name, *size))
-    }
-
-    /// A state from the one that the user gives: the momenta alone (the group element is 1 then), or with
-    /// the entries of g. `None` where the number of values is neither.
-    pub fn complete<T: Clone>(&self, given: &[T], number: impl Fn(i64) -> T) -> Option<Vec<T>> {
-        let own = self.own_momenta();
-        let size = self.group.as_ref().map_or(0, |(_, size)| *size);
-        if given.len() != own && given.len() != own + size * size {
-            return None;
-        }
-        let mut state = given[..own].to_vec();
-        if self.time {
-            state.push(number(0));
-        }
-        if given.len() > own {
-            state.extend_from_slice(&given[own..]);
-        } else {
-            let identity = (0..size * size).map(|k| number(i64::from(k % (size + 1) == 0)));
-            state.extend(identity);
-        }
-        if self.time {
-            state.extend([number(0), number(1)]);
-        }
-        Some(state)
-    }
-}
-
-/// The names of the entries of a matrix, row by row.
-pub fn entries_of(name: &str, size: usize) -> Vec<String> {
-    let pairs = (1..=size).flat_map(|row| (1..=size).map(move |column| (row, column)));
-    pairs
-        .map(|(row, column)| entry(name, size, row, column))
-        .collect()
-}
-
-/// `R12`, from size 10 on `R_1_12`.
-fn entry(name: &str, size: usize, row: usize, column: usize) -> String {
-    if size < 10 {
-        format!("{name}{row}{column}")
-    } else {
-        format!("{name}_{row}_{column}")
-    }
-}
 
 /// The configuration of a declaration; `None` where it has neither a group element nor the time.
 pub fn of(declaration: &Declaration, report: &mut Report) -> Option<Configuration> {
@@ -311,7 +185,7 @@ fn incomplete(
         ),
     };
     let count = initial.len();
-    let values = super::size::plural(count, "value");
+    let values = plural(count, "value");
     let message =
         format!("the initial state has {count} {values}, but the state has {own} coordinates{or}");
     Diagnostic::new(Kind::StateLength, place, message).help(help)
@@ -341,7 +215,7 @@ pub fn clashes(declaration: &Declaration, entries: &[String], origin: Origin, re
     }
     let size = entries.len();
     let letters = |c: char| c == '_' || unicode_ident::is_xid_continue(c);
-    if entries.iter().any(|entry| !entry.chars().all(letters)) || size > super::MAX_DIMENSION {
+    if entries.iter().any(|entry| !entry.chars().all(letters)) || size > MAX_DIMENSION {
         report.push(
             Diagnostic::new(
                 Kind::Limit,

@@ -1,52 +1,24 @@
-//! Constants: their signs, and the values of those that stand alone, the options on the command line.
+//! The values of constants that stand alone, the options on the command line.
 
-use super::confirmation;
 use super::environment::{Allowed, Environment};
 use super::lower::Lowering;
-use super::normal::{NormalForm, Verdict};
-use crate::diagnostic::{Diagnostic, Report};
-use crate::exact::Budget;
-use crate::front::parse_constant_text;
-use crate::symbolic::{ExprId, Graph};
+use crate::ast::Expr;
+use crate::diagnostic::Report;
+use crate::symbolic::Graph;
 
-/// Work allowed for the proof that a constant is zero.
-const WORK: u64 = 500_000;
-
-/// The sign of a constant; `None` where it has no value, or where 67 digits do not tell it from zero and it
-/// cannot be shown to be zero.
-pub fn sign(graph: &Graph, id: ExprId) -> Option<i32> {
-    let value = confirmation::constant(graph, id)?;
-    if let Some(sign) = value.sign() {
-        return Some(sign);
-    }
-    let budget = Budget::new(WORK);
-    let verdict = NormalForm::new(graph, &budget).verdict(id);
-    matches!(verdict, Verdict::Zero).then_some(0)
-}
-
-/// The value of an exact constant (`1/7`, `-1/2`, `cos(11/10)`), in double precision; it need not
-/// be finite there.
-///
-/// # Errors
-/// Every mistake in it; places count the bytes of `text`.
-pub fn constant(text: &str) -> Result<f64, Vec<Diagnostic>> {
-    let mut report = Report::new();
+/// The value of an expression without names, in double precision; it need not be finite there. `None` if anything was
+/// reported.
+pub fn constant(expr: &Expr, report: &mut Report) -> Option<f64> {
     let mut graph = Graph::new();
     let environment = Environment::default();
-    let value = parse_constant_text(text, 0, &mut report).and_then(|expr| {
-        let mut lowering = Lowering::new(&mut graph, &environment, &mut report, Allowed::Constants);
-        lowering.lower(&expr)
-    });
-    report.gate()?;
-    match value {
-        Some(value) => Ok(graph.evaluate(value, &|_| f64::NAN)),
-        None => Err(report.into_diagnostics()),
-    }
+    let mut lowering = Lowering::new(&mut graph, &environment, report, Allowed::Constants);
+    let value = lowering.lower(expr)?;
+    Some(graph.evaluate(value, &|_| f64::NAN))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use crate::compile::constant;
     use crate::diagnostic::Kind;
 
     #[test]

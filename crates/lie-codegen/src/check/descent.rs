@@ -3,11 +3,11 @@
 //! The coefficients are rational functions of the parameters. The closure is found at points where these are
 //! integers, as ranks are: what holds for all parameters holds there, and what does not fails at almost every point.
 
-use super::ranks;
-use super::sample::Samples;
 use crate::algebra::quadratic::{Closure, Form, closure};
 use crate::exact::{Budget, Rational};
 use crate::model::{CANONICAL, Descent};
+use crate::prove::ranks;
+use crate::prove::sample::Samples;
 use crate::symbolic::{ExprId, Graph, Symbol};
 
 /// Work allowed for the closure at one point.

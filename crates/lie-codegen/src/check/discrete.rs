@@ -3,10 +3,10 @@
 //! A discrete Lagrangian is consistent with `l(xi) = lim l_d(h xi)/h`, h to 0: the coefficient of h in the series of
 //! `l_d(h xi)`. Those of lower powers must not depend on xi; a constant in l_d moves nothing.
 
-use super::normal::{NormalForm, Verdict};
 use super::series::{Series, in_step};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::exact::Budget;
+use crate::prove::normal::{NormalForm, Verdict};
 use crate::symbolic::{ExprId, Graph, Symbol};
 
 /// Work allowed for the decisions of the normal form.

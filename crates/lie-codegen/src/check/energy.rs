@@ -1,10 +1,10 @@
 //! The Hamiltonian of a declaration: as it stands, or that of a Lagrangian.
 
-use super::configuration::Configuration;
 use super::legendre::{self, Lagrangian, Transform};
 use super::{discrete, size};
 use crate::ast::{Declaration, Energy, Name};
 use crate::diagnostic::{Origin, Report};
+use crate::model::configuration::Configuration;
 use crate::model::{self, Discrete, Parameter};
 use crate::symbolic::{ExprId, Graph, Symbol};
 

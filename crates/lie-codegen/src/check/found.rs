@@ -1,17 +1,17 @@
 //! Casimirs that nobody declared: the search, and what is made of its results.
 
-use super::configuration::Configuration;
+use super::Effort;
 use super::environment::{Allowed, Environment};
-use super::independence::{self, Standing};
 use super::lower::Lowering;
 use super::naming;
 use super::poisson::Entry;
-use super::{Effort, fraction};
 use crate::algebra::{StructureConstants, rank};
 use crate::ast::{Declaration, Expr, ExprKind};
 use crate::diagnostic::{Origin, Report};
 use crate::exact::{Fraction, Polynomial, Rational};
+use crate::model::configuration::Configuration;
 use crate::model::{Bracket, Casimir, CasimirKind, PoissonMatrix, Search};
+use crate::prove::independence::{self, Standing};
 use crate::structure::casimirs;
 use crate::symbolic::{ExprId, Graph, Symbol};
 
@@ -112,7 +112,7 @@ fn field(
             let n = algebra.exact.dimension();
             let mut entries = algebra.exact.entries().to_vec();
             for entry in brackets {
-                let value = fraction(graph, entry.value, None).ok_or(
+                let value = graph.fraction(entry.value, None).ok_or(
                     "a constant term of the bracket is no rational function of parameters",
                 )?;
                 entries.push((entry.row, entry.column, n, value.neg()));
@@ -139,9 +139,9 @@ fn affine(matrix: &PoissonMatrix, graph: &mut Graph) -> Result<Field, &'static s
             if graph.is_zero(slope) {
                 continue;
             }
-            terms.push((*i, *j, k, fraction(graph, slope, None).ok_or(REASON)?.neg()));
+            terms.push((*i, *j, k, graph.fraction(slope, None).ok_or(REASON)?.neg()));
         }
-        let rest = fraction(graph, *value, Some(Rational::ZERO)).ok_or(REASON)?;
+        let rest = graph.fraction(*value, Some(Rational::ZERO)).ok_or(REASON)?;
         if !rest.is_zero() {
             with_unit = true;
             terms.push((*i, *j, n, rest.neg()));

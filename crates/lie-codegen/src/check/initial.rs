@@ -2,9 +2,8 @@
 
 use super::environment::{Allowed, Environment};
 use super::lower::Lowering;
-use super::size::plural;
 use crate::ast::Declaration;
-use crate::diagnostic::{Diagnostic, Kind, Report};
+use crate::diagnostic::{Diagnostic, Kind, Report, plural};
 use crate::symbolic::{ExprId, Graph};
 
 /// Lowers the initial state; `Some(None)` where none is declared.

@@ -10,10 +10,10 @@
 
 mod quadratic;
 
-use super::configuration::Configuration;
 use crate::ast::Name;
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::model::Parameter;
+use crate::model::configuration::Configuration;
 use crate::symbolic::{ExprId, Graph, Symbol};
 use quadratic::Quadratic;
 

@@ -6,10 +6,10 @@ mod real;
 use std::collections::HashMap;
 
 use super::environment::{Allowed, Binding, Environment};
-use crate::algebra::walk::{Lower, MAX_EXPONENT, Operand, Operands};
 use crate::ast::{Expr, Name};
-use crate::diagnostic::{Kind, Origin, Report};
+use crate::diagnostic::{Kind, Origin, Report, plural};
 use crate::exact::Rational;
+use crate::linear::walk::{Lower, MAX_EXPONENT, Operand, Operands};
 use crate::symbolic::{ExprId, Function, Graph, Node};
 
 /// The longest exact constant, numerator and denominator together.
@@ -292,7 +292,7 @@ impl Lower for Lowering<'_, '_> {
             None => return self.unknown_function(function, FUNCTIONS),
         };
         if arguments.len() != arity {
-            let expected = super::size::plural(arity, "argument");
+            let expected = plural(arity, "argument");
             let message = format!(
                 "`{}` takes {arity} {expected}, but here are {}",
                 function.text,

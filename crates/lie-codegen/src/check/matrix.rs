@@ -2,10 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use super::{poisson, ranks};
+use super::poisson;
 use crate::algebra::StructureConstants;
 use crate::exact::Rational;
 use crate::model::{Model, PoissonMatrix};
+use crate::prove::ranks;
 use crate::symbolic::{ExprId, Graph, Symbol};
 
 /// The entries: `-C_ij^k x_k` of an algebra, and what is declared. Nothing is known of their degree.

@@ -5,16 +5,12 @@
 //! identities of other brackets, Casimirs and the domain.
 
 mod algebra;
-mod branches;
 mod breadth;
 mod casimirs;
 mod cocycle;
-pub mod configuration;
-pub(crate) mod confirmation;
+mod configuration;
 mod constant;
-mod contradiction;
 mod defaults;
-mod degree;
 mod descent;
 mod discrete;
 pub mod domain;
@@ -24,7 +20,6 @@ mod environment;
 mod family;
 pub(crate) mod found;
 mod idle;
-mod independence;
 mod initial;
 mod legendre;
 mod lets;
@@ -34,15 +29,10 @@ mod methods;
 pub mod motions;
 mod names;
 mod naming;
-pub(crate) mod normal;
 mod opaque;
 mod parameters;
 mod poisson;
-mod proof;
-mod ranks;
 mod realization;
-pub(crate) mod residues;
-mod sample;
 mod series;
 mod sign;
 mod size;
@@ -53,17 +43,12 @@ mod velocity;
 #[cfg(test)]
 mod tests;
 
-use std::collections::HashMap;
-
 use crate::ast::Declaration;
-use crate::diagnostic::{Diagnostic, Report};
-use crate::exact::{Budget, Fraction, Rational};
+use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::model::Model;
-use crate::symbolic::{ExprId, Graph, Node, Symbol};
+use crate::prove::contradiction;
 
 pub use constant::constant;
-pub use names::is_reserved;
-pub use size::MAX_DIMENSION;
 
 /// How much work is done to find what nobody declared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -87,8 +72,8 @@ pub fn check_with(declaration: &Declaration, effort: Effort, report: &mut Report
     let mut own = Report::new();
     contradiction::clear();
     let model = stages(declaration, effort, &mut own);
-    if let Some(diagnostic) = contradiction::diagnostic(declaration.name.origin) {
-        own.push(diagnostic);
+    if let Some(text) = contradiction::take() {
+        own.push(contradicted(&text, declaration.name.origin));
     }
     if model.as_ref().is_some_and(|model| model.family.is_some()) {
         idle::unused(declaration, &mut own);
@@ -107,6 +92,15 @@ pub fn check_with(declaration: &Declaration, effort: Effort, report: &mut Report
     model
         .filter(|_| !failed)
         .map(|model| Model { warnings, ..model })
+}
+
+/// What is said of a verdict that numbers refute.
+fn contradicted(text: &str, origin: Origin) -> Diagnostic {
+    let message = format!(
+        "the compiler contradicts itself: values at a point refute what it has proven about `{text}`"
+    );
+    let help = "this is a bug in the compiler, not in the declaration; please report it with the declaration";
+    Diagnostic::new(Kind::Limit, origin, message).help(help)
 }
 
 fn stages(declaration: &Declaration, effort: Effort, report: &mut Report) -> Option<Model> {
@@ -128,69 +122,4 @@ fn stages(declaration: &Declaration, effort: Effort, report: &mut Report) -> Opt
         }
         None => system::check(declaration, None, effort, report),
     }
-}
-
-/// Work allowed for one rational function of the parameters.
-const WORK_OF_FRACTIONS: u64 = 10_000;
-
-/// A rational function of the parameters in the arena.
-pub(crate) fn expression(graph: &mut Graph, value: &Fraction) -> ExprId {
-    let polynomial = |graph: &mut Graph, p: &crate::exact::Polynomial| {
-        let mut terms = Vec::new();
-        for (monomial, coefficient) in p.terms() {
-            let mut powers = Vec::new();
-            for (v, e) in monomial.powers() {
-                powers.push((
-                    graph.symbol(Symbol::Parameter(v)),
-                    Rational::from(i64::from(e)),
-                ));
-            }
-            terms.push((graph.power_product(&powers), coefficient.clone()));
-        }
-        graph.linear(&terms)
-    };
-    let mut factors = vec![(polynomial(graph, value.numerator()), Rational::ONE)];
-    for (factor, exponent) in value.denominator() {
-        factors.push((
-            polynomial(graph, factor),
-            Rational::from(-i64::from(exponent)),
-        ));
-    }
-    graph.power_product(&factors)
-}
-
-/// An expression as a rational function of the parameters, where it is one, or is where all coordinates have a value.
-pub(crate) fn fraction(
-    graph: &Graph,
-    id: ExprId,
-    coordinates: Option<Rational>,
-) -> Option<Fraction> {
-    let budget = &Budget::new(WORK_OF_FRACTIONS);
-    let mut values: HashMap<ExprId, Fraction> = HashMap::new();
-    for id in graph.dependencies(&[id]) {
-        let value = match graph.node(id) {
-            Node::Number(value) => Fraction::from(value.clone()),
-            Node::Symbol(Symbol::Parameter(p)) => Fraction::variable(*p),
-            Node::Symbol(Symbol::Coordinate(_)) => Fraction::from(coordinates.clone()?),
-            Node::Sum { constant, terms } => {
-                let mut sum = Fraction::from(constant.clone());
-                for (term, coefficient) in terms {
-                    sum = sum.add(&values[term].scale(coefficient), budget).ok()?;
-                }
-                sum
-            }
-            Node::Product(factors) => {
-                let mut product = Fraction::from(Rational::ONE);
-                for (base, exponent) in factors {
-                    let exponent = i32::try_from(exponent.to_integer()?).ok()?;
-                    let power = values[base].pow(exponent, budget).ok()??;
-                    product = product.mul(&power, budget).ok()?;
-                }
-                product
-            }
-            _ => return None,
-        };
-        values.insert(id, value);
-    }
-    values.remove(&id)
 }

@@ -6,10 +6,10 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use super::independence::{self, Standing};
 use crate::derive::Source;
 use crate::exact::{Budget, Exhausted, Fraction, Monomial, Polynomial, Rational};
 use crate::model::Model;
+use crate::prove::independence::{self, Standing};
 use crate::structure::casimirs::solve::{
     Field as _, Functions, PRIMES, Prime, Sparse, cleared, drawn, kernel,
 };

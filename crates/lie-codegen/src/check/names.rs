@@ -2,27 +2,15 @@
 
 use std::collections::HashMap;
 
+use crate::ast::names::{is_keyword, is_reserved};
 use crate::ast::{Declaration, Name, Realization};
 use crate::diagnostic::{Diagnostic, Kind, Report};
-use crate::symbolic::Function;
 
-/// The keywords of Rust, strict and reserved, of every edition up to 2024: generated code uses the
-/// user's names as they are.
-const KEYWORDS: &[&str] = &[
-    "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate",
-    "do", "dyn", "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl",
-    "in", "let", "loop", "macro", "match", "mod", "move", "mut", "override", "priv", "pub", "ref",
-    "return", "self", "Self", "static", "struct", "super", "trait", "true", "try", "type",
-    "typeof", "unsafe", "unsized", "use", "virtual", "where", "while", "yield",
-];
 /// Types that generated code names without a path: a system of that name would hide them.
 const TYPES: &[&str] = &[
     "S", "bool", "char", "f32", "f64", "i8", "i16", "i32", "i64", "i128", "isize", "str", "u8",
     "u16", "u32", "u64", "u128", "usize",
 ];
-/// Words of the language; `energy` is a column of every output.
-const WORDS: &[&str] = &["pi", "t", "energy", "sum"];
-
 /// Reports every bad name.
 ///
 /// Basis and state are separate name spaces, because elements of the algebra and coordinates of
@@ -137,14 +125,6 @@ fn declare<'a>(
     }
 }
 
-/// Whether the language keeps a name for itself.
-pub fn is_reserved(name: &str) -> bool {
-    KEYWORDS.contains(&name)
-        || WORDS.contains(&name)
-        || name.starts_with('_')
-        || Function::is_name(name)
-}
-
 fn permitted(name: &Name, report: &mut Report) {
     let text = name.text.as_str();
     let mut letters = text.chars();
@@ -165,7 +145,7 @@ fn permitted(name: &Name, report: &mut Report) {
     if !is_reserved(text) {
         return;
     }
-    let why = if KEYWORDS.contains(&text) {
+    let why = if is_keyword(text) {
         "a keyword of Rust"
     } else if text.starts_with('_') {
         "kept for generated code, as is every name that begins with `_`"

@@ -2,12 +2,12 @@
 
 use std::collections::HashSet;
 
-use super::branches;
 use super::casimirs::Candidate;
-use super::independence::{self, Standing};
 use crate::ast::Declaration;
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::model::{Casimir, CasimirKind};
+use crate::prove::branches;
+use crate::prove::independence::{self, Standing};
 use crate::symbolic::{ExprId, Graph};
 
 /// The Casimirs with names: unnamed ones are C1, C2, …, skipping what is taken.

@@ -1,11 +1,11 @@
 //! Defaults of parameters: constants, finite in double precision, rational where they are exact.
 
-use super::constant;
 use super::environment::{Allowed, Binding, Environment};
 use super::lower::Lowering;
 use crate::ast::Declaration;
 use crate::diagnostic::{Diagnostic, Kind, Report};
 use crate::model::Parameter;
+use crate::prove::sign;
 use crate::symbolic::Graph;
 
 /// Lowers the defaults.
@@ -28,7 +28,7 @@ pub fn check(
                 return None;
             }
             if parameter.positive {
-                if constant::sign(graph, default) != Some(1) {
+                if sign::constant(graph, default) != Some(1) {
                     report.push(
                         Diagnostic::new(Kind::Number, place, format!("the default of the positive parameter `{name}` is not positive"))
                             .help("choose another default, or do not declare it positive"),

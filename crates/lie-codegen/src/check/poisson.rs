@@ -5,13 +5,13 @@ use std::collections::BTreeMap;
 
 use super::environment::{Allowed, Environment};
 use super::lower::Lowering;
-use super::normal::{NormalForm, Verdict};
-use super::proof::{Proof, examine};
-use super::residues;
 use crate::ast::{Bracket, Declaration, Name, Structure};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::exact::Budget;
 use crate::model::CANONICAL;
+use crate::prove::normal::{NormalForm, Verdict};
+use crate::prove::proof::{Proof, examine};
+use crate::prove::residues;
 use crate::suggest::{listed, misspelt};
 use crate::symbolic::{ExprId, Graph, Symbol};
 

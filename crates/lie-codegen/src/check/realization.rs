@@ -1,16 +1,15 @@
 //! Realizations: a map J from canonical coordinates with `{J_a, J_b} = Pi_ab(J)`, proven by a normal form.
 
-use super::configuration::Configuration;
 use super::descent::{self, Component};
 use super::environment::{Allowed, Environment};
 use super::lower::Lowering;
-use super::normal::{NormalForm, Verdict};
-use super::proof::{Proof, examine};
-use super::size::plural;
 use crate::ast::{self, Declaration, Expr};
-use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
+use crate::diagnostic::{Diagnostic, Kind, Origin, Report, plural};
 use crate::exact::{Budget, Rational};
+use crate::model::configuration::Configuration;
 use crate::model::{CANONICAL, Descent, PoissonMatrix, Realization};
+use crate::prove::normal::{NormalForm, Verdict};
+use crate::prove::proof::{Proof, examine};
 use crate::symbolic::{ExprId, Graph, Symbol};
 
 /// Work allowed for all brackets of one realization.

@@ -2,8 +2,8 @@
 
 use std::collections::HashMap;
 
-use super::normal::{NormalForm, Verdict};
 use crate::exact::{Budget, Rational};
+use crate::prove::normal::{NormalForm, Verdict};
 use crate::symbolic::{ExprId, Function, Graph, Node, Symbol};
 
 /// Work allowed for one decision of the normal form.

@@ -2,11 +2,12 @@
 //! message must not blame the Casimir alone.
 
 use super::casimirs::{self, Candidate};
-use super::{expression, matrix};
-use crate::algebra::{StructureConstants, WORK, jacobi};
+use super::matrix;
+use crate::algebra::{StructureConstants, jacobi};
 use crate::ast::Declaration;
 use crate::diagnostic::{Diagnostic, Kind, Report};
 use crate::exact::{Budget, Fraction};
+use crate::linear::WORK;
 use crate::symbolic::{Graph, Symbol};
 
 /// Brackets whose signs are tried; each trial is a check of the algebra and of its Casimirs.
@@ -70,7 +71,7 @@ fn holds(
     ) {
         return false;
     }
-    let symbolic = constants.map(|value| expression(graph, value));
+    let symbolic = constants.map(|value| graph.rational_function(value));
     let poisson = matrix::of(graph, symbolic.dimension(), Some(&symbolic), &[]);
     let mut unheard = Report::new();
     let nameless = |_: Symbol| String::new();

@@ -1,12 +1,10 @@
 //! Dimension, one coordinate for every basis element, and the size of what is derived.
 
 use crate::ast::Declaration;
-use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
+use crate::diagnostic::{Diagnostic, Kind, Origin, Report, plural};
+use crate::limits::MAX_DIMENSION;
 use crate::model::PoissonMatrix;
 use crate::symbolic::{ExprId, Graph, Symbol};
-
-/// Kernels are straight-line code; above this dimension no compiler gets through them.
-pub const MAX_DIMENSION: usize = 256;
 
 /// Each parameter is a field of the generated type and a word of every system; a quadratic H with a parameter
 /// for every coefficient has as many in 76 dimensions.
@@ -175,13 +173,4 @@ fn field(graph: &mut Graph, poisson: &PoissonMatrix, hamiltonian: ExprId) -> Opt
         gradient(graph, component, dimension)?;
     }
     Some(())
-}
-
-/// The word for so many things.
-pub fn plural(count: usize, word: &str) -> String {
-    if count == 1 {
-        word.to_string()
-    } else {
-        format!("{word}s")
-    }
 }

@@ -3,7 +3,8 @@
 use crate::ast::Declaration;
 use crate::diagnostic::{Diagnostic, Kind, Report};
 use crate::model::Model;
-use crate::structure::smoothness::{Joint, joints};
+use crate::prove::joints::Joint;
+use crate::structure::smoothness::joints;
 
 /// Warns of joints at which the Hamiltonian or its gradient jumps.
 pub fn check(declaration: &Declaration, model: &Model, report: &mut Report) {

@@ -2,23 +2,24 @@
 
 use super::algebra::{self, Algebra};
 use super::casimirs::{self, Candidate};
-use super::configuration::Configuration;
 use super::energy::Declared;
 use super::environment::{Allowed, Environment};
 use super::lower::Lowering;
 use super::{
-    Effort, breadth, cocycle, defaults, degree, domain, energy, found, initial, lets, matrix,
-    methods, naming, opaque, parameters, poisson, realization, sign, size,
+    Effort, breadth, cocycle, defaults, domain, energy, found, initial, lets, matrix, methods,
+    naming, opaque, parameters, poisson, realization, sign, size,
 };
 use crate::algebra::rank as algebra_rank;
+use crate::ast::Runtime;
 use crate::ast::{self, Declaration};
 use crate::diagnostic::{Origin, Report};
 use crate::exact::Rational;
+use crate::model::configuration::Configuration;
 use crate::model::{
     self, Bracket, Casimir, Energy, Hamiltonian, Kept, Model, Parameter, PoissonMatrix,
     Realization, Search,
 };
-use crate::print::Runtime;
+use crate::prove::degree;
 use crate::structure::separable;
 use crate::symbolic::{ExprId, Graph, Symbol};
 

@@ -230,7 +230,7 @@ impl Source {
 
     /// A coefficient times entries of x.
     fn scaled(&mut self, coefficient: &crate::exact::Fraction, entries: &[ExprId]) -> ExprId {
-        let coefficient = crate::check::expression(&mut self.graph, coefficient);
+        let coefficient = self.graph.rational_function(coefficient);
         let product = self.graph.product(entries);
         self.graph.mul(coefficient, product)
     }

@@ -4,9 +4,9 @@ use lie_core::generic::{flow_over_quaternions, flow_over_spins};
 
 use super::{Argument, Kernel, Source};
 use crate::algebra::Representation;
+use crate::derive::trace::{Sym, values};
 use crate::model::{CANONICAL, Energy, Hamiltonian};
 use crate::symbolic::{ExprId, Symbol};
-use crate::trace::{Sym, values};
 
 /// The symbols of so many entries of a point, from a place on.
 fn places(first: usize, count: usize) -> Vec<Symbol> {

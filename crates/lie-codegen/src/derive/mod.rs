@@ -18,6 +18,7 @@ mod second_kind;
 mod source;
 mod splitting;
 mod tape;
+pub mod trace;
 mod traced;
 
 pub(crate) use discrete_gradient::Closed;

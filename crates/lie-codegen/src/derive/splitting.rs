@@ -10,7 +10,6 @@
 
 use super::field::mu;
 use super::{Kernel, Source};
-use crate::check::expression;
 use crate::exact::Rational;
 use crate::structure::one_parameter::{Block, Form};
 use crate::structure::separable::Piece;
@@ -86,7 +85,7 @@ pub(super) fn sigma(source: &mut Source, block: &Block, s: ExprId) -> ExprId {
     match &block.factor {
         None => s,
         Some(factor) => {
-            let factor = expression(&mut source.graph, factor);
+            let factor = source.graph.rational_function(factor);
             source.graph.mul(factor, s)
         }
     }

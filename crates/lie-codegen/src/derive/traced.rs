@@ -5,9 +5,9 @@ use lie_core::generic::{self, DiscreteGradientStep, SecondKind};
 use super::generating::MOST_SCHEDULED;
 use super::tape::Tangents;
 use super::{Generating, Kernel, Source};
+use crate::derive::trace::{self, Formulas, SymbolicActions, SymbolicFunction, SymbolicGradient};
 use crate::methods::{Gradient, Retraction};
 use crate::structure::inertia::Body;
-use crate::trace::{self, Formulas, SymbolicActions, SymbolicFunction, SymbolicGradient};
 
 impl Source {
     /// Residual, Jacobian and result of the Poisson midpoint rule.

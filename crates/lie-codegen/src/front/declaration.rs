@@ -20,8 +20,8 @@ use super::token::{Delimiter, Token, TokenKind, render, span, split_commas};
 use super::vectors::Declared;
 use super::{Body, Names, Parsed, item, rust};
 use crate::ast::{Expr, Name, OwnFunction, Realization, RunOption, Start};
+use crate::ast::{NoPath, Runtime};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
-use crate::print::{NoPath, Runtime};
 
 /// Parses the input of the macro. Every mistake is reported at its token; one in a statement does
 /// not hide those of the others. The body is there only if there is no mistake.

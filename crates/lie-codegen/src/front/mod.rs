@@ -37,9 +37,9 @@ pub use names::{Names, PIECEWISE};
 pub use place::line_column;
 pub use schema::schema;
 
+use crate::ast::Runtime;
 use crate::ast::{Declaration, Expr, Name};
 use crate::diagnostic::{Diagnostic, Kind, Report};
-use crate::print::Runtime;
 use proc_macro2::TokenStream;
 use text::Source;
 

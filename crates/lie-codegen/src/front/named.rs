@@ -9,11 +9,11 @@ use mistakes::{unexpected, unknown};
 
 use super::item;
 use super::token::{Cursor, Delimiter, Token, TokenKind, render, span, split_commas};
-use crate::algebra::constructors::{Argument, Family, Named, Wrong, direct_sum, family};
-use crate::algebra::{WORK, rational};
-use crate::check::MAX_DIMENSION;
+use crate::constructors::{Argument, Family, Named, Wrong, direct_sum, family};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::exact::{Budget, Rational};
+use crate::limits::MAX_DIMENSION;
+use crate::linear::{WORK, rational};
 
 /// How deep parentheses may be nested.
 const DEEPEST: usize = 32;

@@ -4,7 +4,7 @@ use super::interpret::{Scope, size};
 use super::linear;
 use super::number::{Jet, Number};
 use crate::ast::{Algebra, Declaration, Energy, Expr, Invariance, Name, Structure};
-use crate::check::configuration::{Configuration, TIME};
+use crate::model::configuration::{Configuration, TIME};
 
 /// Newton's iterations of a Legendre transform, from a velocity that is nearly right.
 const ITERATIONS: usize = 6;
@@ -158,7 +158,7 @@ impl Declared {
                 .collect()
         };
         let g = linear::solve(half(-1), half(1));
-        let names = crate::check::configuration::entries_of(group, size);
+        let names = crate::model::configuration::entries_of(group, size);
         names.into_iter().zip(g.into_iter().flatten()).collect()
     }
 

@@ -4,7 +4,16 @@ use crate::ast::Expr;
 use crate::diagnostic::Origin;
 use crate::symbolic::ExprId;
 
-pub use crate::structure::casimirs::CasimirKind;
+/// Where a Casimir comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CasimirKind {
+    /// It was declared, and verified.
+    Declared,
+    /// A polynomial that was found.
+    Polynomial,
+    /// A rational function that was found.
+    Rational,
+}
 
 /// How the search for the Casimirs that a declaration lacks ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

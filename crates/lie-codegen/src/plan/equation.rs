@@ -5,9 +5,9 @@ use super::elimination::Elimination;
 use super::function::Function;
 use super::recurrence::Recurrence;
 use crate::derive::Shape;
+use crate::derive::trace::COMPLETED;
 use crate::methods::{self, Choice, Lift};
 use crate::schedule::Counts;
-use crate::trace::COMPLETED;
 
 /// A definition that the steps of methods are made of.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]

@@ -3,7 +3,7 @@
 use super::equation::{Chart, Item, Method, Motion, Partner};
 use super::planner::Planner;
 use super::steps::Form;
-use crate::trace::{self, Formulas, Step, Sym, SymbolicSystem};
+use crate::derive::trace::{self, Formulas, Step, Sym, SymbolicSystem};
 
 /// An implicit method of a user: a type that names it, and an equation over any scalar whose unknown is a state.
 #[derive(Clone, Copy, Debug)]

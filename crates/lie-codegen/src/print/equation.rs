@@ -7,10 +7,10 @@ use super::function::{Body, Owner, matrix_entries, vector_writes};
 use super::names::{ident, index};
 use super::{Printer, elimination};
 use crate::derive::Shape;
+use crate::derive::trace::COMPLETED;
 use crate::plan::{Chart, Constants, Ending, Function, Fused, Guess, Motion, Partner};
 use crate::schedule::Value;
 use crate::symbolic::Symbol;
-use crate::trace::COMPLETED;
 
 /// The constants of a step size: fields of a struct, how they are computed, the fields of its value.
 pub(super) struct StepConstants {

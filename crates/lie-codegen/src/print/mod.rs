@@ -27,7 +27,7 @@ mod text;
 use proc_macro2::{Group, Ident, TokenStream, TokenTree};
 use quote::quote;
 
-pub use runtime::{NoPath, Runtime};
+pub(crate) use runtime::rooted;
 pub use surface::Surface;
 pub(crate) use text::format;
 
@@ -37,9 +37,8 @@ use crate::plan::{Item, Plan};
 pub fn print(plan: &Plan, surface: &Surface) -> TokenStream {
     let printer = Printer { plan, surface };
     if let Some(family) = &plan.family {
-        return surface
-            .runtime
-            .root(of_this_version(printer.family(family)));
+        let items = of_this_version(printer.family(family));
+        return rooted(items, &surface.runtime);
     }
     let parameters = printer.parameters();
     let system = printer.system_struct();
@@ -52,9 +51,10 @@ pub fn print(plan: &Plan, surface: &Surface) -> TokenStream {
     let generic = printer.generic();
     let splitting = printer.splitting();
     let found = printer.found();
-    surface.runtime.root(of_this_version(quote! {
+    let items = of_this_version(quote! {
         #parameters #system #traits #lagrangian #other_scalars #structure #realization #items #generic #splitting #found
-    }))
+    });
+    rooted(items, &surface.runtime)
 }
 
 /// What generated code uses of the runtime beyond its public names: a module whose name bears the version, so that code

@@ -2,7 +2,7 @@
 
 use proc_macro2::{Span, TokenStream};
 
-use super::Runtime;
+use crate::ast::Runtime;
 use crate::diagnostic::Origin;
 use crate::model::Model;
 

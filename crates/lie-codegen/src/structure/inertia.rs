@@ -6,9 +6,9 @@
 //! `1/a_ij = J_i + J_j`, identically in the parameters; it is proven by the normal form that verifies
 //! Casimirs.
 
-use crate::check::normal::{NormalForm, Verdict};
 use crate::exact::{Budget, Rational};
 use crate::model::Model;
+use crate::prove::normal::{NormalForm, Verdict};
 use crate::symbolic::{ExprId, Graph, Symbol};
 
 /// Work allowed for the identities of one Hamiltonian.

@@ -5,10 +5,10 @@
 //! normal form that verifies Casimirs; one that cannot be is taken for one that is not.
 
 use super::one_parameter::{self, Block, Entry};
-use crate::check::confirmation::{Confirmation, Finding};
-use crate::check::normal::{NormalForm, Verdict};
 use crate::exact::Budget;
 use crate::model::{Algebra, Model};
+use crate::prove::confirmation::{Confirmation, Finding};
+use crate::prove::normal::{NormalForm, Verdict};
 use crate::symbolic::{ExprId, Graph, Symbol};
 
 /// Work allowed for the derivatives of one Hamiltonian.

@@ -3,6 +3,7 @@
 mod calculus;
 mod display;
 mod evaluate;
+mod fractions;
 mod function;
 mod graph;
 mod opaque;

@@ -9,8 +9,9 @@ use lie_codegen::check::{Effort, motions as search};
 use lie_codegen::compile;
 use lie_codegen::methods::applicability;
 use lie_codegen::model::{CasimirKind, Model};
+use lie_codegen::prove::joints::Joint;
 use lie_codegen::structure::algebra;
-use lie_codegen::structure::smoothness::{self, Joint};
+use lie_codegen::structure::smoothness;
 use serde_json::{Value, json};
 use splitting::Splitting;
 

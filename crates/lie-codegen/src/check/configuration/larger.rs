@@ -1,9 +1,9 @@
 //! Brackets and matrices of the larger algebra.
 
-use super::{Configuration, TIME, TIME_MOMENTUM, UNIT, entry};
 use crate::ast::{Algebra, Bracket, Expr, ExprKind, Invariance, Matrix, Name};
 use crate::diagnostic::Origin;
 use crate::exact::Rational;
+use crate::model::configuration::{Configuration, TIME, TIME_MOMENTUM, UNIT, entry};
 
 /// What the additions are made from.
 pub(super) struct Builder<'a> {

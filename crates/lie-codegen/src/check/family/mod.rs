@@ -6,11 +6,12 @@ mod sums;
 
 use super::environment::{Allowed, Environment};
 use super::lower::Lowering;
-use super::{Effort, degree, lets, methods, names, size, system};
+use super::{Effort, lets, methods, names, size, system};
 use crate::ast::{self, Casimir, Declaration, Energy, Expr, ExprKind, Name, Structure};
 use crate::diagnostic::{Diagnostic, Kind, Report};
 use crate::exact::Rational;
 use crate::model::{Family, Model, SiteSum, Size};
+use crate::prove::degree;
 use crate::symbolic::{ExprId, Symbol};
 use sums::{Collected, Sums};
 

@@ -1,10 +1,10 @@
 //! The quadratic part of a Lagrangian, and its elimination row by row.
 
 use super::{Lagrangian, not_at_rest};
-use crate::check::configuration::Configuration;
-use crate::check::normal::{NormalForm, Verdict};
 use crate::diagnostic::{Diagnostic, Kind};
 use crate::exact::{Budget, Rational};
+use crate::model::configuration::Configuration;
+use crate::prove::normal::{NormalForm, Verdict};
 use crate::symbolic::{ExprId, Graph, Symbol};
 
 /// Work allowed for one decision of the normal form.

@@ -1,10 +1,10 @@
 //! Which powers and functions of constants are real and finite, by the exact signs of constants.
 
 use super::Lowering;
-use crate::algebra::walk::Lower as _;
-use crate::check::constant;
 use crate::diagnostic::{Kind, Origin};
 use crate::exact::Rational;
+use crate::linear::walk::Lower as _;
+use crate::prove::sign;
 use crate::symbolic::{ExprId, Function};
 
 impl Lowering<'_, '_> {
@@ -18,7 +18,7 @@ impl Lowering<'_, '_> {
         }
         if !self.constants.contains_key(&id) {
             let constant = self.graph.symbols(id).is_empty();
-            let sign = constant.then(|| constant::sign(self.graph, id));
+            let sign = constant.then(|| sign::constant(self.graph, id));
             self.constants.insert(id, sign);
         }
         match self.constants[&id] {

@@ -1,7 +1,8 @@
 //! `abs`, `min`, `max` and `piecewise`: names, constants, proofs, and how smooth they are.
 
 use super::*;
-use crate::structure::smoothness::{joints, reached};
+use crate::prove::joints::reached;
+use crate::structure::smoothness::joints;
 
 const NAMES: [&str; 4] = ["abs", "min", "max", "piecewise"];
 

@@ -81,11 +81,11 @@ proptest! {
         let expected = graph.scale(lower, &factor);
         let difference = graph.sub(slope, expected);
         let budget = Budget::new(1_000_000);
-        let mut normal = crate::check::normal::NormalForm::new(&graph, &budget);
+        let mut normal = crate::prove::normal::NormalForm::new(&graph, &budget);
         for zero in [rest, difference] {
-            prop_assert!(matches!(normal.verdict(zero), crate::check::normal::Verdict::Zero));
+            prop_assert!(matches!(normal.verdict(zero), crate::prove::normal::Verdict::Zero));
         }
-        prop_assert!(!matches!(normal.verdict(left), crate::check::normal::Verdict::Zero));
+        prop_assert!(!matches!(normal.verdict(left), crate::prove::normal::Verdict::Zero));
         graph.display(left, &|_| "x".into());
     }
 

@@ -2,6 +2,8 @@ use super::*;
 use crate::ast::{Expr, ExprKind};
 use crate::check::environment::{Allowed, Environment};
 use crate::check::lower::Lowering;
+use crate::limits::MAX_DIMENSION;
+use crate::symbolic::Graph;
 use std::time::{Duration, Instant};
 
 fn hamiltonian(text: &str) -> String {

@@ -1,7 +1,9 @@
 mod algebra;
+mod branches;
 mod casimirs;
 mod choices;
 mod configuration;
+mod degree;
 mod domain;
 mod extremes;
 mod families;
@@ -20,7 +22,9 @@ mod tables;
 
 use super::*;
 use crate::diagnostic::{Kind, Origin};
+use crate::exact::Rational;
 use crate::front::{Body, spec};
+use crate::symbolic::{ExprId, Symbol};
 
 /// so(3) with what is given: keys of the spec, each with its JSON.
 pub(super) fn so3(extra: &[(&str, &str)]) -> String {

@@ -2,8 +2,9 @@
 
 use super::*;
 use crate::front::declaration;
+use crate::prove::joints::reached;
 use crate::structure::found::terms;
-use crate::structure::smoothness::{joints, reached};
+use crate::structure::smoothness::joints;
 
 /// so(3) with functions and statements.
 fn body(functions: &str, rest: &str) -> String {

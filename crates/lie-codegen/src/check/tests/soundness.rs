@@ -193,15 +193,15 @@ fn casimirs_with_several_branches_are_warned_of() {
 
 #[test]
 fn a_contradiction_is_a_mistake_of_the_compiler() {
-    use crate::check::contradiction;
     use crate::diagnostic::Kind;
+    use crate::prove::contradiction;
     let model = declared("x^2 + y^2");
     contradiction::keep(&model.graph, model.hamiltonian());
-    let found = contradiction::diagnostic(model.name_origin).unwrap();
+    let found = contradicted(&contradiction::take().unwrap(), model.name_origin);
     assert_eq!(found.kind, Kind::Limit);
     assert!(found.message.contains("contradicts itself") && found.help.is_some());
     // it is told once, and does not outlive the check in which it was found
-    assert!(contradiction::diagnostic(model.name_origin).is_none());
+    assert!(contradiction::take().is_none());
     contradiction::keep(&model.graph, model.hamiltonian());
     assert!(run(&so3(&[])).1.is_empty());
 }

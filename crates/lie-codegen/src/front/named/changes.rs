@@ -3,16 +3,16 @@
 use std::collections::BTreeMap;
 
 use super::fits;
-use crate::algebra::constructors::{
+use crate::ast::{Bracket, Matrix, Name};
+use crate::constructors::{
     Acted, Central, Constants, Entries, Matrices, Named, changed, extended, semidirect,
 };
-use crate::algebra::{Scope, WORK, rational, rational_form};
-use crate::ast::{Bracket, Matrix, Name};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::exact::{Budget, Fraction, Rational};
 use crate::front::reader::{Line, Read};
 use crate::front::token::span;
 use crate::front::{Names, item};
+use crate::linear::{Scope, WORK, rational, rational_form};
 
 /// A named algebra as it is.
 pub fn standard(named: &Named, place: Origin) -> Read {

@@ -1,7 +1,7 @@
 //! What is wrong with a name.
 
 use super::EXAMPLES;
-use crate::algebra::constructors::FAMILIES;
+use crate::constructors::FAMILIES;
 use crate::diagnostic::{Diagnostic, Kind, Origin};
 use crate::front::token::{Token, render};
 use crate::suggest::did_you_mean;

@@ -1,7 +1,7 @@
 //! `tangent(A)` and `semidirect(A, R^n, …)`.
 
 use super::Parser;
-use crate::algebra::constructors::{Acted, Matrices, Named, direct_sum, semidirect, tangent};
+use crate::constructors::{Acted, Matrices, Named, direct_sum, semidirect, tangent};
 use crate::diagnostic::{Kind, Origin};
 use crate::front::token::{Token, render, span};
 

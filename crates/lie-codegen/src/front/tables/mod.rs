@@ -6,8 +6,8 @@ mod writer;
 
 use super::names::Names;
 use super::vectors;
+use crate::ast::names::is_reserved;
 use crate::ast::{Expr, ExprKind, Name, OwnFunction};
-use crate::check::is_reserved;
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::exact::Rational;
 use spline::Piece;

@@ -158,7 +158,7 @@ fn the_path_of_the_runtime() {
         ] {
             let (parsed, diagnostics) = read(&text);
             assert!(diagnostics.is_empty() && parsed.body.is_some(), "{text}");
-            let written = parsed.runtime.root("::lie_runtime".parse().unwrap());
+            let written = parsed.runtime.path().unwrap();
             assert_eq!(written.to_string().replace(' ', ""), path);
         }
     }

@@ -48,17 +48,6 @@ pub const DEEP: u64 = 20_000_000_000;
 /// The largest algebra whose invariants are looked for.
 const LARGEST: usize = 250;
 
-/// Where a Casimir comes from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum CasimirKind {
-    /// It was declared, and verified.
-    Declared,
-    /// A polynomial that was found.
-    Polynomial,
-    /// A rational function that was found.
-    Rational,
-}
-
 /// A function that was found to be a Casimir, in its normal form: integer coefficients without common divisor, the first one
 /// positive. Variable i below the dimension n is a coordinate, n + p the parameter p.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,7 +3,6 @@
 use super::atoms::{self, Atom, Form};
 use super::invariants::Invariant;
 use super::{Classified, Conserved, Factor, Found, Piece};
-use crate::check::expression;
 use crate::exact::{Budget, Fraction};
 use crate::model::Algebra;
 use crate::structure::exponential;
@@ -73,9 +72,9 @@ impl Assembly<'_> {
                     slope,
                 } => {
                     let l = atoms::linear(graph, form);
-                    let factor = expression(graph, square);
+                    let factor = graph.rational_function(square);
                     let first = graph.mul(factor, l);
-                    let second = expression(graph, slope);
+                    let second = graph.rational_function(slope);
                     let slope = graph.add(first, second);
                     factors.push(self.factor(graph, form, slope));
                 }
@@ -142,7 +141,7 @@ impl Assembly<'_> {
         Factor {
             direction: form
                 .iter()
-                .map(|(i, value)| (*i, expression(graph, value)))
+                .map(|(i, value)| (*i, graph.rational_function(value)))
                 .collect(),
             slope,
             blocks: action.and_then(|entries| one_parameter::closed_form(&entries)),

@@ -3,7 +3,6 @@
 use std::collections::BTreeSet;
 
 use super::invariants::{self, Invariant};
-use crate::check::expression;
 use crate::exact::{Budget, Exhausted, Fraction, Rational};
 use crate::model::Algebra;
 use crate::symbolic::{ExprId, Graph, Symbol};
@@ -42,14 +41,14 @@ impl Atom {
         let two = Rational::from(2);
         let mut terms = Vec::new();
         if !square.is_zero() {
-            let factor = expression(graph, square);
+            let factor = graph.rational_function(square);
             let power = graph.pow(l, &two);
             let half = Rational::new(1, 2).unwrap_or(Rational::ONE);
             let term = graph.mul(factor, power);
             terms.push(graph.scale(term, &half));
         }
         if !slope.is_zero() {
-            let factor = expression(graph, slope);
+            let factor = graph.rational_function(slope);
             terms.push(graph.mul(factor, l));
         }
         terms
@@ -65,7 +64,7 @@ pub(super) fn unit(i: usize) -> Form {
 pub(super) fn linear(graph: &mut Graph, form: &Form) -> ExprId {
     let mut terms = Vec::new();
     for (i, value) in form {
-        let factor = expression(graph, value);
+        let factor = graph.rational_function(value);
         let x = graph.symbol(Symbol::Coordinate(*i));
         terms.push(graph.mul(factor, x));
     }

@@ -7,7 +7,6 @@
 //! Source: J.-L. Lagrange, "Recherches sur la méthode de maximis et minimis", Miscellanea Taurinensia 1 (1759) 18–42.
 
 use super::atoms::{Atom, Commuting, Form};
-use crate::check::{expression, fraction};
 use crate::exact::{Budget, Exhausted, Fraction, Rational};
 use crate::symbolic::{ExprId, Graph, Node, Symbol};
 
@@ -242,7 +241,7 @@ impl Quadratic {
         let mut terms = self.others;
         let mut push = |graph: &mut Graph, factor: &Fraction, product: ExprId| {
             if !factor.is_zero() {
-                let factor = expression(graph, factor);
+                let factor = graph.rational_function(factor);
                 terms.push(graph.mul(factor, product));
             }
         };
@@ -293,7 +292,7 @@ fn monomial(graph: &mut Graph, term: ExprId) -> Option<(Fraction, Vec<(usize, u3
         }
     }
     let rest = graph.power_product(&rest);
-    let factor = fraction(graph, rest, None)?.scale(&scale);
+    let factor = graph.fraction(rest, None)?.scale(&scale);
     powers.sort_unstable();
     Some((factor, powers))
 }

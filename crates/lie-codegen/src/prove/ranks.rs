@@ -136,7 +136,7 @@ pub fn at_numbers(
 }
 
 /// The values at a point, `None` where they are not rational.
-pub(super) fn exact(
+pub fn exact(
     graph: &Graph,
     roots: &[ExprId],
     value: &dyn Fn(Symbol) -> Option<Rational>,

@@ -4,9 +4,14 @@
 //! long sum cannot exhaust the stack. Names may carry indices and sums may run over an index:
 //! families of systems need both, so they are in the tree from the start.
 
+pub mod names;
+mod runtime;
+
 use crate::diagnostic::Origin;
 use crate::exact::Rational;
 use crate::symbolic::Opaque;
+
+pub use runtime::{NoPath, Runtime};
 
 /// A name and its place.
 #[derive(Clone, Debug)]

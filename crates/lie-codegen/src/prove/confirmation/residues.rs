@@ -7,8 +7,8 @@ use num_bigint::BigInt;
 use num_integer::Integer;
 use num_traits::ToPrimitive;
 
-use crate::check::sample::{Sample, Samples};
 use crate::exact::Rational;
+use crate::prove::sample::{Sample, Samples};
 use crate::symbolic::{ExprId, Graph, Node};
 
 /// A Mersenne prime.

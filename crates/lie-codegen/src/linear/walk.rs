@@ -8,12 +8,12 @@ use crate::suggest::did_you_mean;
 use crate::symbolic::Function;
 
 /// The largest exponent, in absolute value.
-pub(crate) const MAX_EXPONENT: i64 = 1000;
+pub const MAX_EXPONENT: i64 = 1000;
 /// Deeper nesting than any person writes; the walk is recursive.
 const MAX_DEPTH: usize = 400;
 
 /// An operand that was lowered.
-pub(crate) struct Operand<T> {
+pub struct Operand<T> {
     /// Whether it is subtracted, or divides.
     pub turned: bool,
     /// What became of it, `None` after a mistake in lists of operands.
@@ -34,10 +34,10 @@ impl<T> Operand<T> {
 }
 
 /// The operands of a sum, a product or a function.
-pub(crate) type Operands<T> = Vec<Operand<Option<T>>>;
+pub type Operands<T> = Vec<Operand<Option<T>>>;
 
 /// What the operations of the syntax tree become. `None` always means that something was reported.
-pub(crate) trait Lower: Sized {
+pub trait Lower: Sized {
     /// What an expression becomes.
     type Value;
 

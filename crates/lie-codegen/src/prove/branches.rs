@@ -5,8 +5,8 @@
 //! method is held to it. What counts is `atan2`, and `atan` of what has a pole, of the coordinates. The other
 //! functions are continuous where they are real.
 
+use super::joints;
 use crate::exact::Rational;
-use crate::structure::smoothness;
 use crate::symbolic::{ExprId, Function, Graph, Node, Symbol};
 
 /// Whether a function may jump between points at which it is defined.
@@ -24,7 +24,7 @@ pub fn jumps(graph: &Graph, function: ExprId) -> bool {
 
 /// Whether branches are not known to meet at their joints.
 fn has_gap(graph: &Graph, function: ExprId) -> bool {
-    let joints = smoothness::of_function(graph, function, &|_| String::new());
+    let joints = joints::of_function(graph, function, &|_| String::new());
     joints
         .iter()
         .any(|joint| joint.jump.is_none_or(|jump| jump == 0))
@@ -68,39 +68,5 @@ fn is_positive(graph: &Graph, id: ExprId) -> bool {
         }
         // proofs are about normal forms
         Node::Call(..) | Node::Written(_) => false,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::check::tests::{model, so3};
-
-    #[test]
-    fn angles_jump_and_other_functions_do_not() {
-        for (text, expected) in [
-            ("x^2 + atan2(y, x)", true),
-            ("log(x^2 + y^2) - atan(z/y)/3", true),
-            ("atan(tan(x))", true),
-            ("cos(atan(1/(x + y)))", true),
-            ("atan2(k, 2) + x", false),
-            ("atan(x*y) + asin(z) + log(x)", false),
-            (
-                "atan(x/sqrt(1 + x^2)) + atan(y/(1 + z^2)) + atan(x/k)",
-                false,
-            ),
-            ("1/x + tan(y)", false),
-            ("abs(x) + max(y, z)", false),
-            ("piecewise(x < 0: y, y + x)", false),
-            ("piecewise(x < 0: y, z)", true),
-        ] {
-            let hamiltonian = format!("{text:?}");
-            let spec = so3(&[
-                ("parameters", r#"{"k": {"value": 2, "positive": true}}"#),
-                ("hamiltonian", &hamiltonian),
-            ]);
-            let model = model(&spec);
-            assert_eq!(jumps(&model.graph, model.hamiltonian()), expected, "{text}");
-        }
     }
 }

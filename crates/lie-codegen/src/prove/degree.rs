@@ -247,6 +247,3 @@ fn parts(graph: &Graph, function: ExprId, growths: &[Option<Growth>]) -> Option<
         _ => normal(graph, function),
     }
 }
-
-#[cfg(test)]
-mod tests;

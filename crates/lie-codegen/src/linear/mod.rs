@@ -1,15 +1,23 @@
 //! Expressions that are linear in basis names, with rational functions of exact parameters as
 //! coefficients: the right sides of brackets, and exact constants as the case without names.
 
+mod scope;
+pub mod walk;
+
 use std::collections::BTreeMap;
 
-use super::scope::{Meaning, Scope};
-use super::walk::{Lower, MAX_EXPONENT, Operand, Operands};
 use crate::ast::{Expr, ExprKind, Name};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::exact::{Budget, Exhausted, Fraction, Rational};
 use crate::suggest::listed;
 use crate::symbolic::Function;
+use scope::Meaning;
+use walk::{Lower, MAX_EXPONENT, Operand, Operands};
+
+pub use scope::Scope;
+
+/// Work allowed for the exact checks of one algebra: seconds, not minutes.
+pub const WORK: u64 = 20_000_000;
 
 /// `constant + sum of coefficient * e_k`.
 #[derive(Clone, Debug, Default)]
@@ -42,7 +50,7 @@ struct Lowering<'a, 'b> {
 }
 
 /// The right side of a bracket: the nonzero coefficients by basis index.
-pub(super) fn bracket_value(
+pub fn bracket_value(
     value: &Expr,
     scope: &Scope<'_>,
     budget: &Budget,

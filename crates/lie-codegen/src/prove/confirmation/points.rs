@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
 
 use super::branches;
-use crate::check::sample::{Sample, Samples};
+use crate::prove::sample::{Sample, Samples};
 use crate::symbolic::{ExprId, Graph, Symbol};
 
 /// Points at which expressions are evaluated in double precision.

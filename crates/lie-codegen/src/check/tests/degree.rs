@@ -1,5 +1,10 @@
-use super::super::tests::{model, so3};
-use super::*;
+//! The degrees of functions of the coordinates.
+
+use super::{model, so3};
+use crate::exact::{Budget, Rational};
+use crate::prove::degree::degree;
+use crate::prove::normal::NormalForm;
+use crate::symbolic::{ExprId, Graph, Symbol};
 
 const PARAMETERS: &str = r#"{"a": 2, "b": "3/2", "k": 5}"#;
 

@@ -4,7 +4,7 @@
 //! no part; balls are tested against mpmath. `LIE_IDENTITIES=10000` tries as many.
 
 use super::*;
-use crate::check::confirmation::{Confirmation, Finding};
+use crate::prove::confirmation::{Confirmation, Finding};
 
 /// What is changed.
 #[derive(Clone, Copy, Debug, PartialEq)]

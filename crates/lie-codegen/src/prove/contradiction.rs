@@ -5,7 +5,6 @@
 
 use std::cell::RefCell;
 
-use crate::diagnostic::{Diagnostic, Kind, Origin};
 use crate::symbolic::{ExprId, Graph, Symbol};
 
 /// Longer expressions are not printed.
@@ -39,12 +38,7 @@ pub fn clear() {
     FOUND.take();
 }
 
-/// The mistake, if there was one.
-pub fn diagnostic(origin: Origin) -> Option<Diagnostic> {
-    let text = FOUND.take()?;
-    let message = format!(
-        "the compiler contradicts itself: values at a point refute what it has proven about `{text}`"
-    );
-    let help = "this is a bug in the compiler, not in the declaration; please report it with the declaration";
-    Some(Diagnostic::new(Kind::Limit, origin, message).help(help))
+/// The text of the expression, if there was one.
+pub fn take() -> Option<String> {
+    FOUND.take()
 }

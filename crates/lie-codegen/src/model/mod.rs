@@ -1,6 +1,7 @@
 //! The checked model: everything that derivation and emission need, with no mistake left in it.
 
 mod casimir;
+pub mod configuration;
 mod family;
 mod realization;
 mod splitting;
@@ -8,14 +9,14 @@ mod splitting;
 use proc_macro2::TokenStream;
 
 use crate::algebra::{Representation, StructureConstants};
+use crate::ast::Runtime;
 use crate::ast::{Invariance, Name, OwnFunction, RunOption};
-use crate::check::configuration::Configuration;
 use crate::diagnostic::{Diagnostic, Origin};
 use crate::exact::{Fraction, Rational};
-use crate::print::Runtime;
 use crate::symbolic::{ExprId, Graph, Symbol};
 
 pub use casimir::{Casimir, CasimirKind, Search};
+pub use configuration::Configuration;
 pub use family::{Family, SiteSum, Size, Start};
 pub use realization::{CANONICAL, Descent, Realization};
 pub use splitting::Kept;
