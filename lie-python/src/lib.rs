@@ -303,7 +303,8 @@ fn columns(rows: Vec<Vec<String>>) -> String {
     lie_in_process::table::text(&rows)
 }
 
-#[pymodule]
+// Everything that calls share is behind a lock of Rust: no interpreter needs one of its own for it.
+#[pymodule(gil_used = false)]
 fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<Core>()?;
     module.add_function(wrap_pyfunction!(constant, module)?)?;
