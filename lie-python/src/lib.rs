@@ -306,6 +306,7 @@ fn columns(rows: Vec<Vec<String>>) -> String {
 // Everything that calls share is behind a lock of Rust: no interpreter needs one of its own for it.
 #[pymodule(gil_used = false)]
 fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_class::<Core>()?;
     module.add_function(wrap_pyfunction!(constant, module)?)?;
     module.add_function(wrap_pyfunction!(columns, module)?)?;

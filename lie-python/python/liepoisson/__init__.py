@@ -17,6 +17,7 @@ from __future__ import annotations
 
 from ._bench import Bench, BenchRow
 from ._check import Casimir, Check, Motion
+from ._core import __version__ as __version__
 from ._errors import DeclarationError, IntegrationError, Interrupted, MethodError
 from ._functions import Function
 from ._methods import Method, Methods
@@ -48,4 +49,3 @@ __all__ = [
     "Verification",
     "load",
 ]
-__version__ = "0.1.0"

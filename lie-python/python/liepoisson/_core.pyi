@@ -5,6 +5,8 @@ import numpy as np
 import numpy.typing as npt
 from typing_extensions import TypeAlias
 
+__version__: str
+
 Array: TypeAlias = npt.NDArray[np.float64]
 #: The values of the parameters and the initial state.
 Begin: TypeAlias = tuple[list[float], list[float]]
