@@ -3,9 +3,6 @@
 mod batch;
 mod bench;
 mod choice;
-/// The clock of `lie bench`.
-#[path = "../../src/build/template/bench/clock.rs"]
-mod clock;
 mod declaration;
 mod errors;
 mod evaluate;

@@ -74,7 +74,12 @@ impl Subject<'_> {
             let choices = choices(&model, methods, M::usual)
                 .map_err(|refused| Python::attach(|py| refused.raise(py)))?;
             let (options, mut results) = measurement.begin(&model)?;
-            let work = lie_in_process::work(&model, &choices, M::PURPOSE, crate::clock::processor);
+            let work = lie_in_process::work(
+                &model,
+                &choices,
+                M::PURPOSE,
+                lie_in_process::clock::processor,
+            );
             let work = work.ok_or_else(|| not_here(M::COMMAND))?;
             let labels: Vec<String> = choices.iter().map(Choice::label).collect();
             let request = lie_measure::Request {

@@ -4,8 +4,8 @@ use lie_codegen::methods::Choice;
 use lie_codegen::model::Model;
 use lie_codegen::program::Purpose;
 
-use super::clock;
 use super::talk::Worker;
+use lie_in_process::clock;
 
 /// What serves requests for methods on a system in this program; none where a program has to be built.
 pub fn here(model: &Model, choices: &[Choice], purpose: Purpose) -> Option<Worker> {

@@ -11,8 +11,6 @@
 
 mod cache;
 mod cause;
-#[path = "template/bench/clock.rs"]
-mod clock;
 mod entry;
 mod here;
 mod key;
@@ -49,23 +47,23 @@ struct Template {
 }
 
 const PLAIN: Template = Template {
-    manifest: include_str!("template/Cargo.toml"),
+    manifest: include_str!("template/manifest.toml"),
     lock: include_str!("template/Cargo.lock"),
     modules: &[],
 };
 /// With the measurements.
 const MEASURE: Template = Template {
-    manifest: include_str!("template/measure/Cargo.toml"),
+    manifest: include_str!("template/measure/manifest.toml"),
     lock: include_str!("template/measure/Cargo.lock"),
     modules: &[],
 };
 /// With the clock of `lie bench`, and the methods from elsewhere that it compares with: only its programs depend on
 /// them.
 const BENCH: Template = Template {
-    manifest: include_str!("template/bench/Cargo.toml"),
+    manifest: include_str!("template/bench/manifest.toml"),
     lock: include_str!("template/bench/Cargo.lock"),
     modules: &[
-        ("clock.rs", include_str!("template/bench/clock.rs")),
+        ("clock.rs", lie_in_process::CLOCK),
         ("controls.rs", include_str!("template/bench/controls.rs")),
     ],
 };

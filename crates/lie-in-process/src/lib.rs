@@ -7,6 +7,7 @@
 #![warn(missing_docs)]
 
 pub mod catalogue;
+pub mod clock;
 pub mod evidence;
 pub mod families;
 pub mod formula;
@@ -30,6 +31,9 @@ use lie_program::Program;
 use lie_program::protocol::{End, Tolerances};
 use lie_program::session::Session;
 use lie_runtime::{ParameterError, driver};
+
+/// The text of [`clock`], which built programs have too.
+pub const CLOCK: &str = include_str!("clock.rs");
 
 /// Does what the line of a request asks for.
 pub type Work = dyn Fn(&str, &mut Session<'_>) -> Result<(), End> + Send + Sync;
