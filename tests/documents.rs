@@ -308,18 +308,6 @@ fn the_version_of_rust_is_the_same_everywhere() {
     assert!(read("CONTRIBUTING.md").contains(&format!("cargo +{version} check")));
 }
 
-#[test]
-fn headers_of_formulas_are_copies() {
-    let header = read("docs/katex/katex.html");
-    for package in ["lie-codegen", "lie-core", "lie-runtime"] {
-        assert_eq!(
-            read(&format!("{package}/docs/katex.html")),
-            header,
-            "copy docs/katex/katex.html there"
-        );
-    }
-}
-
 /// The first cell of a row with the dimension that the second one gives.
 #[test]
 fn the_table_of_algebras_is_that_of_the_compiler() {
