@@ -2,6 +2,7 @@
 
 use crate::matrix::SquareMatrix;
 use crate::methods::Retraction;
+use crate::newton::dense;
 use crate::poisson::Poisson;
 use crate::scalar::{Mask as _, Scalar};
 use crate::state::{State, Unknown};
@@ -49,10 +50,15 @@ pub trait Equation<S: Scalar> {
         matrix: &mut Self::Matrix,
     );
     /// Replaces a Jacobian by its triangular factors, pivots in a fixed order; false in the lanes
-    /// where a pivot is too small ([`crate::newton::inverse_pivots_are_safe`]).
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask;
+    /// where a pivot is too small ([`crate::newton::inverse_pivots_are_safe`]). The default is dense elimination, for
+    /// [`Equation::solve`] too.
+    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
+        dense::factor(matrix)
+    }
     /// Solves `(dr/du) x = r` by the factors, in place of r.
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown);
+    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
+        dense::solve(factors, residual);
+    }
     /// What Newton's iteration subtracts from an unknown, with the factors of its Jacobian: [`Equation::linearize`],
     /// [`Equation::factor`] and [`Equation::solve`] one after the other, or something that gives the same bits. Returns the
     /// size of the residual, and the lanes in which every pivot was safe.

@@ -100,14 +100,6 @@ impl<S: Scalar, P: Poisson<S>> Equation<S> for TrapezoidEquation<'_, S, P> {
         dense::identity_minus(self.half, matrix);
     }
 
-    fn factor(&self, matrix: &mut P::Jacobian) -> S::Mask {
-        dense::factor(matrix)
-    }
-
-    fn solve(&self, factors: &P::Jacobian, residual: &mut P::State) {
-        dense::solve(factors, residual);
-    }
-
     fn result(&mut self, unknown: &P::State, mu: &mut P::State) {
         mu.copy_from(unknown);
     }

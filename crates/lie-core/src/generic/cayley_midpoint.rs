@@ -7,7 +7,6 @@ use crate::equation::Equation;
 use crate::generating::GeneratingFunction;
 use crate::matrix::SquareMatrix;
 use crate::methods::Retraction;
-use crate::newton::dense;
 use crate::poisson::CayleyPoisson;
 use crate::scalar::{Mask as _, Scalar};
 use crate::state::State;
@@ -93,17 +92,7 @@ where
     P: CayleyPoisson<S>,
     G: GeneratingFunction<S, State = P::State, Jacobian = P::Jacobian>,
 {
-    type State = P::State;
-    type Unknown = P::State;
-    type Matrix = P::Jacobian;
-
-    fn zero_unknown(&self) -> P::State {
-        self.system.zero_state()
-    }
-
-    fn zero_matrix(&self) -> P::Jacobian {
-        self.system.zero_jacobian()
-    }
+    crate::generic::unknown_of_a_state!();
 
     fn set_base(&mut self, mu: &P::State) {
         self.base.copy_from(mu);
@@ -149,14 +138,6 @@ where
                 matrix.set(row, column, matrix.get(row, column) - through_x);
             }
         }
-    }
-
-    fn factor(&self, matrix: &mut P::Jacobian) -> S::Mask {
-        dense::factor(matrix)
-    }
-
-    fn solve(&self, factors: &P::Jacobian, residual: &mut P::State) {
-        dense::solve(factors, residual);
     }
 
     fn result(&mut self, unknown: &P::State, mu: &mut P::State) {

@@ -4,8 +4,7 @@ use super::kernels::multiply;
 use super::quadrature::{EnergyBalance, MAX_NODES, Quadrature};
 use super::tableau::{Tableau, gauss_tableau};
 use crate::equation::Equation;
-use crate::matrix::{SquareMatrix, StageMatrix};
-use crate::newton::dense;
+use crate::matrix::SquareMatrix;
 use crate::poisson::Poisson;
 use crate::scalar::{Mask as _, Scalar};
 use crate::state::{Stages, State};
@@ -144,19 +143,7 @@ pub(super) fn lagrange<S: Scalar>(nodes: &[S], index: usize, t: S) -> S {
 impl<S: Scalar, P: Poisson<S>, const STAGES: usize> Equation<S>
     for CohenHairerStep<'_, S, P, STAGES>
 {
-    type State = P::State;
-    type Unknown = Stages<P::State, STAGES>;
-    type Matrix = StageMatrix<P::Jacobian, STAGES>;
-
-    fn zero_unknown(&self) -> Self::Unknown {
-        Stages(core::array::from_fn(|_| self.system.zero_state()))
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        StageMatrix(core::array::from_fn(|_| {
-            core::array::from_fn(|_| self.system.zero_jacobian())
-        }))
-    }
+    crate::generic::unknown_of_stages!();
 
     fn set_base(&mut self, mu: &P::State) {
         self.base.copy_from(mu);
@@ -236,14 +223,6 @@ impl<S: Scalar, P: Poisson<S>, const STAGES: usize> Equation<S>
                 }
             }
         }
-    }
-
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
-        dense::factor(matrix)
-    }
-
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        dense::solve(factors, residual);
     }
 
     fn resolved(&mut self, unknown: &Self::Unknown, end: &P::State) -> S::Mask {

@@ -165,17 +165,7 @@ impl<'a, S: Scalar, P: InertiaPoisson<S>> DiscreteBody<'a, S, P> {
 }
 
 impl<S: Scalar, P: InertiaPoisson<S>> Equation<S> for DiscreteBody<'_, S, P> {
-    type State = P::State;
-    type Unknown = P::State;
-    type Matrix = P::Jacobian;
-
-    fn zero_unknown(&self) -> P::State {
-        self.system.zero_state()
-    }
-
-    fn zero_matrix(&self) -> P::Jacobian {
-        self.system.zero_jacobian()
-    }
+    crate::generic::unknown_of_a_state!();
 
     fn set_base(&mut self, mu: &P::State) {
         self.base.copy_from(mu);
@@ -217,14 +207,6 @@ impl<S: Scalar, P: InertiaPoisson<S>> Equation<S> for DiscreteBody<'_, S, P> {
                 matrix.set(row, column, identity + factor * (left + right));
             }
         }
-    }
-
-    fn factor(&self, matrix: &mut P::Jacobian) -> S::Mask {
-        dense::factor(matrix)
-    }
-
-    fn solve(&self, factors: &P::Jacobian, residual: &mut P::State) {
-        dense::solve(factors, residual);
     }
 
     fn group_factor(&mut self, unknown: &P::State, xi: &mut P::State) -> Option<Retraction> {

@@ -5,7 +5,6 @@ use super::kernels::multiply;
 use super::tensor::{MidpointTensor, PoissonTensor};
 use crate::equation::Equation;
 use crate::matrix::SquareMatrix;
-use crate::newton::dense;
 use crate::poisson::Poisson;
 use crate::scalar::Scalar;
 use crate::state::State;
@@ -78,17 +77,7 @@ where
     G: DiscreteGradient<S, P>,
     T: PoissonTensor<S, P>,
 {
-    type State = P::State;
-    type Unknown = P::State;
-    type Matrix = P::Jacobian;
-
-    fn zero_unknown(&self) -> P::State {
-        self.system.zero_state()
-    }
-
-    fn zero_matrix(&self) -> P::Jacobian {
-        self.system.zero_jacobian()
-    }
+    crate::generic::unknown_of_a_state!();
 
     fn set_base(&mut self, mu: &P::State) {
         self.base.copy_from(mu);
@@ -130,14 +119,6 @@ where
                 matrix.set(row, column, identity - self.step * sum);
             }
         }
-    }
-
-    fn factor(&self, matrix: &mut P::Jacobian) -> S::Mask {
-        dense::factor(matrix)
-    }
-
-    fn solve(&self, factors: &P::Jacobian, residual: &mut P::State) {
-        dense::solve(factors, residual);
     }
 
     fn resolved(&mut self, unknown: &P::State, _end: &P::State) -> S::Mask {

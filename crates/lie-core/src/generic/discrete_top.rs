@@ -4,7 +4,6 @@ use super::rotation::rotation_vector;
 use crate::equation::Equation;
 use crate::matrix::SquareMatrix;
 use crate::methods::Retraction;
-use crate::newton::dense;
 use crate::scalar::Scalar;
 use crate::state::State;
 use crate::structure::SpinPoisson;
@@ -70,17 +69,7 @@ impl<'a, S: Scalar, P: SpinPoisson<S>> DiscreteTop<'a, S, P> {
 }
 
 impl<S: Scalar, P: SpinPoisson<S>> Equation<S> for DiscreteTop<'_, S, P> {
-    type State = P::State;
-    type Unknown = P::State;
-    type Matrix = P::Jacobian;
-
-    fn zero_unknown(&self) -> P::State {
-        self.system.zero_state()
-    }
-
-    fn zero_matrix(&self) -> P::Jacobian {
-        self.system.zero_jacobian()
-    }
+    crate::generic::unknown_of_a_state!();
 
     fn set_base(&mut self, mu: &P::State) {
         self.base.copy_from(mu);
@@ -115,14 +104,6 @@ impl<S: Scalar, P: SpinPoisson<S>> Equation<S> for DiscreteTop<'_, S, P> {
                 matrix.set(row, column, entry);
             }
         }
-    }
-
-    fn factor(&self, matrix: &mut P::Jacobian) -> S::Mask {
-        dense::factor(matrix)
-    }
-
-    fn solve(&self, factors: &P::Jacobian, residual: &mut P::State) {
-        dense::solve(factors, residual);
     }
 
     fn group_factor(&mut self, unknown: &P::State, xi: &mut P::State) -> Option<Retraction> {

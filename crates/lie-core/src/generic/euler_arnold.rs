@@ -4,7 +4,6 @@ use super::dexp_slope::DexpSlope;
 use super::series::coadjoint_action_in;
 use crate::equation::Equation;
 use crate::matrix::SquareMatrix;
-use crate::newton::dense;
 use crate::scalar::Scalar;
 use crate::state::State;
 use crate::structure::CotangentPoisson;
@@ -308,14 +307,6 @@ impl<S: Scalar, P: CotangentPoisson<S>> Equation<S> for EulerArnoldHalf<'_, S, P
             Half::First => self.linearize_first(matrix),
             Half::Second => self.linearize_second(matrix),
         }
-    }
-
-    fn factor(&self, matrix: &mut P::MomentumMatrix) -> S::Mask {
-        dense::factor(matrix)
-    }
-
-    fn solve(&self, factors: &P::MomentumMatrix, residual: &mut P::Momentum) {
-        dense::solve(factors, residual);
     }
 
     fn result(&mut self, unknown: &P::Momentum, mu: &mut P::State) {

@@ -8,7 +8,6 @@ use crate::equation::Equation;
 use crate::generating::GeneratingFunction;
 use crate::matrix::SquareMatrix;
 use crate::methods::Retraction;
-use crate::newton::dense;
 use crate::poisson::LiePoisson;
 use crate::scalar::Scalar;
 use crate::state::State;
@@ -79,17 +78,7 @@ where
     P: LiePoisson<S>,
     G: GeneratingFunction<S, State = P::State, Jacobian = P::Jacobian>,
 {
-    type State = P::State;
-    type Unknown = P::State;
-    type Matrix = P::Jacobian;
-
-    fn zero_unknown(&self) -> P::State {
-        self.system.zero_state()
-    }
-
-    fn zero_matrix(&self) -> P::Jacobian {
-        self.system.zero_jacobian()
-    }
+    crate::generic::unknown_of_a_state!();
 
     fn set_base(&mut self, mu: &P::State) {
         self.base.copy_from(mu);
@@ -126,14 +115,6 @@ where
                 matrix.set(row, column, identity - entry);
             }
         }
-    }
-
-    fn factor(&self, matrix: &mut P::Jacobian) -> S::Mask {
-        dense::factor(matrix)
-    }
-
-    fn solve(&self, factors: &P::Jacobian, residual: &mut P::State) {
-        dense::solve(factors, residual);
     }
 
     fn result(&mut self, unknown: &P::State, mu: &mut P::State) {

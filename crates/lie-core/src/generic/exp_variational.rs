@@ -10,7 +10,6 @@ use crate::lagrangian::{
 };
 use crate::matrix::SquareMatrix;
 use crate::methods::Retraction;
-use crate::newton::dense;
 use crate::poisson::LiePoisson;
 use crate::scalar::Scalar;
 use crate::state::State;
@@ -88,17 +87,7 @@ where
     P: LiePoisson<S>,
     L: DiscreteLagrangian<S, State = P::State, Jacobian = P::Jacobian>,
 {
-    type State = P::State;
-    type Unknown = P::State;
-    type Matrix = P::Jacobian;
-
-    fn zero_unknown(&self) -> P::State {
-        self.system.zero_state()
-    }
-
-    fn zero_matrix(&self) -> P::Jacobian {
-        self.system.zero_jacobian()
-    }
+    crate::generic::unknown_of_a_state!();
 
     fn set_base(&mut self, mu: &P::State) {
         self.base.copy_from(mu);
@@ -137,14 +126,6 @@ where
                 matrix.set(row, column, entry);
             }
         }
-    }
-
-    fn factor(&self, matrix: &mut P::Jacobian) -> S::Mask {
-        dense::factor(matrix)
-    }
-
-    fn solve(&self, factors: &P::Jacobian, residual: &mut P::State) {
-        dense::solve(factors, residual);
     }
 
     fn result(&mut self, unknown: &P::State, mu: &mut P::State) {

@@ -3,8 +3,7 @@
 use super::kernels::direction;
 use super::tableau::{Tableau, gauss_tableau};
 use crate::equation::Equation;
-use crate::matrix::{SquareMatrix, StageMatrix};
-use crate::newton::dense;
+use crate::matrix::SquareMatrix;
 use crate::poisson::Poisson;
 use crate::scalar::Scalar;
 use crate::state::{Stages, State};
@@ -62,19 +61,7 @@ impl<'a, S: Scalar, P: Poisson<S>, const STAGES: usize> Gauss<'a, S, P, STAGES> 
 }
 
 impl<S: Scalar, P: Poisson<S>, const STAGES: usize> Equation<S> for Gauss<'_, S, P, STAGES> {
-    type State = P::State;
-    type Unknown = Stages<P::State, STAGES>;
-    type Matrix = StageMatrix<P::Jacobian, STAGES>;
-
-    fn zero_unknown(&self) -> Self::Unknown {
-        Stages(core::array::from_fn(|_| self.system.zero_state()))
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        StageMatrix(core::array::from_fn(|_| {
-            core::array::from_fn(|_| self.system.zero_jacobian())
-        }))
-    }
+    crate::generic::unknown_of_stages!();
 
     fn set_base(&mut self, mu: &P::State) {
         self.base.copy_from(mu);
@@ -130,14 +117,6 @@ impl<S: Scalar, P: Poisson<S>, const STAGES: usize> Equation<S> for Gauss<'_, S,
                 }
             }
         }
-    }
-
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
-        dense::factor(matrix)
-    }
-
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        dense::solve(factors, residual);
     }
 
     fn velocity(&mut self, unknown: &Self::Unknown, stage: usize, xi: &mut P::State) -> usize {

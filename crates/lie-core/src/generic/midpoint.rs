@@ -52,17 +52,7 @@ impl<'a, S: Scalar, P: Poisson<S>> Midpoint<'a, S, P> {
 }
 
 impl<S: Scalar, P: Poisson<S>> Equation<S> for Midpoint<'_, S, P> {
-    type State = P::State;
-    type Unknown = P::State;
-    type Matrix = P::Jacobian;
-
-    fn zero_unknown(&self) -> P::State {
-        self.system.zero_state()
-    }
-
-    fn zero_matrix(&self) -> P::Jacobian {
-        self.system.zero_jacobian()
-    }
+    crate::generic::unknown_of_a_state!();
 
     fn set_base(&mut self, mu: &P::State) {
         self.base.copy_from(mu);
@@ -85,14 +75,6 @@ impl<S: Scalar, P: Poisson<S>> Equation<S> for Midpoint<'_, S, P> {
         self.system.linearize(&self.middle, &mut self.field, matrix);
         self.write_residual(unknown, residual);
         dense::identity_minus(self.step * S::ratio(1.0, 2.0), matrix);
-    }
-
-    fn factor(&self, matrix: &mut P::Jacobian) -> S::Mask {
-        dense::factor(matrix)
-    }
-
-    fn solve(&self, factors: &P::Jacobian, residual: &mut P::State) {
-        dense::solve(factors, residual);
     }
 
     fn velocity(&mut self, unknown: &P::State, _stage: usize, xi: &mut P::State) -> usize {

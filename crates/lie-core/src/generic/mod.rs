@@ -3,6 +3,42 @@
 //! Generated code overrides them where fusing pays; a test holds each generated kernel equal to the
 //! form given here.
 
+/// The unknown of an equation is a state of its system.
+macro_rules! unknown_of_a_state {
+    () => {
+        type State = P::State;
+        type Unknown = P::State;
+        type Matrix = P::Jacobian;
+
+        fn zero_unknown(&self) -> P::State {
+            self.system.zero_state()
+        }
+        fn zero_matrix(&self) -> P::Jacobian {
+            self.system.zero_jacobian()
+        }
+    };
+}
+use unknown_of_a_state;
+
+/// The unknown of an equation is a state of its system for each stage.
+macro_rules! unknown_of_stages {
+    () => {
+        type State = P::State;
+        type Unknown = $crate::Stages<P::State, STAGES>;
+        type Matrix = $crate::StageMatrix<P::Jacobian, STAGES>;
+
+        fn zero_unknown(&self) -> Self::Unknown {
+            $crate::Stages(core::array::from_fn(|_| self.system.zero_state()))
+        }
+        fn zero_matrix(&self) -> Self::Matrix {
+            $crate::StageMatrix(core::array::from_fn(|_| {
+                core::array::from_fn(|_| self.system.zero_jacobian())
+            }))
+        }
+    };
+}
+use unknown_of_stages;
+
 mod blocks;
 mod cayley_midpoint;
 mod cayley_variational;

@@ -5,7 +5,6 @@ use super::series::{Scratch, coadjoint_action_in};
 use crate::equation::Equation;
 use crate::matrix::SquareMatrix;
 use crate::methods::Retraction;
-use crate::newton::dense;
 use crate::poisson::LiePoisson;
 use crate::scalar::{Mask, Scalar};
 use crate::state::{State, Unknown};
@@ -109,17 +108,7 @@ where
     P: LiePoisson<S>,
     G: DiscreteGradient<S, P>,
 {
-    type State = P::State;
-    type Unknown = P::State;
-    type Matrix = P::Jacobian;
-
-    fn zero_unknown(&self) -> P::State {
-        self.system.zero_state()
-    }
-
-    fn zero_matrix(&self) -> P::Jacobian {
-        self.system.zero_jacobian()
-    }
+    crate::generic::unknown_of_a_state!();
 
     fn set_base(&mut self, mu: &P::State) {
         self.base.copy_from(mu);
@@ -168,14 +157,6 @@ where
                 matrix.set(row, column, entry);
             }
         }
-    }
-
-    fn factor(&self, matrix: &mut P::Jacobian) -> S::Mask {
-        dense::factor(matrix)
-    }
-
-    fn solve(&self, factors: &P::Jacobian, residual: &mut P::State) {
-        dense::solve(factors, residual);
     }
 
     fn resolved(&mut self, unknown: &P::State, _end: &P::State) -> S::Mask {

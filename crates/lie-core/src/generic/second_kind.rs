@@ -6,7 +6,6 @@ use crate::equation::Equation;
 use crate::generating::GeneratingFunction;
 use crate::matrix::SquareMatrix;
 use crate::methods::Retraction;
-use crate::newton::dense;
 use crate::poisson::{LiePoisson, Lift, Poisson};
 use crate::scalar::{Dual, Scalar};
 use crate::state::State;
@@ -139,17 +138,7 @@ where
     G: GeneratingFunction<S, State = P::State, Jacobian = P::Jacobian>,
     A: Actions<S, P>,
 {
-    type State = P::State;
-    type Unknown = P::State;
-    type Matrix = P::Jacobian;
-
-    fn zero_unknown(&self) -> P::State {
-        self.system.zero_state()
-    }
-
-    fn zero_matrix(&self) -> P::Jacobian {
-        self.system.zero_jacobian()
-    }
+    crate::generic::unknown_of_a_state!();
 
     fn set_base(&mut self, mu: &P::State) {
         self.base.copy_from(mu);
@@ -203,14 +192,6 @@ where
                 self.tangents.set(row, i, entry);
             }
         }
-    }
-
-    fn factor(&self, matrix: &mut P::Jacobian) -> S::Mask {
-        dense::factor(matrix)
-    }
-
-    fn solve(&self, factors: &P::Jacobian, residual: &mut P::State) {
-        dense::solve(factors, residual);
     }
 
     fn result(&mut self, unknown: &P::State, mu: &mut P::State) {

@@ -6,7 +6,6 @@ use super::tableau::{Tableau, gauss_tableau};
 use crate::equation::Equation;
 use crate::matrix::{SquareMatrix, StageMatrix};
 use crate::methods::Retraction;
-use crate::newton::dense;
 use crate::poisson::LiePoisson;
 use crate::scalar::{Mask as _, Scalar};
 use crate::state::{Stages, State};
@@ -133,19 +132,7 @@ where
     P: LiePoisson<S>,
     M: StageMap<S, P, STAGES>,
 {
-    type State = P::State;
-    type Unknown = Stages<P::State, STAGES>;
-    type Matrix = StageMatrix<P::Jacobian, STAGES>;
-
-    fn zero_unknown(&self) -> Self::Unknown {
-        Stages(core::array::from_fn(|_| self.system.zero_state()))
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        StageMatrix(core::array::from_fn(|_| {
-            core::array::from_fn(|_| self.system.zero_jacobian())
-        }))
-    }
+    crate::generic::unknown_of_stages!();
 
     /// As counted of the built maps: the residual has linear systems of its own.
     fn jacobian_cost(&self) -> f64 {
@@ -225,10 +212,6 @@ where
 
     fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
         factor(matrix)
-    }
-
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        dense::solve(factors, residual);
     }
 
     fn within_chart(&mut self, unknown: &Self::Unknown) -> S::Mask {

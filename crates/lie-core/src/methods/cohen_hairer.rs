@@ -33,10 +33,9 @@
 
 use super::facts::{Facts, Preserves};
 use super::gauss::BY_NEWTON;
-use super::implicit::ImplicitStepper;
 use super::stage_parallel::{Slopes, StageParallelStepper, WideState};
 use super::stepper::Method;
-use crate::equation::{Equation as _, Implicit};
+use crate::equation::Equation as _;
 use crate::generic::{At, CohenHairerStep, MeanGradients};
 use crate::newton::NewtonOptions;
 use crate::poisson::{Poisson, Widen};
@@ -90,22 +89,6 @@ impl<const STAGES: usize> Facts for CohenHairer<STAGES> {
     const PRESERVES: Preserves = Preserves::ENERGY;
 }
 
-/// Methods whose stages are evaluated one after the other and solved for by Newton's iteration.
-macro_rules! by_newton {
-    ($($stages:literal)+) => {$(
-        impl<S: Scalar, P: Implicit<S, Self>> Method<S, P> for CohenHairer<$stages> {
-            type Stepper<'a>
-                = ImplicitStepper<S, P::Equation<'a>>
-            where
-                P: 'a;
-
-            fn stepper<'a>(&self, system: &'a P, h: S, newton: &NewtonOptions) -> Self::Stepper<'a> {
-                ImplicitStepper::new(system.equation(self, h), system.zero_state(), newton)
-            }
-        }
-    )+};
-}
-
 /// Methods whose stages are evaluated together.
 macro_rules! stage_parallel {
     ($($stages:literal)+) => {$(
@@ -122,7 +105,9 @@ macro_rules! stage_parallel {
     )+};
 }
 
-by_newton!(1 2 3);
+by_equation!([] CohenHairer<1>);
+by_equation!([] CohenHairer<2>);
+by_equation!([] CohenHairer<3>);
 stage_parallel!(4 5 6 7 8);
 
 /// A matrix of the system over eight numbers.

@@ -67,11 +67,9 @@
 #![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
 
 use super::facts::{Facts, Preserves};
-use super::implicit::ImplicitStepper;
 use super::lifted::{LiftedStepper, StageLift};
 use super::realized::RealizedStepper;
 use super::stepper::Method;
-use crate::equation::Implicit;
 use crate::newton::NewtonOptions;
 use crate::poisson::{LiePoisson, Widen};
 use crate::scalar::Scalar;
@@ -249,15 +247,4 @@ pub trait Reduced {}
 impl Reduced for Representation {}
 impl Reduced for Hopf {}
 
-impl<S: Scalar, P: Implicit<S, Self>, L: Reduced, const STAGES: usize> Method<S, P>
-    for Collective<L, STAGES>
-{
-    type Stepper<'a>
-        = ImplicitStepper<S, P::Equation<'a>>
-    where
-        P: 'a;
-
-    fn stepper<'a>(&self, system: &'a P, h: S, newton: &NewtonOptions) -> Self::Stepper<'a> {
-        ImplicitStepper::new(system.equation(self, h), system.zero_state(), newton)
-    }
-}
+by_equation!([L: Reduced, const STAGES: usize] Collective<L, STAGES>);

@@ -8,6 +8,45 @@ use crate::recurrence::MOST_ORDERS;
 use crate::scalar::{Scalar, largest};
 use crate::state::State;
 
+/// A method by series: of a tolerance, or of an order.
+macro_rules! by_series {
+    ($(#[$doc:meta])* $method:ident, $orders:literal) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub struct $method {
+            /// The error per step relative to the state, of a step that the method chooses.
+            pub tolerance: f64,
+            /// An order at which each step of the grid is one series, whatever its error. By default the tolerance decides.
+            pub order: Option<u32>,
+        }
+
+        impl $method {
+            /// With a tolerance, from which order and steps follow; below round-off it means round-off.
+            pub fn with_tolerance(tolerance: f64) -> Self {
+                Self {
+                    tolerance,
+                    order: None,
+                }
+            }
+
+            #[doc = $orders]
+            pub fn of_order(order: u32) -> Self {
+                Self {
+                    order: Some(order),
+                    ..Self::default()
+                }
+            }
+        }
+
+        impl Default for $method {
+            fn default() -> Self {
+                Self::with_tolerance(1e-15)
+            }
+        }
+    };
+}
+pub(super) use by_series;
+
 /// The coefficients of a series: rows beyond the order are 0, four of them at least.
 pub(super) type Rows<V> = [V; MOST_ORDERS + 5];
 

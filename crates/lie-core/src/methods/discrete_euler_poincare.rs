@@ -25,14 +25,9 @@
 #![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
 
 use super::facts::{Facts, Preserves};
-use super::implicit::ImplicitStepper;
 use super::lie_midpoint::{Cayley, Exp};
-use super::stepper::Method;
 #[cfg(doc)]
 use super::{MoserVeselov, Variational2};
-use crate::equation::Implicit;
-use crate::newton::NewtonOptions;
-use crate::scalar::Scalar;
 
 /// The step of a declared discrete Lagrangian; see the [module's text](self).
 ///
@@ -64,13 +59,4 @@ impl<T> Facts for DiscreteEulerPoincare<T> {
     const PRESERVES: Preserves = Preserves::POISSON;
 }
 
-impl<S: Scalar, P: Implicit<S, Self>, T> Method<S, P> for DiscreteEulerPoincare<T> {
-    type Stepper<'a>
-        = ImplicitStepper<S, P::Equation<'a>>
-    where
-        P: 'a;
-
-    fn stepper<'a>(&self, system: &'a P, h: S, newton: &NewtonOptions) -> Self::Stepper<'a> {
-        ImplicitStepper::new(system.equation(self, h), system.zero_state(), newton)
-    }
-}
+by_equation!([T] DiscreteEulerPoincare<T>);

@@ -24,10 +24,8 @@
 #![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
 
 use super::facts::{Facts, Preserves};
-use super::implicit::ImplicitStepper;
 use super::stage_parallel::{Field, StageParallelStepper};
 use super::stepper::Method;
-use crate::equation::Implicit;
 use crate::newton::NewtonOptions;
 use crate::poisson::Widen;
 use crate::scalar::Scalar;
@@ -48,27 +46,6 @@ macro_rules! gauss {
             const EXPLICIT: bool = false;
             const FIXED_POINT: bool = $stages > BY_NEWTON;
             const PRESERVES: Preserves = Preserves::QUADRATIC;
-        }
-    };
-}
-
-/// A method whose stages are evaluated one after the other and solved for by Newton's iteration.
-macro_rules! by_newton {
-    ($name:ident) => {
-        impl<S: Scalar, P: Implicit<S, Self>> Method<S, P> for $name {
-            type Stepper<'a>
-                = ImplicitStepper<S, P::Equation<'a>>
-            where
-                P: 'a;
-
-            fn stepper<'a>(
-                &self,
-                system: &'a P,
-                h: S,
-                newton: &NewtonOptions,
-            ) -> Self::Stepper<'a> {
-                ImplicitStepper::new(system.equation(self, h), system.zero_state(), newton)
-            }
         }
     };
 }
@@ -122,8 +99,8 @@ gauss!(
     /// Gauss collocation with eight stages, order 16; see the [module's text](self).
     Gauss16, 8, "gauss16"
 );
-by_newton!(Gauss4);
-by_newton!(Gauss6);
+by_equation!([] Gauss4);
+by_equation!([] Gauss6);
 stage_parallel!(Gauss8, 4);
 stage_parallel!(Gauss10, 5);
 stage_parallel!(Gauss12, 6);

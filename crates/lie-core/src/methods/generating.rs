@@ -45,12 +45,7 @@
 #[cfg(doc)]
 use super::LieMidpoint;
 use super::facts::{Facts, Preserves};
-use super::implicit::ImplicitStepper;
 use super::lie_midpoint::{Cayley, Exp};
-use super::stepper::Method;
-use crate::equation::Implicit;
-use crate::newton::NewtonOptions;
-use crate::scalar::Scalar;
 
 /// A generating-function method of order 2, 4 or 6; see the [module's text](self).
 ///
@@ -89,18 +84,4 @@ macro_rules! generating {
 generating!(Exp, exp, "With the exponential map.": 2 "generating2", 4 "generating4", 6 "generating6");
 generating!(Cayley, cayley, "With the Cayley map of the declared representation.": 2 "generating2", 4 "generating4");
 
-impl<S, P, T, const ORDER: u32> Method<S, P> for Generating<T, ORDER>
-where
-    S: Scalar,
-    P: Implicit<S, Self>,
-    Self: Facts,
-{
-    type Stepper<'a>
-        = ImplicitStepper<S, P::Equation<'a>>
-    where
-        P: 'a;
-
-    fn stepper<'a>(&self, system: &'a P, h: S, newton: &NewtonOptions) -> Self::Stepper<'a> {
-        ImplicitStepper::new(system.equation(self, h), system.zero_state(), newton)
-    }
-}
+by_equation!([T, const ORDER: u32] Generating<T, ORDER> where Self: Facts);

@@ -28,11 +28,6 @@
 #![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
 
 use super::facts::{Facts, Preserves};
-use super::implicit::ImplicitStepper;
-use super::stepper::Method;
-use crate::equation::Implicit;
-use crate::newton::NewtonOptions;
-use crate::scalar::Scalar;
 
 /// The generating-function method in coordinates of the second kind, order 2; see the
 /// [module's text](self).
@@ -47,13 +42,4 @@ impl Facts for GeneratingSecondKind2 {
     const PRESERVES: Preserves = Preserves::POISSON;
 }
 
-impl<S: Scalar, P: Implicit<S, Self>> Method<S, P> for GeneratingSecondKind2 {
-    type Stepper<'a>
-        = ImplicitStepper<S, P::Equation<'a>>
-    where
-        P: 'a;
-
-    fn stepper<'a>(&self, system: &'a P, h: S, newton: &NewtonOptions) -> Self::Stepper<'a> {
-        ImplicitStepper::new(system.equation(self, h), system.zero_state(), newton)
-    }
-}
+by_equation!([] GeneratingSecondKind2);

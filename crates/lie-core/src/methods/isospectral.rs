@@ -39,10 +39,8 @@
 
 use super::collective::Representation;
 use super::facts::{Facts, Preserves};
-use super::implicit::ImplicitStepper;
 use super::lifted::LiftedStepper;
 use super::stepper::Method;
-use crate::equation::Implicit;
 use crate::newton::NewtonOptions;
 use crate::poisson::Widen;
 use crate::scalar::Scalar;
@@ -78,16 +76,7 @@ impl<const STAGES: usize> Facts for Isospectral<STAGES> {
     const PRESERVES: Preserves = Preserves::POISSON;
 }
 
-impl<S: Scalar, P: Implicit<S, Self>, const STAGES: usize> Method<S, P> for Isospectral<STAGES> {
-    type Stepper<'a>
-        = ImplicitStepper<S, P::Equation<'a>>
-    where
-        P: 'a;
-
-    fn stepper<'a>(&self, system: &'a P, h: S, newton: &NewtonOptions) -> Self::Stepper<'a> {
-        ImplicitStepper::new(system.equation(self, h), system.zero_state(), newton)
-    }
-}
+by_equation!([const STAGES: usize] Isospectral<STAGES>);
 
 /// The isospectral Gauss method with four to eight stages, which are evaluated together: in columns `x_j` and rows `y_j`,
 /// which the stages move by `x_j' = -rho(xi) x_j` and `y_j' = y_j rho(xi)`, with as few columns as determine the momentum. It

@@ -23,7 +23,7 @@
 //! [doi:10.1080/10586458.2005.10128904](https://doi.org/10.1080/10586458.2005.10128904), for order and step.
 #![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
 
-use super::development::{Pace, Rows, multiply, sum, take};
+use super::development::{Pace, Rows, by_series, multiply, sum, take};
 use super::facts::{Facts, Preserves};
 use super::implicit::clear;
 use super::series_stepper::{Development, SeriesStepper};
@@ -43,38 +43,11 @@ const GROUPS: usize = MOST / LANES;
 /// The order over `-ln(tolerance)`: the work grows faster with it than that of [`Taylor`](super::Taylor).
 const ORDER: f64 = 0.4;
 
-/// Taylor series in the algebra; see the [module's text](self).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LieTaylor {
-    /// The error per step relative to the state, of a step that the method chooses.
-    pub tolerance: f64,
-    /// An order at which each step of the grid is one series, whatever its error. By default the tolerance decides.
-    pub order: Option<u32>,
-}
-
-impl LieTaylor {
-    /// With a tolerance, from which order and steps follow; below round-off it means round-off.
-    pub fn with_tolerance(tolerance: f64) -> Self {
-        Self {
-            tolerance,
-            order: None,
-        }
-    }
-
-    /// Of an order up to 16, one series for each step of the grid.
-    pub fn of_order(order: u32) -> Self {
-        Self {
-            order: Some(order),
-            ..Self::default()
-        }
-    }
-}
-
-impl Default for LieTaylor {
-    fn default() -> Self {
-        Self::with_tolerance(1e-15)
-    }
-}
+by_series!(
+    /// Taylor series in the algebra; see the [module's text](self).
+    LieTaylor,
+    "Of an order up to 16, one series for each step of the grid."
+);
 
 impl Facts for LieTaylor {
     const ID: &'static str = "lie-taylor";

@@ -26,11 +26,6 @@
 #![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
 
 use super::facts::{Facts, Preserves};
-use super::implicit::ImplicitStepper;
-use super::stepper::Method;
-use crate::equation::Implicit;
-use crate::newton::NewtonOptions;
-use crate::scalar::Scalar;
 
 /// The mean-value discrete gradient method, order 2; see the [module's text](self).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -44,13 +39,4 @@ impl Facts for MeanValue {
     const PRESERVES: Preserves = Preserves::ENERGY;
 }
 
-impl<S: Scalar, P: Implicit<S, Self>> Method<S, P> for MeanValue {
-    type Stepper<'a>
-        = ImplicitStepper<S, P::Equation<'a>>
-    where
-        P: 'a;
-
-    fn stepper<'a>(&self, system: &'a P, h: S, newton: &NewtonOptions) -> Self::Stepper<'a> {
-        ImplicitStepper::new(system.equation(self, h), system.zero_state(), newton)
-    }
-}
+by_equation!([] MeanValue);

@@ -19,11 +19,6 @@
 #![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
 
 use super::facts::{Facts, Preserves};
-use super::implicit::ImplicitStepper;
-use super::stepper::Method;
-use crate::equation::Implicit;
-use crate::newton::NewtonOptions;
-use crate::scalar::Scalar;
 
 /// The implicit (Poisson) midpoint rule, order 2; see the [module's text](self).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -37,13 +32,4 @@ impl Facts for ImplicitMidpoint {
     const PRESERVES: Preserves = Preserves::QUADRATIC;
 }
 
-impl<S: Scalar, P: Implicit<S, Self>> Method<S, P> for ImplicitMidpoint {
-    type Stepper<'a>
-        = ImplicitStepper<S, P::Equation<'a>>
-    where
-        P: 'a;
-
-    fn stepper<'a>(&self, system: &'a P, h: S, newton: &NewtonOptions) -> Self::Stepper<'a> {
-        ImplicitStepper::new(system.equation(self, h), system.zero_state(), newton)
-    }
-}
+by_equation!([] ImplicitMidpoint);

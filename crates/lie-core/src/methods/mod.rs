@@ -37,6 +37,33 @@
 //! see [`Facts`].
 #![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
 
+/// A step of a method is the solution of the equation that a system has for it.
+macro_rules! by_equation {
+    ([$($parameters:tt)*] $method:ty $(where $($bounds:tt)+)?) => {
+        impl<S, P, $($parameters)*> $crate::methods::Method<S, P> for $method
+        where
+            S: $crate::Scalar,
+            P: $crate::Implicit<S, Self>,
+            $($($bounds)+)?
+        {
+            type Stepper<'a>
+                = $crate::methods::implicit::ImplicitStepper<S, P::Equation<'a>>
+            where
+                P: 'a;
+
+            fn stepper<'a>(
+                &self,
+                system: &'a P,
+                h: S,
+                newton: &$crate::newton::NewtonOptions,
+            ) -> Self::Stepper<'a> {
+                let (equation, zero) = (system.equation(self, h), system.zero_state());
+                $crate::methods::implicit::ImplicitStepper::new(equation, zero, newton)
+            }
+        }
+    };
+}
+
 mod coefficients;
 pub mod cohen_hairer;
 pub mod collective;

@@ -20,12 +20,7 @@
 #![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
 
 use super::facts::{Facts, Preserves};
-use super::implicit::ImplicitStepper;
-use super::stepper::Method;
 use super::{Gonzalez, ItohAbe, MeanValue};
-use crate::equation::Implicit;
-use crate::newton::NewtonOptions;
-use crate::scalar::Scalar;
 
 /// Coadjoint motion along the discrete gradient G, order 2; see the [module's text](self).
 ///
@@ -66,13 +61,4 @@ impl<G> Facts for OrbitEnergy<G> {
     const PRESERVES: Preserves = Preserves::ORBIT_ENERGY;
 }
 
-impl<S: Scalar, P: Implicit<S, Self>, G> Method<S, P> for OrbitEnergy<G> {
-    type Stepper<'a>
-        = ImplicitStepper<S, P::Equation<'a>>
-    where
-        P: 'a;
-
-    fn stepper<'a>(&self, system: &'a P, h: S, newton: &NewtonOptions) -> Self::Stepper<'a> {
-        ImplicitStepper::new(system.equation(self, h), system.zero_state(), newton)
-    }
-}
+by_equation!([G] OrbitEnergy<G>);

@@ -21,11 +21,6 @@
 #![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
 
 use super::facts::{Facts, Preserves};
-use super::implicit::ImplicitStepper;
-use super::stepper::Method;
-use crate::equation::Implicit;
-use crate::newton::NewtonOptions;
-use crate::scalar::Scalar;
 
 /// The spherical midpoint method, order 2; see the [module's text](self).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -39,13 +34,4 @@ impl Facts for SphericalMidpoint {
     const PRESERVES: Preserves = Preserves::POISSON;
 }
 
-impl<S: Scalar, P: Implicit<S, Self>> Method<S, P> for SphericalMidpoint {
-    type Stepper<'a>
-        = ImplicitStepper<S, P::Equation<'a>>
-    where
-        P: 'a;
-
-    fn stepper<'a>(&self, system: &'a P, h: S, newton: &NewtonOptions) -> Self::Stepper<'a> {
-        ImplicitStepper::new(system.equation(self, h), system.zero_state(), newton)
-    }
-}
+by_equation!([] SphericalMidpoint);

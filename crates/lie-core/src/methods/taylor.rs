@@ -21,7 +21,7 @@
 //! [doi:10.1080/10586458.2005.10128904](https://doi.org/10.1080/10586458.2005.10128904).
 #![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
 
-use super::development::{Pace, Rows, multiply, sum, take};
+use super::development::{Pace, Rows, by_series, multiply, sum, take};
 use super::explicit::direction;
 use super::facts::{Facts, Preserves};
 use super::implicit::clear;
@@ -35,38 +35,11 @@ use crate::scalar::{Mask, Scalar};
 /// Nodes at which velocities are given to whoever follows the group element.
 const NODES: usize = 8;
 
-/// Taylor series; see the [module's text](self).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Taylor {
-    /// The error per step relative to the state, of a step that the method chooses.
-    pub tolerance: f64,
-    /// An order at which each step of the grid is one series, whatever its error. By default the tolerance decides.
-    pub order: Option<u32>,
-}
-
-impl Taylor {
-    /// With a tolerance, from which order and steps follow; below round-off it means round-off.
-    pub fn with_tolerance(tolerance: f64) -> Self {
-        Self {
-            tolerance,
-            order: None,
-        }
-    }
-
-    /// Of an order up to 40, one series for each step of the grid.
-    pub fn of_order(order: u32) -> Self {
-        Self {
-            order: Some(order),
-            ..Self::default()
-        }
-    }
-}
-
-impl Default for Taylor {
-    fn default() -> Self {
-        Self::with_tolerance(1e-15)
-    }
-}
+by_series!(
+    /// Taylor series; see the [module's text](self).
+    Taylor,
+    "Of an order up to 40, one series for each step of the grid."
+);
 
 impl Facts for Taylor {
     const ID: &'static str = "taylor";

@@ -39,12 +39,7 @@
 #[cfg(doc)]
 use super::LieMidpoint;
 use super::facts::{Facts, Preserves};
-use super::implicit::ImplicitStepper;
 use super::lie_midpoint::{Cayley, Exp};
-use super::stepper::Method;
-use crate::equation::Implicit;
-use crate::newton::NewtonOptions;
-use crate::scalar::Scalar;
 
 /// A variational integrator of order 2, 4 or 6; see the [module's text](self).
 ///
@@ -83,18 +78,4 @@ macro_rules! variational {
 variational!(Exp, exp, "With the exponential map.": 2 "variational2", 4 "variational4", 6 "variational6");
 variational!(Cayley, cayley, "With the Cayley map of the declared representation.": 2 "variational2");
 
-impl<S, P, T, const ORDER: u32> Method<S, P> for Variational<T, ORDER>
-where
-    S: Scalar,
-    P: Implicit<S, Self>,
-    Self: Facts,
-{
-    type Stepper<'a>
-        = ImplicitStepper<S, P::Equation<'a>>
-    where
-        P: 'a;
-
-    fn stepper<'a>(&self, system: &'a P, h: S, newton: &NewtonOptions) -> Self::Stepper<'a> {
-        ImplicitStepper::new(system.equation(self, h), system.zero_state(), newton)
-    }
-}
+by_equation!([T, const ORDER: u32] Variational<T, ORDER> where Self: Facts);

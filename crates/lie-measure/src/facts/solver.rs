@@ -4,7 +4,7 @@
 //! end long before their limit. Here all of that is asked for by itself.
 
 use lie_runtime::equation::Equation;
-use lie_runtime::newton::{FailureReason, Iteration, Newton, NewtonOptions, NewtonReport, dense};
+use lie_runtime::newton::{FailureReason, Iteration, Newton, NewtonOptions, NewtonReport};
 use lie_runtime::state::Unknown;
 use nalgebra::{SMatrix, SVector};
 
@@ -47,12 +47,6 @@ impl Equation<f64> for Known {
     fn linearize(&mut self, unknown: &Vector, residual: &mut Vector, matrix: &mut Matrix) {
         self.residual(unknown, residual);
         *matrix = self.matrix + Matrix::from_diagonal(unknown) * (2.0 * self.bend);
-    }
-    fn factor(&self, matrix: &mut Matrix) -> bool {
-        dense::factor(matrix)
-    }
-    fn solve(&self, factors: &Matrix, residual: &mut Vector) {
-        dense::solve(factors, residual);
     }
     fn result(&mut self, unknown: &Vector, mu: &mut Vector) {
         *mu = *unknown;

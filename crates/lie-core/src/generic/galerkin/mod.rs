@@ -6,9 +6,9 @@ use super::kernels::multiply;
 use super::series::coadjoint_action_in;
 use crate::equation::Equation;
 use crate::lagrangian::LagrangianPoisson;
-use crate::matrix::{SquareMatrix, StageMatrix};
+use crate::matrix::SquareMatrix;
 use crate::methods::Retraction;
-use crate::newton::{dense, exchanging};
+use crate::newton::exchanging;
 use crate::poisson::{Lift, Poisson};
 use crate::scalar::{Dual, Scalar};
 use crate::state::{Stages, State};
@@ -112,19 +112,7 @@ where
     P: Lift<S> + LagrangianPoisson<S>,
     P::Lifted: LagrangianPoisson<Dual<S>>,
 {
-    type State = P::State;
-    type Unknown = Stages<P::State, STAGES>;
-    type Matrix = StageMatrix<P::Jacobian, STAGES>;
-
-    fn zero_unknown(&self) -> Self::Unknown {
-        Stages(core::array::from_fn(|_| self.system.zero_state()))
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        StageMatrix(core::array::from_fn(|_| {
-            core::array::from_fn(|_| self.system.zero_jacobian())
-        }))
-    }
+    crate::generic::unknown_of_stages!();
 
     fn set_base(&mut self, mu: &P::State) {
         self.base.copy_from(mu);
@@ -190,14 +178,6 @@ where
             }
         }
         self.residual(unknown, residual);
-    }
-
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
-        dense::factor(matrix)
-    }
-
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        dense::solve(factors, residual);
     }
 
     fn result(&mut self, unknown: &Self::Unknown, mu: &mut P::State) {
