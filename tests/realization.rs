@@ -111,7 +111,7 @@ fn another_realization_of_the_same_algebra_gives_another_method_of_the_same_orde
 fn from_point<P: RealizedPoisson<f64>>(system: &P, z: &P::Point, h: f64) -> Vec<f64> {
     use lie_runtime::generic::{Canonical, Gauss};
     use lie_runtime::methods::ImplicitStepper;
-    let canonical = Canonical::over(system);
+    let canonical = Canonical::new(system);
     let equation = Gauss::<f64, _, 2>::new(&canonical, h);
     let mut stepper =
         ImplicitStepper::new(equation, system.zero_point(), &NewtonOptions::default());

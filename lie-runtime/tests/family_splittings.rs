@@ -77,8 +77,8 @@ fn bonds_of_spins_are_done_two_or_three_colours_at_a_time() {
     let (mut one, mut ten) = (mu.clone(), mu);
     let mut flows = FoundPoisson::<f64>::found(&system);
     let start = one.clone();
-    flows.take(&start, &mut one);
-    flows.take(&start, &mut ten);
+    flows.gather(&start, &mut one);
+    flows.gather(&start, &mut ten);
     flows.flow(0, 9.0, &mut one);
     for _ in 0..10 {
         flows.flow(0, 0.9, &mut ten);
@@ -145,14 +145,14 @@ fn opposite_spins_beside_a_bond_that_turns_far_stay() {
     let start = by_component(&spins, 3);
     let (mut once, mut often) = (start.clone(), start.clone());
     let mut flows = family.found();
-    flows.take(&start, &mut once);
-    flows.take(&start, &mut often);
+    flows.gather(&start, &mut once);
+    flows.gather(&start, &mut often);
     flows.flow(0, 4.0, &mut once);
     (0..1000).for_each(|_| flows.flow(0, 0.004, &mut often));
     let difference = largest_difference(&once, &often);
     assert!(difference < 1e-12, "{difference:e}");
     let mut end = start.clone();
-    flows.give(true, &once, &mut end);
+    flows.scatter(true, &once, &mut end);
     let moved = |site: usize| (0..3).any(|k| (end[4 * k + site] - start[4 * k + site]).abs() > 0.1);
     assert_eq!([0, 1, 2, 3].map(moved), [false, false, true, true]);
 }
@@ -196,14 +196,14 @@ fn functions_of_sums_over_one_coordinate_are_pieces_too() {
     let start = vec![0.5, 0.25, 0.75, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0];
     let mut flows = FoundPoisson::<f64>::found(&system);
     let (mut taken, mut end) = (start.clone(), start.clone());
-    flows.take(&start, &mut taken);
+    flows.gather(&start, &mut taken);
     let piece = (0..flows.pieces()).find(|piece| {
         let mut moved = taken.clone();
         flows.flow(*piece, 0.125, &mut moved);
         moved[..3] == taken[..3] && moved[3..] != taken[3..]
     });
     flows.flow(piece.expect("a turn about x"), 0.125, &mut taken);
-    flows.give(true, &taken, &mut end);
+    flows.scatter(true, &taken, &mut end);
     let (sum, squares): (f64, f64) = (1.5, 0.5 * (0.25 + 0.0625 + 0.5625));
     let turned = |i: usize| {
         let angle = 0.125 * (2.0 * sum + squares + sum * start[i]);

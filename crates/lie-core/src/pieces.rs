@@ -20,12 +20,12 @@ pub trait PieceFlows<S: Scalar> {
     /// Copies a state as the other functions have it: a family has its sites in another order there, in which those that move
     /// together stand side by side.
     #[inline]
-    fn take(&mut self, mu: &Self::State, next: &mut Self::State) {
+    fn gather(&mut self, mu: &Self::State, next: &mut Self::State) {
         next.copy_from(mu);
     }
     /// Copies such a state back, in the lanes of a mask.
     #[inline]
-    fn give(&self, lanes: S::Mask, next: &Self::State, mu: &mut Self::State) {
+    fn scatter(&self, lanes: S::Mask, next: &Self::State, mu: &mut Self::State) {
         mu.assign_where(lanes, next);
     }
     /// The element of the algebra that a piece moves along, t times the gradient of the piece, `xi = t f_i'(mu_i) e_i`. Where it is constant

@@ -214,7 +214,7 @@ impl<M: StreamMap> Stepper<f64> for IsospectralStepper<'_, M> {
             }
         };
         self.finish(mu);
-        self.predictor.take(self.midpoint.as_slice());
+        self.predictor.record(self.midpoint.as_slice());
         if K::ACTIVE {
             // h grad H in the coordinates of the algebra, which are paired with those of the state
             self.stream.weigh(-self.step);

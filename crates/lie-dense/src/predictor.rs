@@ -57,7 +57,7 @@ impl Predictor {
     }
 
     /// Takes the vector that was to be predicted.
-    pub(crate) fn take(&mut self, vector: &[f64]) {
+    pub(crate) fn record(&mut self, vector: &[f64]) {
         widest(Take(self, vector));
     }
 
@@ -118,7 +118,7 @@ mod tests {
                 let errors = guess.iter().zip(&values).map(|(a, b)| (a - b).abs());
                 worst = errors.fold(worst, lie_runtime::Scalar::max);
             }
-            predictor.take(&values);
+            predictor.record(&values);
         }
         worst
     }
@@ -136,7 +136,7 @@ mod tests {
     #[test]
     fn forgetting_starts_anew() {
         let mut predictor = Predictor::new(1);
-        predictor.take(&[1.0]);
+        predictor.record(&[1.0]);
         assert!(predictor.predict(&mut [0.0]));
         predictor.forget();
         assert!(!predictor.predict(&mut [0.0]));

@@ -287,11 +287,11 @@ impl<S: Scalar> PieceFlows<S> for AnyFlows<'_, S> {
     fn pieces(&self) -> usize {
         any!(self, flows => flows.pieces())
     }
-    fn take(&mut self, mu: &Vec<S>, next: &mut Vec<S>) {
-        any!(self, flows => flows.take(mu, next));
+    fn gather(&mut self, mu: &Vec<S>, next: &mut Vec<S>) {
+        any!(self, flows => flows.gather(mu, next));
     }
-    fn give(&self, lanes: S::Mask, next: &Vec<S>, mu: &mut Vec<S>) {
-        any!(self, flows => flows.give(lanes, next, mu));
+    fn scatter(&self, lanes: S::Mask, next: &Vec<S>, mu: &mut Vec<S>) {
+        any!(self, flows => flows.scatter(lanes, next, mu));
     }
     fn direction(&self, piece: usize, t: S, mu: &Vec<S>, xi: &mut Vec<S>) {
         any!(self, flows => flows.direction(piece, t, mu, xi));

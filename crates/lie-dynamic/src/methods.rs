@@ -291,7 +291,7 @@ fn collective<S: Scalar>(order: u32, lift: Lift) -> Option<Method<S>> {
     }
     match (order, lift) {
         (2, Lift::Representation) => {
-            isospectral2(Claims::of::<m::Collective2<m::Representation>>())
+            isospectral2(Claims::from_facts::<m::Collective2<m::Representation>>())
         }
         (8.., Lift::Smallest) => smallest(order),
         _ => {
@@ -333,7 +333,7 @@ fn isospectral2<S: Scalar>(claims: Claims) -> Option<Method<S>> {
 
 fn isospectral<S: Scalar>(order: u32) -> Option<Method<S>> {
     match order {
-        2 => isospectral2(Claims::of::<m::Isospectral2>()),
+        2 => isospectral2(Claims::from_facts::<m::Isospectral2>()),
         4 => boxed(m::Isospectral4::new()),
         6 => boxed(m::Isospectral6::new()),
         8 => boxed(m::Isospectral8::new()),

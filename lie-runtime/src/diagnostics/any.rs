@@ -40,7 +40,7 @@ impl Claims {
     };
 
     /// What a method says of itself.
-    pub const fn of<M: Facts>() -> Self {
+    pub const fn from_facts<M: Facts>() -> Self {
         Self {
             order: M::ORDER,
             symmetric: M::SYMMETRIC,
@@ -54,7 +54,7 @@ impl Claims {
 
 /// What a step shows of its motion on the group, as values.
 #[derive(Clone, Debug)]
-pub enum Shown<V> {
+pub enum GroupMotion<V> {
     /// `g1 = g tau(xi)`
     Factor(Retraction, V),
     /// `h xi` at a stage of a Runge–Kutta method.
@@ -63,15 +63,15 @@ pub enum Shown<V> {
 
 /// The motion of one step on the group, in order.
 #[derive(Clone, Debug)]
-pub struct Motions<V>(pub Vec<Shown<V>>);
+pub struct Motions<V>(pub Vec<GroupMotion<V>>);
 
 impl<V> Motions<V> {
     /// Shows the same to another.
     pub fn show(&self, sink: &mut impl FactorSink<V>) {
         for shown in &self.0 {
             match shown {
-                Shown::Factor(retraction, xi) => sink.push(*retraction, xi),
-                Shown::Velocity(method, stage, xi) => sink.push_velocity(*method, *stage, xi),
+                GroupMotion::Factor(retraction, xi) => sink.push(*retraction, xi),
+                GroupMotion::Velocity(method, stage, xi) => sink.push_velocity(*method, *stage, xi),
             }
         }
     }
@@ -79,11 +79,12 @@ impl<V> Motions<V> {
 
 impl<V: Clone> FactorSink<V> for Motions<V> {
     fn push(&mut self, retraction: Retraction, xi: &V) {
-        self.0.push(Shown::Factor(retraction, xi.clone()));
+        self.0.push(GroupMotion::Factor(retraction, xi.clone()));
     }
 
     fn push_velocity(&mut self, method: RungeKutta, stage: Stage, xi: &V) {
-        self.0.push(Shown::Velocity(method, stage, xi.clone()));
+        self.0
+            .push(GroupMotion::Velocity(method, stage, xi.clone()));
     }
 }
 
@@ -150,7 +151,7 @@ pub trait AnyMethod<S: Scalar, P: Poisson<S>> {
 
 impl<S: Scalar, P: Poisson<S>, M: Method<S, P> + 'static> AnyMethod<S, P> for M {
     fn claims(&self) -> Claims {
-        Claims::of::<M>()
+        Claims::from_facts::<M>()
     }
 
     fn any_stepper<'a>(

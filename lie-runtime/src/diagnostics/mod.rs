@@ -11,7 +11,7 @@ mod reference;
 mod step;
 mod symmetry;
 
-pub use any::{AnyMethod, AnyStepper, Claims, Forgotten, ForgottenStepper, Motions, Shown};
+pub use any::{AnyMethod, AnyStepper, Claims, Forgotten, ForgottenStepper, GroupMotion, Motions};
 pub use drift::{Drift, DriftMonitor, InvariantDrift};
 pub use order::{Order, order_of_convergence};
 pub use poisson_defect::{TangentMap, poisson_defect, tangent_map};

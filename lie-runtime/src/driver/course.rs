@@ -2,7 +2,7 @@
 
 use super::error::StepError;
 use super::grid::{Grid, Place, Rows};
-use super::observer::{Observer, Progress, Shown};
+use super::observer::{MotionSink, Observer, Progress};
 use super::options::Save;
 use super::solve::IntegrateError;
 use super::stats::{Stats, Status};
@@ -154,7 +154,7 @@ impl<'r, M> Course<'r, M> {
             }
             let watched = self.done == 0 && guard.as_mut().is_some_and(|guard| guard.begins(mu));
             while self.done < self.parts {
-                match stepper.step(mu, &mut Shown::to(observer, system)) {
+                match stepper.step(mu, &mut MotionSink::new(observer, system)) {
                     Ok(report) => self.arrived(system, mu, report)?,
                     Err(failure) => return self.divided(system, failure, mu),
                 }
@@ -302,7 +302,7 @@ impl<'r, M> Course<'r, M> {
         let mut shorter = self.method.stepper(system, rest_step, &self.newton);
         observer.leave_grid();
         for _ in 0..parts as u32 {
-            match shorter.step(between, &mut Shown::to(observer, system)) {
+            match shorter.step(between, &mut MotionSink::new(observer, system)) {
                 Ok(report) => self.arrived(system, between, report)?,
                 Err(failure) => return Err(self.stopped(system, failure, rest, mu)),
             }

@@ -74,14 +74,14 @@ pub enum Motion<'a, V> {
 }
 
 /// Shows the motion of a stepper to an observer.
-pub(super) struct Shown<'a, S, P, O> {
+pub(super) struct MotionSink<'a, S, P, O> {
     system: &'a P,
     observer: &'a mut O,
     scalar: PhantomData<S>,
 }
 
-impl<'a, S, P, O> Shown<'a, S, P, O> {
-    pub(super) fn to(observer: &'a mut O, system: &'a P) -> Self {
+impl<'a, S, P, O> MotionSink<'a, S, P, O> {
+    pub(super) fn new(observer: &'a mut O, system: &'a P) -> Self {
         Self {
             system,
             observer,
@@ -90,7 +90,7 @@ impl<'a, S, P, O> Shown<'a, S, P, O> {
     }
 }
 
-impl<S: Scalar, P: Poisson<S>, O: Observer<S, P>> FactorSink<P::State> for Shown<'_, S, P, O> {
+impl<S: Scalar, P: Poisson<S>, O: Observer<S, P>> FactorSink<P::State> for MotionSink<'_, S, P, O> {
     const ACTIVE: bool = O::MOTION;
 
     fn push(&mut self, retraction: Retraction, xi: &P::State) {

@@ -39,7 +39,7 @@ pub(super) struct Trial<'a, S: Scalar, P: Poisson<S>, M> {
 }
 
 /// What a trial has found.
-pub(super) struct Found<V> {
+pub(super) struct TrialStep<V> {
     /// The error of a step, relative to the state.
     pub(super) error: f64,
     /// The state after two steps of half the size.
@@ -169,7 +169,7 @@ impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'a, S, P, M> {
             let system = followed.as_ref().unwrap_or(&self.problem.system);
             h = h.min(self.span - reached);
             let cheap = h > contracting;
-            let Found { error, end, .. } =
+            let TrialStep { error, end, .. } =
                 match self.estimate(system, &mu, h * span.signum(), cheap) {
                     // where it does not contract, several shorter steps cost less
                     Ok(found) if found.slow && cheap => {
@@ -270,7 +270,7 @@ impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'a, S, P, M> {
         mu: &P::State,
         h: f64,
         cheap: bool,
-    ) -> Result<Found<P::State>, StepFailure> {
+    ) -> Result<TrialStep<P::State>, StepFailure> {
         let mut newton = self.newton_of(h.abs());
         if cheap {
             newton = Self::cheap(self.method, newton);
@@ -293,7 +293,7 @@ impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'a, S, P, M> {
         let resting = size.less_equal(S::zero());
         let error = S::select(resting, S::zero(), whole.max_norm() / size);
         let part = 1.0 - 0.5_f64.powi(self.method.order() as i32);
-        Ok(Found {
+        Ok(TrialStep {
             error: largest(error.max(S::epsilon())) / part,
             end: halves,
             slow,

@@ -20,7 +20,7 @@ pub(super) struct Bonds {
 
 impl Bonds {
     /// Those of a kind; none where each site would be bound to itself.
-    pub(super) fn of(kind: Kind, sizes: [usize; 2]) -> Option<Self> {
+    pub(super) fn new(kind: Kind, sizes: [usize; 2]) -> Option<Self> {
         [1, 0]
             .into_iter()
             .find_map(|axis| Self::along(axis, kind, sizes[axis]))
@@ -108,7 +108,7 @@ mod tests {
                         spans: [Span::All, span],
                         collective: false,
                     };
-                    let Some(bonds) = Bonds::of(kind, [1, size]) else {
+                    let Some(bonds) = Bonds::new(kind, [1, size]) else {
                         assert_eq!(offset % (if ring { size as isize } else { 100 }), 0);
                         continue;
                     };
@@ -154,8 +154,8 @@ mod tests {
             spans: [Span::All; 2],
             collective: false,
         };
-        assert_eq!(Bonds::of(kind, [4, 1]).map(|bonds| bonds.axis), Some(0));
-        assert_eq!(Bonds::of(kind, [4, 3]).map(|bonds| bonds.axis), Some(1));
-        assert_eq!(Bonds::of(kind, [1, 1]), None);
+        assert_eq!(Bonds::new(kind, [4, 1]).map(|bonds| bonds.axis), Some(0));
+        assert_eq!(Bonds::new(kind, [4, 3]).map(|bonds| bonds.axis), Some(1));
+        assert_eq!(Bonds::new(kind, [1, 1]), None);
     }
 }

@@ -32,7 +32,7 @@ impl Columns {
     }
 
     /// Brings rows into this order.
-    pub(super) fn take<S: Scalar>(self, from: &[S], into: &mut [S]) {
+    pub(super) fn gather<S: Scalar>(self, from: &[S], into: &mut [S]) {
         for (from, into) in self.rows(from).zip(into.chunks_exact_mut(self.count)) {
             if self.modulus == 2 {
                 let (even, odd) = into.split_at_mut(self.begin(1));
@@ -52,7 +52,7 @@ impl Columns {
     }
 
     /// Brings rows back from it, in the lanes of a mask.
-    pub(super) fn give<S: Scalar>(self, lanes: S::Mask, from: &[S], into: &mut [S]) {
+    pub(super) fn scatter<S: Scalar>(self, lanes: S::Mask, from: &[S], into: &mut [S]) {
         let set = |to: &mut S, from: S| *to = S::select(lanes, from, *to);
         for (from, into) in self.rows(from).zip(into.chunks_exact_mut(self.count)) {
             if self.modulus == 2 {
@@ -93,7 +93,7 @@ mod tests {
                 let from: Vec<f64> = (0..2 * count).map(|k| 1.0 + k as f64).collect();
                 let (mut taken, mut back) = (from.clone(), from.clone());
                 taken.fill(0.0);
-                columns.take(&from, &mut taken);
+                columns.gather(&from, &mut taken);
                 for (column, value) in from[..count].iter().enumerate() {
                     let place = columns.place(column);
                     assert_eq!(
@@ -102,9 +102,9 @@ mod tests {
                     );
                 }
                 back.fill(0.0);
-                columns.give(false, &taken, &mut back);
+                columns.scatter(false, &taken, &mut back);
                 assert!(back.iter().all(|value| *value == 0.0));
-                columns.give(true, &taken, &mut back);
+                columns.scatter(true, &taken, &mut back);
                 assert_eq!(back, from);
             }
         }

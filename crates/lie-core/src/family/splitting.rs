@@ -109,7 +109,7 @@ struct Piece<S> {
     exchange: Option<S>,
 }
 
-/// The flows of the pieces of a family. They act on states in an order of their own, see [`PieceFlows::take`].
+/// The flows of the pieces of a family. They act on states in an order of their own, see [`PieceFlows::gather`].
 pub struct FamilyFlows<'a, S, K> {
     family: &'a Family<K>,
     columns: Columns,
@@ -126,7 +126,7 @@ where
     fn new(family: &'a Family<K>) -> Self {
         let (mut pieces, mut modulus) = (Vec::new(), 1);
         for (place, &kind) in family.kernels().kinds().iter().enumerate() {
-            let bonds = Bonds::of(kind, family.sizes());
+            let bonds = Bonds::new(kind, family.sizes());
             if let Some(bonds) = bonds.filter(|bonds| bonds.axis == 1) {
                 modulus = bonds.period().max(modulus);
             }
@@ -288,15 +288,15 @@ where
         unreachable!("nobody follows the group element of a family")
     }
 
-    fn take(&mut self, mu: &Vec<S>, next: &mut Vec<S>) {
-        self.columns.take(mu, next);
+    fn gather(&mut self, mu: &Vec<S>, next: &mut Vec<S>) {
+        self.columns.gather(mu, next);
         if self.pieces.iter().any(|piece| piece.exchange.is_some()) {
             self.largest = largest_square(mu, self.family.count());
         }
     }
 
-    fn give(&self, lanes: S::Mask, next: &Vec<S>, mu: &mut Vec<S>) {
-        self.columns.give(lanes, next, mu);
+    fn scatter(&self, lanes: S::Mask, next: &Vec<S>, mu: &mut Vec<S>) {
+        self.columns.scatter(lanes, next, mu);
     }
 
     fn flow(&mut self, piece: usize, t: S, mu: &mut Vec<S>) {

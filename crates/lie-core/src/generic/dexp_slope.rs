@@ -78,7 +78,7 @@ impl<S: Scalar, V: State<S>, M: SquareMatrix<S>> DexpSlope<V, M, S> {
     }
 
     /// Writes the derivative along v to `total`; x is that of the last linearization.
-    pub(super) fn along<P>(&mut self, system: &P, x: &V, v: &V, total: &mut V)
+    pub(super) fn derivative<P>(&mut self, system: &P, x: &V, v: &V, total: &mut V)
     where
         P: LiePoisson<S, State = V, Jacobian = M>,
     {

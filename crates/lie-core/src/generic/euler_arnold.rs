@@ -195,7 +195,8 @@ impl<'a, S: Scalar, P: CotangentPoisson<S>> EulerArnoldHalf<'a, S, P> {
         for column in 0..self.system.momenta() {
             unit.fill(S::zero());
             unit.as_mut_slice()[column] = S::one();
-            self.series.along(self.system, &self.direction, unit, total);
+            self.series
+                .derivative(self.system, &self.direction, unit, total);
             // exp(A) = 1 + A phi1(A): the derivative of the action along the unit
             self.system.ad_star(unit, &self.sum, first);
             self.system.ad_star(&self.direction, total, second);

@@ -109,7 +109,7 @@ where
                 *entry = self.hessian.get(row, column);
             }
             self.series
-                .along(self.system, &self.direction, along, total);
+                .derivative(self.system, &self.direction, along, total);
             for (row, &entry) in total.as_slice().iter().enumerate() {
                 let identity = if row == column { S::one() } else { S::zero() };
                 matrix.set(row, column, identity - entry);

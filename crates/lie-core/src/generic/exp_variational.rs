@@ -117,7 +117,7 @@ where
         for column in 0..self.system.dimension() {
             unit.fill(S::zero());
             unit.as_mut_slice()[column] = S::one();
-            self.series.along(self.system, unknown, unit, total);
+            self.series.derivative(self.system, unknown, unit, total);
             for (row, entry) in total.as_mut_slice().iter_mut().enumerate() {
                 *entry = self.curvature.get(row, column) - *entry;
             }

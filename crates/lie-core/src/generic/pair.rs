@@ -77,7 +77,7 @@ impl Pair {
         )
     }
 
-    pub(super) const fn over(self, other: Self) -> Self {
+    pub(super) const fn divided_by(self, other: Self) -> Self {
         let mut quotient = Self::new(self.high / other.high);
         let mut digits = 0;
         while digits < 2 {

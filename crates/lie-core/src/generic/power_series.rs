@@ -33,7 +33,8 @@ impl<S: Scalar, P: Expand<S>> PowerSeries<S, P> {
         let coordinates = self.series.as_mut_slice().iter_mut();
         for (series, &next) in coordinates.zip(coefficient.as_slice()) {
             let known = *series;
-            *series = Truncated::of(k + 1, |j| if j < k { known.coefficient(j) } else { next });
+            *series =
+                Truncated::from_fn(k + 1, |j| if j < k { known.coefficient(j) } else { next });
         }
         self.system.vector_field(&self.series, &mut self.out);
         take(k, &self.out, field);

@@ -22,7 +22,7 @@ pub struct Canonical<'a, P> {
 
 impl<'a, P> Canonical<'a, P> {
     /// The canonical system over a system.
-    pub fn over(system: &'a P) -> Self {
+    pub fn new(system: &'a P) -> Self {
         Self { system }
     }
 }
@@ -373,7 +373,7 @@ mod tests {
 
     #[test]
     fn the_canonical_system_has_its_derivatives() {
-        let system = Canonical::over(&Actions);
+        let system = Canonical::new(&Actions);
         let z = Vector::<4>::new(0.6, 0.3, -0.2, 0.5);
         let (mut field, mut hessian) = (z, system.zero_jacobian());
         system.vector_field(&z, &mut field);

@@ -66,7 +66,7 @@ impl Table {
             // b = 1/((1 - x^2) P_s'(x)^2), c = (1 + x)/2
             let slope = legendre_slope(stages, roots[j]);
             let square = Pair::ONE.sub(roots[j].times(roots[j]));
-            table.b[j] = Pair::ONE.over(square.times(slope).times(slope));
+            table.b[j] = Pair::ONE.divided_by(square.times(slope).times(slope));
             table.c[j] = Pair::ONE.plus(roots[j]).scaled(0.5);
             j += 1;
         }
@@ -104,7 +104,7 @@ const fn legendre(x: Pair) -> [Pair; MOST_STAGES + 1] {
     while k <= MOST_STAGES {
         let first = x.times(values[k - 1]).times(Pair::new((2 * k - 1) as f64));
         let second = values[k - 2].times(Pair::new((k - 1) as f64));
-        values[k] = first.sub(second).over(Pair::new(k as f64));
+        values[k] = first.sub(second).divided_by(Pair::new(k as f64));
         k += 1;
     }
     values
@@ -115,7 +115,7 @@ const fn legendre_slope(stages: usize, x: Pair) -> Pair {
     let values = legendre(x);
     let top = x.times(values[stages]).sub(values[stages - 1]);
     let top = top.times(Pair::new(stages as f64));
-    top.over(x.times(x).sub(Pair::ONE))
+    top.divided_by(x.times(x).sub(Pair::ONE))
 }
 
 /// The roots of `P_s`, ascending, from those of `P_(s-1)`, between which and the ends of the interval they lie.
@@ -130,7 +130,7 @@ const fn legendre_roots(stages: usize, between: &[Pair; MOST_STAGES]) -> [Pair; 
         let mut root = Pair::new(0.5 * (low + high));
         let mut newton = 0;
         while newton < 8 {
-            let update = legendre(root)[stages].over(legendre_slope(stages, root));
+            let update = legendre(root)[stages].divided_by(legendre_slope(stages, root));
             root = root.sub(update);
             newton += 1;
         }
@@ -202,7 +202,7 @@ mod tests {
     }
 
     fn reciprocal(q: usize) -> Pair {
-        Pair::ONE.over(Pair::new(q as f64))
+        Pair::ONE.divided_by(Pair::new(q as f64))
     }
 
     /// The simplifying assumptions B(2s), C(s) and D(s) of Butcher, to 100 bits, and the control B(2s + 1).

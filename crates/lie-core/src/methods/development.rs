@@ -153,7 +153,7 @@ pub(super) fn multiply<S: Scalar, V: State<S>>(state: &V, factor: S, out: &mut V
 
 /// Takes a row over in some lanes; `all` says that these are all lanes.
 #[inline(always)]
-pub(super) fn take<S: Scalar, V: State<S>>(row: &mut V, from: &V, lanes: S::Mask, all: bool) {
+pub(super) fn copy_lanes<S: Scalar, V: State<S>>(row: &mut V, from: &V, lanes: S::Mask, all: bool) {
     if all {
         row.copy_from(from);
     } else {

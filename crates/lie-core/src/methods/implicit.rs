@@ -106,7 +106,7 @@ impl<S: Scalar, E: Equation<S>> ImplicitStepper<S, E> {
         if !predicted.all() {
             self.predictor.examine(&self.unknown, scale, predicted);
         }
-        self.predictor.take(&self.unknown);
+        self.predictor.record(&self.unknown);
         if !predictable.all() {
             self.predictor.forget(!predictable);
         }

@@ -23,7 +23,7 @@
 //! [doi:10.1080/10586458.2005.10128904](https://doi.org/10.1080/10586458.2005.10128904), for order and step.
 #![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
 
-use super::development::{Pace, Rows, by_series, multiply, sum, take};
+use super::development::{Pace, Rows, by_series, copy_lanes, multiply, sum};
 use super::facts::{Facts, Preserves};
 use super::implicit::clear;
 use super::series_stepper::{Development, SeriesStepper};
@@ -216,7 +216,7 @@ where
 
     fn develop(&mut self, mu: &P::State, lanes: S::Mask) -> S {
         let all = lanes.all();
-        take(&mut self.rows[0], mu, lanes, all);
+        copy_lanes(&mut self.rows[0], mu, lanes, all);
         let mut carry = self.recurrence.begin(mu, &mut self.field);
         for k in 0..self.pace.order {
             self.nest(k);
@@ -225,13 +225,13 @@ where
             for entry in self.coefficient.as_mut_slice() {
                 *entry *= inverse;
             }
-            take(&mut self.increments[k + 1], &self.coefficient, lanes, all);
+            copy_lanes(&mut self.increments[k + 1], &self.coefficient, lanes, all);
             let wide = self.widened[k + 1].as_mut_slice().iter_mut();
             for (wide, entry) in wide.zip(self.coefficient.as_slice()) {
                 *wide = entry.widen();
             }
             multiply(&self.field, inverse, &mut self.coefficient);
-            take(&mut self.rows[k + 1], &self.coefficient, lanes, all);
+            copy_lanes(&mut self.rows[k + 1], &self.coefficient, lanes, all);
             if k + 1 < self.pace.order {
                 carry = self
                     .recurrence
@@ -262,7 +262,13 @@ where
     }
 
     /// By `exp(-xi(from))`, then `exp(xi(to))`.
-    fn give<K: FactorSink<P::State>>(&mut self, from: S, to: S, lanes: S::Mask, sink: &mut K) {
+    fn push_factors<K: FactorSink<P::State>>(
+        &mut self,
+        from: S,
+        to: S,
+        lanes: S::Mask,
+        sink: &mut K,
+    ) {
         let begins = from.less_equal(S::zero()) & S::zero().less_equal(from);
         let order = self.pace.order;
         if !begins.all() {

@@ -1,6 +1,6 @@
 //! The stepper of collective methods whose stages are evaluated together.
 
-use super::stage_parallel::{give, same};
+use super::stage_parallel::{equal_lanes, push_velocities};
 use super::stepper::{FactorSink, StepFailure, StepReport, Stepper};
 use crate::generic::{LinearLift, StageParallel};
 use crate::newton::{FailureReason, NewtonOptions};
@@ -145,7 +145,7 @@ where
         self.wide.gradient(&self.momenta, &mut gradient);
         self.stages.set_base(S::Mask::splat(true), end.as_slice());
         let xi = self.system.zero_state();
-        give::<S, _, _, _, STAGES>(self.step, &gradient, xi, failed, sink);
+        push_velocities::<S, _, _, _, STAGES>(self.step, &gradient, xi, failed, sink);
     }
 }
 
@@ -163,7 +163,7 @@ where
         mu: &mut P::State,
         sink: &mut K,
     ) -> Result<StepReport, StepFailure> {
-        let follows = self.follows & same(&self.end, mu);
+        let follows = self.follows & equal_lanes(&self.end, mu);
         if follows.any() {
             self.stages.go_on();
         }

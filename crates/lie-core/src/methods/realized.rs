@@ -38,7 +38,7 @@ where
     P: RealizedPoisson<S>,
 {
     pub(super) fn new(system: &'a P, h: S, newton: &NewtonOptions) -> Self {
-        let canonical = Canonical::over(system);
+        let canonical = Canonical::new(system);
         let equation = Gauss::<S, _, STAGES>::new(&canonical, h);
         let mut point = system.zero_point();
         system.start(&mut point);
@@ -151,7 +151,7 @@ where
         }
         self.fresh = false;
         let lifted = self.lifting.lift(self.system, mu, &mut base);
-        let canonical = Canonical::over(self.system);
+        let canonical = Canonical::new(self.system);
         let mut equation = Gauss::<S, _, STAGES>::new(&canonical, self.step);
         equation.set_base(&base);
         equation.initial_guess(&mut self.unknown);

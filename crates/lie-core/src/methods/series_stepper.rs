@@ -1,6 +1,6 @@
 //! The stepper of methods by series: as many series as a step of the grid takes, and no more than it needs.
 
-use super::stage_parallel::same;
+use super::stage_parallel::equal_lanes;
 use super::stepper::{FactorSink, StepFailure, StepReport, Stepper};
 use crate::newton::FailureReason;
 use crate::scalar::{Mask, Scalar};
@@ -22,7 +22,13 @@ pub trait Development<S: Scalar> {
     /// The state at a time from where the development began, negative for steps backwards.
     fn state(&mut self, time: S, out: &mut Self::State);
     /// How the group element moves between two such times, in some lanes.
-    fn give<K: FactorSink<Self::State>>(&mut self, from: S, to: S, lanes: S::Mask, sink: &mut K);
+    fn push_factors<K: FactorSink<Self::State>>(
+        &mut self,
+        from: S,
+        to: S,
+        lanes: S::Mask,
+        sink: &mut K,
+    );
 }
 
 /// A stepper that lands on every step of the grid with steps of its own; a development that reaches further serves the
@@ -92,7 +98,7 @@ impl<S: Scalar, D: Development<S>> Stepper<S> for SeriesStepper<S, D> {
         mu: &mut D::State,
         sink: &mut K,
     ) -> Result<StepReport, StepFailure> {
-        let follows = same(&self.current, mu);
+        let follows = equal_lanes(&self.current, mu);
         self.reach = S::select(follows, self.reach, S::zero());
         self.current.copy_from(mu);
         let mut report = StepReport::default();
@@ -129,7 +135,7 @@ impl<S: Scalar, D: Development<S>> Stepper<S> for SeriesStepper<S, D> {
             active = active & finite;
             if K::ACTIVE && active.any() {
                 let (from, to) = (self.sign * from, self.sign * place);
-                self.development.give(from, to, active, sink);
+                self.development.push_factors(from, to, active, sink);
             }
             self.place = S::select(active, place, from);
             self.current.assign_where(active, &self.point);

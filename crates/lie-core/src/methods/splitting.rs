@@ -377,15 +377,15 @@ impl<S: Scalar, F: PieceFlows<S>> Stepper<S> for SplittingStepper<S, F> {
         mu: &mut F::State,
         sink: &mut K,
     ) -> Result<StepReport, StepFailure> {
-        self.flows.take(mu, &mut self.next);
+        self.flows.gather(mu, &mut self.next);
         self.advance();
         let finite = self.next.finite();
         if K::ACTIVE && finite.any() {
             // only at the end it is known which lanes have no factors to give away
-            self.flows.take(mu, &mut self.next);
+            self.flows.gather(mu, &mut self.next);
             self.advance_with(finite, sink);
         }
-        self.flows.give(finite, &self.next, mu);
+        self.flows.scatter(finite, &self.next, mu);
         let report = StepReport {
             evaluations: self.count as u32,
             substeps: 1,

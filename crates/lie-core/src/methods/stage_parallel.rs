@@ -173,7 +173,7 @@ where
         self.stages
             .set_base(S::Mask::splat(true), self.next.as_slice());
         let xi = self.system.zero_state();
-        give::<S, _, _, _, STAGES>(self.step, &self.wide_scratch, xi, failed, sink);
+        push_velocities::<S, _, _, _, STAGES>(self.step, &self.wide_scratch, xi, failed, sink);
     }
 }
 
@@ -190,7 +190,7 @@ where
         mu: &mut P::State,
         sink: &mut K,
     ) -> Result<StepReport, StepFailure> {
-        let follows = self.follows & same(&self.end, mu);
+        let follows = self.follows & equal_lanes(&self.end, mu);
         if follows.any() {
             self.stages.go_on();
         }
@@ -258,7 +258,7 @@ where
 
 /// The lanes in which two states are equal.
 #[inline(always)]
-pub(super) fn same<S: Scalar, V: State<S>>(one: &V, other: &V) -> S::Mask {
+pub(super) fn equal_lanes<S: Scalar, V: State<S>>(one: &V, other: &V) -> S::Mask {
     let pairs = one.as_slice().iter().zip(other.as_slice());
     pairs.fold(S::Mask::splat(true), |equal, (&x, &y)| {
         equal & x.less_equal(y) & y.less_equal(x)
@@ -266,7 +266,7 @@ pub(super) fn same<S: Scalar, V: State<S>>(one: &V, other: &V) -> S::Mask {
 }
 
 /// Gives away h times the gradients at the stages, one stage after the other; `xi` is any state of the right size.
-pub(super) fn give<S, V, W, K, const STAGES: usize>(
+pub(super) fn push_velocities<S, V, W, K, const STAGES: usize>(
     step: S,
     gradients: &W,
     mut xi: V,

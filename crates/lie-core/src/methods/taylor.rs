@@ -21,7 +21,7 @@
 //! [doi:10.1080/10586458.2005.10128904](https://doi.org/10.1080/10586458.2005.10128904).
 #![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
 
-use super::development::{Pace, Rows, by_series, multiply, sum, take};
+use super::development::{Pace, Rows, by_series, copy_lanes, multiply, sum};
 use super::explicit::direction;
 use super::facts::{Facts, Preserves};
 use super::implicit::clear;
@@ -99,16 +99,16 @@ impl<S: Scalar, P: Series<S>> Development<S> for TaylorDevelopment<'_, S, P> {
         let Some((mut field, mut coefficient)) = self.scratch.take() else {
             return S::zero() / S::zero();
         };
-        take(&mut self.rows[0], mu, lanes, all);
+        copy_lanes(&mut self.rows[0], mu, lanes, all);
         let mut carry = self.recurrence.begin(mu, &mut field);
         let last = self.pace.order;
         for k in 1..last {
             multiply(&field, self.inverses[k], &mut coefficient);
             carry = self.recurrence.advance(k, carry, &coefficient, &mut field);
-            take(&mut self.rows[k], &coefficient, lanes, all);
+            copy_lanes(&mut self.rows[k], &coefficient, lanes, all);
         }
         multiply(&field, self.inverses[last], &mut coefficient);
-        take(&mut self.rows[last], &coefficient, lanes, all);
+        copy_lanes(&mut self.rows[last], &coefficient, lanes, all);
         self.scratch = Some((field, coefficient));
         self.pace.reach_of_lanes(&self.rows)
     }
@@ -119,7 +119,13 @@ impl<S: Scalar, P: Series<S>> Development<S> for TaylorDevelopment<'_, S, P> {
     }
 
     /// By `h grad H` at the nodes of the Gauss method between the two times.
-    fn give<K: FactorSink<P::State>>(&mut self, from: S, to: S, lanes: S::Mask, sink: &mut K) {
+    fn push_factors<K: FactorSink<P::State>>(
+        &mut self,
+        from: S,
+        to: S,
+        lanes: S::Mask,
+        sink: &mut K,
+    ) {
         let tableau = gauss_tableau::<S, NODES>();
         let Some((point, xi)) = &mut self.scratch else {
             return;

@@ -43,7 +43,7 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
         report.factorizations += 1;
         unknown.subtract_where(lanes, update);
         count.add(lanes);
-        let solved = sizes.within(update, unknown, self.enough) & safe;
+        let solved = sizes.small_lanes(update, unknown, self.enough) & safe;
         report.residual = largest(S::select(solved, residual, S::zero()));
         if (solved | !lanes).all() {
             return solved;

@@ -106,7 +106,7 @@ impl<S: Scalar, U: Unknown<S>> Predictor<S, U> {
 
     /// Takes the unknown of a step.
     #[inline(always)]
-    pub(crate) fn take(&mut self, unknown: &U) {
+    pub(crate) fn record(&mut self, unknown: &U) {
         self.age += S::one();
         if self.age.less(S::one()).all() {
             return;
@@ -194,7 +194,7 @@ mod tests {
             } else {
                 predictor.examine(&value, 1.0, ready);
             }
-            predictor.take(&value);
+            predictor.record(&value);
         }
         (first, worst)
     }
@@ -225,7 +225,7 @@ mod tests {
         let mut ready = |follows: bool| {
             let ready = predictor.ready(follows);
             predictor.examine(&[1.0], 1.0, ready);
-            predictor.take(&[1.0]);
+            predictor.record(&[1.0]);
             ready
         };
         assert!(ready(true) || (0..40).any(|_| ready(true)));

@@ -50,7 +50,7 @@ impl<U> Sizes<'_, U> {
 
     /// The lanes in which no entry of an update exceeds its size divided by a factor; none where one is not finite.
     #[inline(always)]
-    pub(super) fn within<S: Scalar>(&self, update: &U, unknown: &U, factor: S) -> S::Mask
+    pub(super) fn small_lanes<S: Scalar>(&self, update: &U, unknown: &U, factor: S) -> S::Mask
     where
         U: Unknown<S>,
     {
@@ -102,8 +102,8 @@ mod tests {
         for update in [[1e-9, 0.0], [0.0, 1e-21]] {
             let relative = relative(update);
             assert!((5e-10..1e-9).contains(&relative), "{relative:e}");
-            assert!(sizes.within(&update, &unknown, 1e9));
-            assert!(!sizes.within(&update, &unknown, 2e9));
+            assert!(sizes.small_lanes(&update, &unknown, 1e9));
+            assert!(!sizes.small_lanes(&update, &unknown, 2e9));
         }
         // the control: by the maximum norm the second is nothing
         assert!([0.0, 1e-21].max_norm() < 1e-20);
@@ -128,11 +128,11 @@ mod tests {
             before: Some(&unknown),
         };
         assert_eq!(sizes.relative(&[1e-12, 0.0], &unknown), 1e-12);
-        assert!(sizes.within(&[1e-12, 0.0], &unknown, 1e11_f64));
-        assert!(!sizes.within(&[1e-12, 1e-300], &unknown, 1e11));
+        assert!(sizes.small_lanes(&[1e-12, 0.0], &unknown, 1e11_f64));
+        assert!(!sizes.small_lanes(&[1e-12, 1e-300], &unknown, 1e11));
         for bad in [f64::NAN, f64::INFINITY] {
-            assert!(!sizes.within(&[bad, 0.0], &unknown, 1.0));
-            assert!(!sizes.within(&[bad, 0.0], &[bad, 0.0], 1.0));
+            assert!(!sizes.small_lanes(&[bad, 0.0], &unknown, 1.0));
+            assert!(!sizes.small_lanes(&[bad, 0.0], &[bad, 0.0], 1.0));
             assert!(!sizes.relative(&[bad, 0.0], &unknown).is_finite());
         }
     }

@@ -24,11 +24,11 @@ impl<S: Scalar> Default for Truncated<S> {
 impl<S: Scalar> Truncated<S> {
     /// A constant.
     pub fn constant_of(value: S) -> Self {
-        Self::of(1, |_| value)
+        Self::from_fn(1, |_| value)
     }
 
     /// The series with these coefficients, at least one and at most [`MOST_ORDERS`] + 1.
-    pub fn of(length: usize, coefficient: impl Fn(usize) -> S) -> Self {
+    pub fn from_fn(length: usize, coefficient: impl Fn(usize) -> S) -> Self {
         let mut terms = [S::zero(); MOST_ORDERS + 1];
         for (k, term) in terms[..length].iter_mut().enumerate() {
             *term = coefficient(k);
@@ -43,7 +43,7 @@ impl<S: Scalar> Truncated<S> {
 
     /// The series whose coefficients follow from those before them, from its constant term.
     fn recursive(length: usize, first: S, next: impl Fn(&[S], usize) -> S) -> Self {
-        let mut series = Self::of(length, |_| S::zero());
+        let mut series = Self::from_fn(length, |_| S::zero());
         series.terms[0] = first;
         for k in 1..length {
             series.terms[k] = next(&series.terms[..k], k);
@@ -53,12 +53,12 @@ impl<S: Scalar> Truncated<S> {
 
     /// `t d/dt`.
     fn slope(&self) -> Self {
-        Self::of(self.length, |k| S::from_f64(k as f64) * self.terms[k])
+        Self::from_fn(self.length, |k| S::from_f64(k as f64) * self.terms[k])
     }
 
     /// The series with a constant term whose `t d/dt` is given.
     fn integral(first: S, slope: &Self) -> Self {
-        Self::of(slope.length, |k| match k {
+        Self::from_fn(slope.length, |k| match k {
             0 => first,
             _ => slope.terms[k] / S::from_f64(k as f64),
         })
@@ -80,8 +80,8 @@ impl<S: Scalar> Truncated<S> {
     /// Two series y, z with `y' = a z x'` and `z' = b y x'`: sines and cosines.
     fn pair(&self, first: S, second: S, [a, b]: [f64; 2]) -> (Self, Self) {
         let slope = self.slope();
-        let mut y = Self::of(self.length, |_| first);
-        let mut z = Self::of(self.length, |_| second);
+        let mut y = Self::from_fn(self.length, |_| first);
+        let mut z = Self::from_fn(self.length, |_| second);
         for k in 1..self.length {
             let (mut of_y, mut of_z) = (S::zero(), S::zero());
             for j in 1..=k {
@@ -111,7 +111,7 @@ impl<S: Scalar> Add for Truncated<S> {
     type Output = Self;
     fn add(self, other: Self) -> Self {
         let length = self.length.max(other.length);
-        Self::of(length, |k| self.terms[k] + other.terms[k])
+        Self::from_fn(length, |k| self.terms[k] + other.terms[k])
     }
 }
 
@@ -119,7 +119,7 @@ impl<S: Scalar> Sub for Truncated<S> {
     type Output = Self;
     fn sub(self, other: Self) -> Self {
         let length = self.length.max(other.length);
-        Self::of(length, |k| self.terms[k] - other.terms[k])
+        Self::from_fn(length, |k| self.terms[k] - other.terms[k])
     }
 }
 
@@ -127,7 +127,7 @@ impl<S: Scalar> Mul for Truncated<S> {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
         let (u, v) = (&self.terms[..self.length], &other.terms[..other.length]);
-        Self::of(self.length.max(other.length), |k| {
+        Self::from_fn(self.length.max(other.length), |k| {
             let first = v.get(k).map_or(S::zero(), |&v| u[0] * v);
             first + sum(u, v, k)
         })
@@ -150,7 +150,7 @@ impl<S: Scalar> Div for Truncated<S> {
 impl<S: Scalar> Neg for Truncated<S> {
     type Output = Self;
     fn neg(self) -> Self {
-        Self::of(self.length, |k| -self.terms[k])
+        Self::from_fn(self.length, |k| -self.terms[k])
     }
 }
 
@@ -191,14 +191,14 @@ impl<S: Scalar> Scalar for Truncated<S> {
         Self::constant_of(S::epsilon())
     }
     fn splat(lane: Self::Lane) -> Self {
-        Self::of(lane.length, |k| S::splat(lane.terms[k]))
+        Self::from_fn(lane.length, |k| S::splat(lane.terms[k]))
     }
     fn lane(self, index: usize) -> Self::Lane {
-        Truncated::of(self.length, |k| self.terms[k].lane(index))
+        Truncated::from_fn(self.length, |k| self.terms[k].lane(index))
     }
     fn with_lane(self, index: usize, lane: Self::Lane) -> Self {
         let length = self.length.max(lane.length);
-        Self::of(length, |k| self.terms[k].with_lane(index, lane.terms[k]))
+        Self::from_fn(length, |k| self.terms[k].with_lane(index, lane.terms[k]))
     }
     fn to_f64(self) -> f64 {
         self.terms[0].to_f64()
@@ -239,7 +239,7 @@ impl<S: Scalar> Scalar for Truncated<S> {
     }
     fn tan(self) -> Self {
         let quotient = self.sin() / self.cos();
-        Self::of(self.length, |k| match k {
+        Self::from_fn(self.length, |k| match k {
             0 => self.terms[0].tan(),
             _ => quotient.terms[k],
         })
@@ -266,7 +266,7 @@ impl<S: Scalar> Scalar for Truncated<S> {
     }
     fn tanh(self) -> Self {
         let quotient = self.sinh() / self.cosh();
-        Self::of(self.length, |k| match k {
+        Self::from_fn(self.length, |k| match k {
             0 => self.terms[0].tanh(),
             _ => quotient.terms[k],
         })
@@ -280,7 +280,7 @@ impl<S: Scalar> Scalar for Truncated<S> {
     }
     fn expm1(self) -> Self {
         let power = self.exp();
-        Self::of(self.length, |k| match k {
+        Self::from_fn(self.length, |k| match k {
             0 => self.terms[0].expm1(),
             _ => power.terms[k],
         })
@@ -327,6 +327,6 @@ impl<S: Scalar> Scalar for Truncated<S> {
     }
     fn select(mask: S::Mask, yes: Self, no: Self) -> Self {
         let length = yes.length.max(no.length);
-        Self::of(length, |k| S::select(mask, yes.terms[k], no.terms[k]))
+        Self::from_fn(length, |k| S::select(mask, yes.terms[k], no.terms[k]))
     }
 }
