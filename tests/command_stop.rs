@@ -2,45 +2,45 @@
 #![cfg(unix)]
 
 mod common;
+#[path = "common/process.rs"]
+mod process;
 
 use std::io::Read as _;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
-use std::time::{Duration, Instant};
 
-use common::{command, csv, folder, lie};
+use common::{Run, command, csv, folder};
+use process::{Terminal, ended, signal, wait, wait_for_bytes};
 
+/// A run of months.
 const LONG: &str = "run specs/so3_free_rigid_body.json --method midpoint --step 0.001 --until 1e9";
 
-/// Starts a run of a month that writes to a file, and waits for its first rows.
-fn start(out: &Path, flags: &str) -> Child {
-    // Built beforehand, so that the signal meets the run and not cargo.
-    lie("run specs/so3_free_rigid_body.json --quiet --method midpoint --step 0.1 --until 0.1").ok();
+/// Starts a run of months that writes to a file, and waits for so many bytes.
+#[track_caller]
+fn start(out: &Path, flags: &str, bytes: u64) -> Child {
     let call = format!("{LONG} {flags} --out {}", out.display());
     let mut command = command(call.split_whitespace());
-    let child = command.stderr(Stdio::piped()).spawn().expect("lie starts");
-    wait("rows", || {
-        std::fs::metadata(out).is_ok_and(|file| file.len() > 10_000)
-    });
+    let child = process::start(command.stderr(Stdio::piped()));
+    wait_for_bytes(out, bytes);
     child
 }
 
-fn wait(what: &str, done: impl Fn() -> bool) {
-    let start = Instant::now();
-    while !done() {
-        assert!(
-            start.elapsed() < Duration::from_secs(60),
-            "no {what} within a minute"
-        );
-        std::thread::sleep(Duration::from_millis(20));
-    }
+/// A call of `lie` by a script of the shell, as `"$0"`, with a file as `"$1"`.
+fn shell(script: &str, out: &Path) -> Command {
+    let mut shell = Command::new("sh");
+    shell
+        .args(["-c", script, env!("CARGO_BIN_EXE_lie")])
+        .arg(out)
+        .env("LIE_CACHE_DIR", common::cache())
+        .current_dir(env!("CARGO_MANIFEST_DIR"));
+    shell
 }
 
-fn signal(child: &Child, name: &str) {
-    let status = Command::new("kill")
-        .args([name, &child.id().to_string()])
-        .status();
-    assert!(status.is_ok_and(|status| status.success()), "kill {name}");
+/// Fails unless a signal has ended it with this exit code, which it says.
+#[track_caller]
+fn interrupted(run: &Run, code: i32) {
+    assert_eq!(run.code, Some(code), "{}", run.stderr);
+    assert!(run.stderr.contains("Interrupted"), "{}", run.stderr);
 }
 
 /// The processes whose parent is this one.
@@ -84,34 +84,16 @@ fn count_rows(text: &str) -> usize {
     rows.len()
 }
 
-#[test]
-fn control_c_keeps_the_rows() {
-    let folder = folder();
-    let out = folder.path().join("rows.csv");
-    let child = start(&out, "");
-    signal(&child, "-INT");
-    let output = child.wait_with_output().expect("lie ends");
-    let stderr = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(130), "{stderr}");
-    assert!(stderr.contains("Interrupted at t = "), "{stderr}");
-    assert!(whole_rows(&out) > 10);
-}
-
 /// `timeout` signals the command and then its group.
 #[test]
 fn two_signals_at_once_are_one() {
     let folder = folder();
-    let (out, plot) = (
-        folder.path().join("rows.csv"),
-        folder.path().join("rows.svg"),
-    );
-    let child = start(&out, &format!("--plot {}", plot.display()));
-    signal(&child, "-INT");
-    signal(&child, "-INT");
-    let output = child.wait_with_output().expect("lie ends");
-    let stderr = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(130), "{stderr}");
-    assert!(stderr.contains("Interrupted at t = "), "{stderr}");
+    let out = folder.path().join("rows.csv");
+    let plot = folder.path().join("rows.svg");
+    let child = start(&out, &format!("--plot {}", plot.display()), 10_000);
+    signal(child.id(), "-INT");
+    signal(child.id(), "-INT");
+    interrupted(&ended(child), 130);
     let svg = std::fs::read_to_string(&plot).expect("a picture");
     assert!(svg.trim_end().ends_with("</svg>"), "it is whole");
 }
@@ -121,11 +103,11 @@ fn two_signals_at_once_are_one() {
 fn a_kill_keeps_whole_rows_and_ends_the_program() {
     let folder = folder();
     let out = folder.path().join("rows.csv");
-    let mut child = start(&out, "--compile");
+    let child = start(&out, "--compile", 10_000);
     let programs = children(child.id());
     assert_eq!(programs.len(), 1, "the built program runs");
-    signal(&child, "-KILL");
-    child.wait().expect("lie ends");
+    signal(child.id(), "-KILL");
+    ended(child);
     wait("end of the program", || gone(&programs));
     assert!(rows_after_a_kill(&out) > 10);
 }
@@ -148,13 +130,12 @@ const WIDTH: usize = 6;
 
 #[test]
 fn an_array_counts_its_rows_also_after_a_kill() {
-    for delay in [0, 3, 50, 170, 310] {
+    for bytes in [10_000, 20_000, 300_000, 2_000_000, 7_000_000] {
         let folder = folder();
         let out = folder.path().join("rows.npy");
-        let mut child = start(&out, "");
-        std::thread::sleep(Duration::from_millis(delay));
-        signal(&child, "-KILL");
-        child.wait().expect("lie ends");
+        let child = start(&out, "", bytes);
+        signal(child.id(), "-KILL");
+        ended(child);
         let (count, numbers) = array(&out);
         let rows = numbers.len() / WIDTH;
         // what a program sends at once, it counts at once
@@ -174,12 +155,11 @@ fn every_signal_ends_every_form_in_order() {
         for form in ["csv", "json", "npy"] {
             let folder = folder();
             let out = folder.path().join(format!("rows.{form}"));
-            let child = start(&out, "");
-            signal(&child, name);
-            let output = child.wait_with_output().expect("lie ends");
-            let stderr = String::from_utf8_lossy(&output.stderr);
-            assert_eq!(output.status.code(), Some(code), "{name} {stderr}");
-            assert!(stderr.contains("Interrupted at t = "), "{stderr}");
+            let child = start(&out, "", 10_000);
+            signal(child.id(), name);
+            let run = ended(child);
+            interrupted(&run, code);
+            assert!(run.stderr.contains("Interrupted at t = "), "{run:?}");
             match form {
                 "csv" => assert!(whole_rows(&out) > 10),
                 "json" => {
@@ -204,38 +184,23 @@ fn json(out: &Path) -> serde_json::Value {
 
 #[test]
 fn a_run_that_shall_outlive_its_terminal_does() {
-    lie("run specs/so3_free_rigid_body.json --quiet --method midpoint --step 0.1 --until 0.1").ok();
     let folder = folder();
     let out = folder.path().join("rows.csv");
-    let text = format!("trap '' HUP; exec \"$0\" {LONG} --out \"$1\"");
-    let mut shell = Command::new("sh");
-    shell
-        .args(["-c", &text, env!("CARGO_BIN_EXE_lie")])
-        .arg(&out)
-        .env("LIE_CACHE_DIR", common::cache())
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
-        .stderr(Stdio::null());
-    let mut child = shell.spawn().expect("a shell");
-    let length = || std::fs::metadata(&out).map_or(0, |file| file.len());
-    wait("rows", || length() > 10_000);
-    signal(&child, "-HUP");
-    let before = length();
-    wait("more rows", || length() > before + 100_000);
-    signal(&child, "-TERM");
-    assert_eq!(child.wait().expect("lie ends").code(), Some(143));
+    let script = format!("trap '' HUP; exec \"$0\" {LONG} --out \"$1\"");
+    let child = process::start(shell(&script, &out).stderr(Stdio::null()));
+    wait_for_bytes(&out, 10_000);
+    signal(child.id(), "-HUP");
+    let length = std::fs::metadata(&out).expect("the rows").len();
+    wait_for_bytes(&out, length + 100_000);
+    signal(child.id(), "-TERM");
+    assert_eq!(ended(child).code, Some(143));
 }
 
 /// Runs with files of at most so many units of 512 or 1024 bytes, as the shell counts.
-fn limited(out: &Path, units: u32) -> common::Run {
-    lie("run specs/so3_free_rigid_body.json --quiet --method midpoint --step 0.1 --until 0.1").ok();
-    let text = format!("ulimit -f {units}; exec \"$0\" {LONG} --quiet --out \"$1\"");
-    let mut shell = Command::new("sh");
-    shell
-        .args(["-c", &text, env!("CARGO_BIN_EXE_lie")])
-        .arg(out)
-        .env("LIE_CACHE_DIR", common::cache())
-        .current_dir(env!("CARGO_MANIFEST_DIR"));
-    shell.output().expect("a shell").into()
+fn limited(out: &Path, units: u32) -> Run {
+    let script = format!("ulimit -f {units}; exec \"$0\" {LONG} --quiet --out \"$1\"");
+    let mut shell = shell(&script, out);
+    ended(process::start(shell.stderr(Stdio::piped())))
 }
 
 #[test]
@@ -287,42 +252,22 @@ fn gone(programs: &[String]) -> bool {
 #[cfg(target_os = "linux")]
 fn measuring_programs_end_with_the_command() {
     let body = "specs/so3_free_rigid_body.json --compile --quiet --methods gonzalez";
-    let methods =
-        "specs/so3_nonpolynomial.json --compile --quiet --methods midpoint,lie-midpoint,rk4,dopri5";
-    for (call, spec, short, long) in [
-        ("stress", body, "--steps 1", "--steps 1e15"),
-        (
-            "bench",
-            body,
-            "--until 1 --budget 1e-6",
-            "--until 1e4 --budget 1e6",
-        ),
-        ("verify", methods, "", ""),
+    for call in [
+        format!("stress {body} --steps 1e15"),
+        format!("bench {body} --until 1e4 --budget 1e6"),
+        "verify specs/so3_nonpolynomial.json --compile --quiet --methods midpoint,lie-midpoint,rk4,dopri5".to_owned(),
     ] {
-        lie(&format!("{call} {spec} {short}")).ok();
         for (name, code) in [("-TERM", Some(143)), ("-HUP", Some(129)), ("-KILL", None)] {
-            let mut command = command(format!("{call} {spec} {long}").split_whitespace());
-            let mut child = command
-                .stdout(Stdio::null())
-                .stderr(Stdio::null())
-                .spawn()
-                .expect("lie starts");
+            let mut command = command(call.split_whitespace());
+            let child = process::start(command.stdout(Stdio::null()).stderr(Stdio::null()));
             wait("program", || programs(child.id()).len() == 1);
             let programs = programs(child.id());
             // `verify` is done soon: it waits until the signal is there
-            let halt = |name: &str| Command::new("kill").args([name, &programs[0]]).status();
-            halt("-STOP").expect("kill");
-            signal(&child, name);
-            halt("-CONT").expect("kill");
-            let ended = Instant::now();
-            assert_eq!(
-                child.wait().expect("lie ends").code(),
-                code,
-                "{call} {name}"
-            );
+            signal(&programs[0], "-STOP");
+            signal(child.id(), name);
+            signal(&programs[0], "-CONT");
+            assert_eq!(ended(child).code, code, "{call} {name}");
             wait("end of the program", || gone(&programs));
-            // a measurement may go on for two seconds
-            assert!(ended.elapsed() < Duration::from_secs(20), "{call} {name}");
         }
     }
 }
@@ -331,111 +276,104 @@ fn measuring_programs_end_with_the_command() {
 #[test]
 fn measurements_end_with_the_command() {
     let body = "specs/so3_free_rigid_body.json";
-    for (call, long) in [
-        ("stress", "--methods gonzalez --steps 1e15"),
+    for (call, long, stage) in [
+        ("stress", "--methods gonzalez --steps 1e15", "experiments"),
         // all methods: each run is short, and all of them are long
-        ("bench", "--until 100 --budget 0.5"),
+        ("bench", "--until 100 --budget 0.5", "gauss4, step"),
     ] {
-        let mut command = command(format!("{call} {body} {long}").split_whitespace());
-        let command = command.stdout(Stdio::piped()).stderr(Stdio::piped());
-        let child = command.spawn().expect("lie starts");
-        std::thread::sleep(Duration::from_secs(2));
-        signal(&child, "-TERM");
-        let ended = Instant::now();
-        let output = child.wait_with_output().expect("lie ends");
-        let stderr = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(143), "{call}: {stderr}");
-        assert!(ended.elapsed() < Duration::from_secs(20), "{call}");
-        assert!(stderr.contains("Interrupted"), "{call}: {stderr}");
+        let (child, terminal) =
+            Terminal::start(command(format!("{call} {body} {long}").split_whitespace()));
+        terminal.wait(stage, |text| text.contains(stage));
+        signal(child.id(), "-TERM");
+        assert_eq!(ended(child).code, Some(143), "{call}");
+        let text = terminal.text();
+        assert!(text.contains("Interrupted"), "{call}: {text}");
     }
 }
 
-/// What is missing from a measurement cannot have failed. A signal before the first measurement leaves nothing to be printed.
+/// What is missing from a measurement cannot have failed.
 #[test]
 fn an_interrupted_verification_says_so_in_json() {
-    for halves in 1..60 {
-        let mut command = command("verify specs/se3_heavy_top.json --json --quiet".split(' '));
-        let command = command.stdout(Stdio::piped()).stderr(Stdio::piped());
-        let child = command.spawn().expect("lie starts");
-        std::thread::sleep(Duration::from_millis(500 * halves));
-        signal(&child, "-INT");
-        let output = child.wait_with_output().expect("lie ends");
-        assert_eq!(
-            output.status.code(),
-            Some(130),
-            "it ended before the signal"
-        );
-        if output.stdout.is_empty() {
-            continue;
-        }
-        let value: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
-        assert_eq!(value["interrupted"], true);
-        return;
-    }
-    panic!("nothing was measured");
+    let mut command = command("verify specs/se3_heavy_top.json --json".split(' '));
+    command.stdout(Stdio::piped());
+    let (child, terminal) = Terminal::start(command);
+    let second = "gauss4, ";
+    terminal.wait("second method", |text| text.contains(second));
+    signal(child.id(), "-INT");
+    let run = ended(child);
+    assert_eq!(run.code, Some(130), "{}", terminal.text());
+    let value: serde_json::Value = serde_json::from_str(&run.stdout).expect("JSON");
+    assert_eq!(value["interrupted"], true);
 }
 
-/// Each run of the ladder takes twice as long as the one before, up to days: the signal meets a long one.
+/// Below this step a run of the rigid body to t = 100 takes seconds.
+const SHORT: f64 = 1e-5;
+
+/// The step of the run that a benchmark has said last to be at.
+fn latest_step(shown: &str) -> Option<f64> {
+    let (_, rest) = shown.rsplit_once("midpoint, step ")?;
+    let end = rest.find(|c: char| !(c.is_ascii_digit() || ".e-".contains(c)))?;
+    rest[..end].parse().ok()
+}
+
+/// Each run of the ladder takes twice as long as the one before, up to days: the signal meets one of seconds, after which
+/// there are none.
 #[test]
 fn one_long_run_of_a_benchmark_is_cut_short_and_those_before_it_are_kept() {
     let folder = folder();
+    let out = folder.path().join("points.csv");
+    let plot = folder.path().join("p.svg");
     for (name, code) in [("-INT", 130), ("-TERM", 143)] {
-        let (out, plot) = (
-            folder.path().join("points.csv"),
-            folder.path().join("p.svg"),
-        );
         let call = format!(
             "bench specs/so3_free_rigid_body.json --methods midpoint,gonzalez --until 100 --budget 1e9 --out {} --plot {}",
             out.display(),
             plot.display()
         );
         let mut command = command(call.split_whitespace());
-        let command = command.stdout(Stdio::piped()).stderr(Stdio::piped());
-        let child = command.spawn().expect("lie starts");
-        std::thread::sleep(Duration::from_secs(6));
-        signal(&child, name);
-        let ended = Instant::now();
-        let output = child.wait_with_output().expect("lie ends");
-        let stderr = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(code), "{stderr}");
-        assert!(ended.elapsed() < Duration::from_secs(10), "{stderr}");
-        assert!(stderr.contains("Interrupted"), "{stderr}");
+        command.stdout(Stdio::piped());
+        let (child, terminal) = Terminal::start(command);
+        terminal.wait("long run", |text| {
+            latest_step(text).is_some_and(|step| step < SHORT)
+        });
+        signal(child.id(), name);
+        let mut run = ended(child);
+        run.stderr = terminal.text();
+        interrupted(&run, code);
         let text = std::fs::read_to_string(&out).expect("points");
-        let errors: Vec<f64> = text
+        let points: Vec<(f64, f64)> = text
             .lines()
-            .filter(|line| line.starts_with("midpoint,step,"))
-            .filter_map(|line| line.split(',').nth(3)?.parse().ok())
+            .filter_map(|line| line.strip_prefix("midpoint,step,"))
+            .filter_map(|line| {
+                let (step, rest) = line.split_once(',')?;
+                Some((step.parse().ok()?, rest.split(',').next()?.parse().ok()?))
+            })
             .collect();
         // of order 2, up to the run that was met
-        assert!(errors.len() > 6, "{text}");
-        let ratio = errors[5] / errors[6];
+        assert!(points.len() > 6, "{text}");
+        let ratio = points[5].1 / points[6].1;
         assert!((3.0..5.0).contains(&ratio), "{text}");
+        assert!(points.iter().all(|(step, _)| *step > SHORT / 2.0), "{text}");
         assert!(!text.contains("NaN") && !text.contains("inf"), "{text}");
-        let stdout = String::from_utf8_lossy(&output.stdout);
-        assert!(
-            stdout.lines().any(|line| line.starts_with("midpoint ")),
-            "{stdout}"
-        );
+        let lines = run.stdout.lines();
+        let of_midpoint = lines.filter(|line| line.starts_with("midpoint "));
+        assert_eq!(of_midpoint.count(), 1, "{}", run.stdout);
         let svg = std::fs::read_to_string(&plot).expect("a picture");
         assert!(svg.trim_end().ends_with("</svg>"));
     }
 }
 
-/// The reference solution does not look for signals.
+/// The reference solution, of hours, does not look for signals.
 #[test]
 fn what_does_not_end_is_left_behind() {
-    let call = "bench specs/so3_free_rigid_body.json --methods midpoint --until 1e6";
-    let mut command = command(call.split_whitespace());
-    let command = command.stdout(Stdio::piped()).stderr(Stdio::piped());
-    let child = command.spawn().expect("lie starts");
-    std::thread::sleep(Duration::from_secs(1));
-    signal(&child, "-TERM");
-    let ended = Instant::now();
-    let output = child.wait_with_output().expect("lie ends");
-    let stderr = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(143), "{stderr}");
-    assert!(ended.elapsed() < Duration::from_secs(8), "{stderr}");
-    assert!(stderr.contains("Interrupted"), "{stderr}");
+    let call =
+        "bench tests/data/families/heisenberg_chain.json --param N=10000 --methods rk4 --until 1e6";
+    let (child, terminal) = Terminal::start(command(call.split_whitespace()));
+    let stage = "the reference solution";
+    terminal.wait(stage, |text| text.contains(stage));
+    signal(child.id(), "-TERM");
+    assert_eq!(ended(child).code, Some(143));
+    let text = terminal.text();
+    assert!(text.contains("Interrupted"), "{text}");
 }
 
 #[test]
@@ -460,7 +398,7 @@ fn a_signal_ends_the_build() {
     command
         .env("CARGO", &cargo)
         .env("LIE_CACHE_DIR", folder.path().join("cache"));
-    let mut child = command.stderr(Stdio::null()).spawn().expect("lie starts");
+    let child = process::start(command.stderr(Stdio::null()));
     let of_cargo = || -> Vec<String> {
         let ids = children(child.id())
             .into_iter()
@@ -473,33 +411,24 @@ fn a_signal_ends_the_build() {
     };
     wait("cargo", || of_cargo().iter().any(sleeps));
     let started = of_cargo();
-    signal(&child, "-TERM");
-    assert_eq!(child.wait().expect("lie ends").code(), Some(143));
+    signal(child.id(), "-TERM");
+    assert_eq!(ended(child).code, Some(143));
     wait("end of what cargo started", || gone(&started));
     assert!(!out.exists(), "nothing was run, nothing is left");
 }
 
 #[test]
 fn a_reader_that_goes_away_ends_the_run_quietly() {
-    lie("run specs/so3_free_rigid_body.json --quiet --method midpoint --step 0.1 --until 0.1").ok();
     let mut command = command(LONG.split(' '));
-    let mut child = command
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("lie starts");
+    let mut child = process::start(command.stdout(Stdio::piped()).stderr(Stdio::piped()));
     let mut first = [0; 100];
-    child
-        .stdout
-        .take()
-        .expect("a pipe")
-        .read_exact(&mut first)
-        .expect("some rows");
-    let output = child.wait_with_output().expect("lie ends");
-    assert_eq!(output.status.code(), Some(0));
-    let stderr = String::from_utf8_lossy(&output.stderr);
+    let mut stdout = child.stdout.take().expect("a pipe");
+    stdout.read_exact(&mut first).expect("some rows");
+    drop(stdout);
+    let run = ended(child);
+    assert_eq!(run.code, Some(0));
     assert!(
-        !stderr.contains("error") && !stderr.contains("panicked"),
-        "{stderr}"
+        !run.stderr.contains("error") && !run.stderr.contains("panicked"),
+        "{run:?}"
     );
 }

@@ -289,14 +289,12 @@ def test_few_long_members_share_the_threads_and_stop_at_once() -> None:
     import os
     import signal
     import threading
-    import time
 
     starts = np.tile(START, (4, 1))
-    threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
-    begun = time.perf_counter()
+    # runs of months: they end because they stop
     with pytest.raises(KeyboardInterrupt):
-        body().ensemble(starts, "gauss4", h=1e-6, t=100, threads=2)
-    assert time.perf_counter() - begun < 3
+        threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+        body().ensemble(starts, "gauss4", h=1e-6, t=1e7, threads=2)
 
 
 @pytest.mark.parametrize(

@@ -31,10 +31,6 @@ DRIVEN: dict[str, Any] = {
 START = [0.8, 0.1, 0.6]
 
 
-def interrupt_after(seconds: float) -> None:
-    threading.Timer(seconds, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
-
-
 def test_claims_are_measured() -> None:
     body = lp.System(**BODY)
     found = body.verify("rk4", "lie-midpoint", "gauss4")
@@ -235,37 +231,42 @@ def test_what_carries_the_time_is_no_coordinate() -> None:
 def test_long_functions_stop_at_ctrl_c() -> None:
     energy = lp.System(**BODY).function("hamiltonian")
     states = np.tile(START, (6_000_000, 1))
-    begun = time.perf_counter()
+    # by the clock of the processor, which does not care what else the machine does
+    begun = time.process_time()
     energy(states)
-    whole = time.perf_counter() - begun
+    whole = time.process_time() - begun
     if whole < 0.2:
         pytest.skip(f"too fast to be interrupted: {whole} s")
-    interrupt_after(0.05)
-    begun = time.perf_counter()
-    with pytest.raises(KeyboardInterrupt):
-        energy(states)
-        # without a look at signals it is raised here
-        time.sleep(1)
-    assert time.perf_counter() - begun < 0.05 + 0.7 * whole
+    before = signal.signal(signal.SIGPROF, signal.default_int_handler)
+    signal.setitimer(signal.ITIMER_PROF, 0.05)
+    try:
+        begun = time.process_time()
+        with pytest.raises(KeyboardInterrupt):
+            energy(states)
+            # without a look at signals it is raised here
+            time.sleep(1)
+        assert time.process_time() - begun < 0.05 + 0.7 * whole
+    finally:
+        signal.setitimer(signal.ITIMER_PROF, 0)
+        signal.signal(signal.SIGPROF, before)
 
 
 def test_other_threads_run_while_something_compiles() -> None:
     ticks, done = [0], threading.Event()
 
     def tick() -> None:
-        while not done.is_set():
+        while not done.wait(0.001):
             ticks[0] += 1
-            time.sleep(0.001)
 
     thread = threading.Thread(target=tick)
     thread.start()
     system = lp.load(pathlib.Path(__file__).parents[2] / "specs" / "so4_manakov.json")
     try:
-        before, begun = ticks[0], time.perf_counter()
+        before = ticks[0]
         system.rust("cohen-hairer6", "collective6", "generating6")
-        passed = time.perf_counter() - begun
-        # with the lock there is none but at the ends
-        assert passed > 0.05 and ticks[0] - before > passed / 0.02
+        passed = ticks[0] - before
+        # with the lock there are none but at the ends
+        assert passed > 10
     finally:
         done.set()
         thread.join()
