@@ -7,100 +7,68 @@ use lie_codegen::diagnostic::Kind;
 
 use crate::message::{Failure, Message};
 
-/// Kinds of failures that need different remedies.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Cause {
-    /// No room on the disk.
-    Space,
-    /// The cache, or cargo's own folder, cannot be written.
-    Permission,
-    /// The compiler or cargo is too old for the packages.
-    Version,
-    /// The compiler has no standard library for this machine.
-    Library,
-    /// There is no linker, or it fails.
-    Linker,
-    /// The system ended cargo or the compiler.
-    Killed,
-    /// A compiled package of the cache is damaged.
-    Damage,
-    /// Something does not compile.
-    Code,
-    /// Packages are missing and cannot be had.
-    Packages,
-    /// Something else, before anything was compiled.
-    Other,
+/// Writes the table of causes as an enum, what cargo and the compiler say of each, and what helps.
+macro_rules! causes {
+    ($($(#[doc = $what:literal])* $cause:ident [$($sign:literal),*] $help:literal;)*) => {
+        /// Kinds of failures that need different remedies.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum Cause {
+            $($(#[doc = $what])* $cause,)*
+        }
+
+        const SIGNS: &[(Cause, &[&str])] = &[$((Cause::$cause, &[$($sign),*]),)*];
+
+        impl Cause {
+            /// What to do, with places for the cache, the manifest of the program and the version of Rust.
+            fn form(self) -> &'static str {
+                match self {
+                    $(Self::$cause => $help,)*
+                }
+            }
+        }
+    };
 }
 
-/// What cargo and the compiler say, the most telling first.
-const SIGNS: &[(Cause, &[&str])] = &[
-    (
-        Cause::Space,
-        &[
-            "No space left on device",
-            "Disk quota exceeded",
-            "os error 112",
-        ],
-    ),
-    (Cause::Killed, &["signal: 9", "SIGKILL"]),
-    (
-        Cause::Damage,
-        &[
-            "error[E0786]",
-            "found invalid metadata files",
-            "failed to parse rlib",
-        ],
-    ),
-    (
-        Cause::Library,
-        &[
-            "can't find crate for `core`",
-            "can't find crate for `std`",
-            "target may not be installed",
-        ],
-    ),
-    (
-        Cause::Linker,
-        &["linker `", "linking with `", "link.exe` not found"],
-    ),
-    (
-        Cause::Version,
-        &[
-            "requires rustc",
-            "is not supported by the following package",
-            "lock file version",
-            "edition2024",
-        ],
-    ),
-    (
-        Cause::Permission,
-        &[
-            "Permission denied",
-            "Read-only file system",
-            "Access is denied",
-        ],
-    ),
-    (
-        Cause::Code,
-        &["could not compile", "failed to run custom build command"],
-    ),
-    (
-        Cause::Packages,
-        &[
-            "no matching package",
-            "failed to download",
-            "failed to get `",
-            "failed to fetch",
-            "failed to query",
-            "Could not resolve",
-            "Could not connect",
-            "Couldn't connect",
-            "network",
-            "--offline",
-            "registry",
-        ],
-    ),
-];
+// The most telling first.
+causes! {
+    /// No room on the disk.
+    Space ["No space left on device", "Disk quota exceeded", "os error 112"]
+        "make room for the cache {cache}, or set LIE_CACHE_DIR to a folder on another disk";
+    /// The system ended cargo or the compiler.
+    Killed ["signal: 9", "SIGKILL"]
+        "the system may have run out of memory: close other programs and try again";
+    /// A compiled package of the cache is damaged.
+    Damage ["error[E0786]", "found invalid metadata files", "failed to parse rlib"]
+        "delete the cache folder {cache} and try again";
+    /// The compiler has no standard library for this machine.
+    Library ["can't find crate for `core`", "can't find crate for `std`", "target may not be installed"]
+        "install the standard library of this target: `rustup target add` with the name above, or \
+         the package of your system";
+    /// There is no linker, or it fails.
+    Linker ["linker `", "linking with `", "link.exe` not found"]
+        "install a linker and the C library's development files: a package such as build-essential, \
+         gcc or clang, or Xcode's command line tools";
+    /// The compiler or cargo is too old for the packages.
+    Version ["requires rustc", "is not supported by the following package", "lock file version", "edition2024"]
+        "update Rust (`rustup update`): version {version} or later is needed";
+    /// The cache, or cargo's own folder, cannot be written.
+    Permission ["Permission denied", "Read-only file system", "Access is denied"]
+        "check that {cache} and cargo's folder (CARGO_HOME) can be written, or set LIE_CACHE_DIR to another folder";
+    /// Something does not compile.
+    Code ["could not compile", "failed to run custom build command"]
+        "repeat the build with `cargo build --release --manifest-path {manifest}`; where that works, delete the \
+         cache folder {cache}; if the failure remains, report it";
+    /// Packages are missing and cannot be had.
+    Packages [
+        "no matching package", "failed to download", "failed to get `", "failed to fetch", "failed to query",
+        "Could not resolve", "Could not connect", "Couldn't connect", "network", "--offline", "registry"
+    ]
+        "where there is a network, run `cargo fetch --locked --manifest-path {manifest}`, then try again";
+    /// Something else, before anything was compiled.
+    Other []
+        "repeat the build with `cargo build --release --manifest-path {manifest}`; where that works, delete the \
+         cache folder {cache}; where packages are missing, run `cargo fetch --locked --manifest-path {manifest}`";
+}
 
 impl Cause {
     /// The cause, from what stands on stderr.
@@ -121,38 +89,10 @@ impl Cause {
 
     /// What to do; `cache` is the cache folder, `manifest` that of the program.
     fn help(self, cache: &Path, manifest: &Path) -> String {
-        let (cache, manifest) = (cache.display(), manifest.display());
-        match self {
-            Self::Space => format!(
-                "make room for the cache {cache}, or set LIE_CACHE_DIR to a folder on another disk"
-            ),
-            Self::Permission => format!(
-                "check that {cache} and cargo's folder (CARGO_HOME) can be written, or set LIE_CACHE_DIR to another folder"
-            ),
-            Self::Version => format!(
-                "update Rust (`rustup update`): version {} or later is needed",
-                env!("CARGO_PKG_RUST_VERSION")
-            ),
-            Self::Library => "install the standard library of this target: `rustup target add` with the name above, or \
-                 the package of your system"
-                .to_owned(),
-            Self::Linker => "install a linker and the C library's development files: a package such as build-essential, \
-                 gcc or clang, or Xcode's command line tools"
-                .to_owned(),
-            Self::Killed => "the system may have run out of memory: close other programs and try again".to_owned(),
-            Self::Damage => format!("delete the cache folder {cache} and try again"),
-            Self::Code => format!(
-                "repeat the build with `cargo build --release --manifest-path {manifest}`; where that works, delete the \
-                 cache folder {cache}; if the failure remains, report it"
-            ),
-            Self::Packages => format!(
-                "where there is a network, run `cargo fetch --locked --manifest-path {manifest}`, then try again"
-            ),
-            Self::Other => format!(
-                "repeat the build with `cargo build --release --manifest-path {manifest}`; where that works, delete the \
-                 cache folder {cache}; where packages are missing, run `cargo fetch --locked --manifest-path {manifest}`"
-            ),
-        }
+        self.form()
+            .replace("{cache}", &cache.to_string_lossy())
+            .replace("{manifest}", &manifest.to_string_lossy())
+            .replace("{version}", env!("CARGO_PKG_RUST_VERSION"))
     }
 }
 

@@ -60,6 +60,7 @@ pub mod exact;
 pub mod expand;
 pub mod front;
 pub mod golden;
+mod hints;
 pub mod judge;
 pub mod limits;
 pub mod linear;

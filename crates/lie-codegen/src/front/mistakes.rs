@@ -6,46 +6,20 @@ use super::operand::operand_text;
 use super::token::{Delimiter, Token, TokenKind, render, span};
 use crate::characters::is_invisible;
 use crate::diagnostic::{Diagnostic, Kind, Origin};
+use crate::hints;
 use crate::suggest::did_you_mean;
 
 /// Characters that Unicode lets stand inside identifiers and that people use for a product.
 pub const MIDDLE_DOTS: [char; 2] = ['·', '\u{387}'];
-
-/// Signs that people write for one that the grammar has.
-const LOOKALIKES: &[(char, &str)] = &[
-    ('·', "*"),
-    ('\u{387}', "*"),
-    ('⋅', "*"),
-    ('×', "*"),
-    ('∙', "*"),
-    ('•', "*"),
-    ('÷', "/"),
-    ('∕', "/"),
-    ('−', "-"),
-    ('–', "-"),
-    ('²', "^2"),
-    ('³', "^3"),
-    ('⁴', "^4"),
-    ('√', "sqrt(…)"),
-    ('₀', "0"),
-    ('₁', "1"),
-    ('₂', "2"),
-    ('₃', "3"),
-    ('½', "(1/2)"),
-    ('¼', "(1/4)"),
-    ('¾', "(3/4)"),
-    ('⅓', "(1/3)"),
-    ('⅔', "(2/3)"),
-];
 
 /// What the grammar has.
 const PARTS: &str = "expressions consist of numbers, names, + - * / ^, parentheses and functions";
 
 /// A token that cannot stand where it stands; `rest` is what comes behind it.
 pub fn unexpected(token: &Token, before: Option<&Token>, rest: &[Token]) -> Diagnostic {
-    let text = render(std::slice::from_ref(token));
+    let text = render_one(token);
     let after = match before {
-        Some(before) => format!(" after `{}`", render(std::slice::from_ref(before))),
+        Some(before) => format!(" after `{}`", render_one(before)),
         None => " at the beginning".to_owned(),
     };
     let (message, help) = match &token.kind {
@@ -82,7 +56,11 @@ pub fn unexpected(token: &Token, before: Option<&Token>, rest: &[Token]) -> Diag
         ),
         _ => (format!("unexpected `{text}`{after}"), PARTS.into()),
     };
-    Diagnostic::new(Kind::Syntax, token.origin, message).help(help)
+    syntax(token.origin, message, help)
+}
+
+fn syntax(origin: Origin, message: impl Into<String>, help: impl Into<String>) -> Diagnostic {
+    Diagnostic::new(Kind::Syntax, origin, message).help(help)
 }
 
 /// A token as text.
@@ -132,7 +110,7 @@ fn leading_point(point: &Token, rest: &[Token]) -> Diagnostic {
 
 /// Any other sign where none can stand: message and remedy.
 fn sign(sign: char, after: &str) -> (String, String) {
-    if let Some((_, meant)) = LOOKALIKES.iter().find(|(other, _)| *other == sign) {
+    if let Some(meant) = hints::of_character("signs", sign) {
         return (
             format!("`{sign}` is not part of the grammar"),
             format!("write `{meant}`"),
@@ -180,35 +158,27 @@ fn point(token: &Token, before: Option<&Token>, rest: &[Token]) -> Diagnostic {
             (format!("unexpected `{sign}`"), PARTS.to_owned())
         }
     };
-    Diagnostic::new(Kind::Syntax, token.origin, message).help(help)
+    syntax(token.origin, message, help)
 }
 
 /// `lambda x: x^2`, `x and y`.
 pub fn programming_word(word: &Token) -> Diagnostic {
-    let text = render(std::slice::from_ref(word));
-    Diagnostic::new(
-        Kind::Syntax,
-        word.origin,
-        format!("`{text}` is a word of programming languages"),
-    )
-    .help("write the formula alone, such as x^2/2 + cos(y)")
+    let text = render_one(word);
+    let message = format!("`{text}` is a word of programming languages");
+    syntax(word.origin, message, habits::word(&text).unwrap_or(PARTS))
 }
 
 /// `pi()`, `x()`.
 pub fn called_name(name: &str, origin: Origin) -> Diagnostic {
-    Diagnostic::new(
-        Kind::Syntax,
-        origin,
-        format!("`{name}` is a name and takes no arguments"),
-    )
-    .help(format!("write `{name}`"))
+    let message = format!("`{name}` is a name and takes no arguments");
+    syntax(origin, message, format!("write `{name}`"))
 }
 
 /// `Sin[x]`.
 pub fn bracketed_call(function: &str, argument: &[Token], origin: Origin) -> Diagnostic {
     let message = format!("the argument of `{function}` stands in parentheses");
-    Diagnostic::new(Kind::Syntax, origin, message)
-        .help(format!("write `{function}({})`", render(argument)))
+    let help = format!("write `{function}({})`", render(argument));
+    syntax(origin, message, help)
 }
 
 fn ends_operand(token: &Token) -> bool {
@@ -220,73 +190,59 @@ fn ends_operand(token: &Token) -> bool {
 
 /// The text ends behind an operator.
 pub fn missing_operand(before: &Token) -> Diagnostic {
-    let text = render(std::slice::from_ref(before));
-    Diagnostic::new(
-        Kind::Syntax,
-        before.origin,
-        format!("an operand is missing after `{text}`"),
-    )
-    .help("write a number, a name or parentheses behind it")
+    let message = format!("an operand is missing after `{}`", render_one(before));
+    let help = "write a number, a name or parentheses behind it";
+    syntax(before.origin, message, help)
 }
 
 /// An opening delimiter without its partner.
 pub fn unclosed(open: &Token) -> Diagnostic {
-    let text = render(std::slice::from_ref(open));
-    Diagnostic::new(Kind::Syntax, open.origin, format!("`{text}` is not closed"))
-        .help("add its closing partner")
+    let message = format!("`{}` is not closed", render_one(open));
+    syntax(open.origin, message, "add its closing partner")
 }
 
 /// `+x`.
 pub fn unary_plus(plus: &Token) -> Diagnostic {
-    Diagnostic::new(Kind::Syntax, plus.origin, "there is no unary `+`").help("remove it")
+    syntax(plus.origin, "there is no unary `+`", "remove it")
 }
 
 /// `2(x+y)`, `x(y)`, `(a)(b)`, `x y`.
 pub fn missing_times(left: &[Token], rest: &[Token]) -> Diagnostic {
     let (before, after) = (render(left), operand_text(rest));
-    let place = span(left)
-        .into_iter()
+    let place = span(left).into_iter();
+    let place = place
         .chain(rest.first().map(|t| t.origin))
         .reduce(Origin::to);
-    Diagnostic {
-        kind: Kind::Syntax,
-        message: format!("`*` is missing between `{before}` and `{after}`"),
+    let message = format!("`*` is missing between `{before}` and `{after}`");
+    let diagnostic = Diagnostic {
         origin: place,
-        help: Some(format!("write `{before}*{after}`")),
-        warning: false,
-    }
+        ..Diagnostic::placeless(Kind::Syntax, message)
+    };
+    diagnostic.help(format!("write `{before}*{after}`"))
 }
 
 /// `ω·Π`, one identifier to Unicode.
 pub fn middle_dot(name: &str, origin: Origin) -> Diagnostic {
-    Diagnostic::new(
-        Kind::Syntax,
-        origin,
-        format!("`{name}` contains `·`, which is not an operator"),
-    )
-    .help(format!("write `{}`", name.replace(MIDDLE_DOTS, "*")))
+    let message = format!("`{name}` contains `·`, which is not an operator");
+    let help = format!("write `{}`", name.replace(MIDDLE_DOTS, "*"));
+    syntax(origin, message, help)
 }
 
 /// `r#type`.
 pub fn raw_identifier(token: &Token) -> Diagnostic {
-    let text = render(std::slice::from_ref(token));
-    Diagnostic::new(
-        Kind::Syntax,
-        token.origin,
-        format!("`{text}` is a raw identifier"),
-    )
-    .help("use another name")
+    let message = format!("`{}` is a raw identifier", render_one(token));
+    syntax(token.origin, message, "use another name")
 }
 
 /// `1..5`, `1.2.3`, `1.x`.
 pub fn malformed_number(tokens: &[Token]) -> Diagnostic {
-    Diagnostic {
-        kind: Kind::Number,
-        message: format!("`{}` is not a number", render(tokens)),
+    let message = format!("`{}` is not a number", render(tokens));
+    let help = "numbers are written like 2, 0.5 or 1.5e-3";
+    let diagnostic = Diagnostic {
         origin: span(tokens),
-        help: Some("numbers are written like 2, 0.5 or 1.5e-3".into()),
-        warning: false,
-    }
+        ..Diagnostic::placeless(Kind::Number, message)
+    };
+    diagnostic.help(help)
 }
 
 /// `sin x`, `sin^2(x)`, `sin` alone: `argument` and `power` are what stands behind it.
@@ -306,12 +262,8 @@ pub fn function_without_call(
     } else {
         ("a function", format!("{name}({argument}){power}"))
     };
-    Diagnostic::new(
-        Kind::Syntax,
-        origin,
-        format!("`{name}` is {what} and needs its argument in parentheses"),
-    )
-    .help(format!("write `{form}`"))
+    let message = format!("`{name}` is {what} and needs its argument in parentheses");
+    syntax(origin, message, format!("write `{form}`"))
 }
 
 /// A call of something that is neither a function nor a name.
@@ -336,12 +288,8 @@ pub fn unknown_function(
             functions().collect::<Vec<_>>().join(", ")
         )
     };
-    Diagnostic::new(
-        Kind::UnknownFunction,
-        origin,
-        format!("there is no function `{name}`"),
-    )
-    .help(help)
+    let message = format!("there is no function `{name}`");
+    Diagnostic::new(Kind::UnknownFunction, origin, message).help(help)
 }
 
 /// A call with the wrong number of arguments.
@@ -356,10 +304,6 @@ pub fn wrong_arity(name: &str, expected: usize, found: usize, origin: Origin) ->
         _ => format!("{name}(a, b)"),
     };
     let plural = if expected == 1 { "" } else { "s" };
-    Diagnostic::new(
-        Kind::Arity,
-        origin,
-        format!("`{name}` takes {expected} argument{plural}, not {found}"),
-    )
-    .help(format!("write `{form}`"))
+    let message = format!("`{name}` takes {expected} argument{plural}, not {found}");
+    Diagnostic::new(Kind::Arity, origin, message).help(format!("write `{form}`"))
 }

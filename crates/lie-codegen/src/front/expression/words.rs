@@ -47,7 +47,7 @@ impl<'a> Parser<'a> {
 
     /// Whether a name is a word of programming languages that nobody declared.
     pub(super) fn is_foreign_word(&self, name: &str) -> bool {
-        habits::is_word(name) && !self.names.knows(name)
+        habits::word(name).is_some() && !self.names.knows(name)
     }
 
     /// The function that `Sin[` or `sin[` means.
