@@ -141,5 +141,6 @@ pub mod __private_0_1 {
         VectorPoisson,
     };
     pub use core::marker::PhantomData;
+    pub use lie_core::{__entries as entries, __over_scalars as over_scalars};
     pub use nalgebra::{SMatrix, SVector};
 }

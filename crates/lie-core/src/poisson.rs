@@ -125,18 +125,25 @@ pub trait Poisson<S: Scalar>: Sized {
 
 /// A Lie–Poisson system: the state lives in the dual g* of a Lie algebra g.
 ///
-/// Elements of g are passed as states too: their coordinates in the basis `e_i`.
+/// Elements of g are passed as states too: their coordinates in the basis `e_i`. The provided bodies of bracket and coadjoint
+/// action rest on [`Poisson::poisson_matrix`].
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a Lie–Poisson system over the scalar `{S}`",
     note = "methods of coadjoint form need the bracket of a Lie algebra: implement `LiePoisson<{S}>`, or choose `ImplicitMidpoint` or a Gauss method, which ask only for `Poisson`"
 )]
 pub trait LiePoisson<S: Scalar>: Poisson<S> {
     /// The bracket `out = [xi, eta]`: `out^k = C_ij^k xi^i eta^j`.
-    fn ad(&self, xi: &Self::State, eta: &Self::State, out: &mut Self::State);
+    fn ad(&self, xi: &Self::State, eta: &Self::State, out: &mut Self::State) {
+        generic::ad(self, xi, eta, out);
+    }
     /// The coadjoint action `out = ad*_xi mu = Pi(mu) xi`: `out_j = C_ij^k xi^i mu_k`.
-    fn ad_star(&self, xi: &Self::State, mu: &Self::State, out: &mut Self::State);
+    fn ad_star(&self, xi: &Self::State, mu: &Self::State, out: &mut Self::State) {
+        generic::ad_star(self, xi, mu, out);
+    }
     /// The matrix of `mu -> ad*_xi mu`: `out_jk = C_ij^k xi^i`.
-    fn ad_star_matrix(&self, xi: &Self::State, out: &mut Self::Jacobian);
+    fn ad_star_matrix(&self, xi: &Self::State, out: &mut Self::Jacobian) {
+        generic::ad_star_matrix(self, xi, out);
+    }
 
     /// Whether [`LiePoisson::coadjoint_action`] and [`LiePoisson::dexp_dual`] are closed forms; else they are series.
     fn has_closed_exponential(&self) -> bool {
@@ -188,6 +195,34 @@ pub trait Widen<S: Scalar>: Poisson<S> {
     type Widened: Poisson<S::Wide>;
     /// The system with each of its constants eight times.
     fn widen(&self) -> Self::Widened;
+}
+
+/// A generated system over other scalars, by its function `_over`.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __over_scalars {
+    ($system:ident) => {
+        impl<S: $crate::Scalar> $crate::Lift<S> for $system<S> {
+            type Lifted = $system<$crate::Dual<S>>;
+            fn lift(&self) -> Self::Lifted {
+                self._over($crate::Dual::constant_of)
+            }
+        }
+
+        impl<S: $crate::Scalar> $crate::Widen<S> for $system<S> {
+            type Widened = $system<S::Wide>;
+            fn widen(&self) -> Self::Widened {
+                self._over(S::widen)
+            }
+        }
+
+        impl<S: $crate::Scalar> $crate::Expand<S> for $system<S> {
+            type Expanded = $system<$crate::scalar::Truncated<S>>;
+            fn expand(&self) -> Self::Expanded {
+                self._over($crate::scalar::Truncated::constant_of)
+            }
+        }
+    };
 }
 
 /// A Lie–Poisson system whose algebra has a representation closed under the Jordan triple product

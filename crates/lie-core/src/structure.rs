@@ -54,6 +54,27 @@ impl Entry {
     }
 }
 
+/// The nonzero entries of a matrix: row, column, value, and the rest of a value that f64 does not hold.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __entries {
+    (@low) => {
+        0.0
+    };
+    (@low $low:literal) => {
+        $low
+    };
+    ($(($row:literal, $column:literal, $high:literal $(, $low:literal)?)),*) => {
+        // values of fields, which live as long as the program
+        &[$($crate::structure::Entry {
+            row: $row,
+            column: $column,
+            high: $high,
+            low: $crate::__entries!(@low $($low)?),
+        }),*]
+    };
+}
+
 /// A Hamiltonian system on `T*G`: the Hamiltonian `H(g, mu)` is not invariant under the group, and the state
 /// is mu with the coordinates of the configuration, the entries of g.
 ///

@@ -26,7 +26,7 @@ pub(crate) struct Kernels {
     pub jacobian: Place,
     pub linearize: Place,
     pub casimirs: Place,
-    pub casimir_gradients: Vec<usize>,
+    pub casimir_gradients: Vec<Place>,
     pub ad: Place,
     pub ad_star: Place,
     pub ad_star_matrix: Place,
@@ -271,7 +271,7 @@ impl Making {
             ]
             .map(place),
             casimir_gradients: gradients
-                .map(|casimir| self.kernel(&casimir.gradient))
+                .map(|casimir| Some(self.kernel(casimir.gradient.as_ref()?)))
                 .collect(),
         }
     }

@@ -182,8 +182,14 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
         if let Some(family) = &self.family {
             return family.casimir_gradient(index, mu, out);
         }
-        let code = self.values.kernels().casimir_gradients[index];
-        self.values.call(code, [mu, &[]], out, &mut []);
+        match self.values.kernels().casimir_gradients[index] {
+            Some(code) => self.values.call(code, [mu, &[]], out, &mut []),
+            None => {
+                let mut values =
+                    vec![Dual::constant_of(S::zero()); Poisson::<S>::casimir_count(self)];
+                generic::casimir_gradient_by_duals(self, index, mu, out, &mut values);
+            }
+        }
     }
 }
 
@@ -192,23 +198,30 @@ impl<S: Scalar> LiePoisson<S> for Dynamic<S> {
         if let Some(family) = &self.family {
             return family.ad(xi, eta, out);
         }
-        self.values
-            .call(there(self.values.kernels().ad), [xi, eta], out, &mut []);
+        match self.values.kernels().ad {
+            Some(code) => self.values.call(code, [xi, eta], out, &mut []),
+            None => generic::ad(self, xi, eta, out),
+        }
     }
     fn ad_star(&self, xi: &Vec<S>, mu: &Vec<S>, out: &mut Vec<S>) {
         if let Some(family) = &self.family {
             return family.ad_star(xi, mu, out);
         }
-        self.values
-            .call(there(self.values.kernels().ad_star), [xi, mu], out, &mut []);
+        match self.values.kernels().ad_star {
+            Some(code) => self.values.call(code, [xi, mu], out, &mut []),
+            None => generic::ad_star(self, xi, mu, out),
+        }
     }
     fn ad_star_matrix(&self, xi: &Vec<S>, out: &mut LateMatrix<S>) {
         if let Some(family) = &self.family {
             return family.ad_star_matrix(xi, out);
         }
-        let code = there(self.values.kernels().ad_star_matrix);
-        self.values
-            .call(code, [xi, &[]], &mut [], out.as_mut_slice());
+        match self.values.kernels().ad_star_matrix {
+            Some(code) => self
+                .values
+                .call(code, [xi, &[]], &mut [], out.as_mut_slice()),
+            None => generic::ad_star_matrix(self, xi, out),
+        }
     }
     fn has_closed_exponential(&self) -> bool {
         !self.values.compiled.plan.system.exponential.is_empty()

@@ -364,6 +364,11 @@ impl Choice {
         }
     }
 
+    /// Whether its step needs nothing of the system but its field.
+    pub fn follows_field(&self) -> bool {
+        matches!(self, Self::Rk4 | Self::Dopri5 | Self::Taylor)
+    }
+
     /// The methods whose equations this one solves: itself, or the base of a composition.
     pub fn solved(&self) -> &Self {
         match self {

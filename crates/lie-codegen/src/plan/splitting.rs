@@ -38,6 +38,8 @@ pub enum Found {
         pieces: Vec<FoundPiece>,
         /// Whether they are all of H.
         whole: bool,
+        /// Whether a splitting is asked for, so that their flows have code of their own.
+        fused: bool,
         /// H without the Casimirs, in the names of the declaration, where some are taken away.
         text: Option<String>,
     },
@@ -164,6 +166,7 @@ impl Planner<'_> {
         Some(Found::Pieces {
             pieces,
             whole,
+            fused,
             text: rest.map(|rest| self.text(rest)),
         })
     }

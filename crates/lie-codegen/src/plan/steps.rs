@@ -68,13 +68,9 @@ impl Planner<'_> {
                 continue;
             }
             let asked = self.asked(&choice) || (cayley && self.asked_beside_cayley());
-            match (asked.then(|| self.solver(&choice)).flatten(), &choice) {
-                (Some(Solver::Generic(_)) | None, Choice::Gauss(stages)) => {
-                    let solver = Solver::Generic(Partner::Gauss(*stages));
-                    self.items.push(Item::Method(choice.into(), solver));
-                }
-                (Some(solver), _) => self.items.push(Item::Method(choice.into(), solver)),
-                (None, _) => generic.push(key.to_owned()),
+            match asked.then(|| self.solver(&choice)).flatten() {
+                Some(solver) => self.items.push(Item::Method(choice.into(), solver)),
+                None => generic.push(key.to_owned()),
             }
         }
         if self.source.is_lie() {

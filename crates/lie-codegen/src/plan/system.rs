@@ -20,7 +20,9 @@ pub struct System {
     pub derivatives: bool,
     /// The kernels of `Poisson`.
     pub poisson: Vec<Function>,
-    /// The kernels of `LiePoisson`, of a Lie algebra.
+    /// Whether the bracket is that of a Lie algebra.
+    pub lie: bool,
+    /// The kernels of `LiePoisson`; none where a method needs nothing but the field.
     pub algebra: Vec<Function>,
     /// Those of them that give functions of `ad*_xi` in closed form, where there is one.
     pub exponential: Vec<Function>,
@@ -41,8 +43,8 @@ pub struct Casimir {
     pub degree: Option<u32>,
     /// Whether it has several branches.
     pub multivalued: bool,
-    /// Its gradient.
-    pub gradient: Function,
+    /// Its gradient; `None` where a method needs nothing but the field.
+    pub gradient: Option<Function>,
 }
 
 /// How the energy of a state is found.
@@ -57,7 +59,10 @@ pub enum Energy {
 impl System {
     /// All kernels.
     pub fn functions(&self) -> impl Iterator<Item = &Function> {
-        let gradients = self.casimirs.iter().map(|casimir| &casimir.gradient);
+        let gradients = self
+            .casimirs
+            .iter()
+            .filter_map(|casimir| casimir.gradient.as_ref());
         self.poisson
             .iter()
             .chain(&self.algebra)
@@ -73,6 +78,9 @@ impl Planner<'_> {
     /// The kernels of the traits.
     pub(super) fn system(&mut self) -> System {
         let derivatives = self.needs_derivatives();
+        let field_alone = self.needs_field_alone();
+        // the group element is found by brackets
+        let without_bracket = field_alone && self.source.group.is_none();
         let kernels = if derivatives {
             self.source.basic_kernels()
         } else {
@@ -85,12 +93,14 @@ impl Planner<'_> {
         for kernel in others {
             match kernel.name {
                 "casimirs" => poisson.push(self.casimirs(kernel)),
+                "ad" if without_bracket => {}
+                "ad_star" | "ad_star_matrix" if field_alone => {}
                 "ad" | "ad_star" | "ad_star_matrix" => algebra.push(self.function(&kernel)),
                 "triple" => triple = Some(self.function(&kernel)),
                 _ => poisson.push(self.function(&kernel)),
             }
         }
-        let casimirs = self.casimir_gradients(&gradients);
+        let casimirs = self.casimir_gradients(&gradients, field_alone);
         let slopes = self.methods.is_empty() || self.methods.iter().any(Choice::follows_slopes);
         let exponential = self.source.exponential_kernels(slopes);
         let exponential = self.functions(&exponential);
@@ -108,6 +118,7 @@ impl Planner<'_> {
             },
             derivatives,
             poisson,
+            lie: self.source.is_lie(),
             algebra,
             exponential,
             triple,
@@ -131,6 +142,11 @@ impl Planner<'_> {
         self.methods.is_empty() || !self.methods.iter().all(explicit)
     }
 
+    /// Whether every method that is asked for needs nothing of the system but its field.
+    fn needs_field_alone(&self) -> bool {
+        !self.methods.is_empty() && self.methods.iter().all(Choice::follows_field)
+    }
+
     /// All Casimirs into a slice, which has no entries that would have to be cleared.
     fn casimirs(&mut self, mut kernel: Kernel) -> Function {
         let count = self.source.casimirs.len();
@@ -142,7 +158,7 @@ impl Planner<'_> {
         self.function(&kernel)
     }
 
-    fn casimir_gradients(&mut self, kernels: &[Kernel]) -> Vec<Casimir> {
+    fn casimir_gradients(&mut self, kernels: &[Kernel], by_duals: bool) -> Vec<Casimir> {
         let model = self.model;
         let casimirs = model.casimirs.iter().zip(kernels);
         casimirs
@@ -150,10 +166,10 @@ impl Planner<'_> {
                 name: casimir.name.clone(),
                 degree: casimir.degree,
                 multivalued: casimir.multivalued,
-                gradient: Function {
+                gradient: (!by_duals).then(|| Function {
                     label: format!("casimir_gradient {}", casimir.name),
                     ..self.function(kernel)
-                },
+                }),
             })
             .collect()
     }

@@ -19,8 +19,12 @@ impl Printer<'_> {
             Found::Pieces {
                 pieces,
                 whole,
+                fused,
                 text,
             } => {
+                if !fused {
+                    return Some(self.found_parts(pieces, *whole, text.as_deref()));
+                }
                 let items = self.found_flows(pieces, *whole, text.as_deref());
                 (self.type_name("Found"), items)
             }
@@ -43,12 +47,7 @@ impl Printer<'_> {
         let name = self.type_name("Found");
         let n = index(self.plan.dimension());
         let state = quote! { ::lie_runtime::__private::SVector<S, #n> };
-        let rest =
-            text.map(|text| format!(" of `{text}`, which is H without a combination of Casimirs"));
-        let title = format!(" The flows of the pieces{}:", rest.unwrap_or_default());
-        let list = pieces
-            .iter()
-            .map(|piece| format!(" - `{}`", piece.terms.join("`, `")));
+        let docs = docs_of(pieces, text);
         let numbers = 0..pieces.len();
         let functions: Vec<Ident> = numbers.clone().map(|k| format_ident!("_flow{k}")).collect();
         let directions: Vec<Ident> = numbers
@@ -76,9 +75,7 @@ impl Printer<'_> {
         let follow = follow(pieces);
         let rest = (!whole).then(|| beside(&directions));
         quote! {
-            #[doc = #title]
-            #[doc = ""]
-            #(#[doc = #list])*
+            #(#[doc = #docs])*
             #[derive(Debug)]
             #visibility struct #name<'a, S: ::lie_runtime::Scalar> {
                 // not read where no flow contains a parameter
@@ -103,6 +100,69 @@ impl Printer<'_> {
                 #methods
                 #follow
                 #rest
+            }
+        }
+    }
+
+    /// The directions of the parts of the pieces: their flows are exponentials.
+    fn found_parts(&self, pieces: &[FoundPiece], whole: bool, text: Option<&str>) -> TokenStream {
+        let system = self.system_name();
+        let docs = docs_of(pieces, text);
+        let moving = pieces.iter().map(|piece| {
+            let parts = piece.parts.iter().map(moves);
+            quote! { &[#(#parts),*] }
+        });
+        let kernels = pieces.iter().enumerate().flat_map(|(place, piece)| {
+            let parts = piece.parts.iter().enumerate();
+            parts.map(move |(part, known)| {
+                let kernel = known.direction.as_ref().unwrap_or(&piece.direction);
+                (place, part, kernel)
+            })
+        });
+        let kernels: Vec<_> = kernels.collect();
+        let reads = |kernel: &Function| kernel.reads(&kernel.arguments[0]);
+        let mu = self.argument_if("mu", kernels.iter().any(|(.., kernel)| reads(kernel)));
+        let none = Constants::default();
+        let arms = kernels.iter().map(|(place, part, kernel)| {
+            let (place, part) = (index(*place), index(*part));
+            let argument = |_: &str| quote! { #mu };
+            let body = Body::of(Owner::Equation(&none), &argument, &["_xi"]);
+            let body = self.body(kernel, &body);
+            quote! { (#place, #part) => { #body } }
+        });
+        let counts = kernels.iter().map(|(place, part, kernel)| {
+            let counts = kernel.program.counts;
+            format!(" Part {part} of piece {place}: {counts}.")
+        });
+        let message = message(pieces.len());
+        quote! {
+            #(#[doc = #docs])*
+            #[allow(non_snake_case, clippy::many_single_char_names)]
+            impl<S: ::lie_runtime::Scalar> ::lie_runtime::generic::Parts<S> for #system<S> {
+                fn parts(&self) -> &[&[bool]] {
+                    &[#(#moving),*]
+                }
+
+                fn are_whole(&self) -> bool {
+                    #whole
+                }
+
+                #(#[doc = #counts])*
+                fn part_direction(
+                    &self, _piece: usize, _part: usize, #mu: &Self::State, _xi: &mut Self::State,
+                ) {
+                    match (_piece, _part) {
+                        #(#arms)*
+                        _ => panic!(#message),
+                    }
+                }
+            }
+
+            impl<S: ::lie_runtime::Scalar> ::lie_runtime::FoundPoisson<S> for #system<S> {
+                type Found<'a> = ::lie_runtime::generic::PartFlows<'a, S, Self> where Self: 'a;
+                fn found(&self) -> Self::Found<'_> {
+                    ::lie_runtime::generic::PartFlows::new(self)
+                }
             }
         }
     }
@@ -194,6 +254,16 @@ impl Printer<'_> {
             },
         }
     }
+}
+
+/// What is said of the pieces.
+fn docs_of(pieces: &[FoundPiece], text: Option<&str>) -> Vec<String> {
+    let rest =
+        text.map(|text| format!(" of `{text}`, which is H without a combination of Casimirs"));
+    let title = format!(" The flows of the pieces{}:", rest.unwrap_or_default());
+    let list = pieces.iter();
+    let list = list.map(|piece| format!(" - `{}`", piece.terms.join("`, `")));
+    [title, String::new()].into_iter().chain(list).collect()
 }
 
 /// The name of the flow of a part.

@@ -5,7 +5,7 @@ use quote::quote;
 
 use super::Printer;
 use super::names::{ident, index};
-use super::structure::{entries, entry};
+use super::structure::{entries, entry, use_entries};
 use crate::plan::Function;
 use crate::structure::lifts::Smallest;
 
@@ -20,7 +20,7 @@ impl Printer<'_> {
         let flow = flow.map(|f| self.flow_on(f, &quote! { Self::Columns }, count));
         let indices = columns.indices.iter().map(|k| index(*k));
         let covectors = columns.covectors.iter().map(|matrix| entries(matrix));
-        let (count, size) = (index(count), index(size));
+        let (count, size, entries) = (index(count), index(size), use_entries());
         Some(quote! {
             #[allow(non_snake_case, clippy::many_single_char_names)]
             impl<S: ::lie_runtime::Scalar> ::lie_runtime::ColumnPoisson<S> for #system<S> {
@@ -35,11 +35,11 @@ impl Printer<'_> {
                 }
 
                 fn columns(&self) -> ::lie_runtime::__private::Columns<'_> {
-                    const COLUMNS: ::lie_runtime::__private::Columns = ::lie_runtime::__private::Columns {
+                    #entries
+                    ::lie_runtime::__private::Columns {
                         indices: &[#(#indices),*],
                         covectors: &[#(#covectors),*],
-                    };
-                    COLUMNS
+                    }
                 }
 
                 #flow
@@ -83,9 +83,9 @@ impl Printer<'_> {
             let components = components
                 .each_ref()
                 .map(|(k, factor)| entry(*k, 0, factor));
-            quote! { [#(#components),*] }
+            quote! { *entries!(#(#components),*) }
         });
-        let scale = self.value_of(&vectors.scale);
+        let (scale, entries) = (self.value_of(&vectors.scale), use_entries());
         let labels = index(match vectors.vectors.len() {
             1 => 1,
             count => 3 * count,
@@ -100,6 +100,7 @@ impl Printer<'_> {
                 }
 
                 fn vectors(&self) -> &[[::lie_runtime::__private::Entry; 3]] {
+                    #entries
                     const VECTORS: &[[::lie_runtime::__private::Entry; 3]] = &[#(#triples),*];
                     VECTORS
                 }

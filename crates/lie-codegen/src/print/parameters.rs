@@ -229,29 +229,7 @@ impl Printer<'_> {
         quote! {
             #over
 
-            impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for #system<S> {
-                type Lifted = #system<::lie_runtime::Dual<S>>;
-
-                fn lift(&self) -> Self::Lifted {
-                    self._over(::lie_runtime::Dual::constant_of)
-                }
-            }
-
-            impl<S: ::lie_runtime::Scalar> ::lie_runtime::Widen<S> for #system<S> {
-                type Widened = #system<S::Wide>;
-
-                fn widen(&self) -> Self::Widened {
-                    self._over(S::widen)
-                }
-            }
-
-            impl<S: ::lie_runtime::Scalar> ::lie_runtime::Expand<S> for #system<S> {
-                type Expanded = #system<::lie_runtime::scalar::Truncated<S>>;
-
-                fn expand(&self) -> Self::Expanded {
-                    self._over(::lie_runtime::scalar::Truncated::constant_of)
-                }
-            }
+            ::lie_runtime::__private::over_scalars!(#system);
         }
     }
 

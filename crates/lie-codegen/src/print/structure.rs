@@ -31,17 +31,18 @@ impl Printer<'_> {
         let dual = representation.dual.iter().map(|matrix| entries(matrix));
         let spectrum = self.spectrum();
         let columns = self.column_poisson();
+        let entries = use_entries();
         Some(quote! {
             impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S> for #system<S> {
                 type Matrix = ::lie_runtime::__private::SMatrix<S, #size, #size>;
 
                 fn representation(&self) -> ::lie_runtime::__private::Representation<'_> {
-                    const REPRESENTATION: ::lie_runtime::__private::Representation = ::lie_runtime::__private::Representation {
+                    #entries
+                    ::lie_runtime::__private::Representation {
                         matrices: &[#(#matrices),*],
                         dual: &[#(#dual),*],
                         skew: #skew,
-                    };
-                    REPRESENTATION
+                    }
                 }
 
                 #spectrum
@@ -77,18 +78,27 @@ impl Printer<'_> {
         let system = self.system_name();
         let size = index(group.size);
         let (closed, orthogonal, right) = (group.closed, group.orthogonal, group.right);
-        let matrices = group.matrices.iter().map(|matrix| entries(matrix));
+        let known = self.plan.structure.representation.as_ref();
+        let matrices = match known.is_some_and(|known| known.matrices == group.matrices) {
+            true => quote! { ::lie_runtime::MatrixPoisson::<S>::representation(self).matrices },
+            false => {
+                let matrices = group.matrices.iter().map(|matrix| entries(matrix));
+                quote! { &[#(#matrices),*] }
+            }
+        };
+        let entries = known.is_none_or(|known| known.matrices != group.matrices);
+        let entries = entries.then(use_entries);
         Some(quote! {
             impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixGroup<S> for #system<S> {
                 fn group(&self) -> ::lie_runtime::__private::Group<'_> {
-                    const GROUP: ::lie_runtime::__private::Group = ::lie_runtime::__private::Group {
+                    #entries
+                    ::lie_runtime::__private::Group {
                         size: #size,
-                        matrices: &[#(#matrices),*],
+                        matrices: #matrices,
                         closed: #closed,
                         orthogonal: #orthogonal,
                         right: #right,
-                    };
-                    GROUP
+                    }
                 }
             }
         })
@@ -243,22 +253,24 @@ pub(super) fn entry(row: usize, column: usize, value: &Rational) -> TokenStream 
     let (i, j) = (index(row), index(column));
     let high = value.to_f64();
     let low = Rational::from_f64(high).map_or(0.0, |high| (value - &high).to_f64());
-    let exact = low == 0.0;
-    let (high, low) = (Literal::f64_unsuffixed(high), Literal::f64_unsuffixed(low));
-    if exact {
-        quote! { ::lie_runtime::__private::Entry::new(#i, #j, #high) }
-    } else {
-        quote! { ::lie_runtime::__private::Entry::parts(#i, #j, #high, #low) }
-    }
+    let plain = || Literal::f64_unsuffixed(low);
+    let low = (low != 0.0).then(|| format!("{low:e}").parse().unwrap_or_else(|_| plain()));
+    let low = low.into_iter();
+    let high = Literal::f64_unsuffixed(high);
+    quote! { (#i, #j, #high #(, #low)*) }
+}
+
+/// The name by which the entries of matrices are written.
+pub(super) fn use_entries() -> TokenStream {
+    quote! { use ::lie_runtime::__private::entries; }
 }
 
 /// The nonzero entries of a matrix.
 pub(super) fn entries(matrix: &[Vec<Rational>]) -> TokenStream {
-    let mut tokens = Vec::new();
-    for (i, row) in matrix.iter().enumerate() {
-        for (j, value) in row.iter().enumerate().filter(|(_, v)| !v.is_zero()) {
-            tokens.push(entry(i, j, value));
-        }
-    }
-    quote! { &[#(#tokens),*] }
+    let rows = matrix.iter().enumerate();
+    let tokens = rows.flat_map(|(i, row)| {
+        let values = row.iter().enumerate().filter(|(_, value)| !value.is_zero());
+        values.map(move |(j, value)| entry(i, j, value))
+    });
+    quote! { entries!(#(#tokens),*) }
 }

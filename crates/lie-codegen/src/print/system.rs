@@ -102,12 +102,14 @@ impl Printer<'_> {
         rest: Option<TokenStream>,
     ) -> Option<TokenStream> {
         let step = (name == "DiscreteLagrangianPoisson").then(|| quote! { , _h: S });
-        let (name, system) = (ident(name), self.system_name());
         let methods = functions
             .iter()
             .map(|f| self.system_method(f, step.as_ref()));
         let methods: Vec<_> = methods.collect();
-        (!methods.is_empty()).then(|| {
+        // bodies that are not written are provided
+        let is_there = !methods.is_empty() || name == "LiePoisson" && self.plan.system.lie;
+        let (name, system) = (ident(name), self.system_name());
+        is_there.then(|| {
             quote! {
                 #[allow(non_snake_case, clippy::many_single_char_names)]
                 impl<S: ::lie_runtime::Scalar> ::lie_runtime::#name<S> for #system<S> {
@@ -242,18 +244,20 @@ impl Printer<'_> {
                 }
             };
         }
-        let docs = casimirs.iter().map(|casimir| {
-            let counts = casimir.gradient.program.counts;
+        let gradients = casimirs.iter().map(|casimir| casimir.gradient.as_ref());
+        let Some(gradients) = gradients.collect::<Option<Vec<&Function>>>() else {
+            return casimir_gradient_by_duals(count);
+        };
+        let docs = casimirs.iter().zip(&gradients).map(|(casimir, gradient)| {
+            let counts = gradient.program.counts;
             format!(" Gradient of `{}`: {counts}.", casimir.name)
         });
-        let arms = casimirs.iter().enumerate().map(|(position, casimir)| {
-            let body = self.system_body(&casimir.gradient, &["out"], None);
+        let arms = gradients.iter().enumerate().map(|(position, gradient)| {
+            let body = self.system_body(gradient, &["out"], None);
             let position = index(position);
             quote! { #position => { #body } }
         });
-        let read = casimirs
-            .iter()
-            .any(|c| c.gradient.reads(&c.gradient.arguments[0]));
+        let read = gradients.iter().any(|g| g.reads(&g.arguments[0]));
         let (mu, out) = (self.argument_if("mu", read), self.argument("out"));
         let message = format!(
             "the system has {count} Casimir{}",
@@ -304,6 +308,18 @@ fn by_duals() -> TokenStream {
         #[doc = " `out_ij = df_i/dmu_j`, by dual numbers: no method that was asked for needs it."]
         fn jacobian(&self, mu: &Self::State, out: &mut Self::Jacobian) {
             ::lie_runtime::generic::jacobian_by_duals(self, mu, out);
+        }
+    }
+}
+
+/// The gradients of so many Casimirs, which no method asked for needs either.
+fn casimir_gradient_by_duals(count: usize) -> TokenStream {
+    let count = index(count);
+    quote! {
+        #[doc = " `out_i = dC/dmu_i` of one Casimir, by dual numbers: no method that was asked for needs it."]
+        fn casimir_gradient(&self, index: usize, mu: &Self::State, out: &mut Self::State) {
+            let values = &mut [::lie_runtime::Dual::constant_of(S::zero()); #count];
+            ::lie_runtime::generic::casimir_gradient_by_duals(self, index, mu, out, values);
         }
     }
 }

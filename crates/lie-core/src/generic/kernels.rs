@@ -79,6 +79,28 @@ pub fn jacobian_by_duals<S: Scalar, P: Lift<S>>(system: &P, mu: &P::State, out: 
     });
 }
 
+/// The gradient of a Casimir by the values of all Casimirs over dual numbers, entry by entry; `values` is scratch space
+/// for them.
+pub fn casimir_gradient_by_duals<S: Scalar, P: Lift<S>>(
+    system: &P,
+    index: usize,
+    mu: &P::State,
+    out: &mut P::State,
+    values: &mut [Dual<S>],
+) {
+    let lifted = system.lift();
+    let mut q = lifted.zero_state();
+    for (entry, &coordinate) in q.as_mut_slice().iter_mut().zip(mu.as_slice()) {
+        *entry = Dual::constant_of(coordinate);
+    }
+    for (place, out) in out.as_mut_slice().iter_mut().enumerate() {
+        q.as_mut_slice()[place].derivative = S::one();
+        lifted.casimirs(&q, values);
+        q.as_mut_slice()[place].derivative = S::zero();
+        *out = values[index].derivative;
+    }
+}
+
 /// `out_ij = dv_i/dmu_j` of a vector v that is computed over dual numbers.
 fn columns_by_duals<S: Scalar, L: Poisson<Dual<S>>, M: SquareMatrix<S>>(
     lifted: &L,
@@ -127,6 +149,23 @@ pub fn poisson_slope<S: Scalar, P: Poisson<S>>(system: &P, xi: &P::State, out: &
         for (row, (&entry, &origin)) in pairs.enumerate() {
             out.set(row, k, entry - origin);
         }
+    }
+}
+
+/// The bracket by the coadjoint action: `<e^k, [xi, eta]> = <ad*_xi e^k, eta>` with the unit covector `e^k`.
+pub fn ad<S: Scalar, P: LiePoisson<S>>(
+    system: &P,
+    xi: &P::State,
+    eta: &P::State,
+    out: &mut P::State,
+) {
+    let (mut unit, mut column) = (system.zero_state(), system.zero_state());
+    for k in 0..system.dimension() {
+        unit.as_mut_slice()[k] = S::one();
+        system.ad_star(xi, &unit, &mut column);
+        unit.as_mut_slice()[k] = S::zero();
+        let products = column.as_slice().iter().zip(eta.as_slice());
+        out.as_mut_slice()[k] = products.fold(S::zero(), |sum, (&c, &e)| sum + c * e);
     }
 }
 

@@ -67,6 +67,7 @@ mod mean_gradients;
 mod midpoint;
 mod orbit_energy;
 mod pair;
+mod part_flows;
 mod power_series;
 mod quadrature;
 mod quaternion_stages;
@@ -110,14 +111,15 @@ pub use generating::{
 pub use inverse_tangent::{dcay_inverse_dual, dexp_inverse_dual};
 pub(crate) use kernels::direction;
 pub use kernels::{
-    ad_star, ad_star_matrix, euler_poincare, hessian_by_duals, jacobian, jacobian_by_duals,
-    linearize, multiply, poisson_slope, vector_field,
+    ad, ad_star, ad_star_matrix, casimir_gradient_by_duals, euler_poincare, hessian_by_duals,
+    jacobian, jacobian_by_duals, linearize, multiply, poisson_slope, vector_field,
 };
 pub use lifts::LinearLift;
 pub use matrix_stages::MatrixStages;
 pub use mean_gradients::MeanGradients;
 pub use midpoint::Midpoint;
 pub use orbit_energy::OrbitEnergyStep;
+pub use part_flows::{PartFlows, Parts};
 pub use power_series::PowerSeries;
 pub use quadrature::{MAX_NODES, Quadrature};
 pub use quaternion_stages::QuaternionStages;

@@ -177,6 +177,7 @@ impl Planner<'_> {
                 energy: Energy::Expression,
                 derivatives: false,
                 poisson: Vec::new(),
+                lie: true,
                 algebra: Vec::new(),
                 exponential: Vec::new(),
                 triple: None,
