@@ -1,15 +1,27 @@
-//! What is generated for every spec is the committed plan, and for three of them the committed code.
+//! What is generated for every spec is the committed plan; for one of them the committed code, and for two others what
+//! their code has beside that, with a digest of all of it.
 //!
 //! `LIE_UPDATE_GOLDEN=1 cargo test --test golden` writes `tests/golden/` anew. A plan has the formula, the operation
 //! count and a digest of each kernel; `lie expand` prints the code of any spec. The crate `spec-systems` compiles the
 //! code of all of them, and the other tests run it.
 
+#[path = "common/items.rs"]
+mod items;
+
+use lie_codegen::compile::{compile_spec, expand, with_options};
 use lie_codegen::golden::Golden;
+use lie_codegen::methods::Choice;
 use spec_systems::methods::{GENERATED, GENERATING, METHODS};
 use std::path::PathBuf;
 
-/// Systems whose code is kept in full: a Lie algebra with everything, a semidirect product, a bracket of no algebra.
-const IN_FULL: [&str; 3] = ["so3_free_rigid_body", "se3_heavy_top", "lotka_volterra"];
+/// The system whose code is kept in full: a Lie algebra with everything.
+const IN_FULL: (&str, &str) = ("so3_free_rigid_body", "FreeRigidBody");
+
+/// Systems of which the rest is kept: a semidirect product, a bracket of no algebra.
+const BESIDE: [(&str, &str); 2] = [
+    ("se3_heavy_top", "HeavyTop"),
+    ("lotka_volterra", "LotkaVolterra"),
+];
 
 /// The systems of `specs/`, without their schema.
 fn specs() -> Vec<PathBuf> {
@@ -26,14 +38,61 @@ fn specs() -> Vec<PathBuf> {
     paths
 }
 
+/// The code of a system with fused code for these methods.
+fn code(name: &str, methods: &[&str]) -> String {
+    let text = std::fs::read_to_string(format!("specs/{name}.json")).expect("the spec");
+    let model = compile_spec(&text).expect("a valid spec");
+    let choices = methods.iter().map(|id| Choice::from_id(id).expect("an id"));
+    let choices = with_options(&model, &choices.collect::<Vec<_>>());
+    expand(&model, &choices)
+}
+
+/// The hash function of Fowler, Noll and Vo, 64 bits (RFC 9923).
+fn digest(text: &str) -> u64 {
+    let begin = 0xcbf2_9ce4_8422_2325;
+    text.bytes().fold(begin, |hash: u64, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
+    })
+}
+
+/// One method of each kind: the others have code of the same forms.
+fn of_each_kind() -> Vec<&'static str> {
+    let again = [
+        "gauss6",
+        "cohen-hairer2",
+        "cohen-hairer6",
+        "collective2",
+        "collective6",
+    ];
+    METHODS
+        .into_iter()
+        .filter(|id| !again.contains(id))
+        .collect()
+}
+
 fn golden() -> Golden {
     let mut golden = Golden::new("tests/golden");
     for path in specs() {
         golden.plan(path, &METHODS);
     }
-    for name in IN_FULL {
-        golden.spec(format!("specs/{name}.json"), &METHODS);
+    let full = code(IN_FULL.0, &of_each_kind());
+    let mut digests = format!(
+        "{:016x} {}\n",
+        digest(&code(IN_FULL.0, &METHODS)),
+        IN_FULL.0
+    );
+    for (name, system) in BESIDE {
+        let code = code(name, &METHODS);
+        digests += &format!("{:016x} {name}\n", digest(&code));
+        let rest = items::beside(&code, system, &full, IN_FULL.1);
+        let head = format!(
+            "// What the code of `{system}` has beside that of `{}`.\n",
+            IN_FULL.1
+        );
+        golden.text(&format!("{name}.rs"), head + &rest);
     }
+    golden.text(&format!("{}.rs", IN_FULL.0), full);
+    golden.text("code.digests", digests);
     golden
 }
 

@@ -491,50 +491,16 @@ impl<S: ::lie_runtime::Scalar> FreeRigidBodySystem<S> {
     }
 }
 
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for FreeRigidBodySystem<S> {
-    type Lifted = FreeRigidBodySystem<::lie_runtime::Dual<S>>;
-    fn lift(&self) -> Self::Lifted {
-        self._over(::lie_runtime::Dual::constant_of)
-    }
-}
-
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::Widen<S> for FreeRigidBodySystem<S> {
-    type Widened = FreeRigidBodySystem<S::Wide>;
-    fn widen(&self) -> Self::Widened {
-        self._over(S::widen)
-    }
-}
-
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::Expand<S> for FreeRigidBodySystem<S> {
-    type Expanded = FreeRigidBodySystem<::lie_runtime::scalar::Truncated<S>>;
-    fn expand(&self) -> Self::Expanded {
-        self._over(::lie_runtime::scalar::Truncated::constant_of)
-    }
-}
-
+::lie_runtime::__private_0_1::over_scalars!(FreeRigidBodySystem);
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixGroup<S> for FreeRigidBodySystem<S> {
     fn group(&self) -> ::lie_runtime::__private_0_1::Group<'_> {
-        const GROUP: ::lie_runtime::__private_0_1::Group = ::lie_runtime::__private_0_1::Group {
+        ::lie_runtime::__private_0_1::Group {
             size: 3,
-            matrices: &[
-                &[
-                    ::lie_runtime::__private_0_1::Entry::new(1, 2, -1.0),
-                    ::lie_runtime::__private_0_1::Entry::new(2, 1, 1.0),
-                ],
-                &[
-                    ::lie_runtime::__private_0_1::Entry::new(0, 2, 1.0),
-                    ::lie_runtime::__private_0_1::Entry::new(2, 0, -1.0),
-                ],
-                &[
-                    ::lie_runtime::__private_0_1::Entry::new(0, 1, -1.0),
-                    ::lie_runtime::__private_0_1::Entry::new(1, 0, 1.0),
-                ],
-            ],
+            matrices: ::lie_runtime::MatrixPoisson::<S>::representation(self).matrices,
             closed: true,
             orthogonal: true,
             right: false,
-        };
-        GROUP
+        }
     }
 }
 
@@ -542,38 +508,20 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S>
 for FreeRigidBodySystem<S> {
     type Matrix = ::lie_runtime::__private_0_1::SMatrix<S, 3, 3>;
     fn representation(&self) -> ::lie_runtime::__private_0_1::Representation<'_> {
-        const REPRESENTATION: ::lie_runtime::__private_0_1::Representation = ::lie_runtime::__private_0_1::Representation {
+        use ::lie_runtime::__private_0_1::entries;
+        ::lie_runtime::__private_0_1::Representation {
             matrices: &[
-                &[
-                    ::lie_runtime::__private_0_1::Entry::new(1, 2, -1.0),
-                    ::lie_runtime::__private_0_1::Entry::new(2, 1, 1.0),
-                ],
-                &[
-                    ::lie_runtime::__private_0_1::Entry::new(0, 2, 1.0),
-                    ::lie_runtime::__private_0_1::Entry::new(2, 0, -1.0),
-                ],
-                &[
-                    ::lie_runtime::__private_0_1::Entry::new(0, 1, -1.0),
-                    ::lie_runtime::__private_0_1::Entry::new(1, 0, 1.0),
-                ],
+                entries!((1, 2, - 1.0), (2, 1, 1.0)),
+                entries!((0, 2, 1.0), (2, 0, - 1.0)),
+                entries!((0, 1, - 1.0), (1, 0, 1.0)),
             ],
             dual: &[
-                &[
-                    ::lie_runtime::__private_0_1::Entry::new(1, 2, 0.5),
-                    ::lie_runtime::__private_0_1::Entry::new(2, 1, -0.5),
-                ],
-                &[
-                    ::lie_runtime::__private_0_1::Entry::new(0, 2, -0.5),
-                    ::lie_runtime::__private_0_1::Entry::new(2, 0, 0.5),
-                ],
-                &[
-                    ::lie_runtime::__private_0_1::Entry::new(0, 1, 0.5),
-                    ::lie_runtime::__private_0_1::Entry::new(1, 0, -0.5),
-                ],
+                entries!((1, 2, 0.5), (2, 1, - 0.5)),
+                entries!((0, 2, - 0.5), (2, 0, 0.5)),
+                entries!((0, 1, 0.5), (1, 0, - 0.5)),
             ],
             skew: true,
-        };
-        REPRESENTATION
+        }
     }
 
     fn spectrum(&self) -> ::lie_runtime::__private_0_1::Spectrum<'_> {
@@ -598,18 +546,15 @@ for FreeRigidBodySystem<S> {
     }
 
     fn columns(&self) -> ::lie_runtime::__private_0_1::Columns<'_> {
-        const COLUMNS: ::lie_runtime::__private_0_1::Columns = ::lie_runtime::__private_0_1::Columns {
+        use ::lie_runtime::__private_0_1::entries;
+        ::lie_runtime::__private_0_1::Columns {
             indices: &[0, 1],
             covectors: &[
-                &[::lie_runtime::__private_0_1::Entry::new(1, 2, 1.0)],
-                &[::lie_runtime::__private_0_1::Entry::new(0, 2, -1.0)],
-                &[
-                    ::lie_runtime::__private_0_1::Entry::new(0, 1, 0.5),
-                    ::lie_runtime::__private_0_1::Entry::new(1, 0, -0.5),
-                ],
+                entries!((1, 2, 1.0)),
+                entries!((0, 2, - 1.0)),
+                entries!((0, 1, 0.5), (1, 0, - 0.5)),
             ],
-        };
-        COLUMNS
+        }
     }
 }
 
@@ -1042,452 +987,6 @@ for FreeRigidBodySystem<S> {
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::Gauss4,
-        h: S,
-    ) -> Self::Equation<'a> {
-        ::lie_runtime::__private_0_1::Eliminated::new(
-            ::lie_runtime::generic::Gauss::new(self, h),
-        )
-    }
-}
-
-/// Elimination of 9 rows in a fixed order, 12 entries of fill-in: 271 multiplications with the solution.
-#[derive(Clone, Copy, Debug)]
-pub struct FreeRigidBodyGauss6Elimination;
-impl<
-    S: ::lie_runtime::Scalar,
-> ::lie_runtime::__private_0_1::FixedElimination<
-    S,
-    ::lie_runtime::__private_0_1::StageMatrix<
-        ::lie_runtime::__private_0_1::SMatrix<S, 3, 3>,
-        3,
-    >,
-    ::lie_runtime::__private_0_1::Stages<::lie_runtime::__private_0_1::SVector<S, 3>, 3>,
-> for FreeRigidBodyGauss6Elimination {
-    #[inline]
-    fn factor(
-        matrix: &mut ::lie_runtime::__private_0_1::StageMatrix<
-            ::lie_runtime::__private_0_1::SMatrix<S, 3, 3>,
-            3,
-        >,
-    ) -> S::Mask {
-        let _a0_0 = matrix.0[0][0][(0, 0)];
-        let _a0_0 = S::one() / _a0_0;
-        let _a1_0 = matrix.0[0][0][(1, 0)];
-        let _a1_0 = _a1_0 * _a0_0;
-        let _a0_1 = matrix.0[0][0][(0, 1)];
-        let _a1_1 = matrix.0[0][0][(1, 1)];
-        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
-        let _a0_2 = matrix.0[0][0][(0, 2)];
-        let _a1_2 = matrix.0[0][0][(1, 2)];
-        let _a1_2 = _a1_2 - _a1_0 * _a0_2;
-        let _a0_4 = matrix.0[0][1][(0, 1)];
-        let _a1_4 = -(_a1_0 * _a0_4);
-        let _a0_5 = matrix.0[0][1][(0, 2)];
-        let _a1_5 = matrix.0[0][1][(1, 2)];
-        let _a1_5 = _a1_5 - _a1_0 * _a0_5;
-        let _a0_7 = matrix.0[0][2][(0, 1)];
-        let _a1_7 = -(_a1_0 * _a0_7);
-        let _a0_8 = matrix.0[0][2][(0, 2)];
-        let _a1_8 = matrix.0[0][2][(1, 2)];
-        let _a1_8 = _a1_8 - _a1_0 * _a0_8;
-        let _a2_0 = matrix.0[0][0][(2, 0)];
-        let _a2_0 = _a2_0 * _a0_0;
-        let _a2_1 = matrix.0[0][0][(2, 1)];
-        let _a2_1 = _a2_1 - _a2_0 * _a0_1;
-        let _a2_2 = matrix.0[0][0][(2, 2)];
-        let _a2_2 = _a2_2 - _a2_0 * _a0_2;
-        let _a2_4 = matrix.0[0][1][(2, 1)];
-        let _a2_4 = _a2_4 - _a2_0 * _a0_4;
-        let _a2_5 = -(_a2_0 * _a0_5);
-        let _a2_7 = matrix.0[0][2][(2, 1)];
-        let _a2_7 = _a2_7 - _a2_0 * _a0_7;
-        let _a2_8 = -(_a2_0 * _a0_8);
-        let _a4_0 = matrix.0[1][0][(1, 0)];
-        let _a4_0 = _a4_0 * _a0_0;
-        let _a4_1 = -(_a4_0 * _a0_1);
-        let _a4_2 = matrix.0[1][0][(1, 2)];
-        let _a4_2 = _a4_2 - _a4_0 * _a0_2;
-        let _a4_4 = matrix.0[1][1][(1, 1)];
-        let _a4_4 = _a4_4 - _a4_0 * _a0_4;
-        let _a4_5 = matrix.0[1][1][(1, 2)];
-        let _a4_5 = _a4_5 - _a4_0 * _a0_5;
-        let _a4_7 = -(_a4_0 * _a0_7);
-        let _a4_8 = matrix.0[1][2][(1, 2)];
-        let _a4_8 = _a4_8 - _a4_0 * _a0_8;
-        let _a5_0 = matrix.0[1][0][(2, 0)];
-        let _a5_0 = _a5_0 * _a0_0;
-        let _a5_1 = matrix.0[1][0][(2, 1)];
-        let _a5_1 = _a5_1 - _a5_0 * _a0_1;
-        let _a5_2 = -(_a5_0 * _a0_2);
-        let _a5_4 = matrix.0[1][1][(2, 1)];
-        let _a5_4 = _a5_4 - _a5_0 * _a0_4;
-        let _a5_5 = matrix.0[1][1][(2, 2)];
-        let _a5_5 = _a5_5 - _a5_0 * _a0_5;
-        let _a5_7 = matrix.0[1][2][(2, 1)];
-        let _a5_7 = _a5_7 - _a5_0 * _a0_7;
-        let _a5_8 = -(_a5_0 * _a0_8);
-        let _a7_0 = matrix.0[2][0][(1, 0)];
-        let _a7_0 = _a7_0 * _a0_0;
-        let _a7_1 = -(_a7_0 * _a0_1);
-        let _a7_2 = matrix.0[2][0][(1, 2)];
-        let _a7_2 = _a7_2 - _a7_0 * _a0_2;
-        let _a7_4 = -(_a7_0 * _a0_4);
-        let _a7_5 = matrix.0[2][1][(1, 2)];
-        let _a7_5 = _a7_5 - _a7_0 * _a0_5;
-        let _a7_7 = matrix.0[2][2][(1, 1)];
-        let _a7_7 = _a7_7 - _a7_0 * _a0_7;
-        let _a7_8 = matrix.0[2][2][(1, 2)];
-        let _a7_8 = _a7_8 - _a7_0 * _a0_8;
-        let _a8_0 = matrix.0[2][0][(2, 0)];
-        let _a8_0 = _a8_0 * _a0_0;
-        let _a8_1 = matrix.0[2][0][(2, 1)];
-        let _a8_1 = _a8_1 - _a8_0 * _a0_1;
-        let _a8_2 = -(_a8_0 * _a0_2);
-        let _a8_4 = matrix.0[2][1][(2, 1)];
-        let _a8_4 = _a8_4 - _a8_0 * _a0_4;
-        let _a8_5 = -(_a8_0 * _a0_5);
-        let _a8_7 = matrix.0[2][2][(2, 1)];
-        let _a8_7 = _a8_7 - _a8_0 * _a0_7;
-        let _a8_8 = matrix.0[2][2][(2, 2)];
-        let _a8_8 = _a8_8 - _a8_0 * _a0_8;
-        let _a3_3 = matrix.0[1][1][(0, 0)];
-        let _a3_3 = S::one() / _a3_3;
-        let _a1_3 = matrix.0[0][1][(1, 0)];
-        let _a1_3 = _a1_3 * _a3_3;
-        let _a3_1 = matrix.0[1][0][(0, 1)];
-        let _a1_1 = _a1_1 - _a1_3 * _a3_1;
-        let _a3_2 = matrix.0[1][0][(0, 2)];
-        let _a1_2 = _a1_2 - _a1_3 * _a3_2;
-        let _a3_4 = matrix.0[1][1][(0, 1)];
-        let _a1_4 = _a1_4 - _a1_3 * _a3_4;
-        let _a3_5 = matrix.0[1][1][(0, 2)];
-        let _a1_5 = _a1_5 - _a1_3 * _a3_5;
-        let _a3_7 = matrix.0[1][2][(0, 1)];
-        let _a1_7 = _a1_7 - _a1_3 * _a3_7;
-        let _a3_8 = matrix.0[1][2][(0, 2)];
-        let _a1_8 = _a1_8 - _a1_3 * _a3_8;
-        let _a2_3 = matrix.0[0][1][(2, 0)];
-        let _a2_3 = _a2_3 * _a3_3;
-        let _a2_1 = _a2_1 - _a2_3 * _a3_1;
-        let _a2_2 = _a2_2 - _a2_3 * _a3_2;
-        let _a2_4 = _a2_4 - _a2_3 * _a3_4;
-        let _a2_5 = _a2_5 - _a2_3 * _a3_5;
-        let _a2_7 = _a2_7 - _a2_3 * _a3_7;
-        let _a2_8 = _a2_8 - _a2_3 * _a3_8;
-        let _a4_3 = matrix.0[1][1][(1, 0)];
-        let _a4_3 = _a4_3 * _a3_3;
-        let _a4_1 = _a4_1 - _a4_3 * _a3_1;
-        let _a4_2 = _a4_2 - _a4_3 * _a3_2;
-        let _a4_4 = _a4_4 - _a4_3 * _a3_4;
-        let _a4_5 = _a4_5 - _a4_3 * _a3_5;
-        let _a4_7 = _a4_7 - _a4_3 * _a3_7;
-        let _a4_8 = _a4_8 - _a4_3 * _a3_8;
-        let _a5_3 = matrix.0[1][1][(2, 0)];
-        let _a5_3 = _a5_3 * _a3_3;
-        let _a5_1 = _a5_1 - _a5_3 * _a3_1;
-        let _a5_2 = _a5_2 - _a5_3 * _a3_2;
-        let _a5_4 = _a5_4 - _a5_3 * _a3_4;
-        let _a5_5 = _a5_5 - _a5_3 * _a3_5;
-        let _a5_7 = _a5_7 - _a5_3 * _a3_7;
-        let _a5_8 = _a5_8 - _a5_3 * _a3_8;
-        let _a7_3 = matrix.0[2][1][(1, 0)];
-        let _a7_3 = _a7_3 * _a3_3;
-        let _a7_1 = _a7_1 - _a7_3 * _a3_1;
-        let _a7_2 = _a7_2 - _a7_3 * _a3_2;
-        let _a7_4 = _a7_4 - _a7_3 * _a3_4;
-        let _a7_5 = _a7_5 - _a7_3 * _a3_5;
-        let _a7_7 = _a7_7 - _a7_3 * _a3_7;
-        let _a7_8 = _a7_8 - _a7_3 * _a3_8;
-        let _a8_3 = matrix.0[2][1][(2, 0)];
-        let _a8_3 = _a8_3 * _a3_3;
-        let _a8_1 = _a8_1 - _a8_3 * _a3_1;
-        let _a8_2 = _a8_2 - _a8_3 * _a3_2;
-        let _a8_4 = _a8_4 - _a8_3 * _a3_4;
-        let _a8_5 = _a8_5 - _a8_3 * _a3_5;
-        let _a8_7 = _a8_7 - _a8_3 * _a3_7;
-        let _a8_8 = _a8_8 - _a8_3 * _a3_8;
-        let _a1_1 = S::one() / _a1_1;
-        let _a2_1 = _a2_1 * _a1_1;
-        let _a2_2 = _a2_2 - _a2_1 * _a1_2;
-        let _a2_4 = _a2_4 - _a2_1 * _a1_4;
-        let _a2_5 = _a2_5 - _a2_1 * _a1_5;
-        let _a1_6 = matrix.0[0][2][(1, 0)];
-        let _a2_6 = matrix.0[0][2][(2, 0)];
-        let _a2_6 = _a2_6 - _a2_1 * _a1_6;
-        let _a2_7 = _a2_7 - _a2_1 * _a1_7;
-        let _a2_8 = _a2_8 - _a2_1 * _a1_8;
-        let _a4_1 = _a4_1 * _a1_1;
-        let _a4_2 = _a4_2 - _a4_1 * _a1_2;
-        let _a4_4 = _a4_4 - _a4_1 * _a1_4;
-        let _a4_5 = _a4_5 - _a4_1 * _a1_5;
-        let _a4_6 = matrix.0[1][2][(1, 0)];
-        let _a4_6 = _a4_6 - _a4_1 * _a1_6;
-        let _a4_7 = _a4_7 - _a4_1 * _a1_7;
-        let _a4_8 = _a4_8 - _a4_1 * _a1_8;
-        let _a5_1 = _a5_1 * _a1_1;
-        let _a5_2 = _a5_2 - _a5_1 * _a1_2;
-        let _a5_4 = _a5_4 - _a5_1 * _a1_4;
-        let _a5_5 = _a5_5 - _a5_1 * _a1_5;
-        let _a5_6 = matrix.0[1][2][(2, 0)];
-        let _a5_6 = _a5_6 - _a5_1 * _a1_6;
-        let _a5_7 = _a5_7 - _a5_1 * _a1_7;
-        let _a5_8 = _a5_8 - _a5_1 * _a1_8;
-        let _a6_1 = matrix.0[2][0][(0, 1)];
-        let _a6_1 = _a6_1 * _a1_1;
-        let _a6_2 = matrix.0[2][0][(0, 2)];
-        let _a6_2 = _a6_2 - _a6_1 * _a1_2;
-        let _a6_4 = matrix.0[2][1][(0, 1)];
-        let _a6_4 = _a6_4 - _a6_1 * _a1_4;
-        let _a6_5 = matrix.0[2][1][(0, 2)];
-        let _a6_5 = _a6_5 - _a6_1 * _a1_5;
-        let _a6_6 = matrix.0[2][2][(0, 0)];
-        let _a6_6 = _a6_6 - _a6_1 * _a1_6;
-        let _a6_7 = matrix.0[2][2][(0, 1)];
-        let _a6_7 = _a6_7 - _a6_1 * _a1_7;
-        let _a6_8 = matrix.0[2][2][(0, 2)];
-        let _a6_8 = _a6_8 - _a6_1 * _a1_8;
-        let _a7_1 = _a7_1 * _a1_1;
-        let _a7_2 = _a7_2 - _a7_1 * _a1_2;
-        let _a7_4 = _a7_4 - _a7_1 * _a1_4;
-        let _a7_5 = _a7_5 - _a7_1 * _a1_5;
-        let _a7_6 = matrix.0[2][2][(1, 0)];
-        let _a7_6 = _a7_6 - _a7_1 * _a1_6;
-        let _a7_7 = _a7_7 - _a7_1 * _a1_7;
-        let _a7_8 = _a7_8 - _a7_1 * _a1_8;
-        let _a8_1 = _a8_1 * _a1_1;
-        let _a8_2 = _a8_2 - _a8_1 * _a1_2;
-        let _a8_4 = _a8_4 - _a8_1 * _a1_4;
-        let _a8_5 = _a8_5 - _a8_1 * _a1_5;
-        let _a8_6 = matrix.0[2][2][(2, 0)];
-        let _a8_6 = _a8_6 - _a8_1 * _a1_6;
-        let _a8_7 = _a8_7 - _a8_1 * _a1_7;
-        let _a8_8 = _a8_8 - _a8_1 * _a1_8;
-        let _a2_2 = S::one() / _a2_2;
-        let _a4_2 = _a4_2 * _a2_2;
-        let _a4_4 = _a4_4 - _a4_2 * _a2_4;
-        let _a4_5 = _a4_5 - _a4_2 * _a2_5;
-        let _a4_6 = _a4_6 - _a4_2 * _a2_6;
-        let _a4_7 = _a4_7 - _a4_2 * _a2_7;
-        let _a4_8 = _a4_8 - _a4_2 * _a2_8;
-        let _a5_2 = _a5_2 * _a2_2;
-        let _a5_4 = _a5_4 - _a5_2 * _a2_4;
-        let _a5_5 = _a5_5 - _a5_2 * _a2_5;
-        let _a5_6 = _a5_6 - _a5_2 * _a2_6;
-        let _a5_7 = _a5_7 - _a5_2 * _a2_7;
-        let _a5_8 = _a5_8 - _a5_2 * _a2_8;
-        let _a6_2 = _a6_2 * _a2_2;
-        let _a6_4 = _a6_4 - _a6_2 * _a2_4;
-        let _a6_5 = _a6_5 - _a6_2 * _a2_5;
-        let _a6_6 = _a6_6 - _a6_2 * _a2_6;
-        let _a6_7 = _a6_7 - _a6_2 * _a2_7;
-        let _a6_8 = _a6_8 - _a6_2 * _a2_8;
-        let _a7_2 = _a7_2 * _a2_2;
-        let _a7_4 = _a7_4 - _a7_2 * _a2_4;
-        let _a7_5 = _a7_5 - _a7_2 * _a2_5;
-        let _a7_6 = _a7_6 - _a7_2 * _a2_6;
-        let _a7_7 = _a7_7 - _a7_2 * _a2_7;
-        let _a7_8 = _a7_8 - _a7_2 * _a2_8;
-        let _a8_2 = _a8_2 * _a2_2;
-        let _a8_4 = _a8_4 - _a8_2 * _a2_4;
-        let _a8_5 = _a8_5 - _a8_2 * _a2_5;
-        let _a8_6 = _a8_6 - _a8_2 * _a2_6;
-        let _a8_7 = _a8_7 - _a8_2 * _a2_7;
-        let _a8_8 = _a8_8 - _a8_2 * _a2_8;
-        let _a4_4 = S::one() / _a4_4;
-        let _a5_4 = _a5_4 * _a4_4;
-        let _a5_5 = _a5_5 - _a5_4 * _a4_5;
-        let _a5_6 = _a5_6 - _a5_4 * _a4_6;
-        let _a5_7 = _a5_7 - _a5_4 * _a4_7;
-        let _a5_8 = _a5_8 - _a5_4 * _a4_8;
-        let _a6_4 = _a6_4 * _a4_4;
-        let _a6_5 = _a6_5 - _a6_4 * _a4_5;
-        let _a6_6 = _a6_6 - _a6_4 * _a4_6;
-        let _a6_7 = _a6_7 - _a6_4 * _a4_7;
-        let _a6_8 = _a6_8 - _a6_4 * _a4_8;
-        let _a7_4 = _a7_4 * _a4_4;
-        let _a7_5 = _a7_5 - _a7_4 * _a4_5;
-        let _a7_6 = _a7_6 - _a7_4 * _a4_6;
-        let _a7_7 = _a7_7 - _a7_4 * _a4_7;
-        let _a7_8 = _a7_8 - _a7_4 * _a4_8;
-        let _a8_4 = _a8_4 * _a4_4;
-        let _a8_5 = _a8_5 - _a8_4 * _a4_5;
-        let _a8_6 = _a8_6 - _a8_4 * _a4_6;
-        let _a8_7 = _a8_7 - _a8_4 * _a4_7;
-        let _a8_8 = _a8_8 - _a8_4 * _a4_8;
-        let _a5_5 = S::one() / _a5_5;
-        let _a6_5 = _a6_5 * _a5_5;
-        let _a6_6 = _a6_6 - _a6_5 * _a5_6;
-        let _a6_7 = _a6_7 - _a6_5 * _a5_7;
-        let _a6_8 = _a6_8 - _a6_5 * _a5_8;
-        let _a7_5 = _a7_5 * _a5_5;
-        let _a7_6 = _a7_6 - _a7_5 * _a5_6;
-        let _a7_7 = _a7_7 - _a7_5 * _a5_7;
-        let _a7_8 = _a7_8 - _a7_5 * _a5_8;
-        let _a8_5 = _a8_5 * _a5_5;
-        let _a8_6 = _a8_6 - _a8_5 * _a5_6;
-        let _a8_7 = _a8_7 - _a8_5 * _a5_7;
-        let _a8_8 = _a8_8 - _a8_5 * _a5_8;
-        let _a6_6 = S::one() / _a6_6;
-        let _a7_6 = _a7_6 * _a6_6;
-        let _a7_7 = _a7_7 - _a7_6 * _a6_7;
-        let _a7_8 = _a7_8 - _a7_6 * _a6_8;
-        let _a8_6 = _a8_6 * _a6_6;
-        let _a8_7 = _a8_7 - _a8_6 * _a6_7;
-        let _a8_8 = _a8_8 - _a8_6 * _a6_8;
-        let _a7_7 = S::one() / _a7_7;
-        let _a8_7 = _a8_7 * _a7_7;
-        let _a8_8 = _a8_8 - _a8_7 * _a7_8;
-        let _a8_8 = S::one() / _a8_8;
-        matrix.0[0][0][(0, 0)] = _a0_0;
-        matrix.0[0][0][(1, 0)] = _a1_0;
-        matrix.0[0][0][(1, 1)] = _a1_1;
-        matrix.0[0][0][(1, 2)] = _a1_2;
-        matrix.0[0][1][(1, 0)] = _a1_3;
-        matrix.0[0][1][(1, 1)] = _a1_4;
-        matrix.0[0][1][(1, 2)] = _a1_5;
-        matrix.0[0][2][(1, 1)] = _a1_7;
-        matrix.0[0][2][(1, 2)] = _a1_8;
-        matrix.0[0][0][(2, 0)] = _a2_0;
-        matrix.0[0][0][(2, 1)] = _a2_1;
-        matrix.0[0][0][(2, 2)] = _a2_2;
-        matrix.0[0][1][(2, 0)] = _a2_3;
-        matrix.0[0][1][(2, 1)] = _a2_4;
-        matrix.0[0][1][(2, 2)] = _a2_5;
-        matrix.0[0][2][(2, 0)] = _a2_6;
-        matrix.0[0][2][(2, 1)] = _a2_7;
-        matrix.0[0][2][(2, 2)] = _a2_8;
-        matrix.0[1][1][(0, 0)] = _a3_3;
-        matrix.0[1][0][(1, 0)] = _a4_0;
-        matrix.0[1][0][(1, 1)] = _a4_1;
-        matrix.0[1][0][(1, 2)] = _a4_2;
-        matrix.0[1][1][(1, 0)] = _a4_3;
-        matrix.0[1][1][(1, 1)] = _a4_4;
-        matrix.0[1][1][(1, 2)] = _a4_5;
-        matrix.0[1][2][(1, 0)] = _a4_6;
-        matrix.0[1][2][(1, 1)] = _a4_7;
-        matrix.0[1][2][(1, 2)] = _a4_8;
-        matrix.0[1][0][(2, 0)] = _a5_0;
-        matrix.0[1][0][(2, 1)] = _a5_1;
-        matrix.0[1][0][(2, 2)] = _a5_2;
-        matrix.0[1][1][(2, 0)] = _a5_3;
-        matrix.0[1][1][(2, 1)] = _a5_4;
-        matrix.0[1][1][(2, 2)] = _a5_5;
-        matrix.0[1][2][(2, 0)] = _a5_6;
-        matrix.0[1][2][(2, 1)] = _a5_7;
-        matrix.0[1][2][(2, 2)] = _a5_8;
-        matrix.0[2][0][(0, 1)] = _a6_1;
-        matrix.0[2][0][(0, 2)] = _a6_2;
-        matrix.0[2][1][(0, 1)] = _a6_4;
-        matrix.0[2][1][(0, 2)] = _a6_5;
-        matrix.0[2][2][(0, 0)] = _a6_6;
-        matrix.0[2][2][(0, 1)] = _a6_7;
-        matrix.0[2][2][(0, 2)] = _a6_8;
-        matrix.0[2][0][(1, 0)] = _a7_0;
-        matrix.0[2][0][(1, 1)] = _a7_1;
-        matrix.0[2][0][(1, 2)] = _a7_2;
-        matrix.0[2][1][(1, 0)] = _a7_3;
-        matrix.0[2][1][(1, 1)] = _a7_4;
-        matrix.0[2][1][(1, 2)] = _a7_5;
-        matrix.0[2][2][(1, 0)] = _a7_6;
-        matrix.0[2][2][(1, 1)] = _a7_7;
-        matrix.0[2][2][(1, 2)] = _a7_8;
-        matrix.0[2][0][(2, 0)] = _a8_0;
-        matrix.0[2][0][(2, 1)] = _a8_1;
-        matrix.0[2][0][(2, 2)] = _a8_2;
-        matrix.0[2][1][(2, 0)] = _a8_3;
-        matrix.0[2][1][(2, 1)] = _a8_4;
-        matrix.0[2][1][(2, 2)] = _a8_5;
-        matrix.0[2][2][(2, 0)] = _a8_6;
-        matrix.0[2][2][(2, 1)] = _a8_7;
-        matrix.0[2][2][(2, 2)] = _a8_8;
-        ::lie_runtime::__private_0_1::inverse_pivots_are_safe(
-            _a0_0.abs() + _a3_3.abs() + _a1_1.abs() + _a2_2.abs() + _a4_4.abs()
-                + _a5_5.abs() + _a6_6.abs() + _a7_7.abs() + _a8_8.abs(),
-        )
-    }
-
-    #[inline]
-    fn solve(
-        factors: &::lie_runtime::__private_0_1::StageMatrix<
-            ::lie_runtime::__private_0_1::SMatrix<S, 3, 3>,
-            3,
-        >,
-        vector: &mut ::lie_runtime::__private_0_1::Stages<
-            ::lie_runtime::__private_0_1::SVector<S, 3>,
-            3,
-        >,
-    ) {
-        let _b0 = vector.0[0][0];
-        let _b3 = vector.0[1][0];
-        let _b1 = vector.0[0][1] - factors.0[0][0][(1, 0)] * _b0
-            - factors.0[0][1][(1, 0)] * _b3;
-        let _b2 = vector.0[0][2] - factors.0[0][0][(2, 0)] * _b0
-            - factors.0[0][1][(2, 0)] * _b3 - factors.0[0][0][(2, 1)] * _b1;
-        let _b4 = vector.0[1][1] - factors.0[1][0][(1, 0)] * _b0
-            - factors.0[1][1][(1, 0)] * _b3 - factors.0[1][0][(1, 1)] * _b1
-            - factors.0[1][0][(1, 2)] * _b2;
-        let _b5 = vector.0[1][2] - factors.0[1][0][(2, 0)] * _b0
-            - factors.0[1][1][(2, 0)] * _b3 - factors.0[1][0][(2, 1)] * _b1
-            - factors.0[1][0][(2, 2)] * _b2 - factors.0[1][1][(2, 1)] * _b4;
-        let _b6 = vector.0[2][0] - factors.0[2][0][(0, 1)] * _b1
-            - factors.0[2][0][(0, 2)] * _b2 - factors.0[2][1][(0, 1)] * _b4
-            - factors.0[2][1][(0, 2)] * _b5;
-        let _b7 = vector.0[2][1] - factors.0[2][0][(1, 0)] * _b0
-            - factors.0[2][1][(1, 0)] * _b3 - factors.0[2][0][(1, 1)] * _b1
-            - factors.0[2][0][(1, 2)] * _b2 - factors.0[2][1][(1, 1)] * _b4
-            - factors.0[2][1][(1, 2)] * _b5 - factors.0[2][2][(1, 0)] * _b6;
-        let _b8 = vector.0[2][2] - factors.0[2][0][(2, 0)] * _b0
-            - factors.0[2][1][(2, 0)] * _b3 - factors.0[2][0][(2, 1)] * _b1
-            - factors.0[2][0][(2, 2)] * _b2 - factors.0[2][1][(2, 1)] * _b4
-            - factors.0[2][1][(2, 2)] * _b5 - factors.0[2][2][(2, 0)] * _b6
-            - factors.0[2][2][(2, 1)] * _b7;
-        let _b8 = _b8 * factors.0[2][2][(2, 2)];
-        let _b7 = (_b7 - factors.0[2][2][(1, 2)] * _b8) * factors.0[2][2][(1, 1)];
-        let _b6 = (_b6 - factors.0[2][2][(0, 1)] * _b7 - factors.0[2][2][(0, 2)] * _b8)
-            * factors.0[2][2][(0, 0)];
-        let _b5 = (_b5 - factors.0[1][2][(2, 0)] * _b6 - factors.0[1][2][(2, 1)] * _b7
-            - factors.0[1][2][(2, 2)] * _b8) * factors.0[1][1][(2, 2)];
-        let _b4 = (_b4 - factors.0[1][1][(1, 2)] * _b5 - factors.0[1][2][(1, 0)] * _b6
-            - factors.0[1][2][(1, 1)] * _b7 - factors.0[1][2][(1, 2)] * _b8)
-            * factors.0[1][1][(1, 1)];
-        let _b2 = (_b2 - factors.0[0][1][(2, 1)] * _b4 - factors.0[0][1][(2, 2)] * _b5
-            - factors.0[0][2][(2, 0)] * _b6 - factors.0[0][2][(2, 1)] * _b7
-            - factors.0[0][2][(2, 2)] * _b8) * factors.0[0][0][(2, 2)];
-        let _b1 = (_b1 - factors.0[0][0][(1, 2)] * _b2 - factors.0[0][1][(1, 1)] * _b4
-            - factors.0[0][1][(1, 2)] * _b5 - factors.0[0][2][(1, 0)] * _b6
-            - factors.0[0][2][(1, 1)] * _b7 - factors.0[0][2][(1, 2)] * _b8)
-            * factors.0[0][0][(1, 1)];
-        let _b3 = (_b3 - factors.0[1][0][(0, 1)] * _b1 - factors.0[1][0][(0, 2)] * _b2
-            - factors.0[1][1][(0, 1)] * _b4 - factors.0[1][1][(0, 2)] * _b5
-            - factors.0[1][2][(0, 1)] * _b7 - factors.0[1][2][(0, 2)] * _b8)
-            * factors.0[1][1][(0, 0)];
-        let _b0 = (_b0 - factors.0[0][0][(0, 1)] * _b1 - factors.0[0][0][(0, 2)] * _b2
-            - factors.0[0][1][(0, 1)] * _b4 - factors.0[0][1][(0, 2)] * _b5
-            - factors.0[0][2][(0, 1)] * _b7 - factors.0[0][2][(0, 2)] * _b8)
-            * factors.0[0][0][(0, 0)];
-        vector.0[0][0] = _b0;
-        vector.0[0][1] = _b1;
-        vector.0[0][2] = _b2;
-        vector.0[1][0] = _b3;
-        vector.0[1][1] = _b4;
-        vector.0[1][2] = _b5;
-        vector.0[2][0] = _b6;
-        vector.0[2][1] = _b7;
-        vector.0[2][2] = _b8;
-    }
-}
-
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss6>
-for FreeRigidBodySystem<S> {
-    type Equation<'a> = ::lie_runtime::__private_0_1::Eliminated<
-        ::lie_runtime::generic::Gauss<'a, S, FreeRigidBodySystem<S>, 3>,
-        FreeRigidBodyGauss6Elimination,
-    >
-    where
-        Self: 'a;
-    fn equation<'a>(
-        &'a self,
-        _method: &::lie_runtime::methods::Gauss6,
         h: S,
     ) -> Self::Equation<'a> {
         ::lie_runtime::__private_0_1::Eliminated::new(
@@ -2163,20 +1662,6 @@ impl<
 
 impl<
     S: ::lie_runtime::Scalar,
-> ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer<1>>
-for FreeRigidBodySystem<S> {
-    type Equation<'a> = FreeRigidBodyMidpoint<'a, S> where Self: 'a;
-    fn equation<'a>(
-        &'a self,
-        _method: &::lie_runtime::methods::CohenHairer<1>,
-        h: S,
-    ) -> Self::Equation<'a> {
-        FreeRigidBodyMidpoint::new(self, h)
-    }
-}
-
-impl<
-    S: ::lie_runtime::Scalar,
 > ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer<2>>
 for FreeRigidBodySystem<S> {
     type Equation<'a> = ::lie_runtime::__private_0_1::Eliminated<
@@ -2188,27 +1673,6 @@ for FreeRigidBodySystem<S> {
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::CohenHairer<2>,
-        h: S,
-    ) -> Self::Equation<'a> {
-        ::lie_runtime::__private_0_1::Eliminated::new(
-            ::lie_runtime::generic::Gauss::new(self, h),
-        )
-    }
-}
-
-impl<
-    S: ::lie_runtime::Scalar,
-> ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer<3>>
-for FreeRigidBodySystem<S> {
-    type Equation<'a> = ::lie_runtime::__private_0_1::Eliminated<
-        ::lie_runtime::generic::Gauss<'a, S, FreeRigidBodySystem<S>, 3>,
-        FreeRigidBodyGauss6Elimination,
-    >
-    where
-        Self: 'a;
-    fn equation<'a>(
-        &'a self,
-        _method: &::lie_runtime::methods::CohenHairer<3>,
         h: S,
     ) -> Self::Equation<'a> {
         ::lie_runtime::__private_0_1::Eliminated::new(
@@ -3061,9 +2525,10 @@ for FreeRigidBodySystem<S> {
 }
 
 ::lie_runtime::generic_equations!(
-    [S : ::lie_runtime::Scalar] FreeRigidBodySystem < S >, S : generating2, generating4,
-    generating6, second_kind, generating2_cayley, generating4_cayley,
-    isospectral2_cayley, isospectral6, hopf2, hopf6
+    [S : ::lie_runtime::Scalar] FreeRigidBodySystem < S >, S : gauss6, cohen_hairer2,
+    cohen_hairer6, generating2, generating4, generating6, second_kind,
+    generating2_cayley, generating4_cayley, isospectral2_cayley, isospectral6, hopf2,
+    hopf6
 );
 /// The flows of the pieces of H in `x`, `y`, `z`.
 #[derive(Debug)]
