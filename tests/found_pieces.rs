@@ -22,7 +22,7 @@ use systems::{distance, state};
 
 lie_poisson! {
     system Body;
-    algebra { basis e1, e2, e3; [e1, e2] = e3; [e2, e3] = e1; [e3, e1] = e2; }
+    algebra = so(3);
     state x, y, z;
     parameters { I1 = 1; I2 = 2; I3 = 3; }
     hamiltonian = x^2/(2*I1) + y^2/(2*I2) + z^2/(2*I3);
@@ -33,7 +33,7 @@ lie_poisson! {
 // the same flow, by hand
 lie_poisson! {
     system Shifted;
-    algebra { basis e1, e2, e3; [e1, e2] = e3; [e2, e3] = e1; [e3, e1] = e2; }
+    algebra = so(3);
     state x, y, z;
     parameters { I1 = 1; I2 = 2; I3 = 3; }
     hamiltonian = x^2/2*(1/I1 - 1/I2) + z^2/2*(1/I3 - 1/I2);
@@ -43,12 +43,7 @@ lie_poisson! {
 // a rigid body in a field whose H mixes coordinates: x p + y q + z r is a Casimir, which the compiler finds
 lie_poisson! {
     system Screw;
-    algebra {
-        basis J1, J2, J3, P1, P2, P3;
-        [J1, J2] = J3; [J2, J3] = J1; [J3, J1] = J2;
-        [J1, P2] = P3; [J2, P3] = P1; [J3, P1] = P2;
-        [P1, J2] = P3; [P2, J3] = P1; [P3, J1] = P2;
-    }
+    algebra = se(3);
     state x, y, z, p, q, r;
     parameters { k = 0.3; }
     hamiltonian = x^2/2 + y^2/3 + z^2/5 + cos(r) + k*(x*p + y*q + z*r);
@@ -182,12 +177,7 @@ fn what_no_casimir_splits_is_refused() {
 // the body of Hairer and Vilmart, whose attitude is published
 lie_poisson! {
     system Published;
-    algebra {
-        basis e1, e2, e3; [e1, e2] = e3; [e2, e3] = e1; [e3, e1] = e2;
-        matrix e1 = [[0, 0, 0], [0, 0, -1], [0, 1, 0]];
-        matrix e2 = [[0, 0, 1], [0, 0, 0], [-1, 0, 0]];
-        matrix e3 = [[0, -1, 0], [1, 0, 0], [0, 0, 0]];
-    }
+    algebra = so(3);
     state y1, y2, y3;
     hamiltonian = y1^2/(2*3/5) + y2^2/(2*4/5) + y3^2/2;
     methods = [splitting2];
@@ -196,12 +186,7 @@ lie_poisson! {
 // the same motion of the momentum, and another of the attitude
 lie_poisson! {
     system Freed;
-    algebra {
-        basis e1, e2, e3; [e1, e2] = e3; [e2, e3] = e1; [e3, e1] = e2;
-        matrix e1 = [[0, 0, 0], [0, 0, -1], [0, 1, 0]];
-        matrix e2 = [[0, 0, 1], [0, 0, 0], [-1, 0, 0]];
-        matrix e3 = [[0, -1, 0], [1, 0, 0], [0, 0, 0]];
-    }
+    algebra = so(3);
     state y1, y2, y3;
     hamiltonian = y1^2/(2*3/5) + y2^2/(2*4/5) + y3^2/2 - 5/8*(y1^2 + y2^2 + y3^2);
     methods = [splitting2];
@@ -275,12 +260,7 @@ fn the_group_element_moves_with_all_of_h() {
 // pieces with Casimirs, of the algebra and of a subalgebra, as arguments: their gradients move along their flows
 lie_poisson! {
     system Weighted;
-    algebra {
-        basis e1, e2, e3; [e1, e2] = e3; [e2, e3] = e1; [e3, e1] = e2;
-        matrix e1 = [[0, 0, 0], [0, 0, -1], [0, 1, 0]];
-        matrix e2 = [[0, 0, 1], [0, 0, 0], [-1, 0, 0]];
-        matrix e3 = [[0, -1, 0], [1, 0, 0], [0, 0, 0]];
-    }
+    algebra = so(3);
     state y1, y2, y3;
     hamiltonian = (y1^2 + y2^2 + y3^2)*y3/8 + sqrt(1 + y1^2 + y2^2 + y3^2)*y1^2/6;
     methods = [splitting4];
@@ -288,18 +268,7 @@ lie_poisson! {
 
 lie_poisson! {
     system Top;
-    algebra {
-        basis J1, J2, J3, P1, P2, P3;
-        [J1, J2] = J3; [J2, J3] = J1; [J3, J1] = J2;
-        [J1, P2] = P3; [J2, P3] = P1; [J3, P1] = P2;
-        [P1, J2] = P3; [P2, J3] = P1; [P3, J1] = P2;
-        matrix J1 = [[0, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 0]];
-        matrix J2 = [[0, 0, 1, 0], [0, 0, 0, 0], [-1, 0, 0, 0], [0, 0, 0, 0]];
-        matrix J3 = [[0, -1, 0, 0], [1, 0, 0, 0], [0, 0, 0, 0], [0, 0, 0, 0]];
-        matrix P1 = [[0, 0, 0, 1], [0, 0, 0, 0], [0, 0, 0, 0], [0, 0, 0, 0]];
-        matrix P2 = [[0, 0, 0, 0], [0, 0, 0, 1], [0, 0, 0, 0], [0, 0, 0, 0]];
-        matrix P3 = [[0, 0, 0, 0], [0, 0, 0, 0], [0, 0, 0, 1], [0, 0, 0, 0]];
-    }
+    algebra = se(3);
     state a, b, c, p, q, r;
     hamiltonian = (a^2 + b^2)/3 + c^2/5 + r/2 + p/5;
     methods = [splitting4];

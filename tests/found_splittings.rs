@@ -23,7 +23,7 @@ use systems::{
 // a rigid body whose inertia is given in other axes
 lie_poisson! {
     system Tilted;
-    algebra { basis e1, e2, e3; [e1, e2] = e3; [e2, e3] = e1; [e3, e1] = e2; }
+    algebra = so(3);
     state x, y, z;
     hamiltonian = x^2 + 3*y^2/4 + 5*z^2/8 + x*y/3 - y*z/5 + x*z/2 + z/7;
     methods = [splitting2];
@@ -32,7 +32,7 @@ lie_poisson! {
 // the same with an inverse inertia matrix of parameters
 lie_poisson! {
     system Loaded;
-    algebra { basis e1, e2, e3; [e1, e2] = e3; [e2, e3] = e1; [e3, e1] = e2; }
+    algebra = so(3);
     state x, y, z;
     parameters { a11 = 1.1; a22 = 0.8; a33 = 0.6; a12 = 0.2; a13 = -0.1; a23 = 0.15; }
     hamiltonian = (a11*x^2 + a22*y^2 + a33*z^2)/2 + a12*x*y + a13*x*z + a23*y*z;
@@ -42,7 +42,7 @@ lie_poisson! {
 // only products of coordinates that do not commute: no square to begin with
 lie_poisson! {
     system Mixed;
-    algebra { basis e1, e2, e3; [e1, e2] = e3; [e2, e3] = e1; [e3, e1] = e2; }
+    algebra = so(3);
     state x, y, z;
     hamiltonian = x*y + y*z/2 - x*z/3;
     methods = [splitting2];
@@ -51,13 +51,7 @@ lie_poisson! {
 // an anisotropic ring of four spins in a field
 lie_poisson! {
     system Ring;
-    algebra {
-        basis a1, b1, c1, a2, b2, c2, a3, b3, c3, a4, b4, c4;
-        [a1, b1] = c1; [b1, c1] = a1; [c1, a1] = b1;
-        [a2, b2] = c2; [b2, c2] = a2; [c2, a2] = b2;
-        [a3, b3] = c3; [b3, c3] = a3; [c3, a3] = b3;
-        [a4, b4] = c4; [b4, c4] = a4; [c4, a4] = b4;
-    }
+    algebra = so(3) + so(3) + so(3) + so(3);
     state x1, y1, z1, x2, y2, z2, x3, y3, z3, x4, y4, z4;
     parameters { Jx = 1; Jy = 0.7; Jz = 0.4; field = 0.3; }
     hamiltonian = Jx*(x1*x2 + x2*x3 + x3*x4 + x4*x1) + Jy*(y1*y2 + y2*y3 + y3*y4 + y4*y1)
@@ -68,12 +62,7 @@ lie_poisson! {
 // a body in a fluid with full matrices, and a constant spin that the coordinates do not commute with
 lie_poisson! {
     system Swimmer;
-    algebra {
-        basis J1, J2, J3, P1, P2, P3;
-        [J1, J2] = J3; [J2, J3] = J1; [J3, J1] = J2;
-        [J1, P2] = P3; [J2, P3] = P1; [J3, P1] = P2;
-        [P1, J2] = P3; [P2, J3] = P1; [P3, J1] = P2;
-    }
+    algebra = se(3);
     state a, b, c, p, q, r;
     hamiltonian = a^2/2 + b^2/3 + c^2/4 + a*b/5 - b*c/7 + a*p/4 + b*r/6 - c*q/8
         + p^2/5 + q^2/2 + 2*r^2/3 + p*q/9 + sin(p - r) + b/3;
@@ -83,7 +72,7 @@ lie_poisson! {
 // H is linear, in elements that do not commute
 lie_poisson! {
     system Uniform;
-    algebra { basis e1, e2, e3; [e1, e2] = e3; [e2, e3] = e1; [e3, e1] = e2; }
+    algebra = so(3);
     state x, y, z;
     parameters { w1 = 0.3; w2 = -0.4; w3 = 1.2; }
     hamiltonian = w1*x + w2*y + w3*z;
@@ -93,7 +82,7 @@ lie_poisson! {
 // Casimirs as factors and in functions
 lie_poisson! {
     system Factors;
-    algebra { basis e1, e2, e3; [e1, e2] = e3; [e2, e3] = e1; [e3, e1] = e2; }
+    algebra = so(3);
     state x, y, z;
     parameters { k = 0.4; }
     hamiltonian = k*(x^2 + y^2 + z^2)*z + cos(x^2 + y^2 + z^2)*x^2/3 + sin(y);
@@ -104,12 +93,7 @@ lie_poisson! {
 // a coordinate times the length of the other vector, and a Casimir that is found
 lie_poisson! {
     system Length;
-    algebra {
-        basis J1, J2, J3, P1, P2, P3;
-        [J1, J2] = J3; [J2, J3] = J1; [J3, J1] = J2;
-        [J1, P2] = P3; [J2, P3] = P1; [J3, P1] = P2;
-        [P1, J2] = P3; [P2, J3] = P1; [P3, J1] = P2;
-    }
+    algebra = se(3);
     state a, b, c, p, q, r;
     hamiltonian = sqrt(1 + p^2 + q^2 + r^2)*c + exp(a*p + b*q + c*r)*r/4 + a^2/2;
     methods = [splitting2];
@@ -118,12 +102,7 @@ lie_poisson! {
 // the tops of Lagrange and of Kovalevskaya, and one with a function of the size of m
 lie_poisson! {
     system Lagrange;
-    algebra {
-        basis J1, J2, J3, P1, P2, P3;
-        [J1, J2] = J3; [J2, J3] = J1; [J3, J1] = J2;
-        [J1, P2] = P3; [J2, P3] = P1; [J3, P1] = P2;
-        [P1, J2] = P3; [P2, J3] = P1; [P3, J1] = P2;
-    }
+    algebra = se(3);
     state a, b, c, p, q, r;
     parameters { I = 0.8; K = 1.3; g = 0.7; }
     hamiltonian = (a^2 + b^2)/(2*I) + c^2/(2*K) + g*r;
@@ -131,31 +110,21 @@ lie_poisson! {
 }
 lie_poisson! {
     system Kovalevskaya;
-    algebra {
-        basis J1, J2, J3, P1, P2, P3;
-        [J1, J2] = J3; [J2, J3] = J1; [J3, J1] = J2;
-        [J1, P2] = P3; [J2, P3] = P1; [J3, P1] = P2;
-        [P1, J2] = P3; [P2, J3] = P1; [P3, J1] = P2;
-    }
+    algebra = se(3);
     state a, b, c, p, q, r;
     hamiltonian = (a^2 + b^2)/2 + c^2 + p;
     methods = [splitting2];
 }
 lie_poisson! {
     system Relativistic;
-    algebra {
-        basis J1, J2, J3, P1, P2, P3;
-        [J1, J2] = J3; [J2, J3] = J1; [J3, J1] = J2;
-        [J1, P2] = P3; [J2, P3] = P1; [J3, P1] = P2;
-        [P1, J2] = P3; [P2, J3] = P1; [P3, J1] = P2;
-    }
+    algebra = se(3);
     state a, b, c, p, q, r;
     hamiltonian = sqrt(1 + a^2 + b^2 + c^2) + cos(q + r/2);
     methods = [splitting2];
 }
 lie_poisson! {
     system Declared3;
-    algebra { basis e1, e2, e3; [e1, e2] = e3; [e2, e3] = e1; [e3, e1] = e2; }
+    algebra = so(3);
     state x, y, z;
     hamiltonian = cos(x) + y^4 + z^3/3;
     methods = [splitting2];
@@ -163,12 +132,7 @@ lie_poisson! {
 // that of Lagrange without code of its own for splittings
 lie_poisson! {
     system Plain;
-    algebra {
-        basis J1, J2, J3, P1, P2, P3;
-        [J1, J2] = J3; [J2, J3] = J1; [J3, J1] = J2;
-        [J1, P2] = P3; [J2, P3] = P1; [J3, P1] = P2;
-        [P1, J2] = P3; [P2, J3] = P1; [P3, J1] = P2;
-    }
+    algebra = se(3);
     state a, b, c, p, q, r;
     parameters { I = 0.8; K = 1.3; g = 0.7; }
     hamiltonian = (a^2 + b^2)/(2*I) + c^2/(2*K) + g*r;

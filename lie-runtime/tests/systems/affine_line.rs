@@ -25,27 +25,12 @@ impl<S: Scalar> AffineLine<S> {
 impl<S: Scalar> Poisson<S> for AffineLine<S> {
     type State = SVector<S, 2>;
     type Jacobian = SMatrix<S, 2, 2>;
-    fn dimension(&self) -> usize {
-        2
-    }
-    fn name(&self) -> &str {
-        "AffineLine"
-    }
-    fn coordinate(&self, index: usize) -> &str {
-        ["p", "q"][index]
-    }
+    facts!(S, "AffineLine", ["p", "q"], []);
     fn hamiltonian_degree(&self) -> Option<u32> {
         Some(2)
     }
     fn poisson_degree(&self) -> Option<u32> {
         Some(1)
-    }
-
-    fn zero_state(&self) -> Self::State {
-        SVector::<S, 2>::repeat(S::zero())
-    }
-    fn zero_jacobian(&self) -> Self::Jacobian {
-        SMatrix::<S, 2, 2>::repeat(S::zero())
     }
     fn hamiltonian(&self, mu: &Self::State) -> S {
         let ([k, c, d], half) = (self.0, S::ratio(1.0, 2.0));

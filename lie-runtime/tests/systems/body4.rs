@@ -32,24 +32,9 @@ pub fn coordinates(matrix: &Square) -> Vector {
 impl Poisson<f64> for Body4 {
     type State = Vector;
     type Jacobian = Matrix;
-    fn dimension(&self) -> usize {
-        6
-    }
-    fn name(&self) -> &str {
-        "Body4"
-    }
-    fn coordinate(&self, index: usize) -> &str {
-        ["a", "b", "c", "d", "e", "f"][index]
-    }
+    facts!(f64, "Body4", ["a", "b", "c", "d", "e", "f"], []);
     fn hamiltonian_degree(&self) -> Option<u32> {
         Some(2)
-    }
-
-    fn zero_state(&self) -> Vector {
-        Vector::repeat(0.0)
-    }
-    fn zero_jacobian(&self) -> Matrix {
-        Matrix::repeat(0.0)
     }
     fn hamiltonian(&self, mu: &Vector) -> f64 {
         let mut gradient = self.zero_state();

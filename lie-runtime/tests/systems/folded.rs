@@ -2,9 +2,8 @@
 // `u - u^3 + 3 u^5/10` has folds at u = 0.650 (0.410) and u = 1.256 (0.213): between these momenta there are three
 // velocities, beyond them one.
 
-use super::rigid_body::{cross, dot, hat};
 use lie_runtime::lagrangian::legendre;
-use lie_runtime::{LagrangianPoisson, LiePoisson, Lift, Poisson, Scalar, generic};
+use lie_runtime::{LagrangianPoisson, LiePoisson, Lift, Poisson, Scalar};
 use nalgebra::{SMatrix, SVector};
 
 /// A velocity of the branch.
@@ -14,28 +13,7 @@ pub struct Folded<S>(pub Option<SVector<S, 3>>);
 impl<S: Scalar> Poisson<S> for Folded<S> {
     type State = SVector<S, 3>;
     type Jacobian = SMatrix<S, 3, 3>;
-    fn dimension(&self) -> usize {
-        3
-    }
-    fn casimir_count(&self) -> usize {
-        1
-    }
-    fn name(&self) -> &str {
-        "Folded"
-    }
-    fn coordinate(&self, index: usize) -> &str {
-        ["x", "y", "z"][index]
-    }
-    fn casimir_name(&self, index: usize) -> &str {
-        ["C"][index]
-    }
-
-    fn zero_state(&self) -> Self::State {
-        Self::State::repeat(S::zero())
-    }
-    fn zero_jacobian(&self) -> Self::Jacobian {
-        Self::Jacobian::repeat(S::zero())
-    }
+    facts!(S, "Folded", ["x", "y", "z"], ["C"]);
     fn following(&self, mu: &Self::State) -> Option<Self> {
         legendre::follow(self, mu).map(|velocity| Self(Some(velocity)))
     }
@@ -48,30 +26,11 @@ impl<S: Scalar> Poisson<S> for Folded<S> {
     fn hessian(&self, mu: &Self::State, out: &mut Self::Jacobian) {
         legendre::hessian(self, mu, out);
     }
-    fn poisson_matrix(&self, mu: &Self::State, out: &mut Self::Jacobian) {
-        *out = hat(mu.as_slice());
-    }
-    fn jacobian(&self, mu: &Self::State, out: &mut Self::Jacobian) {
-        generic::jacobian(self, mu, out);
-    }
-    fn casimirs(&self, mu: &Self::State, out: &mut [S]) {
-        out[0] = dot(mu.as_slice(), mu.as_slice());
-    }
-    fn casimir_gradient(&self, _index: usize, mu: &Self::State, out: &mut Self::State) {
-        *out = mu + mu;
-    }
+    so3_poisson!(S);
 }
 
 impl<S: Scalar> LiePoisson<S> for Folded<S> {
-    fn ad(&self, xi: &Self::State, eta: &Self::State, out: &mut Self::State) {
-        *out = cross(xi.as_slice(), eta.as_slice()).into();
-    }
-    fn ad_star(&self, xi: &Self::State, mu: &Self::State, out: &mut Self::State) {
-        *out = cross(mu.as_slice(), xi.as_slice()).into();
-    }
-    fn ad_star_matrix(&self, xi: &Self::State, out: &mut Self::Jacobian) {
-        generic::ad_star_matrix(self, xi, out);
-    }
+    so3_algebra!(S);
 }
 
 impl<S: Scalar> LagrangianPoisson<S> for Folded<S> {

@@ -36,28 +36,12 @@ type Matrix<S> = SMatrix<S, 6, 6>;
 impl<S: Scalar> Poisson<S> for HeavyTop<S> {
     type State = Vector<S>;
     type Jacobian = Matrix<S>;
-    fn dimension(&self) -> usize {
-        6
-    }
-    fn casimir_count(&self) -> usize {
-        2
-    }
-    fn name(&self) -> &str {
-        "HeavyTop"
-    }
-    fn coordinate(&self, index: usize) -> &str {
-        ["m1", "m2", "m3", "g1", "g2", "g3"][index]
-    }
-    fn casimir_name(&self, index: usize) -> &str {
-        ["length", "area"][index]
-    }
-
-    fn zero_state(&self) -> Vector<S> {
-        Vector::repeat(S::zero())
-    }
-    fn zero_jacobian(&self) -> Matrix<S> {
-        Matrix::repeat(S::zero())
-    }
+    facts!(
+        S,
+        "HeavyTop",
+        ["m1", "m2", "m3", "g1", "g2", "g3"],
+        ["length", "area"]
+    );
     fn hamiltonian(&self, mu: &Vector<S>) -> S {
         let mut kinetic = S::zero();
         for k in 0..3 {

@@ -29,24 +29,9 @@ impl<const POLYNOMIAL: bool> Logarithmic<POLYNOMIAL> {
 impl<const POLYNOMIAL: bool> Poisson<f64> for Logarithmic<POLYNOMIAL> {
     type State = Vector;
     type Jacobian = Matrix;
-    fn dimension(&self) -> usize {
-        2
-    }
-    fn name(&self) -> &str {
-        "Logarithmic"
-    }
-    fn coordinate(&self, index: usize) -> &str {
-        ["q", "p"][index]
-    }
+    facts!(f64, "Logarithmic", ["q", "p"], []);
     fn hamiltonian_degree(&self) -> Option<u32> {
         if POLYNOMIAL { Some(2) } else { None }
-    }
-
-    fn zero_state(&self) -> Vector {
-        Vector::repeat(0.0)
-    }
-    fn zero_jacobian(&self) -> Matrix {
-        Matrix::repeat(0.0)
     }
     fn hamiltonian(&self, mu: &Vector) -> f64 {
         self.values.set(self.values.get() + 1);

@@ -1,6 +1,68 @@
 //! Systems written by hand, and what tests do with them.
 #![allow(dead_code, reason = "each test file uses a part")]
 
+/// What a system says of itself: its scalar, its name, and those of its coordinates and Casimirs.
+macro_rules! facts {
+    ($scalar:ty, $name:literal, $coordinates:expr, $casimirs:expr) => {
+        fn dimension(&self) -> usize {
+            $coordinates.len()
+        }
+        fn name(&self) -> &str {
+            $name
+        }
+        fn coordinate(&self, index: usize) -> &str {
+            $coordinates[index]
+        }
+        fn casimir_count(&self) -> usize {
+            let names: &[&str] = &$casimirs;
+            names.len()
+        }
+        fn casimir_name(&self, index: usize) -> &str {
+            let names: &[&str] = &$casimirs;
+            names[index]
+        }
+        fn zero_state(&self) -> Self::State {
+            Self::State::repeat(<$scalar as lie_runtime::Scalar>::zero())
+        }
+        fn zero_jacobian(&self) -> Self::Jacobian {
+            Self::Jacobian::repeat(<$scalar as lie_runtime::Scalar>::zero())
+        }
+    };
+}
+
+/// What `Poisson` asks of so(3)* beside H, with the Casimir `x^2 + y^2 + z^2`.
+macro_rules! so3_poisson {
+    ($scalar:ty) => {
+        fn poisson_matrix(&self, mu: &Self::State, out: &mut Self::Jacobian) {
+            *out = super::rigid_body::hat(mu.as_slice());
+        }
+        fn jacobian(&self, mu: &Self::State, out: &mut Self::Jacobian) {
+            lie_runtime::generic::jacobian(self, mu, out);
+        }
+        fn casimirs(&self, mu: &Self::State, out: &mut [$scalar]) {
+            out[0] = super::rigid_body::dot(mu.as_slice(), mu.as_slice());
+        }
+        fn casimir_gradient(&self, _index: usize, mu: &Self::State, out: &mut Self::State) {
+            *out = mu + mu;
+        }
+    };
+}
+
+/// What `LiePoisson` asks of so(3).
+macro_rules! so3_algebra {
+    ($scalar:ty) => {
+        fn ad(&self, xi: &Self::State, eta: &Self::State, out: &mut Self::State) {
+            *out = super::rigid_body::cross::<$scalar>(xi.as_slice(), eta.as_slice()).into();
+        }
+        fn ad_star(&self, xi: &Self::State, mu: &Self::State, out: &mut Self::State) {
+            *out = super::rigid_body::cross::<$scalar>(mu.as_slice(), xi.as_slice()).into();
+        }
+        fn ad_star_matrix(&self, xi: &Self::State, out: &mut Self::Jacobian) {
+            lie_runtime::generic::ad_star_matrix(self, xi, out);
+        }
+    };
+}
+
 pub mod affine_line;
 pub mod body4;
 pub mod folded;

@@ -1,10 +1,8 @@
 // A system on so(3)* with the Hamiltonian `sin x + exp(y/2) + sqrt(1 + z^2) + x y^2 z`.
 
-use super::rigid_body::{SO3, cross, dot, hat, so3_triple};
+use super::rigid_body::{SO3, so3_triple};
 use lie_runtime::structure::Representation;
-use lie_runtime::{
-    CayleyPoisson, LiePoisson, Lift, MatrixPoisson, Poisson, Scalar, SpinPoisson, generic,
-};
+use lie_runtime::{CayleyPoisson, LiePoisson, Lift, MatrixPoisson, Poisson, Scalar, SpinPoisson};
 use nalgebra::{SMatrix, SVector};
 
 /// No parameters.
@@ -14,28 +12,7 @@ pub struct Nonpolynomial;
 impl<S: Scalar> Poisson<S> for Nonpolynomial {
     type State = SVector<S, 3>;
     type Jacobian = SMatrix<S, 3, 3>;
-    fn dimension(&self) -> usize {
-        3
-    }
-    fn casimir_count(&self) -> usize {
-        1
-    }
-    fn name(&self) -> &str {
-        "Nonpolynomial"
-    }
-    fn coordinate(&self, index: usize) -> &str {
-        ["x", "y", "z"][index]
-    }
-    fn casimir_name(&self, index: usize) -> &str {
-        ["C"][index]
-    }
-
-    fn zero_state(&self) -> Self::State {
-        SVector::<S, 3>::repeat(S::zero())
-    }
-    fn zero_jacobian(&self) -> Self::Jacobian {
-        SMatrix::<S, 3, 3>::repeat(S::zero())
-    }
+    facts!(S, "Nonpolynomial", ["x", "y", "z"], ["C"]);
     fn hamiltonian(&self, mu: &Self::State) -> S {
         let (x, y, z) = (mu[0], mu[1], mu[2]);
         let root = (S::one() + z * z).sqrt();
@@ -57,32 +34,11 @@ impl<S: Scalar> Poisson<S> for Nonpolynomial {
         let zz = S::one() / (square * square.sqrt());
         *out = SMatrix::<S, 3, 3>::new(-x.sin(), xy, y * y, xy, yy, yz, y * y, yz, zz);
     }
-    fn poisson_matrix(&self, mu: &Self::State, out: &mut Self::Jacobian) {
-        *out = hat(mu.as_slice());
-    }
-    fn jacobian(&self, mu: &Self::State, out: &mut Self::Jacobian) {
-        generic::jacobian(self, mu, out);
-    }
-    fn casimirs(&self, mu: &Self::State, out: &mut [S]) {
-        out[0] = dot(mu.as_slice(), mu.as_slice());
-    }
-    fn casimir_gradient(&self, _index: usize, mu: &Self::State, out: &mut Self::State) {
-        for k in 0..3 {
-            out[k] = mu[k] + mu[k];
-        }
-    }
+    so3_poisson!(S);
 }
 
 impl<S: Scalar> LiePoisson<S> for Nonpolynomial {
-    fn ad(&self, xi: &SVector<S, 3>, eta: &SVector<S, 3>, out: &mut SVector<S, 3>) {
-        *out = cross(xi.as_slice(), eta.as_slice()).into();
-    }
-    fn ad_star(&self, xi: &SVector<S, 3>, mu: &SVector<S, 3>, out: &mut SVector<S, 3>) {
-        *out = cross(mu.as_slice(), xi.as_slice()).into();
-    }
-    fn ad_star_matrix(&self, xi: &SVector<S, 3>, out: &mut SMatrix<S, 3, 3>) {
-        generic::ad_star_matrix(self, xi, out);
-    }
+    so3_algebra!(S);
 }
 
 impl<S: Scalar> Lift<S> for Nonpolynomial {

@@ -1,7 +1,7 @@
 // Systems by a Lagrangian that is not quadratic in the velocity, written by hand; their Hamiltonians come from
 // Newton's iteration.
 
-use super::rigid_body::{cross, dot, hat, so3_triple};
+use super::rigid_body::{dot, hat, so3_triple};
 use lie_runtime::lagrangian::legendre;
 use lie_runtime::{CayleyPoisson, LagrangianPoisson, LiePoisson, Lift, Poisson, Scalar, generic};
 use nalgebra::{SMatrix, SVector};
@@ -15,32 +15,11 @@ pub struct QuarticBody;
 pub struct QuarticLine;
 
 macro_rules! by_newton {
-    ($system:ident, $n:literal, $name:literal, $coordinates:expr, $casimirs:literal, $matrix:expr) => {
+    ($system:ident, $n:literal, $name:literal, $coordinates:expr, $casimirs:expr, $matrix:expr) => {
         impl<S: Scalar> Poisson<S> for $system {
             type State = SVector<S, $n>;
             type Jacobian = SMatrix<S, $n, $n>;
-            fn dimension(&self) -> usize {
-                $n
-            }
-            fn casimir_count(&self) -> usize {
-                $casimirs
-            }
-            fn name(&self) -> &str {
-                $name
-            }
-            fn coordinate(&self, index: usize) -> &str {
-                $coordinates[index]
-            }
-            fn casimir_name(&self, _index: usize) -> &str {
-                "C"
-            }
-
-            fn zero_state(&self) -> Self::State {
-                Self::State::repeat(S::zero())
-            }
-            fn zero_jacobian(&self) -> Self::Jacobian {
-                Self::Jacobian::repeat(S::zero())
-            }
+            facts!(S, $name, $coordinates, $casimirs);
             fn hamiltonian(&self, mu: &Self::State) -> S {
                 legendre::hamiltonian(self, mu)
             }
@@ -57,7 +36,7 @@ macro_rules! by_newton {
                 generic::jacobian(self, mu, out);
             }
             fn casimirs(&self, mu: &Self::State, out: &mut [S]) {
-                for out in out.iter_mut().take($casimirs) {
+                for out in out {
                     *out = dot(mu.as_slice(), mu.as_slice());
                 }
             }
@@ -86,22 +65,14 @@ by_newton!(
     3,
     "QuarticBody",
     ["x", "y", "z"],
-    1,
+    ["C"],
     |mu: &SVector<S, 3>| hat(mu.as_slice())
 );
-by_newton!(QuarticLine, 2, "QuarticLine", ["a", "b"], 0, line_matrix);
+by_newton!(QuarticLine, 2, "QuarticLine", ["a", "b"], [], line_matrix);
 lie_runtime::generic_equations!([S: Scalar] QuarticBody, S: cayley, variational_cayley);
 
 impl<S: Scalar> LiePoisson<S> for QuarticBody {
-    fn ad(&self, xi: &SVector<S, 3>, eta: &SVector<S, 3>, out: &mut SVector<S, 3>) {
-        *out = cross(xi.as_slice(), eta.as_slice()).into();
-    }
-    fn ad_star(&self, xi: &SVector<S, 3>, mu: &SVector<S, 3>, out: &mut SVector<S, 3>) {
-        *out = cross(mu.as_slice(), xi.as_slice()).into();
-    }
-    fn ad_star_matrix(&self, xi: &SVector<S, 3>, out: &mut SMatrix<S, 3, 3>) {
-        generic::ad_star_matrix(self, xi, out);
-    }
+    so3_algebra!(S);
 }
 
 impl<S: Scalar> CayleyPoisson<S> for QuarticBody {

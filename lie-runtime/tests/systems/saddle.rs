@@ -12,22 +12,7 @@ pub struct Saddle<S>(pub S);
 impl<S: Scalar> Poisson<S> for Saddle<S> {
     type State = SVector<S, 2>;
     type Jacobian = SMatrix<S, 2, 2>;
-    fn dimension(&self) -> usize {
-        2
-    }
-    fn name(&self) -> &str {
-        "Saddle"
-    }
-    fn coordinate(&self, index: usize) -> &str {
-        ["q", "p"][index]
-    }
-
-    fn zero_state(&self) -> Self::State {
-        SVector::<S, 2>::repeat(S::zero())
-    }
-    fn zero_jacobian(&self) -> Self::Jacobian {
-        SMatrix::<S, 2, 2>::repeat(S::zero())
-    }
+    facts!(S, "Saddle", ["q", "p"], []);
     fn hamiltonian(&self, mu: &Self::State) -> S {
         mu[0] * mu[1] + (mu[1] * mu[1] - self.0 * mu[0] * mu[0]) * S::ratio(1.0, 2.0)
     }
