@@ -13,6 +13,7 @@ pub mod elimination;
 pub mod equation;
 #[cfg(feature = "std")]
 pub mod family;
+pub mod functions;
 pub mod generating;
 pub mod generic;
 mod generic_equations;
@@ -33,6 +34,7 @@ pub mod structure;
 mod test_systems;
 
 pub use equation::{Equation, Implicit};
+pub use functions::Elementary;
 pub use generating::GeneratingFunction;
 pub use lagrangian::{DiscreteLagrangian, DiscreteLagrangianPoisson, LagrangianPoisson};
 pub use matrix::{SquareMatrix, StageMatrix};

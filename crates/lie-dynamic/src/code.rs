@@ -5,7 +5,7 @@ mod lowering;
 use lie_codegen::derive::{Quantity, Shape};
 use lie_codegen::plan::{Code as Program, Constant, Function as Kernel};
 use lie_codegen::schedule::{self, Value};
-use lie_codegen::symbolic::Function;
+use lie_core::Elementary;
 use lowering::{source_of_quantity, source_of_state, source_of_value};
 
 /// The place of a number while code runs.
@@ -59,7 +59,7 @@ pub enum Instruction {
     /// `a` to the power `b`.
     Power(Register, Register),
     /// An elementary function of one number.
-    Call(Function, Register),
+    Call(Elementary, Register),
     /// The angle of the point (b, a).
     Atan2(Register, Register),
     /// `b` where `a` is negative, `c` elsewhere.

@@ -8,13 +8,13 @@ pub type Unary = extern "C" fn(f64) -> f64;
 pub type Binary = extern "C" fn(f64, f64) -> f64;
 
 macro_rules! unary {
-    ($($name:ident)+) => {
+    ($($variant:ident $name:ident $single:ident $from:ident $what:literal $facts:tt)+) => {
         $(extern "C" fn $name(x: f64) -> f64 { Scalar::$name(x) })+
-        /// Those of one number, by the names of [`Function::name`](lie_codegen::symbolic::Function::name).
+        /// Those of one number, by the names of [`Elementary::name`](lie_core::Elementary::name).
         pub const UNARY: &[(&str, Unary)] = &[$((stringify!($name), $name)),+];
     };
 }
-unary!(exp log sin cos tan asin acos atan sinh cosh tanh cbrt log1p expm1 asinh acosh atanh);
+lie_core::elementary_functions!(unary);
 
 extern "C" fn atan2(y: f64, x: f64) -> f64 {
     Scalar::atan2(y, x)

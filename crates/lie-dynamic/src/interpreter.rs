@@ -2,7 +2,6 @@
 
 use crate::code::{Code, Instruction, Number, Source};
 use crate::kernels::{Engine, Frame, Machine, Targets};
-use lie_codegen::symbolic::Function;
 use lie_core::closed;
 use lie_runtime::Scalar;
 use std::sync::Arc;
@@ -87,7 +86,7 @@ fn run<S: Scalar>(
             Instruction::Sqrt(a) => at(a).sqrt(),
             Instruction::Power(a, b) => at(a).powf(at(b)),
             Instruction::Atan2(a, b) => at(a).atan2(at(b)),
-            Instruction::Call(function, a) => call(function, at(a)),
+            Instruction::Call(function, a) => function.apply(at(a)),
             Instruction::Below(a, b, c) => S::select(at(a).less(S::zero()), at(b), at(c)),
             Instruction::Stumpff(count, a) => {
                 let count = usize::from(count);
@@ -115,30 +114,6 @@ fn run<S: Scalar>(
     for store in &code.stores {
         targets[usize::from(store.target)][store.entry as usize] =
             registers[store.register as usize];
-    }
-}
-
-/// An elementary function of one number.
-pub(crate) fn call<S: Scalar>(function: Function, x: S) -> S {
-    match function {
-        Function::Exp => x.exp(),
-        Function::Log => x.log(),
-        Function::Sin => x.sin(),
-        Function::Cos => x.cos(),
-        Function::Tan => x.tan(),
-        Function::Asin => x.asin(),
-        Function::Acos => x.acos(),
-        Function::Atan => x.atan(),
-        Function::Sinh => x.sinh(),
-        Function::Cosh => x.cosh(),
-        Function::Tanh => x.tanh(),
-        Function::Cbrt => x.cbrt(),
-        Function::Log1p => x.log1p(),
-        Function::Expm1 => x.expm1(),
-        Function::Asinh => x.asinh(),
-        Function::Acosh => x.acosh(),
-        Function::Atanh => x.atanh(),
-        other => unreachable!("`{}` has an instruction of its own", other.name()),
     }
 }
 

@@ -267,7 +267,7 @@ impl Body<'_, '_> {
             }
             Instruction::Call(function, a) => {
                 let arguments = [at(a)];
-                self.function(&functions::symbol(function), Kind::Unary, &arguments)?
+                self.function(&functions::name(function.name()), Kind::Unary, &arguments)?
             }
             Instruction::Below(a, b, c) => {
                 let (a, b, c) = (at(a), at(b), at(c));

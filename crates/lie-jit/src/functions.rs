@@ -1,6 +1,5 @@
 //! What compiled code calls: the elementary functions of the numeric core.
 
-use lie_codegen::symbolic::Function;
 use lie_dynamic::{BINARY, UNARY};
 
 /// Writes all Stumpff functions below an index.
@@ -23,11 +22,6 @@ unsafe extern "C" fn phi(count: u64, x: f64, out: *mut f64) {
 /// The symbol of a function in compiled code.
 pub fn name(function: &str) -> String {
     format!("lie_{function}")
-}
-
-/// The symbol of a function of one number.
-pub fn symbol(function: Function) -> String {
-    name(function.name())
 }
 
 /// All symbols with their addresses.

@@ -24,7 +24,7 @@
 //! let code = Code {
 //!     sources: vec![Source::Argument(0, 1)],
 //!     instructions: vec![
-//!         Instruction::Call(lie_codegen::symbolic::Function::Sin, 0),
+//!         Instruction::Call(lie_runtime::Elementary::Sin, 0),
 //!         Instruction::Sub(0, 1),
 //!     ],
 //!     stores: vec![Store { target: 0, entry: 0, register: 2 }],

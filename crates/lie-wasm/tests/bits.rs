@@ -11,12 +11,12 @@ use cpython::CPython;
 use lie_codegen::compile::{compile_spec, with_options};
 use lie_codegen::methods::{Choice, applicability};
 use lie_codegen::plan::plan;
-use lie_codegen::symbolic::Function;
 use lie_dynamic::{
     Code, Declared, Dynamic, Engine, Frame, Instruction, Interpreted, Interpreter, Machine, Number,
     SLICES, Source, Store,
 };
 use lie_jit::Jit;
+use lie_runtime::Elementary;
 use lie_runtime::Scalar;
 use random::Random;
 use std::sync::{Arc, Mutex};
@@ -247,25 +247,6 @@ fn along_columns_every_place_has_its_own_bits() {
 /// Every instruction once, with numbers of every kind, zeros to clear and entries that stay.
 fn every_instruction() -> Code {
     use Instruction::{Add, Atan2, Below, Call, Div, Mul, Neg, Phi, Power, Sqrt, Stumpff, Sub};
-    let unary = [
-        Function::Exp,
-        Function::Log,
-        Function::Sin,
-        Function::Cos,
-        Function::Tan,
-        Function::Asin,
-        Function::Acos,
-        Function::Atan,
-        Function::Sinh,
-        Function::Cosh,
-        Function::Tanh,
-        Function::Cbrt,
-        Function::Log1p,
-        Function::Expm1,
-        Function::Asinh,
-        Function::Acosh,
-        Function::Atanh,
-    ];
     let numbers = [
         Number::Exact(0.5),
         Number::Ratio(1.0, 3.0),
@@ -299,7 +280,7 @@ fn every_instruction() -> Code {
         Phi(3, 4),
         Stumpff(2, 3),
     ];
-    instructions.extend(unary.map(|function| Call(function, 15)));
+    instructions.extend(Elementary::ALL.iter().map(|&function| Call(function, 15)));
     let results: u32 = instructions.iter().map(Instruction::width).sum();
     let registers = sources.len() as u32 + results;
     let stores = (0..registers).map(|register| Store {

@@ -10,7 +10,7 @@ use crate::ast::{Expr, Name};
 use crate::diagnostic::{Kind, Origin, Report, plural};
 use crate::exact::Rational;
 use crate::linear::walk::{Lower, MAX_EXPONENT, Operand, Operands};
-use crate::symbolic::{ExprId, Function, Graph, Node};
+use crate::symbolic::{Elementary, ExprId, Function, Graph, Node};
 
 /// The longest exact constant, numerator and denominator together.
 const MAX_BITS: u64 = 1 << 14;
@@ -19,9 +19,6 @@ const MAX_BITS_TOGETHER: u64 = 1 << 20;
 /// The largest arena that expressions may fill, nodes and operands together.
 const MAX_SIZE: usize = 200_000;
 const TOO_LARGE: &str = "the expressions are too large";
-const FUNCTIONS: &str = "the functions are sqrt, exp, log, sin, cos, tan, asin, acos, atan, sinh, cosh, tanh, \
-    asinh, acosh, atanh, cbrt, log1p, expm1, atan2, hypot, abs, min, max, piecewise";
-
 /// An expression in the arena: its normal form, and the form in which it was written.
 #[derive(Clone, Copy)]
 pub struct Lowered {
@@ -117,9 +114,9 @@ impl<'a, 'b> Lowering<'a, 'b> {
             );
         }
         let mut power = |base, exponent| {
-            let logarithm = self.graph.call(Function::Log, &[base]);
+            let logarithm = self.graph.call(Elementary::Log, &[base]);
             let product = self.graph.mul(exponent, logarithm);
-            self.graph.call(Function::Exp, &[product])
+            self.graph.call(Elementary::Exp, &[product])
         };
         Some(Lowered {
             normal: power(base.value.normal, exponent.normal),
@@ -289,7 +286,11 @@ impl Lower for Lowering<'_, '_> {
             None if matches!(&*function.text, "sqrt" | "abs") => 1,
             None if matches!(&*function.text, "hypot" | "min" | "max") => 2,
             None if function.text == "piecewise" => 4,
-            None => return self.unknown_function(function, FUNCTIONS),
+            None => {
+                let names: Vec<&str> = Function::names().collect();
+                let help = format!("the functions are {}", names.join(", "));
+                return self.unknown_function(function, &help);
+            }
         };
         if arguments.len() != arity {
             let expected = plural(arity, "argument");
@@ -318,7 +319,9 @@ impl Lower for Lowering<'_, '_> {
             }
             (None, _) => return self.choice(&function.text, &lowered, origin),
         };
-        if self.is_undefined(known, lowered[0].normal, place)? {
+        if let Function::Elementary(elementary) = known
+            && self.is_undefined(elementary, lowered[0].normal, place)?
+        {
             return self.fail(
                 Kind::Number,
                 origin,

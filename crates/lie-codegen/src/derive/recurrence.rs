@@ -13,17 +13,20 @@
 //! | `y = tan(u)`, `tanh(u)` | `Dy = w Du`, `w = 1 ± y y` |
 //! | `y = atan(u)`, `asin(u)` | `w Dy = Du`, `w = 1 + u u`, `w w = 1 - u u` |
 //! | `y = atanh(u)`, `asinh(u)`, `acosh(u)` | `w Dy = Du`, `w = 1 - u u`, `w w = u u + 1`, `w w = u u - 1` |
-//! | `y = cbrt(u)`, `log1p(u)`, `expm1(u)` | as `u^(1/3)`, `log(1 + u)`, `exp(u)` from order 1 on |
+//! | `y = cbrt(u)`, `log1p(u)` | as `u^(1/3)`, `log(1 + u)` from order 1 on |
+//! | `y = expm1(u)` | `Dy = g Du`, `g = exp(u)` |
 //! | `y = atan2(u, v)` | `w Dy = v Du - u Dv`, `w = u u + v v` |
 //! | `y = below(g, u, v)` | `y = u` where `g_0 < 0`, else `y = v` |
 
 mod functions;
+mod rules;
 
 use std::collections::HashMap;
 
 use crate::exact::Rational;
 use crate::schedule::{Counts, Operation, Program, Value};
 use crate::symbolic::ExprId;
+use lie_core::functions::Curve;
 
 /// What a program for order k reads beside the coefficients of the coordinates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -81,8 +84,8 @@ struct Lowering {
     advance: Tape<Quantity>,
     kept: Vec<Value>,
     pairs: Vec<(At, At)>,
-    /// Sine and cosine, trigonometric or hyperbolic, of an argument.
-    circular: HashMap<(Value, bool), (Term, Term)>,
+    /// Sine and cosine of an argument.
+    circular: HashMap<(Value, Curve), (Term, Term)>,
 }
 
 /// Operations, equal ones once.
@@ -260,7 +263,7 @@ impl Lowering {
             (Operation::Neg(_), [a]) => self.advance.neg(a.row()),
             (Operation::Mul(..), [a, b]) => self.product(a, b),
             (Operation::Div(..), [a, b]) => self.quotient(a, b, &zero),
-            (Operation::Sqrt(_), [a]) => self.root(a, &zero),
+            (Operation::Sqrt(_), [a]) => self.square_root(a, &zero),
             (Operation::Power(_, exponent), [a]) => self.power(a, exponent, &zero),
             _ => unreachable!("each operation has its operands"),
         };
@@ -309,7 +312,7 @@ impl Lowering {
     }
 
     /// `y_k = (a_k - sum_(0<j<k) y_j y_(k-j))/(2 y_0)`
-    fn root(&mut self, a: &Term, zero: &Value) -> At {
+    fn square_root(&mut self, a: &Term, zero: &Value) -> At {
         let twice = self.begin.add(zero.clone(), zero.clone());
         let inverse = self.inverse(twice);
         let (place, rest) = self.reserve();

@@ -13,7 +13,7 @@ use super::{Kernel, Source};
 use crate::exact::Rational;
 use crate::structure::one_parameter::{Block, Form};
 use crate::structure::separable::Piece;
-use crate::symbolic::{ExprId, Function, Graph, Node, Symbol};
+use crate::symbolic::{Elementary, ExprId, Graph, Node, Symbol};
 
 /// Symbols of intermediate quantities, beyond those of all vector arguments.
 const AUXILIARY: usize = 1 << 24;
@@ -71,11 +71,11 @@ impl Definitions {
     /// The exponential of an expression, or its inverse where that is at hand.
     pub(super) fn exponential(&mut self, source: &mut Source, exponent: ExprId) -> (ExprId, bool) {
         let opposite = source.graph.neg(exponent);
-        let opposite = source.graph.call(Function::Exp, &[opposite]);
+        let opposite = source.graph.call(Elementary::Exp, &[opposite]);
         if let Some((symbol, _)) = self.made.iter().find(|(_, made)| *made == opposite) {
             return (source.graph.symbol(*symbol), true);
         }
-        let value = source.graph.call(Function::Exp, &[exponent]);
+        let value = source.graph.call(Elementary::Exp, &[exponent]);
         (self.define(source, value), false)
     }
 }
@@ -239,7 +239,7 @@ fn periodic(
     angle: ExprId,
     definitions: &mut Definitions,
 ) -> Vec<ExprId> {
-    let tangent = source.graph.call(Function::Tan, &[angle]);
+    let tangent = source.graph.call(Elementary::Tan, &[angle]);
     let tangent = definitions.define(source, tangent);
     let graph = &mut source.graph;
     let (one, two) = (graph.integer(1), Rational::from(2));
@@ -261,8 +261,8 @@ fn hyperbolic(
     angle: ExprId,
     definitions: &mut Definitions,
 ) -> Vec<ExprId> {
-    let sine = source.graph.call(Function::Sinh, &[angle]);
-    let cosine = source.graph.call(Function::Cosh, &[angle]);
+    let sine = source.graph.call(Elementary::Sinh, &[angle]);
+    let cosine = source.graph.call(Elementary::Cosh, &[angle]);
     let sine = definitions.define(source, sine);
     let double = source.graph.scale(sine, &Rational::from(2));
     let double = source.graph.div(double, frequency);

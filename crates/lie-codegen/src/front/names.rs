@@ -22,40 +22,30 @@ pub struct Function {
 
 /// A table of functions, one a line.
 macro_rules! functions {
-    ($($name:expr, $arity:literal, $call:literal, $meaning:literal;)+) => {
+    ($($name:expr, $arity:literal, $call:expr, $meaning:literal;)+) => {
         &[$($crate::front::names::Function { name: $name, arity: $arity, call: $call, meaning: $meaning }),+]
     };
 }
 pub(super) use functions;
 
+macro_rules! all {
+    ($($variant:ident $name:ident $single:ident $from:ident $what:literal $facts:tt)+) => {
+        functions! {
+            "sqrt", 1, "sqrt(x)", "the root that is not negative";
+            $(stringify!($name), 1, concat!(stringify!($name), "(x)"), $what;)+
+            "hypot", 2, "hypot(x, y)", "sqrt(x^2 + y^2)";
+            "atan2", 2, "atan2(y, x)", "the angle of the point (x, y), from -pi to pi";
+            "abs", 1, "abs(x)", "x or -x, whichever is not negative";
+            "min", 2, "min(x, y)", "the smaller of two";
+            "max", 2, "max(x, y)", "the larger of two";
+            // of the tree: `x < y: a, b`
+            PIECEWISE, 4, "piecewise(x < y: a, b)", "the value of the first case whose condition holds, else the last value; any number of cases";
+        }
+    };
+}
+
 /// The functions of the grammar.
-pub const FUNCTIONS: &[Function] = functions! {
-    "sqrt", 1, "sqrt(x)", "the root that is not negative";
-    "exp", 1, "exp(x)", "the exponential";
-    "log", 1, "log(x)", "the natural logarithm";
-    "sin", 1, "sin(x)", "the sine of an angle in radians";
-    "cos", 1, "cos(x)", "the cosine of an angle in radians";
-    "tan", 1, "tan(x)", "the tangent of an angle in radians";
-    "asin", 1, "asin(x)", "the angle from -pi/2 to pi/2 whose sine is x";
-    "acos", 1, "acos(x)", "the angle from 0 to pi whose cosine is x";
-    "atan", 1, "atan(x)", "the angle between -pi/2 and pi/2 whose tangent is x";
-    "sinh", 1, "sinh(x)", "the hyperbolic sine";
-    "cosh", 1, "cosh(x)", "the hyperbolic cosine";
-    "tanh", 1, "tanh(x)", "the hyperbolic tangent";
-    "cbrt", 1, "cbrt(x)", "the cube root, of negative numbers too";
-    "log1p", 1, "log1p(x)", "log(1 + x), with all digits where x is small";
-    "expm1", 1, "expm1(x)", "exp(x) - 1, with all digits where x is small";
-    "asinh", 1, "asinh(x)", "the number whose hyperbolic sine is x";
-    "acosh", 1, "acosh(x)", "the number that is not negative and whose hyperbolic cosine is x";
-    "atanh", 1, "atanh(x)", "the number whose hyperbolic tangent is x";
-    "hypot", 2, "hypot(x, y)", "sqrt(x^2 + y^2)";
-    "atan2", 2, "atan2(y, x)", "the angle of the point (x, y), from -pi to pi";
-    "abs", 1, "abs(x)", "x or -x, whichever is not negative";
-    "min", 2, "min(x, y)", "the smaller of two";
-    "max", 2, "max(x, y)", "the larger of two";
-    // of the tree: `x < y: a, b`
-    PIECEWISE, 4, "piecewise(x < y: a, b)", "the value of the first case whose condition holds, else the last value; any number of cases";
-};
+pub const FUNCTIONS: &[Function] = lie_core::elementary_functions!(all);
 
 /// The function whose arguments are cases.
 pub const PIECEWISE: &str = "piecewise";

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::number::Number;
 use crate::ast::{Expr, ExprKind};
-use crate::symbolic::Function;
+use lie_core::Elementary;
 
 /// What names stand for.
 #[derive(Clone, Debug)]
@@ -64,7 +64,7 @@ impl<T: Number> Scope<T> {
                             b.clone()
                         }
                     }
-                    (name, [x]) => match Function::from_name(name) {
+                    (name, [x]) => match Elementary::from_name(name) {
                         Some(function) => x.call(function),
                         None => T::rounded(f64::NAN, 0.0),
                     },
@@ -93,8 +93,11 @@ impl<T: Number> Scope<T> {
         let base = self.evaluate(base);
         // a name may stand for a number, and then the base may be negative
         if has_names(exponent) && base.value() > 0.0 {
-            let logarithm = base.call(Function::Log);
-            return self.evaluate(exponent).mul(&logarithm).call(Function::Exp);
+            let logarithm = base.call(Elementary::Log);
+            return self
+                .evaluate(exponent)
+                .mul(&logarithm)
+                .call(Elementary::Exp);
         }
         let exponent = self.evaluate(exponent).value();
         if exponent.fract() != 0.0 || exponent.abs() > 64.0 {

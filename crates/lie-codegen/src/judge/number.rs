@@ -1,7 +1,8 @@
 //! Numbers that an interpretation computes with: values with a bound of their round-off, and derivatives of those.
 
+use super::functions::slope;
 use crate::exact::Rational;
-use crate::symbolic::Function;
+use lie_core::Elementary;
 
 /// What an expression can be evaluated over.
 pub trait Number: Clone {
@@ -16,7 +17,7 @@ pub trait Number: Clone {
     /// `a/b`
     fn div(&self, other: &Self) -> Self;
     /// An elementary function of one argument.
-    fn call(&self, function: Function) -> Self;
+    fn call(&self, function: Elementary) -> Self;
     /// `atan2(a, b)`
     fn atan2(&self, other: &Self) -> Self;
     /// `a^p` for a constant p.
@@ -101,31 +102,9 @@ impl Number for Rounded {
             ..*self
         }
     }
-    fn call(&self, function: Function) -> Self {
-        let x = self.value;
-        let value = function.evaluate(&[x]);
-        let slope = match function {
-            Function::Exp => value,
-            Function::Log => 1.0 / x,
-            Function::Sin => x.cos(),
-            Function::Cos => x.sin(),
-            Function::Tan => 1.0 + value * value,
-            Function::Asin | Function::Acos => 1.0 / (1.0 - x * x).sqrt(),
-            Function::Atan => 1.0 / (1.0 + x * x),
-            Function::Sinh => x.cosh(),
-            Function::Cosh => x.sinh(),
-            Function::Tanh => 1.0 - value * value,
-            Function::Cbrt => 1.0 / (3.0 * value * value),
-            Function::Log1p => 1.0 / (1.0 + x),
-            Function::Expm1 => 1.0 + value,
-            Function::Asinh => 1.0 / (1.0 + x * x).sqrt(),
-            Function::Acosh => 1.0 / (x * x - 1.0).sqrt(),
-            Function::Atanh => 1.0 / (1.0 - x * x),
-            Function::Stumpff(_) | Function::Phi(_) => {
-                function.slope_of_closed(x).unwrap_or(f64::NAN)
-            }
-            Function::Atan2 | Function::Below | Function::Own(_) => f64::NAN,
-        };
+    fn call(&self, function: Elementary) -> Self {
+        let value = function.evaluate(self.value);
+        let slope = slope(function, &self.value, &value);
         Self::of(value, slope.abs() * self.error + value.abs())
     }
     fn atan2(&self, other: &Self) -> Self {
@@ -134,10 +113,7 @@ impl Number for Rounded {
         Self::of(y.atan2(x), inherited)
     }
     fn power(&self, exponent: f64) -> Self {
-        let value = match exponent {
-            0.5 => self.value.sqrt(),
-            _ => self.value.powf(exponent),
-        };
+        let value = self.value.power(exponent);
         let slope = exponent * value / self.value;
         let inherited = if self.error == 0.0 {
             0.0
@@ -206,35 +182,9 @@ impl<T: Number> Number for Jet<T> {
             at,
         }
     }
-    fn call(&self, function: Function) -> Self {
-        let x = &self.at;
-        let at = x.call(function);
-        let one = T::integer(1);
-        let slope = match function {
-            Function::Exp => at.clone(),
-            Function::Log => one.div(x),
-            Function::Sin => x.call(Function::Cos),
-            Function::Cos => x.call(Function::Sin).neg(),
-            Function::Tan => one.add(&at.mul(&at)),
-            Function::Asin => one.div(&one.sub(&x.mul(x)).power(0.5)),
-            Function::Acos => one.neg().div(&one.sub(&x.mul(x)).power(0.5)),
-            Function::Atan => one.div(&one.add(&x.mul(x))),
-            Function::Sinh => x.call(Function::Cosh),
-            Function::Cosh => x.call(Function::Sinh),
-            Function::Tanh => one.sub(&at.mul(&at)),
-            Function::Cbrt => one.div(&T::integer(3).mul(&at.mul(&at))),
-            Function::Log1p => one.div(&one.add(x)),
-            Function::Expm1 => x.call(Function::Exp),
-            Function::Asinh => one.div(&one.add(&x.mul(x)).power(0.5)),
-            Function::Acosh => one.div(&x.mul(x).sub(&one).power(0.5)),
-            Function::Atanh => one.div(&one.sub(&x.mul(x))),
-            // not in the grammar
-            Function::Stumpff(_)
-            | Function::Phi(_)
-            | Function::Atan2
-            | Function::Below
-            | Function::Own(_) => T::rounded(f64::NAN, 0.0),
-        };
+    fn call(&self, function: Elementary) -> Self {
+        let at = self.at.call(function);
+        let slope = slope(function, &self.at, &at);
         self.chain(at, &slope)
     }
     fn atan2(&self, other: &Self) -> Self {

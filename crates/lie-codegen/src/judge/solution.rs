@@ -3,9 +3,10 @@
 //! The coefficients follow from each other: `(k + 1) mu_(k+1)` is the coefficient of degree k of `f(mu(t))`, with the
 //! gradient of H by jets over series and the brackets as they were declared.
 
+use super::functions::slope;
 use super::number::{Jet, Number};
 use super::system::Declared;
-use crate::symbolic::Function;
+use lie_core::Elementary;
 
 /// Terms of a series.
 const TERMS: usize = 16;
@@ -32,10 +33,6 @@ impl Series {
             made.push(terms.sum::<f64>() / k as f64);
         }
         Self(made)
-    }
-
-    fn one() -> Self {
-        Self::rounded(1.0, 0.0)
     }
 
     /// Sine and cosine, or those of hyperbolic kind: `s' = c x'`, `c' = sign s x'`.
@@ -83,54 +80,35 @@ impl Number for Series {
         }
         Self(made)
     }
-    fn call(&self, function: Function) -> Self {
+    fn call(&self, function: Elementary) -> Self {
         let x = self.0[0];
-        let first = function.evaluate(&[x]);
-        let square = || self.mul(self);
+        let first = function.evaluate(x);
         match function {
-            Function::Exp => self.chain(first, <[f64]>::to_vec),
-            Function::Log => self.integral(first, &Self::one().div(self)),
-            Function::Sin => self.pair(x.sin(), x.cos(), -1.0).0,
-            Function::Cos => self.pair(x.sin(), x.cos(), -1.0).1,
-            Function::Sinh => self.pair(x.sinh(), x.cosh(), 1.0).0,
-            Function::Cosh => self.pair(x.sinh(), x.cosh(), 1.0).1,
-            Function::Tan => {
-                let (sine, cosine) = self.pair(x.sin(), x.cos(), -1.0);
-                sine.div(&cosine)
-            }
-            Function::Tanh => {
-                let (sine, cosine) = self.pair(x.sinh(), x.cosh(), 1.0);
-                sine.div(&cosine)
-            }
-            Function::Asin | Function::Acos => {
-                let root = Self::one().sub(&square()).power(0.5);
-                let sign = Self::integer(if function == Function::Asin { 1 } else { -1 });
-                self.integral(first, &sign.div(&root))
-            }
-            Function::Atan => self.integral(first, &Self::one().div(&Self::one().add(&square()))),
-            Function::Cbrt if x < 0.0 => self.neg().power(1.0 / 3.0).neg(),
-            Function::Cbrt => self.power(1.0 / 3.0),
-            Function::Log1p => self.integral(first, &Self::one().div(&Self::one().add(self))),
-            Function::Expm1 => self.chain(first, |made| {
+            Elementary::Exp => self.chain(first, <[f64]>::to_vec),
+            Elementary::Expm1 => self.chain(first, |made| {
                 let mut power = made.to_vec();
                 power[0] = x.exp();
                 power
             }),
-            Function::Asinh => {
-                let root = Self::one().add(&square()).power(0.5);
-                self.integral(first, &Self::one().div(&root))
+            Elementary::Sin => self.pair(x.sin(), x.cos(), -1.0).0,
+            Elementary::Cos => self.pair(x.sin(), x.cos(), -1.0).1,
+            Elementary::Sinh => self.pair(x.sinh(), x.cosh(), 1.0).0,
+            Elementary::Cosh => self.pair(x.sinh(), x.cosh(), 1.0).1,
+            Elementary::Tan => {
+                let (sine, cosine) = self.pair(x.sin(), x.cos(), -1.0);
+                sine.div(&cosine)
             }
-            Function::Acosh => {
-                let root = square().sub(&Self::one()).power(0.5);
-                self.integral(first, &Self::one().div(&root))
+            Elementary::Tanh => {
+                let (sine, cosine) = self.pair(x.sinh(), x.cosh(), 1.0);
+                sine.div(&cosine)
             }
-            Function::Atanh => self.integral(first, &Self::one().div(&Self::one().sub(&square()))),
-            // not in the grammar
-            Function::Stumpff(_)
-            | Function::Phi(_)
-            | Function::Atan2
-            | Function::Below
-            | Function::Own(_) => Self::rounded(f64::NAN, 0.0),
+            Elementary::Cbrt if x < 0.0 => self.neg().power(1.0 / 3.0).neg(),
+            Elementary::Cbrt => self.power(1.0 / 3.0),
+            // the slope is one of the argument alone
+            _ => {
+                let unknown = Self::rounded(f64::NAN, 0.0);
+                self.integral(first, &slope(function, self, &unknown))
+            }
         }
     }
     fn atan2(&self, other: &Self) -> Self {
@@ -157,11 +135,7 @@ impl Number for Series {
         })
     }
     fn power(&self, exponent: f64) -> Self {
-        let first = if exponent == 0.5 {
-            self.0[0].sqrt()
-        } else {
-            self.0[0].powf(exponent)
-        };
+        let first = self.0[0].power(exponent);
         // x (x^p)' = p x^p x'
         let mut made = vec![first];
         for k in 1..TERMS {

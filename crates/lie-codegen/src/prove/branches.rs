@@ -7,7 +7,7 @@
 
 use super::joints;
 use crate::exact::Rational;
-use crate::symbolic::{ExprId, Function, Graph, Node, Symbol};
+use crate::symbolic::{Elementary, ExprId, Function, Graph, Node, Symbol};
 
 /// Whether a function may jump between points at which it is defined.
 pub fn jumps(graph: &Graph, function: ExprId) -> bool {
@@ -16,7 +16,9 @@ pub fn jumps(graph: &Graph, function: ExprId) -> bool {
         .into_iter()
         .any(|id| match graph.node(id) {
             Node::Call(Function::Atan2, _) => varies(graph, id),
-            Node::Call(Function::Atan, arguments) => has_pole(graph, arguments[0]),
+            Node::Call(Function::Elementary(Elementary::Atan), arguments) => {
+                has_pole(graph, arguments[0])
+            }
             _ => false,
         })
         || has_gap(graph, function)
@@ -45,7 +47,7 @@ fn has_pole(graph: &Graph, id: ExprId) -> bool {
                 let odd = exponent.to_integer().is_some_and(|e| e < 0 && e % 2 != 0);
                 odd && varies(graph, *base) && !is_positive(graph, *base)
             }),
-            Node::Call(Function::Tan, _) => varies(graph, id),
+            Node::Call(Function::Elementary(Elementary::Tan), _) => varies(graph, id),
             _ => false,
         })
 }
@@ -55,7 +57,7 @@ fn is_positive(graph: &Graph, id: ExprId) -> bool {
     let even = |exponent: &Rational| exponent.to_integer().is_none_or(|e| e % 2 == 0);
     match graph.node(id) {
         Node::Number(value) => !value.is_negative(),
-        Node::Pi | Node::Call(Function::Exp | Function::Cosh, _) => true,
+        Node::Pi | Node::Call(Function::Elementary(Elementary::Exp | Elementary::Cosh), _) => true,
         Node::Symbol(symbol) => graph.is_positive(*symbol),
         Node::Product(factors) => {
             let mut factors = factors.iter();

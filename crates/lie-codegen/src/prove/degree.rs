@@ -11,7 +11,7 @@ use super::confirmation::Confirmation;
 use super::normal::NormalForm;
 use super::residues;
 use crate::exact::{Budget, Rational, Residue};
-use crate::symbolic::{ExprId, Function, Graph, Node, Symbol};
+use crate::symbolic::{Elementary, ExprId, Graph, Node, Symbol};
 
 /// Work allowed for the normal form.
 const WORK: u64 = 300_000;
@@ -121,7 +121,7 @@ fn growths(graph: &Graph, function: ExprId) -> Vec<Option<Growth>> {
                 let value = |point| Some(residues::of_constant(point, id.index() as u64));
                 leaf(0, value).filter(|_| constant).map(|leaf| Growth {
                     opaque: true,
-                    uncertain: *function != Function::Exp,
+                    uncertain: *function != Elementary::Exp.into(),
                     ..leaf
                 })
             }

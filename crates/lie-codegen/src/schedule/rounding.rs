@@ -103,22 +103,7 @@ impl Rounded {
         let x = values[0];
         let slope = match function {
             Function::Below => return arguments[chosen(x < 0.0)],
-            Function::Exp => value,
-            Function::Log => 1.0 / x,
-            Function::Sin => libm::cos(x),
-            Function::Cos => libm::sin(x),
-            Function::Tan => 1.0 + value * value,
-            Function::Asin | Function::Acos => 1.0 / (1.0 - x * x).sqrt(),
-            Function::Atan => 1.0 / (1.0 + x * x),
-            Function::Sinh => libm::cosh(x),
-            Function::Cosh => libm::sinh(x),
-            Function::Tanh => 1.0 - value * value,
-            Function::Cbrt => 1.0 / (3.0 * value * value),
-            Function::Log1p => 1.0 / (1.0 + x),
-            Function::Expm1 => 1.0 + value,
-            Function::Asinh => 1.0 / (1.0 + x * x).sqrt(),
-            Function::Acosh => 1.0 / (x * x - 1.0).sqrt(),
-            Function::Atanh => 1.0 / (1.0 - x * x),
+            Function::Elementary(function) => function.slope(x, value),
             Function::Stumpff(_) | Function::Phi(_) => {
                 function.slope_of_closed(x).unwrap_or(f64::NAN)
             }

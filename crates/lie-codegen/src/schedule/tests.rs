@@ -1,6 +1,6 @@
 use super::*;
 use crate::exact::Rational;
-use crate::symbolic::Function;
+use crate::symbolic::Elementary;
 
 fn coordinate(g: &mut Graph, i: usize) -> ExprId {
     g.symbol(Symbol::Coordinate(i))
@@ -139,7 +139,7 @@ fn powers_and_quotients_are_shared() {
     let b = g.power_product(&[(z, rational(2, 1)), (s, rational(-3, 2))]);
     let program = check(&mut g, vec![a, b], Known::Parameters);
     assert_eq!((program.counts.div, program.counts.call), (1, 1));
-    let sine = g.call(Function::Sin, &[s]);
+    let sine = g.call(Elementary::Sin, &[s]);
     let e = g.mul(sine, a);
     let f = g.sub(sine, b);
     let third = g.pow(x, &rational(1, 3));
@@ -211,7 +211,7 @@ fn random_tasks_are_computed_rightly_and_reproducibly() {
                 _ => {
                     let small = g.scale(a, &rational(1, 7));
                     g.call(
-                        [Function::Sin, Function::Tanh, Function::Cos][next(3) as usize],
+                        [Elementary::Sin, Elementary::Tanh, Elementary::Cos][next(3) as usize],
                         &[small],
                     )
                 }

@@ -3,6 +3,7 @@
 use rustc_hash::FxHashMap as HashMap;
 
 use super::graph::{ExprId, Graph, Node, Symbol};
+use super::slope::Slope;
 use super::{Function, Opaque, chosen};
 use crate::exact::Rational;
 
@@ -144,62 +145,8 @@ impl Graph {
 
     /// The derivative of a function of one argument; `value` is the function itself.
     fn outer_derivative(&mut self, function: Function, x: ExprId, value: ExprId) -> ExprId {
-        let one = self.integer(1);
-        let two = Rational::from(2);
-        let square = self.pow(x, &two);
         match function {
-            Function::Exp => value,
-            Function::Log => self.pow(x, &Rational::MINUS_ONE),
-            Function::Sin => self.call(Function::Cos, &[x]),
-            Function::Cos => {
-                let sine = self.call(Function::Sin, &[x]);
-                self.neg(sine)
-            }
-            Function::Tan => {
-                let tangent = self.pow(value, &two);
-                self.add(one, tangent)
-            }
-            Function::Asin | Function::Acos => {
-                let inside = self.sub(one, square);
-                let power = self.pow(inside, &Rational::new(-1, 2).unwrap_or(Rational::MINUS_ONE));
-                if function == Function::Asin {
-                    power
-                } else {
-                    self.neg(power)
-                }
-            }
-            Function::Atan => {
-                let inside = self.add(one, square);
-                self.pow(inside, &Rational::MINUS_ONE)
-            }
-            Function::Sinh => self.call(Function::Cosh, &[x]),
-            Function::Cosh => self.call(Function::Sinh, &[x]),
-            Function::Tanh => {
-                let tangent = self.pow(value, &two);
-                self.sub(one, tangent)
-            }
-            Function::Cbrt => {
-                let inverse = self.pow(value, &Rational::from(-2));
-                let third = Rational::new(1, 3).unwrap_or(Rational::ONE);
-                self.linear(&[(inverse, third)])
-            }
-            Function::Log1p => {
-                let inside = self.add(one, x);
-                self.pow(inside, &Rational::MINUS_ONE)
-            }
-            Function::Expm1 => self.call(Function::Exp, &[x]),
-            Function::Asinh | Function::Acosh => {
-                let inside = if function == Function::Asinh {
-                    self.add(square, one)
-                } else {
-                    self.sub(square, one)
-                };
-                self.pow(inside, &Rational::new(-1, 2).unwrap_or(Rational::MINUS_ONE))
-            }
-            Function::Atanh => {
-                let inside = self.sub(one, square);
-                self.pow(inside, &Rational::MINUS_ONE)
-            }
+            Function::Elementary(function) => function.rule(Slope::new(self, x, value)),
             Function::Stumpff(k) => {
                 let [next, second] = [k + 1, k + 2].map(|k| self.call(Function::Stumpff(k), &[x]));
                 let half = |n: i64| Rational::new(n, 2).unwrap_or(Rational::ONE);

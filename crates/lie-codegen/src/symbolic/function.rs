@@ -1,55 +1,47 @@
 //! The elementary functions of the grammar, and those that closed forms of the exponential are made of. Square roots
 //! are powers, not functions here.
 
-use lie_core::closed;
+use std::fmt;
+
+use lie_core::{Elementary, closed};
 
 use super::Opaque;
 
-macro_rules! functions {
-    ($($name:ident $text:literal $arity:literal),+ $(,)?) => {
-        /// An elementary function.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-        pub enum Function {
-            $(#[doc = concat!("`", $text, "`")] $name,)+
-            /// The Stumpff function `S_k(w) = sum_n (-w)^n/(2n + k)!`; not in the grammar.
-            Stumpff(u8),
-            /// `phi_k(z) = sum_n z^n/(n + k)!`; not in the grammar.
-            Phi(u8),
-            /// `below(g, a, b)`: a where g is negative, b elsewhere. In the grammar these are `abs`, `min`, `max` and
-            /// `piecewise`.
-            Below,
-            /// A function of the user, or a derivative of it.
-            Own(Opaque),
-        }
-        impl Function {
-            /// Every function of the grammar.
-            pub const ALL: &'static [Function] = &[$(Function::$name),+];
-            /// Its name in the grammar, and in generated code.
-            pub fn name(self) -> &'static str {
-                match self {
-                    $(Function::$name => $text,)+
-                    Function::Stumpff(k) => STUMPFF[usize::from(k)],
-                    Function::Phi(k) => PHI[usize::from(k)],
-                    Function::Below => "below",
-                    Function::Own(own) => &own.declared().name,
-                }
-            }
-            /// The number of its arguments.
-            pub fn arity(self) -> usize {
-                match self {
-                    $(Function::$name => $arity,)+
-                    Function::Stumpff(_) | Function::Phi(_) => 1,
-                    Function::Below => 3,
-                    Function::Own(own) => own.declared().arity,
-                }
-            }
-        }
-    };
+/// An elementary function, or a choice.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Function {
+    /// One of one number.
+    Elementary(Elementary),
+    /// The angle of a point: `atan2(y, x)`.
+    Atan2,
+    /// The Stumpff function `S_k(w) = sum_n (-w)^n/(2n + k)!`; not in the grammar.
+    Stumpff(u8),
+    /// `phi_k(z) = sum_n z^n/(n + k)!`; not in the grammar.
+    Phi(u8),
+    /// `below(g, a, b)`: a where g is negative, b elsewhere. In the grammar these are `abs`, `min`, `max` and
+    /// `piecewise`.
+    Below,
+    /// A function of the user, or a derivative of it.
+    Own(Opaque),
 }
-functions! {
-    Exp "exp" 1, Log "log" 1, Sin "sin" 1, Cos "cos" 1, Tan "tan" 1, Asin "asin" 1, Acos "acos" 1,
-    Atan "atan" 1, Sinh "sinh" 1, Cosh "cosh" 1, Tanh "tanh" 1, Cbrt "cbrt" 1, Log1p "log1p" 1,
-    Expm1 "expm1" 1, Asinh "asinh" 1, Acosh "acosh" 1, Atanh "atanh" 1, Atan2 "atan2" 2,
+
+impl From<Elementary> for Function {
+    fn from(function: Elementary) -> Self {
+        Self::Elementary(function)
+    }
+}
+
+impl fmt::Debug for Function {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Elementary(function) => function.fmt(f),
+            Self::Atan2 => f.write_str("Atan2"),
+            Self::Stumpff(k) => f.debug_tuple("Stumpff").field(k).finish(),
+            Self::Phi(k) => f.debug_tuple("Phi").field(k).finish(),
+            Self::Below => f.write_str("Below"),
+            Self::Own(own) => f.debug_tuple("Own").field(own).finish(),
+        }
+    }
 }
 
 /// Functions of the grammar that are powers: `sqrt(x) = x^(1/2)`, `hypot(x, y) = (x^2 + y^2)^(1/2)`.
@@ -83,10 +75,37 @@ impl Function {
         }
     }
 
+    /// Every function of the grammar but powers and choices.
+    pub fn all() -> impl Iterator<Item = Self> {
+        let elementary = Elementary::ALL.iter().copied().map(Self::Elementary);
+        elementary.chain([Self::Atan2])
+    }
+
+    /// Its name in the grammar, and in generated code.
+    pub fn name(self) -> &'static str {
+        match self {
+            Function::Elementary(function) => function.name(),
+            Function::Atan2 => "atan2",
+            Function::Stumpff(k) => STUMPFF[usize::from(k)],
+            Function::Phi(k) => PHI[usize::from(k)],
+            Function::Below => "below",
+            Function::Own(own) => &own.declared().name,
+        }
+    }
+
+    /// The number of its arguments.
+    pub fn arity(self) -> usize {
+        match self {
+            Function::Elementary(_) | Function::Stumpff(_) | Function::Phi(_) => 1,
+            Function::Atan2 => 2,
+            Function::Below => 3,
+            Function::Own(own) => own.declared().arity,
+        }
+    }
+
     /// The names of all functions of the grammar.
     pub fn names() -> impl Iterator<Item = &'static str> {
-        let own = Self::ALL.iter().map(|f| f.name());
-        own.chain(POWERS).chain(CHOICES)
+        Self::all().map(Self::name).chain(POWERS).chain(CHOICES)
     }
 
     /// Whether a function of the grammar has that name.
@@ -96,7 +115,7 @@ impl Function {
 
     /// The function of that name; those that are powers or choices are none of them.
     pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.iter().copied().find(|f| f.name() == name)
+        Self::all().find(|f| f.name() == name)
     }
 
     /// The function in double precision, by the library that generated code uses: the same on every
@@ -104,23 +123,7 @@ impl Function {
     pub fn evaluate(self, arguments: &[f64]) -> f64 {
         let x = arguments[0];
         match self {
-            Function::Exp => libm::exp(x),
-            Function::Log => libm::log(x),
-            Function::Sin => libm::sin(x),
-            Function::Cos => libm::cos(x),
-            Function::Tan => libm::tan(x),
-            Function::Asin => libm::asin(x),
-            Function::Acos => libm::acos(x),
-            Function::Atan => libm::atan(x),
-            Function::Sinh => libm::sinh(x),
-            Function::Cosh => libm::cosh(x),
-            Function::Tanh => libm::tanh(x),
-            Function::Cbrt => libm::cbrt(x),
-            Function::Log1p => libm::log1p(x),
-            Function::Expm1 => libm::expm1(x),
-            Function::Asinh => libm::asinh(x),
-            Function::Acosh => libm::acosh(x),
-            Function::Atanh => libm::atanh(x),
+            Function::Elementary(function) => function.evaluate(x),
             Function::Atan2 => libm::atan2(x, arguments[1]),
             Function::Stumpff(k) => closed::stumpff_of(k.into(), x),
             Function::Phi(k) => closed::phi_of(k.into(), x),

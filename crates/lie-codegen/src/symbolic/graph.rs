@@ -307,33 +307,16 @@ impl Graph {
     }
 
     /// The function of its arguments; exact values at 0 and 1 are folded.
-    pub fn call(&mut self, function: Function, arguments: &[ExprId]) -> ExprId {
+    pub fn call(&mut self, function: impl Into<Function>, arguments: &[ExprId]) -> ExprId {
+        let function = function.into();
         if let [argument] = arguments
             && let Some(value) = self.as_number(*argument)
         {
             let folded = match function {
-                Function::Exp | Function::Cos | Function::Cosh if value.is_zero() => {
-                    Some(Rational::ONE)
+                Function::Elementary(function) => {
+                    let exact = value.to_integer().and_then(|x| function.exact(x));
+                    exact.map(Rational::from)
                 }
-                Function::Sin
-                | Function::Tan
-                | Function::Asin
-                | Function::Atan
-                | Function::Sinh
-                | Function::Tanh
-                | Function::Cbrt
-                | Function::Log1p
-                | Function::Expm1
-                | Function::Asinh
-                | Function::Atanh
-                    if value.is_zero() =>
-                {
-                    Some(Rational::ZERO)
-                }
-                Function::Log | Function::Acos | Function::Acosh if value.is_one() => {
-                    Some(Rational::ZERO)
-                }
-                Function::Cbrt if value.is_one() => Some(Rational::ONE),
                 Function::Stumpff(k) | Function::Phi(k) if value.is_zero() => {
                     let factorial: i64 = (1..=i64::from(k)).product();
                     Rational::new(1, factorial)

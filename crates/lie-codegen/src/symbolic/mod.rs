@@ -9,6 +9,7 @@ mod graph;
 mod opaque;
 mod parts;
 mod power;
+mod slope;
 mod written;
 
 #[cfg(test)]
@@ -16,4 +17,5 @@ mod tests;
 
 pub use function::{Function, chosen};
 pub use graph::{ExprId, Graph, Node, Symbol};
+pub use lie_core::Elementary;
 pub use opaque::{Declared, MOST_ARGUMENTS, Opaque};

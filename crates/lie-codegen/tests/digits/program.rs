@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use lie_codegen::derive::{Kernel, Shape, Source};
 use lie_codegen::schedule::{Known, Operation, Program, Task, Value, schedule};
-use lie_codegen::symbolic::{ExprId, Function, Symbol};
+use lie_codegen::symbolic::{Elementary, ExprId, Function, Symbol};
 
 use crate::scalar::Number;
 
@@ -30,7 +30,9 @@ pub fn run<T: Number>(
             Operation::Div(a, b) => at(a).div(at(b)),
             Operation::Neg(a) => T::of(0.0).sub(at(a)),
             Operation::Sqrt(a) => at(a).sqrt(),
-            Operation::Call(Function::Exp, arguments) => at(&arguments[0]).exp(),
+            Operation::Call(Function::Elementary(Elementary::Exp), arguments) => {
+                at(&arguments[0]).exp()
+            }
             other => panic!("{other:?} in a system without it"),
         };
         done.push(result);

@@ -2,9 +2,31 @@
 
 use super::{Scalar, elementary};
 
+/// The elementary functions in double precision: those of small angles are ours.
+macro_rules! double {
+    (libm $name:ident) => { libm::$name };
+    (angle $name:ident) => { elementary::one::$name };
+    ($($variant:ident $name:ident $single:ident $from:ident $what:literal $facts:tt)+) => {
+        $(#[inline]
+        fn $name(self) -> Self {
+            double!($from $name)(self)
+        })+
+    };
+}
+
+/// The elementary functions in single precision.
+macro_rules! single {
+    ($($variant:ident $name:ident $single:ident $from:ident $what:literal $facts:tt)+) => {
+        $(#[inline]
+        fn $name(self) -> Self {
+            libm::$single(self)
+        })+
+    };
+}
+
 /// Implements [`Scalar`] for a machine float; functions are the given ones.
 macro_rules! float_scalar {
-    ($float:ty, $wide:ident, $round:expr, $ratio:expr, $abs:path, $sqrt:path, $pow:path, $atan2:path, $($name:ident = $function:path),*) => {
+    ($float:ty, $wide:ident, $round:expr, $ratio:expr, $abs:path, $sqrt:path, $pow:path, $atan2:path, $functions:ident) => {
         impl Scalar for $float {
             type Lane = Self;
             type Mask = bool;
@@ -93,10 +115,7 @@ macro_rules! float_scalar {
             fn sqrt(self) -> Self {
                 $sqrt(self)
             }
-            $(#[inline]
-            fn $name(self) -> Self {
-                $function(self)
-            })*
+            crate::elementary_functions!($functions);
             #[inline]
             fn atan2(self, x: Self) -> Self {
                 $atan2(self, x)
@@ -107,7 +126,11 @@ macro_rules! float_scalar {
             }
             #[inline(always)]
             fn max(self, other: Self) -> Self {
-                if self < other || other.is_nan() { other } else { self }
+                if self < other || other.is_nan() {
+                    other
+                } else {
+                    self
+                }
             }
             #[inline(always)]
             fn less(self, other: Self) -> bool {
@@ -154,23 +177,7 @@ float_scalar!(
     root,
     libm::pow,
     libm::atan2,
-    exp = libm::exp,
-    log = libm::log,
-    sin = elementary::one::sin,
-    cos = elementary::one::cos,
-    tan = elementary::one::tan,
-    asin = libm::asin,
-    acos = libm::acos,
-    atan = libm::atan,
-    sinh = libm::sinh,
-    cosh = libm::cosh,
-    tanh = libm::tanh,
-    cbrt = libm::cbrt,
-    log1p = libm::log1p,
-    expm1 = libm::expm1,
-    asinh = libm::asinh,
-    acosh = libm::acosh,
-    atanh = libm::atanh
+    double
 );
 
 float_scalar!(
@@ -182,23 +189,7 @@ float_scalar!(
     root_f32,
     libm::powf,
     libm::atan2f,
-    exp = libm::expf,
-    log = libm::logf,
-    sin = libm::sinf,
-    cos = libm::cosf,
-    tan = libm::tanf,
-    asin = libm::asinf,
-    acos = libm::acosf,
-    atan = libm::atanf,
-    sinh = libm::sinhf,
-    cosh = libm::coshf,
-    tanh = libm::tanhf,
-    cbrt = libm::cbrtf,
-    log1p = libm::log1pf,
-    expm1 = libm::expm1f,
-    asinh = libm::asinhf,
-    acosh = libm::acoshf,
-    atanh = libm::atanhf
+    single
 );
 
 /// The f32 nearest to `high + low`. Rounding `high` alone would decide a tie between two f32

@@ -27,6 +27,14 @@ pub use truncated::Truncated;
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
+/// The methods of the elementary functions.
+macro_rules! methods {
+    ($($variant:ident $name:ident $single:ident $from:ident $what:literal $facts:tt)+) => {
+        $(#[doc = concat!("`", stringify!($name), "(x)`: ", $what, ".")]
+        fn $name(self) -> Self;)+
+    };
+}
+
 /// A real number, or several independent ones in lanes.
 ///
 /// Comparisons return a [`Mask`] with one truth value per lane and [`Scalar::select`] chooses by
@@ -146,45 +154,12 @@ pub trait Scalar:
     }
     /// Square root, correctly rounded.
     fn sqrt(self) -> Self;
-    /// Exponential.
-    fn exp(self) -> Self;
-    /// Natural logarithm.
-    fn log(self) -> Self;
-    /// Sine of an angle in radians.
-    fn sin(self) -> Self;
-    /// Cosine of an angle in radians.
-    fn cos(self) -> Self;
+    crate::elementary_functions!(methods);
     /// Sine and cosine of an angle in radians.
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
         (self.sin(), self.cos())
     }
-    /// Tangent of an angle in radians.
-    fn tan(self) -> Self;
-    /// Inverse sine in radians.
-    fn asin(self) -> Self;
-    /// Inverse cosine in radians.
-    fn acos(self) -> Self;
-    /// Inverse tangent in radians.
-    fn atan(self) -> Self;
-    /// Hyperbolic sine.
-    fn sinh(self) -> Self;
-    /// Hyperbolic cosine.
-    fn cosh(self) -> Self;
-    /// Hyperbolic tangent.
-    fn tanh(self) -> Self;
-    /// Cube root, of negative numbers too.
-    fn cbrt(self) -> Self;
-    /// `log(1 + self)`, with all digits of a small number.
-    fn log1p(self) -> Self;
-    /// `exp(self) - 1`, with all digits of a small number.
-    fn expm1(self) -> Self;
-    /// Inverse hyperbolic sine.
-    fn asinh(self) -> Self;
-    /// Inverse hyperbolic cosine, of numbers from 1 on.
-    fn acosh(self) -> Self;
-    /// Inverse hyperbolic tangent, of numbers between -1 and 1.
-    fn atanh(self) -> Self;
     /// The angle of the point (`x`, `self`) in radians.
     fn atan2(self, x: Self) -> Self;
     /// `self` to a real power.

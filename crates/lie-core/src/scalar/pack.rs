@@ -45,6 +45,12 @@ macro_rules! functions {
     )*};
 }
 
+macro_rules! elementary {
+    ($($variant:ident $name:ident $single:ident $from:ident $what:literal $facts:tt)+) => {
+        functions!($($name),+);
+    };
+}
+
 impl<S: Scalar> Neg for Pack<S> {
     type Output = Self;
     #[inline(always)]
@@ -101,10 +107,8 @@ impl<S: Scalar> Scalar for Pack<S> {
         wide.0
     }
 
-    functions!(
-        abs, magnitude, sqrt, exp, log, sin, cos, tan, asin, acos, atan, sinh, cosh, tanh, cbrt,
-        log1p, expm1, asinh, acosh, atanh
-    );
+    functions!(abs, magnitude, sqrt);
+    crate::elementary_functions!(elementary);
     fn atan2(self, x: Self) -> Self {
         Self(from_fn(|k| self.0[k].atan2(x.0[k])))
     }

@@ -1,6 +1,7 @@
 //! Truncated power series: Taylor coefficients of everything that is computed, by the plain rules.
 
 use super::{Pack, Scalar};
+use crate::functions::{Curve, Elementary, Numbers, Quadratic, Rules, Words};
 use crate::recurrence::MOST_ORDERS;
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
@@ -105,6 +106,93 @@ fn sum<S: Scalar>(u: &[S], v: &[S], k: usize) -> S {
         }
     }
     sum
+}
+
+/// The series of a function of a series, from its constant term.
+struct Composed<S> {
+    x: Truncated<S>,
+    first: S,
+}
+
+impl<S: Scalar> Composed<S> {
+    /// Sine and cosine.
+    fn pair(&self, curve: Curve) -> (Truncated<S>, Truncated<S>) {
+        let at_zero = |function: Elementary| function.apply(self.x.terms[0]);
+        let sign = match curve {
+            Curve::Circle => -1.0,
+            Curve::Hyperbola => 1.0,
+        };
+        let (sine, cosine) = (at_zero(curve.sine()), at_zero(curve.cosine()));
+        self.x.pair(sine, cosine, [1.0, sign])
+    }
+
+    /// The series of a function that differs from this one by a constant.
+    fn shifted(&self, series: &Truncated<S>) -> Truncated<S> {
+        Truncated::from_fn(self.x.length, |k| match k {
+            0 => self.first,
+            _ => series.terms[k],
+        })
+    }
+}
+
+impl<S: Scalar> Rules for Composed<S> {
+    type Words = Numbers<Truncated<S>>;
+    type Answer = Truncated<S>;
+
+    fn integral(
+        self,
+        slope: impl FnOnce(&mut Self::Words, &Truncated<S>) -> Truncated<S>,
+    ) -> Truncated<S> {
+        let y = slope(&mut Numbers::default(), &self.x);
+        let x = self.x.slope();
+        let (x, y) = (&x.terms[..x.length], &y.terms[..y.length]);
+        Truncated::from_fn(self.x.length, |k| match k {
+            0 => self.first,
+            _ => sum(x, y, k) / S::from_f64(k as f64),
+        })
+    }
+    fn exponential(self) -> Truncated<S> {
+        let slope = self.x.slope();
+        let slope = &slope.terms[..self.x.length];
+        Truncated::recursive(self.x.length, self.first, |y, k| {
+            sum(slope, y, k) / S::from_f64(k as f64)
+        })
+    }
+    fn sine(self, curve: Curve) -> Truncated<S> {
+        self.pair(curve).0
+    }
+    fn cosine(self, curve: Curve) -> Truncated<S> {
+        self.pair(curve).1
+    }
+    fn tangent(self, curve: Curve) -> Truncated<S> {
+        let (sine, cosine) = self.pair(curve);
+        self.shifted(&(sine / cosine))
+    }
+    fn cube_root(self) -> Truncated<S> {
+        self.x.power(self.first, S::ratio(1.0, 3.0))
+    }
+    fn inverse(self, w: Quadratic) -> Truncated<S> {
+        let w = Numbers::default().quadratic(w, &self.x);
+        Truncated::integral(self.first, &(self.x.slope() / w))
+    }
+    fn inverse_root(self, sign: i32, w: Quadratic) -> Truncated<S> {
+        let w = match w {
+            Quadratic::OneMinusSquare => Truncated::one() - self.x * self.x,
+            other => Numbers::default().quadratic(other, &self.x),
+        };
+        let slope = self.x.slope() / w.sqrt();
+        Truncated::integral(self.first, &if sign < 0 { -slope } else { slope })
+    }
+}
+
+macro_rules! functions {
+    ($($variant:ident $name:ident $single:ident $from:ident $what:literal {
+        rule: $rule:ident $form:tt, $($facts:tt)*
+    })+) => {
+        $(fn $name(self) -> Self {
+            Composed { x: self, first: self.terms[0].$name() }.$rule $form
+        })+
+    };
 }
 
 impl<S: Scalar> Add for Truncated<S> {
@@ -219,84 +307,7 @@ impl<S: Scalar> Scalar for Truncated<S> {
             (self.terms[k] - sum(y, y, k)) / (root + root)
         })
     }
-    fn exp(self) -> Self {
-        let slope = self.slope();
-        let slope = &slope.terms[..self.length];
-        Self::recursive(self.length, self.terms[0].exp(), |y, k| {
-            sum(slope, y, k) / S::from_f64(k as f64)
-        })
-    }
-    fn log(self) -> Self {
-        Self::integral(self.terms[0].log(), &(self.slope() / self))
-    }
-    fn sin(self) -> Self {
-        let (sin, cos) = (self.terms[0].sin(), self.terms[0].cos());
-        self.pair(sin, cos, [1.0, -1.0]).0
-    }
-    fn cos(self) -> Self {
-        let (sin, cos) = (self.terms[0].sin(), self.terms[0].cos());
-        self.pair(sin, cos, [1.0, -1.0]).1
-    }
-    fn tan(self) -> Self {
-        let quotient = self.sin() / self.cos();
-        Self::from_fn(self.length, |k| match k {
-            0 => self.terms[0].tan(),
-            _ => quotient.terms[k],
-        })
-    }
-    fn asin(self) -> Self {
-        let slope = self.slope() / (Self::one() - self * self).sqrt();
-        Self::integral(self.terms[0].asin(), &slope)
-    }
-    fn acos(self) -> Self {
-        let slope = self.slope() / (Self::one() - self * self).sqrt();
-        Self::integral(self.terms[0].acos(), &-slope)
-    }
-    fn atan(self) -> Self {
-        let slope = self.slope() / (Self::one() + self * self);
-        Self::integral(self.terms[0].atan(), &slope)
-    }
-    fn sinh(self) -> Self {
-        let (sinh, cosh) = (self.terms[0].sinh(), self.terms[0].cosh());
-        self.pair(sinh, cosh, [1.0, 1.0]).0
-    }
-    fn cosh(self) -> Self {
-        let (sinh, cosh) = (self.terms[0].sinh(), self.terms[0].cosh());
-        self.pair(sinh, cosh, [1.0, 1.0]).1
-    }
-    fn tanh(self) -> Self {
-        let quotient = self.sinh() / self.cosh();
-        Self::from_fn(self.length, |k| match k {
-            0 => self.terms[0].tanh(),
-            _ => quotient.terms[k],
-        })
-    }
-    fn cbrt(self) -> Self {
-        self.power(self.terms[0].cbrt(), S::ratio(1.0, 3.0))
-    }
-    fn log1p(self) -> Self {
-        let slope = self.slope() / (Self::one() + self);
-        Self::integral(self.terms[0].log1p(), &slope)
-    }
-    fn expm1(self) -> Self {
-        let power = self.exp();
-        Self::from_fn(self.length, |k| match k {
-            0 => self.terms[0].expm1(),
-            _ => power.terms[k],
-        })
-    }
-    fn asinh(self) -> Self {
-        let slope = self.slope() / (Self::one() + self * self).sqrt();
-        Self::integral(self.terms[0].asinh(), &slope)
-    }
-    fn acosh(self) -> Self {
-        let slope = self.slope() / ((self - Self::one()) * (self + Self::one())).sqrt();
-        Self::integral(self.terms[0].acosh(), &slope)
-    }
-    fn atanh(self) -> Self {
-        let slope = self.slope() / ((Self::one() - self) * (Self::one() + self));
-        Self::integral(self.terms[0].atanh(), &slope)
-    }
+    crate::elementary_functions!(functions);
     fn atan2(self, x: Self) -> Self {
         let slope = (x * self.slope() - self * x.slope()) / (x * x + self * self);
         Self::integral(self.terms[0].atan2(x.terms[0]), &slope)

@@ -191,8 +191,14 @@ impl Code {
                 Operation::Call(Function::Atan2, arguments) => {
                     Instruction::Atan2(at(&arguments[0]), at(&arguments[1]))
                 }
-                Operation::Call(function, arguments) => {
+                Operation::Call(Function::Elementary(function), arguments) => {
                     Instruction::Call(*function, at(&arguments[0]))
+                }
+                Operation::Call(Function::Stumpff(_) | Function::Phi(_), _) => {
+                    unreachable!("members of a family")
+                }
+                Operation::Call(Function::Own(own), _) => {
+                    unreachable!("{own:?} has no code at run time")
                 }
             };
             lowering.code.instructions.push(instruction);

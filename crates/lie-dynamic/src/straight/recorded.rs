@@ -3,7 +3,7 @@
 use super::record::with;
 use crate::code::{Code, Instruction, Number, Register, Source};
 use crate::kernels::{Frame, Machine, Targets};
-use lie_codegen::symbolic::Function;
+use lie_core::Elementary;
 use lie_runtime::Scalar;
 use lie_runtime::scalar::Pack;
 use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
@@ -25,10 +25,6 @@ impl Recorded {
 
     fn result(instruction: Instruction) -> Self {
         Self(with(|record| record.push(instruction)))
-    }
-
-    fn call(self, function: Function) -> Self {
-        Self::result(Instruction::Call(function, self.0))
     }
 
     /// An answer that depends on the values.
@@ -114,11 +110,11 @@ impl Neg for Recorded {
 }
 
 macro_rules! functions {
-    ($($name:ident $function:ident,)+) => {$(
-        fn $name(self) -> Self {
-            self.call(Function::$function)
-        }
-    )+};
+    ($($variant:ident $name:ident $single:ident $from:ident $what:literal $facts:tt)+) => {
+        $(fn $name(self) -> Self {
+            Self::result(Instruction::Call(Elementary::$variant, self.0))
+        })+
+    };
 }
 
 impl Scalar for Recorded {
@@ -171,10 +167,7 @@ impl Scalar for Recorded {
     fn sqrt(self) -> Self {
         Self::result(Instruction::Sqrt(self.0))
     }
-    functions! {
-        exp Exp, log Log, sin Sin, cos Cos, tan Tan, asin Asin, acos Acos, atan Atan, sinh Sinh, cosh Cosh, tanh Tanh,
-        cbrt Cbrt, log1p Log1p, expm1 Expm1, asinh Asinh, acosh Acosh, atanh Atanh,
-    }
+    lie_core::elementary_functions!(functions);
     fn atan2(self, x: Self) -> Self {
         Self::result(Instruction::Atan2(self.0, x.0))
     }

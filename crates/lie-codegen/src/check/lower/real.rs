@@ -5,7 +5,8 @@ use crate::diagnostic::{Kind, Origin};
 use crate::exact::Rational;
 use crate::linear::walk::Lower as _;
 use crate::prove::sign;
-use crate::symbolic::{ExprId, Function};
+use crate::symbolic::{Elementary, ExprId};
+use lie_core::functions::Domain;
 
 impl Lowering<'_, '_> {
     /// The sign of a constant, exactly: of rational numbers, of irrational ones by rigorous bounds where these
@@ -36,44 +37,38 @@ impl Lowering<'_, '_> {
     /// Whether a function of constants is not real or not finite; `None` where that was reported as undecided.
     pub(super) fn is_undefined(
         &mut self,
-        function: Function,
+        function: Elementary,
         id: ExprId,
         place: Origin,
     ) -> Option<bool> {
-        match function {
-            Function::Log => Some(self.constant_sign(id, place)?.is_some_and(|sign| sign <= 0)),
-            Function::Asin | Function::Acos => {
-                // 1 - x^2
+        // what is to be positive, or not negative, or not zero
+        let inside = match function.domain() {
+            Domain::Everywhere => return Some(false),
+            Domain::Positive => id,
+            Domain::AboveMinusOne => {
+                let one = self.graph.integer(1);
+                self.graph.add(one, id)
+            }
+            Domain::FromOne => {
+                let one = self.graph.integer(1);
+                self.graph.sub(id, one)
+            }
+            Domain::WithinOne | Domain::BetweenOnes => {
                 let square = self.graph.pow(id, &Rational::from(2));
                 let one = self.graph.integer(1);
-                let rest = self.graph.sub(one, square);
-                Some(self.constant_sign(rest, place)? == Some(-1))
+                self.graph.sub(one, square)
             }
-            Function::Log1p => {
-                let one = self.graph.integer(1);
-                let inside = self.graph.add(one, id);
-                let sign = self.constant_sign(inside, place)?;
-                Some(sign.is_some_and(|sign| sign <= 0))
+            Domain::NotRight => self.graph.call(Elementary::Cos, &[id]),
+        };
+        let sign = self.constant_sign(inside, place)?;
+        Some(match function.domain() {
+            Domain::Everywhere => false,
+            Domain::Positive | Domain::AboveMinusOne | Domain::BetweenOnes => {
+                sign.is_some_and(|sign| sign <= 0)
             }
-            Function::Acosh => {
-                let one = self.graph.integer(1);
-                let rest = self.graph.sub(id, one);
-                Some(self.constant_sign(rest, place)? == Some(-1))
-            }
-            Function::Atanh => {
-                // 1 - x^2
-                let square = self.graph.pow(id, &Rational::from(2));
-                let one = self.graph.integer(1);
-                let rest = self.graph.sub(one, square);
-                let sign = self.constant_sign(rest, place)?;
-                Some(sign.is_some_and(|sign| sign <= 0))
-            }
-            Function::Tan => {
-                let cosine = self.graph.call(Function::Cos, &[id]);
-                Some(self.constant_sign(cosine, place)? == Some(0))
-            }
-            _ => Some(false),
-        }
+            Domain::FromOne | Domain::WithinOne => sign == Some(-1),
+            Domain::NotRight => sign == Some(0),
+        })
     }
 
     /// Refuses the powers of constants that are not real or not finite.

@@ -3,8 +3,8 @@
 use std::cell::RefCell;
 use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
-use lie_core::Scalar;
 use lie_core::scalar::Pack;
+use lie_core::{Elementary, Scalar};
 
 use crate::derive::{Block, Source, Tape};
 use crate::exact::Rational;
@@ -55,7 +55,7 @@ impl Sym {
         Self(with(|s| s.source.graph.number(value)))
     }
 
-    fn call(self, function: Function) -> Self {
+    fn call(self, function: Elementary) -> Self {
         Self(with(|s| s.source.graph.call(function, &[self.0])))
     }
 
@@ -104,6 +104,14 @@ impl Neg for Sym {
 /// A number that f64 holds, exactly; what is not finite has no exact value.
 fn exact(value: f64) -> Rational {
     Rational::from_f64(value).unwrap_or_else(|| Sym::branch(Rational::ZERO))
+}
+
+macro_rules! functions {
+    ($($variant:ident $name:ident $single:ident $from:ident $what:literal $facts:tt)+) => {
+        $(fn $name(self) -> Self {
+            self.call(Elementary::$variant)
+        })+
+    };
 }
 
 impl Scalar for Sym {
@@ -168,57 +176,7 @@ impl Scalar for Sym {
     fn sqrt(self) -> Self {
         self.powf(Self::ratio(1.0, 2.0))
     }
-    fn exp(self) -> Self {
-        self.call(Function::Exp)
-    }
-    fn log(self) -> Self {
-        self.call(Function::Log)
-    }
-    fn sin(self) -> Self {
-        self.call(Function::Sin)
-    }
-    fn cos(self) -> Self {
-        self.call(Function::Cos)
-    }
-    fn tan(self) -> Self {
-        self.call(Function::Tan)
-    }
-    fn asin(self) -> Self {
-        self.call(Function::Asin)
-    }
-    fn acos(self) -> Self {
-        self.call(Function::Acos)
-    }
-    fn atan(self) -> Self {
-        self.call(Function::Atan)
-    }
-    fn sinh(self) -> Self {
-        self.call(Function::Sinh)
-    }
-    fn cosh(self) -> Self {
-        self.call(Function::Cosh)
-    }
-    fn tanh(self) -> Self {
-        self.call(Function::Tanh)
-    }
-    fn cbrt(self) -> Self {
-        self.call(Function::Cbrt)
-    }
-    fn log1p(self) -> Self {
-        self.call(Function::Log1p)
-    }
-    fn expm1(self) -> Self {
-        self.call(Function::Expm1)
-    }
-    fn asinh(self) -> Self {
-        self.call(Function::Asinh)
-    }
-    fn acosh(self) -> Self {
-        self.call(Function::Acosh)
-    }
-    fn atanh(self) -> Self {
-        self.call(Function::Atanh)
-    }
+    lie_core::elementary_functions!(functions);
     fn atan2(self, x: Self) -> Self {
         Self(with(|s| {
             s.source.graph.call(Function::Atan2, &[self.0, x.0])

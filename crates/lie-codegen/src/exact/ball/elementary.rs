@@ -2,12 +2,27 @@
 
 use super::{Ball, MAX_ARGUMENT, Precision, series};
 use crate::exact::Rational;
+use lie_core::Elementary;
 use num_traits::Zero;
 
 /// Halvings of the argument before the series of exp.
 const EXP_HALVINGS: i64 = 8;
 /// Halvings of the angle before the series of atan.
 const ATAN_HALVINGS: u32 = 3;
+
+macro_rules! functions {
+    ($($variant:ident $name:ident $single:ident $from:ident $what:literal $facts:tt)+) => {
+        impl Ball {
+            /// An elementary function, by the method of its name.
+            pub fn function(&self, function: Elementary, precision: &Precision) -> Option<Self> {
+                match function {
+                    $(Elementary::$variant => self.$name(precision),)+
+                }
+            }
+        }
+    };
+}
+lie_core::elementary_functions!(functions);
 
 impl Ball {
     /// Whether it is the number zero.
@@ -78,6 +93,22 @@ impl Ball {
             2 => (sine.neg(), cosine.neg()),
             _ => (cosine.neg(), sine),
         })
+    }
+
+    /// Sine.
+    pub fn sin(&self, precision: &Precision) -> Option<Self> {
+        Some(self.sin_cos(precision)?.0)
+    }
+
+    /// Cosine.
+    pub fn cos(&self, precision: &Precision) -> Option<Self> {
+        Some(self.sin_cos(precision)?.1)
+    }
+
+    /// The tangent.
+    pub fn tan(&self, precision: &Precision) -> Option<Self> {
+        let (sine, cosine) = self.sin_cos(precision)?;
+        sine.div(&cosine, precision)
     }
 
     /// The inverse tangent.
@@ -222,5 +253,21 @@ impl Ball {
             power.add(&inverse, precision),
         );
         Some((difference.shifted(-1), sum.shifted(-1)))
+    }
+
+    /// Hyperbolic sine.
+    pub fn sinh(&self, precision: &Precision) -> Option<Self> {
+        Some(self.sinh_cosh(precision)?.0)
+    }
+
+    /// Hyperbolic cosine.
+    pub fn cosh(&self, precision: &Precision) -> Option<Self> {
+        Some(self.sinh_cosh(precision)?.1)
+    }
+
+    /// The hyperbolic tangent.
+    pub fn tanh(&self, precision: &Precision) -> Option<Self> {
+        let (sine, cosine) = self.sinh_cosh(precision)?;
+        sine.div(&cosine, precision)
     }
 }

@@ -1,29 +1,13 @@
 use super::*;
+use lie_core::Elementary;
 
 /// The value of a line of `values.txt`, which `lab/tools/ball_values.py` writes by mpmath.
 fn value(name: &str, x: &[Ball], p: &Precision) -> Option<Ball> {
     match name {
-        "exp" => x[0].exp(p),
-        "log" => x[0].log(p),
         "sqrt" => x[0].sqrt(p),
         "cuberoot" => x[0].power(&Rational::new(1, 3)?, p),
-        "sin" => Some(x[0].sin_cos(p)?.0),
-        "cos" => Some(x[0].sin_cos(p)?.1),
-        "tan" => x[0].sin_cos(p).and_then(|(s, c)| s.div(&c, p)),
-        "asin" => x[0].asin(p),
-        "acos" => x[0].acos(p),
-        "atan" => x[0].atan(p),
         "atan2" => x[0].atan2(&x[1], p),
-        "sinh" => Some(x[0].sinh_cosh(p)?.0),
-        "cosh" => Some(x[0].sinh_cosh(p)?.1),
-        "tanh" => x[0].sinh_cosh(p).and_then(|(s, c)| s.div(&c, p)),
-        "cbrt" => x[0].cbrt(p),
-        "log1p" => x[0].log1p(p),
-        "expm1" => x[0].expm1(p),
-        "asinh" => x[0].asinh(p),
-        "acosh" => x[0].acosh(p),
-        "atanh" => x[0].atanh(p),
-        _ => None,
+        _ => x[0].function(Elementary::from_name(name)?, p),
     }
 }
 

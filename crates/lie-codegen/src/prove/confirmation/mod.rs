@@ -13,7 +13,7 @@ use std::sync::OnceLock;
 
 use super::sample::{Sample, Samples};
 use crate::exact::{Ball, Precision, Rational};
-use crate::symbolic::{ExprId, Function, Graph, Node, Opaque, Symbol, chosen};
+use crate::symbolic::{Elementary, ExprId, Function, Graph, Node, Opaque, Symbol, chosen};
 use points::Points;
 use residues::Residues;
 
@@ -249,29 +249,7 @@ fn stand_in(own: Opaque, arguments: &[&Ball]) -> Option<Ball> {
 fn call(function: Function, x: &Ball, second: Option<&Ball>) -> Option<Ball> {
     let precision = precision();
     match function {
-        Function::Exp => x.exp(precision),
-        Function::Log => x.log(precision),
-        Function::Sin => Some(x.sin_cos(precision)?.0),
-        Function::Cos => Some(x.sin_cos(precision)?.1),
-        Function::Tan => {
-            let (sine, cosine) = x.sin_cos(precision)?;
-            sine.div(&cosine, precision)
-        }
-        Function::Asin => x.asin(precision),
-        Function::Acos => x.acos(precision),
-        Function::Atan => x.atan(precision),
-        Function::Sinh => Some(x.sinh_cosh(precision)?.0),
-        Function::Cosh => Some(x.sinh_cosh(precision)?.1),
-        Function::Tanh => {
-            let (sine, cosine) = x.sinh_cosh(precision)?;
-            sine.div(&cosine, precision)
-        }
-        Function::Cbrt => x.cbrt(precision),
-        Function::Log1p => x.log1p(precision),
-        Function::Expm1 => x.expm1(precision),
-        Function::Asinh => x.asinh(precision),
-        Function::Acosh => x.acosh(precision),
-        Function::Atanh => x.atanh(precision),
+        Function::Elementary(function) => x.function(function, precision),
         Function::Atan2 => x.atan2(second?, precision),
         Function::Stumpff(_) | Function::Phi(_) | Function::Below | Function::Own(_) => None,
     }
@@ -295,7 +273,10 @@ fn branches(graph: &Graph, parts: &[ExprId]) -> Vec<ExprId> {
                 let fractional = factors.iter().filter(|(_, e)| !e.is_integer());
                 fractional.for_each(|(base, _)| add(graph.coefficient(*base).1));
             }
-            Node::Call(Function::Log | Function::Cbrt | Function::Atan2, arguments) => {
+            Node::Call(
+                Function::Elementary(Elementary::Log | Elementary::Cbrt) | Function::Atan2,
+                arguments,
+            ) => {
                 let parts = arguments.iter();
                 parts.for_each(|argument| add(graph.coefficient(*argument).1));
             }

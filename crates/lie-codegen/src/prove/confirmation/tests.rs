@@ -44,7 +44,7 @@ fn both_sides_of_a_branch_are_reached() {
         let difference = g.sub(x, y);
         let square = g.pow(difference, &2.into());
         let root = g.pow(square, &half());
-        let logarithm = g.call(Function::Log, &[difference]);
+        let logarithm = g.call(Elementary::Log, &[difference]);
         let zero = g.sub(root, difference);
         g.mul(zero, logarithm)
     });
@@ -56,7 +56,7 @@ fn an_empty_domain_shows_nothing() {
     let found = finding(|g, [x, _]| {
         let square = g.pow(x, &2.into());
         let negative = g.neg(square);
-        g.call(Function::Log, &[negative])
+        g.call(Elementary::Log, &[negative])
     });
     assert_eq!(found, Finding::Unknown);
 }
@@ -68,9 +68,9 @@ fn degrees_are_looked_at_along_lines() {
     let y = g.symbol(Symbol::Coordinate(1));
     // exp(3/2 log(x^2)) = |x|^3 is x^3 on either side only
     let square = g.pow(x, &2.into());
-    let logarithm = g.call(Function::Log, &[square]);
+    let logarithm = g.call(Elementary::Log, &[square]);
     let scaled = g.scale(logarithm, &Rational::new(3, 2).unwrap());
-    let cube = g.call(Function::Exp, &[scaled]);
+    let cube = g.call(Elementary::Exp, &[scaled]);
     let whole = g.mul(cube, y);
     let mut confirmation = Confirmation::new(&g, &[]);
     for (degree, expected) in [
@@ -86,7 +86,7 @@ fn degrees_are_looked_at_along_lines() {
 fn the_smallest_difference_is_seen() {
     // sin^2 + cos^2 - 1 + 10^-50
     let found = finding(|g, [x, _]| {
-        let (sine, cosine) = (g.call(Function::Sin, &[x]), g.call(Function::Cos, &[x]));
+        let (sine, cosine) = (g.call(Elementary::Sin, &[x]), g.call(Elementary::Cos, &[x]));
         let (a, b) = (g.pow(sine, &2.into()), g.pow(cosine, &2.into()));
         let small = Rational::from(10).pow(-50).unwrap();
         let rest = g.number(&small - &Rational::ONE);

@@ -6,7 +6,7 @@
 use super::atoms::Atom;
 use super::{NormalForm, Stop};
 use crate::exact::{Fraction, Polynomial, Rational};
-use crate::symbolic::{ExprId, Function, Node};
+use crate::symbolic::{Elementary, ExprId, Function, Node};
 
 impl NormalForm<'_> {
     /// The imaginary unit.
@@ -80,15 +80,15 @@ impl NormalForm<'_> {
         let square = u.mul(u, self.budget)?;
         let unit = self.unit();
         let value = match function {
-            Function::Asin | Function::Acos => {
+            Function::Elementary(Elementary::Asin | Elementary::Acos) => {
                 let other = self.absolute_power(&one.sub(&square, self.budget)?, &half)?;
                 let (real, imaginary) = match function {
-                    Function::Asin => (&other, u),
+                    Function::Elementary(Elementary::Asin) => (&other, u),
                     _ => (u, &other),
                 };
                 real.add(&unit.mul(imaginary, self.budget)?, self.budget)?
             }
-            Function::Atan | Function::Atan2 => {
+            Function::Elementary(Elementary::Atan) | Function::Atan2 => {
                 let x = arguments.get(1).unwrap_or(&one);
                 let radius = x.mul(x, self.budget)?.add(&square, self.budget)?;
                 // not negative, whatever the normal form knows of it
@@ -172,15 +172,19 @@ impl NormalForm<'_> {
     }
 
     /// The angles that are rational multiples of pi: `asin 1 = pi/2`, `acos(1/2) = pi/3`, `atan 1 = pi/4`.
-    pub(super) fn known_angle(&mut self, function: Function, value: &Rational) -> Option<Fraction> {
+    pub(super) fn known_angle(
+        &mut self,
+        function: Elementary,
+        value: &Rational,
+    ) -> Option<Fraction> {
         let (p, q) = match (function, value.to_words()?) {
-            (Function::Asin | Function::Atan, (0, 1)) | (Function::Acos, (1, 1)) => (0, 1),
-            (Function::Asin, (1, 1)) | (Function::Acos, (0, 1)) => (1, 2),
-            (Function::Asin, (1, 2)) => (1, 6),
-            (Function::Acos, (1, 2)) => (1, 3),
-            (Function::Acos, (-1, 2)) => (2, 3),
-            (Function::Acos, (-1, 1)) => (1, 1),
-            (Function::Atan, (1, 1)) => (1, 4),
+            (Elementary::Asin | Elementary::Atan, (0, 1)) | (Elementary::Acos, (1, 1)) => (0, 1),
+            (Elementary::Asin, (1, 1)) | (Elementary::Acos, (0, 1)) => (1, 2),
+            (Elementary::Asin, (1, 2)) => (1, 6),
+            (Elementary::Acos, (1, 2)) => (1, 3),
+            (Elementary::Acos, (-1, 2)) => (2, 3),
+            (Elementary::Acos, (-1, 1)) => (1, 1),
+            (Elementary::Atan, (1, 1)) => (1, 4),
             _ => return None,
         };
         let pi = Fraction::variable(self.atom(Atom::Pi));

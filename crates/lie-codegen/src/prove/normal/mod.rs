@@ -26,7 +26,7 @@ use std::collections::{BTreeSet, HashMap};
 
 use super::confirmation::{Confirmation, Finding};
 use crate::exact::{Budget, Exhausted, Fraction, Polynomial, Rational};
-use crate::symbolic::{ExprId, Function, Graph, Node, Symbol};
+use crate::symbolic::{Elementary, ExprId, Function, Graph, Node, Symbol};
 use atoms::Atom;
 use signs::{Fact, Relations, facts};
 
@@ -291,9 +291,16 @@ impl<'a> NormalForm<'a> {
                 }
                 Ok(product)
             }
-            Node::Call(Function::Log, arguments) => self.logarithm(arguments[0]),
+            Node::Call(Function::Elementary(Elementary::Log), arguments) => {
+                self.logarithm(arguments[0])
+            }
             Node::Call(Function::Below, arguments) => self.choice(arguments),
-            Node::Call(function @ (Function::Sin | Function::Cos | Function::Tan), arguments) => {
+            Node::Call(
+                Function::Elementary(
+                    function @ (Elementary::Sin | Elementary::Cos | Elementary::Tan),
+                ),
+                arguments,
+            ) => {
                 let power = self.rotation_of(arguments[0])?;
                 self.circular(*function, &power)
             }
@@ -326,36 +333,32 @@ impl<'a> NormalForm<'a> {
     fn call(&mut self, function: Function, arguments: &[Fraction]) -> Result<Fraction, Stop> {
         let half = &Rational::ONE / &Rational::from(2);
         let argument = &arguments[0];
-        match function {
-            Function::Exp => self.exponential(argument),
-            Function::Expm1 => {
+        let Function::Elementary(elementary) = function else {
+            return self.opaque(function, arguments);
+        };
+        match elementary {
+            Elementary::Exp => self.exponential(argument),
+            Elementary::Expm1 => {
                 let power = self.exponential(argument)?;
                 Ok(power.sub(&Rational::ONE.into(), self.budget)?)
             }
-            Function::Sinh | Function::Cosh | Function::Tanh => {
+            Elementary::Sinh | Elementary::Cosh | Elementary::Tanh => {
                 let power = self.exponential(argument)?;
                 let inverse = self.reciprocal(&power)?;
                 let difference = power.sub(&inverse, self.budget)?;
                 let sum = power.add(&inverse, self.budget)?;
-                match function {
-                    Function::Sinh => Ok(difference.scale(&half)),
-                    Function::Cosh => Ok(sum.scale(&half)),
+                match elementary {
+                    Elementary::Sinh => Ok(difference.scale(&half)),
+                    Elementary::Cosh => Ok(sum.scale(&half)),
                     _ => Ok(difference.mul(&self.reciprocal(&sum)?, self.budget)?),
                 }
             }
-            // odd functions
-            Function::Asin
-            | Function::Atan
-            | Function::Asinh
-            | Function::Atanh
-            | Function::Cbrt
-                if argument.numerator().content().is_negative() =>
-            {
+            odd if odd.is_odd() && argument.numerator().content().is_negative() => {
                 Ok(self.call(function, &[argument.neg()])?.neg())
             }
-            _ => {
+            other => {
                 let value = argument.as_constant();
-                match value.and_then(|value| self.known_angle(function, &value)) {
+                match value.and_then(|value| self.known_angle(other, &value)) {
                     Some(angle) => Ok(angle),
                     None => self.opaque(function, arguments),
                 }
@@ -364,7 +367,7 @@ impl<'a> NormalForm<'a> {
     }
 
     /// Sine, cosine or tangent of an angle a from `exp(i a)`.
-    fn circular(&mut self, function: Function, power: &Fraction) -> Result<Fraction, Stop> {
+    fn circular(&mut self, function: Elementary, power: &Fraction) -> Result<Fraction, Stop> {
         let half = &Rational::ONE / &Rational::from(2);
         let unit = self.unit();
         let inverse = self.reciprocal(power)?;
@@ -374,8 +377,8 @@ impl<'a> NormalForm<'a> {
             .sub(&inverse, self.budget)?
             .mul(&unit.neg(), self.budget)?;
         match function {
-            Function::Sin => Ok(difference.scale(&half)),
-            Function::Cos => Ok(sum.scale(&half)),
+            Elementary::Sin => Ok(difference.scale(&half)),
+            Elementary::Cos => Ok(sum.scale(&half)),
             _ => Ok(difference.mul(&self.reciprocal(&sum)?, self.budget)?),
         }
     }

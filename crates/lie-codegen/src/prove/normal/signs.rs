@@ -11,7 +11,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::atoms::Atom;
 use super::{NormalForm, Stop};
 use crate::exact::{Fraction, Polynomial, Rational};
-use crate::symbolic::{ExprId, Function, Graph, Node};
+use crate::symbolic::{Elementary, ExprId, Function, Graph, Node};
 
 /// `-1` if negative, times the signs that are atoms.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -116,10 +116,10 @@ pub(super) fn facts(graph: &Graph, roots: &[ExprId]) -> BTreeSet<(ExprId, Fact)>
     // of a branch nothing follows: it need not be taken
     for id in graph.certain(roots) {
         match graph.node(id) {
-            Node::Call(Function::Log, arguments) => {
+            Node::Call(Function::Elementary(Elementary::Log), arguments) => {
                 found.insert((arguments[0], Fact::Positive));
             }
-            Node::Call(Function::Asin | Function::Acos, arguments) => {
+            Node::Call(Function::Elementary(Elementary::Asin | Elementary::Acos), arguments) => {
                 found.insert((arguments[0], Fact::WithinOne));
             }
             Node::Product(factors) => {

@@ -33,7 +33,7 @@ impl Source {
     fn int(&mut self, n: i64) -> ExprId {
         self.graph.integer(n)
     }
-    fn call(&mut self, function: Function, argument: ExprId) -> ExprId {
+    fn call(&mut self, function: impl Into<Function>, argument: ExprId) -> ExprId {
         self.graph.call(function, &[argument])
     }
     fn pow(&mut self, id: ExprId, p: i64, q: i64) -> ExprId {
@@ -81,12 +81,12 @@ impl Source {
                 let (a, b, one) = (self.pow(a, 2, 1), self.pow(b, 2, 1), self.int(c));
                 self.graph.sum(&[a, b, one])
             }
-            7 => self.call(Function::Sin, a),
+            7 => self.call(Elementary::Sin, a),
             8 => {
                 let one = self.int(c);
                 self.graph.add(a, one)
             }
-            9 => self.call(Function::Cosh, a),
+            9 => self.call(Elementary::Cosh, a),
             10 => self.graph.div(a, b),
             _ => {
                 let (a, b) = (self.pow(a, 2, 1), self.times(c, 2, b));
@@ -116,7 +116,7 @@ impl Source {
         }
     }
     fn logarithms(&mut self, u: ExprId, v: ExprId) -> (ExprId, ExprId) {
-        use Function::{Exp, Log};
+        use Elementary::{Exp, Log};
         let (square, product) = (self.pow(u, 2, 1), self.graph.mul(u, v));
         match self.below(8) {
             0 => {
@@ -172,9 +172,9 @@ impl Source {
                 (self.pow(square, 1, 2), self.graph.mul(a, b))
             }
             2 => {
-                let l = self.call(Function::Log, u);
+                let l = self.call(Elementary::Log, u);
                 let l = self.times(p, q, l);
-                (self.pow(u, p, q), self.call(Function::Exp, l))
+                (self.pow(u, p, q), self.call(Elementary::Exp, l))
             }
             3 => {
                 let (a, b, c) = (
@@ -204,7 +204,7 @@ impl Source {
         }
     }
     fn angles(&mut self, u: ExprId, v: ExprId, one: ExprId) -> (ExprId, ExprId) {
-        use Function::{Cos, Sin, Tan};
+        use Elementary::{Cos, Sin, Tan};
         let [(su, cu), (sv, cv)] = [u, v].map(|id| (self.call(Sin, id), self.call(Cos, id)));
         let sum = self.graph.add(u, v);
         match self.below(7) {
@@ -243,7 +243,7 @@ impl Source {
         }
     }
     fn hyperbolas(&mut self, u: ExprId, v: ExprId, one: ExprId) -> (ExprId, ExprId) {
-        use Function::{Cosh, Exp, Sinh, Tanh};
+        use Elementary::{Cosh, Exp, Sinh, Tanh};
         let (s, c) = (self.call(Sinh, u), self.call(Cosh, u));
         match self.below(6) {
             0 => {
@@ -270,7 +270,7 @@ impl Source {
         }
     }
     fn inverses(&mut self, u: ExprId, v: ExprId, one: ExprId) -> (ExprId, ExprId) {
-        use Function::{Acos, Asin, Atan, Atan2, Cos, Sin, Tan};
+        use Elementary::{Acos, Asin, Atan, Cos, Sin, Tan};
         let (uu, vv) = (self.pow(u, 2, 1), self.pow(v, 2, 1));
         let (asin, atan) = (self.call(Asin, u), self.call(Atan, u));
         match self.below(8) {
@@ -291,7 +291,7 @@ impl Source {
                 (self.call(Sin, atan), self.graph.mul(u, root))
             }
             5 => {
-                let angle = self.graph.call(Atan2, &[u, v]);
+                let angle = self.graph.call(Function::Atan2, &[u, v]);
                 let (square, s) = (self.graph.add(uu, vv), self.call(Sin, angle));
                 let radius = self.pow(square, 1, 2);
                 (self.graph.mul(radius, s), u)

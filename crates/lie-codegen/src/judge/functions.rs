@@ -1,0 +1,60 @@
+//! The elementary functions by rules of the judge's own: those of the compiler are what is judged.
+
+use super::number::Number;
+use lie_core::Elementary;
+
+/// The derivative at x of a function whose value there is y.
+pub fn slope<T: Number>(function: Elementary, x: &T, y: &T) -> T {
+    let one = T::integer(1);
+    let square = || x.mul(x);
+    match function {
+        Elementary::Exp => y.clone(),
+        Elementary::Log => one.div(x),
+        Elementary::Sin => x.call(Elementary::Cos),
+        Elementary::Cos => x.call(Elementary::Sin).neg(),
+        Elementary::Tan => one.add(&y.mul(y)),
+        Elementary::Asin => one.div(&one.sub(&square()).power(0.5)),
+        Elementary::Acos => one.neg().div(&one.sub(&square()).power(0.5)),
+        Elementary::Atan => one.div(&one.add(&square())),
+        Elementary::Sinh => x.call(Elementary::Cosh),
+        Elementary::Cosh => x.call(Elementary::Sinh),
+        Elementary::Tanh => one.sub(&y.mul(y)),
+        Elementary::Cbrt => one.div(&T::integer(3).mul(&y.mul(y))),
+        Elementary::Log1p => one.div(&one.add(x)),
+        Elementary::Expm1 => x.call(Elementary::Exp),
+        Elementary::Asinh => one.div(&one.add(&square()).power(0.5)),
+        Elementary::Acosh => one.div(&square().sub(&one).power(0.5)),
+        Elementary::Atanh => one.div(&one.sub(&square())),
+    }
+}
+
+/// A number of which nothing is known but its value.
+impl Number for f64 {
+    fn rounded(value: f64, _units: f64) -> Self {
+        value
+    }
+    fn value(&self) -> f64 {
+        *self
+    }
+    fn add(&self, other: &Self) -> Self {
+        self + other
+    }
+    fn mul(&self, other: &Self) -> Self {
+        self * other
+    }
+    fn div(&self, other: &Self) -> Self {
+        self / other
+    }
+    fn call(&self, function: Elementary) -> Self {
+        function.evaluate(*self)
+    }
+    fn atan2(&self, other: &Self) -> Self {
+        libm::atan2(*self, *other)
+    }
+    fn power(&self, exponent: f64) -> Self {
+        match exponent {
+            0.5 => self.sqrt(),
+            _ => self.powf(exponent),
+        }
+    }
+}
