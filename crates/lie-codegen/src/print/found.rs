@@ -122,11 +122,10 @@ impl Printer<'_> {
         let kernels: Vec<_> = kernels.collect();
         let reads = |kernel: &Function| kernel.reads(&kernel.arguments[0]);
         let mu = self.argument_if("mu", kernels.iter().any(|(.., kernel)| reads(kernel)));
-        let none = Constants::default();
         let arms = kernels.iter().map(|(place, part, kernel)| {
             let (place, part) = (index(*place), index(*part));
             let argument = |_: &str| quote! { #mu };
-            let body = Body::of(Owner::Equation(&none), &argument, &["_xi"]);
+            let body = Body::of(Owner::System, &argument, &["_xi"]);
             let body = self.body(kernel, &body);
             quote! { (#place, #part) => { #body } }
         });
