@@ -50,7 +50,29 @@ pub fn so3_triple<S: Scalar>(x: &[S], z: &[S], m: &[S]) -> [S; 3] {
 impl<S: Scalar> Poisson<S> for RigidBody<S> {
     type State = SVector<S, 3>;
     type Jacobian = SMatrix<S, 3, 3>;
-    facts!(S, "RigidBody", ["x", "y", "z"], ["C"]);
+
+    // documentation, lie-dense and no-std-check include this file alone, without the macros beside it
+    fn dimension(&self) -> usize {
+        3
+    }
+    fn name(&self) -> &str {
+        "RigidBody"
+    }
+    fn coordinate(&self, index: usize) -> &str {
+        ["x", "y", "z"][index]
+    }
+    fn casimir_count(&self) -> usize {
+        1
+    }
+    fn casimir_name(&self, _index: usize) -> &str {
+        "C"
+    }
+    fn zero_state(&self) -> Self::State {
+        SVector::<S, 3>::repeat(S::zero())
+    }
+    fn zero_jacobian(&self) -> Self::Jacobian {
+        SMatrix::<S, 3, 3>::repeat(S::zero())
+    }
     fn hamiltonian(&self, mu: &Self::State) -> S {
         let mut sum = S::zero();
         for k in 0..3 {
