@@ -66,7 +66,7 @@ fn alike(what: &str, a: &[f64], b: &[f64]) {
     let pairs = a.iter().zip(b);
     let difference = pairs.fold(0.0, |most, (a, b)| f64::max(most, (a - b).abs()));
     let size = a.iter().fold(1.0, |most, a| f64::max(most, a.abs()));
-    assert!(difference <= 1e-14 * size, "{what}: {a:?} {b:?}");
+    assert!(difference <= 3e-14 * size, "{what}: {a:?} {b:?}");
 }
 
 fn state<P: Poisson<f64>>(system: &P, numbers: &[f64]) -> P::State {
@@ -91,27 +91,27 @@ fn kernels<P: LiePoisson<f64>>(system: &P, mu: &P::State) -> Vec<(&'static str, 
             .map(|x| x.cos() - 0.3)
             .collect::<Vec<_>>(),
     );
-    let [mut vector, mut matrix] = [(); 2].map(|()| (system.zero_state(), system.zero_jacobian()));
+    let (mut vector, mut matrix) = (system.zero_state(), system.zero_jacobian());
     let mut found = Vec::new();
-    system.hessian(mu, &mut matrix.1);
-    found.push(("hessian", entries(system, &matrix.1)));
-    system.jacobian(mu, &mut matrix.1);
-    found.push(("jacobian", entries(system, &matrix.1)));
-    system.linearize(mu, &mut vector.0, &mut matrix.1);
-    found.push(("linearize", entries(system, &matrix.1)));
-    found.push(("its field", vector.0.as_slice().to_vec()));
+    system.hessian(mu, &mut matrix);
+    found.push(("hessian", entries(system, &matrix)));
+    system.jacobian(mu, &mut matrix);
+    found.push(("jacobian", entries(system, &matrix)));
+    system.linearize(mu, &mut vector, &mut matrix);
+    found.push(("linearize", entries(system, &matrix)));
+    found.push(("its field", vector.as_slice().to_vec()));
     for index in 0..system.casimir_count() {
-        system.casimir_gradient(index, mu, &mut vector.0);
-        found.push(("casimir_gradient", vector.0.as_slice().to_vec()));
+        system.casimir_gradient(index, mu, &mut vector);
+        found.push(("casimir_gradient", vector.as_slice().to_vec()));
     }
-    system.ad(&xi, mu, &mut vector.0);
-    found.push(("ad", vector.0.as_slice().to_vec()));
-    system.ad_star(&xi, mu, &mut vector.0);
-    found.push(("ad_star", vector.0.as_slice().to_vec()));
-    system.ad_star_matrix(&xi, &mut matrix.1);
-    found.push(("ad_star_matrix", entries(system, &matrix.1)));
-    system.coadjoint_action(&xi, mu, &mut vector.0);
-    found.push(("coadjoint_action", vector.0.as_slice().to_vec()));
+    system.ad(&xi, mu, &mut vector);
+    found.push(("ad", vector.as_slice().to_vec()));
+    system.ad_star(&xi, mu, &mut vector);
+    found.push(("ad_star", vector.as_slice().to_vec()));
+    system.ad_star_matrix(&xi, &mut matrix);
+    found.push(("ad_star_matrix", entries(system, &matrix)));
+    system.coadjoint_action(&xi, mu, &mut vector);
+    found.push(("coadjoint_action", vector.as_slice().to_vec()));
     found
 }
 
