@@ -1,32 +1,14 @@
 //! The compiler as the commands use it: files in, checked models and generated text out.
 
 use std::path::Path;
-use std::rc::Rc;
+use std::sync::Arc;
 
 use lie_codegen::check::Effort;
-use lie_codegen::diagnostic::{Diagnostic, Kind};
+use lie_codegen::diagnostic::Kind;
 use lie_codegen::front::file;
-use lie_codegen::model::Model;
+pub use lie_in_process::spec::Spec;
 
 use crate::message::{Failure, Message, Source};
-
-/// A spec that passed every check.
-pub struct Spec {
-    /// The file.
-    pub source: Rc<Source>,
-    /// What it declares.
-    pub model: Model,
-}
-
-impl Spec {
-    /// The warnings of the checks.
-    pub fn warnings(&self) -> Vec<Message> {
-        let warnings = self.model.warnings.iter().cloned();
-        warnings
-            .map(|warning| Message::from_spec(&self.source, warning))
-            .collect()
-    }
-}
 
 /// Reads and checks a spec.
 ///
@@ -41,7 +23,7 @@ pub fn load(path: &Path) -> Result<Spec, Failure> {
 /// # Errors
 /// As [`load`].
 pub fn load_with(path: &Path, effort: Effort) -> Result<Spec, Failure> {
-    let source = Rc::new(read(path)?);
+    let source = Arc::new(read(path)?);
     let folder = path.parent();
     match lie_codegen::compile::compile_spec_in(&source.text, folder, effort) {
         Ok(model) => Ok(Spec { source, model }),
@@ -77,7 +59,7 @@ fn read(path: &Path) -> Result<Source, Failure> {
         Failure::surroundings(message.help(remedy(path)))
     })?;
     if let Some(oversized) = file::oversized(bytes.len()) {
-        let source = Rc::new(Source {
+        let source = Arc::new(Source {
             path: name,
             text: String::new(),
         });
@@ -93,7 +75,7 @@ fn read(path: &Path) -> Result<Source, Failure> {
         .map_err(|error| {
             let at = error.utf8_error().valid_up_to();
             let before = String::from_utf8_lossy(&error.as_bytes()[..at]).into_owned();
-            let source = Rc::new(Source {
+            let source = Arc::new(Source {
                 path: path.display().to_string(),
                 text: before,
             });
@@ -103,15 +85,4 @@ fn read(path: &Path) -> Result<Source, Failure> {
                 .help("save it as UTF-8")
                 .into()
         })
-}
-
-/// The value of an exact constant such as `1/7` or `cos(11/10)`.
-///
-/// # Errors
-/// What is wrong with it; places count from the beginning of `text`.
-pub fn constant(text: &str) -> Result<f64, Diagnostic> {
-    lie_codegen::compile::constant(text).map_err(|diagnostics| {
-        let first = diagnostics.into_iter().next();
-        first.unwrap_or_else(|| Diagnostic::placeless(Kind::Number, "not a constant"))
-    })
 }

@@ -12,8 +12,6 @@ use std::sync::atomic::{AtomicBool, AtomicU8, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
-/// How long a thread may take after a signal, as long as the programs that measure.
-const GRACE: Duration = Duration::from_secs(2);
 /// Signals within this time are one: who signals a process and its group, as `timeout` does, means it once.
 const ONE: Duration = Duration::from_millis(200);
 
@@ -31,8 +29,6 @@ struct Inner {
     busy: AtomicBool,
     /// What works stops when this end of its input is closed.
     lifeline: Mutex<Option<Box<dyn Send>>>,
-    /// Leaves a thread of this process behind, which cannot be ended alone.
-    leave: Mutex<Option<Box<dyn FnOnce() + Send>>>,
     /// The leader of the group of processes that builds.
     builder: Mutex<Option<u32>>,
 }
@@ -60,17 +56,6 @@ impl Interrupt {
             std::process::exit(i32::from(code));
         }
         self.stop();
-        self.leave_behind();
-    }
-
-    /// Has the thread that works time to end, and goes on without it after that.
-    fn leave_behind(&self) {
-        if let Some(leave) = lock(&self.0.leave).take() {
-            std::thread::spawn(move || {
-                std::thread::sleep(GRACE);
-                leave();
-            });
-        }
     }
 
     /// The exit code that a signal asks for, if there was one.
@@ -85,14 +70,12 @@ impl Interrupt {
         // A signal that came before found nothing to stop.
         if self.seen().is_some() {
             self.stop();
-            self.leave_behind();
         }
     }
 
-    /// The same of a thread of this process; `leave` is called where it does not stop in time.
-    pub fn watch_here(&self, input: Box<dyn Send>, leave: Box<dyn FnOnce() + Send>) {
-        *lock(&self.0.leave) = Some(leave);
-        self.watch(input);
+    /// From now on a thread of this process works, and looks itself whether there was a signal.
+    pub fn expect(&self) {
+        self.0.busy.store(true, Ordering::SeqCst);
     }
 
     /// Asks the program to stop.

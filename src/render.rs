@@ -83,9 +83,9 @@ pub fn render(renderer: &Renderer, message: &Message) -> String {
                 visible(path)
             )
         }
-        Place::CommandLine { option, value } => {
+        Place::Argument { name, value } => {
             let mut text = renderer.render(&[Group::with_title(title)]);
-            let _ = write!(text, "\n --> command line: {}", visible(option));
+            let _ = write!(text, "\n --> command line: {}", visible(name));
             if let Some((value, range)) = value {
                 let line = Line::of(value, range.clone());
                 let snippet = Snippet::source(&*line.text)
@@ -192,7 +192,7 @@ fn ceil(text: &str, mut at: usize) -> usize {
 
 #[cfg(test)]
 mod tests {
-    use std::rc::Rc;
+    use std::sync::Arc;
 
     use lie_codegen::diagnostic::Kind;
 
@@ -200,7 +200,7 @@ mod tests {
     use crate::message::Source;
 
     fn at(text: &str, range: Range<usize>) -> String {
-        let source = Rc::new(Source {
+        let source = Arc::new(Source {
             path: "a.json".to_owned(),
             text: text.to_owned(),
         });
@@ -266,8 +266,8 @@ mod tests {
 
     #[test]
     fn command_line_places() {
-        let place = |value| Place::CommandLine {
-            option: "--step".to_owned(),
+        let place = |value| Place::Argument {
+            name: "--step".to_owned(),
             value,
         };
         let message = Message::new(Kind::Option, "zero")

@@ -193,7 +193,7 @@ fn refused<const WHAT: usize>(judge: &Judge) -> Vec<String> {
     drop(writer);
     assert_eq!(code, 0, "{}", String::from_utf8_lossy(&output));
     let mut refused = Vec::new();
-    listen(&mut output.as_slice(), &mut |message, _| {
+    listen(&mut output.as_slice(), &mut |message| {
         if let Message::Found(Found::Kernel(kernel)) = message {
             let sample = Sample {
                 kernel: kernel.name,

@@ -136,7 +136,7 @@ fn examine<P: Lift<f64> + Clone + 'static>(
     drop(writer);
     assert_eq!(code, 0, "{}", String::from_utf8_lossy(&output));
     let mut failing = Vec::new();
-    listen(&mut output.as_slice(), &mut |message, _| {
+    listen(&mut output.as_slice(), &mut |message| {
         if let Message::Found(Found::Finding { method, finding }) = message
             && finding.verdict == Verdict::Fails
         {

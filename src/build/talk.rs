@@ -1,22 +1,24 @@
-//! Talks with what does the work, by the protocol of [`lie_program`]: a request goes in, messages come out. It is a built
-//! program, or a thread of this one.
+//! Talks with what does the work: a question goes in, findings come out. It is a built program, by the protocol of
+//! [`lie_program`], or a thread of this one.
 
-use std::io::{self, BufRead, BufReader, BufWriter, Read, Write as _};
+use std::io::{self, BufReader, Read, Write as _};
 use std::path::PathBuf;
 use std::process::{Child, ChildStderr, Command, Stdio};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::Arc;
+use std::time::Duration;
 
 use lie_codegen::diagnostic::Kind;
-use lie_in_process::Work;
+use lie_in_process::converse::{Last, Listener, converse};
+use lie_in_process::{Question, Work};
 use lie_program::listen::listen;
-use lie_program::protocol::{End, Message, Obstacle, Progress, Stop};
-use lie_program::session::serve;
+use lie_program::protocol::{End, Message, Obstacle, Progress, Stop, Wire};
 use serde::Serialize;
-use serde::de::DeserializeOwned;
 
 use crate::interrupt::{Interrupt, own_group};
 use crate::message::{Failure, INTERRUPTED};
 
+/// How long a thread may take after a signal, as long as the programs that measure.
+const GRACE: Duration = Duration::from_secs(2);
 /// So much of the last words of a program is kept.
 const WORDS: usize = 1000;
 
@@ -39,8 +41,8 @@ pub enum Outcome {
     NotTaken(io::Error),
 }
 
-/// Takes what a program finds, and what follows it on the output.
-pub type Take<'a, R> = dyn FnMut(R, &mut dyn BufRead) -> io::Result<()> + 'a;
+/// Takes what is found.
+pub type Take<'a, R> = dyn FnMut(R) -> io::Result<()> + 'a;
 
 /// What does the work.
 pub enum Worker {
@@ -51,22 +53,34 @@ pub enum Worker {
 }
 
 impl Worker {
-    /// Has a request served to its end.
+    /// Has a question answered to its end.
     ///
     /// # Errors
     /// The program cannot be started.
-    pub fn talk<R: DeserializeOwned>(
+    pub fn talk<Q>(
         &self,
-        request: &impl Serialize,
+        question: Q,
         interrupt: &Interrupt,
-        found: &mut Take<'_, R>,
+        found: &mut Take<'_, Q::Found>,
         progress: &mut dyn FnMut(&Progress),
-    ) -> io::Result<Outcome> {
+    ) -> io::Result<Outcome>
+    where
+        Q: Question<Found: Wire> + Serialize,
+    {
         match self {
             Self::Program(program) => {
-                talk(Command::new(program), request, interrupt, found, progress)
+                talk(Command::new(program), &question, interrupt, found, progress)
             }
-            Self::Here(work) => talk_here(work, request, interrupt, found, progress),
+            Self::Here(work) => {
+                interrupt.expect();
+                let mut listener = Ears {
+                    found,
+                    progress,
+                    interrupt,
+                };
+                let last = converse(work, question, Some(GRACE), &mut listener)?;
+                Ok(outcome_here(last, interrupt))
+            }
         }
     }
 
@@ -105,107 +119,46 @@ fn fault(how: &str) -> crate::message::Message {
     )
 }
 
-/// An output that nobody may listen to any more: why is known on the other side, which also ends the work. It can be closed
-/// from elsewhere, so that whoever listens does not wait for what does not end.
-struct Unheard<W>(Arc<Mutex<Option<W>>>);
+/// Hears a thread.
+struct Ears<'a, 'f, R> {
+    found: &'a mut Take<'f, R>,
+    progress: &'a mut dyn FnMut(&Progress),
+    interrupt: &'a Interrupt,
+}
 
-impl<W> Clone for Unheard<W> {
-    fn clone(&self) -> Self {
-        Self(Arc::clone(&self.0))
+impl<R> Listener<R> for Ears<'_, '_, R> {
+    fn found(&mut self, found: R) -> io::Result<()> {
+        (self.found)(found)
+    }
+
+    fn progress(&mut self, progress: &Progress) {
+        (self.progress)(progress);
+    }
+
+    fn stops(&mut self) -> bool {
+        self.interrupt.seen().is_some()
     }
 }
 
-impl<W: io::Write> Unheard<W> {
-    fn new(output: W) -> Self {
-        Self(Arc::new(Mutex::new(Some(output))))
-    }
-
-    fn close(&self) {
-        drop(self.lock().take());
-    }
-
-    fn lock(&self) -> MutexGuard<'_, Option<W>> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-}
-
-/// Closes an output when it is dropped.
-struct CloseAtEnd<W: io::Write>(Unheard<W>);
-
-impl<W: io::Write> Drop for CloseAtEnd<W> {
-    fn drop(&mut self) {
-        self.0.close();
-    }
-}
-
-impl<W: io::Write> io::Write for Unheard<W> {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        match self.lock().as_mut().map(|output| output.write(bytes)) {
-            None => Ok(bytes.len()),
-            Some(Err(error)) if error.kind() == io::ErrorKind::BrokenPipe => Ok(bytes.len()),
-            Some(written) => written,
+/// What the last words of a thread amount to. After a signal, one that does not end in time is left behind, to end with this
+/// process: what it has said is kept.
+fn outcome_here(last: Last, interrupt: &Interrupt) -> Outcome {
+    let end = match (last, interrupt.seen()) {
+        (Last::Left | Last::Said(Some(End::Interrupted)), Some(signal)) => {
+            return Outcome::Interrupted(signal);
         }
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        self.lock().as_mut().map_or(Ok(()), io::Write::flush)
-    }
-}
-
-/// Has a thread serve a request, by pipes: what is said, and how it is ended, is as with a program. After a signal, a thread
-/// that does not end in time is left behind, to end with this process: what it has said is kept.
-fn talk_here<R: DeserializeOwned>(
-    work: &Arc<Work>,
-    request: &impl Serialize,
-    interrupt: &Interrupt,
-    found: &mut Take<'_, R>,
-    progress: &mut dyn FnMut(&Progress),
-) -> io::Result<Outcome> {
-    let mut line = serde_json::to_vec(request)?;
-    line.push(b'\n');
-    let (questions, mut asks) = io::pipe()?;
-    let (answers, says) = io::pipe()?;
-    let says = Unheard::new(says);
-    let (work, output) = (Arc::clone(work), says.clone());
-    let served = std::thread::spawn(move || {
-        // dropped last, also where the work panics: nobody waits for more
-        let _end = CloseAtEnd(output.clone());
-        let mut output = BufWriter::with_capacity(1 << 16, output);
-        serve(
-            None,
-            Box::new(BufReader::new(questions)),
-            &mut output,
-            &*work,
-        )
-    });
-    let _ = asks.write_all(&line);
-    let leave = says.clone();
-    interrupt.watch_here(Box::new(asks), Box::new(move || leave.close()));
-    let heard = hear(answers, found, progress);
-    interrupt.stop();
-    if let (Ok(None) | Err(Deaf::NotUnderstood(_)), Some(signal)) = (&heard, interrupt.seen())
-        && !served.is_finished()
-    {
-        return Ok(Outcome::Interrupted(signal));
-    }
-    let code = served.join().ok();
-    Ok(match heard {
-        Ok(end) => outcome(
-            code.map(i32::from),
-            end,
-            "the thread of the run ended",
-            interrupt,
-        ),
-        Err(Deaf::NotUnderstood(error)) => Outcome::Broken(error.to_string()),
-        Err(Deaf::NotTaken(error)) => Outcome::NotTaken(error),
-    })
+        (Last::NotTaken(error), _) => return Outcome::NotTaken(error),
+        (Last::Said(end), _) => end,
+        (Last::Left, None) => None,
+    };
+    ended(end).unwrap_or_else(|| Outcome::Broken("the thread of the run ended".to_owned()))
 }
 
 /// Runs a program to its end.
 ///
 /// # Errors
 /// It cannot be started.
-fn talk<R: DeserializeOwned>(
+fn talk<R: Wire>(
     mut command: Command,
     request: &impl Serialize,
     interrupt: &Interrupt,
@@ -257,7 +210,7 @@ enum Deaf {
     NotTaken(io::Error),
 }
 
-fn hear_child<R: DeserializeOwned>(
+fn hear_child<R: Wire>(
     child: &mut Child,
     found: &mut Take<'_, R>,
     progress: &mut dyn FnMut(&Progress),
@@ -269,17 +222,17 @@ fn hear_child<R: DeserializeOwned>(
 }
 
 /// Hands on what is said; answers the last message, if there was one.
-fn hear<R: DeserializeOwned>(
+fn hear<R: Wire>(
     output: impl Read,
     found: &mut Take<'_, R>,
     progress: &mut dyn FnMut(&Progress),
 ) -> Result<Option<End>, Deaf> {
     let mut stdout = BufReader::with_capacity(1 << 16, output);
     let (mut last, mut refused) = (None, false);
-    let heard = listen(&mut stdout, &mut |message, rest| {
+    let heard = listen(&mut stdout, &mut |message| {
         match message {
             Message::Found(what) => {
-                let taken = found(what, rest);
+                let taken = found(what);
                 refused = taken.is_err();
                 return taken;
             }
@@ -314,15 +267,19 @@ fn outcome(code: Option<i32>, end: Option<End>, words: &str, interrupt: &Interru
         }
         _ => {}
     }
-    match end {
-        Some(end) if code != Some(i32::from(end.code())) => {}
-        Some(End::Done) => return Outcome::Done,
-        Some(End::Stopped(stop)) => return Outcome::Stopped(stop),
-        Some(End::Parameter { name, why }) => return Outcome::Parameter(name, why),
-        Some(End::Refused { what, why }) => return Outcome::Refused(what, why),
-        Some(End::Interrupted | End::Unwritten { .. }) | None => {}
+    let agreed = end.filter(|end| code == Some(i32::from(end.code())));
+    ended(agreed).unwrap_or_else(|| Outcome::Broken(words.to_owned()))
+}
+
+/// What the last message amounts to, where it says how the work ended by itself.
+fn ended(end: Option<End>) -> Option<Outcome> {
+    match end? {
+        End::Done => Some(Outcome::Done),
+        End::Stopped(stop) => Some(Outcome::Stopped(stop)),
+        End::Parameter { name, why } => Some(Outcome::Parameter(name, why)),
+        End::Refused { what, why } => Some(Outcome::Refused(what, why)),
+        End::Interrupted | End::Unwritten { .. } => None,
     }
-    Outcome::Broken(words.to_owned())
 }
 
 #[cfg(all(test, unix))]

@@ -13,12 +13,11 @@ fn script(text: &str) -> (io::Result<Outcome>, Vec<f64>, Vec<String>) {
         command,
         &"the request",
         &Interrupt::default(),
-        &mut |found, rest| match found {
-            Found::Rows { count } => lie_program::listen::rows(rest, 2, count, &mut |rows| {
-                got.extend_from_slice(rows);
-                Ok(())
-            }),
-            _ => Ok(()),
+        &mut |found| {
+            if let Found::Rows(rows) = found {
+                got.extend_from_slice(&rows.numbers);
+            }
+            Ok(())
         },
         &mut |progress| said.push(format!("{progress:?}")),
     );
@@ -27,7 +26,7 @@ fn script(text: &str) -> (io::Result<Outcome>, Vec<f64>, Vec<String>) {
 
 /// Announces so many rows.
 fn announce(count: u64) -> String {
-    format!(r#"echo '{{"found":{{"rows":{{"count":{count}}}}}}}'"#)
+    format!(r#"echo '{{"found":{{"rows":{{"count":{count},"width":2}}}}}}'"#)
 }
 
 /// 1.0 and -2.0 as bytes; `printf` of every shell knows octal escapes.
@@ -102,7 +101,7 @@ fn other_ends() {
         Command::new("/nonexistent/program"),
         &"the request",
         &Interrupt::default(),
-        &mut |_: Found, _| Ok(()),
+        &mut |_: Found| Ok(()),
         &mut |_| (),
     );
     assert!(missing.is_err());
@@ -117,7 +116,7 @@ fn a_refused_row_ends_the_program() {
         command,
         &"the request",
         &Interrupt::default(),
-        &mut |_: Found, _| Err(io::ErrorKind::BrokenPipe.into()),
+        &mut |_: Found| Err(io::ErrorKind::BrokenPipe.into()),
         &mut |_| (),
     );
     let Ok(Outcome::NotTaken(error)) = outcome else {
@@ -141,15 +140,12 @@ fn the_end_of_stdin_ends_the_program() {
         command,
         &"the request",
         &interrupt,
-        &mut |found: Found, rest| match found {
-            Found::Rows { count } => {
+        &mut |found: Found| {
+            if let Found::Rows(rows) = found {
                 interrupt.stop();
-                lie_program::listen::rows(rest, 2, count, &mut |rows| {
-                    got += rows.len() / 2;
-                    Ok(())
-                })
+                got += rows.numbers.len() / 2;
             }
-            _ => Ok(()),
+            Ok(())
         },
         &mut |_| (),
     );

@@ -1,10 +1,11 @@
-//! The command line, as clap reads it. Values that may be exact constants stay text here.
+//! The command line, as clap reads it; what is asked of a run is a [`Request`].
 
 mod measured;
 
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use lie_in_process::request::Request;
 
 pub use measured::{Bench, Measured, Sense, Stress, Verify};
 
@@ -105,19 +106,19 @@ pub struct Report {
     #[arg(long, value_name = "ID")]
     pub method: Vec<String>,
     /// Step size
-    #[arg(long, value_name = "H", allow_hyphen_values = true)]
+    #[arg(long, alias = "h", value_name = "H", allow_hyphen_values = true)]
     pub step: Option<String>,
     /// Relative error at the end, in place of --step
     #[arg(long, value_name = "E", allow_hyphen_values = true)]
     pub tol: Option<String>,
     /// Final time
-    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    #[arg(long, alias = "t", value_name = "T", allow_hyphen_values = true)]
     pub until: Option<String>,
     /// Sets a parameter (repeatable)
     #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]
     pub param: Vec<String>,
     /// Initial state, separated by commas
-    #[arg(long, value_name = "V1,V2,…", allow_hyphen_values = true)]
+    #[arg(long, alias = "x0", value_name = "V1,V2,…", allow_hyphen_values = true)]
     pub initial: Option<String>,
     /// Leaves out the comparison of methods, which takes some seconds
     #[arg(long)]
@@ -196,50 +197,8 @@ pub struct Run {
     /// The spec file
     #[arg(value_name = "SPEC", required = true)]
     pub specs: Vec<PathBuf>,
-    /// The method, see `lie methods`; given several times, one run for each, possibly with options of its own:
-    /// --method rk4 --method "lie-midpoint --retraction cayley"
-    #[arg(long, value_name = "ID")]
-    pub method: Vec<String>,
-    /// Step size; negative to go backwards. dopri5, taylor and lie-taylor choose their own steps, but land on every
-    /// multiple of this
-    #[arg(long, value_name = "H", allow_hyphen_values = true)]
-    pub step: Option<String>,
-    /// Relative error at the end, in place of --step: chooses a constant step, and without --method the method too
-    #[arg(long, value_name = "E", allow_hyphen_values = true)]
-    pub tol: Option<String>,
-    /// Final time
-    #[arg(long, value_name = "T", allow_hyphen_values = true)]
-    pub until: Option<String>,
-    /// Writes every K-th step (default 1) and the last one
-    #[arg(long, value_name = "K", allow_hyphen_values = true)]
-    pub every: Option<String>,
-    /// Writes the state at these times only, separated by commas; excludes --until and --every
-    #[arg(long, value_name = "T1,T2,…", allow_hyphen_values = true)]
-    pub at: Option<String>,
-    /// Sets a parameter (repeatable); NAME=FROM:TO:COUNT makes a run for each of COUNT values at equal distances, both ends
-    /// among them
-    #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]
-    pub param: Vec<String>,
-    /// Initial state, separated by commas
-    #[arg(long, value_name = "V1,V2,…", allow_hyphen_values = true)]
-    pub initial: Option<String>,
-    /// Makes a run for each initial state of a file: CSV, a state in each line, possibly below a line with the names of the
-    /// coordinates; or NPY, a row for each state
-    #[arg(long, value_name = "FILE", conflicts_with = "initial")]
-    pub initial_file: Option<PathBuf>,
     #[command(flatten)]
-    pub method_options: MethodOptions,
-    /// Writes the group element beside mu, from the identity on: matrix, or quaternion for rotations
-    #[arg(long, value_name = "CHART")]
-    pub group: Option<String>,
-    /// Relative tolerance of dopri5 (default 1e-6), taylor and lie-taylor (default 1e-15)
-    #[arg(long, value_name = "TOL", allow_hyphen_values = true)]
-    pub rtol: Option<String>,
-    /// Absolute tolerance of dopri5 (default 1e-9)
-    #[arg(long, value_name = "TOL", allow_hyphen_values = true)]
-    pub atol: Option<String>,
-    #[command(flatten)]
-    pub solver: SolverOptions,
+    pub request: Request,
     /// Form of the output (default: what the extension of --out says, csv where there is none)
     #[arg(long, value_enum)]
     pub format: Option<Format>,
@@ -267,67 +226,6 @@ pub struct Run {
     /// Rounds a product and its sum once (faster; other digits than on a processor without it)
     #[arg(long)]
     pub fma: bool,
-}
-
-/// The solver of implicit methods.
-#[derive(Args, Clone, Debug, Default)]
-pub struct SolverOptions {
-    /// How implicit methods solve a step: newton (a new Jacobian in every iteration), simplified (that of
-    /// the start), fixed-point (none), or automatic (default; fixed-point where that pays, newton elsewhere)
-    #[arg(long, value_name = "NAME")]
-    pub iteration: Option<String>,
-    /// Error at which that iteration ends, in units of round-off of the state (default 1/1024, so
-    /// that it does not add up; 0 goes on until nothing changes)
-    #[arg(long, value_name = "TOL", allow_hyphen_values = true)]
-    pub newton_tolerance: Option<String>,
-    /// Iterations after which a step has failed (default: newton 50, also where that is
-    /// chosen automatically; simplified 200, fixed-point 500)
-    #[arg(long, value_name = "N", allow_hyphen_values = true)]
-    pub max_iterations: Option<String>,
-    /// What has converged where stages that are evaluated together end, as in gauss16: state, map (its derivative too, so
-    /// that a Poisson map is one to round-off; default of collective and isospectral methods), or tolerance (with --tol: as
-    /// far as that asks, in about half of the evaluations; what the method preserves is preserved as far)
-    #[arg(long, value_name = "NAME")]
-    pub converge: Option<String>,
-}
-
-/// The options by which a method is chosen, see `lie methods`.
-#[derive(Args, Clone, Debug, Default)]
-pub struct MethodOptions {
-    /// Retraction of lie-midpoint and of generating methods: exp or cayley
-    #[arg(long, value_name = "NAME")]
-    pub retraction: Option<String>,
-    /// Coefficients of a composition or a splitting: suzuki, triple-jump, kahan-li, …; for two pieces of which one is small: saba2, saba4, sbab2, sbab4, mclachlan-8-4
-    #[arg(long, value_name = "NAME")]
-    pub composition: Option<String>,
-    /// Pieces of a splitting: found (default: the fewest with exact flows; `lie check` lists them) or coordinate (H = sum f_i(x_i), in the order of the coordinates)
-    #[arg(long, value_name = "NAME")]
-    pub pieces: Option<String>,
-    /// Space over g* of a collective method: representation, hopf or spec (the declared realization)
-    #[arg(long, value_name = "NAME")]
-    pub lift: Option<String>,
-    /// Discrete gradient of orbit-energy: gonzalez, mean-value or itoh-abe
-    #[arg(long, value_name = "NAME")]
-    pub gradient: Option<String>,
-    /// Poisson tensor of gonzalez, mean-value, itoh-abe: midpoint or mean
-    #[arg(long, value_name = "NAME")]
-    pub tensor: Option<String>,
-}
-
-impl MethodOptions {
-    /// An option by its name, with its flag.
-    pub fn get(&self, name: &str) -> Option<(&'static str, &String)> {
-        let (flag, value) = match name {
-            "retraction" => ("--retraction", &self.retraction),
-            "composition" => ("--composition", &self.composition),
-            "pieces" => ("--pieces", &self.pieces),
-            "lift" => ("--lift", &self.lift),
-            "gradient" => ("--gradient", &self.gradient),
-            "tensor" => ("--tensor", &self.tensor),
-            _ => return None,
-        };
-        value.as_ref().map(|value| (flag, value))
-    }
 }
 
 /// `--format`.

@@ -14,9 +14,9 @@ use lie_codegen::methods::{Choice, refusal};
 use lie_codegen::model::Model;
 use lie_codegen::structure::{algebra, lifts};
 use lie_in_process::report::{Report, sites};
+use lie_in_process::request::{Request, several};
 use serde_json::Value;
 
-use super::run::plan::several;
 use super::{args, print};
 use crate::compiler::{self, Spec};
 use crate::message::{Failure, INVALID, Message, SURROUNDINGS};
@@ -85,7 +85,7 @@ fn defaults_of_run(spec: &Spec) -> Result<(), Vec<Message>> {
     if spec.model.run.is_empty() || (spec.model.initial.is_none() && !start) {
         return Ok(());
     }
-    several(spec, &args::Run::default()).map(|_| ())
+    several(spec, &Request::default()).map(|_| ())
 }
 
 /// A report in words.

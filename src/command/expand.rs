@@ -3,8 +3,9 @@
 use lie_codegen::ast::Runtime;
 use lie_codegen::compile;
 use lie_codegen::plan::plan;
+use lie_in_process::request::{Front, method};
 
-use super::{args, method, print};
+use super::{args, print};
 use crate::compiler;
 use crate::message::{Failure, Message};
 use crate::render;
@@ -27,7 +28,7 @@ pub fn run(arguments: &args::Expand) -> Result<u8, Failure> {
         }
     }
     for id in &arguments.method {
-        match method::all(id, &spec.model) {
+        match method::all(id, &spec.model, Front::Command) {
             Ok(found) => {
                 for choice in found {
                     if !choices.contains(&choice) {

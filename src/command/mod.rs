@@ -6,7 +6,6 @@ mod check;
 mod expand;
 mod fold;
 mod measure;
-pub mod method;
 mod methods;
 mod new;
 mod report;

@@ -147,6 +147,7 @@ fn unknown_command(error: &clap::Error) -> Message {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use lie_in_process::request::{Parameter, Value};
 
     fn of(arguments: &str) -> Message {
         let arguments = std::iter::once("lie").chain(arguments.split_whitespace());
@@ -173,10 +174,10 @@ mod tests {
             ("check --json", "SPEC", "missing"),
         ] {
             let message = of(arguments);
-            let crate::message::Place::CommandLine { option, .. } = &message.place else {
+            let crate::message::Place::Argument { name, .. } = &message.place else {
                 panic!("{arguments}: no place")
             };
-            assert_eq!(option, place, "{arguments}: {message:?}");
+            assert_eq!(name, place, "{arguments}: {message:?}");
             assert!(message.text.contains(what), "{arguments}: {message:?}");
             assert!(
                 message.help.as_deref().is_some_and(|help| !help.is_empty()),
@@ -191,7 +192,7 @@ mod tests {
             ("run x --stepp 1", "--step"),
             ("run x --dt 0.1", "--step"),
             ("run x --t-end 5", "--until"),
-            ("run x --x0 1,2,3", "--initial"),
+            ("run x --y0 1,2,3", "--initial"),
             ("run x --params k=1", "--param"),
             ("run x --reltol 1e-9", "--rtol"),
             ("run x -o file.csv", "--out"),
@@ -213,9 +214,25 @@ mod tests {
         let super::super::args::Command::Run(run) = cli.command else {
             panic!("not run")
         };
-        assert_eq!(run.step.as_deref(), Some("-0.01"));
-        assert_eq!(run.initial.as_deref(), Some("-1/2,0.3"));
-        assert_eq!(run.param, ["k=-1"]);
+        let text = |text: &str| Some(Value::Text(text.to_owned()));
+        assert_eq!(run.request.step, text("-0.01"));
+        assert_eq!(run.request.initial, text("-1/2,0.3"));
+        assert_eq!(run.request.param, [Parameter::Written("k=-1".to_owned())]);
+    }
+
+    #[test]
+    fn the_spelling_of_calls_is_taken() {
+        let run = |line: &str| match parse(line.split(' ').map(Into::into)) {
+            Ok(Parsed::Command(cli)) => match cli.command {
+                super::super::args::Command::Run(run) => run.request,
+                _ => panic!("not run"),
+            },
+            _ => panic!("refused"),
+        };
+        assert_eq!(
+            run("lie run a --h 0.1 --t -5 --x0 1,2,3"),
+            run("lie run a --step 0.1 --until -5 --initial 1,2,3")
+        );
     }
 
     #[test]

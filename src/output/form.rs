@@ -2,6 +2,8 @@
 
 use std::io::Write as _;
 
+use lie_in_process::request::Labels;
+
 /// What the rows of all runs have in common.
 #[derive(Clone, Debug, Default)]
 pub struct Header {
@@ -11,17 +13,6 @@ pub struct Header {
     pub columns: Vec<String>,
     /// What tells runs apart; nothing for one run alone.
     pub labels: Option<Labels>,
-}
-
-/// The names of what tells runs apart, which stand before the columns.
-#[derive(Clone, Debug, Default)]
-pub struct Labels {
-    /// The number of the run, from 0 on.
-    pub run: String,
-    /// The method, where there are several. Its column is text: an array has none.
-    pub method: Option<String>,
-    /// Parameters with several values.
-    pub parameters: Vec<String>,
 }
 
 /// One run.

@@ -9,7 +9,7 @@ use std::io;
 
 pub use destination::Destination;
 use form::{Csv, Form, Json};
-pub use form::{Header, Labels, Run};
+pub use form::{Header, Run};
 use npy::Npy;
 
 use crate::command::args::Format;

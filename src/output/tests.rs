@@ -1,5 +1,7 @@
 //! Forms of the output, on files.
 
+use lie_in_process::request::Labels;
+
 use super::*;
 
 fn header() -> Header {

@@ -1,19 +1,25 @@
 //! Runs, verifications and measurements of a declaration in the process that has read it, without a compiler of Rust.
 //!
-//! Requests and answers are those of [`lie_program`]: what is made here is served as a built program serves it, by
-//! [`lie_program::session::serve`], or a request at a time by [`Work`]. What the command and the Python package say of the answers
-//! alike is here too: [`verify`] with [`evidence`], [`stress`], [`report`], [`catalogue`].
+//! What a person asks of a run is a [`request::Request`], which is checked once. Questions and answers are those of
+//! [`lie_program`] and [`lie_measure`]: a [`Question`] is answered by [`Work`], in a thread whose words come by a channel
+//! ([`converse`](mod@converse)). What the command and the Python package say of the answers alike is here too: [`verify`]
+//! with [`evidence`], [`stress`], [`report`], [`catalogue`].
 
 #![warn(missing_docs)]
 
 pub mod catalogue;
 pub mod clock;
+pub mod converse;
+pub mod ensemble;
 pub mod evidence;
 pub mod families;
 pub mod formula;
 pub mod list;
 pub mod members;
+pub mod message;
 pub mod report;
+pub mod request;
+pub mod spec;
 pub mod stress;
 pub mod table;
 pub mod verify;
@@ -26,17 +32,58 @@ use lie_codegen::program::{Chart, Purpose, beside, compared};
 use lie_dynamic::{Declared, Dynamic, Method, at_defaults, at_defaults_dual, method, method_dual};
 use lie_jit::Jit;
 use lie_measure::verify::Kind;
-use lie_measure::{Bench, Stress, Verify};
+use lie_measure::{Bench, Request, Stress, Verify, bench, stress as limits, verify as claims};
 use lie_program::Program;
-use lie_program::protocol::{End, Tolerances};
+use lie_program::protocol::{End, Found, Run, Tolerances};
 use lie_program::session::Session;
 use lie_runtime::{ParameterError, driver};
 
 /// The text of [`clock`], which built programs have too.
 pub const CLOCK: &str = include_str!("clock.rs");
 
-/// Does what the line of a request asks for.
-pub type Work = dyn Fn(&str, &mut Session<'_>) -> Result<(), End> + Send + Sync;
+/// What can be asked of methods on a system.
+pub trait Question: Send + 'static {
+    /// What is found.
+    type Found: Send + 'static;
+
+    /// Has it answered.
+    ///
+    /// # Errors
+    /// Why not everything was found.
+    fn put(self, work: &Work, session: &mut Session<'_, Self::Found>) -> Result<(), End>;
+}
+
+impl Question for Run {
+    type Found = Found;
+
+    fn put(self, work: &Work, session: &mut Session<'_, Found>) -> Result<(), End> {
+        work.run(&self, session)
+    }
+}
+
+impl Question for Request<claims::Options> {
+    type Found = claims::Found;
+
+    fn put(self, work: &Work, session: &mut Session<'_, claims::Found>) -> Result<(), End> {
+        work.verify(&self, session)
+    }
+}
+
+impl Question for Request<bench::Options> {
+    type Found = bench::Found;
+
+    fn put(self, work: &Work, session: &mut Session<'_, bench::Found>) -> Result<(), End> {
+        work.bench(&self, session)
+    }
+}
+
+impl Question for Request<limits::Options> {
+    type Found = limits::Found;
+
+    fn put(self, work: &Work, session: &mut Session<'_, limits::Found>) -> Result<(), End> {
+        work.stress(&self, session)
+    }
+}
 
 /// The system of a spec before its parameters have values; none where H calls functions of Rust.
 pub fn declared(model: &Model) -> Option<Declared> {
@@ -44,53 +91,15 @@ pub fn declared(model: &Model) -> Option<Declared> {
     Dynamic::supports(&plan).then(|| Declared::new(plan, &Jit))
 }
 
-/// What serves requests for methods on a system in this process; none where H calls functions of Rust. Where times are
-/// measured, `clock` reads the seconds of the processor, if it can.
-pub fn work(
-    model: &Model,
-    choices: &[Choice],
-    purpose: Purpose,
-    clock: fn() -> Option<f64>,
-) -> Option<Box<Work>> {
-    let plan = plan(model, choices);
-    let known = |choice: &Choice| method(choice, lie_dynamic::Tolerances::default()).is_some();
-    if !Dynamic::supports(&plan) || !choices.iter().all(known) {
-        return None;
-    }
-    let parameters = model.parameters.iter();
-    let parameters = parameters.map(|p| (p.name.clone(), p.default_value));
-    let declared = Declaration {
-        plain: (purpose == Purpose::Verify)
-            .then(|| Declared::new(lie_codegen::plan::plan(model, &[]), &Jit)),
-        with_group: plan.structure.group.is_some(),
-        with_cayley: plan.system.triple.is_some(),
-        with_lagrangian: !plan.system.lagrangian.is_empty(),
-        with_discrete: !plan.system.discrete.is_empty(),
-        with_realization: plan.structure.realization.is_some(),
-        declared: Declared::new(plan, &Jit),
-        choices: choices.to_vec(),
-        parameters: parameters.collect(),
-        compared: compared(model, choices).into_iter().cloned().collect(),
-        confirming: families::confirming(model),
-        sizes: sizes(model),
-        orbits: model.is_lie_poisson(),
-    };
-    Some(match purpose {
-        Purpose::Run => Box::new(move |line, session| declared.run(None, line, session)),
-        Purpose::OnGroup(chart) => {
-            Box::new(move |line, session| declared.run(Some(chart), line, session))
-        }
-        Purpose::Verify => Box::new(move |line, session| declared.verify(line, session)),
-        Purpose::Bench => Box::new(move |line, session| declared.bench(clock, line, session)),
-        Purpose::Stress => Box::new(move |line, session| declared.stress(line, session)),
-    })
-}
-
-/// What a thread needs of a declaration.
-struct Declaration {
+/// What answers questions on methods of a system in this process.
+pub struct Work {
     declared: Declared,
     /// Without fused equations, where steps are compared.
     plain: Option<Declared>,
+    /// How a run writes the group element, if it does.
+    chart: Option<Chart>,
+    /// Reads the seconds of the processor, if it can.
+    clock: fn() -> Option<f64>,
     with_group: bool,
     with_cayley: bool,
     with_lagrangian: bool,
@@ -128,7 +137,50 @@ fn maker(
     move |values| declared.system(values)
 }
 
-impl Declaration {
+impl Work {
+    /// What answers questions of one purpose on methods of a system; none where H calls functions of Rust. Where times are
+    /// measured, `clock` reads the seconds of the processor, if it can.
+    pub fn new(
+        model: &Model,
+        choices: &[Choice],
+        purpose: Purpose,
+        clock: fn() -> Option<f64>,
+    ) -> Option<Self> {
+        let plan = plan(model, choices);
+        let known = |choice: &Choice| method(choice, lie_dynamic::Tolerances::default()).is_some();
+        if !Dynamic::supports(&plan) || !choices.iter().all(known) {
+            return None;
+        }
+        let parameters = model.parameters.iter();
+        let parameters = parameters.map(|p| (p.name.clone(), p.default_value));
+        Some(Self {
+            plain: (purpose == Purpose::Verify)
+                .then(|| Declared::new(lie_codegen::plan::plan(model, &[]), &Jit)),
+            chart: match purpose {
+                Purpose::OnGroup(chart) => Some(chart),
+                _ => None,
+            },
+            clock,
+            with_group: plan.structure.group.is_some(),
+            with_cayley: plan.system.triple.is_some(),
+            with_lagrangian: !plan.system.lagrangian.is_empty(),
+            with_discrete: !plan.system.discrete.is_empty(),
+            with_realization: plan.structure.realization.is_some(),
+            declared: Declared::new(plan, &Jit),
+            choices: choices.to_vec(),
+            parameters: parameters.collect(),
+            compared: compared(model, choices).into_iter().cloned().collect(),
+            confirming: families::confirming(model),
+            sizes: sizes(model),
+            orbits: model.is_lie_poisson(),
+        })
+    }
+
+    /// The system before its parameters have values.
+    pub fn declared(&self) -> &Declared {
+        &self.declared
+    }
+
     fn parameters(&self) -> Vec<(&str, f64)> {
         let parameters = self.parameters.iter();
         parameters
@@ -136,20 +188,24 @@ impl Declaration {
             .collect()
     }
 
-    fn run(&self, chart: Option<Chart>, line: &str, session: &mut Session<'_>) -> Result<(), End> {
+    fn run(&self, run: &Run, session: &mut Session<'_, Found>) -> Result<(), End> {
         let mut program = Program::new(&self.parameters(), maker(&self.declared));
         for choice in &self.choices {
             let (label, choice) = (choice.label(), choice.clone());
             let make = move |tolerances: &Tolerances| made(&choice, tolerances);
-            program = match chart {
+            program = match self.chart {
                 None => program.any_method(&label, make),
                 Some(chart) => program.any_on_group(&label, of_driver(chart), make),
             };
         }
-        program.run(line, session)
+        program.run(run, session)
     }
 
-    fn verify(&self, line: &str, session: &mut Session<'_>) -> Result<(), End> {
+    fn verify(
+        &self,
+        request: &Request<claims::Options>,
+        session: &mut Session<'_, claims::Found>,
+    ) -> Result<(), End> {
         let mut program = Verify::new(&self.parameters(), maker(&self.declared));
         for choice in &self.choices {
             let (label, choice) = (choice.label(), choice.clone());
@@ -200,21 +256,20 @@ impl Declaration {
         for label in beside(&self.choices) {
             program = program.beside(&label);
         }
-        program.work(line, session)
+        program.work(request, session)
     }
 
     fn bench(
         &self,
-        clock: fn() -> Option<f64>,
-        line: &str,
-        session: &mut Session<'_>,
+        request: &Request<bench::Options>,
+        session: &mut Session<'_, bench::Found>,
     ) -> Result<(), End> {
         // what is compiled is compiled before a time is taken
         let (declared, parameters) = (self.declared.clone(), self.parameters());
         let build = move |values: &[f64]| Ok(declared.system(values)?.without_patience());
         let program = Bench::new(&parameters, build);
         let confirming = made(&self.confirming, &Tolerances::default());
-        let mut program = program.clock(clock).confirmed_by(confirming);
+        let mut program = program.clock(self.clock).confirmed_by(confirming);
         for choice in &self.choices {
             let (label, choice) = (choice.label(), choice.clone());
             program = match choice.is_adaptive() {
@@ -222,17 +277,21 @@ impl Declaration {
                 false => program.any_method(&label, move || made(&choice, &Tolerances::default())),
             };
         }
-        program.work(line, session)
+        program.work(request, session)
     }
 
-    fn stress(&self, line: &str, session: &mut Session<'_>) -> Result<(), End> {
+    fn stress(
+        &self,
+        request: &Request<limits::Options>,
+        session: &mut Session<'_, limits::Found>,
+    ) -> Result<(), End> {
         let program = Stress::new(&self.parameters(), maker(&self.declared));
         let mut program = program.leaving(&self.sizes);
         for choice in &self.choices {
             let (label, choice) = (choice.label(), choice.clone());
             program = program.any_method(&label, move || made(&choice, &Tolerances::default()));
         }
-        program.work(line, session)
+        program.work(request, session)
     }
 }
 

@@ -6,10 +6,9 @@ use lie_codegen::model::Model;
 use lie_codegen::program::Purpose;
 use lie_in_process::evidence::Evidence;
 use lie_in_process::verify::options;
-use lie_in_process::{declared, work};
+use lie_in_process::{Question, Work, declared};
 use lie_measure::Request;
 use lie_measure::verify::Found;
-use lie_program::listen::listen;
 use lie_program::protocol::{Message, Start};
 use lie_program::session::Session;
 
@@ -28,7 +27,7 @@ fn values(model: &Model) -> Vec<f64> {
 fn found(model: &Model) -> Vec<Found> {
     let choice = Choice::from_id("rk4").unwrap();
     let system = declared(model).unwrap().system(&[]).unwrap();
-    let work = work(model, &[choice], Purpose::Verify, || None).unwrap();
+    let work = Work::new(model, &[choice], Purpose::Verify, || None).unwrap();
     let request = Request {
         methods: vec!["rk4".to_owned()],
         start: Start {
@@ -37,18 +36,14 @@ fn found(model: &Model) -> Vec<Found> {
         },
         options: options(model, None, 1),
     };
-    let mut output = Vec::new();
-    let line = serde_json::to_string(&request).unwrap();
-    work(&line, &mut Session::undisturbed(&mut output)).unwrap();
-    let mut all = Vec::new();
-    listen(&mut output.as_slice(), &mut |message, _| {
-        if let Message::Found(found @ (Found::Kernel(_) | Found::Reference(_))) = message {
-            all.push(found);
-        }
-        Ok(())
-    })
-    .unwrap();
-    all
+    let mut said = Vec::new();
+    let mut session = Session::undisturbed(&mut said);
+    request.put(&work, &mut session).unwrap();
+    let found = said.into_iter().filter_map(|message| match message {
+        Message::Found(found @ (Found::Kernel(_) | Found::Reference(_))) => Some(found),
+        _ => None,
+    });
+    found.collect()
 }
 
 /// What speaks against these kernels, before the declaration of a spec.

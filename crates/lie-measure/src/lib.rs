@@ -9,15 +9,15 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
-/// Requests and messages of a program, compiled once and not with every system.
+/// What reads requests and writes messages of a program, compiled here and not with every system.
 macro_rules! talk {
     ($options:ty, $found:ty) => {
-        fn request(line: &str) -> Result<$crate::Request<$options>, End> {
-            ::lie_program::session::read(line)
-        }
+        impl ::lie_program::protocol::Wire for $found {}
 
-        fn tell(session: &mut Session<'_>, found: $found) {
-            session.found(found);
+        type Work<'a> = ::lie_program::session::Work<'a, $crate::Request<$options>, $found>;
+
+        fn main(work: &Work<'_>) -> ::std::process::ExitCode {
+            ::lie_program::session::main($crate::GRACE, work)
         }
     };
 }

@@ -39,7 +39,7 @@ where
     let code = program.serve(io::BufReader::new(input), &mut output);
     drop(writer);
     let (mut all, mut ended) = (Vec::new(), None);
-    listen(&mut output.as_slice(), &mut |message, _| {
+    listen(&mut output.as_slice(), &mut |message| {
         match message {
             Message::Found(found) => all.push(found),
             Message::End(end) => ended = Some(end),

@@ -144,21 +144,21 @@ impl<P: Poisson<f64>> Program<P> {
 
     /// Serves the request on standard input.
     pub fn main(&self) -> ExitCode {
-        session::main(GRACE, &|line, session| self.run(line, session))
+        main(&|request, session| self.run(&request, session))
     }
 
     /// Serves one request; returns the exit code.
     pub fn serve(&self, input: impl BufRead + Send + 'static, output: &mut dyn Write) -> u8 {
-        let run = |line: &str, session: &mut Session<'_>| self.run(line, session);
-        session::serve(None, Box::new(input), output, &run)
+        serve(Box::new(input), output, &|request, session| {
+            self.run(&request, session)
+        })
     }
 
-    /// Does what a line asks for.
+    /// Does what is asked for.
     ///
     /// # Errors
     /// Why the run did not come to its end.
-    pub fn run(&self, line: &str, session: &mut Session<'_>) -> Result<(), End> {
-        let request = Run::read(line)?;
+    pub fn run(&self, request: &Run, session: &mut Session<'_, Found>) -> Result<(), End> {
         let known = self.methods.iter().find(|(id, _)| id == &request.method);
         let (_, run) = known.ok_or_else(|| session::no_method(&request.method))?;
         let Built { system, mu } = self.blueprint.build(&request.start)?;
@@ -172,12 +172,25 @@ impl<P: Poisson<f64>> Program<P> {
         rows.finish();
         session.intact()?;
         let (stats, status) = outcome.map_err(refusal)?;
-        session.of_run(Found::Work(Work::from(&stats)), &[]);
+        session.mentions(Found::Work(Work::from(&stats)));
         match status {
             Status::Finished => Ok(()),
             Status::Stopped | Status::Failed => Err(End::Interrupted),
         }
     }
+}
+
+/// What reads requests and writes messages, compiled here and not with every system.
+fn main(work: &session::Work<'_, Run, Found>) -> ExitCode {
+    session::main(GRACE, work)
+}
+
+fn serve(
+    input: Box<dyn BufRead + Send>,
+    output: &mut dyn Write,
+    work: &session::Work<'_, Run, Found>,
+) -> u8 {
+    session::serve(None, input, output, work)
 }
 
 /// Why a run did not come to its end.

@@ -1,6 +1,6 @@
 //! The rows of a run as they come, with progress, and the wish to stop.
 
-use crate::protocol::{Columns, End, Found};
+use crate::protocol::{Columns, End, Found, Rows};
 use crate::session::Session;
 use core::ops::ControlFlow;
 use lie_runtime::driver::{Assessed, Chosen, Motion, Observer, Progress, Reconstruction};
@@ -10,17 +10,16 @@ use std::time::{Duration, Instant};
 const FLUSH: Duration = Duration::from_millis(150);
 /// The clock is looked at about this often, whatever a step costs.
 const LOOK: Duration = Duration::from_millis(10);
-/// Bytes of rows that are announced together, about.
-const BLOCK: usize = 1 << 15;
+/// Numbers of rows that are said together, about.
+const BLOCK: usize = 1 << 12;
 
 /// Writes rows and progress.
 pub struct RowWriter<'s, 'o> {
-    session: &'s mut Session<'o>,
+    session: &'s mut Session<'o, Found>,
     announced: bool,
     casimirs: Vec<f64>,
-    /// Rows that are not yet written, and their number.
-    block: Vec<u8>,
-    count: u64,
+    /// Rows that are not yet said.
+    block: Rows,
     /// Steps between two looks at the clock, and left until the next.
     stride: u32,
     left: u32,
@@ -30,14 +29,13 @@ pub struct RowWriter<'s, 'o> {
 
 impl<'s, 'o> RowWriter<'s, 'o> {
     /// A writer of the rows of a system.
-    pub fn new<P: Poisson<f64>>(system: &P, session: &'s mut Session<'o>) -> Self {
+    pub fn new<P: Poisson<f64>>(system: &P, session: &'s mut Session<'o, Found>) -> Self {
         let now = Instant::now();
         Self {
             session,
             announced: false,
             casimirs: vec![0.0; system.casimir_count()],
-            block: Vec::with_capacity(2 * BLOCK),
-            count: 0,
+            block: Rows::default(),
             stride: 1,
             left: 1,
             looked: now,
@@ -52,11 +50,11 @@ impl<'s, 'o> RowWriter<'s, 'o> {
     }
 
     fn write_block(&mut self) {
-        if self.count > 0 {
-            let found = Found::Rows { count: self.count };
-            self.session.of_run(found, &self.block);
-            self.block.clear();
-            self.count = 0;
+        if self.block.count > 0 {
+            let width = self.block.width;
+            let block = core::mem::take(&mut self.block);
+            self.session.mentions(Found::Rows(block));
+            self.block.width = width;
         }
     }
 
@@ -94,11 +92,10 @@ impl<'s, 'o> RowWriter<'s, 'o> {
         system.casimirs(mu, &mut self.casimirs);
         let energy = system.energy(mu);
         for numbers in [&[time], mu.as_slice(), &[energy], &self.casimirs, element] {
-            let bytes = numbers.iter().flat_map(|number| number.to_le_bytes());
-            self.block.extend(bytes);
+            self.block.numbers.extend_from_slice(numbers);
         }
-        self.count += 1;
-        if self.block.len() >= BLOCK {
+        self.block.count += 1;
+        if self.block.numbers.len() >= BLOCK {
             self.write_block();
         }
         on(self.session.intact())
@@ -112,7 +109,8 @@ impl<'s, 'o> RowWriter<'s, 'o> {
             casimirs: casimirs.collect(),
             element,
         };
-        self.session.of_run(Found::Columns(columns), &[]);
+        self.block.width = columns.width();
+        self.session.mentions(Found::Columns(columns));
     }
 }
 
@@ -126,17 +124,17 @@ fn on(state: Result<(), End>) -> ControlFlow<()> {
 
 impl<P: Poisson<f64>> Observer<f64, P> for RowWriter<'_, '_> {
     fn chosen(&mut self, chosen: &Chosen) {
-        self.session.of_run(Found::Chosen(chosen.into()), &[]);
+        self.session.mentions(Found::Chosen(chosen.into()));
     }
 
     fn divided(&mut self, progress: Progress, parts: u32) {
         let time = progress.time;
-        self.session.of_run(Found::Divided { parts, time }, &[]);
+        self.session.mentions(Found::Divided { parts, time });
     }
 
     fn assessed(&mut self, assessed: &Assessed) {
         let (error, missed) = (assessed.error.unwrap_or(f64::NAN), assessed.missed());
-        self.session.of_run(Found::Assessed { error, missed }, &[]);
+        self.session.mentions(Found::Assessed { error, missed });
     }
 
     fn step(&mut self, _system: &P, progress: Progress, _mu: &P::State) -> ControlFlow<()> {

@@ -106,17 +106,14 @@ fn heard(code: u8, mut output: &[u8]) -> Heard {
         code,
         ..Heard::default()
     };
-    listen::listen(&mut output, &mut |message: Message<Found>, output| {
+    listen::listen(&mut output, &mut |message: Message<Found>| {
         match message {
             Message::Found(Found::Chosen(chosen)) => heard.chosen = Some(chosen),
             Message::Found(Found::Columns(columns)) => heard.columns = Some(columns),
-            Message::Found(Found::Rows { count }) => {
-                listen::rows(output, 4, count, &mut |numbers| {
-                    let (rows, rest) = numbers.as_chunks::<4>();
-                    assert!(rest.is_empty(), "rows are whole");
-                    heard.rows.extend(rows);
-                    Ok(())
-                })?;
+            Message::Found(Found::Rows(found)) => {
+                let (rows, rest) = found.numbers.as_chunks::<4>();
+                assert!(rest.is_empty(), "rows are whole");
+                heard.rows.extend(rows);
             }
             Message::Found(Found::Work(work)) => heard.work = Some(work),
             Message::Found(Found::Divided { .. } | Found::Assessed { .. }) => {}
@@ -285,7 +282,8 @@ fn a_closed_output_is_an_error_of_the_surroundings() {
 #[test]
 fn what_a_killed_program_did_not_finish_is_dropped() {
     let mut output = Vec::new();
-    let mut session = Session::undisturbed(&mut output);
+    let mut lines = session::Lines(&mut output);
+    let mut session = Session::undisturbed(&mut lines);
     let mut rows = RowWriter::new(&Spring, &mut session);
     for time in [0.0, 1.0, 2.0] {
         use lie_runtime::driver::Observer;

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
+use lie_in_process::request::{Parameter, Request, Value};
 
 use super::Cpu;
 
@@ -19,10 +20,10 @@ pub struct Measured {
     pub methods: Vec<String>,
     /// Sets a parameter (repeatable)
     #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]
-    pub param: Vec<String>,
+    pub param: Vec<Parameter>,
     /// Initial state, separated by commas
-    #[arg(long, value_name = "V1,V2,…", allow_hyphen_values = true)]
-    pub initial: Option<String>,
+    #[arg(long, alias = "x0", value_name = "V1,V2,…", allow_hyphen_values = true)]
+    pub initial: Option<Value>,
     /// Says nothing on stderr unless something fails
     #[arg(long)]
     pub quiet: bool,
@@ -39,6 +40,15 @@ pub struct Measured {
 }
 
 impl Measured {
+    /// Where the system starts, as it is asked for.
+    pub fn start(&self) -> Request {
+        Request {
+            param: self.param.clone(),
+            initial: self.initial.clone(),
+            ..Request::default()
+        }
+    }
+
     /// Whether cargo builds what measures.
     pub fn is_compiled(&self) -> bool {
         self.compile || self.fma || self.cpu.is_some()
@@ -55,8 +65,8 @@ pub struct Verify {
     #[command(flatten)]
     pub measured: Measured,
     /// The step at which facts are measured (default: from the Jacobian of the vector field)
-    #[arg(long, value_name = "H", allow_hyphen_values = true)]
-    pub step: Option<String>,
+    #[arg(long, alias = "h", value_name = "H", allow_hyphen_values = true)]
+    pub step: Option<Value>,
     /// Seed of the states near the initial one
     #[arg(
         long,
@@ -83,8 +93,8 @@ pub struct Bench {
     #[command(flatten)]
     pub measured: Measured,
     /// Final time
-    #[arg(long, value_name = "T", allow_hyphen_values = true)]
-    pub until: Option<String>,
+    #[arg(long, alias = "t", value_name = "T", allow_hyphen_values = true)]
+    pub until: Option<Value>,
     /// Seconds that a single run may take (default 0.2)
     #[arg(long, value_name = "SECONDS", allow_hyphen_values = true)]
     pub budget: Option<String>,

@@ -5,6 +5,7 @@ mod table;
 
 use lie_codegen::diagnostic::Kind;
 use lie_codegen::program::Purpose;
+use lie_in_process::request::{Given, Request, span};
 use lie_in_process::words::{counted, short};
 use lie_in_process::{families, list, table::text as aligned};
 use lie_measure::bench::{ClockKind, Found, Measure, Options, Plane, Point, Reference};
@@ -14,13 +15,9 @@ use self::table::{cells, lines, micro};
 use super::quiet::Quiet;
 use super::{Bed, Ended, bed, files, interrupted, sense};
 use crate::command::fold::folded;
-use crate::command::run::values::Given;
 use crate::command::{args, print};
 use crate::interrupt::Interrupt;
 use crate::message::{Failure, Message, SURROUNDINGS};
-
-/// The longest default span.
-const SPAN: f64 = 20.0;
 
 /// What the program has found.
 #[derive(Default)]
@@ -85,7 +82,11 @@ pub fn run(arguments: &args::Bench) -> Result<u8, Failure> {
     let flags = &arguments.measured;
     let budget = positive("--budget", arguments.budget.as_ref())?.unwrap_or(0.2);
     let bed = bed(flags, Purpose::Bench, |spec| list::fewer(&spec.model))?;
-    let until = until(arguments, &bed)?;
+    let request = Request {
+        until: arguments.until.clone(),
+        ..Request::default()
+    };
+    let until = span(&bed.spec, &request)?;
     let measure = sense::measure(arguments, &bed)?;
     let out = files::open("--out", arguments.out.as_deref(), &flags.spec)?;
     let plot = files::open("--plot", arguments.plot.as_deref(), &flags.spec)?;
@@ -154,25 +155,6 @@ fn positive(flag: &'static str, text: Option<&String>) -> Result<Option<f64>, Fa
     }
     let message = given.wrong(format!("`{}` is not positive", text.trim()));
     Err(message.help("give a positive number").into())
-}
-
-/// The flag, else the spec's `run`, else 10.
-fn until(arguments: &args::Bench, bed: &Bed) -> Result<f64, Failure> {
-    if let Some(text) = &arguments.until {
-        let given = Given::flag("--until", text);
-        let value = given.number()?;
-        if value == 0.0 {
-            let message = given.wrong("there is nothing to integrate");
-            return Err(message.help("give an end other than 0").into());
-        }
-        return Ok(value);
-    }
-    let run = bed.spec.model.run.iter();
-    let of_spec = run
-        .filter(|option| option.name.text == "until")
-        .flat_map(|option| &option.values)
-        .find_map(|(text, _)| crate::compiler::constant(text).ok());
-    Ok(of_spec.map_or(10.0, |until: f64| until.clamp(-SPAN, SPAN)))
 }
 
 fn csv(points: &[Point], measure: Measure) -> String {

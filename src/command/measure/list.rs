@@ -2,9 +2,8 @@
 
 use lie_codegen::methods::Choice;
 use lie_codegen::model::Model;
+use lie_in_process::request::{Front, Given, method};
 
-use crate::command::method;
-use crate::command::run::values::Given;
 use crate::message::Message;
 
 /// The methods of a list. An id without options stands for every option that applies.
@@ -17,7 +16,7 @@ pub fn parse(text: &str, model: &Model) -> Result<Vec<Choice>, Vec<Message>> {
     let mut mistakes = Vec::new();
     for given in whole.split() {
         let place = given.wrong("").place;
-        match method::all(&given.text, model) {
+        match method::all(&given.text, model, Front::Command) {
             Ok(chosen) => {
                 for choice in chosen {
                     if !choices.contains(&choice) {

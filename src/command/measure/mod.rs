@@ -11,16 +11,16 @@ pub mod verify;
 use lie_codegen::diagnostic::Kind;
 use lie_codegen::methods::Choice;
 use lie_codegen::program::{Purpose, program};
+use lie_in_process::Question;
 use lie_in_process::families::Limit;
-use lie_program::protocol::Obstacle;
+use lie_in_process::request::{self, Point};
+use lie_program::protocol::{Obstacle, Wire};
 use serde::Serialize;
-use serde::de::DeserializeOwned;
 
-use super::args::{self, Measured};
+use super::args::Measured;
 use super::run::bar::Bar;
 use super::run::impossible;
 use super::run::layout::Layout;
-use super::run::plan::{self, Point};
 use crate::build::talk::{Outcome, Worker};
 use crate::build::{self, Processor, Request};
 use crate::compiler::{self, Spec};
@@ -58,14 +58,11 @@ pub fn bed(
     defaults: impl Fn(&Spec) -> Vec<Choice>,
 ) -> Result<Bed, Failure> {
     let spec = compiler::load(&flags.spec)?;
-    let as_run = args::Run {
-        param: flags.param.clone(),
-        initial: flags.initial.clone(),
-        ..args::Run::default()
-    };
     let mut mistakes = Vec::new();
     let mut keep = |messages: Vec<Message>| mistakes.extend(messages);
-    let start = plan::start(&spec, &as_run).map_err(&mut keep).ok();
+    let start = request::start(&spec, &flags.start())
+        .map_err(&mut keep)
+        .ok();
     let choices = match flags.methods.is_empty() {
         true => Some(defaults(&spec)),
         false => {
@@ -156,14 +153,17 @@ impl Bed {
     ///
     /// # Errors
     /// The program cannot be started, or dies.
-    pub fn measure<O: Serialize, R: DeserializeOwned>(
+    pub fn measure<O: Serialize, R: Wire>(
         &self,
         flags: &Measured,
         worker: &Worker,
         options: O,
         interrupt: &Interrupt,
         found: &mut dyn FnMut(R) -> Option<String>,
-    ) -> Result<Ended, Failure> {
+    ) -> Result<Ended, Failure>
+    where
+        lie_measure::Request<O>: Question<Found = R>,
+    {
         let request = lie_measure::Request {
             methods: self.choices.iter().map(Choice::label).collect(),
             start: self.point.clone().named(&self.spec),
@@ -171,9 +171,9 @@ impl Bed {
         };
         let bar = Bar::of_stages(!flags.quiet);
         let outcome = worker.talk(
-            &request,
+            request,
             interrupt,
-            &mut |what, _| {
+            &mut |what| {
                 if let Some(line) = found(what) {
                     bar.say(&line);
                 }

@@ -2,11 +2,11 @@
 
 use lie_codegen::front::names::normalised;
 use lie_codegen::suggest::did_you_mean;
+use lie_in_process::request::Given;
 use lie_measure::bench::{Measure, Plane};
 
 use super::Bed;
 use crate::command::args::{self, Sense};
-use crate::command::run::values::Given;
 use crate::message::{Failure, Message};
 
 /// So many coordinates are listed where one is not known.

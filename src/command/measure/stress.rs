@@ -3,6 +3,7 @@
 use lie_codegen::diagnostic::Kind;
 use lie_codegen::program::Purpose;
 use lie_in_process::list;
+use lie_in_process::request::Given;
 use lie_in_process::stress::{self, Results, cell_text, methods};
 use lie_in_process::table;
 use lie_in_process::words::{counted, short};
@@ -11,7 +12,6 @@ use lie_poisson::plot::map::{self, Cell as Square, Column, Map};
 
 use super::{Bed, Ended, bed, files, interrupted};
 use crate::command::fold::folded;
-use crate::command::run::values::Given;
 use crate::command::{args, print};
 use crate::interrupt::Interrupt;
 use crate::message::{Failure, Message};

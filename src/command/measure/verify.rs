@@ -6,6 +6,7 @@ use lie_codegen::diagnostic::Kind;
 use lie_codegen::program::Purpose;
 use lie_in_process::evidence::Evidence;
 use lie_in_process::list;
+use lie_in_process::request::{Request, step_of_facts};
 use lie_in_process::table;
 use lie_in_process::verify::{Results, Row, options};
 use lie_in_process::words::{counted, number, short};
@@ -16,7 +17,6 @@ use serde_json::{Map, Value, json};
 
 use super::{Ended, bed, interrupted};
 use crate::command::fold::folded;
-use crate::command::run::values::Given;
 use crate::command::{args, print};
 use crate::interrupt::Interrupt;
 use crate::message::{Failure, Message};
@@ -38,8 +38,12 @@ const SINGLE: [&str; 7] = [
 /// Invalid input, or surroundings that fail.
 pub fn run(arguments: &args::Verify) -> Result<u8, Failure> {
     let flags = &arguments.measured;
-    let step = step(arguments)?;
     let bed = bed(flags, Purpose::Verify, |spec| list::all(&spec.model))?;
+    let request = Request {
+        step: arguments.step.clone(),
+        ..Request::default()
+    };
+    let step = step_of_facts(&bed.spec, &request)?;
     let interrupt = Interrupt::install();
     let program = bed.program(flags, Purpose::Verify, &interrupt)?;
     let model = &bed.spec.model;
@@ -74,21 +78,6 @@ pub fn run(arguments: &args::Verify) -> Result<u8, Failure> {
         eprintln!("failed: {failure}");
     }
     Ok(u8::from(!failures.is_empty()))
-}
-
-fn step(arguments: &args::Verify) -> Result<Option<f64>, Failure> {
-    let Some(text) = &arguments.step else {
-        return Ok(None);
-    };
-    let given = Given::flag("--step", text);
-    let value = given.number()?;
-    if value == 0.0 {
-        let message = given.wrong("a step of zero measures nothing");
-        return Err(message
-            .help("leave it out, or give a step such as 0.1")
-            .into());
-    }
-    Ok(Some(value))
 }
 
 /// What the table shows.

@@ -11,8 +11,10 @@ mod sections;
 
 use std::path::{Path, PathBuf};
 
+use lie_in_process::request::{self, Parameter, Point, Request, Value};
+
 use super::args;
-use super::run::{outputs, plan};
+use super::run::outputs;
 use crate::compiler::{self, Spec};
 use crate::interrupt::Interrupt;
 use crate::message::{Failure, Message};
@@ -26,12 +28,13 @@ use page::Page;
 /// Invalid input, and a file that cannot be written; a run that stops early still has its page.
 pub fn run(flags: &args::Report) -> Result<u8, Failure> {
     let spec = compiler::load(&flags.spec)?;
-    let start = args::Run {
-        param: flags.param.clone(),
-        initial: flags.initial.clone(),
-        ..args::Run::default()
+    let parameters = flags.param.iter().cloned().map(Parameter::Written);
+    let start = Request {
+        param: parameters.collect(),
+        initial: flags.initial.clone().map(Value::Text),
+        ..Request::default()
     };
-    plan::start(&spec, &start).map_err(Failure::invalid)?;
+    let start = request::start(&spec, &start).map_err(Failure::invalid)?;
     let out = out(flags)?;
     let file = Destination::file(&out).map_err(|error| outputs::unwritable(&out, &error))?;
     let folder =
@@ -39,6 +42,7 @@ pub fn run(flags: &args::Report) -> Result<u8, Failure> {
     let mut report = Report {
         flags,
         spec: &spec,
+        start,
         folder: folder.path(),
         interrupt: Interrupt::install(),
         page: Page::default(),
@@ -77,6 +81,7 @@ fn out(flags: &args::Report) -> Result<PathBuf, Failure> {
 struct Report<'a> {
     flags: &'a args::Report,
     spec: &'a Spec,
+    start: Point,
     folder: &'a Path,
     interrupt: Interrupt,
     page: Page,

@@ -1,14 +1,13 @@
 //! The sections of the page.
 
 use lie_codegen::model::Model;
+use lie_in_process::request::{Front, method};
 use lie_poisson::plot::surface::Point;
 
 use super::call::Said;
 use super::{Report, mathematics, scene};
 use crate::build;
-use crate::command::method;
 use crate::command::run::picture::choice::no_orbit;
-use crate::command::run::values::Given;
 use crate::message::{Failure, STOPPED};
 
 /// Methods that are compared where none are given: those of them that apply.
@@ -158,16 +157,9 @@ impl Report<'_> {
             Some([entries.next()??, entries.next()??, entries.next()??])
         });
         let states: Vec<Point> = states.collect();
-        let values = self.spec.model.parameters.iter().map(|parameter| {
-            let given = self.flags.param.iter().rev().find_map(|given| {
-                let (name, value) = given.split_once('=')?;
-                (name.trim() == parameter.name)
-                    .then(|| Given::flag("--param", value).number().ok())?
-            });
-            given.unwrap_or(parameter.default_value)
-        });
-        let values: Vec<f64> = values.collect();
-        let system = build::declared(&self.spec.model)?.system(&values).ok()?;
+        let system = build::declared(&self.spec.model)?
+            .system(&self.start.parameters)
+            .ok()?;
         scene::scene(&system, &names, &states)
     }
 
@@ -189,7 +181,7 @@ impl Report<'_> {
             [] | [_] => {
                 let apply = COMPARED.iter().map(|id| (*id).to_owned());
                 let apply = apply.filter(|id| {
-                    method::find(id)
+                    method::labelled(id, Front::Command)
                         .is_ok_and(|choice| method::applies(choice, &self.spec.model).is_ok())
                 });
                 let own = self

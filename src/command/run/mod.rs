@@ -4,18 +4,17 @@ pub mod bar;
 pub mod layout;
 pub mod outputs;
 pub mod picture;
-pub mod plan;
 mod reception;
 mod session;
 mod summary;
 mod tally;
-pub mod values;
 
 use std::sync::Arc;
 
 use lie_codegen::diagnostic::Kind;
 use lie_codegen::methods::Choice;
 use lie_codegen::program::{Purpose, program};
+use lie_in_process::request::{Member, Plan, Several, several};
 
 use super::args;
 use crate::build::talk::Worker;
@@ -28,7 +27,6 @@ use crate::render;
 use layout::Layout;
 use outputs::Outputs;
 use picture::Picture;
-use plan::{Plan, Several};
 use session::Session;
 
 /// Runs a spec.
@@ -43,7 +41,7 @@ pub fn run(flags: &args::Run) -> Result<u8, Failure> {
     };
     Processor::of(flags.cpu.unwrap_or_default(), flags.fma)?;
     let spec = compiler::load(path)?;
-    let several = plan::several(&spec, flags).map_err(Failure::invalid)?;
+    let several = several(&spec, &flags.request).map_err(Failure::invalid)?;
     let layout = layout(&spec, &several)?;
     let format = outputs::format(flags, path)?;
     let kind = picture::kind(&spec, flags, &several, &layout)?;
@@ -74,7 +72,7 @@ pub fn run(flags: &args::Run) -> Result<u8, Failure> {
 
 /// The columns, which all runs have in common.
 fn layout(spec: &Spec, several: &Several) -> Result<Layout, Failure> {
-    let of = |member: &plan::Member| {
+    let of = |member: &Member| {
         let chart = several.plans[member.plan].chart;
         Layout::of(&spec.model, chart, &member.start.parameters)
     };

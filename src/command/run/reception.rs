@@ -1,14 +1,13 @@
 //! What becomes of the rows of a run: they are written, drawn, and their errors noted.
 
-use std::io::{self, BufRead};
+use std::io;
 
-use lie_program::listen;
+use lie_in_process::request::Plan;
 use lie_program::protocol::{Found, Times, Work};
 use lie_runtime::driver::Pace;
 
 use super::layout::Layout;
 use super::picture::Picture;
-use super::plan::Plan;
 use super::summary::Drift;
 use crate::compiler::Spec;
 use crate::output::{Rows, Run};
@@ -121,7 +120,7 @@ impl<'a, 'p> Reception<'a, 'p> {
     ///
     /// # Errors
     /// `InvalidData` for rows that are not those of the system; what the destination says.
-    pub fn take(&mut self, found: Found, rest: &mut dyn BufRead) -> io::Result<()> {
+    pub fn take(&mut self, found: Found) -> io::Result<()> {
         match found {
             Found::Chosen(chosen) => {
                 self.received.step = chosen.step;
@@ -137,13 +136,11 @@ impl<'a, 'p> Reception<'a, 'p> {
                 })?;
                 (self.places, self.width) = (places, columns.width());
             }
-            Found::Rows { .. } if self.width == 0 => {
-                let text = "rows come before their columns";
+            Found::Rows(rows) if self.width == 0 || rows.width != self.width => {
+                let text = "rows come before their columns, or with others";
                 return Err(io::Error::new(io::ErrorKind::InvalidData, text));
             }
-            Found::Rows { count } => {
-                listen::rows(rest, self.width, count, &mut |numbers| self.push(numbers))?;
-            }
+            Found::Rows(rows) => self.push(&rows.numbers)?,
             Found::Work(work) => self.received.work = work,
         }
         Ok(())

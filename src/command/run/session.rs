@@ -4,6 +4,7 @@ use std::io::{self, IsTerminal as _};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use lie_in_process::request::{Member, Plan, Several};
 use lie_in_process::words::counted;
 use lie_program::protocol::{Obstacle, Stop};
 use lie_runtime::driver::Pace;
@@ -11,7 +12,6 @@ use lie_runtime::driver::Pace;
 use super::bar::Bar;
 use super::layout::Layout;
 use super::picture::{Form, Picture, rounded};
-use super::plan::{Member, Plan, Several};
 use super::reception::{Received, Reception};
 use super::summary::{self, Drift, Steps};
 use super::tally::{MOST_LINES, Tally};
@@ -128,13 +128,16 @@ impl Session<'_> {
         }
         let mut reception = Reception::start(self.spec, plan, layout, run, rows, picture)
             .map_err(|error| self.lost(error))?;
-        let request = request(plan, member, &reception);
+        let request = lie_program::protocol::Run {
+            times: reception.times(plan),
+            ..plan.run(member.start.clone())
+        };
         let (before, all) = (number as u64, self.several.members.len() as u64);
         let worker = &self.workers[member.plan];
         let outcome = worker.talk(
-            &request,
+            request,
             self.interrupt,
-            &mut |found, rest| reception.take(found, rest),
+            &mut |found| reception.take(found),
             &mut |progress| bar.show(before * progress.all + progress.done, all * progress.all),
         );
         let outcome = match outcome {
@@ -278,22 +281,6 @@ impl Session<'_> {
             Outcome::Broken(how) => Err(worker.broken(&how)),
             Outcome::NotTaken(error) => Err(worker.broken(&error.to_string())),
         }
-    }
-}
-
-/// What the built program is asked for.
-fn request(
-    plan: &Plan,
-    member: &Member,
-    reception: &Reception<'_, '_>,
-) -> lie_program::protocol::Run {
-    lie_program::protocol::Run {
-        method: plan.method.label(),
-        start: member.start.clone(),
-        pace: plan.pace.0,
-        times: reception.times(plan),
-        tolerances: plan.tolerances,
-        newton: plan.newton,
     }
 }
 

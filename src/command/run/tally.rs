@@ -3,10 +3,10 @@
 use std::fmt::Write as _;
 use std::time::Duration;
 
+use lie_in_process::request::Several;
 use lie_in_process::words::counted;
 use lie_runtime::driver::Pace;
 
-use super::plan::Several;
 use super::reception::Received;
 use super::summary::short;
 

@@ -59,7 +59,7 @@ impl<'a, P: Poisson<f64>> Ladder<'a, P> {
     pub(super) fn climb(
         self,
         entry: &'a Entry<P>,
-        session: &mut Session<'_>,
+        session: &mut Session<'_, Found>,
         rungs: &mut Vec<Rung<'a>>,
     ) -> Result<(), End> {
         let Self {
@@ -121,7 +121,7 @@ impl<'a, P: Poisson<f64>> Ladder<'a, P> {
         values: impl Iterator<Item = (f64, u64)>,
         run: &(impl Fn((f64, u64)) -> Result<Run<P::State>, String> + Clone + 'a),
         look: &LookAt<'_, P::State>,
-        session: &mut Session<'_>,
+        session: &mut Session<'_, Found>,
         rungs: &mut Vec<Rung<'a>>,
     ) -> Result<(), End> {
         let mut at_floor = 0;
@@ -168,11 +168,11 @@ impl<'a, P: Poisson<f64>> Ladder<'a, P> {
                             let _ = std::hint::black_box(run(std::hint::black_box(value)));
                         }),
                     };
-                    super::tell(session, Found::Point(rung.timed(self.until)));
+                    session.found(Found::Point(rung.timed(self.until)));
                     rungs.push(rung);
                 }
-                Ok(_) => super::tell(session, stopped("a number is not finite")),
-                Err(why) => super::tell(session, stopped(&why)),
+                Ok(_) => session.found(stopped("a number is not finite")),
+                Err(why) => session.found(stopped(&why)),
             }
             // two points at the floor, or two that are worse than before, end the ladder
             at_floor += u32::from(error <= 3.0 * self.floor || (error > best && best < 1e-10));
@@ -215,7 +215,7 @@ pub(super) fn time(
     rungs: &mut [Rung<'_>],
     until: f64,
     clock: &Clock,
-    session: &mut Session<'_>,
+    session: &mut Session<'_, Found>,
 ) -> Result<(), End> {
     let all = (rungs.len() * ROUNDS) as u64;
     let mut done = 0;
@@ -233,7 +233,7 @@ pub(super) fn time(
             rung.samples.push(spent.over(f64::from(times)));
         }
         for rung in &*rungs {
-            super::tell(session, Found::Point(rung.timed(until)));
+            session.found(Found::Point(rung.timed(until)));
         }
     }
     Ok(())

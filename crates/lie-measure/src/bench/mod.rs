@@ -8,13 +8,12 @@ mod timing;
 pub use found::{Accuracy, ClockKind, Found, Point, Reference};
 pub use measure::{Measure, Plane};
 
-use crate::GRACE;
 use crate::facts::{rate, relative_error};
 use ladder::Ladder;
 use lie_program::Tolerances;
 use lie_program::blueprint::{Blueprint, Built};
 use lie_program::protocol::{End, Obstacle, number};
-use lie_program::session::{self, Session};
+use lie_program::session::Session;
 use lie_runtime::diagnostics::{AnyMethod, reference};
 use lie_runtime::equation::Implicit;
 use lie_runtime::methods::{Gauss6, Method};
@@ -165,19 +164,22 @@ impl<P: Implicit<f64, Gauss6> + 'static> Bench<P> {
 
     /// Serves the request on standard input.
     pub fn main(&self) -> ExitCode {
-        session::main(GRACE, &|line, session| self.work(line, session))
+        main(&|request, session| self.work(&request, session))
     }
 
-    /// Does what a line asks for.
+    /// Does what is asked for.
     ///
     /// # Errors
     /// Why not everything was measured.
-    pub fn work(&self, line: &str, session: &mut Session<'_>) -> Result<(), End> {
-        let request = request(line)?;
+    pub fn work(
+        &self,
+        request: &crate::Request<Options>,
+        session: &mut Session<'_, Found>,
+    ) -> Result<(), End> {
         let Built { system, mu } = self.blueprint.build(&request.start)?;
         let Options { until, budget, .. } = request.options;
         let (judge, floor) = judge(&system, &mu, &request.options, &*self.confirming, session)?;
-        tell(session, Found::Clock(self.clock.kind()));
+        session.found(Found::Clock(self.clock.kind()));
         let asked_for = |(label, entry): &&(String, Entry<P>)| {
             matches!(entry, Entry::Control(_)) || request.methods.iter().any(|m| m == label)
         };
@@ -199,7 +201,7 @@ impl<P: Implicit<f64, Gauss6> + 'static> Bench<P> {
             };
             ladder.climb(entry, session, &mut rungs)?;
             let method = label.clone();
-            tell(session, Found::Climbed { method });
+            session.found(Found::Climbed { method });
         }
         ladder::time(&mut rungs, until, &self.clock, session)
     }
@@ -211,7 +213,7 @@ fn judge<P: Poisson<f64>>(
     mu: &P::State,
     options: &Options,
     confirming: &dyn AnyMethod<f64, P>,
-    session: &mut Session<'_>,
+    session: &mut Session<'_, Found>,
 ) -> Result<(Judge<P::State>, f64), End> {
     let Options { until, measure, .. } = *options;
     if let Measure::Energy | Measure::Casimirs = measure {
@@ -232,13 +234,10 @@ fn judge<P: Poisson<f64>>(
         Measure::Section(plane) => {
             let section = measure::Section::new(system, mu, until, plane, rate);
             let section = section.map_err(|why| no_section(system, until, &why))?;
-            tell(
-                session,
-                Found::Section {
-                    plane: section.plane(),
-                    passages: section.passages() as u64,
-                },
-            );
+            session.found(Found::Section {
+                plane: section.plane(),
+                passages: section.passages() as u64,
+            });
             Judge::Section(section)
         }
         _ => Judge::State(exact),
@@ -280,7 +279,7 @@ fn confirmed<P: Poisson<f64>>(
     mu: &P::State,
     &Options { until, measure, .. }: &Options,
     confirming: &dyn AnyMethod<f64, P>,
-    session: &mut Session<'_>,
+    session: &mut Session<'_, Found>,
 ) -> Result<(P::State, f64), End> {
     let exact = reference(system, mu, until).ok_or_else(|| {
         let why = "a number becomes infinite, or the steps too small";
@@ -296,14 +295,11 @@ fn confirmed<P: Poisson<f64>>(
     let difference = confirm(system, mu, until, &exact.mu, confirming);
     let relative = error.max(difference).max(ROUND_OFF);
     let floor = in_measure(system, &exact.mu, relative, measure);
-    tell(
-        session,
-        Found::Reference(Reference {
-            error,
-            difference,
-            floor,
-        }),
-    );
+    session.found(Found::Reference(Reference {
+        error,
+        difference,
+        floor,
+    }));
     if difference > 1e-8 {
         let why = format!(
             "extrapolation and Gauss collocation differ by {difference:.1e} at t = {until:?}"

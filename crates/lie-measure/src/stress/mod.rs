@@ -10,12 +10,11 @@ mod trials;
 
 pub use found::{Cell, Experiment, Found, Growth, Moved, Outcome};
 
-use crate::GRACE;
 use crate::facts::rate;
 use lie_program::Tolerances;
 use lie_program::blueprint::{Blueprint, Built};
 use lie_program::protocol::{End, Obstacle};
-use lie_program::session::{self, Session};
+use lie_program::session::Session;
 use lie_runtime::diagnostics::AnyMethod;
 use lie_runtime::methods::Method;
 use lie_runtime::{ParameterError, Poisson, State};
@@ -126,15 +125,18 @@ impl<P: Poisson<f64> + Sync> Stress<P> {
 
     /// Serves the request on standard input.
     pub fn main(&self) -> ExitCode {
-        session::main(GRACE, &|line, session| self.work(line, session))
+        main(&|request, session| self.work(&request, session))
     }
 
-    /// Does what a line asks for.
+    /// Does what is asked for.
     ///
     /// # Errors
     /// Why not everything was measured.
-    pub fn work(&self, line: &str, session: &mut Session<'_>) -> Result<(), End> {
-        let request = request(line)?;
+    pub fn work(
+        &self,
+        request: &crate::Request<Options>,
+        session: &mut Session<'_, Found>,
+    ) -> Result<(), End> {
         let Built { system, mu } = self.blueprint.build(&request.start)?;
         let long = request.options.steps;
         let step = REACH / rate(&system, &mu);
@@ -159,13 +161,13 @@ impl<P: Poisson<f64> + Sync> Stress<P> {
                 methods.map(move |(label, make)| Job { label, make, task })
             })
             .collect();
-        tell(session, Found::Ground { step });
+        session.found(Found::Ground { step });
         session.stage(0, jobs.len() as u64, "experiments")?;
         self.all(&jobs, session)
     }
 
     /// All jobs, on as many threads as the machine has, reported in the order in which they end.
-    fn all(&self, jobs: &[Job<'_, P>], session: &mut Session<'_>) -> Result<(), End> {
+    fn all(&self, jobs: &[Job<'_, P>], session: &mut Session<'_, Found>) -> Result<(), End> {
         let next = AtomicUsize::new(0);
         let done = AtomicUsize::new(0);
         let stop = AtomicBool::new(false);
@@ -192,7 +194,7 @@ impl<P: Poisson<f64> + Sync> Stress<P> {
                 let finished = done.load(Ordering::Relaxed);
                 let taken = found.lock().map(|mut found| core::mem::take(&mut *found));
                 for found in taken.unwrap_or_default() {
-                    tell(session, found);
+                    session.found(found);
                 }
                 if finished == jobs.len() {
                     return Ok(());

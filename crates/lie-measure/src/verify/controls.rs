@@ -1,6 +1,6 @@
 //! What a verification must notice, before it is believed.
 
-use super::{Found, driven, tell};
+use super::{Found, driven};
 use crate::facts::{Ground, Subject, broken_measurements, unsound_iterations};
 use lie_program::session::Session;
 use lie_runtime::Lift;
@@ -12,16 +12,16 @@ pub(super) fn controls<P: Lift<f64> + Clone>(
     lifted: &P::Lifted,
     ground: &Ground<P>,
     subject: &Subject<P>,
-    session: &mut Session<'_>,
+    session: &mut Session<'_, Found>,
 ) {
     let mut broken = broken_measurements(system, lifted, ground, subject);
     if driven::is_blind(system, ground, subject) {
         broken.push("rows".into());
     }
     for fact in broken.into_iter().map(Cow::into_owned) {
-        tell(session, Found::Broken { fact });
+        session.found(Found::Broken { fact });
     }
     for what in unsound_iterations().into_iter().map(str::to_owned) {
-        tell(session, Found::Unsound { what });
+        session.found(Found::Unsound { what });
     }
 }

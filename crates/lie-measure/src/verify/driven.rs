@@ -5,8 +5,7 @@
 use super::outside;
 use crate::facts::{Finding, Ground, Subject, spoiled};
 use lie_program::RowWriter;
-use lie_program::listen::{listen, rows};
-use lie_program::protocol::{Columns, Found, Message};
+use lie_program::protocol::{Found, Message};
 use lie_program::session::Session;
 use lie_runtime::diagnostics::{AnyMethod, Forgotten};
 use lie_runtime::driver::{
@@ -16,7 +15,6 @@ use lie_runtime::methods::{StepFailure, StepReport};
 use lie_runtime::newton::NewtonOptions;
 use lie_runtime::poisson::{Lift, Poisson};
 use lie_runtime::state::State;
-use std::io;
 
 /// A row: time, state, energy, Casimirs.
 type Row = Vec<f64>;
@@ -246,11 +244,11 @@ fn run<P: Poisson<f64>>(
     method: &dyn AnyMethod<f64, P>,
     options: &Options,
 ) -> Result<Seen<P::State>, StepFailure> {
-    let mut bytes = Vec::new();
+    let mut said = Vec::new();
     let mut recorder = Recorder::new(&problem.system);
     let ended;
     {
-        let mut session = Session::undisturbed(&mut bytes);
+        let mut session = Session::undisturbed(&mut said);
         let mut writer = RowWriter::new(&problem.system, &mut session);
         let mut observers = (&mut recorder, &mut writer);
         match integrate(problem, Forgotten(method), options, &mut observers) {
@@ -262,31 +260,23 @@ fn run<P: Poisson<f64>>(
         writer.finish();
     }
     (recorder.solution.stats, recorder.solution.status) = ended;
-    // what cannot be read is no row
-    let written = read(&problem.system, &bytes).unwrap_or_default();
-    Ok((recorder.solution, written))
+    Ok((recorder.solution, rows(&problem.system, said)))
 }
 
-/// Rows as the command reads them, by the columns that the program says they have.
-fn read<P: Poisson<f64>>(system: &P, mut bytes: &[u8]) -> io::Result<Vec<Row>> {
-    let (mut columns, mut all) = (Columns::default(), Vec::new());
-    listen(&mut bytes, &mut |message, output| {
+/// The rows of a program, if its columns are those of the system.
+fn rows<P: Poisson<f64>>(system: &P, said: Vec<Message<Found>>) -> Vec<Row> {
+    let (mut named, mut all) = (false, Vec::new());
+    for message in said {
         match message {
-            Message::Found(Found::Columns(said)) => columns = said,
-            Message::Found(Found::Rows { count }) => {
-                let width = columns.width();
-                rows(output, width, count, &mut |numbers| {
-                    all.extend(numbers.chunks(width).map(<[f64]>::to_vec));
-                    Ok(())
-                })?;
+            Message::Found(Found::Columns(columns)) => {
+                let mut names = columns.coordinates.iter().enumerate();
+                named = names.all(|(place, name)| system.coordinate(place) == name);
+            }
+            Message::Found(Found::Rows(rows)) if named => {
+                all.extend(rows.numbers.chunks(rows.width).map(<[f64]>::to_vec));
             }
             _ => {}
         }
-        Ok(())
-    })?;
-    let named = |(place, name): (usize, &String)| system.coordinate(place) == name;
-    match columns.coordinates.iter().enumerate().all(named) {
-        true => Ok(all),
-        false => Err(io::ErrorKind::InvalidData.into()),
     }
+    all
 }

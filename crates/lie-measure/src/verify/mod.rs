@@ -8,7 +8,6 @@ mod outside;
 
 pub use found::{Found, Ground as GroundFound, Kernel, Reference};
 
-use crate::GRACE;
 use crate::facts::{Ground, PlainSteps, Subject, broken_comparison, verify};
 use crate::random::Random;
 use controls::controls;
@@ -27,6 +26,7 @@ use lie_runtime::{
 use serde::{Deserialize, Serialize};
 use std::io::{BufRead, Write};
 use std::process::ExitCode;
+use std::rc::Rc;
 
 /// What is measured.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize, Serialize)]
@@ -156,7 +156,7 @@ impl<P: Lift<f64> + Clone + 'static> Verify<P> {
         self,
         label: &str,
         build: impl Fn(&[f64]) -> Result<Q, ParameterError> + 'static,
-        make: impl Fn(&Tolerances) -> M + Copy + 'static,
+        make: impl Fn(&Tolerances) -> M + 'static,
     ) -> Self
     where
         Q: Poisson<f64> + 'static,
@@ -194,14 +194,15 @@ impl<P: Lift<f64> + Clone + 'static> Verify<P> {
     /// Adds a method whose type is forgotten, over numbers and over dual numbers.
     #[must_use]
     pub fn any_method(
-        self,
+        mut self,
         label: &str,
         kind: Kind,
-        make: impl Fn(&Tolerances) -> AnyPair<P> + Clone + 'static,
+        make: impl Fn(&Tolerances) -> AnyPair<P> + 'static,
     ) -> Self {
-        self.add(label, move || {
+        let make = Rc::new(make);
+        let subject = move || {
             let (method, lifted) = make(&Tolerances::default());
-            let make = make.clone();
+            let make = Rc::clone(&make);
             let with_tolerance = move |tolerance| make(&Tolerances::both(tolerance)).0;
             Subject {
                 method,
@@ -212,7 +213,19 @@ impl<P: Lift<f64> + Clone + 'static> Verify<P> {
                 plain: None,
                 beside: false,
             }
-        })
+        };
+        self.subjects.push((label.to_owned(), Box::new(subject)));
+        self
+    }
+
+    fn pair<M>(self, label: &str, kind: Kind, make: impl Fn(&Tolerances) -> M + 'static) -> Self
+    where
+        M: Method<f64, P> + Method<Dual<f64>, P::Lifted> + 'static,
+    {
+        let made = move |tolerances: &Tolerances| -> AnyPair<P> {
+            (Box::new(make(tolerances)), Box::new(make(tolerances)))
+        };
+        self.any_method(label, kind, made)
     }
 
     /// Adds a method under the name by which requests ask for it.
@@ -221,7 +234,7 @@ impl<P: Lift<f64> + Clone + 'static> Verify<P> {
     where
         M: Method<f64, P> + Method<Dual<f64>, P::Lifted> + 'static,
     {
-        self.add(label, move || subject(&make, false))
+        self.pair(label, Kind::Plain, make)
     }
 
     /// Adds a method whose step consists of steps of another.
@@ -230,24 +243,16 @@ impl<P: Lift<f64> + Clone + 'static> Verify<P> {
     where
         M: Method<f64, P> + Method<Dual<f64>, P::Lifted> + 'static,
     {
-        self.add(label, move || subject(&make, true))
+        self.pair(label, Kind::Composed, make)
     }
 
     /// Adds a method that chooses its own steps.
     #[must_use]
-    pub fn adaptive<M>(self, label: &str, make: impl Fn(&Tolerances) -> M + Copy + 'static) -> Self
+    pub fn adaptive<M>(self, label: &str, make: impl Fn(&Tolerances) -> M + 'static) -> Self
     where
         M: Method<f64, P> + Method<Dual<f64>, P::Lifted> + 'static,
     {
-        self.add(label, move || {
-            let with_tolerance = move |tolerance| -> Box<dyn AnyMethod<f64, P>> {
-                Box::new(make(&Tolerances::both(tolerance)))
-            };
-            Subject {
-                with_tolerance: Some(Box::new(with_tolerance)),
-                ..subject(&make, false)
-            }
-        })
+        self.pair(label, Kind::Adaptive, make)
     }
 
     /// Says of a method that the group element goes along with its steps to their order, not exactly.
@@ -257,28 +262,27 @@ impl<P: Lift<f64> + Clone + 'static> Verify<P> {
         self
     }
 
-    fn add(mut self, label: &str, make: impl Fn() -> Subject<P> + 'static) -> Self {
-        self.subjects.push((label.to_owned(), Box::new(make)));
-        self
-    }
-
     /// Serves the request on standard input.
     pub fn main(&self) -> ExitCode {
-        session::main(GRACE, &|line, session| self.work(line, session))
+        main(&|request, session| self.work(&request, session))
     }
 
     /// Serves one request; returns the exit code.
     pub fn serve(&self, input: impl BufRead + Send + 'static, output: &mut dyn Write) -> u8 {
-        let work = |line: &str, session: &mut Session<'_>| self.work(line, session);
-        session::serve(None, Box::new(input), output, &work)
+        session::serve(None, Box::new(input), output, &|request, session| {
+            self.work(&request, session)
+        })
     }
 
-    /// Does what a line asks for.
+    /// Does what is asked for.
     ///
     /// # Errors
     /// Why not everything was measured.
-    pub fn work(&self, line: &str, session: &mut Session<'_>) -> Result<(), End> {
-        let request = request(line)?;
+    pub fn work(
+        &self,
+        request: &crate::Request<Options>,
+        session: &mut Session<'_, Found>,
+    ) -> Result<(), End> {
         let Built { system, mu } = self.blueprint.build(&request.start)?;
         let Options { seed, step, reach } = request.options;
         let all = request.methods.len() as u64;
@@ -288,17 +292,14 @@ impl<P: Lift<f64> + Clone + 'static> Verify<P> {
         let more = self.grounds.iter();
         let ground = Ground { reach, ..ground };
         let ground = more.fold(ground, |ground, more| more(ground));
-        tell(
-            session,
-            Found::Ground(GroundFound {
-                step: ground.step,
-                span: ground.exact[0].span,
-                error: ground.exact[0].error,
-                states: ground.states.len(),
-                linear: ground.linear.len(),
-                quadratic: ground.quadratic.len(),
-            }),
-        );
+        session.found(Found::Ground(GroundFound {
+            step: ground.step,
+            span: ground.exact[0].span,
+            error: ground.exact[0].error,
+            states: ground.states.len(),
+            linear: ground.linear.len(),
+            quadratic: ground.quadratic.len(),
+        }));
         session.stage(0, all, "the kernels")?;
         self.evidence(&system, &ground, seed, session);
         let lifted = system.lift();
@@ -315,15 +316,15 @@ impl<P: Lift<f64> + Clone + 'static> Verify<P> {
             let findings = verify(&system, &lifted, &ground, &subject, &mut next)?;
             if broken_comparison(&system, &ground, &subject) {
                 let fact = "generic form".to_owned();
-                tell(session, Found::Broken { fact });
+                session.found(Found::Broken { fact });
             }
             let rows = driven::finding(&system, &ground, &subject);
             for finding in findings.into_iter().chain([rows]) {
                 let method = label.clone();
-                tell(session, Found::Finding { method, finding });
+                session.found(Found::Finding { method, finding });
             }
             let method = label.clone();
-            tell(session, Found::Measured { method });
+            session.found(Found::Measured { method });
         }
         Ok(())
     }
@@ -341,41 +342,28 @@ impl<P: Lift<f64> + Clone + 'static> Verify<P> {
     }
 
     /// What a judge may look at: kernels at the states, and the ends of the reference solution.
-    fn evidence(&self, system: &P, ground: &Ground<P>, seed: u64, session: &mut Session<'_>) {
+    fn evidence(
+        &self,
+        system: &P,
+        ground: &Ground<P>,
+        seed: u64,
+        session: &mut Session<'_, Found>,
+    ) {
         let mut random = Random::new(seed.wrapping_add(1));
         for mu in &ground.states {
             for kernels in &self.kernels {
-                let mut show = |kernel| tell(session, Found::Kernel(kernel));
+                let mut show = |kernel| session.found(Found::Kernel(kernel));
                 let mut writer = kernels::Writer::new(system, mu, &mut random, &mut show);
                 kernels(system, &mut writer);
             }
         }
         let exact = &ground.exact[0];
         for (mu, end) in ground.states.iter().zip(&exact.ends) {
-            tell(
-                session,
-                Found::Reference(Reference {
-                    span: exact.span,
-                    start: mu.as_slice().to_vec(),
-                    end: end.as_slice().to_vec(),
-                }),
-            );
+            session.found(Found::Reference(Reference {
+                span: exact.span,
+                start: mu.as_slice().to_vec(),
+                end: end.as_slice().to_vec(),
+            }));
         }
-    }
-}
-
-fn subject<P, M>(make: &impl Fn(&Tolerances) -> M, composed: bool) -> Subject<P>
-where
-    P: Lift<f64>,
-    M: Method<f64, P> + Method<Dual<f64>, P::Lifted> + 'static,
-{
-    let tolerances = Tolerances::default();
-    Subject {
-        method: Box::new(make(&tolerances)),
-        lifted: Box::new(make(&tolerances)),
-        composed,
-        with_tolerance: None,
-        plain: None,
-        beside: false,
     }
 }

@@ -1,8 +1,9 @@
 //! What the command and the programs that it builds say to each other.
 //!
 //! A request is one line on the standard input of the program, a value of [`Run`] or of a type of the program's own, as
-//! JSON. The program answers on its standard output with one [`Message`] a line. After [`Found::Rows`] the rows
-//! follow as bytes: a trajectory is too long for text. What stands on its standard error is for people.
+//! JSON. The program answers on its standard output with one [`Message`] a line. Behind the line of [`Found::Rows`] the
+//! rows follow as bytes: a trajectory is too long for text. What stands on its standard error is for people. Where the work
+//! is done in the same process, the same values go through a channel.
 //!
 //! When the input ends, a program stops at the next step and keeps what it has; one that does not come to that
 //! ends soon after. So no program outlives the command that started it, however that one was ended.
@@ -10,11 +11,13 @@
 pub mod number;
 mod words;
 
-use crate::session;
+use crate::listen;
 use lie_runtime::driver::{Chosen, Options, Pace, Save, Stats};
 use lie_runtime::newton::NewtonOptions;
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use std::io::{self, BufRead};
 
 /// Tolerances of adaptive methods; others ignore them.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
@@ -95,14 +98,6 @@ pub struct Run {
 }
 
 impl Run {
-    /// The request of a line.
-    ///
-    /// # Errors
-    /// It is none.
-    pub fn read(line: &str) -> Result<Self, End> {
-        session::read(line)
-    }
-
     /// The end of the run: as asked, or the saved time farthest from 0.
     pub fn end(&self) -> f64 {
         let farther = |a: f64, b: f64| if b.abs() > a.abs() { b } else { a };
@@ -137,6 +132,22 @@ pub enum Message<R> {
     Found(R),
     /// The last message.
     End(End),
+}
+
+/// What goes to another process as a line of JSON, with numbers behind it where they are many.
+pub trait Wire: Serialize + DeserializeOwned {
+    /// The numbers behind the line.
+    fn numbers(&self) -> &[f64] {
+        &[]
+    }
+
+    /// Reads them, as many as there are.
+    ///
+    /// # Errors
+    /// The input cannot be read.
+    fn read_numbers(&mut self, _input: &mut dyn BufRead) -> io::Result<()> {
+        Ok(())
+    }
 }
 
 /// How far a program is.
@@ -176,14 +187,42 @@ pub enum Found {
     },
     /// What the numbers of the rows to come are.
     Columns(Columns),
-    /// So many rows follow this line: little-endian float64, row by row. They come at least every 0.2 s while steps are
-    /// being done.
-    Rows {
-        /// Their number.
-        count: u64,
-    },
+    /// Rows. They come at least every 0.2 s while steps are being done.
+    Rows(Rows),
     /// The work so far, at the end.
     Work(Work),
+}
+
+/// Rows of a run.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Rows {
+    /// How many there are.
+    pub count: u64,
+    /// Numbers of each.
+    pub width: usize,
+    /// Row by row; little-endian float64 behind the line.
+    #[serde(skip)]
+    pub numbers: Vec<f64>,
+}
+
+impl Wire for Found {
+    fn numbers(&self) -> &[f64] {
+        match self {
+            Self::Rows(rows) => &rows.numbers,
+            _ => &[],
+        }
+    }
+
+    fn read_numbers(&mut self, input: &mut dyn BufRead) -> io::Result<()> {
+        match self {
+            Self::Rows(rows) => {
+                rows.numbers = listen::rows(input, rows.width, rows.count)?;
+                Ok(())
+            }
+            _ => Ok(()),
+        }
+    }
 }
 
 /// A step that was chosen.

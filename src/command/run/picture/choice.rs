@@ -3,14 +3,13 @@
 use lie_codegen::model::Model;
 use lie_codegen::structure::group;
 use lie_codegen::suggest::did_you_mean;
+use lie_in_process::request::{Given, Several};
 use lie_in_process::words::counted;
 
 use super::section::Chosen;
 use crate::build;
 use crate::command::args;
 use crate::command::run::layout::Layout;
-use crate::command::run::plan::Several;
-use crate::command::run::values::Given;
 use crate::compiler::Spec;
 use crate::message::Message;
 

@@ -7,6 +7,7 @@ mod raster;
 mod section;
 
 use lie_dynamic::Dynamic;
+use lie_in_process::request::{Plan, Several};
 use lie_poisson::plot::Plot;
 use lie_poisson::plot::compare::Compare;
 use lie_poisson::plot::phase::Phase;
@@ -21,7 +22,6 @@ pub use file::{Form, form};
 use section::Section;
 
 use super::layout::Layout;
-use super::plan::{Plan, Several};
 use crate::build;
 use crate::compiler::Spec;
 

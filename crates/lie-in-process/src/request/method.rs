@@ -5,6 +5,7 @@ use lie_codegen::diagnostic::Kind;
 use lie_codegen::methods::{self, Choice};
 use lie_codegen::model::Model;
 
+use super::Front;
 use crate::message::Message;
 
 /// The options by which a method is chosen; the others are numbers of a run.
@@ -17,25 +18,19 @@ pub const OPTIONS: [&str; 6] = [
     "tensor",
 ];
 
-/// The method of an id, with its default options.
-///
-/// # Errors
-/// `method` if there is none, or none yet.
-pub fn find(id: &str) -> Result<Choice, Message> {
-    Choice::from_id(id)
-        .map_err(|unusable| Message::new(Kind::Method, unusable.message).help(unusable.help))
-}
-
 /// The method of an id, possibly with options behind it: `lie-midpoint --retraction cayley`.
 ///
 /// # Errors
-/// As of [`find`], and an option that it does not have.
-pub fn labelled(text: &str) -> Result<Choice, Message> {
-    if !text.contains("--") {
-        return find(text);
+/// `method` if there is none, or none yet, and an option that it does not have.
+pub fn labelled(text: &str, front: Front) -> Result<Choice, Message> {
+    if text.trim().is_empty() {
+        let message = Message::new(Kind::Method, "the method is empty");
+        return Err(message.help("name one, such as `lie-midpoint`, or leave it out"));
     }
-    Choice::from_label(text.trim())
-        .map_err(|unusable| Message::new(Kind::Method, unusable.message).help(unusable.help))
+    Choice::from_label(text.trim()).map_err(|unusable| {
+        let help = front.told(&unusable.help);
+        Message::new(Kind::Method, unusable.message).help(help)
+    })
 }
 
 /// The methods that an entry of a list stands for: with options the method alone, without them every option of it that
@@ -43,8 +38,8 @@ pub fn labelled(text: &str) -> Result<Choice, Message> {
 ///
 /// # Errors
 /// As of [`labelled`] and [`applies`].
-pub fn all(text: &str, model: &Model) -> Result<Vec<Choice>, Message> {
-    let choice = labelled(text.trim())?;
+pub fn all(text: &str, model: &Model, front: Front) -> Result<Vec<Choice>, Message> {
+    let choice = labelled(text, front)?;
     let all = match text.contains("--") {
         true => Vec::new(),
         false => with_options(model, std::slice::from_ref(&choice)),
@@ -80,11 +75,11 @@ pub fn applies(choice: Choice, model: &Model) -> Result<Choice, Message> {
 }
 
 /// What to write about the options of a method.
-pub fn help_on_options(choice: &Choice) -> String {
+pub fn help_on_options(choice: &Choice, front: Front) -> String {
     let options = choice.options();
     let names: Vec<String> = options
         .iter()
-        .map(|(name, _)| format!("`--{name}`"))
+        .map(|(name, _)| format!("`{}`", front.option(name)))
         .collect();
     match names.as_slice() {
         [] => format!("{} has no options of its own; leave it out", choice.id()),

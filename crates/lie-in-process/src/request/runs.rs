@@ -3,7 +3,17 @@
 use lie_program::protocol::Start;
 
 use super::Plan;
-use crate::output::Labels;
+
+/// The names of what tells runs apart, which stand before the columns.
+#[derive(Clone, Debug, Default)]
+pub struct Labels {
+    /// The number of the run, from 0 on.
+    pub run: String,
+    /// The method, where there are several. Its column is text: an array has none.
+    pub method: Option<String>,
+    /// Parameters with several values.
+    pub parameters: Vec<String>,
+}
 
 /// Runs: of each method those of all values of the parameters, and of these those of all initial states.
 #[derive(Debug)]

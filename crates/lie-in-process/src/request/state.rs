@@ -4,12 +4,12 @@ use lie_codegen::check::domain;
 use lie_codegen::diagnostic::Kind;
 use lie_codegen::front::names::normalised;
 use lie_codegen::suggest::did_you_mean;
-use lie_in_process::words::counted;
 
-use super::super::values::Given;
+use super::plan::{Planner, Point};
 use super::states::{States, without_commas};
-use super::{Planner, Point};
-use crate::message::{Message, Place};
+use super::{Front, Given, Parameter};
+use crate::message::{Fault, Message, Place};
+use crate::words::counted;
 
 impl Planner<'_> {
     pub(super) fn start(&mut self) -> Option<Point> {
@@ -94,21 +94,15 @@ impl Planner<'_> {
         let mut values = self.spec.model.defaults();
         let mut set = vec![false; names.len()];
         let before = self.mistakes.len();
-        for text in &self.flags.param {
-            let given = Given::flag("--param", text);
-            let Some(equals) = text.find('=') else {
-                let message = given.wrong(format!("`{text}` is not NAME=VALUE"));
-                self.mistakes
-                    .push(message.help("write it like `--param I1=2`"));
+        for parameter in &self.request.param {
+            let Some((name, value)) = self.parameter(parameter) else {
                 continue;
             };
-            let name = normalised(text[..equals].trim());
-            let name = name.as_str();
-            let Some(index) = names.iter().position(|known| *known == name) else {
-                let message = given
-                    .part(0..equals)
-                    .wrong(format!("unknown parameter `{name}`"));
-                let help = match did_you_mean(name, names.iter().copied()) {
+            let known = normalised(name.text.trim());
+            let known = known.as_str();
+            let Some(index) = names.iter().position(|name| *name == known) else {
+                let message = name.wrong(format!("unknown parameter `{known}`"));
+                let help = match did_you_mean(known, names.iter().copied()) {
                     Some(near) => format!("did you mean `{near}`?"),
                     None if names.is_empty() => "the system has no parameters".to_owned(),
                     None => format!("the parameters are {}", names.join(", ")),
@@ -117,34 +111,56 @@ impl Planner<'_> {
                 continue;
             };
             if std::mem::replace(&mut set[index], true) {
-                let message = given.wrong(format!("`{name}` is set twice"));
+                let message = value.wrong(format!("`{known}` is set twice"));
                 self.mistakes.push(message.help("set it once"));
             }
-            let part = given.part(equals + 1..text.len());
-            if let Some((first, _)) = part.text.split_once(':') {
+            if let Some((first, _)) = value.text.split_once(':') {
                 // those of `lie run` are taken apart before
                 let text = format!(
                     "`{}` is a range of values, which `lie run` alone takes",
-                    part.text.trim()
+                    value.text.trim()
                 );
-                let help = format!(
-                    "give one value, such as `--param {name}={}`, and call the command for each",
-                    first.trim()
-                );
-                self.mistakes.push(part.wrong(text).help(help));
+                let one = self.request.front.parameter(known, first.trim());
+                let help = format!("give one value, such as {one}, and call the command for each");
+                self.mistakes.push(value.wrong(text).help(help));
                 continue;
             }
-            let Some(value) = self.keep(part.number()) else {
+            let Some(number) = self.keep(value.number()) else {
                 continue;
             };
-            if declared[index].positive && value <= 0.0 {
-                let message = part.wrong(format!("the parameter `{name}` must be positive"));
+            if declared[index].positive && number <= 0.0 {
+                let message = value.wrong(format!("the parameter `{known}` must be positive"));
                 let help = "give it a positive value; the spec declares it positive, and proofs rely on that";
                 self.mistakes.push(message.help(help));
             }
-            values[index] = value;
+            values[index] = number;
         }
         (self.mistakes.len() == before).then_some(values)
+    }
+
+    /// The name and the value of a parameter.
+    fn parameter(&mut self, parameter: &Parameter) -> Option<(Given, Given)> {
+        let front = self.request.front;
+        let option = front.option("param");
+        match parameter {
+            Parameter::Set(name, value) => {
+                let place = match front {
+                    Front::Command => &option,
+                    Front::Call => name,
+                };
+                Some((Given::flag(place, name), Given::value(place, value)))
+            }
+            Parameter::Written(text) => {
+                let given = Given::flag(&option, text);
+                let Some(equals) = text.find('=') else {
+                    let message = given.wrong(format!("`{text}` is not NAME=VALUE"));
+                    let help = format!("write it like {}", front.parameter("I1", "2"));
+                    self.mistakes.push(message.help(help));
+                    return None;
+                };
+                Some((given.part(0..equals), given.part(equals + 1..text.len())))
+            }
+        }
     }
 
     fn initial(&mut self, parameters: &[f64]) -> Option<Vec<f64>> {
@@ -153,12 +169,11 @@ impl Planner<'_> {
             return self.of_family(family, parameters);
         }
         let dimension = model.shown_coordinates().len();
-        let values = if let Some(text) = &self.flags.initial {
-            let given = Given::flag("--initial", text);
+        let values = if let Some(given) = self.asked("initial") {
             let parts = given.split();
             if model.complete_state(&vec![0.0; parts.len()]).is_none() {
                 let text = match parts.as_slice() {
-                    [_] if without_commas(text) => {
+                    [_] if without_commas(&given.text) => {
                         "no commas stand between these numbers".to_owned()
                     }
                     parts => format!(
@@ -171,34 +186,44 @@ impl Planner<'_> {
                 self.mistakes.push(message.help(self.example()));
                 return None;
             }
-            let before = self.mistakes.len();
-            let values: Vec<f64> = parts
-                .iter()
-                .filter_map(|part| self.keep(part.number()))
-                .collect();
-            if self.mistakes.len() > before {
-                return None;
-            }
-            model.complete_state(&values)?
+            let values = parts.iter().enumerate().map(|(place, part)| {
+                let number = part
+                    .number()
+                    .map_err(|message| self.of_entry(place, message));
+                self.keep(number)
+            });
+            let values: Vec<Option<f64>> = values.collect();
+            let values: Option<Vec<f64>> = values.into_iter().collect();
+            model.complete_state(&values?)?
         } else if let Some(values) = model.initial_values(parameters) {
             values
         } else {
             let text = format!("the spec of {} has no `initial`", model.name);
-            self.mistakes
-                .push(Message::option("--initial", text).help(self.example()));
+            let message = self.at("initial", text).of(Fault::Arguments);
+            self.mistakes.push(message.help(self.example()));
             return None;
         };
         self.in_domain(parameters, &values).then_some(values)
     }
 
+    /// A mistake in an entry of a state, which a caret shows on a command line, and its name in a call.
+    fn of_entry(&self, place: usize, mut message: Message) -> Message {
+        let named = self.shown().get(place).copied();
+        if let (Front::Call, Some(name)) = (self.request.front, named) {
+            message.text = format!("{name}: {}", message.text);
+        }
+        message
+    }
+
     fn example(&self) -> String {
-        let names = self.shown();
+        let (names, front) = (self.shown(), self.request.front);
         let zeros: Vec<String> = (1..=names.len()).map(|k| format!("0.{k}")).collect();
-        let zeros = zeros.join(",");
-        format!(
-            "give the values of {} with `--initial`, such as `--initial {zeros}`",
-            names.join(", ")
-        )
+        let example = match front {
+            Front::Command => zeros.join(","),
+            Front::Call => format!("[{}]", zeros.join(", ")),
+        };
+        let example = front.with("initial", &example);
+        format!("give the values of {}, such as {example}", names.join(", "))
     }
 
     /// Whether H, its gradient and the Casimirs have values there. The defaults were checked with
@@ -208,15 +233,15 @@ impl Planner<'_> {
         let Some(fault) = domain::fault(model, state, parameters) else {
             return true;
         };
-        let flag = if self.flags.initial.is_some() {
-            "--initial"
-        } else {
-            "--param"
+        let flag = match self.request.initial {
+            Some(_) => "initial",
+            None => "param",
         };
         let text = format!("{} at the initial state", fault.message);
         let help = "start at a state where it is defined, or change the parameters";
-        self.mistakes
-            .push(Message::new(Kind::Domain, text).at_option(flag).help(help));
+        let mut message = self.at(flag, text).help(help);
+        message.kind = Kind::Domain;
+        self.mistakes.push(message);
         false
     }
 }

@@ -3,30 +3,28 @@
 use lie_codegen::diagnostic::Kind;
 use lie_program::protocol::Start;
 
-use super::super::values::Given;
+use super::plan::{Foreign, Planned, Planner, planned};
 use super::states::{States, states};
-use super::{Foreign, Member, Plan, Planned, Planner, Point, Several, plan};
-use crate::command::args;
-use crate::compiler::Spec;
+use super::{Front, Given, Labels, Member, Parameter, Plan, Point, Request, Several, Value};
 use crate::message::Message;
-use crate::output::Labels;
+use crate::spec::Spec;
 
 /// The most runs of one command.
 pub(super) const MOST: usize = 1_000_000;
 
-/// Finds the mistakes of all options, then answers.
+/// The runs of a request. Finds the mistakes of all options, then answers.
 ///
 /// # Errors
 /// Every mistake.
-pub fn several(spec: &Spec, flags: &args::Run) -> Result<Several, Vec<Message>> {
+pub fn several(spec: &Spec, request: &Request) -> Result<Several, Vec<Message>> {
     let mut mistakes = Vec::new();
-    let (sweeps, fixed) = sweeps(flags).unwrap_or_else(|found| {
+    let (sweeps, fixed) = sweeps(request).unwrap_or_else(|found| {
         mistakes.extend(found);
-        (Vec::new(), flags.param.clone())
+        (Vec::new(), request.param.clone())
     });
-    let mut flags = args::Run {
+    let mut flags = Request {
         param: fixed,
-        ..flags.clone()
+        ..request.clone()
     };
     let states = flags.initial_file.take().map(|path| {
         let found = states(spec, &path);
@@ -56,7 +54,7 @@ pub fn several(spec: &Spec, flags: &args::Run) -> Result<Several, Vec<Message>> 
         }
     };
     if plans.len() * points.len() > MOST {
-        return Err(vec![too_many(plans.len() * points.len())]);
+        return Err(vec![too_many(request.front, plans.len() * points.len())]);
     }
     let starts: Vec<(Vec<f64>, Start)> = points
         .into_iter()
@@ -76,9 +74,9 @@ pub fn several(spec: &Spec, flags: &args::Run) -> Result<Several, Vec<Message>> 
     })
 }
 
-fn too_many(runs: usize) -> Message {
+fn too_many(front: Front, runs: usize) -> Message {
     let text = format!("{runs} runs, and {MOST} can be made at once");
-    let message = Message::new(Kind::Limit, text).at_option("--param");
+    let message = Message::new(Kind::Limit, text).at_option(&front.option("param"));
     message.help("take fewer values, or several commands for parts of them")
 }
 
@@ -98,17 +96,17 @@ fn free(spec: &Spec, name: &str) -> String {
 }
 
 /// A plan for each method.
-fn plans(spec: &Spec, flags: &args::Run) -> Result<Vec<Plan>, Vec<Message>> {
+fn plans(spec: &Spec, flags: &Request) -> Result<Vec<Plan>, Vec<Message>> {
     let methods: Vec<Vec<String>> = match flags.method.len() {
         0 => vec![Vec::new()],
         _ => flags.method.iter().map(|m| vec![m.clone()]).collect(),
     };
     let found = methods.into_iter().map(|method| {
-        let flags = args::Run {
+        let flags = Request {
             method,
             ..flags.clone()
         };
-        plan(spec, &flags)
+        planned(spec, &flags)
     });
     let found: Vec<Planned> = found.collect();
     let mut mistakes: Vec<Message> = Vec::new();
@@ -134,7 +132,8 @@ fn plans(spec: &Spec, flags: &args::Run) -> Result<Vec<Plan>, Vec<Message>> {
         let Some(plan) = planned.plan else { continue };
         if plans.iter().any(|known| known.method == plan.method) {
             let text = format!("`{}` is given twice", plan.method.label());
-            say(&Message::option("--method", text).help("give it once"));
+            let option = flags.front.option("method");
+            say(&Message::option(&option, text).help("give it once"));
         }
         plans.push(plan);
     }
@@ -147,7 +146,7 @@ fn plans(spec: &Spec, flags: &args::Run) -> Result<Vec<Plan>, Vec<Message>> {
 /// The parameters and the initial state of each run, and the values of the parameters that have several.
 fn points(
     spec: &Spec,
-    flags: &args::Run,
+    flags: &Request,
     sweeps: &[Sweep],
     states: Option<States>,
 ) -> Result<Vec<(Vec<f64>, Point)>, Vec<Message>> {
@@ -162,9 +161,10 @@ fn points(
         }
         let mut flags = flags.clone();
         let swept = sweeps.iter().zip(&values);
-        flags
-            .param
-            .extend(swept.map(|(sweep, value)| format!("{}={value:?}", sweep.name)));
+        let set = |(sweep, value): (&Sweep, &f64)| {
+            Parameter::Set(sweep.name.clone(), Value::Number(*value))
+        };
+        flags.param.extend(swept.map(set));
         let mut planner = Planner::new(spec, &flags);
         let found = match &states {
             None => planner.start().into_iter().collect(),
@@ -184,20 +184,25 @@ struct Sweep {
     values: Vec<f64>,
 }
 
-/// The parameters with several values, and what `--param` says of the others.
-fn sweeps(flags: &args::Run) -> Result<(Vec<Sweep>, Vec<String>), Vec<Message>> {
+/// The parameters with several values, and what is said of the others.
+fn sweeps(request: &Request) -> Result<(Vec<Sweep>, Vec<Parameter>), Vec<Message>> {
     let (mut sweeps, mut fixed, mut mistakes) = (Vec::new(), Vec::new(), Vec::new());
     let mut runs = 1_usize;
-    for text in &flags.param {
-        let range = text
-            .split_once('=')
-            .filter(|(_, range)| range.contains(':'));
-        let Some((name, range)) = range else {
-            fixed.push(text.clone());
+    let front = request.front;
+    for parameter in &request.param {
+        let range = match parameter {
+            Parameter::Written(text) => text
+                .split_once('=')
+                .filter(|(_, range)| range.contains(':'))
+                .map(|(name, range)| (text, name, range)),
+            Parameter::Set(..) => None,
+        };
+        let Some((text, name, range)) = range else {
+            fixed.push(parameter.clone());
             continue;
         };
-        let given = Given::flag("--param", text).part(name.len() + 1..text.len());
-        match values(&given, range) {
+        let given = Given::flag(&front.option("param"), text).part(name.len() + 1..text.len());
+        match values(front, &given, range) {
             Ok(values) => {
                 runs = runs.saturating_mul(values.len());
                 let name = name.trim().to_owned();
@@ -207,7 +212,7 @@ fn sweeps(flags: &args::Run) -> Result<(Vec<Sweep>, Vec<String>), Vec<Message>> 
         }
     }
     if runs > MOST {
-        mistakes.push(too_many(runs));
+        mistakes.push(too_many(front, runs));
     }
     match mistakes.is_empty() {
         true => Ok((sweeps, fixed)),
@@ -216,7 +221,7 @@ fn sweeps(flags: &args::Run) -> Result<(Vec<Sweep>, Vec<String>), Vec<Message>> 
 }
 
 /// The values of `FROM:TO:COUNT`, at equal distances, both ends among them.
-fn values(given: &Given, range: &str) -> Result<Vec<f64>, Message> {
+fn values(front: Front, given: &Given, range: &str) -> Result<Vec<f64>, Message> {
     let mut parts = Vec::new();
     let mut from = 0;
     for part in range.split(':') {
@@ -225,13 +230,15 @@ fn values(given: &Given, range: &str) -> Result<Vec<f64>, Message> {
     }
     let [from, to, count] = parts.as_slice() else {
         let message = given.wrong(format!("`{range}` is not FROM:TO:COUNT"));
-        return Err(message.help("write it like `--param k=1:2:11`, for 1, 1.1, …, 2"));
+        let example = front.parameter("k", "1:2:11");
+        return Err(message.help(format!("write it like {example}, for 1, 1.1, …, 2")));
     };
     let (from, to) = (from.number()?, to.number()?);
-    let help = "give the number of values, at least 1, such as `--param k=1:2:11`";
+    let example = front.parameter("k", "1:2:11");
+    let help = format!("give the number of values, at least 1, such as {example}");
     let count = count.count().map_err(|message| message.help(help))? as usize;
     if count > MOST {
-        return Err(too_many(count).at(given.wrong("").place));
+        return Err(too_many(front, count).at(given.wrong("").place));
     }
     if count == 1 && from != to {
         let message = given.wrong("one value cannot be both ends");

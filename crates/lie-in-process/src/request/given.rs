@@ -1,50 +1,81 @@
-//! Reads the values of options: lists and exact constants.
+//! Values of options with the place where they were given.
 
 use std::ops::Range;
-use std::rc::Rc;
+use std::sync::Arc;
 
 use lie_codegen::diagnostic::{Diagnostic, Kind, Origin};
 
-use crate::compiler;
+use super::Value;
 use crate::message::{Message, Place, Source};
 
 /// Beyond 2^53 not every whole number is a double.
 const MOST: f64 = 9_007_199_254_740_992.0;
 
-/// The text of one option, and where it was given.
+/// The value of one option, and where it was given.
 #[derive(Clone, Debug)]
 pub struct Given {
+    /// The value as text; empty of a list.
     pub text: String,
-    pub place: At,
+    /// What it is where that is no text.
+    value: Option<Value>,
+    place: At,
 }
 
 /// Where an option was given.
 #[derive(Clone, Debug)]
-pub enum At {
-    /// On the command line: the flag, its whole value, and the place of `text` in it.
-    Flag(&'static str, String, usize),
+enum At {
+    /// By an option or an argument: its name, its whole value, and the place of `text` in it.
+    Argument(Arc<(String, String)>, usize),
     /// In the spec's `run`.
-    Spec(Rc<Source>, Range<usize>),
+    Spec(Arc<Source>, Range<usize>),
+}
+
+/// The value of an exact constant such as `1/7` or `cos(11/10)`.
+///
+/// # Errors
+/// What is wrong with it; places count from the beginning of `text`.
+pub fn constant(text: &str) -> Result<f64, Diagnostic> {
+    lie_codegen::compile::constant(text).map_err(|diagnostics| {
+        let first = diagnostics.into_iter().next();
+        first.unwrap_or_else(|| Diagnostic::placeless(Kind::Number, "not a constant"))
+    })
 }
 
 impl Given {
-    /// The value of a flag.
-    pub fn flag(name: &'static str, text: &str) -> Self {
+    /// The text of an option, as its name is written.
+    pub fn flag(name: &str, text: &str) -> Self {
         Self {
             text: text.to_owned(),
-            place: At::Flag(name, text.to_owned(), 0),
+            value: None,
+            place: At::Argument(Arc::new((name.to_owned(), text.to_owned())), 0),
+        }
+    }
+
+    /// The value of an option.
+    pub fn value(name: &str, value: &Value) -> Self {
+        match value {
+            Value::Text(text) => Self::flag(name, text),
+            Value::Number(number) => Self {
+                value: Some(value.clone()),
+                ..Self::flag(name, &written(*number))
+            },
+            Value::List(_) => Self {
+                value: Some(value.clone()),
+                ..Self::flag(name, "")
+            },
         }
     }
 
     /// A value of the spec's `run`.
-    pub fn spec(source: &Rc<Source>, text: &str, origin: Origin) -> Self {
+    pub fn spec(source: &Arc<Source>, text: &str, origin: Origin) -> Self {
         let range = match origin {
             Origin::Text { start, end } => start..end,
             Origin::Span(_) => 0..0,
         };
         Self {
             text: text.to_owned(),
-            place: At::Spec(Rc::clone(source), range),
+            value: None,
+            place: At::Spec(Arc::clone(source), range),
         }
     }
 
@@ -55,18 +86,28 @@ impl Given {
 
     fn at(&self, range: Range<usize>) -> Place {
         match &self.place {
-            At::Flag(name, whole, offset) => Place::CommandLine {
-                option: (*name).to_owned(),
-                value: Some((whole.clone(), range.start + offset..range.end + offset)),
+            At::Argument(whole, offset) => Place::Argument {
+                name: whole.0.clone(),
+                value: Some((whole.1.clone(), range.start + offset..range.end + offset)),
             },
-            At::Spec(source, range) => Place::Text(Rc::clone(source), range.clone()),
+            At::Spec(source, range) => Place::Text(Arc::clone(source), range.clone()),
         }
     }
 
+    /// Whether it was given as a number.
+    pub fn is_number(&self) -> bool {
+        matches!(self.value, Some(Value::Number(_)))
+    }
+
     /// The value as an exact constant, rounded to the nearest number.
+    ///
+    /// # Errors
+    /// It is none, or not finite.
     pub fn number(&self) -> Result<f64, Message> {
-        let value =
-            compiler::constant(&self.text).map_err(|diagnostic| self.diagnostic(diagnostic))?;
+        let value = match self.value {
+            Some(Value::Number(value)) => value,
+            _ => constant(&self.text).map_err(|diagnostic| self.diagnostic(diagnostic))?,
+        };
         if value.is_finite() {
             Ok(value)
         } else {
@@ -79,6 +120,9 @@ impl Given {
     }
 
     /// The value as a whole number that is at least 1.
+    ///
+    /// # Errors
+    /// It is none.
     pub fn count(&self) -> Result<u64, Message> {
         let value = self.number()?;
         if value > MOST {
@@ -104,8 +148,14 @@ impl Given {
         message
     }
 
-    /// The parts between commas outside parentheses.
+    /// The values of a list, or the parts between commas outside parentheses.
     pub fn split(&self) -> Vec<Given> {
+        if let (Some(Value::List(values)), At::Argument(whole, _)) = (&self.value, &self.place) {
+            return values
+                .iter()
+                .map(|value| Self::value(&whole.0, value))
+                .collect();
+        }
         let mut parts = Vec::new();
         let (mut depth, mut from) = (0_usize, 0);
         for (at, character) in self.text.char_indices() {
@@ -126,12 +176,21 @@ impl Given {
     /// A part of the value.
     pub fn part(&self, range: Range<usize>) -> Given {
         let place = match &self.place {
-            At::Flag(name, whole, offset) => At::Flag(name, whole.clone(), offset + range.start),
+            At::Argument(whole, offset) => At::Argument(Arc::clone(whole), offset + range.start),
             At::Spec(..) => self.place.clone(),
         };
         Given {
             text: self.text[range].to_owned(),
+            value: None,
             place,
         }
+    }
+}
+
+/// A number as people write it.
+fn written(number: f64) -> String {
+    match number.is_finite() {
+        true => format!("{number:?}"),
+        false => number.to_string().to_lowercase(),
     }
 }

@@ -4,13 +4,12 @@ use std::path::Path;
 
 use lie_codegen::diagnostic::{Kind, Origin};
 use lie_codegen::model::{Family, Start};
-use lie_in_process::words::counted;
 use lie_runtime::family::unit_spheres;
 
-use super::super::values::Given;
-use super::Planner;
 use super::npy::{self, Array};
-use crate::message::{Message, Place};
+use super::plan::Planner;
+use crate::message::{Fault, Message, Place};
+use crate::words::counted;
 
 impl Planner<'_> {
     /// The initial state of a family: the values of `--initial`, the first coordinates of all sites, then the second and
@@ -19,26 +18,29 @@ impl Planner<'_> {
         let n = self.spec.model.dimension();
         let Some([rows, columns]) = family.sites(parameters) else {
             let text = "the number of sites is a whole number from 1 to 2147483648";
-            let message = Message::new(Kind::Domain, text).at_option("--param");
-            self.mistakes
-                .push(message.help("write it like `--param N=1000`"));
+            let front = self.request.front;
+            let message = Message::new(Kind::Domain, text).at_option(&front.option("param"));
+            let help = format!("write it like {}", front.parameter("N", "1000"));
+            self.mistakes.push(message.help(help));
             return None;
         };
         let sites = rows * columns;
-        let Some(text) = &self.flags.initial else {
+        let Some(given) = self.asked("initial") else {
             return match &family.start {
                 Some(Start::UnitSpheres(seed)) => Some(unit_spheres(sites, n, *seed)),
                 Some(Start::File(path)) => self.file(&path.text, path.origin, [rows, columns]),
                 None => {
                     let text = format!("the spec of {} has no `initial`", self.spec.model.name);
-                    let help = "write `\"initial\": {\"random\": \"unit-sphere\", \"seed\": 1}` or `{\"npy\": \"chain.npy\"}`, or give the values by `--initial`";
-                    self.mistakes
-                        .push(Message::option("--initial", text).help(help));
+                    let help = format!(
+                        "write `\"initial\": {{\"random\": \"unit-sphere\", \"seed\": 1}}` or `{{\"npy\": \"chain.npy\"}}`, or give the values by `{}`",
+                        self.request.front.option("initial")
+                    );
+                    let message = self.at("initial", text).of(Fault::Arguments);
+                    self.mistakes.push(message.help(help));
                     None
                 }
             };
         };
-        let given = Given::flag("--initial", text);
         let parts = given.split();
         if parts.len() != n * sites {
             let text = format!(

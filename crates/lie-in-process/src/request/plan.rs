@@ -1,29 +1,15 @@
-//! What to run: flags over the spec's `run` over defaults, everything validated.
-
-mod members;
-mod npy;
-mod runs;
-mod sites;
-mod solver;
-mod state;
-mod states;
-mod times;
+//! One method and one start: the request over the spec's `run` over defaults, everything checked.
 
 use lie_codegen::methods::{Choice, OptionError};
 use lie_codegen::program::Chart;
 use lie_codegen::structure::group;
-use lie_program::protocol::{Start, Times, Tolerances};
+use lie_program::protocol::{Run, Start, Times, Tolerances};
 use lie_runtime::driver::Pace;
 use lie_runtime::newton::NewtonOptions;
 
-pub use members::several;
-pub use runs::{Member, Several};
-
-use super::values::Given;
-use crate::command::args;
-use crate::command::method;
-use crate::compiler::Spec;
-use crate::message::Message;
+use super::{Given, Request, method};
+use crate::message::{Fault, Message};
+use crate::spec::Spec;
 
 /// The method where none is given, for Lie–Poisson brackets and for others.
 const METHODS: [&str; 2] = ["lie-midpoint", "midpoint"];
@@ -52,6 +38,18 @@ pub struct Plan {
 }
 
 impl Plan {
+    /// What a run from a start is asked for.
+    pub fn run(&self, start: Start) -> Run {
+        Run {
+            method: self.method.label(),
+            start,
+            pace: self.pace.0,
+            times: self.times.clone(),
+            tolerances: self.tolerances,
+            newton: self.newton,
+        }
+    }
+
     /// The final time.
     pub fn end(&self) -> f64 {
         match &self.times {
@@ -62,26 +60,40 @@ impl Plan {
 }
 
 /// What is found for one method.
-struct Planned {
+pub(super) struct Planned {
     /// The plan, where there are no mistakes.
-    plan: Option<Plan>,
-    mistakes: Vec<Message>,
+    pub(super) plan: Option<Plan>,
+    pub(super) mistakes: Vec<Message>,
     /// Options that the method does not take, which may belong to another one.
-    foreign: Vec<Foreign>,
+    pub(super) foreign: Vec<Foreign>,
 }
 
 /// An option that the method does not take.
-struct Foreign {
-    name: String,
+pub(super) struct Foreign {
+    pub(super) name: String,
     /// What is to be said if no other method takes it.
-    message: Message,
+    pub(super) message: Message,
     /// Whether the method has it, with a value of its own.
-    own: bool,
+    pub(super) own: bool,
+}
+
+/// What is asked for of the one method of a request.
+///
+/// # Errors
+/// Every mistake but those of the start.
+pub fn plan(spec: &Spec, request: &Request) -> Result<Plan, Vec<Message>> {
+    let Planned {
+        plan,
+        mut mistakes,
+        foreign,
+    } = planned(spec, request);
+    mistakes.extend(foreign.into_iter().map(|foreign| foreign.message));
+    plan.filter(|_| mistakes.is_empty()).ok_or(mistakes)
 }
 
 /// Finds the mistakes of all options but those of the start, for the first method that is given.
-fn plan(spec: &Spec, flags: &args::Run) -> Planned {
-    let mut planner = Planner::new(spec, flags);
+pub(super) fn planned(spec: &Spec, request: &Request) -> Planned {
+    let mut planner = Planner::new(spec, request);
     let method = planner.method();
     let pace = planner.pace();
     let times = planner.times(pace.as_ref());
@@ -140,33 +152,34 @@ impl Point {
 ///
 /// # Errors
 /// Every mistake.
-pub fn start(spec: &Spec, flags: &args::Run) -> Result<Point, Vec<Message>> {
-    let mut planner = Planner::new(spec, flags);
+pub fn start(spec: &Spec, request: &Request) -> Result<Point, Vec<Message>> {
+    let mut planner = Planner::new(spec, request);
     match planner.start() {
         Some(start) if planner.mistakes.is_empty() => Ok(start),
         _ => Err(planner.mistakes),
     }
 }
 
-struct Planner<'a> {
-    spec: &'a Spec,
-    flags: &'a args::Run,
-    mistakes: Vec<Message>,
+/// Checks a request, and collects its mistakes.
+pub(super) struct Planner<'a> {
+    pub(super) spec: &'a Spec,
+    pub(super) request: &'a Request,
+    pub(super) mistakes: Vec<Message>,
     foreign: Vec<Foreign>,
 }
 
 impl<'a> Planner<'a> {
-    fn new(spec: &'a Spec, flags: &'a args::Run) -> Self {
+    pub(super) fn new(spec: &'a Spec, request: &'a Request) -> Self {
         Self {
             spec,
-            flags,
+            request,
             mistakes: Vec::new(),
             foreign: Vec::new(),
         }
     }
 
     /// What the spec's `run` says under a name.
-    fn in_spec(&self, name: &str) -> Vec<Given> {
+    pub(super) fn in_spec(&self, name: &str) -> Vec<Given> {
         let options = self
             .spec
             .model
@@ -179,69 +192,84 @@ impl<'a> Planner<'a> {
             .collect()
     }
 
-    /// An option: the flag, else the spec.
-    fn given(&self, flag: &'static str, value: Option<&String>) -> Option<Given> {
-        match value {
-            Some(text) => Some(Given::flag(flag, text)),
-            None => self
-                .in_spec(flag.trim_start_matches('-'))
-                .into_iter()
-                .next(),
-        }
+    /// An option of the request.
+    pub(super) fn asked(&self, name: &str) -> Option<Given> {
+        let value = self.request.get(name)?;
+        Some(Given::value(&self.request.front.option(name), value))
     }
 
-    fn keep<T>(&mut self, result: Result<T, Message>) -> Option<T> {
+    /// An option: of the request, else of the spec.
+    pub(super) fn given(&self, name: &str) -> Option<Given> {
+        self.asked(name)
+            .or_else(|| self.in_spec(name).into_iter().next())
+    }
+
+    /// An option of the method or its solver. What the spec says of these belongs to the method of the spec.
+    pub(super) fn of_method(&self, name: &str) -> Option<Given> {
+        let own = self.request.method.is_empty() && !self.picks();
+        self.asked(name)
+            .or_else(|| self.in_spec(name).into_iter().next().filter(|_| own))
+    }
+
+    /// A mistake at an option as a whole.
+    pub(super) fn at(&self, name: &str, text: impl Into<String>) -> Message {
+        Message::option(&self.request.front.option(name), text)
+    }
+
+    pub(super) fn keep<T>(&mut self, result: Result<T, Message>) -> Option<T> {
         result.map_err(|message| self.mistakes.push(message)).ok()
     }
 
-    /// Whether a tolerance is given without a method, which is picked then: on the command line, or in the spec.
-    fn picks(&self) -> bool {
-        let in_spec = self.flags.tol.is_none() && !self.in_spec("method").is_empty();
-        self.wants_tolerance() && self.flags.method.is_empty() && !in_spec
+    /// Whether a tolerance is given without a method, which is picked then: by who asks, or in the spec.
+    pub(super) fn picks(&self) -> bool {
+        let in_spec = self.request.tol.is_none() && !self.in_spec("method").is_empty();
+        self.wants_tolerance() && self.request.method.is_empty() && !in_spec
+    }
+
+    /// The method as it is given, or the usual one.
+    fn label(&self) -> Given {
+        let picks = self.picks();
+        let option = self.request.front.option("method");
+        if let Some(label) = self.request.method.first() {
+            return Given::flag(&option, label);
+        }
+        if let (Some(given), false) = (self.in_spec("method").into_iter().next(), picks) {
+            return given;
+        }
+        let model = &self.spec.model;
+        let discrete = model.energy.lagrangian().and_then(|l| l.discrete);
+        let usual = if picks || model.family.is_some() {
+            OF_TOLERANCE
+        } else if discrete.is_some_and(|discrete| !discrete.in_entries) {
+            DISCRETE
+        } else {
+            METHODS[usize::from(!model.is_lie_poisson())]
+        };
+        Given::flag(&option, usual)
     }
 
     fn method(&mut self) -> Option<Choice> {
-        let given = self
-            .given("--method", self.flags.method.first())
-            .filter(|_| !self.picks());
-        let id = given.unwrap_or_else(|| {
-            let model = &self.spec.model;
-            let discrete = model.energy.lagrangian().and_then(|l| l.discrete);
-            let method = if self.picks() || model.family.is_some() {
-                OF_TOLERANCE
-            } else if discrete.is_some_and(|discrete| !discrete.in_entries) {
-                DISCRETE
-            } else {
-                METHODS[usize::from(!model.is_lie_poisson())]
-            };
-            Given::flag("--method", method)
-        });
+        let front = self.request.front;
+        let id = self.label();
         let place = id.wrong("").place;
-        let found = method::labelled(&id.text).map_err(|message| message.at(place.clone()));
+        let found = method::labelled(&id.text, front).map_err(|message| message.at(place.clone()));
         let mut choice = self.keep(found)?;
         for name in method::OPTIONS {
-            let flag = self.flags.method_options.get(name);
             if id.text.contains(&format!("--{name}")) {
-                if let Some((flag, text)) = flag {
-                    self.twice(name, &Given::flag(flag, text), &id.text);
+                if let Some(given) = self.asked(name) {
+                    self.twice(name, &given, &id.text);
                 }
                 continue;
             }
-            let given = match flag {
-                Some((flag, text)) => Some(Given::flag(flag, text)),
-                None => self.in_spec(name).into_iter().next(),
-            };
-            let Some(given) = given else {
+            let Some(given) = self.of_method(name) else {
                 continue;
             };
-            // The spec's option belongs to the spec's method; a flag may have replaced that.
-            let belongs = flag.is_some() || (self.flags.method.is_empty() && !self.picks());
             match choice.clone().with_option(name, &given.text) {
                 Ok(chosen) => choice = chosen,
                 Err(OptionError::Foreign) => {
-                    if belongs {
-                        self.foreign(name, &given, &choice);
-                    }
+                    let text = format!("`{name}` is not an option of {}", choice.id());
+                    let help = method::help_on_options(&choice, front);
+                    self.foreign(name, given.wrong(text).help(help));
                 }
                 Err(OptionError::Value(text, help)) => {
                     self.mistakes.push(given.wrong(text).help(help));
@@ -254,7 +282,7 @@ impl<'a> Planner<'a> {
     }
 
     fn chart(&mut self) -> Option<Chart> {
-        let given = self.given("--group", self.flags.group.as_ref())?;
+        let given = self.given("group")?;
         let chart = match given.text.trim() {
             "matrix" => Chart::Matrix,
             "quaternion" => Chart::Quaternion,
@@ -273,17 +301,16 @@ impl<'a> Planner<'a> {
         Some(chart)
     }
 
-    fn foreign(&mut self, name: &str, given: &Given, choice: &Choice) {
-        let text = format!("`{name}` is not an option of {}", choice.id());
-        let message = given.wrong(text).help(method::help_on_options(choice));
+    /// An option that the method does not have.
+    pub(super) fn foreign(&mut self, name: &str, message: Message) {
         self.foreign.push(Foreign {
             name: name.to_owned(),
-            message,
+            message: message.of(Fault::Method),
             own: false,
         });
     }
 
-    /// A flag of which the method has another value behind its id.
+    /// An option of which the method has another value behind its id.
     fn twice(&mut self, name: &str, given: &Given, label: &str) {
         let text = format!("no method takes this flag: `{}` has its own", label.trim());
         let help = format!("leave out `--{name}`, or what stands behind the method");

@@ -1,15 +1,15 @@
 //! Initial states from a file: CSV, or an array of NumPy.
 
 use std::path::Path;
-use std::rc::Rc;
+use std::sync::Arc;
 
 use lie_codegen::diagnostic::Kind;
-use lie_in_process::words::counted;
 
-use super::members::MOST;
-use super::npy;
-use crate::compiler::Spec;
+use super::several::MOST;
+use super::{constant, npy};
 use crate::message::{Message, Place, Source};
+use crate::spec::Spec;
+use crate::words::counted;
 
 /// Initial states from a file.
 #[derive(Default)]
@@ -75,7 +75,7 @@ fn array(bytes: &[u8], path: &Path) -> Result<States, Message> {
 
 /// The lines of a table, below the names of the coordinates or without them.
 fn lines(spec: &Spec, text: String, path: &Path) -> Result<States, Message> {
-    let source = Rc::new(Source {
+    let source = Arc::new(Source {
         path: path.display().to_string(),
         text,
     });
@@ -94,9 +94,9 @@ fn lines(spec: &Spec, text: String, path: &Path) -> Result<States, Message> {
             continue;
         }
         let from = start + line.find(content).unwrap_or(0);
-        let place = Place::Text(Rc::clone(&source), from..from + content.len());
+        let place = Place::Text(Arc::clone(&source), from..from + content.len());
         let fields: Vec<&str> = content.split(',').map(str::trim).collect();
-        let number = crate::compiler::constant(fields[0]).is_ok();
+        let number = constant(fields[0]).is_ok();
         let header = std::mem::take(&mut first) && !number;
         if header {
             order = Some(permutation(&fields, &names, &place)?);
@@ -146,13 +146,13 @@ fn permutation(fields: &[&str], names: &[&str], place: &Place) -> Result<Vec<usi
 pub(super) fn without_commas(text: &str) -> bool {
     let parts = text.split([';', '\t', ' ']);
     let parts: Vec<&str> = parts.filter(|part| !part.is_empty()).collect();
-    let number = |part: &&str| crate::compiler::constant(part).is_ok();
+    let number = |part: &&str| constant(part).is_ok();
     parts.len() > 1 && parts.iter().all(number)
 }
 
 fn numbers(fields: &[&str], place: &Place) -> Result<Vec<f64>, Message> {
     let number = |field: &&str| {
-        let value = crate::compiler::constant(field).ok();
+        let value = constant(field).ok();
         value.filter(|value| value.is_finite()).ok_or_else(|| {
             let text = format!("`{field}` is not a finite number");
             let message = Message::new(Kind::Option, text).at(place.clone());

@@ -1,0 +1,185 @@
+//! What a person asks of runs, and what it comes to for a system.
+//!
+//! A command line and a call from Python fill a [`Request`]; what they leave out, the `run` of the spec says, or a default.
+//! [`several`] and [`plan()`] check it against the system, once for all of them, and answer every mistake together, in the
+//! spelling of the [`Front`] at which it was made. A new option is a row of [`Request`], and what is made of it in
+//! `solver`, `times` or `plan`; a call from Python has it as an argument of the same name.
+
+mod front;
+mod given;
+mod measured;
+pub mod method;
+mod npy;
+mod plan;
+mod runs;
+mod several;
+mod sites;
+mod solver;
+mod state;
+mod states;
+mod times;
+mod value;
+
+use std::path::PathBuf;
+
+use serde::{Deserialize, Serialize};
+
+pub use front::Front;
+pub use given::{Given, constant};
+pub use measured::{span, step_of_facts};
+pub use plan::{Plan, Point, plan, start};
+pub use runs::{Labels, Member, Several};
+pub use several::several;
+pub use value::{Parameter, Value};
+
+/// The options with one value each, words or quantities: field, name as in the spec, what the value is called on the
+/// command line, and the spelling of calls where that is another one.
+macro_rules! request {
+    (@hyphens word) => { false };
+    (@hyphens quantity) => { true };
+    ($($(#[$doc:meta])* $kind:ident $field:ident $name:literal $value:literal $(or $alias:literal)?;)*) => {
+        /// What a person asks of runs.
+        #[cfg_attr(feature = "clap", derive(clap::Args))]
+        #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+        #[serde(default, deny_unknown_fields)]
+        pub struct Request {
+            /// Who asks.
+            #[serde(skip)]
+            #[cfg_attr(feature = "clap", arg(skip))]
+            pub front: Front,
+            /// The method, see `lie methods`; given several times, one run for each, possibly with options of its own:
+            /// --method rk4 --method "lie-midpoint --retraction cayley"
+            #[cfg_attr(feature = "clap", arg(long, value_name = "ID"))]
+            pub method: Vec<String>,
+            /// Sets a parameter (repeatable); NAME=FROM:TO:COUNT makes a run for each of COUNT values at equal distances, both
+            /// ends among them
+            #[cfg_attr(feature = "clap", arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true))]
+            pub param: Vec<Parameter>,
+            /// Makes a run for each initial state of a file: CSV, a state in each line, possibly below a line with the names of
+            /// the coordinates; or NPY, a row for each state
+            #[serde(rename = "initial-file")]
+            #[cfg_attr(feature = "clap", arg(long, value_name = "FILE", conflicts_with = "initial"))]
+            pub initial_file: Option<PathBuf>,
+            $(
+                $(#[$doc])*
+                #[serde(rename = $name)]
+                #[cfg_attr(feature = "clap", arg(
+                    long,
+                    value_name = $value,
+                    allow_hyphen_values = request!(@hyphens $kind),
+                    $(alias = $alias)?
+                ))]
+                pub $field: Option<Value>,
+            )*
+        }
+
+        impl Request {
+            /// An option by its name.
+            pub fn get(&self, name: &str) -> Option<&Value> {
+                match name {
+                    $($name => self.$field.as_ref(),)*
+                    _ => None,
+                }
+            }
+
+            /// Sets an option by its name; whether there is one.
+            pub fn set(&mut self, name: &str, value: Value) -> bool {
+                match name {
+                    $($name => self.$field = Some(value),)*
+                    _ => return false,
+                }
+                true
+            }
+
+            /// Whether the value of an option is a word, which is no number.
+            pub fn is_word(name: &str) -> bool {
+                match name {
+                    $($name => stringify!($kind) == "word",)*
+                    _ => false,
+                }
+            }
+        }
+
+        /// Options with another name in calls.
+        const IN_CALLS: &[(&str, &str)] = &[("param", "parameters"), $($(($name, $alias),)?)*];
+    };
+}
+
+request! {
+    /// Initial state, separated by commas
+    quantity initial "initial" "V1,V2,…" or "x0";
+    /// Step size; negative to go backwards. dopri5, taylor and lie-taylor choose their own steps, but land on every
+    /// multiple of this
+    quantity step "step" "H" or "h";
+    /// Relative error at the end, in place of --step: chooses a constant step, and without --method the method too
+    quantity tol "tol" "E";
+    /// Final time
+    quantity until "until" "T" or "t";
+    /// Writes every K-th step (default 1) and the last one
+    quantity every "every" "K";
+    /// Writes the state at these times only, separated by commas; excludes --until and --every
+    quantity at "at" "T1,T2,…";
+    /// Retraction of lie-midpoint and of generating methods: exp or cayley
+    word retraction "retraction" "NAME";
+    /// Coefficients of a composition or a splitting: suzuki, triple-jump, kahan-li, …; for two pieces of which one is small: saba2, saba4, sbab2, sbab4, mclachlan-8-4
+    word composition "composition" "NAME";
+    /// Pieces of a splitting: found (default: the fewest with exact flows; `lie check` lists them) or coordinate (H = sum f_i(x_i), in the order of the coordinates)
+    word pieces "pieces" "NAME";
+    /// Space over g* of a collective method: representation, hopf or spec (the declared realization)
+    word lift "lift" "NAME";
+    /// Discrete gradient of orbit-energy: gonzalez, mean-value or itoh-abe
+    word gradient "gradient" "NAME";
+    /// Poisson tensor of gonzalez, mean-value, itoh-abe: midpoint or mean
+    word tensor "tensor" "NAME";
+    /// Writes the group element beside mu, from the identity on: matrix, or quaternion for rotations
+    word group "group" "CHART";
+    /// Relative tolerance of dopri5 (default 1e-6), taylor and lie-taylor (default 1e-15)
+    quantity rtol "rtol" "TOL";
+    /// Absolute tolerance of dopri5 (default 1e-9)
+    quantity atol "atol" "TOL";
+    /// How implicit methods solve a step: newton (a new Jacobian in every iteration), simplified (that of
+    /// the start), fixed-point (none), or automatic (default; fixed-point where that pays, newton elsewhere)
+    word iteration "iteration" "NAME";
+    /// Error at which that iteration ends, in units of round-off of the state (default 1/1024, so
+    /// that it does not add up; 0 goes on until nothing changes)
+    quantity newton_tolerance "newton-tolerance" "TOL";
+    /// Iterations after which a step has failed (default: newton 50, also where that is
+    /// chosen automatically; simplified 200, fixed-point 500)
+    quantity max_iterations "max-iterations" "N";
+    /// What has converged where stages that are evaluated together end, as in gauss16: state, map (its derivative too, so
+    /// that a Poisson map is one to round-off; default of collective and isospectral methods), or tolerance (with --tol: as
+    /// far as that asks, in about half of the evaluations; what the method preserves is preserved as far)
+    word converge "converge" "NAME";
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_request_comes_back_from_text_and_knows_its_keys() {
+        let mut request = Request {
+            method: vec!["rk4".to_owned()],
+            param: vec![Parameter::Set("k".to_owned(), Value::Number(0.1 + 0.2))],
+            ..Request::default()
+        };
+        assert!(request.set("newton-tolerance", Value::Text("1/7".to_owned())));
+        assert!(!request.set("speed", Value::Number(1.0)));
+        let text = serde_json::to_string(&request).unwrap();
+        assert_eq!(serde_json::from_str::<Request>(&text).unwrap(), request);
+        assert!(serde_json::from_str::<Request>(r#"{"speed": 1}"#).is_err());
+        assert!(Request::is_word("group") && !Request::is_word("step"));
+    }
+
+    #[test]
+    fn options_are_spelt_as_they_are_written() {
+        let (command, call) = (Front::Command, Front::Call);
+        assert_eq!(command.with("step", "0.1"), "`--step 0.1`");
+        assert_eq!(call.with("step", "0.1"), "h=0.1");
+        assert_eq!(call.with("converge", "state"), "converge=\"state\"");
+        assert_eq!(call.option("newton-tolerance"), "newton_tolerance");
+        for name in ["step", "until", "initial", "newton-tolerance", "at"] {
+            assert_eq!(Front::canonical(&call.option(name)), name);
+        }
+    }
+}

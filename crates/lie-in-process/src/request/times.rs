@@ -1,0 +1,204 @@
+//! The step, and the times at which rows are wanted.
+
+use super::Given;
+use super::plan::Planner;
+use crate::message::Fault;
+use lie_codegen::methods::Choice;
+use lie_program::protocol::Times;
+use lie_runtime::driver::Pace;
+
+const STEP: &str = "0.01";
+const UNTIL: &str = "10";
+/// Below this a tolerance is round-off.
+const LEAST_TOLERANCE: f64 = 8.0 * f64::EPSILON;
+
+impl Planner<'_> {
+    /// Whether the step is to be chosen from a tolerance: who asks replaces what the spec says.
+    pub(super) fn wants_tolerance(&self) -> bool {
+        let in_spec = !self.in_spec("tol").is_empty();
+        self.request.tol.is_some() || (self.request.step.is_none() && in_spec)
+    }
+
+    /// The step, or the tolerance from which it is chosen.
+    pub(super) fn pace(&mut self) -> Option<(Pace, Given)> {
+        if !self.wants_tolerance() {
+            return self.step().map(|(step, given)| (Pace::Step(step), given));
+        }
+        let given = self.given("tol")?;
+        let both = match self.request.tol {
+            Some(_) => self.request.step.is_some(),
+            None => !self.in_spec("step").is_empty(),
+        };
+        if both {
+            let message = given.wrong("a tolerance and a step are both given");
+            let help = "a tolerance chooses the step: leave one of them out";
+            self.mistakes.push(message.help(help).of(Fault::Arguments));
+            return None;
+        }
+        let tolerance = self.keep(given.number())?;
+        if !(LEAST_TOLERANCE..1.0).contains(&tolerance) {
+            let message = given.wrong("a tolerance lies between 2e-15, which is round-off, and 1");
+            let example = self.request.front.with("tol", "1e-6");
+            let help = format!("give the relative error that the end may have, such as {example}");
+            self.mistakes.push(message.help(help));
+            return None;
+        }
+        Some((Pace::Tolerance(tolerance), given))
+    }
+
+    /// dopri5 has tolerances of its own, and no constant step to choose.
+    pub(super) fn takes_tolerance(&mut self, method: &Choice, given: &Given) {
+        if *method == Choice::Dopri5 {
+            let option = |name| self.request.front.option(name);
+            let text = format!("{} chooses its own steps", method.id());
+            let help = format!(
+                "give `{}` and `{}` with `{}`, or take another method",
+                option("rtol"),
+                option("atol"),
+                option("step")
+            );
+            let message = given.wrong(text).help(help);
+            self.mistakes.push(message.of(Fault::Method));
+        }
+    }
+
+    fn step(&mut self) -> Option<(f64, Given)> {
+        let front = self.request.front;
+        let usual = |text: &str| Given::flag(&front.option("step"), text);
+        let given = self.given("step");
+        let fallback = given.is_none();
+        let given = given.unwrap_or_else(|| usual(STEP));
+        let example = front.with("step", "0.1");
+        let help = format!("give a step such as {example}; negative to go backwards");
+        let step = given.number().map_err(|message| match given.is_number() {
+            true => message.help(&help),
+            false => message,
+        });
+        let step = self.keep(step)?;
+        if step == 0.0 {
+            self.mistakes
+                .push(given.wrong("the step is zero").help(help));
+            return None;
+        }
+        // Without a step of the user's, the direction is that of the end.
+        let backwards = |end: &Given| end.number().is_ok_and(|end| end < 0.0);
+        if fallback && self.ends().iter().any(backwards) {
+            return Some((-step, usual(&format!("-{STEP}"))));
+        }
+        Some((step, given))
+    }
+
+    /// Whether rows are wanted at times, which the request or the spec lists.
+    fn at_times(&self) -> bool {
+        let request = self.request;
+        let otherwise = request.until.is_some() || request.every.is_some();
+        request.at.is_some() || (!otherwise && !self.in_spec("at").is_empty())
+    }
+
+    /// The final time, or the times asked for.
+    fn ends(&self) -> Vec<Given> {
+        if self.at_times() {
+            return self
+                .asked("at")
+                .map_or_else(|| self.in_spec("at"), |at| at.split());
+        }
+        // where other rows than those at the times of the spec are asked for, the last of them is still the end
+        let far = |end: &Given| end.number().map_or(0.0, f64::abs);
+        let last = self.in_spec("at").into_iter();
+        let last = last.max_by(|a, b| far(a).total_cmp(&far(b)));
+        let usual = || Given::flag(&self.request.front.option("until"), UNTIL);
+        vec![self.given("until").or(last).unwrap_or_else(usual)]
+    }
+
+    pub(super) fn times(&mut self, pace: Option<&(Pace, Given)>) -> Option<Times> {
+        self.exclusive()?;
+        let ends = self.ends();
+        if ends.is_empty() {
+            let example = self.request.front.with("at", "[0, 1, 2]");
+            let option = self.request.front.option("at");
+            let message = self.at("at", format!("`{option}` is empty"));
+            let help = format!("give it times, such as {example}");
+            self.mistakes.push(message.help(help));
+            return None;
+        }
+        let values: Vec<Option<f64>> = ends.iter().map(|end| self.keep(end.number())).collect();
+        let mut values: Vec<f64> = values.into_iter().collect::<Option<_>>()?;
+        let mut against = ends.iter().zip(&values);
+        if let Some((end, _)) = against.find(|(_, value)| *value * values[0] < 0.0) {
+            let message = end.wrong("the times asked for lie on both sides of t = 0");
+            let help = "a run goes one way: make two of it";
+            self.mistakes.push(message.help(help));
+            return None;
+        }
+        if let Some((Pace::Step(step), given)) = pace {
+            for (end, value) in ends.iter().zip(&values) {
+                self.compatible(*step, given, *value, end);
+            }
+        }
+        if self.at_times() {
+            values.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
+            return Some(Times::At(values));
+        }
+        let every = match self.given("every") {
+            Some(given) => self.keep(given.count())?,
+            None => 1,
+        };
+        Some(Times::Until {
+            end: *values.first()?,
+            every,
+        })
+    }
+
+    /// Whether nothing stands beside a list of times.
+    fn exclusive(&mut self) -> Option<()> {
+        let front = self.request.front;
+        let excludes = |other: &str| format!("`{}` excludes `{other}`", front.option("at"));
+        for name in ["until", "every"] {
+            if self.request.at.is_some() && self.request.get(name).is_some() {
+                let other = front.option(name);
+                let help = format!(
+                    "there is one row for each time asked for, and the last one is the end: leave out `{other}`"
+                );
+                let message = self.at("at", excludes(&other)).help(help);
+                self.mistakes.push(message.of(Fault::Arguments));
+                return None;
+            }
+        }
+        if self.request.at.is_none() && self.at_times() {
+            let at = self.in_spec("at");
+            for name in ["until", "every"] {
+                if let (Some(at), false) = (at.first(), self.in_spec(name).is_empty()) {
+                    let text = format!("`at` excludes `{name}` in `run`");
+                    let message = at.wrong(text).help(format!("remove `{name}`"));
+                    self.mistakes.push(message);
+                    return None;
+                }
+            }
+        }
+        Some(())
+    }
+
+    /// Whether steps of this size get there.
+    fn compatible(&mut self, step: f64, given: &Given, end: f64, end_given: &Given) {
+        let (step_text, end_text) = (given.text.trim(), end_given.text.trim());
+        if end != 0.0 && (end > 0.0) != (step > 0.0) {
+            let text =
+                format!("steps of {step_text} lead away from t = {end_text}: their signs differ");
+            let turned = format!("{:?}", -step);
+            let example = self.request.front.with("step", &turned);
+            let help = format!(
+                "give {example}; backwards in time, both the step and the end are negative"
+            );
+            self.mistakes.push(end_given.wrong(text).help(help));
+        } else if end / step > 9e15 {
+            let steps = end / step;
+            let text = match steps.is_finite() {
+                true => format!("{steps:.1e} steps are more than can be counted"),
+                false => format!("so many steps of {step_text} cannot be counted"),
+            };
+            let message = given.wrong(text);
+            let help = "take a larger step or an earlier end";
+            self.mistakes.push(message.help(help));
+        }
+    }
+}
