@@ -4,7 +4,9 @@ use crate::talk::Measurement;
 use lie_codegen::methods::Choice;
 use lie_codegen::model::Model;
 use lie_codegen::program::Purpose;
+use lie_in_process::spec::Spec;
 use lie_measure::bench::{ClockKind, Found, Measure, Options, Plane};
+use lie_program::protocol::Start;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -29,6 +31,7 @@ type Stopped = (String, &'static str, f64, String);
 /// What was measured.
 #[derive(Default, IntoPyObject)]
 pub struct Results {
+    until: f64,
     rows: Vec<Row>,
     stopped: Vec<Stopped>,
     /// The estimated error of the reference solution, and its distance from a second one.
@@ -87,15 +90,18 @@ impl Results {
     }
 }
 
-/// What is asked for: the end, seconds for a run, the sense of errors, the surface of section.
-pub type Asked = (f64, f64, String, Option<(usize, f64)>);
+/// What is asked for: seconds for a run, the sense of errors, the surface of section.
+pub type Asked = (f64, String, Option<(usize, f64)>);
 
-/// Compares methods.
-pub struct Comparison(pub Asked);
+/// Compares methods until a time.
+pub struct Comparison {
+    pub until: f64,
+    pub options: Asked,
+}
 
 impl Comparison {
     fn options(&self) -> PyResult<Options> {
-        let (until, budget, measure, plane) = &self.0;
+        let (budget, measure, plane) = &self.options;
         let plane = plane.map(|(coordinate, value)| Plane { coordinate, value });
         let measure = match measure.as_str() {
             "state" => Measure::State,
@@ -106,7 +112,7 @@ impl Comparison {
             other => return Err(PyValueError::new_err(format!("no measure `{other}`"))),
         };
         Ok(Options {
-            until: *until,
+            until: self.until,
             budget: *budget,
             measure,
         })
@@ -125,14 +131,22 @@ impl Measurement for Comparison {
         lie_in_process::list::fewer(model)
     }
 
-    fn begin(&self, model: &Model) -> PyResult<(Options, Results)> {
+    fn begin(&self, spec: &Spec, _: &Start) -> PyResult<(Options, Results)> {
         let options = self.options()?;
-        let without = model.casimirs.iter().all(|casimir| casimir.multivalued);
+        let without = spec
+            .model
+            .casimirs
+            .iter()
+            .all(|casimir| casimir.multivalued);
         if options.measure == Measure::Casimirs && without {
             let text = "the system has no Casimir with one branch: declare one, or take measure=\"energy\"";
             return Err(PyValueError::new_err(text));
         }
-        Ok((options, Results::default()))
+        let results = Results {
+            until: self.until,
+            ..Results::default()
+        };
+        Ok((options, results))
     }
 
     fn take(results: &mut Results, found: Found) {

@@ -1,21 +1,33 @@
-//! A checked declaration, and what is compiled of it. The compiler works without the interpreter's lock: the model, which is not
-//! sent between threads, is made and dropped on the way.
+//! A checked declaration, and what is compiled of it. The compiler works without the interpreter's lock.
 
-use crate::choice::{Refused, wanted};
 use crate::errors::{Mistakes, method_error};
 use lie_codegen::check::Effort;
 use lie_codegen::compile::{compile_spec, compile_spec_in};
 use lie_codegen::methods::Choice;
 use lie_codegen::model::Model;
+use lie_codegen::program::{Chart, Purpose};
 use lie_dynamic::{Declared, Dynamic};
-use lie_jit::Jit;
+use lie_in_process::Work;
+use lie_in_process::message::Source;
+use lie_in_process::spec::Spec;
 use lie_runtime::Poisson as _;
-use lie_runtime::driver::Chart;
 use lie_runtime::family::STATISTICS;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use std::cell::RefCell;
 use std::collections::HashMap;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::rc::Rc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
+
+/// Checked models that a thread keeps.
+const KEPT: usize = 8;
+
+thread_local! {
+    /// The models that this thread has asked for last, by the numbers of their declarations: a model is not sent between
+    /// threads.
+    static SPECS: RefCell<Vec<(u64, Rc<Spec>)>> = const { RefCell::new(Vec::new()) };
+}
 
 /// What is asked of a declaration often.
 pub struct Facts {
@@ -31,7 +43,6 @@ pub struct Facts {
     pub time: Option<usize>,
     pub parameters: Vec<(String, f64)>,
     pub casimirs: Vec<String>,
-    pub lie_poisson: bool,
     pub run: HashMap<String, Vec<String>>,
 }
 
@@ -68,7 +79,6 @@ impl Facts {
                 .map(|p| (p.name.clone(), p.default_value))
                 .collect(),
             casimirs: casimirs.collect(),
-            lie_poisson: model.is_lie_poisson(),
             run: run.collect(),
         }
     }
@@ -76,45 +86,62 @@ impl Facts {
 
 /// A checked declaration.
 pub struct Declaration {
+    /// Its number, among all.
+    id: u64,
     pub text: String,
     pub facts: Facts,
-    /// By the label of the method whose fused code it has; the empty label is that of none.
-    compiled: Mutex<HashMap<String, Compiled>>,
-}
-
-/// What was compiled for a method.
-#[derive(Clone)]
-pub struct Compiled {
-    /// None where no method was asked for.
-    choice: Option<Choice>,
-    declared: Arc<Declared>,
-}
-
-/// What stands against a compilation.
-enum Obstacle {
-    Method(Refused),
-    System,
+    /// What runs a method, by its label and the form of the group element.
+    compiled: Mutex<Vec<(String, Option<Chart>, Arc<Work>)>>,
+    /// The system without fused code for any method; none where H calls functions of Rust.
+    plain: OnceLock<Option<Declared>>,
 }
 
 impl Declaration {
     pub fn new(py: Python<'_>, text: String) -> PyResult<Self> {
+        static NEXT: AtomicU64 = AtomicU64::new(0);
         let facts = py.detach(|| match compile_spec(&text) {
             Ok(model) => Ok(Facts::of(&model)),
             Err(diagnostics) => Err(Mistakes::of(&text, &diagnostics)),
         });
         Ok(Self {
+            id: NEXT.fetch_add(1, Ordering::Relaxed),
             facts: facts.map_err(|mistakes| mistakes.raise(py))?,
             compiled: Mutex::default(),
+            plain: OnceLock::new(),
             text,
         })
     }
 
-    /// Has something done with the model, without the interpreter's lock.
-    pub fn with_model<R: Send>(&self, py: Python<'_>, work: impl FnOnce(Model) -> R + Send) -> R {
-        py.detach(|| {
-            let model = compile_spec(&self.text);
-            work(model.unwrap_or_else(|_| unreachable!("the same text was sound before")))
+    /// The model with its text.
+    fn spec(&self) -> Rc<Spec> {
+        SPECS.with_borrow_mut(|specs| {
+            let known = specs.iter().position(|(id, _)| *id == self.id);
+            let spec = known.map_or_else(|| Rc::new(self.checked()), |known| specs.remove(known).1);
+            specs.insert(0, (self.id, Rc::clone(&spec)));
+            specs.truncate(KEPT);
+            spec
         })
+    }
+
+    fn checked(&self) -> Spec {
+        let model = compile_spec(&self.text);
+        Spec {
+            source: Arc::new(Source {
+                path: self.facts.system.clone(),
+                text: self.text.clone(),
+            }),
+            model: model.unwrap_or_else(|_| unreachable!("the same text was sound before")),
+        }
+    }
+
+    /// Has something done with the model, without the interpreter's lock.
+    pub fn with_spec<R: Send>(&self, py: Python<'_>, work: impl FnOnce(&Spec) -> R + Send) -> R {
+        py.detach(|| work(&self.spec()))
+    }
+
+    /// The same without the text.
+    pub fn with_model<R: Send>(&self, py: Python<'_>, work: impl FnOnce(&Model) -> R + Send) -> R {
+        self.with_spec(py, |spec| work(&spec.model))
     }
 
     /// The same with as much work on what is searched for as is said.
@@ -122,10 +149,10 @@ impl Declaration {
         &self,
         py: Python<'_>,
         effort: Effort,
-        work: impl FnOnce(Model) -> R + Send,
+        work: impl FnOnce(&Model) -> R + Send,
     ) -> PyResult<R> {
         let done = py.detach(|| match compile_spec_in(&self.text, None, effort) {
-            Ok(model) => Ok(work(model)),
+            Ok(model) => Ok(work(&model)),
             Err(diagnostics) => Err(Mistakes::of(&self.text, &diagnostics)),
         });
         done.map_err(|mistakes| mistakes.raise(py))
@@ -137,46 +164,48 @@ impl Declaration {
         names.zip(values)
     }
 
-    /// A method with what is compiled for it, once.
-    pub fn method(&self, py: Python<'_>, label: &str) -> PyResult<(Choice, Arc<Declared>)> {
-        if label.trim().is_empty() {
-            let help = "name one, such as \"lie-midpoint\", or leave it out";
-            return Err(method_error(py, "the method is empty", help));
+    /// What runs a method, compiled once.
+    pub fn work(
+        &self,
+        py: Python<'_>,
+        choice: &Choice,
+        chart: Option<Chart>,
+    ) -> PyResult<Arc<Work>> {
+        fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+            mutex.lock().unwrap_or_else(PoisonError::into_inner)
         }
-        let Compiled { choice, declared } = self.compiled(py, label)?;
-        let choice = choice.unwrap_or_else(|| unreachable!("a method has a label"));
-        Ok((choice, declared))
+        let label = choice.label();
+        let same = |(known, of, _): &&(String, Option<Chart>, _)| *known == label && *of == chart;
+        if let Some((.., work)) = lock(&self.compiled).iter().find(same) {
+            return Ok(Arc::clone(work));
+        }
+        let purpose = chart.map_or(Purpose::Run, Purpose::OnGroup);
+        let work = self.with_model(py, |model| {
+            Work::new(model, std::slice::from_ref(choice), purpose, || None)
+        });
+        let Some(work) = work else {
+            self.plain(py)?;
+            let text = format!("`{label}` does not run in Python yet");
+            let help = "`lie run` has it; or take another method, see System.methods()";
+            return Err(method_error(py, &text, help));
+        };
+        let work = Arc::new(work);
+        lock(&self.compiled).push((label, chart, Arc::clone(&work)));
+        Ok(work)
     }
 
-    fn compiled(&self, py: Python<'_>, label: &str) -> PyResult<Compiled> {
-        let lock = || self.compiled.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(compiled) = lock().get(label).cloned() {
-            return Ok(compiled);
+    /// The system without code for any method.
+    fn plain(&self, py: Python<'_>) -> PyResult<&Declared> {
+        if self.plain.get().is_none() {
+            let declared = self.with_model(py, lie_in_process::declared);
+            // another thread may have been first
+            let _ = self.plain.set(declared);
         }
-        let compiled = self.with_model(py, |model| {
-            let choice = match label {
-                "" => None,
-                label => Some(wanted(&model, label).map_err(Obstacle::Method)?),
-            };
-            let plan = lie_codegen::plan::plan(&model, choice.as_slice());
-            match Dynamic::supports(&plan) {
-                true => Ok(Compiled {
-                    choice,
-                    declared: Arc::new(Declared::new(plan, &Jit)),
-                }),
-                false => Err(Obstacle::System),
-            }
-        });
-        let compiled = compiled.map_err(|obstacle| match obstacle {
-            Obstacle::Method(refused) => refused.raise(py),
-            Obstacle::System => {
-                let text = "H calls functions of Rust, which do not run in Python";
-                let help = "give them as tables: docs/functions.md";
-                method_error(py, text, help)
-            }
-        })?;
-        lock().insert(label.to_owned(), compiled.clone());
-        Ok(compiled)
+        let declared = self.plain.get().and_then(Option::as_ref);
+        declared.ok_or_else(|| {
+            let text = "H calls functions of Rust, which do not run in Python";
+            method_error(py, text, "give them as tables: docs/functions.md")
+        })
     }
 
     /// The places of the coordinates of a system that users give.
@@ -189,36 +218,9 @@ impl Declaration {
 
     /// The system of these parameters, without code for any method.
     pub fn system(&self, py: Python<'_>, parameters: &[f64]) -> PyResult<Dynamic<f64>> {
-        made(&self.compiled(py, "")?.declared, parameters)
+        let system = self.plain(py)?.system(parameters);
+        system.map_err(|error| PyValueError::new_err(error.to_string()))
     }
-
-    /// How the group element is written.
-    pub fn chart(&self, py: Python<'_>, name: &str) -> PyResult<Chart> {
-        let chart = match name {
-            "matrix" => Chart::Matrix,
-            "quaternion" => Chart::Quaternion,
-            other => {
-                return Err(PyValueError::new_err(format!(
-                    "no form of the group element `{other}`: there are \"matrix\" and \"quaternion\""
-                )));
-            }
-        };
-        let quaternion = chart == Chart::Quaternion;
-        let refusal = self.with_model(py, |model| {
-            lie_codegen::structure::group::refusal(&model, quaternion)
-                .map(|(reason, help)| format!("group=\"{name}\": {reason}\n  help: {help}"))
-        });
-        match refusal {
-            Some(text) => Err(PyValueError::new_err(text)),
-            None => Ok(chart),
-        }
-    }
-}
-
-/// The system of these parameters.
-pub fn made(declared: &Declared, parameters: &[f64]) -> PyResult<Dynamic<f64>> {
-    let system = declared.system(parameters);
-    system.map_err(|error| PyValueError::new_err(error.to_string()))
 }
 
 /// Whether a method runs without a compiler of Rust.

@@ -1,7 +1,9 @@
 //! Mistakes as exceptions of the package.
 
 use lie_codegen::diagnostic::{Diagnostic, Origin};
-use pyo3::exceptions::PyRuntimeError;
+use lie_in_process::message::{Fault, Message, Place};
+use lie_in_process::request::Front;
+use pyo3::exceptions::{PyRuntimeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
 /// An exception of the package by its name.
@@ -54,18 +56,51 @@ fn place(text: &str, diagnostic: &Diagnostic) -> Option<(usize, usize)> {
 
 /// A mistake or a warning with its line and its remedy.
 pub fn shown(text: &str, diagnostic: &Diagnostic) -> String {
-    let mut message = format!("{}: {}", diagnostic.kind.as_str(), diagnostic.message);
-    if let Some((line, column)) = place(text, diagnostic) {
+    let message = format!("{}: {}", diagnostic.kind.as_str(), diagnostic.message);
+    let start = match diagnostic.origin {
+        Some(Origin::Text { start, .. }) => Some(start),
+        _ => None,
+    };
+    with_place(message, text, start, diagnostic.help.as_deref())
+}
+
+/// A message with the line of the declaration in which it is, and with its remedy.
+fn with_place(mut message: String, text: &str, start: Option<usize>, help: Option<&str>) -> String {
+    if let Some(start) = start {
+        let (line, column) = lie_codegen::front::line_column(text, start);
         message.push_str(&format!(" (line {line}, column {column})"));
         if let Some(source) = text.lines().nth(line.saturating_sub(1)) {
             message.push_str(&format!("\n    {}", source.trim()));
         }
     }
-    if let Some(help) = &diagnostic.help {
-        let help = help.replace("`lie methods`", "`System.methods()`");
-        message.push_str(&format!("\n  help: {help}"));
+    if let Some(help) = help {
+        message.push_str(&format!("\n  help: {}", Front::Call.told(help)));
     }
     message
+}
+
+/// All mistakes of what a call asks for; the class is that of the first.
+pub fn refused(py: Python<'_>, messages: &[Message]) -> PyErr {
+    let said = |message: &Message| {
+        let help = message.help.as_deref();
+        let text = message.text.clone();
+        match &message.place {
+            // the method and what is quoted are named by the text
+            Place::Argument { name, .. }
+                if name != "method" && !text.contains(&format!("`{name}`")) =>
+            {
+                with_place(format!("{name}: {text}"), "", None, help)
+            }
+            Place::Text(source, range) => with_place(text, &source.text, Some(range.start), help),
+            _ => with_place(text, "", None, help),
+        }
+    };
+    let text = messages.iter().map(said).collect::<Vec<_>>().join("\n");
+    match messages.first().map(|message| message.fault) {
+        Some(Fault::Method) => raise(py, "MethodError", (text,)),
+        Some(Fault::Arguments) => PyTypeError::new_err(text),
+        _ => PyValueError::new_err(text),
+    }
 }
 
 /// A method that does not apply.

@@ -1,12 +1,11 @@
 //! The core of the Python package: declarations compiled, run and evaluated without the interpreter's lock.
 
+mod asked;
 mod batch;
 mod bench;
-mod choice;
 mod declaration;
 mod errors;
 mod evaluate;
-mod observer;
 mod progress;
 mod report;
 mod stress;
@@ -14,20 +13,16 @@ mod talk;
 mod trajectory;
 mod verify;
 
-use choice::wanted;
 use declaration::Declaration;
 use lie_codegen::methods::Choice;
-use lie_codegen::model::Model;
-use lie_in_process::families;
-use lie_program::protocol::Start;
+use lie_in_process::message::Message;
+use lie_in_process::request::{self, Front, Request};
 use lie_runtime::Poisson as _;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 use std::collections::HashMap;
-
-/// Where a measurement starts: the values of the parameters, the state.
-type Begin = (Vec<f64>, Vec<f64>);
 
 /// A checked declaration, as the package sees it.
 #[pyclass(module = "liepoisson._core", frozen)]
@@ -127,18 +122,9 @@ impl Core {
         self.0.facts.run.clone()
     }
 
-    /// The method where none is named.
-    fn usual_method(&self) -> &'static str {
-        match (self.0.facts.family, self.0.facts.lie_poisson) {
-            (true, _) => "gauss16",
-            (false, true) => "lie-midpoint",
-            (false, false) => "midpoint",
-        }
-    }
-
     /// Every method as an object of JSON, with the reason where it does not apply.
     fn methods(&self, py: Python<'_>) -> String {
-        self.0.with_model(py, |model| report::methods(&model))
+        self.0.with_model(py, |model| report::methods(model))
     }
 
     /// What `lie check --json` says, with the warnings.
@@ -152,19 +138,16 @@ impl Core {
         &self,
         py: Python<'_>,
         methods: Vec<String>,
-        from: Begin,
-        options: (Option<f64>, u64),
+        asked: &Bound<'_, PyDict>,
+        seed: u64,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<verify::Facts> {
-        self.measurable(py, |model| families::VERIFIED.exceeded(model, from.1.len()))?;
-        let verification = verify::Verification {
-            text: &self.0.text,
-            parameters: from.0.clone(),
-            step: options.0,
-            seed: options.1,
-        };
-        self.subject(&methods, from, progress)
-            .measure(py, &verification)
+        let request = asked::request(&self.0, asked)?;
+        let step = asked::checked(py, &self.0, &request, |spec, request| {
+            request::step_of_facts(spec, request).map_err(|message| vec![message])
+        })?;
+        let subject = talk::Subject::new(py, &self.0, &methods, &request, progress)?;
+        subject.measure(py, &verify::Verification { step, seed })
     }
 
     /// Errors of these methods beside their times, of the usual ones where none is named.
@@ -172,13 +155,16 @@ impl Core {
         &self,
         py: Python<'_>,
         methods: Vec<String>,
-        from: Begin,
-        asked: bench::Asked,
+        asked: &Bound<'_, PyDict>,
+        options: bench::Asked,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<bench::Results> {
-        self.measurable(py, |model| families::BENCHED.exceeded(model, from.1.len()))?;
-        self.subject(&methods, from, progress)
-            .measure(py, &bench::Comparison(asked))
+        let request = asked::request(&self.0, asked)?;
+        let until = asked::checked(py, &self.0, &request, |spec, request| {
+            request::span(spec, request).map_err(|message| vec![message])
+        })?;
+        let subject = talk::Subject::new(py, &self.0, &methods, &request, progress)?;
+        subject.measure(py, &bench::Comparison { until, options })
     }
 
     /// These methods at their limits, the usual ones where none is named, with so many steps of the long run.
@@ -186,44 +172,45 @@ impl Core {
         &self,
         py: Python<'_>,
         methods: Vec<String>,
-        from: Begin,
+        asked: &Bound<'_, PyDict>,
         steps: u64,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<stress::Limits> {
-        self.measurable(py, |model| families::STRESSED.exceeded(model, from.1.len()))?;
-        self.subject(&methods, from, progress)
-            .measure(py, &stress::Stress(steps))
+        let request = asked::request(&self.0, asked)?;
+        let subject = talk::Subject::new(py, &self.0, &methods, &request, progress)?;
+        subject.measure(py, &stress::Stress(steps))
     }
 
     /// The generated Rust.
     fn rust(&self, py: Python<'_>, methods: Vec<String>) -> PyResult<String> {
         let text = self.0.with_model(py, |model| {
-            let choices = methods.iter().map(|label| wanted(&model, label));
+            let choices = methods.iter().map(|label| talk::wanted(model, label));
             let choices: Vec<Choice> = choices.collect::<Result<_, _>>()?;
-            Ok(lie_codegen::compile::expand(&model, &choices))
+            Ok(lie_codegen::compile::expand(model, &choices))
         });
-        text.map_err(|refused: choice::Refused| refused.raise(py))
+        text.map_err(|message: Message| errors::refused(py, &[message]))
     }
 
     /// The Hamiltonian and the equations of motion in the names of the declaration, line by line; the Hamiltonian alone where they
     /// are long.
     fn equations(&self, py: Python<'_>) -> Vec<String> {
-        self.0.with_model(py, |model| report::equations(&model))
+        self.0.with_model(py, |model| report::equations(model))
     }
 
     /// Lines of these as LaTeX, one below the other.
     fn latex(&self, py: Python<'_>, lines: Vec<String>) -> String {
-        self.0.with_model(py, |model| report::latex(&model, &lines))
+        self.0.with_model(py, |model| report::latex(model, &lines))
     }
 
-    /// One trajectory: times, states, energies and Casimirs; the step; what ended it early.
+    /// One trajectory: times, states, energies and Casimirs; the method and its step; what ended it early.
     fn run<'py>(
         &self,
         py: Python<'py>,
-        asked: trajectory::Asked,
+        asked: &Bound<'py, PyDict>,
         progress: Option<Py<PyAny>>,
-    ) -> PyResult<(trajectory::Rows<'py>, Bound<'py, pyo3::types::PyDict>)> {
-        trajectory::run(py, &self.0, asked, progress)
+    ) -> PyResult<(trajectory::Rows<'py>, Bound<'py, PyDict>)> {
+        let request = asked::request(&self.0, asked)?;
+        trajectory::run(py, &self.0, &request, progress)
     }
 
     /// A kernel at states, one in each row, in the coordinates that users give.
@@ -244,44 +231,12 @@ impl Core {
         py: Python<'py>,
         parameters: PyReadonlyArray2<'py, f64>,
         starts: PyReadonlyArray2<'py, f64>,
-        asked: batch::Asked,
+        asked: &Bound<'py, PyDict>,
+        threads: usize,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<batch::Saved<'py>> {
+        let asked = (&asked::request(&self.0, asked)?, threads);
         batch::ensemble(py, &self.0, &parameters, &starts, asked, progress)
-    }
-}
-
-impl Core {
-    /// Refuses a family of which something is not measured.
-    fn measurable(
-        &self,
-        py: Python<'_>,
-        against: impl FnOnce(&Model) -> Option<(String, String)> + Send,
-    ) -> PyResult<()> {
-        if !self.0.facts.family {
-            return Ok(());
-        }
-        match self.0.with_model(py, |model| against(&model)) {
-            None => Ok(()),
-            Some((text, help)) => Err(PyValueError::new_err(format!("{text}\n  help: {help}"))),
-        }
-    }
-
-    fn subject<'a>(
-        &'a self,
-        methods: &'a [String],
-        (parameters, initial): Begin,
-        progress: Option<Py<PyAny>>,
-    ) -> talk::Subject<'a> {
-        talk::Subject {
-            declaration: &self.0,
-            methods,
-            start: Start {
-                parameters: self.0.named(parameters).collect(),
-                initial,
-            },
-            progress,
-        }
     }
 }
 
@@ -292,6 +247,12 @@ fn constant(text: &str) -> PyResult<f64> {
         let first = diagnostics.into_iter().next();
         PyValueError::new_err(first.map_or_else(|| "not a constant".to_owned(), |d| d.message))
     })
+}
+
+/// Whether the value of an argument is a word, which is no number.
+#[pyfunction]
+fn is_word(name: &str) -> bool {
+    Request::is_word(&Front::canonical(name))
 }
 
 /// Rows of cells as text in columns.
@@ -306,6 +267,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_class::<Core>()?;
     module.add_function(wrap_pyfunction!(constant, module)?)?;
+    module.add_function(wrap_pyfunction!(is_word, module)?)?;
     module.add_function(wrap_pyfunction!(columns, module)?)?;
     Ok(())
 }

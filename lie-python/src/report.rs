@@ -67,7 +67,7 @@ pub fn check(py: Python<'_>, declaration: &Declaration, deep: bool) -> PyResult<
         false => Effort::Report,
     };
     declaration.with_effort(py, effort, |model| {
-        let mut found = Report::on(&model, effort).json(&model);
+        let mut found = Report::on(model, effort).json(model);
         let warnings = model.warnings.iter();
         let warnings: Vec<String> = warnings
             .map(|warning| shown(&declaration.text, warning))

@@ -4,8 +4,10 @@ use crate::talk::Measurement;
 use lie_codegen::methods::Choice;
 use lie_codegen::model::Model;
 use lie_codegen::program::Purpose;
+use lie_in_process::spec::Spec;
 use lie_in_process::stress::Results;
 use lie_measure::stress::{Cell, Found, Growth, Options};
+use lie_program::protocol::Start;
 use pyo3::prelude::*;
 
 /// An experiment.
@@ -111,7 +113,7 @@ impl Measurement for Stress {
         lie_in_process::list::fewer(model)
     }
 
-    fn begin(&self, _: &Model) -> PyResult<(Options, Results)> {
+    fn begin(&self, _: &Spec, _: &Start) -> PyResult<(Options, Results)> {
         Ok((Options { steps: self.0 }, Results::default()))
     }
 

@@ -1,25 +1,27 @@
-//! Requests to the measurements, which are served by a thread.
+//! Questions to work in this process, and those of the measurements.
 
-use crate::choice::wanted;
+use crate::asked;
 use crate::declaration::Declaration;
-use crate::errors::method_error;
+use crate::errors::{method_error, refused};
 use crate::progress::Progress;
 use lie_codegen::methods::Choice;
 use lie_codegen::model::Model;
 use lie_codegen::program::Purpose;
-use lie_program::listen::listen;
-use lie_program::protocol::{End, Message, Obstacle, Start};
-use lie_program::session::serve;
+use lie_in_process::converse::{Last, Listener};
+use lie_in_process::families::Limit;
+use lie_in_process::message::Message;
+use lie_in_process::request::{Front, Request, method};
+use lie_in_process::spec::Spec;
+use lie_in_process::{Question, Work};
+use lie_program::protocol::{self, End, Obstacle, Start};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
-use serde::Serialize;
-use serde::de::DeserializeOwned;
-use std::io::{self, BufReader, BufWriter, Write as _};
-use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
-use std::time::Duration;
+use std::io;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 /// Between two looks for Ctrl-C.
-const PAUSE: Duration = Duration::from_millis(5);
+const PAUSE: Duration = Duration::from_millis(20);
 
 /// A kind of measurement: what is asked for, and what becomes of the answers.
 pub trait Measurement: Sync {
@@ -27,8 +29,8 @@ pub trait Measurement: Sync {
     const PURPOSE: Purpose;
     /// The command that does the same.
     const COMMAND: &'static str;
-    type Options: Serialize;
-    type Found: DeserializeOwned + Send;
+    type Options;
+    type Found;
     /// What was found so far.
     type Results;
     /// What Python gets.
@@ -38,7 +40,7 @@ pub trait Measurement: Sync {
     fn usual(model: &Model) -> Vec<Choice>;
 
     /// What is asked for, and the results before there are any.
-    fn begin(&self, model: &Model) -> PyResult<(Self::Options, Self::Results)>;
+    fn begin(&self, spec: &Spec, start: &Start) -> PyResult<(Self::Options, Self::Results)>;
 
     fn take(results: &mut Self::Results, found: Self::Found);
 
@@ -54,45 +56,67 @@ pub trait Measurement: Sync {
 
 /// What is measured, from where on, and who hears how far it is.
 pub struct Subject<'a> {
-    pub declaration: &'a Declaration,
+    declaration: &'a Declaration,
     /// The labels of the methods; the usual ones where there are none.
-    pub methods: &'a [String],
-    pub start: Start,
-    pub progress: Option<Py<PyAny>>,
+    methods: &'a [String],
+    start: Start,
+    progress: Option<Py<PyAny>>,
 }
 
-impl Subject<'_> {
+impl<'a> Subject<'a> {
+    pub fn new(
+        py: Python<'_>,
+        declaration: &'a Declaration,
+        methods: &'a [String],
+        request: &Request,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Self> {
+        Ok(Self {
+            start: asked::checked(py, declaration, request, asked::start)?,
+            declaration,
+            methods,
+            progress,
+        })
+    }
+
     /// Has it measured, without the interpreter's lock.
-    pub fn measure<M: Measurement>(self, py: Python<'_>, measurement: &M) -> PyResult<M::Made> {
+    pub fn measure<M: Measurement>(self, py: Python<'_>, measurement: &M) -> PyResult<M::Made>
+    where
+        lie_measure::Request<M::Options>: Question<Found = M::Found>,
+    {
         let Self {
             declaration,
             methods,
             start,
             progress,
         } = self;
-        declaration.with_model(py, |model| {
-            let choices = choices(&model, methods, M::usual)
-                .map_err(|refused| Python::attach(|py| refused.raise(py)))?;
-            let (options, mut results) = measurement.begin(&model)?;
-            let work = lie_in_process::work(
-                &model,
+        declaration.with_spec(py, |spec| {
+            let model = &spec.model;
+            let choices = choices(model, methods, M::usual)
+                .map_err(|message| Python::attach(|py| refused(py, &[message])))?;
+            let limit = Limit::of(M::PURPOSE);
+            let exceeded = limit.and_then(|limit| limit.exceeded(model, start.initial.len()));
+            if let Some((text, help)) = exceeded {
+                return Err(PyValueError::new_err(format!("{text}\n  help: {help}")));
+            }
+            let (options, mut results) = measurement.begin(spec, &start)?;
+            let work = Work::new(
+                model,
                 &choices,
                 M::PURPOSE,
                 lie_in_process::clock::processor,
             );
-            let work = work.ok_or_else(|| not_here(M::COMMAND))?;
+            let work = Arc::new(work.ok_or_else(|| not_here(M::COMMAND))?);
             let labels: Vec<String> = choices.iter().map(Choice::label).collect();
             let request = lie_measure::Request {
                 methods: labels.clone(),
                 start,
                 options,
             };
-            let mut line = serde_json::to_vec(&request)
-                .map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
-            line.push(b'\n');
             let take = |found| M::take(&mut results, found);
-            let whole = converse(&work, &line, Progress::of("", progress), take)?.whole(&model)?;
-            Ok(measurement.end(results, &model, &labels, whole))
+            let outcome = converse(&work, request, Progress::of("", progress), take)?;
+            let whole = outcome.whole(model)?;
+            Ok(measurement.end(results, model, &labels, whole))
         })
     }
 }
@@ -102,7 +126,7 @@ fn choices(
     model: &Model,
     labels: &[String],
     usual: fn(&Model) -> Vec<Choice>,
-) -> Result<Vec<Choice>, crate::choice::Refused> {
+) -> Result<Vec<Choice>, Message> {
     match labels {
         [] => Ok(usual(model)
             .into_iter()
@@ -110,6 +134,14 @@ fn choices(
             .collect()),
         labels => labels.iter().map(|label| wanted(model, label)).collect(),
     }
+}
+
+/// The method of a label such as `lie-midpoint --retraction cayley`, if it applies.
+///
+/// # Errors
+/// There is none, or it does not apply.
+pub fn wanted(model: &Model, label: &str) -> Result<Choice, Message> {
+    method::labelled(label, Front::Call).and_then(|choice| method::applies(choice, model))
 }
 
 /// The answer where a measurement would need a built program.
@@ -120,10 +152,10 @@ fn not_here(command: &str) -> PyErr {
 }
 
 /// How a conversation ended.
-struct Outcome {
-    end: Option<End>,
+pub struct Outcome {
+    pub end: Option<End>,
     /// The exception that ended it early.
-    interrupted: Option<PyErr>,
+    pub interrupted: Option<PyErr>,
 }
 
 impl Outcome {
@@ -174,99 +206,76 @@ fn refusal(system: &str, what: Obstacle, why: &str) -> String {
     format!("{what} {system}: {why}\n  help: {help}")
 }
 
-/// What is heard of a measurement.
-enum News<F> {
-    Found(F),
-    Progress(lie_program::protocol::Progress),
+/// Hears what is said, tells how far it is, and looks for Ctrl-C.
+struct Ears<T> {
+    take: T,
+    progress: Progress,
+    looked: Instant,
+    interrupted: Option<PyErr>,
 }
 
-/// Has a request served by a thread, and looks for Ctrl-C meanwhile: closing the input ends the work. `take` gets what is found.
-fn converse<F: DeserializeOwned + Send>(
-    work: &lie_in_process::Work,
-    line: &[u8],
-    mut progress: Progress,
-    mut take: impl FnMut(F),
-) -> PyResult<Outcome> {
-    let (questions, mut asks) = io::pipe()?;
-    let (answers, says) = io::pipe()?;
-    asks.write_all(line)?;
-    let mut asks = Some(asks);
-    std::thread::scope(|scope| {
-        scope.spawn(move || {
-            let mut output = BufWriter::new(says);
-            serve(None, Box::new(BufReader::new(questions)), &mut output, work)
-        });
-        let (sender, news) = channel();
-        let heard = scope.spawn(move || hear(answers, &sender));
-        let mut interrupted = None;
-        loop {
-            let next = next(&news);
-            let said = match next {
-                Next::Over => break,
-                Next::Nothing => Ok(()),
-                Next::News(News::Found(found)) => {
-                    take(found);
-                    Ok(())
-                }
-                Next::News(News::Progress(_)) if interrupted.is_some() => Ok(()),
-                Next::News(News::Progress(news)) => match &news.stage {
-                    Some(what) => progress.stage(news.done, news.all, what),
-                    None => progress.tell(news.done, news.all),
-                },
-            };
-            if interrupted.is_none() {
-                let signals = || Python::attach(|py| py.check_signals());
-                interrupted = said.and_then(|()| signals()).err();
-                if interrupted.is_some() {
-                    asks = None;
-                }
-            }
-        }
-        drop(asks);
-        let end = heard
-            .join()
-            .unwrap_or_else(|_| Err(io::Error::other("a thread failed")))?;
-        if matches!((&end, &interrupted), (Some(End::Done), None)) {
-            // what was measured stays, also where the last word is answered with Ctrl-C
-            interrupted = progress.end().err();
-        }
-        Ok(Outcome { end, interrupted })
-    })
-}
-
-/// What comes next from a measurement.
-enum Next<F> {
-    News(News<F>),
-    Nothing,
-    Over,
-}
-
-fn next<F>(news: &Receiver<News<F>>) -> Next<F> {
-    match news.recv_timeout(PAUSE) {
-        Ok(news) => Next::News(news),
-        Err(RecvTimeoutError::Timeout) => Next::Nothing,
-        Err(RecvTimeoutError::Disconnected) => Next::Over,
+impl<T> Ears<T> {
+    fn look(&mut self) {
+        self.looked = Instant::now();
+        self.interrupted = Python::attach(|py| py.check_signals()).err();
     }
 }
 
-/// Hands on what a measurement says, to its last message.
-fn hear<F: DeserializeOwned>(
-    answers: io::PipeReader,
-    sender: &Sender<News<F>>,
-) -> io::Result<Option<End>> {
-    let mut end = None;
-    listen(&mut BufReader::new(answers), &mut |message, _| {
-        let news = match message {
-            Message::Found(found) => News::Found(found),
-            Message::Progress(progress) => News::Progress(progress),
-            Message::End(last) => {
-                end = Some(last);
-                return Ok(());
-            }
-        };
-        // the other side hears all until this thread is over
-        let _ = sender.send(news);
+impl<F, T: FnMut(F)> Listener<F> for Ears<T> {
+    fn found(&mut self, found: F) -> io::Result<()> {
+        (self.take)(found);
         Ok(())
-    })?;
-    Ok(end)
+    }
+
+    fn progress(&mut self, progress: &protocol::Progress) {
+        if self.interrupted.is_some() {
+            return;
+        }
+        let said = match &progress.stage {
+            Some(what) => self.progress.stage(progress.done, progress.all, what),
+            None => self.progress.tell(progress.done, progress.all),
+        };
+        match said {
+            Ok(()) => self.look(),
+            Err(error) => self.interrupted = Some(error),
+        }
+    }
+
+    fn stops(&mut self) -> bool {
+        if self.interrupted.is_none() && self.looked.elapsed() >= PAUSE {
+            self.look();
+        }
+        self.interrupted.is_some()
+    }
+}
+
+/// Has a question answered, without the interpreter's lock, and looks for Ctrl-C meanwhile. `take` gets what is found.
+pub fn converse<Q: Question>(
+    work: &Arc<Work>,
+    question: Q,
+    progress: Progress,
+    take: impl FnMut(Q::Found),
+) -> PyResult<Outcome> {
+    let mut ears = Ears {
+        take,
+        progress,
+        looked: Instant::now(),
+        interrupted: None,
+    };
+    let last = lie_in_process::converse::converse(work, question, None, &mut ears)?;
+    let end = match last {
+        Last::Said(end) => end,
+        Last::NotTaken(error) => return Err(error.into()),
+        Last::Left => None,
+    };
+    let Ears {
+        mut progress,
+        mut interrupted,
+        ..
+    } = ears;
+    if matches!((&end, &interrupted), (Some(End::Done), None)) {
+        // what was measured stays, also where the last word is answered with Ctrl-C
+        interrupted = progress.end().err();
+    }
+    Ok(Outcome { end, interrupted })
 }

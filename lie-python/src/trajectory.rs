@@ -1,16 +1,15 @@
 //! One trajectory.
 
-use crate::choice::{self, unsupported};
-use crate::declaration::{Declaration, made};
-use crate::observer;
-use crate::progress::Progress as Told;
-use lie_runtime::Poisson as _;
-use lie_runtime::diagnostics::Forgotten;
-use lie_runtime::driver::{
-    Options, Pace, Problem, Reconstruction, Save, Solution, SolveError, solve_observed,
-};
+use crate::asked;
+use crate::declaration::Declaration;
+use crate::progress::Progress;
+use crate::talk::{Outcome, converse};
+use lie_codegen::program::Chart;
+use lie_in_process::request::Request;
+use lie_program::protocol::{Columns, End, Found, Obstacle};
+use lie_runtime::driver::Pace;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
-use pyo3::exceptions::PyValueError;
+use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -22,123 +21,103 @@ pub type Rows<'py> = (
     Bound<'py, PyArray2<f64>>,
 );
 
-/// What is asked for: a dictionary of Python.
-#[derive(FromPyObject)]
-#[pyo3(from_item_all)]
-pub struct Asked {
-    label: String,
-    parameters: Vec<f64>,
-    start: Vec<f64>,
-    /// The step, or the tolerance in its place.
-    pace: (Option<f64>, Option<f64>),
-    end: f64,
-    every: u64,
-    at: Option<Vec<f64>>,
-    tolerances: (Option<f64>, Option<f64>),
-    solver: choice::Solver,
-    group: Option<String>,
+/// What is heard of a run.
+#[derive(Default)]
+struct Heard {
+    columns: Columns,
+    times: Vec<f64>,
+    states: Vec<f64>,
+    energies: Vec<f64>,
+    casimirs: Vec<f64>,
+    elements: Vec<f64>,
+    /// The step that was chosen.
+    step: Option<f64>,
+    /// The error at the end, where it may be much larger than the tolerance; not a number where it cannot be told.
+    missed: Option<f64>,
+    steps: u64,
 }
 
-/// Times, states, energies and Casimirs; the step; what ended it early.
+impl Heard {
+    fn take(&mut self, found: Found) {
+        match found {
+            Found::Chosen(chosen) => self.step = Some(chosen.step),
+            Found::Assessed { error, missed } => self.missed = missed.then_some(error),
+            Found::Columns(columns) => self.columns = columns,
+            Found::Rows(rows) => rows
+                .numbers
+                .chunks_exact(rows.width)
+                .for_each(|row| self.row(row)),
+            Found::Work(work) => self.steps = work.steps,
+            Found::Divided { .. } => {}
+        }
+    }
+
+    fn row(&mut self, row: &[f64]) {
+        let columns = &self.columns;
+        let (state, energy) = (columns.coordinates(), columns.energy());
+        let (casimirs, element) = (columns.casimirs(), columns.element());
+        self.times.push(row[0]);
+        self.states.extend_from_slice(&row[state..energy]);
+        self.energies.push(row[energy]);
+        self.casimirs.extend_from_slice(&row[casimirs..element]);
+        self.elements.extend_from_slice(&row[element..]);
+    }
+}
+
+/// Times, states, energies and Casimirs; the method and its step; what ended it early.
 pub fn run<'py>(
     py: Python<'py>,
     declaration: &Declaration,
-    asked: Asked,
+    request: &Request,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<(Rows<'py>, Bound<'py, PyDict>)> {
-    let pace = asked.pace;
-    let (choice, declared) = declaration.method(py, &asked.label)?;
-    let system = made(&declared, &asked.parameters)?;
-    let tolerances = choice::tolerances(py, &choice, asked.tolerances, pace.1)?;
-    lie_dynamic::method(&choice, tolerances).ok_or_else(|| unsupported(py, &asked.label))?;
-    let options = Options {
-        pace: match pace {
-            (_, Some(tolerance)) => Pace::Tolerance(tolerance),
-            (step, None) => Pace::Step(step.unwrap_or(0.01)),
-        },
-        save: asked.at.map_or(Save::Every(asked.every), Save::At),
-        newton: asked.solver.options(py, &choice, pace.1.is_some())?,
-        assess: pace.1.is_some(),
-    };
-    let chart = asked
-        .group
-        .as_deref()
-        .map(|name| declaration.chart(py, name))
-        .transpose()?;
-    let problem = Problem {
-        system,
-        mu0: asked.start,
-        span: (0.0, asked.end),
-    };
-    let (outcome, watch, elements) = py.detach(|| {
-        let watch = observer::Watch::new(Told::of("steps", progress));
-        let method = lie_dynamic::method(&choice, tolerances);
-        let mut elements = None;
-        let outcome = method.map(|method| {
-            let method = Forgotten(method.as_ref());
-            let Some(chart) = chart else {
-                return solve_observed(&problem, method, &options, &watch);
-            };
-            let mut on_group = observer::OnGroup {
-                watch: &watch,
-                reconstruction: Reconstruction::new(&problem.system, chart),
-            };
-            let outcome = solve_observed(&problem, method, &options, &mut on_group);
-            elements = Some(on_group.reconstruction.rows().concat());
-            outcome
-        });
-        (outcome, watch, elements)
-    });
-    watch.outcome()?;
-    let outcome = outcome.ok_or_else(|| unsupported(py, &asked.label))?;
+    let (plan, run) = asked::checked(py, declaration, request, asked::run)?;
+    let work = declaration.work(py, &plan.method, plan.chart)?;
+    let (dimension, casimirs) = (run.start.initial.len(), declaration.facts.casimirs.len());
+    let mut heard = Heard::default();
+    let progress = Progress::of("steps", progress);
+    let outcome = py.detach(|| converse(&work, run, progress, |found| heard.take(found)))?;
+    let Outcome { end, interrupted } = outcome;
+    if let Some(error) = interrupted {
+        return Err(error);
+    }
     let found = PyDict::new(py);
-    let solution = match outcome {
-        Ok(solution) => {
-            watch.ended()?;
-            solution
+    match end {
+        Some(End::Done) => {}
+        Some(End::Stopped(stop)) => {
+            heard.steps = stop.step - 1;
+            found.set_item("step_number", stop.step)?;
+            found.set_item("time", stop.time)?;
+            found.set_item("why", stop.reason)?;
+            found.set_item("remedy", stop.remedy)?;
         }
-        Err(SolveError::Option(error)) => return Err(PyValueError::new_err(error.to_string())),
-        Err(SolveError::Step { error, solution }) => {
-            found.set_item("step_number", error.step)?;
-            found.set_item("time", error.time)?;
-            found.set_item("why", error.failure.reason.to_string())?;
-            found.set_item("remedy", error.remedy().to_string())?;
-            *solution
+        Some(End::Parameter { why, .. }) => return Err(PyValueError::new_err(why)),
+        Some(End::Refused { what, why }) if what == Obstacle::Option => {
+            return Err(PyValueError::new_err(why));
         }
-    };
-    let step = match (watch.chosen(), options.pace) {
-        (Some(step), _) => step,
-        (None, Pace::Step(step) | Pace::Tolerance(step)) => step,
-    };
-    if let Some(elements) = elements {
-        found.set_item("group", elements.into_pyarray(py))?;
+        other => {
+            let text = format!("the run ended early: {other:?}");
+            return Err(PyRuntimeError::new_err(text));
+        }
     }
-    if let Some(error) = watch.missed() {
+    let (Pace::Step(given) | Pace::Tolerance(given)) = plan.pace.0;
+    found.set_item("method", plan.method.label())?;
+    found.set_item("step", heard.step.unwrap_or(given))?;
+    found.set_item("steps", heard.steps)?;
+    if let Some(error) = heard.missed {
         found.set_item("missed", error)?;
+        found.set_item("tolerance", given)?;
     }
-    found.set_item("step", step)?;
-    found.set_item("steps", solution.stats.steps)?;
-    found.set_item("evaluations", solution.stats.evaluations)?;
-    Ok((rows(py, solution, problem.system.dimension())?, found))
-}
-
-/// The rows of a run as arrays.
-fn rows<'py>(
-    py: Python<'py>,
-    solution: Solution<f64, Vec<f64>>,
-    dimension: usize,
-) -> PyResult<Rows<'py>> {
-    let count = solution.t.len();
-    let casimirs = solution.casimir_names.len();
-    let flat = |rows: Vec<Vec<f64>>| -> Vec<f64> { rows.into_iter().flatten().collect() };
-    Ok((
-        solution.t.into_pyarray(py),
-        flat(solution.mu)
-            .into_pyarray(py)
-            .reshape([count, dimension])?,
-        solution.energy.into_pyarray(py),
-        flat(solution.casimirs)
-            .into_pyarray(py)
-            .reshape([count, casimirs])?,
-    ))
+    if let Some(chart) = plan.chart {
+        found.set_item("quaternion", chart == Chart::Quaternion)?;
+        found.set_item("group", heard.elements.into_pyarray(py))?;
+    }
+    let rows = heard.times.len();
+    let arrays = (
+        heard.times.into_pyarray(py),
+        heard.states.into_pyarray(py).reshape([rows, dimension])?,
+        heard.energies.into_pyarray(py),
+        heard.casimirs.into_pyarray(py).reshape([rows, casimirs])?,
+    );
+    Ok((arrays, found))
 }

@@ -2,11 +2,13 @@
 
 use crate::talk::Measurement;
 use lie_codegen::methods::Choice;
-use lie_codegen::model::Model;
+use lie_codegen::model::{Model, Parameter};
 use lie_codegen::program::Purpose;
 use lie_in_process::evidence::Evidence;
+use lie_in_process::spec::Spec;
 use lie_in_process::verify::{Results, Row, options};
 use lie_measure::verify::{Found, Options};
+use lie_program::protocol::Start;
 use pyo3::prelude::*;
 use std::collections::BTreeMap;
 
@@ -29,10 +31,7 @@ pub struct Facts {
 }
 
 /// Verifies at a step, or at one that is found.
-pub struct Verification<'a> {
-    pub text: &'a str,
-    /// The values of the parameters.
-    pub parameters: Vec<f64>,
+pub struct Verification {
     pub step: Option<f64>,
     pub seed: u64,
 }
@@ -52,7 +51,7 @@ fn fact(row: Row) -> Fact {
     )
 }
 
-impl Measurement for Verification<'_> {
+impl Measurement for Verification {
     const PURPOSE: Purpose = Purpose::Verify;
     const COMMAND: &'static str = "lie verify";
     type Options = Options;
@@ -69,8 +68,12 @@ impl Measurement for Verification<'_> {
             .collect()
     }
 
-    fn begin(&self, model: &Model) -> PyResult<(Options, Results)> {
-        let evidence = Evidence::of_spec(self.text, model, &self.parameters);
+    fn begin(&self, spec: &Spec, start: &Start) -> PyResult<(Options, Results)> {
+        let (text, model) = (&spec.source.text, &spec.model);
+        let parameters = model.parameters.iter();
+        let value = |p: &Parameter| *start.parameters.get(&p.name).unwrap_or(&p.default_value);
+        let parameters: Vec<f64> = parameters.map(value).collect();
+        let evidence = Evidence::of_spec(text, model, &parameters);
         let options = options(model, self.step, self.seed);
         Ok((options, Results::before(evidence)))
     }

@@ -170,13 +170,13 @@ Call = Callable[[lp.System], Any]
 #: A wrong call, its error, what the message says, and the call after its hint.
 CALLS: list[tuple[Call, type[Exception], str, Call]] = [
     (lambda s: s.run(dt=0.1), TypeError, "`h`", lambda s: s.run(h=0.1)),
-    (lambda s: s.run(step=0.1), TypeError, "`h`", lambda s: s.run(h=0.1)),
+    (lambda s: s.run(stepsize=0.1), TypeError, "`h`", lambda s: s.run(h=0.1)),
     (lambda s: s.run(max_step=0.1), TypeError, "`h`", lambda s: s.run(h=0.1)),
     (lambda s: s.run(y0=[1, 2, 3]), TypeError, "`x0`", lambda s: s.run(x0=[1, 2, 3])),
     (lambda s: s.run(mu0=[1, 2, 3]), TypeError, "`x0`", lambda s: s.run(x0=[1, 2, 3])),
     (lambda s: s.run(t_span=(0, 1)), TypeError, "`t`", lambda s: s.run(t=1)),
     (lambda s: s.run(t_eval=[0, 1]), TypeError, "`at`", lambda s: s.run(at=[0, 1])),
-    (lambda s: s.run(until=1), TypeError, "`t`", lambda s: s.run(t=1)),
+    (lambda s: s.run(tmax=1), TypeError, "`t`", lambda s: s.run(t=1)),
     (lambda s: s.run(tolerance=1e-6, t=1), TypeError, "`tol`", lambda s: s.run(tol=1e-6, t=1)),
     (lambda s: s.run(I4=1), TypeError, "I1", lambda s: s.run(I1=1)),
     (lambda s: s.run(i1=1), TypeError, "I1", lambda s: s.run(I1=1)),
@@ -204,12 +204,12 @@ CALLS: list[tuple[Call, type[Exception], str, Call]] = [
     (lambda s: s.run(h=float("nan")), ValueError, "step|NaN|finite", lambda s: s.run(h=0.1)),
     (lambda s: s.run(h="a"), ValueError, "a", lambda s: s.run(h="1/10")),
     (lambda s: s.run(tol=0, t=1), ValueError, "tolerance", lambda s: s.run(tol=1e-6, t=1)),
-    (lambda s: s.run(h=0.1, tol=1e-6), TypeError, "not both", lambda s: s.run(tol=1e-6, t=1)),
-    (lambda s: s.run(x0=[1, 2]), ValueError, "3 coordinates", lambda s: s.run(x0=[1, 2, 3])),
+    (lambda s: s.run(h=0.1, tol=1e-6), TypeError, "both given", lambda s: s.run(tol=1e-6, t=1)),
+    (lambda s: s.run(x0=[1, 2]), ValueError, "a state of 3", lambda s: s.run(x0=[1, 2, 3])),
     (
         lambda s: s.run(x0=[1, 2, float("nan")]),
         ValueError,
-        "z is nan",
+        "z: `nan` is not a finite number",
         lambda s: s.run(x0=[1, 2, 3]),
     ),
     (
@@ -283,7 +283,7 @@ CALLS: list[tuple[Call, type[Exception], str, Call]] = [
     (
         lambda s: s.ensemble(np.ones((4, 3)), tol=1e-6, h=0.1, t=1),
         TypeError,
-        "not both",
+        "both given",
         lambda s: s.ensemble(np.ones((4, 3)), tol=1e-6, t=1),
     ),
     (
@@ -295,7 +295,7 @@ CALLS: list[tuple[Call, type[Exception], str, Call]] = [
     (
         lambda s: s.ensemble(np.ones((4, 3)), h=0.1, at=[-1, 2]),
         ValueError,
-        "one side of 0",
+        "both sides of t = 0",
         lambda s: s.ensemble(np.ones((4, 3)), h=0.1, at=[1, 2]),
     ),
     (

@@ -17,18 +17,17 @@ Number = Union[float, int, str]
 #: What hears how far long work is: what is done, of how much, what it is.
 Progress = Callable[[int, int, str], object]
 
+#: The spelling of the command and of declarations, which is taken too.
+ALSO = {"h": "step", "t": "until", "x0": "initial"}
 #: What people write from habit, and what it is called here.
 SLIPS = {
     "dt": "h",
-    "step": "h",
     "stepsize": "h",
     "max_step": "h",
     "y0": "x0",
     "mu0": "x0",
-    "initial": "x0",
     "u0": "x0",
     "t_end": "t",
-    "until": "t",
     "tmax": "t",
     "t_span": "t",
     "t_eval": "at",
@@ -41,8 +40,8 @@ SLIPS = {
 }
 #: What chooses a variant of a method.
 VARIANTS = ("retraction", "lift", "gradient", "composition", "pieces", "tensor")
-#: Options of the solver of implicit methods.
-SOLVER = ("iteration", "newton_tolerance", "max_iterations", "converge")
+#: Arguments that count something.
+COUNTS = ("every", "max_iterations")
 #: The step where neither the call nor the declaration gives one.
 STEP = 0.01
 #: The time until which a system runs where neither says it.
@@ -80,13 +79,6 @@ def floats(value: Any, what: str) -> Array:
     except (TypeError, ValueError):
         raise TypeError(f"{what} must be an array of numbers, not {value!r}") from None
     raise TypeError(f"{what} must be an array of real numbers, and has the type {found.dtype}")
-
-
-def word(value: Any, what: str, example: str) -> str | None:
-    """A word, or nothing."""
-    if value is None or isinstance(value, str):
-        return value
-    raise TypeError(f"{what} is text, such as {example!r}, not {value!r}")
 
 
 def number(value: Number, what: str) -> float:
@@ -132,68 +124,33 @@ def heard(progress: Progress | None) -> Progress | None:
     )
 
 
-def given(value: float | None, name: str, options: Mapping[str, list[str]]) -> float | None:
-    """What the call says, else what the declaration says."""
-    if value is None and name in options:
-        return _core.constant(options[name][0])
-    return None if value is None else number(value, name)
+def asked(options: Mapping[str, Any]) -> dict[str, Any]:
+    """The arguments that are given, as the core takes them: numbers, words, exact constants as text."""
+    return {name: _value(name, value) for name, value in options.items() if value is not None}
 
 
-def times_of(
-    t: Number | None, at: Any, every: int | None, options: Mapping[str, list[str]]
-) -> tuple[float, int, list[float] | None]:
-    """The end, each so-manyth step that is saved, and the times that are saved in its place."""
-    if at is not None and (t is not None or every is not None):
-        raise TypeError("with `at` there is a row for each of its times: leave out t and every")
-    if every is not None:
-        every = whole(every, "every", 1)
-    if at is None and t is None and every is None:
-        at = options.get("at")
-    if at is not None:
-        found = [number(time, "a time of at") for time in np.atleast_1d(at).tolist()]
-        if not found:
-            raise ValueError("`at` is empty: give it times, such as at=[0, 1, 2]")
-        if not np.isfinite(found).all():
-            raise ValueError(f"times of `at` must be finite, not {found}")
-        if min(found) < 0 < max(found):
-            raise ValueError("times of `at` lie on one side of 0: make a run for each side")
-        found.sort(key=abs)
-        return found[-1], 1, found
-    last = max(options.get("at", [str(UNTIL)]), key=lambda time: abs(_core.constant(time)))
-    until = options.get("until", [last])
-    end = _core.constant(until[0]) if t is None else number(t, "t")
-    if not np.isfinite(end):
-        raise ValueError(f"t is {end}, and must be finite")
-    if every is None:
-        told = _core.constant(options.get("every", ["1"])[0])
-        if not (told.is_integer() and told >= 1):
-            raise ValueError(f"`every` of the declaration is {told:g}, and must be 1, 2, 3, …")
-        every = int(told)
-    return end, every, None
+def _value(name: str, value: Any) -> Any:
+    if name in COUNTS:
+        return whole(value, name, 1)
+    if isinstance(value, str):
+        return str(value)
+    if _core.is_word(name):
+        raise TypeError(f"{name} is text, not {value!r}")
+    if name in ("at", "x0"):
+        what = "a time of at" if name == "at" else "an entry of x0"
+        entries = np.atleast_1d(value).tolist()
+        return [entry if isinstance(entry, str) else number(entry, what) for entry in entries]
+    return number(value, name)
 
 
-def declared(name: str, value: object, options: Mapping[str, list[str]]) -> object:
-    """An option of the solver: what the call says, else what the declaration says."""
-    key = name.replace("_", "-")
-    if value is not None:
-        return solver_option(name, value)
-    if key not in options:
-        return None
-    text = options[key][0]
-    if name == "newton_tolerance":
-        return _core.constant(text)
-    return int(_core.constant(text)) if name == "max_iterations" else text
-
-
-def solver_option(name: str, value: Any) -> object:
-    """An option of the solver as it is given."""
-    if value is None:
-        return None
-    if name == "newton_tolerance":
-        return number(value, name)
-    if name == "max_iterations":
-        return min(whole(value, name, 1), 2**31)
-    return word(value, name, "newton" if name == "iteration" else "state")
+def spelled(own: dict[str, Any], named: dict[str, Any], parameters: Mapping[str, float]) -> None:
+    """Moves arguments that are spelt as the command spells them to their names; a parameter of that name wins."""
+    for name, other in ALSO.items():
+        if name in own and other in named and other not in parameters:
+            value = named.pop(other)
+            if own[name] is not None:
+                raise TypeError(f"`{name}` and `{other}` are one argument: give it once")
+            own[name] = value
 
 
 def merged(parameters: Mapping[str, Any] | None, named: Mapping[str, Any]) -> dict[str, Any]:

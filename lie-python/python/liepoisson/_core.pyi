@@ -8,8 +8,6 @@ from typing_extensions import TypeAlias
 __version__: str
 
 Array: TypeAlias = npt.NDArray[np.float64]
-#: The values of the parameters and the initial state.
-Begin: TypeAlias = tuple[list[float], list[float]]
 
 class Core:
     text: str
@@ -27,27 +25,26 @@ class Core:
     def shown(self) -> list[int]: ...
     def time(self) -> int | None: ...
     def run_options(self) -> dict[str, list[str]]: ...
-    def usual_method(self) -> str: ...
     def methods(self) -> str: ...
     def check(self, deep: bool) -> str: ...
     def bench(
         self,
         methods: list[str],
-        begin: Begin,
-        asked: tuple[float, float, str, tuple[int, float] | None],
+        asked: dict[str, Any],
+        options: tuple[float, str, tuple[int, float] | None],
         progress: Callable[[int, int, str], object] | None,
     ) -> dict[str, Any]: ...
     def verify(
         self,
         methods: list[str],
-        begin: Begin,
-        options: tuple[float | None, int],
+        asked: dict[str, Any],
+        seed: int,
         progress: Callable[[int, int, str], object] | None,
     ) -> dict[str, Any]: ...
     def stress(
         self,
         methods: list[str],
-        begin: Begin,
+        asked: dict[str, Any],
         steps: int,
         progress: Callable[[int, int, str], object] | None,
     ) -> dict[str, Any]: ...
@@ -57,15 +54,17 @@ class Core:
     def parameter_names(self) -> list[str]: ...
     def run(
         self, asked: dict[str, Any], progress: Callable[[int, int, str], object] | None
-    ) -> tuple[tuple[Array, Array, Array, Array], dict[str, object]]: ...
+    ) -> tuple[tuple[Array, Array, Array, Array], dict[str, Any]]: ...
     def evaluate(self, kernel: str, parameters: list[float], states: Array) -> Array: ...
     def ensemble(
         self,
         parameters: Array,
         starts: Array,
         asked: dict[str, Any],
+        threads: int,
         progress: Callable[[int, int, str], object] | None,
     ) -> tuple[Array, Array, list[tuple[int, float, str]]]: ...
 
 def constant(text: str) -> float: ...
+def is_word(name: str) -> bool: ...
 def columns(rows: list[list[str]]) -> str: ...

@@ -12,18 +12,7 @@ from typing import Any
 import numpy as np
 
 from . import _core, _methods
-from ._arguments import (
-    SLIPS,
-    STEP,
-    VARIANTS,
-    Array,
-    Number,
-    among,
-    declared,
-    given,
-    hint,
-    number,
-)
+from ._arguments import SLIPS, VARIANTS, Array, among, asked, hint, merged, number, spelled
 from ._check import Check
 from ._check import read as read_check
 from ._errors import DeclarationError
@@ -139,24 +128,16 @@ class Declared:
             values[name] = number(value, f"the parameter {name}")
         return list(values.values())
 
-    def _start(self, x0: Any, values: list[float]) -> list[float]:
+    def _state(self, x0: Any, values: list[float]) -> Any:
+        """An initial state in the order of the core."""
         if x0 is None:
-            found = self._core.initial(values)
-            if found is None:
-                of = "of each site: " if self._core.family else ""
-                names = self._core.coordinates if self._core.family else self.coordinates
-                raise ValueError(
-                    f"the initial state is missing: give x0=[…] with {self._dimension(values)} numbers "
-                    f"({of}{', '.join(names)})"
-                )
-            return [float(value) for value in found]
-        if self._core.family and not isinstance(x0, Mapping):
-            state = Sites(self, values).state(x0)
-            if not np.isfinite(state).all():
-                raise ValueError("x0 must be finite")
-            return [float(value) for value in state]
+            return None
         if self._core.family:
-            raise TypeError("x0 of a family is an array: with a row of coordinates for each site")
+            if isinstance(x0, Mapping):
+                raise TypeError(
+                    "x0 of a family is an array: with a row of coordinates for each site"
+                )
+            return Sites(self, values).state(x0)
         names = self.coordinates
         if isinstance(x0, Mapping):
             if any(name not in names for name in x0):
@@ -167,84 +148,31 @@ class Declared:
             missing = [name for name in names if name not in x0]
             if missing:
                 raise ValueError(f"x0 lacks {', '.join(missing)}")
-            x0 = [x0[name] for name in names]
+            return [x0[name] for name in names]
         if isinstance(x0, (list, tuple, np.ndarray)) and np.ndim(np.asarray(x0, dtype=object)) > 1:
             raise ValueError(
                 f"x0 has the shape {np.shape(np.asarray(x0, dtype=object))}, and is one state of {len(names)} numbers; "
                 "ensemble takes many"
             )
-        start = [number(value, "an entry of x0") for value in np.atleast_1d(x0).tolist()]
-        complete = self._core.complete([start])
-        if complete is None:
-            raise ValueError(
-                f"x0 has {len(start)} numbers, {self.name} has {len(names)} coordinates: "
-                f"{', '.join(names)}"
-            )
-        for name, value in zip(self._core.coordinates, complete[0]):
-            if not np.isfinite(value):
-                raise ValueError(f"x0: {name} is {value}, and must be finite")
-        return complete[0]
-
-    def _method(self, method: str | None, options: Mapping[str, list[str]], tol: Any) -> str:
-        if method is None:
-            if tol is not None and "method" not in options:
-                return "gauss16"
-            method = options["method"][0] if "method" in options else self._core.usual_method()
-            for name in VARIANTS:
-                if name in options:
-                    method += f" --{name} {options[name][0]}"
-        if not isinstance(method, str):
-            raise TypeError(f"the method is its id as text, such as 'lie-midpoint', not {method!r}")
-        return method.strip()
+        return x0
 
     def _asked(
         self,
-        method: str | None,
-        pace: tuple[Number | None, float | None],
-        end: float,
-        options: Mapping[str, list[str]],
-        tolerances: tuple[float | None, float | None],
-        solver: dict[str, object],
+        options: dict[str, Any],
+        parameters: Mapping[str, Any] | None,
+        named: Mapping[str, Any],
     ) -> dict[str, Any]:
-        """The method with its step or tolerance and its options; what the call leaves out, the declaration says."""
-        h, tol = pace
-        if h is not None and tol is not None:
-            raise TypeError("give h or tol, not both")
-        if method is None and tol is not None:  # a tolerance takes a method of its own
-            left_out = ("method", "rtol", "atol")
-            options = {name: value for name, value in options.items() if name not in left_out}
-        if h is None:
-            tol = given(tol, "tol", options)
-        label = self._method(method, options, tol)
-        if h is None and tol is None:
-            step = options.get("step")
-            h = _core.constant(step[0]) if step else float(np.copysign(STEP, end))
-        if h is not None:
-            h = number(h, "h")
-            if h == 0 or not np.isfinite(h):
-                raise ValueError(
-                    f"the step is {h:g}: give a finite one other than zero, such as h=0.1"
-                )
-            if h * end < 0:
-                raise ValueError(f"the step {h:g} leads away from t = {end:g}: give h={-h:g}")
-        if tol is not None:
-            tol = number(tol, "tol")
-            if not 0 < tol < 1:
-                raise ValueError(
-                    f"the tolerance is {tol:g}: give one between round-off and 1, such as tol=1e-6"
-                )
-        # what the declaration says of these belongs to its method
-        own = options if method is None else {}
-        rtol, atol = tolerances
-        tolerances = (given(rtol, "rtol", own), given(atol, "atol", own))
-        solver = {name: declared(name, value, own) for name, value in solver.items()}
-        return {
-            "label": label,
-            "pace": (h, tol),
-            "end": end,
-            "tolerances": tolerances,
-            "solver": solver,
-        }
+        """What a call asks for; what it leaves out, the declaration says."""
+        others = dict(named)
+        spelled(options, others, self.parameters)
+        method = options.pop("method", None)
+        if method is not None and not isinstance(method, str):
+            raise TypeError(f"the method is its id as text, such as 'lie-midpoint', not {method!r}")
+        values = self._values(merged(parameters, others))
+        if "x0" in options:
+            options["x0"] = self._state(options["x0"], values)
+        found = {"parameters": values, **asked(options)}
+        return found if method is None else {"method": method, **found}
 
     def methods(self) -> Methods:
         """Every :class:`Method` by its id: order, symmetry, what it keeps, and why it does not apply.

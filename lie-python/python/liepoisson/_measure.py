@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
-from . import _core
-from ._arguments import UNTIL, Number, Progress, among, heard, merged, number, whole
+from ._arguments import Number, Progress, among, heard, number, spelled, whole
 from ._bench import MEASURES, Bench, BenchRow
 from ._errors import Interrupted
 from ._methods import labels_of
@@ -30,18 +29,6 @@ OWN = {
         "t": "counts steps (`steps` of the long run)",
     },
 }
-#: The longest span of the declaration that is taken.
-_SPAN = 20.0
-
-
-def _end(system: Declared, t: Number | None) -> float:
-    if t is None:
-        until = system._core.run_options().get("until")
-        return UNTIL if until is None else float(np.clip(_core.constant(until[0]), -_SPAN, _SPAN))
-    end = number(t, "t")
-    if end == 0 or not np.isfinite(end):
-        raise ValueError(f"t is {end:g}, there is nothing to integrate: give an end such as t=10")
-    return end
 
 
 def _names(system: Declared, values: list[float]) -> list[str]:
@@ -68,19 +55,20 @@ def _plane(
     return names.index(name), number(value, "the value of the section")
 
 
-def start_of(
+def asked_of(
     system: Declared,
     call: str,
-    x0: Any,
+    own: dict[str, Any],
     parameters: Mapping[str, Any] | None,
     named: Mapping[str, Any],
-) -> tuple[list[float], list[float]]:
-    """The values of the parameters and the initial state; what a measurement chooses itself is no argument."""
+) -> dict[str, Any]:
+    """What a measurement is asked for; what it chooses itself is no argument."""
+    others = dict(named)
+    spelled(own, others, system.parameters)
     for name, why in OWN[call].items():
-        if name in named and name not in system.parameters:
+        if name in others and name not in system.parameters:
             raise TypeError(f"no argument `{name}`: {call} {why}; leave it out")
-    values = system._values(merged(parameters, named))
-    return values, system._start(x0, values)
+    return system._asked(own, parameters, others)
 
 
 def unless_interrupted(result: Result) -> Result:
@@ -93,26 +81,26 @@ def unless_interrupted(result: Result) -> Result:
 def measured(
     system: Declared,
     methods: Sequence[Any],
-    begin: tuple[list[float], list[float]],
-    asked: tuple[Number | None, float, str, tuple[str, Number] | None],
+    asked: dict[str, Any],
+    options: tuple[float, str, tuple[str, Number] | None],
     progress: Progress | None,
 ) -> Bench:
     """Errors and times of these methods from a state on."""
-    t, budget, measure, section = asked
+    budget, measure, section = options
     labels = labels_of("bench", methods)
     if measure not in MEASURES:
         raise ValueError(f"no measure `{measure}`{among(measure, list(MEASURES))}")
     budget = number(budget, "budget")
     if not (np.isfinite(budget) and budget > 0):
         raise ValueError(f"budget is {budget:g}, and must be seconds, such as budget=0.2")
-    end, plane = _end(system, t), _plane(system, _names(system, begin[0]), measure, section)
-    found = system._core.bench(labels, begin, (end, budget, measure, plane), heard(progress))
+    names = _names(system, asked["parameters"])
+    plane = _plane(system, names, measure, section)
+    found = system._core.bench(labels, asked, (budget, measure, plane), heard(progress))
     passed = found["section"]
-    names = _names(system, begin[0])
     result = Bench(
         system.name,
         measure,
-        end,
+        found["until"],
         [BenchRow(*row) for row in found["rows"]],
         found["stopped"],
         found["reference"],
@@ -127,30 +115,24 @@ def measured(
 def verified(
     system: Declared,
     methods: Sequence[Any],
-    begin: tuple[list[float], list[float]],
-    asked: tuple[Number | None, int],
+    asked: dict[str, Any],
+    seed: int,
     progress: Progress | None,
 ) -> Verification:
     """The claims of these methods from a state on."""
-    h, seed = asked
-    step = None if h is None else number(h, "h")
-    if step is not None and (step == 0 or not np.isfinite(step)):
-        raise ValueError(
-            f"h is {step:g}, which measures nothing: give a step such as h=0.1, or leave it out"
-        )
-    options = (step, whole(seed, "seed", 0))
-    found = system._core.verify(labels_of("verify", methods), begin, options, heard(progress))
+    labels = labels_of("verify", methods)
+    found = system._core.verify(labels, asked, whole(seed, "seed", 0), heard(progress))
     return unless_interrupted(Verification(found))
 
 
 def stressed(
     system: Declared,
     methods: Sequence[Any],
-    begin: tuple[list[float], list[float]],
+    asked: dict[str, Any],
     steps: int,
     progress: Progress | None,
 ) -> Stress:
     """These methods at their limits."""
     count = whole(steps, "steps", 1)
-    found = system._core.stress(labels_of("stress", methods), begin, count, heard(progress))
+    found = system._core.stress(labels_of("stress", methods), asked, count, heard(progress))
     return unless_interrupted(Stress(system.name, count, found))

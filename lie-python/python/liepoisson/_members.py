@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from ._declared import Declared
 
 
-def members_of(system: Declared, x0: npt.ArrayLike, parameters: Mapping[str, Any]) -> Array:
+def members_of(system: Declared, x0: Any, parameters: Mapping[str, Any]) -> Array:
     """The initial states, with what carries the time or the group element where the user left it out."""
     if x0 is None:
         raise TypeError("the initial states are missing: one in each row of x0, or a single one")

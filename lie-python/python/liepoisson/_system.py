@@ -10,12 +10,12 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ._arguments import Number, Progress, heard, merged, times_of, whole, word
+from ._arguments import Number, Progress, heard, merged, spelled, whole
 from ._bench import Bench
 from ._declared import Declared
 from ._errors import IntegrationError
 from ._functions import Function
-from ._measure import measured, start_of, stressed, verified
+from ._measure import asked_of, measured, stressed, verified
 from ._members import members_of, table_of
 from ._notebook import page_of
 from ._sites import Sites
@@ -63,7 +63,7 @@ class System(Declared):
         ``h`` is the step; ``tol``, in its place, the relative error wanted at the end. ``x0`` is the initial state, a
         sequence or a dictionary; ``every`` saves each so-manyth step, ``at`` saves these times alone. Parameters are given by
         name, or in ``parameters`` where a name is also an argument (``parameters={"h": 2}``). What is left out comes from the
-        declaration. ``rtol`` and ``atol`` are those of dopri5. ``iteration`` ("automatic", "newton", "simplified",
+        declaration; its words ``step``, ``until`` and ``initial`` are taken for ``h``, ``t`` and ``x0`` too. ``rtol`` and ``atol`` are those of dopri5. ``iteration`` ("automatic", "newton", "simplified",
         "fixed-point"), ``newton_tolerance`` (in units of round-off), ``max_iterations`` and ``converge`` ("state", "map",
         "tolerance") are for the solver of implicit methods. ``group="matrix"`` or ``"quaternion"`` follows the group element
         from the identity on (``run.group``).
@@ -77,20 +77,13 @@ class System(Declared):
         Errors: :class:`MethodError` for a method that does not apply, :class:`IntegrationError` with ``partial`` for a
         run that stopped early, :class:`ValueError` and :class:`TypeError` for arguments.
         """
-        values = self._values(merged(parameters, named))
-        start = self._start(x0, values)
-        options = self._core.run_options()
-        end, every, times = times_of(t, at, every, options)
-        solver: dict[str, object] = {
-            "iteration": iteration,
-            "newton_tolerance": newton_tolerance,
-            "max_iterations": max_iterations,
-            "converge": converge,
-        }
-        asked = self._asked(method, (h, tol), end, options, (rtol, atol), solver)
-        label = asked["label"]
-        group = word(group, "group", "matrix") or options.get("group", [None])[0]
-        asked.update(parameters=values, start=start, every=every, at=times, group=group)
+        options = {
+            "method": method, "h": h, "tol": tol, "t": t, "x0": x0, "every": every, "at": at, "group": group,
+            "rtol": rtol, "atol": atol, "iteration": iteration, "newton_tolerance": newton_tolerance,
+            "max_iterations": max_iterations, "converge": converge,
+        }  # fmt: skip
+        asked = self._asked(options, parameters, named)
+        values = asked["parameters"]
         (t_rows, mu, energy, casimirs), found = self._core.run(asked, heard(progress))
         columns = {name: casimirs[:, index] for index, name in enumerate(self.casimirs)}
         family = self._core.family
@@ -102,26 +95,26 @@ class System(Declared):
             self._visible(mu),
             energy,
             columns,
-            label,
-            float(str(found["step"])),
-            int(str(found["steps"])),
+            found["method"],
+            found["step"],
+            found["steps"],
         )
         solution._sites = Sites(self, values) if family else None
         if "group" in found:
             elements = np.asarray(found["group"]).reshape(len(t_rows), -1)
             size = round(elements.shape[1] ** 0.5)
-            solution.group = elements if group == "quaternion" else elements.reshape(-1, size, size)
+            solution.group = elements if found["quaternion"] else elements.reshape(-1, size, size)
         if "missed" in found:
-            error = float(str(found["missed"]))
+            error = found["missed"]
             text = (
-                f"the error at the end is about {error:.1e} of the state, more than the tolerance {asked['pace'][1]:g}: "
-                f"errors grow on this orbit, or {label} cannot keep it"
+                f"the error at the end is about {error:.1e} of the state, more than the tolerance {found['tolerance']:g}: "
+                f"errors grow on this orbit, or {found['method']} cannot keep it"
                 if np.isfinite(error)
                 else "the error at the end is not known: the run that would tell it takes over 200,000 steps, or stopped early"
             )
             warnings.warn(text, stacklevel=2)
         if "why" in found:
-            number, time = int(str(found["step_number"])), float(str(found["time"]))
+            number, time = found["step_number"], found["time"]
             message = (
                 f"the integration stopped in step {number} at t = {time!r}: {found['why']}\n"
                 f"  help: {found['remedy']}; the rows so far are in `partial`"
@@ -131,7 +124,7 @@ class System(Declared):
 
     def ensemble(
         self,
-        x0: npt.ArrayLike,
+        x0: npt.ArrayLike | None = None,
         method: str | None = None,
         *,
         h: Number | None = None,
@@ -166,27 +159,21 @@ class System(Declared):
         >>> rows.mu.shape, rows.t.tolist()
         ((2, 3, 3), [0.0, 0.5, 1.0])
         """
-        parameters = merged(parameters, named)
-        starts = members_of(self, x0, parameters)
+        own = {
+            "method": method, "h": h, "tol": tol, "t": t, "x0": x0, "every": every, "at": at,
+            "rtol": rtol, "atol": atol, "iteration": iteration, "newton_tolerance": newton_tolerance,
+            "max_iterations": max_iterations, "converge": converge,
+        }  # fmt: skip
+        others = dict(named)
+        spelled(own, others, self.parameters)
+        parameters = merged(parameters, others)
+        starts = members_of(self, own.pop("x0"), parameters)
         table = table_of(self, parameters, len(starts))
-        options = self._core.run_options()
-        end, _, times = times_of(t, at, 1 if every is None and at is None else every, options)
+        asked = self._asked(own, None, {})
         count = (os.cpu_count() or 1) if threads is None else whole(threads, "threads", 1)
-        solver: dict[str, object] = {
-            "iteration": iteration,
-            "newton_tolerance": newton_tolerance,
-            "max_iterations": max_iterations,
-            "converge": converge,
-        }
-        asked = self._asked(method, (h, tol), end, options, (rtol, atol), solver)
-        if asked["pace"][1] is not None and every is not None:
-            raise TypeError(
-                "with a tolerance each member has a step of its own: give at=[…] in place of every"
-            )
-        asked.update(every=None if every is None else int(every), at=times, threads=count)
-        rows, states, failures = self._core.ensemble(table, starts, asked, heard(progress))
+        rows, states, failures = self._core.ensemble(table, starts, asked, count, heard(progress))
         states = self._visible(states)
-        if every is None and times is None:
+        if every is None and at is None:
             # where none came to its end there is no row
             ends = states[:, -1] if len(rows) else np.full((len(starts), states.shape[2]), np.nan)
             return Ensemble(ends, rows, failures)
@@ -238,8 +225,8 @@ class System(Declared):
         Errors: :class:`Interrupted`, a KeyboardInterrupt, where Ctrl-C ends it; its ``partial`` has what was measured.
         :class:`MethodError` for a method that does not apply, :class:`ValueError` where nothing can be measured.
         """
-        begin = start_of(self, "verify", x0, parameters, named)
-        return verified(self, methods, begin, (h, seed), progress)
+        asked = asked_of(self, "verify", {"h": h, "x0": x0}, parameters, named)
+        return verified(self, methods, asked, seed, progress)
 
     def bench(
         self,
@@ -270,8 +257,8 @@ class System(Declared):
         Errors: :class:`Interrupted`, a KeyboardInterrupt, where Ctrl-C ends it; its ``partial`` has what was measured.
         :class:`MethodError` for a method that does not apply, :class:`ValueError` where nothing can be measured.
         """
-        begin = start_of(self, "bench", x0, parameters, named)
-        return measured(self, methods, begin, (t, budget, measure, section), progress)
+        asked = asked_of(self, "bench", {"t": t, "x0": x0}, parameters, named)
+        return measured(self, methods, asked, (budget, measure, section), progress)
 
     def stress(
         self,
@@ -299,8 +286,8 @@ class System(Declared):
         Errors: :class:`Interrupted`, a KeyboardInterrupt, where Ctrl-C ends it; its ``partial`` has what was tried.
         :class:`MethodError` for a method that does not apply, :class:`ValueError` where nothing can be tried.
         """
-        begin = start_of(self, "stress", x0, parameters, named)
-        return stressed(self, methods, begin, steps, progress)
+        asked = asked_of(self, "stress", {"x0": x0}, parameters, named)
+        return stressed(self, methods, asked, steps, progress)
 
     def _repr_html_(self) -> str:
         return page_of(self)
