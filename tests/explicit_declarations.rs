@@ -146,7 +146,7 @@ fn end<P: Poisson<f64>>(system: &P, method: &impl Method<f64, P>, start: &[f64])
 }
 
 macro_rules! same_steps {
-    ($whole:ident, $explicit:ident, $start:expr: $($method:expr),*) => {{
+    ($whole:ident, $explicit:ident, $start:expr; $($method:expr),*) => {{
         let (whole, explicit) = (
             $whole::new().system().expect("sound parameters"),
             $explicit::new().system().expect("sound parameters"),
@@ -165,10 +165,10 @@ macro_rules! same_steps {
 
 #[test]
 fn every_other_method_works() {
-    same_steps!(Everything, Explicit, [0.9, -0.3, 0.4]:
+    same_steps!(Everything, Explicit, [0.9, -0.3, 0.4];
         ImplicitMidpoint, Gauss4, LieMidpoint::exp(), LieMidpoint::cayley(), Rkmk4, Generating4::exp(),
         Isospectral4::new(), OrbitEnergy::gonzalez(), CohenHairer4, SphericalMidpoint, Rk4);
-    same_steps!(Swimmer, ExplicitSwimmer, [0.9, -0.3, 0.4, 0.7, 0.2, -0.5]:
+    same_steps!(Swimmer, ExplicitSwimmer, [0.9, -0.3, 0.4, 0.7, 0.2, -0.5];
         Gauss6, LieMidpoint::cayley(), CommutatorFree4, Splitting2::new(), Splitting4::new(), Rk4);
 }
 
