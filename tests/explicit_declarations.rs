@@ -167,7 +167,7 @@ macro_rules! same_steps {
 fn every_other_method_works() {
     same_steps!(Everything, Explicit, [0.9, -0.3, 0.4];
         ImplicitMidpoint, Gauss4, LieMidpoint::exp(), LieMidpoint::cayley(), Rkmk4, Generating4::exp(),
-        Isospectral4::new(), OrbitEnergy::gonzalez(), CohenHairer4, SphericalMidpoint, Rk4);
+        Isospectral4::new(), OrbitEnergy::gonzalez(), CohenHairer4::new(), SphericalMidpoint, Rk4);
     same_steps!(Swimmer, ExplicitSwimmer, [0.9, -0.3, 0.4, 0.7, 0.2, -0.5];
         Gauss6, LieMidpoint::cayley(), CommutatorFree4, Splitting2::new(), Splitting4::new(), Rk4);
 }
