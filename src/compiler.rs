@@ -3,9 +3,9 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use lie_codegen::check::Effort;
 use lie_codegen::diagnostic::Kind;
 use lie_codegen::front::file;
+use lie_codegen::structure::Effort;
 pub use lie_in_process::spec::Spec;
 
 use crate::message::{Failure, Message, Source};

@@ -13,7 +13,7 @@ use std::time::Instant;
 
 use lie_codegen::compile::{compile_spec, expand, with_options};
 use lie_codegen::methods::{CATALOGUE, Choice};
-use lie_codegen::model::Model;
+use lie_codegen::structure::Structure;
 
 /// Systems by what they are called on the page.
 const SYSTEMS: [(&str, &str); 4] = [
@@ -99,7 +99,7 @@ fn children() -> Option<f64> {
 fn build(
     folder: &Path,
     name: &str,
-    model: &Model,
+    model: &Structure,
     fused: &[Choice],
     run: &[Choice],
 ) -> (PathBuf, f64) {
@@ -192,7 +192,7 @@ fn per_step(program: &Path, label: &str) -> Option<(f64, f64)> {
 }
 
 /// Every built method that applies to a system, with its options.
-fn choices(model: &Model) -> Vec<Choice> {
+fn choices(model: &Structure) -> Vec<Choice> {
     let plain: Vec<Choice> = CATALOGUE
         .iter()
         .filter_map(|method| Choice::from_id(method.id).ok())

@@ -2,8 +2,8 @@
 
 use crate::talk::Measurement;
 use lie_codegen::methods::Choice;
-use lie_codegen::model::Model;
 use lie_codegen::program::Purpose;
+use lie_codegen::structure::Structure;
 use lie_in_process::spec::Spec;
 use lie_measure::bench::{ClockKind, Found, Measure, Options, Plane};
 use lie_program::protocol::Start;
@@ -127,7 +127,7 @@ impl Measurement for Comparison {
     type Results = Results;
     type Made = Results;
 
-    fn usual(model: &Model) -> Vec<Choice> {
+    fn usual(model: &Structure) -> Vec<Choice> {
         lie_in_process::list::fewer(model)
     }
 
@@ -153,7 +153,7 @@ impl Measurement for Comparison {
         results.take(found);
     }
 
-    fn end(&self, results: Results, _: &Model, _: &[String], whole: bool) -> Results {
+    fn end(&self, results: Results, _: &Structure, _: &[String], whole: bool) -> Results {
         Results {
             interrupted: !whole,
             ..results

@@ -1,11 +1,11 @@
 //! A checked declaration, and what is compiled of it. The compiler works without the interpreter's lock.
 
 use crate::errors::{Mistakes, method_error};
-use lie_codegen::check::Effort;
 use lie_codegen::compile::{compile_spec, compile_spec_in};
 use lie_codegen::methods::Choice;
-use lie_codegen::model::Model;
 use lie_codegen::program::{Chart, Purpose};
+use lie_codegen::structure::Effort;
+use lie_codegen::structure::Structure;
 use lie_dynamic::{Declared, Dynamic};
 use lie_in_process::Work;
 use lie_in_process::message::Source;
@@ -47,7 +47,7 @@ pub struct Facts {
 }
 
 impl Facts {
-    fn of(model: &Model) -> Self {
+    fn of(model: &Structure) -> Self {
         let run = model.run.iter().map(|option| {
             let values = option.values.iter().map(|(text, _)| text.clone());
             (option.name.text.clone(), values.collect())
@@ -140,7 +140,11 @@ impl Declaration {
     }
 
     /// The same without the text.
-    pub fn with_model<R: Send>(&self, py: Python<'_>, work: impl FnOnce(&Model) -> R + Send) -> R {
+    pub fn with_model<R: Send>(
+        &self,
+        py: Python<'_>,
+        work: impl FnOnce(&Structure) -> R + Send,
+    ) -> R {
         self.with_spec(py, |spec| work(&spec.model))
     }
 
@@ -149,7 +153,7 @@ impl Declaration {
         &self,
         py: Python<'_>,
         effort: Effort,
-        work: impl FnOnce(&Model) -> R + Send,
+        work: impl FnOnce(&Structure) -> R + Send,
     ) -> PyResult<R> {
         let done = py.detach(|| match compile_spec_in(&self.text, None, effort) {
             Ok(model) => Ok(work(&model)),

@@ -2,9 +2,9 @@
 
 use crate::declaration::{Declaration, runs};
 use crate::errors::shown;
-use lie_codegen::check::Effort;
 use lie_codegen::methods::{CATALOGUE, Choice, applicability};
-use lie_codegen::model::Model;
+use lie_codegen::structure::Effort;
+use lie_codegen::structure::Structure;
 use lie_dynamic::Dynamic;
 use lie_in_process::catalogue;
 use lie_in_process::formula::{Latex, formula, names};
@@ -13,7 +13,7 @@ use pyo3::prelude::*;
 use serde_json::{Value, json};
 
 /// The methods with the reason where one does not apply, and whether it runs in Python.
-pub fn methods(model: &Model) -> String {
+pub fn methods(model: &Structure) -> String {
     let known = applicability(model);
     let reason = |id: &str| {
         let found = known.iter().find(|(known, _)| *known == id);
@@ -31,7 +31,7 @@ pub fn methods(model: &Model) -> String {
 }
 
 /// The Hamiltonian and the equations of motion by lines; the Hamiltonian alone where they are long.
-pub fn equations(model: &Model) -> Vec<String> {
+pub fn equations(model: &Structure) -> Vec<String> {
     let plan = lie_codegen::plan::plan(model, &[]);
     let kernels = plan.system.poisson.iter();
     let explicit: Vec<String> = kernels.flat_map(|kernel| kernel.explicit.clone()).collect();
@@ -45,7 +45,7 @@ pub fn equations(model: &Model) -> Vec<String> {
 }
 
 /// Formulas of a system as lines of LaTeX.
-pub fn latex(model: &Model, lines: &[String]) -> String {
+pub fn latex(model: &Structure, lines: &[String]) -> String {
     let names = names(model);
     let lines = lines.iter().map(|line| formula(line, &names, &Latex));
     lines.collect::<Vec<_>>().join(r" \\ ")
@@ -67,7 +67,7 @@ pub fn check(py: Python<'_>, declaration: &Declaration, deep: bool) -> PyResult<
         false => Effort::Report,
     };
     declaration.with_effort(py, effort, |model| {
-        let mut found = Report::on(model, effort).json(model);
+        let mut found = Report::on(model).json(model);
         let warnings = model.warnings.iter();
         let warnings: Vec<String> = warnings
             .map(|warning| shown(&declaration.text, warning))

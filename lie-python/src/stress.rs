@@ -2,8 +2,8 @@
 
 use crate::talk::Measurement;
 use lie_codegen::methods::Choice;
-use lie_codegen::model::Model;
 use lie_codegen::program::Purpose;
+use lie_codegen::structure::Structure;
 use lie_in_process::spec::Spec;
 use lie_in_process::stress::Results;
 use lie_measure::stress::{Cell, Found, Growth, Options};
@@ -109,7 +109,7 @@ impl Measurement for Stress {
     type Results = Results;
     type Made = Limits;
 
-    fn usual(model: &Model) -> Vec<Choice> {
+    fn usual(model: &Structure) -> Vec<Choice> {
         lie_in_process::list::fewer(model)
     }
 
@@ -121,7 +121,13 @@ impl Measurement for Stress {
         results.take(found);
     }
 
-    fn end(&self, mut results: Results, model: &Model, labels: &[String], whole: bool) -> Limits {
+    fn end(
+        &self,
+        mut results: Results,
+        model: &Structure,
+        labels: &[String],
+        whole: bool,
+    ) -> Limits {
         let parameters = model.parameters.iter().map(|p| p.name.clone());
         let coordinates = model.coordinates.iter().map(|c| c.text.to_string());
         let casimirs = model.casimirs.iter().map(|c| c.name.to_string());

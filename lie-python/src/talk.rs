@@ -5,8 +5,8 @@ use crate::declaration::Declaration;
 use crate::errors::{method_error, refused};
 use crate::progress::Progress;
 use lie_codegen::methods::Choice;
-use lie_codegen::model::Model;
 use lie_codegen::program::Purpose;
+use lie_codegen::structure::Structure;
 use lie_in_process::converse::{Last, Listener};
 use lie_in_process::families::Limit;
 use lie_in_process::message::Message;
@@ -37,7 +37,7 @@ pub trait Measurement: Sync {
     type Made: Send;
 
     /// The methods where none is named.
-    fn usual(model: &Model) -> Vec<Choice>;
+    fn usual(model: &Structure) -> Vec<Choice>;
 
     /// What is asked for, and the results before there are any.
     fn begin(&self, spec: &Spec, start: &Start) -> PyResult<(Self::Options, Self::Results)>;
@@ -48,7 +48,7 @@ pub trait Measurement: Sync {
     fn end(
         &self,
         results: Self::Results,
-        model: &Model,
+        model: &Structure,
         labels: &[String],
         whole: bool,
     ) -> Self::Made;
@@ -123,9 +123,9 @@ impl<'a> Subject<'a> {
 
 /// The choices of these labels; of all that `usual` gives where there are none, those that run here.
 fn choices(
-    model: &Model,
+    model: &Structure,
     labels: &[String],
-    usual: fn(&Model) -> Vec<Choice>,
+    usual: fn(&Structure) -> Vec<Choice>,
 ) -> Result<Vec<Choice>, Message> {
     match labels {
         [] => Ok(usual(model)
@@ -140,7 +140,7 @@ fn choices(
 ///
 /// # Errors
 /// There is none, or it does not apply.
-pub fn wanted(model: &Model, label: &str) -> Result<Choice, Message> {
+pub fn wanted(model: &Structure, label: &str) -> Result<Choice, Message> {
     method::labelled(label, Front::Call).and_then(|choice| method::applies(choice, model))
 }
 
@@ -160,7 +160,7 @@ pub struct Outcome {
 
 impl Outcome {
     /// Whether it came to its end, and not to Ctrl-C.
-    fn whole(self, model: &Model) -> PyResult<bool> {
+    fn whole(self, model: &Structure) -> PyResult<bool> {
         match (self.interrupted, self.end) {
             (Some(error), _) => {
                 match Python::attach(|py| error.is_instance_of::<PyKeyboardInterrupt>(py)) {

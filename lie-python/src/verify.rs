@@ -2,8 +2,9 @@
 
 use crate::talk::Measurement;
 use lie_codegen::methods::Choice;
-use lie_codegen::model::{Model, Parameter};
+use lie_codegen::model::Parameter;
 use lie_codegen::program::Purpose;
+use lie_codegen::structure::Structure;
 use lie_in_process::evidence::Evidence;
 use lie_in_process::spec::Spec;
 use lie_in_process::verify::{Results, Row, options};
@@ -60,7 +61,7 @@ impl Measurement for Verification {
     type Made = Facts;
 
     /// Every method that applies, at its default options.
-    fn usual(model: &Model) -> Vec<Choice> {
+    fn usual(model: &Structure) -> Vec<Choice> {
         let known = lie_codegen::methods::applicability(model);
         let apply = known.into_iter().filter(|(_, why)| why.is_none());
         apply
@@ -82,7 +83,7 @@ impl Measurement for Verification {
         results.take(found);
     }
 
-    fn end(&self, results: Results, _: &Model, _: &[String], whole: bool) -> Facts {
+    fn end(&self, results: Results, _: &Structure, _: &[String], whole: bool) -> Facts {
         let kernels = results.evidence.kernels().map(|kernels| {
             let named = kernels.into_iter();
             named

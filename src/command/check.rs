@@ -9,10 +9,8 @@ mod structure;
 use std::fmt::Write as _;
 use std::path::Path;
 
-use lie_codegen::check::Effort;
 use lie_codegen::methods::{Choice, refusal};
-use lie_codegen::model::Model;
-use lie_codegen::structure::{algebra, lifts};
+use lie_codegen::structure::{Effort, Structure};
 use lie_in_process::report::{Report, sites};
 use lie_in_process::request::{Request, several};
 use serde_json::Value;
@@ -46,7 +44,7 @@ pub fn run(arguments: &args::Check) -> Result<u8, Failure> {
                     failure.messages.extend(found);
                     continue;
                 }
-                let report = Words(Report::on(&spec.model, effort));
+                let report = Words(Report::on(&spec.model));
                 if arguments.json {
                     reports.push(report.0.json(&spec.model));
                 } else {
@@ -92,7 +90,7 @@ fn defaults_of_run(spec: &Spec) -> Result<(), Vec<Message>> {
 struct Words(Report);
 
 impl Words {
-    fn text(&self, model: &Model, path: &Path) -> String {
+    fn text(&self, model: &Structure, path: &Path) -> String {
         let mut text = format!("{} ({})\n", model.name, path.display());
         // Writing to a string does not fail.
         let _ = self.write(model, &mut text);
@@ -100,13 +98,13 @@ impl Words {
         text
     }
 
-    fn write(&self, model: &Model, text: &mut String) -> std::fmt::Result {
-        write_system(model, self.0.algebra.as_ref(), text)?;
-        motions::write(model, &self.0.motions, text)?;
+    fn write(&self, model: &Structure, text: &mut String) -> std::fmt::Result {
+        write_system(model, text)?;
+        motions::write(model, text)?;
         splitting::write(model, &self.0.splitting, text)?;
         self.write_operations(text)?;
         self.write_methods(model, text)?;
-        joints::write(&self.0.joints, &self.0.methods, text)
+        joints::write(&model.joints, &self.0.methods, text)
     }
 
     /// The operations of each kernel.
@@ -134,7 +132,7 @@ impl Words {
     }
 
     /// The methods that apply, and why the others do not.
-    fn write_methods(&self, model: &Model, text: &mut String) -> std::fmt::Result {
+    fn write_methods(&self, model: &Structure, text: &mut String) -> std::fmt::Result {
         let apply = self.0.methods.iter().filter(|(_, reason)| reason.is_none());
         let apply: Vec<&str> = apply.map(|(id, _)| *id).collect();
         let options = self.with_options(model);
@@ -144,7 +142,7 @@ impl Words {
         if !also.is_empty() {
             list(text, "  and with options: ", &also)?;
         }
-        if let Some(smallest) = lifts::smallest(model).filter(|_| model.family.is_none()) {
+        if let Some(smallest) = model.smallest.filter(|_| model.family.is_none()) {
             writeln!(
                 text,
                 "  collective methods from order 8 on go over {}",
@@ -171,7 +169,7 @@ impl Words {
     }
 
     /// The methods with options other than their defaults, and why they do not apply.
-    fn with_options(&self, model: &Model) -> Vec<(String, Option<String>)> {
+    fn with_options(&self, model: &Structure) -> Vec<(String, Option<String>)> {
         let mut options = Vec::new();
         for (id, default) in &self.0.methods {
             let Ok(choice) = Choice::from_id(id) else {
@@ -190,7 +188,11 @@ impl Words {
 }
 
 /// How large a family is.
-fn write_family(model: &Model, [rows, columns]: [usize; 2], text: &mut String) -> std::fmt::Result {
+fn write_family(
+    model: &Structure,
+    [rows, columns]: [usize; 2],
+    text: &mut String,
+) -> std::fmt::Result {
     let sites = rows * columns;
     let lattice = match rows {
         1 => format!("a chain of {columns}"),
@@ -205,11 +207,7 @@ fn write_family(model: &Model, [rows, columns]: [usize; 2], text: &mut String) -
 }
 
 /// What the system is: its rank, its functions, its Casimirs.
-fn write_system(
-    model: &Model,
-    report: Option<&algebra::Report>,
-    text: &mut String,
-) -> std::fmt::Result {
+fn write_system(model: &Structure, text: &mut String) -> std::fmt::Result {
     let dimension = model.dimension();
     if let Some([rows, columns]) = sites(model) {
         write_family(model, [rows, columns], text)?;
@@ -231,7 +229,7 @@ fn write_system(
              and the Casimirs alone do not determine the leaf"
         )?;
     }
-    if let Some(report) = report {
+    if let Some(report) = &model.algebra {
         structure::write(report, text)?;
     }
     if let Some(configuration) = &model.configuration {

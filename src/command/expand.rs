@@ -3,6 +3,7 @@
 use lie_codegen::ast::Runtime;
 use lie_codegen::compile;
 use lie_codegen::plan::plan;
+use lie_codegen::print::Surface;
 use lie_in_process::request::{Front, method};
 
 use super::{args, print};
@@ -15,12 +16,13 @@ use crate::render;
 /// # Errors
 /// Invalid input.
 pub fn run(arguments: &args::Expand) -> Result<u8, Failure> {
-    let mut spec = compiler::load(&arguments.spec)?;
+    let spec = compiler::load(&arguments.spec)?;
+    let mut runtime = Runtime::default();
     let mut choices = Vec::new();
     let mut mistakes: Vec<Message> = Vec::new();
     if let Some(path) = &arguments.runtime {
         match Runtime::at(path) {
-            Ok(runtime) => spec.model.runtime = runtime,
+            Ok(found) => runtime = found,
             Err(no_path) => mistakes.push(
                 Message::option("--crate", no_path.to_string())
                     .help("write the path at which the runtime is re-exported, as in `--crate my_crate::lie_runtime`"),
@@ -49,7 +51,11 @@ pub fn run(arguments: &args::Expand) -> Result<u8, Failure> {
     if arguments.plan {
         print(&plan(&spec.model, &choices).to_string())?;
     } else {
-        print(&compile::expand(&spec.model, &choices))?;
+        let surface = Surface {
+            runtime,
+            ..Surface::of(&spec.model)
+        };
+        print(&compile::expand_on(&spec.model, &choices, &surface))?;
     }
     Ok(0)
 }

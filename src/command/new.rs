@@ -87,8 +87,8 @@ fn coordinates(name: &str, algebra: &str) -> Result<Vec<String>, Failure> {
     match compile_spec(&draft.to_string()) {
         Ok(model) => Ok(model
             .coordinates
-            .into_iter()
-            .map(|name| name.text)
+            .iter()
+            .map(|name| name.text.clone())
             .collect()),
         Err(mistakes) => Err(refused(algebra, mistakes.into_iter().next())),
     }

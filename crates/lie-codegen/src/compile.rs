@@ -1,35 +1,64 @@
-//! The compiler from end to end: read a declaration, check it, plan what is generated, print it.
+//! The compiler from end to end: a declaration is read and checked, its structure is found, what is generated is planned and
+//! printed. Each stage takes the value that the one before it gave, and none calls a later one.
 
 use std::path::Path;
 
 use proc_macro2::TokenStream;
 
 use crate::ast::Declaration;
-use crate::check::{self, Effort, check, check_with};
+use crate::check::{check, constant_of, contradicted};
 use crate::diagnostic::{Diagnostic, Report};
 use crate::front::{Body, parse_constant_text, spec};
-use crate::methods::{Choice, refusal};
-use crate::model::Model;
+use crate::methods::{Choice, declared, refusal};
 use crate::plan::{Own, plan, plan_with};
 use crate::print::{Surface, format, print};
+use crate::structure::{Effort, Structure, smoothness, structure};
 
-/// Reads and checks a spec file.
+/// Checks a declaration and finds its structure; `None` if there are mistakes. Those and warnings go to the report.
+pub fn analysed(
+    declaration: &Declaration,
+    effort: Effort,
+    report: &mut Report,
+) -> Option<Structure> {
+    let mut own = Report::new();
+    let found = check(declaration, &mut own).map(|model| {
+        let found = structure(model, effort);
+        declared::check(&found, &mut own);
+        smoothness::check(&found, &mut own);
+        contradicted(declaration.name.origin, &mut own);
+        found
+    });
+    let failed = own.has_errors();
+    let diagnostics = own.into_diagnostics();
+    let warnings = diagnostics.iter().filter(|d| d.warning).cloned().collect();
+    for diagnostic in diagnostics {
+        report.push(diagnostic);
+    }
+    let found = found.filter(|_| !failed)?;
+    Some(Structure { warnings, ..found })
+}
+
+/// Checks a declaration and finds its structure.
 ///
 /// # Errors
 /// Every mistake of the first stage that has one.
-pub fn compile_spec(text: &str) -> Result<Model, Vec<Diagnostic>> {
-    compile_spec_with(text, Effort::Declaration)
+pub fn compile_declaration(declaration: &Declaration) -> Result<Structure, Vec<Diagnostic>> {
+    let mut report = Report::new();
+    let found = analysed(declaration, Effort::Declaration, &mut report);
+    report.gate()?;
+    found.ok_or_else(|| report.into_diagnostics())
 }
 
-/// The same with as much work on what is searched for as is said.
+/// Reads a spec file, checks it and finds its structure.
 ///
 /// # Errors
 /// Every mistake of the first stage that has one.
-pub fn compile_spec_with(text: &str, effort: Effort) -> Result<Model, Vec<Diagnostic>> {
-    compile_spec_in(text, None, effort)
+pub fn compile_spec(text: &str) -> Result<Structure, Vec<Diagnostic>> {
+    compile_spec_in(text, None, Effort::Declaration)
 }
 
-/// The same for a spec that may name files of tables, relative to a folder; without one they are refused.
+/// The same with as much work on what is searched for as is said, of a spec that may name files of tables, relative to a
+/// folder; without one they are refused.
 ///
 /// # Errors
 /// Every mistake of the first stage that has one. Those in a file of a table name it and the line.
@@ -37,68 +66,69 @@ pub fn compile_spec_in(
     text: &str,
     folder: Option<&Path>,
     effort: Effort,
-) -> Result<Model, Vec<Diagnostic>> {
+) -> Result<Structure, Vec<Diagnostic>> {
     let mut report = Report::new();
     let parsed = spec::read_in(text, folder, &mut report);
     report.gate()?;
     let Some(Body::Declaration(declaration)) = parsed.body else {
         return Err(report.into_diagnostics());
     };
-    let model = check_with(&declaration, effort, &mut report);
+    let found = analysed(&declaration, effort, &mut report);
     report.gate()?;
-    model.ok_or_else(|| report.into_diagnostics())
-}
-
-/// Checks a declaration.
-///
-/// # Errors
-/// Every mistake of the first stage that has one.
-pub fn compile_declaration(declaration: &Declaration) -> Result<Model, Vec<Diagnostic>> {
-    let mut report = Report::new();
-    let model = check(declaration, &mut report);
-    report.gate()?;
-    model.ok_or_else(|| report.into_diagnostics())
+    found.ok_or_else(|| report.into_diagnostics())
 }
 
 /// The generated items of a system with fused code for these methods.
-pub fn generate(model: &Model, choices: &[Choice]) -> TokenStream {
-    print(&plan(model, choices), &Surface::of(model))
+pub fn generate(structure: &Structure, choices: &[Choice]) -> TokenStream {
+    print(&plan(structure, choices), &Surface::of(structure))
 }
 
 /// The generated code as a formatted file.
-pub fn expand(model: &Model, choices: &[Choice]) -> String {
-    file(model, generate(model, choices))
+pub fn expand(structure: &Structure, choices: &[Choice]) -> String {
+    expand_on(structure, choices, &Surface::of(structure))
+}
+
+/// The same with another surface, such as another path of the runtime.
+pub fn expand_on(structure: &Structure, choices: &[Choice], surface: &Surface) -> String {
+    file(structure, print(&plan(structure, choices), surface))
 }
 
 /// The same with methods that a user wrote.
 ///
 /// # Errors
 /// What cannot be traced, with the reason.
-pub fn expand_with(model: &Model, choices: &[Choice], own: &[Own]) -> Result<String, String> {
-    let plan = plan_with(model, choices, own)?;
-    Ok(file(model, print(&plan, &Surface::of(model))))
+pub fn expand_with(
+    structure: &Structure,
+    choices: &[Choice],
+    own: &[Own],
+) -> Result<String, String> {
+    for method in own {
+        method.check(structure)?;
+    }
+    let plan = plan_with(structure, choices, own);
+    Ok(file(structure, print(&plan, &Surface::of(structure))))
 }
 
-fn file(model: &Model, items: TokenStream) -> String {
+fn file(structure: &Structure, items: TokenStream) -> String {
     let header = format!(
         "// Generated by lie-poisson from the declaration of `{}`.\n\n",
-        model.name
+        structure.name
     );
     header + &format(items)
 }
 
 /// The methods that a declaration asks for, each with every option that applies.
-pub fn declared_choices(model: &Model) -> Vec<Choice> {
-    let declared = model.methods.iter();
+pub fn declared_choices(structure: &Structure) -> Vec<Choice> {
+    let declared = structure.methods.iter();
     let declared = declared.filter_map(|name| Choice::from_id(&name.text).ok());
-    with_options(model, &declared.collect::<Vec<_>>())
+    with_options(structure, &declared.collect::<Vec<_>>())
 }
 
 /// Methods with every option that applies to the system.
-pub fn with_options(model: &Model, choices: &[Choice]) -> Vec<Choice> {
+pub fn with_options(structure: &Structure, choices: &[Choice]) -> Vec<Choice> {
     let mut all: Vec<Choice> = Vec::new();
     for choice in choices.iter().flat_map(Choice::variants) {
-        if !all.contains(&choice) && refusal(model, &choice).is_none() {
+        if !all.contains(&choice) && refusal(structure, &choice).is_none() {
             all.push(choice);
         }
     }
@@ -113,7 +143,7 @@ pub fn with_options(model: &Model, choices: &[Choice]) -> Vec<Choice> {
 pub fn constant(text: &str) -> Result<f64, Vec<Diagnostic>> {
     let mut report = Report::new();
     let expr = parse_constant_text(text, 0, &mut report);
-    let value = expr.and_then(|expr| check::constant(&expr, &mut report));
+    let value = expr.and_then(|expr| constant_of(&expr, &mut report));
     report.gate()?;
     value.ok_or_else(|| report.into_diagnostics())
 }

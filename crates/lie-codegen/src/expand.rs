@@ -7,11 +7,12 @@ use quote::{format_ident, quote};
 
 use crate::ast::Name;
 use crate::characters::visible;
-use crate::compile::{compile_declaration, declared_choices, generate};
+use crate::compile::{compile_declaration, declared_choices};
 use crate::diagnostic::{Diagnostic, Kind, MOST_SHOWN, Origin, Report, not_shown};
 use crate::front::{Body, Parsed, declaration, file, line_column, spec};
-use crate::model::Model;
-use crate::print::{of_this_version, rooted};
+use crate::plan::plan;
+use crate::print::{Surface, of_this_version, print, rooted};
+use crate::structure::Structure;
 
 /// What `lie_poisson! { input }` expands to; `manifest` is the folder that spec paths start from.
 pub fn expand_macro(input: TokenStream, manifest: &Path) -> TokenStream {
@@ -22,15 +23,22 @@ pub fn expand_macro(input: TokenStream, manifest: &Path) -> TokenStream {
     }
     match &parsed.body {
         Some(Body::Declaration(declaration)) => match compile_declaration(declaration) {
-            Ok(mut model) => {
-                model.runtime = parsed.runtime;
-                generate(&model, &declared_choices(&model))
-            }
+            Ok(structure) => generated(&structure, &parsed),
             Err(diagnostics) => failure(&parsed, &diagnostics),
         },
         Some(Body::Spec { path }) => expand_spec(&parsed, path, manifest),
         None => failure(&parsed, &report.into_diagnostics()),
     }
+}
+
+/// The items of a system with the methods that it declares.
+fn generated(structure: &Structure, parsed: &Parsed) -> TokenStream {
+    let surface = Surface {
+        visibility: parsed.visibility.clone(),
+        runtime: parsed.runtime.clone(),
+        ..Surface::of(structure)
+    };
+    print(&plan(structure, &declared_choices(structure)), &surface)
 }
 
 /// A spec by path. The file is included as a constant, so that editing it rebuilds the crate.
@@ -63,10 +71,8 @@ fn expand_spec(parsed: &Parsed, path: &Name, manifest: &Path) -> TokenStream {
     read.visibility = parsed.visibility.clone();
     read.runtime = parsed.runtime.clone();
     match compile_read(&read, report) {
-        Ok(mut model) => {
-            model.visibility = read.visibility;
-            model.runtime = read.runtime;
-            let items = generate(&model, &declared_choices(&model));
+        Ok(structure) => {
+            let items = generated(&structure, parsed);
             quote! { #items #track }
         }
         Err(diagnostics) => {
@@ -84,7 +90,7 @@ fn expand_spec(parsed: &Parsed, path: &Name, manifest: &Path) -> TokenStream {
 }
 
 /// Checks what was read, if nothing was wrong with it.
-fn compile_read(read: &Parsed, mut report: Report) -> Result<Model, Vec<Diagnostic>> {
+fn compile_read(read: &Parsed, mut report: Report) -> Result<Structure, Vec<Diagnostic>> {
     report.gate()?;
     match &read.body {
         Some(Body::Declaration(declaration)) => compile_declaration(declaration),

@@ -21,12 +21,13 @@ use std::path::{Path, PathBuf};
 
 use crate::ast::Runtime;
 use crate::characters::visible;
-use crate::compile::{compile_spec, declared_choices, expand, with_options};
+use crate::compile::{compile_spec, declared_choices, expand_on, with_options};
 use crate::diagnostic::{Diagnostic, MOST_SHOWN, Origin, not_shown};
 use crate::front::line_column;
 use crate::methods::Choice;
-use crate::model::Model;
 use crate::plan::plan;
+use crate::print::Surface;
+use crate::structure::Structure;
 use source::Declared;
 
 /// The environment variable that makes [`Golden::check`] write instead of compare.
@@ -97,7 +98,10 @@ impl Golden {
     /// Adds the generated code of a spec file with fused code for the methods (every option of an
     /// id that applies). The golden file bears the name of the spec.
     pub fn spec(&mut self, path: impl AsRef<Path>, methods: &[&str]) -> &mut Self {
-        self.of_spec(path.as_ref(), Some(methods), "rs", expand)
+        let runtime = self.runtime.clone();
+        self.of_spec(path.as_ref(), Some(methods), "rs", |structure, choices| {
+            code(structure, choices, runtime)
+        })
     }
 
     /// Adds the generated code of every `lie_poisson! { … }` of a Rust source file, with the methods that each declares. The
@@ -108,7 +112,12 @@ impl Golden {
                 for declared in declared {
                     match declared {
                         Declared::Code(name, code) => self.text(&format!("{name}.rs"), code),
-                        Declared::Spec(path) => self.of_spec(Path::new(&path), None, "rs", expand),
+                        Declared::Spec(path) => {
+                            let runtime = self.runtime.clone();
+                            self.of_spec(Path::new(&path), None, "rs", |structure, choices| {
+                                code(structure, choices, runtime)
+                            })
+                        }
                     };
                 }
             }
@@ -120,9 +129,12 @@ impl Golden {
     /// Adds the plan of that code: formulas, operation counts and a digest of each kernel, which changes with its
     /// operations. It is short enough to be reviewed; the file ends in `.plan`.
     pub fn plan(&mut self, path: impl AsRef<Path>, methods: &[&str]) -> &mut Self {
-        self.of_spec(path.as_ref(), Some(methods), "plan", |model, choices| {
-            plan(model, choices).to_string()
-        })
+        self.of_spec(
+            path.as_ref(),
+            Some(methods),
+            "plan",
+            |structure, choices| plan(structure, choices).to_string(),
+        )
     }
 
     fn of_spec(
@@ -130,13 +142,12 @@ impl Golden {
         path: &Path,
         methods: Option<&[&str]>,
         extension: &str,
-        write: impl FnOnce(&Model, &[Choice]) -> String,
+        write: impl FnOnce(&Structure, &[Choice]) -> String,
     ) -> &mut Self {
         let stem = path.file_stem().unwrap_or_default().to_string_lossy();
         match read(path, methods) {
-            Ok((mut model, choices)) => {
-                model.runtime = self.runtime.clone();
-                self.text(&format!("{stem}.{extension}"), write(&model, &choices))
+            Ok((structure, choices)) => {
+                self.text(&format!("{stem}.{extension}"), write(&structure, &choices))
             }
             Err(problem) => {
                 self.problems.push(problem);
@@ -225,6 +236,15 @@ impl Golden {
     }
 }
 
+/// The generated code of a system that finds the runtime in some place.
+fn code(structure: &Structure, choices: &[Choice], runtime: Runtime) -> String {
+    let surface = Surface {
+        runtime,
+        ..Surface::of(structure)
+    };
+    expand_on(structure, choices, &surface)
+}
+
 /// A diagnostic with its remedy.
 fn message(place: &str, d: &Diagnostic) -> String {
     let help = d.help.as_deref().unwrap_or("correct the declaration");
@@ -233,10 +253,10 @@ fn message(place: &str, d: &Diagnostic) -> String {
 }
 
 /// The checked system of a spec file, and the methods with every option that applies; by default those that it declares.
-fn read(path: &Path, methods: Option<&[&str]>) -> Result<(Model, Vec<Choice>), String> {
+fn read(path: &Path, methods: Option<&[&str]>) -> Result<(Structure, Vec<Choice>), String> {
     let place = path.display();
     let text = std::fs::read_to_string(path).map_err(|error| format!("{place}: {error}"))?;
-    let model = compile_spec(&text).map_err(|diagnostics| {
+    let structure = compile_spec(&text).map_err(|diagnostics| {
         let errors = diagnostics.iter().filter(|d| !d.warning);
         let rest = not_shown(errors.clone().count());
         let messages: Vec<String> = errors
@@ -256,16 +276,16 @@ fn read(path: &Path, methods: Option<&[&str]>) -> Result<(Model, Vec<Choice>), S
         messages.join("\n")
     })?;
     let Some(methods) = methods else {
-        let choices = declared_choices(&model);
-        return Ok((model, choices));
+        let choices = declared_choices(&structure);
+        return Ok((structure, choices));
     };
     let choices = methods.iter().map(|id| {
         Choice::from_id(id)
             .map_err(|unusable| format!("{place}: {}{REMEDY}{}", unusable.message, unusable.help))
     });
     let choices: Vec<Choice> = choices.collect::<Result<_, _>>()?;
-    let choices = with_options(&model, &choices);
-    Ok((model, choices))
+    let choices = with_options(&structure, &choices);
+    Ok((structure, choices))
 }
 
 fn difference(path: &Path, golden: &str, new: &str) -> String {

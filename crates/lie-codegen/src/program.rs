@@ -4,10 +4,9 @@ use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
 
 use crate::compile::generate;
-use crate::derive::Source;
 use crate::methods::{Choice, Lift, Scheme, Tensor};
-use crate::model::Model;
 use crate::print::format;
+use crate::structure::Structure;
 
 /// What a program is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,22 +45,22 @@ impl Chart {
 /// The text of a program for these methods. The entries bear the labels of the choices.
 ///
 /// Programs for [`Purpose::Bench`] contain the modules `clock` and `controls`, which the build adds.
-pub fn program(model: &Model, choices: &[Choice], purpose: Purpose) -> String {
-    let system = generate(model, choices);
-    let name = Ident::new(&model.name, Span::call_site());
+pub fn program(structure: &Structure, choices: &[Choice], purpose: Purpose) -> String {
+    let system = generate(structure, choices);
+    let name = Ident::new(&structure.name, Span::call_site());
     let entries = choices.iter().map(|choice| entry(choice, purpose));
-    let dimension = model.dimension();
-    let count = model.parameters.len();
-    let defaults = model.parameters.iter().map(|parameter| {
+    let dimension = structure.dimension();
+    let count = structure.parameters.len();
+    let defaults = structure.parameters.iter().map(|parameter| {
         let (name, value) = (&parameter.name, parameter.default_value);
         quote! { (#name, #value) }
     });
     let (kind, modules, end) = match purpose {
         Purpose::Run | Purpose::OnGroup(_) => (quote! { lie_program::Program }, None, None),
         Purpose::Verify => {
-            let plain = plain(model, choices);
+            let plain = plain(structure, choices);
             let (module, entries) = plain.map_or((None, None), |(m, e)| (Some(m), Some(e)));
-            let (evidence, beside) = (evidence(model), beside(choices));
+            let (evidence, beside) = (evidence(structure), beside(choices));
             (
                 quote! { lie_measure::Verify },
                 module,
@@ -94,15 +93,15 @@ pub fn program(model: &Model, choices: &[Choice], purpose: Purpose) -> String {
 }
 
 /// The same system without fused equations, and the methods that are compared on it: those that are fused, once each.
-fn plain(model: &Model, choices: &[Choice]) -> Option<(TokenStream, TokenStream)> {
-    let fused = compared(model, choices);
+fn plain(structure: &Structure, choices: &[Choice]) -> Option<(TokenStream, TokenStream)> {
+    let fused = compared(structure, choices);
     if fused.is_empty() {
         return None;
     }
-    let system = generate(model, &[]);
-    let name = Ident::new(&model.name, Span::call_site());
-    let system_name = format_ident!("{}System", model.name);
-    let count = model.parameters.len();
+    let system = generate(structure, &[]);
+    let name = Ident::new(&structure.name, Span::call_site());
+    let system_name = format_ident!("{}System", structure.name);
+    let count = structure.parameters.len();
     let entries = fused.iter().map(|choice| {
         let (label, constructor) = (choice.label(), choice.constructor());
         quote! { .plain(#label, plain_system, |_| #constructor) }
@@ -123,8 +122,8 @@ fn plain(model: &Model, choices: &[Choice]) -> Option<(TokenStream, TokenStream)
 }
 
 /// The methods whose steps are compared with those of their generic equations.
-pub fn compared<'a>(model: &Model, choices: &'a [Choice]) -> Vec<&'a Choice> {
-    if model.energy.expression().is_none() || model.family.is_some() {
+pub fn compared<'a>(structure: &Structure, choices: &'a [Choice]) -> Vec<&'a Choice> {
+    if structure.energy.expression().is_none() || structure.family.is_some() {
         return Vec::new();
     }
     choices.iter().filter(|choice| is_fused(choice)).collect()
@@ -150,27 +149,35 @@ fn is_fused(choice: &Choice) -> bool {
 }
 
 /// What a judge may look at beyond the kernels of every system.
-fn evidence(model: &Model) -> TokenStream {
-    let source = Source::of(model);
+fn evidence(structure: &Structure) -> TokenStream {
+    let lie = structure.is_lie_poisson();
+    let representation = structure.bracket.representation().filter(|_| lie);
+    let lagrangian = structure.energy.lagrangian();
     let mut calls = TokenStream::new();
     let mut add = |wanted: bool, call: TokenStream| {
         if wanted {
             calls.extend(call);
         }
     };
-    add(model.is_lie_poisson(), quote! { .with_orbits() });
-    if model.family.is_some() {
+    add(lie, quote! { .with_orbits() });
+    if structure.family.is_some() {
         // what else is known is known of a site
         return calls;
     }
-    add(source.group.is_some(), quote! { .with_group() });
-    add(source.triple.is_some(), quote! { .with_cayley() });
+    add(structure.group.is_some(), quote! { .with_group() });
     add(
-        source.energy.lagrangian().is_some(),
-        quote! { .with_lagrangian() },
+        representation.is_some_and(|r| r.triple.is_some()),
+        quote! { .with_cayley() },
     );
-    add(source.discrete().is_some(), quote! { .with_discrete() });
-    add(source.realization.is_some(), quote! { .with_realization() });
+    add(lagrangian.is_some(), quote! { .with_lagrangian() });
+    add(
+        lagrangian.is_some_and(|l| l.discrete.is_some()),
+        quote! { .with_discrete() },
+    );
+    add(
+        structure.realization.is_some(),
+        quote! { .with_realization() },
+    );
     calls
 }
 

@@ -7,20 +7,21 @@ use lie_codegen::algebra::Representation;
 use lie_codegen::compile::{compile_spec, expand, with_options};
 use lie_codegen::diagnostic::{Diagnostic, Origin};
 use lie_codegen::methods::Choice;
-use lie_codegen::model::{Algebra, Bracket, Model};
+use lie_codegen::model::{Algebra, Bracket};
+use lie_codegen::structure::Structure;
 use lie_codegen::structure::algebra::{DEEP, report};
 use serde_json::{Value, json};
 
-fn compiled(algebra: &Value) -> Result<Model, Vec<Diagnostic>> {
+fn compiled(algebra: &Value) -> Result<Structure, Vec<Diagnostic>> {
     let spec = json!({ "name": "System", "algebra": algebra, "hamiltonian": "1" });
     compile_spec(&spec.to_string())
 }
 
-fn model(algebra: &str) -> Model {
+fn model(algebra: &str) -> Structure {
     compiled(&json!(algebra)).unwrap_or_else(|mistakes| panic!("{algebra}: {mistakes:?}"))
 }
 
-fn algebra(model: &Model) -> &Algebra {
+fn algebra(model: &Structure) -> &Algebra {
     match &model.bracket {
         Bracket::Lie(algebra) => algebra,
         _ => panic!("no algebra"),
@@ -282,7 +283,7 @@ fn names_of_sums_are_different() {
 }
 
 /// The constants as text, `12:3=1` for `[e1, e2] = e3 + …`.
-fn constants(model: &Model) -> String {
+fn constants(model: &Structure) -> String {
     let entries = algebra(model).exact.entries().iter();
     let entry =
         entries.map(|(i, j, k, value)| format!("{i}{j}:{k}={}", value.display(&|p| p.to_string())));

@@ -2,12 +2,12 @@
 //! of a discrete Lagrangian, initial states.
 
 use lie_codegen::compile::compile_spec;
-use lie_codegen::model::Model;
+use lie_codegen::structure::Structure;
 use lie_codegen::symbolic::Symbol;
 use serde_json::{Value, json};
 
 /// so(3) with these keys; the message of the first error where it is refused.
-fn body(keys: Value) -> Result<Model, String> {
+fn body(keys: Value) -> Result<Structure, String> {
     let mut spec = json!({
         "format": 1,
         "name": "Body",

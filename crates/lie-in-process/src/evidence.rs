@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use lie_codegen::judge::{Judge, Sample, Verdict};
-use lie_codegen::model::Model;
+use lie_codegen::structure::Structure;
 use lie_measure::verify::{Kernel, Reference};
 use lie_runtime::scalar::Scalar;
 use serde_json::{Value, json};
@@ -54,7 +54,7 @@ const KERNELS: [&str; 13] = [
 
 impl Evidence {
     /// Nothing yet, of the system of a spec for values of its parameters.
-    pub fn of_spec(text: &str, model: &Model, parameters: &[f64]) -> Self {
+    pub fn of_spec(text: &str, model: &Structure, parameters: &[f64]) -> Self {
         // what a spec of a family declares is one site, and is not interpreted
         if model.family.is_some() {
             return Self {

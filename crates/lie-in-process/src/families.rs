@@ -1,8 +1,8 @@
 //! What is measured of families, and of how many sites.
 
 use lie_codegen::methods::Choice;
-use lie_codegen::model::Model;
 use lie_codegen::program::Purpose;
+use lie_codegen::structure::Structure;
 
 /// The most coordinates of a family of which something is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,7 +41,7 @@ impl Limit {
     }
 
     /// What stands against measuring a family of so many coordinates, and a remedy.
-    pub fn exceeded(&self, model: &Model, coordinates: usize) -> Option<(String, String)> {
+    pub fn exceeded(&self, model: &Structure, coordinates: usize) -> Option<(String, String)> {
         let Self { most, why } = *self;
         if model.family.is_none() || coordinates <= most {
             return None;
@@ -56,7 +56,7 @@ impl Limit {
 }
 
 /// The method that confirms the reference solution: one that needs no matrix for a family.
-pub fn confirming(model: &Model) -> Choice {
+pub fn confirming(model: &Structure) -> Choice {
     match model.family {
         Some(_) => Choice::Gauss(8),
         None => Choice::Gauss(3),

@@ -26,9 +26,10 @@ pub mod verify;
 pub mod words;
 
 use lie_codegen::methods::Choice;
-use lie_codegen::model::{Model, Size};
+use lie_codegen::model::Size;
 use lie_codegen::plan::plan;
 use lie_codegen::program::{Chart, Purpose, beside, compared};
+use lie_codegen::structure::Structure;
 use lie_dynamic::{Declared, Dynamic, Method, at_defaults, at_defaults_dual, method, method_dual};
 use lie_jit::Jit;
 use lie_measure::verify::Kind;
@@ -86,7 +87,7 @@ impl Question for Request<limits::Options> {
 }
 
 /// The system of a spec before its parameters have values; none where H calls functions of Rust.
-pub fn declared(model: &Model) -> Option<Declared> {
+pub fn declared(model: &Structure) -> Option<Declared> {
     let plan = plan(model, &[]);
     Dynamic::supports(&plan).then(|| Declared::new(plan, &Jit))
 }
@@ -141,7 +142,7 @@ impl Work {
     /// What answers questions of one purpose on methods of a system; none where H calls functions of Rust. Where times are
     /// measured, `clock` reads the seconds of the processor, if it can.
     pub fn new(
-        model: &Model,
+        model: &Structure,
         choices: &[Choice],
         purpose: Purpose,
         clock: fn() -> Option<f64>,
@@ -296,7 +297,7 @@ impl Work {
 }
 
 /// The parameters of a family that say how many sites it has.
-fn sizes(model: &Model) -> Vec<String> {
+fn sizes(model: &Structure) -> Vec<String> {
     let sizes = model.family.iter().flat_map(|family| &family.sizes);
     let named = sizes.filter_map(|size| match size {
         Size::Parameter(place) => Some(model.parameters[*place].name.clone()),

@@ -2,11 +2,11 @@
 
 use lie_codegen::compile::with_options;
 use lie_codegen::methods::{CATALOGUE, Choice, Lift, Method, refusal};
-use lie_codegen::model::Model;
+use lie_codegen::structure::Structure;
 
 /// Every method that applies to a system, with every option that applies. Of the compositions, which are
 /// as many as schemes times bases: every scheme of one base, and the lowest order of the other bases.
-pub fn all(model: &Model) -> Vec<Choice> {
+pub fn all(model: &Structure) -> Vec<Choice> {
     let (composing, plain): (Vec<&Method>, Vec<&Method>) = CATALOGUE
         .iter()
         .partition(|method| method.id.starts_with("compose"));
@@ -55,7 +55,7 @@ pub fn all(model: &Model) -> Vec<Choice> {
 
 /// The same with the default schemes of compositions and splittings alone, and of the bases of compositions one
 /// for each set of invariants that they keep.
-pub fn fewer(model: &Model) -> Vec<Choice> {
+pub fn fewer(model: &Structure) -> Vec<Choice> {
     let scheme = |choice: &Choice| {
         let options = choice.options();
         let found = options.iter().find(|(name, _)| *name == "composition");

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use lie_codegen::model::Model;
+use lie_codegen::structure::Structure;
 
 use crate::message::{Message, Source};
 
@@ -11,7 +11,7 @@ pub struct Spec {
     /// Its text.
     pub source: Arc<Source>,
     /// What it declares.
-    pub model: Model,
+    pub model: Structure,
 }
 
 impl Spec {

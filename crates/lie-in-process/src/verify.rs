@@ -1,8 +1,7 @@
 //! What was verified: claims of methods, and kernels before the declaration.
 
-use lie_codegen::model::Model;
 use lie_codegen::prove::joints::reached;
-use lie_codegen::structure::smoothness;
+use lie_codegen::structure::Structure;
 use lie_measure::facts::{Finding, Verdict};
 use lie_measure::verify::{Found, GroundFound as Ground, Options};
 use serde_json::{Value, json};
@@ -11,9 +10,9 @@ use crate::evidence::Evidence;
 use crate::words::{number, short};
 
 /// What is asked for of a system, at a step or at one that is found.
-pub fn options(model: &Model, step: Option<f64>, seed: u64) -> Options {
-    let joints = smoothness::joints(model);
-    let reach = (!joints.is_empty()).then(|| reached(&joints, u32::MAX).unwrap_or(0));
+pub fn options(model: &Structure, step: Option<f64>, seed: u64) -> Options {
+    let joints = &model.joints;
+    let reach = (!joints.is_empty()).then(|| reached(joints, u32::MAX).unwrap_or(0));
     Options { seed, step, reach }
 }
 

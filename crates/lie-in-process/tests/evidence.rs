@@ -2,8 +2,8 @@
 
 use lie_codegen::compile::compile_spec;
 use lie_codegen::methods::Choice;
-use lie_codegen::model::Model;
 use lie_codegen::program::Purpose;
+use lie_codegen::structure::Structure;
 use lie_in_process::evidence::Evidence;
 use lie_in_process::verify::options;
 use lie_in_process::{Question, Work, declared};
@@ -19,12 +19,12 @@ fn text(name: &str) -> String {
 }
 
 /// The default values of the parameters.
-fn values(model: &Model) -> Vec<f64> {
+fn values(model: &Structure) -> Vec<f64> {
     model.parameters.iter().map(|p| p.default_value).collect()
 }
 
 /// What a verification of rk4 finds of kernels and of the reference solution.
-fn found(model: &Model) -> Vec<Found> {
+fn found(model: &Structure) -> Vec<Found> {
     let choice = Choice::from_id("rk4").unwrap();
     let system = declared(model).unwrap().system(&[]).unwrap();
     let work = Work::new(model, &[choice], Purpose::Verify, || None).unwrap();

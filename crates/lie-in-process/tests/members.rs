@@ -2,8 +2,8 @@
 
 use lie_codegen::compile::{compile_spec, with_options};
 use lie_codegen::methods::Choice;
-use lie_codegen::model::Model;
 use lie_codegen::plan::plan;
+use lie_codegen::structure::Structure;
 use lie_dynamic::{Declared, Tolerances, method};
 use lie_in_process::list;
 use lie_in_process::members::{LANES, Member, Members, Watch};
@@ -15,7 +15,7 @@ const COUNT: usize = 19;
 const STEP: f64 = 0.1;
 const END: f64 = 4.0;
 
-fn model(name: &str) -> Model {
+fn model(name: &str) -> Structure {
     let path = format!("{}/../../specs/{name}.json", env!("CARGO_MANIFEST_DIR"));
     compile_spec(&std::fs::read_to_string(path).unwrap()).unwrap()
 }

@@ -4,8 +4,8 @@ use lie_codegen::compile::compile_spec;
 use lie_codegen::diagnostic::{Diagnostic, Kind, Origin};
 use lie_codegen::front::line_column;
 use lie_codegen::methods::{Choice, applicability, refusal};
-use lie_codegen::model::Model;
 use lie_codegen::plan::plan;
+use lie_codegen::structure::Structure;
 use lie_dynamic::{Dynamic, Engine as _, Method, at_defaults};
 use lie_runtime::Poisson as _;
 use lie_runtime::newton::NewtonOptions;
@@ -177,7 +177,7 @@ fn opened(text: &str, request: &Value) -> Result<(Run, Value), Vec<Diagnostic>> 
 }
 
 /// What a page shows of a system.
-fn about(model: &Model, system: &Dynamic<f64>, choice: &Choice, engine: &str) -> Value {
+fn about(model: &Structure, system: &Dynamic<f64>, choice: &Choice, engine: &str) -> Value {
     let coordinates: Vec<&str> = (0..system.dimension())
         .map(|i| system.coordinate(i))
         .collect();
@@ -215,7 +215,7 @@ fn about(model: &Model, system: &Dynamic<f64>, choice: &Choice, engine: &str) ->
 
 /// Whether the first three coordinates are the angular momentum of a body: those of so(3), with brackets `[e1, e2] = e3` and
 /// cyclic; grad H is its angular velocity in the body then.
-fn rotates(model: &Model) -> bool {
+fn rotates(model: &Structure) -> bool {
     let Some(algebra) = model.bracket.algebra() else {
         return false;
     };

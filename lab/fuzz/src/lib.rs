@@ -7,7 +7,7 @@ use lie_codegen::compile::{compile_spec, generate, with_options};
 use lie_codegen::diagnostic::Origin;
 use lie_codegen::expand::expand_macro;
 use lie_codegen::methods::{CATALOGUE, Choice};
-use lie_codegen::model::Model;
+use lie_codegen::structure::Structure;
 use proc_macro2::TokenStream;
 
 /// Fused code of all methods is made of systems up to this dimension, and of the others that of some:
@@ -52,7 +52,7 @@ pub fn spec(bytes: &[u8]) {
 }
 
 /// Every method that applies, with every option: of a large system those of the lowest order.
-fn choices(model: &Model) -> Vec<Choice> {
+fn choices(model: &Structure) -> Vec<Choice> {
     let ids = CATALOGUE
         .iter()
         .filter(|m| model.dimension() <= SMALL || m.order <= 2)

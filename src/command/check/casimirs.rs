@@ -2,11 +2,12 @@
 
 use std::fmt::Write as _;
 
-use lie_codegen::model::{CasimirKind, Model, Search};
+use lie_codegen::model::CasimirKind;
 use lie_codegen::structure::casimirs::{MAX_DEGREE, MAX_EXPONENT, MAX_FACTOR_DEGREE};
+use lie_codegen::structure::{Search, Structure};
 
 /// The Casimirs, and how the search for those that were not declared ended.
-pub(super) fn write(model: &Model, text: &mut String) -> std::fmt::Result {
+pub(super) fn write(model: &Structure, text: &mut String) -> std::fmt::Result {
     let independent = model.casimirs_to_find();
     let declared = model
         .casimirs

@@ -2,21 +2,18 @@
 
 use std::fmt::Write as _;
 
-use lie_codegen::check::motions::{End, Motions};
-use lie_codegen::model::Model;
+use lie_codegen::structure::Structure;
+use lie_codegen::structure::motions::End;
 use lie_in_process::report::motions::named;
 
 use crate::command::fold::folded;
 
 /// The constants by lines.
-pub(super) fn write(
-    model: &Model,
-    motions: &Result<Motions, &'static str>,
-    text: &mut String,
-) -> std::fmt::Result {
-    let motions = match motions {
-        Ok(motions) => motions,
-        Err(reason) => {
+pub(super) fn write(model: &Structure, text: &mut String) -> std::fmt::Result {
+    let motions = match &model.motions {
+        None => return Ok(()),
+        Some(Ok(motions)) => motions,
+        Some(Err(reason)) => {
             let line = format!("  other constants of the motion: not looked for: {reason}");
             return writeln!(text, "{}", folded(&line));
         }

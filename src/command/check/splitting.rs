@@ -2,12 +2,12 @@
 
 use std::fmt::Write as _;
 
-use lie_codegen::model::Model;
+use lie_codegen::structure::Structure;
 use lie_in_process::report::splitting::Splitting;
 
 /// One line for each piece.
 pub(super) fn write(
-    model: &Model,
+    model: &Structure,
     splitting: &Result<Splitting, String>,
     text: &mut String,
 ) -> std::fmt::Result {

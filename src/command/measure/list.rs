@@ -1,7 +1,7 @@
 //! Lists of methods: `midpoint,lie-midpoint --retraction cayley,compose4(midpoint)`.
 
 use lie_codegen::methods::Choice;
-use lie_codegen::model::Model;
+use lie_codegen::structure::Structure;
 use lie_in_process::request::{Front, Given, method};
 
 use crate::message::Message;
@@ -10,7 +10,7 @@ use crate::message::Message;
 ///
 /// # Errors
 /// Every mistake, at its place in the list.
-pub fn parse(text: &str, model: &Model) -> Result<Vec<Choice>, Vec<Message>> {
+pub fn parse(text: &str, model: &Structure) -> Result<Vec<Choice>, Vec<Message>> {
     let whole = Given::flag("--methods", text);
     let mut choices: Vec<Choice> = Vec::new();
     let mut mistakes = Vec::new();

@@ -1,8 +1,8 @@
 //! What the mathematics of a system is, in formulas.
 
 use lie_codegen::front::Names;
-use lie_codegen::model::Model;
 use lie_codegen::plan::plan;
+use lie_codegen::structure::Structure;
 use lie_in_process::formula::names;
 
 use super::mathml::{formula, identifier};
@@ -11,7 +11,7 @@ use super::mathml::{formula, identifier};
 const MOST: usize = 24;
 
 /// Formulas under their titles.
-pub fn of(model: &Model) -> Vec<(&'static str, Vec<String>)> {
+pub fn of(model: &Structure) -> Vec<(&'static str, Vec<String>)> {
     let names = names(model);
     let mut all = Vec::new();
     let brackets = brackets(model, &names);
@@ -68,7 +68,7 @@ pub fn of(model: &Model) -> Vec<(&'static str, Vec<String>)> {
 }
 
 /// `[e1, e2] = e3`
-fn brackets(model: &Model, names: &Names) -> Vec<String> {
+fn brackets(model: &Structure, names: &Names) -> Vec<String> {
     let Some(algebra) = model.bracket.algebra() else {
         return Vec::new();
     };
@@ -99,7 +99,7 @@ fn brackets(model: &Model, names: &Names) -> Vec<String> {
 }
 
 /// `{q, p} = 1`, where structure constants do not say it all.
-fn poisson_brackets(model: &Model, names: &Names) -> Vec<String> {
+fn poisson_brackets(model: &Structure, names: &Names) -> Vec<String> {
     let Some(matrix) = model.bracket.matrix() else {
         return Vec::new();
     };

@@ -1,6 +1,6 @@
 //! The sections of the page.
 
-use lie_codegen::model::Model;
+use lie_codegen::structure::Structure;
 use lie_in_process::request::{Front, method};
 use lie_poisson::plot::surface::Point;
 
@@ -257,7 +257,7 @@ impl Report<'_> {
 }
 
 /// What the level surface of the Casimir of a three-dimensional system is called.
-fn leaf(model: &Model) -> &'static str {
+fn leaf(model: &Structure) -> &'static str {
     match model.bracket.algebra() {
         Some(_) => "coadjoint orbit",
         None => "symplectic leaf",

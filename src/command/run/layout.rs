@@ -4,8 +4,9 @@ use std::ops::Range;
 
 use std::collections::BTreeMap;
 
-use lie_codegen::model::{Family, Model, Parameter};
+use lie_codegen::model::{Family, Parameter};
 use lie_codegen::program::Chart;
+use lie_codegen::structure::Structure;
 use lie_codegen::structure::group;
 use lie_program::protocol::Columns;
 
@@ -22,7 +23,7 @@ pub struct Layout {
 
 impl Layout {
     /// The columns of a run.
-    pub fn of(model: &Model, chart: Option<Chart>, parameters: &BTreeMap<String, f64>) -> Self {
+    pub fn of(model: &Structure, chart: Option<Chart>, parameters: &BTreeMap<String, f64>) -> Self {
         match &model.family {
             Some(family) => Self::of_family(model, family, parameters),
             None => Self::new(model, chart),
@@ -35,7 +36,7 @@ impl Layout {
     }
 
     /// The columns of a system, with those of a group element.
-    fn new(model: &Model, chart: Option<Chart>) -> Self {
+    fn new(model: &Structure, chart: Option<Chart>) -> Self {
         let states = model.shown_coordinates();
         let coordinates = states.iter().map(|&i| model.coordinates[i].text.clone());
         let casimirs = model.casimirs.iter().map(|casimir| casimir.name.clone());
@@ -54,7 +55,7 @@ impl Layout {
     }
 
     /// The columns of a family with these values of its parameters.
-    fn of_family(model: &Model, family: &Family, values: &BTreeMap<String, f64>) -> Self {
+    fn of_family(model: &Structure, family: &Family, values: &BTreeMap<String, f64>) -> Self {
         let parameters = model.parameters.iter();
         let value = |p: &Parameter| values.get(&p.name).copied().unwrap_or(p.default_value);
         let parameters: Vec<f64> = parameters.map(value).collect();
@@ -106,7 +107,7 @@ impl Layout {
 }
 
 /// The names of the entries of the group element, if it is followed.
-fn entries(model: &Model, chart: Option<Chart>) -> Vec<String> {
+fn entries(model: &Structure, chart: Option<Chart>) -> Vec<String> {
     let Some((chart, group)) = chart.zip(group::group(model)) else {
         return Vec::new();
     };

@@ -8,7 +8,7 @@ use crate::symbolic::Graph;
 
 /// The value of an expression without names, in double precision; it need not be finite there. `None` if anything was
 /// reported.
-pub fn constant(expr: &Expr, report: &mut Report) -> Option<f64> {
+pub fn constant_of(expr: &Expr, report: &mut Report) -> Option<f64> {
     let mut graph = Graph::new();
     let environment = Environment::default();
     let mut lowering = Lowering::new(&mut graph, &environment, report, Allowed::Constants);

@@ -123,7 +123,7 @@ fn functions(model: &Model, scratch: &mut Graph) -> Vec<(ExprId, String)> {
             ));
         }
     }
-    let casimirs = model.casimirs.iter();
+    let casimirs = model.declared_casimirs.iter();
     functions.extend(casimirs.map(|c| (c.expr, format!("the Casimir `{}`", c.name))));
     if let Bracket::General(matrix) = &model.bracket {
         functions.extend(matrix.entries.iter().map(|(i, j, value)| {

@@ -18,15 +18,12 @@ mod energy;
 mod entries;
 mod environment;
 mod family;
-pub(crate) mod found;
 mod idle;
 mod initial;
 mod legendre;
 mod lets;
 mod lower;
 mod matrix;
-mod methods;
-pub mod motions;
 mod names;
 mod naming;
 mod opaque;
@@ -36,7 +33,6 @@ mod realization;
 mod series;
 mod sign;
 mod size;
-mod smooth;
 mod system;
 mod velocity;
 
@@ -48,64 +44,36 @@ use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::model::Model;
 use crate::prove::contradiction;
 
-pub use constant::constant;
+pub use constant::constant_of;
 
-/// How much work is done to find what nobody declared.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Effort {
-    /// So much that a declaration is not slow to compile.
-    Declaration,
-    /// So much that a report on a system is there within seconds.
-    Report,
-    /// So much as somebody waits for who asks for it.
-    Deep,
-}
-
-/// Checks a declaration; `None` if any error was reported. Warnings go to the report and to the
-/// model.
+/// Checks a declaration; `None` if there are mistakes. Those and warnings go to the report, which is empty.
 pub fn check(declaration: &Declaration, report: &mut Report) -> Option<Model> {
-    check_with(declaration, Effort::Declaration, report)
-}
-
-/// The same with as much work on what is searched for as is said.
-pub fn check_with(declaration: &Declaration, effort: Effort, report: &mut Report) -> Option<Model> {
-    let mut own = Report::new();
     contradiction::clear();
-    let model = stages(declaration, effort, &mut own);
-    if let Some(text) = contradiction::take() {
-        own.push(contradicted(&text, declaration.name.origin));
+    let model = stages(declaration, report);
+    contradicted(declaration.name.origin, report);
+    let model = model?;
+    match &model.family {
+        Some(_) => idle::unused(declaration, report),
+        None => idle::check(declaration, &model, report),
     }
-    if model.as_ref().is_some_and(|model| model.family.is_some()) {
-        idle::unused(declaration, &mut own);
-    } else if let Some(model) = &model {
-        idle::check(declaration, model, &mut own);
-    }
-    if let Some(model) = &model {
-        smooth::check(declaration, model, &mut own);
-    }
-    let failed = own.has_errors();
-    let diagnostics = own.into_diagnostics();
-    let warnings: Vec<Diagnostic> = diagnostics.iter().filter(|d| d.warning).cloned().collect();
-    for diagnostic in diagnostics {
-        report.push(diagnostic);
-    }
-    model
-        .filter(|_| !failed)
-        .map(|model| Model { warnings, ..model })
+    (!report.has_errors()).then_some(model)
 }
 
-/// What is said of a verdict that numbers refute.
-fn contradicted(text: &str, origin: Origin) -> Diagnostic {
+/// Reports a verdict that numbers refute.
+pub fn contradicted(origin: Origin, report: &mut Report) {
+    let Some(text) = contradiction::take() else {
+        return;
+    };
     let message = format!(
         "the compiler contradicts itself: values at a point refute what it has proven about `{text}`"
     );
     let help = "this is a bug in the compiler, not in the declaration; please report it with the declaration";
-    Diagnostic::new(Kind::Limit, origin, message).help(help)
+    report.push(Diagnostic::new(Kind::Limit, origin, message).help(help));
 }
 
-fn stages(declaration: &Declaration, effort: Effort, report: &mut Report) -> Option<Model> {
+fn stages(declaration: &Declaration, report: &mut Report) -> Option<Model> {
     if let Some(family) = &declaration.family {
-        return family::check(declaration, family, effort, report);
+        return family::check(declaration, family, report);
     }
     names::check(declaration, report);
     if !size::check(declaration, report) {
@@ -113,13 +81,13 @@ fn stages(declaration: &Declaration, effort: Effort, report: &mut Report) -> Opt
     }
     if declaration.energy.has_step() && declaration.group.is_some() {
         let written_out = entries::written_out(declaration, report)?;
-        return system::check(&written_out, None, effort, report);
+        return system::check(&written_out, None, report);
     }
     match configuration::of(declaration, report) {
         Some(configuration) => {
             let whole = configuration::extended(declaration, &configuration, report);
-            system::check(&whole, Some(&configuration), effort, report)
+            system::check(&whole, Some(&configuration), report)
         }
-        None => system::check(declaration, None, effort, report),
+        None => system::check(declaration, None, report),
     }
 }

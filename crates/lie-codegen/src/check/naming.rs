@@ -12,7 +12,7 @@ use crate::symbolic::{ExprId, Graph};
 
 /// The Casimirs with names: unnamed ones are C1, C2, …, skipping what is taken.
 pub fn named(declaration: &Declaration, lowered: &[ExprId]) -> Vec<Candidate> {
-    let mut free = free_names(declaration, &[]);
+    let mut free = free_names(declaration);
     let casimirs = declaration.casimirs.iter().zip(lowered);
     casimirs
         .map(|(casimir, expr)| {
@@ -31,11 +31,16 @@ pub fn named(declaration: &Declaration, lowered: &[ExprId]) -> Vec<Candidate> {
         .collect()
 }
 
-/// C1, C2, … without the names that are taken, by Casimirs that are kept too.
-pub fn free_names(
-    declaration: &Declaration,
-    kept: &[Casimir],
-) -> impl Iterator<Item = String> + use<> {
+/// C1, C2, … without the names that a declaration uses.
+fn free_names(declaration: &Declaration) -> impl Iterator<Item = String> + use<> {
+    let taken = taken(declaration);
+    (1..)
+        .map(|i| format!("C{i}"))
+        .filter(move |name| !taken.contains(name))
+}
+
+/// The names that a declaration uses.
+pub fn taken(declaration: &Declaration) -> HashSet<String> {
     let names = declaration
         .state
         .iter()
@@ -43,11 +48,7 @@ pub fn free_names(
         .chain(declaration.lets.iter().map(|(n, _)| n));
     let names = names.chain(declaration.parameters.iter().map(|p| &p.name));
     let names = names.chain(declaration.casimirs.iter().filter_map(|c| c.name.as_ref()));
-    let mut taken: HashSet<String> = names.map(|n| n.text.clone()).collect();
-    taken.extend(kept.iter().map(|casimir| casimir.name.clone()));
-    (1..)
-        .map(|i| format!("C{i}"))
-        .filter(move |name| !taken.contains(name))
+    names.map(|n| n.text.clone()).collect()
 }
 
 /// Leaves out, with a warning, what depends on earlier Casimirs; the unnamed rest is numbered anew.
@@ -60,7 +61,7 @@ pub fn independent(
 ) -> Vec<Casimir> {
     let functions: Vec<ExprId> = candidates.iter().map(|c| c.expr).collect();
     let standings = independence::check(graph, &functions, declaration.dimension());
-    let mut free = free_names(declaration, &[]);
+    let mut free = free_names(declaration);
     let mut kept = Vec::new();
     for (((candidate, standing), degree), declared) in candidates
         .into_iter()

@@ -6,28 +6,24 @@ use super::energy::Declared;
 use super::environment::{Allowed, Environment};
 use super::lower::Lowering;
 use super::{
-    Effort, breadth, cocycle, defaults, domain, energy, found, initial, lets, matrix, methods,
-    naming, opaque, parameters, poisson, realization, sign, size,
+    breadth, cocycle, defaults, domain, energy, initial, lets, matrix, naming, opaque, parameters,
+    poisson, realization, sign, size,
 };
 use crate::algebra::rank as algebra_rank;
-use crate::ast::Runtime;
 use crate::ast::{self, Declaration};
 use crate::diagnostic::{Origin, Report};
 use crate::exact::Rational;
 use crate::model::configuration::Configuration;
 use crate::model::{
-    self, Bracket, Casimir, Energy, Hamiltonian, Kept, Model, Parameter, PoissonMatrix,
-    Realization, Search,
+    self, Bracket, Casimir, Energy, Hamiltonian, Model, Parameter, PoissonMatrix, Realization,
 };
 use crate::prove::degree;
-use crate::structure::separable;
-use crate::symbolic::{ExprId, Graph, Symbol};
+use crate::symbolic::{ExprId, Graph};
 
 /// Checks a declaration; of a system on `T*G` it is the one with all coordinates.
 pub fn check(
     declaration: &Declaration,
     configuration: Option<&Configuration>,
-    effort: Effort,
     report: &mut Report,
 ) -> Option<Model> {
     let lowered = lowered(declaration, configuration, report)?;
@@ -44,12 +40,9 @@ pub fn check(
     let candidates = std::mem::take(&mut system.candidates);
     let casimirs = naming::independent(declaration, &system.graph, candidates, &degrees?, report);
     let rank = system.generic_rank(&bracket, casimirs.len());
-    let (casimirs, search) = system.completed(&bracket, casimirs, &rank, effort);
     let energy = system.energy();
     let (mut model, matrix, mut scratch) = system.into_model(bracket, energy, casimirs, &rank);
-    model.search = search;
     domain::check(&model, declaration.initial_origin, report);
-    methods::check(&model, report);
     if report.has_errors() {
         return None;
     }
@@ -306,44 +299,14 @@ impl<'a> System<'a> {
         Rank { generic, bound }
     }
 
-    /// The Casimirs with those that nobody declared, and how the search for them ended.
-    fn completed(
-        &mut self,
-        bracket: &Bracket,
-        mut casimirs: Vec<Casimir>,
-        rank: &Rank,
-        effort: Effort,
-    ) -> (Vec<Casimir>, Search) {
-        let rank = rank.generic.unwrap_or(rank.bound);
-        let number = |symbol| match symbol {
-            Symbol::Parameter(p) => self.parameters[p].default_value,
-            _ => f64::NAN,
-        };
-        let initial = self.initial.as_ref();
-        let asked = found::Asked {
-            declaration: self.declaration,
-            configuration: self.configuration,
-            bracket,
-            brackets: &self.brackets,
-            count: self.declaration.dimension() - rank,
-            initial: initial.map(|mu| self.graph.evaluate_all(mu, &number)),
-            effort,
-        };
-        let (added, search) = asked.search(&casimirs, (&mut self.graph, &mut self.scratch));
-        casimirs.extend(added);
-        (casimirs, search)
-    }
-
     /// The energy with what is known of its Hamiltonian.
-    fn energy(&mut self) -> Energy {
-        let dimension = self.declaration.dimension();
-        let scratch = &mut self.scratch;
+    fn energy(&self) -> Energy {
+        let scratch = &self.scratch;
         self.declared
             .clone()
             .with(|Declared { value, energy }| Hamiltonian {
                 value,
                 energy,
-                pieces: separable::coordinates(scratch, value, dimension),
                 degree: degree::degree(scratch, value),
             })
     }
@@ -372,7 +335,6 @@ impl<'a> System<'a> {
             name: declaration.name.text.clone(),
             name_origin: declaration.name.origin,
             visibility: declaration.visibility.clone(),
-            runtime: Runtime::default(),
             description: declaration.description.clone(),
             references: declaration.references.clone(),
             functions: declaration.functions.clone(),
@@ -382,19 +344,18 @@ impl<'a> System<'a> {
             parameters,
             invariance: declaration.invariance,
             energy,
+            energy_origin: declaration.energy.expression().origin,
             configuration: configuration.cloned(),
             family: None,
             realization,
-            casimirs,
-            search: Search::Complete,
+            declared_casimirs: casimirs,
+            taken: naming::taken(declaration),
             methods: declaration.methods.clone(),
             initial,
             initial_origins: initial_origins.collect(),
             run: declaration.run.clone(),
-            warnings: Vec::new(),
             generic_rank: rank.generic.unwrap_or(rank.bound),
             initial_rank: None,
-            kept: Kept::default(),
         };
         (model, matrix, scratch)
     }

@@ -35,7 +35,7 @@ pub(super) fn triple_of(
     m: &[ExprId],
 ) -> Vec<ExprId> {
     let mut terms: Vec<Vec<(ExprId, Rational)>> = vec![Vec::new(); source.dimension];
-    for (a, b, c, d, value) in source.triple.clone().unwrap_or_default() {
+    for (a, b, c, d, value) in source.triple().unwrap_or_default().to_vec() {
         let term = source.graph.product(&[x[a], z[c], m[d]]);
         terms[b].push((term, value));
     }

@@ -36,14 +36,11 @@ pub struct PartKernel {
 
 impl Source {
     /// The flows of the pieces that were found.
-    pub fn found_kernels(&mut self) -> Option<Vec<FoundKernel>> {
-        let found = self.found.clone()?;
+    pub fn found_kernels(&mut self, found: &Found) -> Vec<FoundKernel> {
         let pieces = found.pieces.iter().enumerate();
-        Some(
-            pieces
-                .map(|(place, piece)| self.found_kernel(&found, place, piece))
-                .collect(),
-        )
+        pieces
+            .map(|(place, piece)| self.found_kernel(found, place, piece))
+            .collect()
     }
 
     fn found_kernel(&mut self, found: &Found, place: usize, piece: &Piece) -> FoundKernel {

@@ -29,7 +29,7 @@ impl Source {
     /// What is derived with H in the gauge that makes it short.
     fn in_gauge<T>(&mut self, derive: impl FnOnce(&mut Self) -> T) -> T {
         let energy = self.energy.clone();
-        if let (Some(value), Some(hamiltonian)) = (self.gauged, energy.expression()) {
+        if let (Some(value), Some(hamiltonian)) = (self.structure.gauged, energy.expression()) {
             self.energy = Energy::Expression(Hamiltonian {
                 value,
                 ..hamiltonian.clone()
@@ -42,7 +42,7 @@ impl Source {
 
     /// The flow on `T*R^2` for each spin.
     pub fn spinor_flow(&mut self) -> Option<Kernel> {
-        let count = 4 * self.spins.as_ref()?.len();
+        let count = 4 * self.spins()?.len();
         let symbols = places(0, count);
         let flow = self.in_gauge(|source| {
             values(source, |system| {
@@ -64,7 +64,7 @@ impl Source {
 
     /// The flow on `T*H`, H the quaternions.
     pub fn quaternion_flow(&mut self) -> Option<Kernel> {
-        let labels = match self.vectors.as_ref()?.vectors.len() {
+        let labels = match self.vectors()?.vectors.len() {
             1 => 1,
             count => 3 * count,
         };
@@ -90,7 +90,7 @@ impl Source {
 
     /// The flow on `T*V^r`, columns `x_j` and rows `y_j` beside them.
     pub fn column_flow(&mut self) -> Option<Kernel> {
-        let representation = self.matrices.clone()?;
+        let representation = self.matrices().cloned()?;
         let columns = representation.columns.as_ref()?.indices.len();
         let (size, half) = (representation.dimension, representation.dimension * columns);
         let symbols = places(0, 2 * half);

@@ -215,7 +215,7 @@ impl Source {
         } else {
             kernels.push(poisson::slope(self));
         }
-        if self.triple.is_some() {
+        if self.triple().is_some() {
             kernels.push(cayley::triple(self));
         }
         kernels
@@ -235,13 +235,13 @@ impl Source {
 
     /// The map of the realization and its derivatives.
     pub fn realization_kernels(&mut self) -> Option<Vec<Kernel>> {
-        let realization = self.realization.clone()?;
+        let realization = self.realization()?;
         Some(realization::kernels(self, &realization))
     }
 
     /// The flows of the coordinate pieces of a separable Hamiltonian.
     pub fn splitting_kernels(&mut self) -> Option<Vec<PieceKernel>> {
-        let pieces = self.pieces.clone()?;
+        let pieces = self.pieces()?.to_vec();
         let slopes = self.gradient_of_h();
         Some(splitting::kernels(self, &pieces, &slopes))
     }

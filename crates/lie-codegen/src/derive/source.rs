@@ -1,18 +1,18 @@
 //! What kernels are derived from.
 
+use std::sync::Arc;
+
 use super::Realization;
 use crate::algebra::{Representation, TripleEntry};
 use crate::model::{self, Descent, Discrete, Energy, Hamiltonian, Lagrangian, Model};
+use crate::structure::Structure;
 use crate::structure::exponential::Exponential;
-use crate::structure::found::Found;
 use crate::structure::group::Group;
 use crate::structure::inertia::Body;
-use crate::structure::integrable::{self, Motion};
-use crate::structure::one_parameter::Block as OneParameter;
+use crate::structure::integrable::Motion;
 use crate::structure::separable::Piece;
 use crate::structure::spins::Spin;
 use crate::structure::vectors::Vectors;
-use crate::structure::{group, inertia, lifts, separable, spins, vectors};
 use crate::symbolic::{ExprId, Graph};
 
 /// What the Poisson matrix is made of.
@@ -24,123 +24,117 @@ pub enum Bracket {
     Entries(Vec<(usize, usize, ExprId)>),
 }
 
-/// What the kernels are derived from.
+/// What the kernels are derived from: what is known of a system, and an arena for what is made of it.
 #[derive(Clone, Debug)]
 pub struct Source {
     /// The arena of all expressions.
     pub graph: Graph,
+    /// The system with what was found of it.
+    pub structure: Arc<Structure>,
     /// Number of coordinates n.
     pub dimension: usize,
     /// The Poisson matrix.
     pub bracket: Bracket,
     /// Hamiltonian and Lagrangian, as they were written.
     pub energy: Energy,
-    /// The number of momenta of a system on `T*G`, which are its first coordinates.
-    pub momenta: Option<usize>,
     /// The Casimirs.
     pub casimirs: Vec<ExprId>,
-    /// The triple product `(a, b, c, d, T_abc^d)`, all nonzero entries, where the declared
-    /// representation is closed under it.
-    pub triple: Option<Vec<TripleEntry>>,
-    /// The coordinate pieces of H, if it is a sum of functions of one coordinate each.
-    pub pieces: Option<Vec<Piece>>,
-    /// The pieces of H up to Casimirs, and H without these, where a splitting is asked for.
-    pub found: Option<Found>,
-    /// The declared realization.
-    pub realization: Option<Realization>,
-    /// The representation, where it carries collective methods.
-    pub matrices: Option<Representation>,
-    /// The group of the declared matrices, where it is not part of the state.
-    pub group: Option<Group>,
-    /// The summands of a direct sum of algebras so(3).
-    pub spins: Option<Vec<Spin>>,
-    /// The parts of so(3) with vectors.
-    pub vectors: Option<Vectors>,
-    /// H without a function of Casimirs, where that makes it shorter on a space over g*.
-    pub gauged: Option<ExprId>,
-    /// The free rigid body that the system is.
-    pub body: Option<Body>,
-    /// The form of the flow, where it is known.
-    pub motion: Option<Motion>,
-    /// The closed form of `exp(s ad*_(e_i))` for each basis element, where a method needs them.
-    pub actions: Option<Vec<Option<Vec<OneParameter>>>>,
     /// Functions of `ad*_x` in closed form, where a method needs them and the algebra has one.
     pub exponential: Option<Exponential>,
 }
 
 impl Source {
-    /// A source without anything in it.
-    pub fn empty(mut graph: Graph) -> Self {
-        let zero = graph.integer(0);
-        Self {
-            graph,
-            dimension: 0,
-            bracket: Bracket::Lie(Vec::new()),
-            energy: Energy::Expression(Hamiltonian {
-                value: zero,
-                energy: zero,
-                degree: Some(0),
-                pieces: Ok(Vec::new()),
-            }),
-            momenta: None,
-            group: None,
-            casimirs: Vec::new(),
-            triple: None,
-            pieces: None,
-            found: None,
-            realization: None,
-            matrices: None,
-            spins: None,
-            vectors: None,
-            gauged: None,
-            body: None,
-            motion: None,
-            actions: None,
-            exponential: None,
-        }
-    }
-
-    /// What the kernels of a model are derived from.
-    pub fn of(model: &Model) -> Self {
-        let graph = model.graph.clone();
+    /// What the kernels of a system are derived from.
+    pub fn of(structure: &Structure) -> Self {
         // What is proven was proven of normal forms; what is evaluated is what was written.
-        let written = |id: ExprId| model.graph.as_written(id);
-        let general = Source {
-            dimension: model.dimension(),
-            energy: energy(model, written),
-            casimirs: model.casimirs.iter().map(|c| written(c.expr)).collect(),
-            realization: realization(model),
-            ..Source::empty(graph)
-        };
-        let algebra = match &model.bracket {
-            model::Bracket::Lie(algebra) => algebra,
+        let written = |id: ExprId| structure.graph.as_written(id);
+        let bracket = match &structure.bracket {
+            model::Bracket::Lie(algebra) => Bracket::Lie(algebra.constants.entries().to_vec()),
             model::Bracket::Extended(_, matrix) | model::Bracket::General(matrix) => {
                 let entries = matrix.entries.iter();
                 let entries = entries.map(|(i, j, value)| (*i, *j, written(*value)));
-                let bracket = Bracket::Entries(entries.collect());
-                return Source { bracket, ..general };
+                Bracket::Entries(entries.collect())
             }
         };
-        let mut graph = general.graph;
-        let body = inertia::body(model, &mut graph).ok();
-        let gauged = lifts::gauge(model, &mut graph);
-        let representation = algebra.representation.as_ref();
-        let configuration = model.configuration.as_ref();
-        Source {
-            graph,
-            bracket: Bracket::Lie(algebra.constants.entries().to_vec()),
-            momenta: configuration.and_then(|c| c.group.as_ref().map(|_| c.momenta)),
-            pieces: separable::pieces(model),
-            triple: representation.and_then(|r| r.triple.clone()),
-            group: group::group(model),
-            matrices: representation.filter(|r| r.dual.is_some()).cloned(),
-            spins: spins::spins(model),
-            motion: integrable::motion(model),
-            vectors: vectors::vectors(model),
-            gauged,
-            body,
-            ..general
+        Self {
+            graph: structure.graph.clone(),
+            dimension: structure.dimension(),
+            bracket,
+            energy: energy(structure, written),
+            casimirs: structure.casimirs.iter().map(|c| written(c.expr)).collect(),
+            exponential: None,
+            structure: Arc::new(structure.clone()),
         }
+    }
+
+    /// The source with its arena, which is gone from what stays behind.
+    pub(crate) fn lent(&mut self) -> Self {
+        let graph = std::mem::take(&mut self.graph);
+        Self {
+            graph,
+            ..self.clone()
+        }
+    }
+
+    /// What was found of a system whose bracket is that of an algebra and nothing else.
+    pub(super) fn lie(&self) -> Option<&Structure> {
+        self.is_lie().then_some(&*self.structure)
+    }
+
+    /// The number of momenta of a system on `T*G`, which are its first coordinates.
+    pub fn momenta(&self) -> Option<usize> {
+        let configuration = self.lie()?.configuration.as_ref()?;
+        configuration.group.as_ref().map(|_| configuration.momenta)
+    }
+
+    fn representation(&self) -> Option<&Representation> {
+        self.lie()?.bracket.representation()
+    }
+
+    /// The triple product `(a, b, c, d, T_abc^d)`, all nonzero entries, where the declared
+    /// representation is closed under it.
+    pub fn triple(&self) -> Option<&[TripleEntry]> {
+        self.representation()?.triple.as_deref()
+    }
+
+    /// The representation, where it carries collective methods.
+    pub fn matrices(&self) -> Option<&Representation> {
+        self.representation().filter(|r| r.dual.is_some())
+    }
+
+    /// The coordinate pieces of H, if it is a sum of functions of one coordinate each.
+    pub fn pieces(&self) -> Option<&[Piece]> {
+        self.lie()?.pieces.as_deref()
+    }
+
+    /// The group of the declared matrices, where it is not part of the state.
+    pub fn group(&self) -> Option<&Group> {
+        self.lie()?.group.as_ref()
+    }
+
+    /// The summands of a direct sum of algebras so(3).
+    pub fn spins(&self) -> Option<&[Spin]> {
+        self.lie()?.spins.as_deref()
+    }
+
+    /// The parts of so(3) with vectors.
+    pub fn vectors(&self) -> Option<&Vectors> {
+        self.lie()?.vectors.as_ref()
+    }
+
+    /// The free rigid body that the system is.
+    pub fn body(&self) -> Option<&Body> {
+        self.lie()?.body.as_ref().ok()
+    }
+
+    /// The form of the flow, where it is known.
+    pub fn motion(&self) -> Option<Motion> {
+        self.lie()?.motion
+    }
+
+    /// The declared realization.
+    pub fn realization(&self) -> Option<Realization> {
+        realization(&self.structure)
     }
 
     /// The structure constants of an algebra.

@@ -8,6 +8,7 @@ use super::{Generating, Kernel, Source};
 use crate::derive::trace::{self, Formulas, SymbolicActions, SymbolicFunction, SymbolicGradient};
 use crate::methods::{Gradient, Retraction};
 use crate::structure::inertia::Body;
+use crate::structure::separable;
 
 impl Source {
     /// Residual, Jacobian and result of the Poisson midpoint rule.
@@ -25,7 +26,7 @@ impl Source {
 
     /// Residual and Jacobian of the spherical midpoint method.
     pub fn spherical_kernels(&mut self) -> Option<Vec<Kernel>> {
-        self.spins.as_ref()?;
+        self.spins()?;
         let formulas = Formulas {
             residual: "`r = u - mu - h f(w)`, `w = rho s`, `s = mu + u`",
             linearize: "`r = u - mu - h f(w)`, `w = rho s`, and `dr/du = 1 - h rho Df(w) (1 - s s^T/s.s)`",
@@ -50,7 +51,7 @@ impl Source {
                 result: "",
             },
         );
-        match self.body.as_ref()? {
+        match self.body()? {
             Body::Three => trace::kernels(self, &three, |system, h| {
                 trace::linearized(generic::DiscreteTop::new(system, h))
             }),
@@ -78,7 +79,7 @@ impl Source {
 
     /// Residual, Jacobian and result of the retraction method with the Cayley map.
     pub fn cayley_kernels(&mut self) -> Option<Vec<Kernel>> {
-        self.triple.as_ref()?;
+        self.triple()?;
         let formulas = Formulas {
             residual: "`r = m - ad*_x m/2 - Q_y m - mu`, `x = h grad H(m)`, `y = x/2`",
             linearize: "`r = m - ad*_x m/2 - Q_y m - mu`, `x = h grad H(m)`, `y = x/2`, and `dr/dm`",
@@ -108,7 +109,8 @@ impl Source {
     /// The equation of the generating-function method in coordinates of the second kind; `None`
     /// where an action has no closed form, or derivatives swell.
     pub fn second_kind_kernels(&mut self) -> Option<Vec<Kernel>> {
-        if !self.actions.as_ref()?.iter().all(Option::is_some) {
+        let algebra = self.lie()?.bracket.algebra()?;
+        if !separable::actions(algebra).iter().all(Option::is_some) {
             return None;
         }
         let formulas = Formulas {
@@ -128,7 +130,7 @@ impl Source {
     /// Residual, Jacobian and result of the generating-function method with the Cayley map; `None`
     /// without a triple product, or where they swell.
     pub fn cayley_generating_kernels(&mut self, order: u32) -> Option<Vec<Kernel>> {
-        self.triple.as_ref()?;
+        self.triple()?;
         let formulas = Formulas {
             residual: "`r = p - ad*_y p - Q_y p - mu`, `y = grad S(p)/2`",
             linearize: "`r = p - ad*_y p - Q_y p - mu`, `y = grad S(p)/2`, and `dr/dp`",

@@ -4,8 +4,8 @@ use std::path::Path;
 
 use proc_macro2::{TokenStream, TokenTree};
 
-use super::{REMEDY, message};
-use crate::compile::{compile_declaration, declared_choices, expand};
+use super::{REMEDY, code, message};
+use crate::compile::{compile_declaration, declared_choices};
 use crate::diagnostic::{Diagnostic, MOST_SHOWN, Origin, Report, not_shown};
 use crate::front::{Body, declaration};
 
@@ -76,11 +76,11 @@ fn declared(place: &str, input: TokenStream) -> Result<Declared, String> {
     report.gate().map_err(refused)?;
     match &parsed.body {
         Some(Body::Declaration(declaration)) => {
-            let mut model = compile_declaration(declaration).map_err(refused)?;
-            model.runtime = parsed.runtime;
+            let structure = compile_declaration(declaration).map_err(refused)?;
+            let choices = declared_choices(&structure);
             Ok(Declared::Code(
-                model.name.clone(),
-                expand(&model, &declared_choices(&model)),
+                structure.name.clone(),
+                code(&structure, &choices, parsed.runtime),
             ))
         }
         Some(Body::Spec { path }) => Ok(Declared::Spec(path.text.clone())),

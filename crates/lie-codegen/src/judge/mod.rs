@@ -18,7 +18,7 @@ mod tests;
 use crate::ast::{Declaration, Energy, Expr};
 use crate::diagnostic::{Origin, Report};
 use crate::front::{Body, spec};
-use crate::model::Model;
+use crate::structure::Structure;
 use kernels::{Expected, Kernels, inputs, known};
 use number::{Jet, Number, Rounded};
 use system::Declared;
@@ -66,18 +66,18 @@ pub struct Judge {
 
 impl Judge {
     /// The judge of a spec that passed its checks, for values of the parameters.
-    pub fn of_spec(text: &str, model: &Model, parameters: &[f64]) -> Option<Self> {
+    pub fn of_spec(text: &str, structure: &Structure, parameters: &[f64]) -> Option<Self> {
         let mut report = Report::new();
         let read = spec::read(text, &mut report);
         report.gate().ok()?;
         let Some(Body::Declaration(declaration)) = read.body else {
             return None;
         };
-        Some(Self::new(&declaration, model, parameters))
+        Some(Self::new(&declaration, structure, parameters))
     }
 
     /// The judge of a declaration that passed its checks.
-    pub fn new(declaration: &Declaration, model: &Model, parameters: &[f64]) -> Self {
+    pub fn new(declaration: &Declaration, structure: &Structure, parameters: &[f64]) -> Self {
         let declared = |origin: Origin| {
             let mut declared = declaration.casimirs.iter().map(|casimir| &casimir.value);
             declared.find(|value| match (value.origin, origin) {
@@ -87,14 +87,14 @@ impl Judge {
             })
         };
         Self {
-            casimirs: model
+            casimirs: structure
                 .casimirs
                 .iter()
                 .filter_map(|c| c.written.clone().or_else(|| declared(c.origin).cloned()))
                 .collect(),
             kernels: Kernels::new(Declared {
                 declaration: declaration.clone(),
-                configuration: model.configuration.clone(),
+                configuration: structure.configuration.clone(),
                 parameters: parameters.to_vec(),
             }),
         }

@@ -2,18 +2,20 @@
 
 use super::{CATALOGUE, Choice, Lift, Pieces, Retraction, Scheme, Tensor};
 use crate::diagnostic::Kind;
-use crate::model::{Bracket, Descent, Discrete, Family, Model};
-use crate::structure::family as pieces;
-use crate::structure::{found, inertia, integrable, lifts, matrices, separable, spins, vectors};
+use crate::model::{Bracket, Descent, Discrete, Model};
+use crate::structure::{
+    Structure, found, inertia, integrable, lifts, matrices, separable, spins, vectors,
+};
 
 /// Why a method does not apply to a system, with the nearest one that does; `None` if it applies.
-pub fn refusal(model: &Model, choice: &Choice) -> Option<(String, String)> {
+pub fn refusal(structure: &Structure, choice: &Choice) -> Option<(String, String)> {
     if let Choice::Compose(_, _, base) = choice {
-        return refusal(model, base);
+        return refusal(structure, base);
     }
-    if let Some(own) = &model.family {
-        return family(model, own, choice);
+    if let Some(pieces) = &structure.family_pieces {
+        return family(pieces.as_ref().err(), choice);
     }
+    let model = &structure.model;
     if let Some(reason) = bracket(model, choice).or_else(|| lagrangian(model, choice)) {
         return Some(reason);
     }
@@ -21,10 +23,13 @@ pub fn refusal(model: &Model, choice: &Choice) -> Option<(String, String)> {
         Choice::DiscreteGradient(_, Tensor::Mean) => tensor(model, choice),
         Choice::Splitting(order, scheme, pieces) => {
             let (why, count) = match pieces {
-                Pieces::Found => (found::refusal(model, *order), found::count(model)),
+                Pieces::Found => (
+                    found::refusal(structure, *order),
+                    structure.splitting.count(),
+                ),
                 Pieces::Coordinate => (
-                    separable::refusal(model, *order),
-                    separable::pieces(model).map_or(0, |pieces| pieces.len()),
+                    separable::refusal(structure, *order),
+                    structure.pieces.as_ref().map_or(0, Vec::len),
                 ),
             };
             why.or_else(|| near_integrable(*order, *scheme, count))
@@ -49,17 +54,17 @@ pub fn refusal(model: &Model, choice: &Choice) -> Option<(String, String)> {
             })
         }
         Choice::Collective(order, Lift::Representation) | Choice::Isospectral(order) => {
-            matrices::refusal(model, *order)
+            matrices::refusal(structure, *order)
         }
         Choice::Collective(order, Lift::Spec) => realization(model, *order),
-        Choice::Collective(order, Lift::Hopf) => spins::refusal(model, Some(*order)),
-        Choice::Exact => integrable::refusal(model),
+        Choice::Collective(order, Lift::Hopf) => spins::refusal(structure, Some(*order)),
+        Choice::Exact => integrable::refusal(structure),
         Choice::Taylor | Choice::LieTaylor => expression(model),
-        Choice::Collective(order, Lift::Quaternion) => vectors::refusal(model, *order),
-        Choice::Collective(order, Lift::Smallest) => lifts::refusal(model, *order),
+        Choice::Collective(order, Lift::Quaternion) => vectors::refusal(structure, *order),
+        Choice::Collective(order, Lift::Smallest) => lifts::refusal(structure, *order),
         Choice::EulerArnold2 => cotangent(model),
-        Choice::SphericalMidpoint => spins::refusal(model, None),
-        Choice::MoserVeselov => inertia::refusal(model),
+        Choice::SphericalMidpoint => spins::refusal(structure, None),
+        Choice::MoserVeselov => inertia::refusal(structure),
         _ => None,
     }
 }
@@ -82,15 +87,15 @@ fn other_scheme(order: u32) -> String {
     format!("use `splitting{order}` with `--composition {name}`, which is for any number of pieces")
 }
 
-/// Why a method does not apply to a family, of which no matrix is kept.
-fn family(model: &Model, family: &Family, choice: &Choice) -> Option<(String, String)> {
+/// Why a method does not apply to a family, of which no matrix is kept; its Hamiltonian may have no pieces, for a reason.
+fn family(no_pieces: Option<&String>, choice: &Choice) -> Option<(String, String)> {
     match choice {
         Choice::Splitting(_, _, Pieces::Coordinate) => Some((
             "the pieces of a family are those of its sums".into(),
             "leave `--pieces` out".into(),
         )),
         Choice::Splitting(order, scheme, _) => {
-            if let Err(why) = pieces::pieces(model, family, &mut model.graph.clone()) {
+            if let Some(why) = no_pieces {
                 let message = format!("H does not consist of pieces with exact flows: {why}");
                 let help = "use `gauss16`, which keeps quadratic Casimirs";
                 return Some((message, help.into()));
@@ -299,7 +304,7 @@ pub fn kind_of_refusal(choice: &Choice) -> Kind {
 }
 
 /// Every method of the catalogue with the reason why it cannot be used, if there is one.
-pub fn applicability(model: &Model) -> Vec<(&'static str, Option<String>)> {
+pub fn applicability(structure: &Structure) -> Vec<(&'static str, Option<String>)> {
     CATALOGUE
         .iter()
         .map(|method| {
@@ -308,7 +313,7 @@ pub fn applicability(model: &Model) -> Vec<(&'static str, Option<String>)> {
                 // the midpoint rule applies to every system
                 _ if composition => None,
                 Err(unusable) => Some(unusable.message),
-                Ok(choice) => refusal(model, &choice).map(|(reason, _)| reason),
+                Ok(choice) => refusal(structure, &choice).map(|(reason, _)| reason),
             };
             (method.id, reason)
         })

@@ -4,6 +4,7 @@
 mod applicability;
 mod choice;
 mod constructor;
+pub mod declared;
 mod options;
 mod table;
 

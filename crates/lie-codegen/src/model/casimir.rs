@@ -1,4 +1,4 @@
-//! The Casimirs of a model, and how the search for them ended.
+//! Casimirs.
 
 use crate::ast::Expr;
 use crate::diagnostic::Origin;
@@ -13,24 +13,6 @@ pub enum CasimirKind {
     Polynomial,
     /// A rational function that was found.
     Rational,
-}
-
-/// How the search for the Casimirs that a declaration lacks ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Search {
-    /// There was nothing to look for, or everything was looked for that is.
-    Complete,
-    /// Polynomials were looked for, and rational functions not: structure constants contain parameters, or brackets constant
-    /// terms.
-    Polynomials,
-    /// Its budget was spent.
-    Spent,
-    /// What it found is too long to be part of a system.
-    Long,
-    /// A rational function that was found is not defined at the initial state, and neither is its reciprocal.
-    Singular,
-    /// It was not made, for a reason.
-    None(&'static str),
 }
 
 /// A Casimir, declared and verified or found; those of a model are functionally independent.

@@ -4,22 +4,21 @@ mod casimir;
 pub mod configuration;
 mod family;
 mod realization;
-mod splitting;
+
+use std::collections::HashSet;
 
 use proc_macro2::TokenStream;
 
 use crate::algebra::{Representation, StructureConstants};
-use crate::ast::Runtime;
 use crate::ast::{Invariance, Name, OwnFunction, RunOption};
-use crate::diagnostic::{Diagnostic, Origin};
+use crate::diagnostic::Origin;
 use crate::exact::{Fraction, Rational};
 use crate::symbolic::{ExprId, Graph, Symbol};
 
-pub use casimir::{Casimir, CasimirKind, Search};
+pub use casimir::{Casimir, CasimirKind};
 pub use configuration::Configuration;
 pub use family::{Family, SiteSum, Size, Start};
 pub use realization::{CANONICAL, Descent, Realization};
-pub use splitting::Kept;
 
 /// A parameter of the system.
 #[derive(Clone, Debug)]
@@ -97,9 +96,6 @@ pub struct Hamiltonian {
     pub energy: ExprId,
     /// Its total degree in the coordinates, where it is a polynomial in them.
     pub degree: Option<u32>,
-    /// The coordinates on which H depends, if H is a sum of functions of one of them each; else two
-    /// that it mixes.
-    pub pieces: Result<Vec<usize>, (usize, usize)>,
 }
 
 /// A reduced Lagrangian.
@@ -205,8 +201,6 @@ pub struct Model {
     pub name_origin: Origin,
     /// Visibility of the generated type.
     pub visibility: TokenStream,
-    /// Where the generated code finds the runtime.
-    pub runtime: Runtime,
     /// Description, by lines of Markdown.
     pub description: Vec<String>,
     /// References, for people, as Markdown within a line.
@@ -225,16 +219,18 @@ pub struct Model {
     pub invariance: Invariance,
     /// Where the equations of motion come from.
     pub energy: Energy,
+    /// Where the Hamiltonian or the Lagrangian stands.
+    pub energy_origin: Origin,
     /// What the coordinates beside mu are, of a system on `T*G` or one that depends on the time.
     pub configuration: Option<Configuration>,
     /// The sums of a family. All else is that of a site, and its Hamiltonian is 0.
     pub family: Option<Family>,
     /// The realization, for collective methods.
     pub realization: Option<Realization>,
-    /// The independent Casimirs, the declared ones first.
-    pub casimirs: Vec<Casimir>,
-    /// How the search for those that were not declared ended.
-    pub search: Search,
+    /// The Casimirs that are declared, those that are functions of others left out.
+    pub declared_casimirs: Vec<Casimir>,
+    /// The names that the declaration uses, so that nothing that is found is called the same.
+    pub taken: HashSet<String>,
     /// Methods that get fused code.
     pub methods: Vec<Name>,
     /// The initial state, expressions in constants and parameters.
@@ -243,14 +239,10 @@ pub struct Model {
     pub initial_origins: Vec<Origin>,
     /// Defaults of the run.
     pub run: Vec<RunOption>,
-    /// Warnings.
-    pub warnings: Vec<Diagnostic>,
     /// Rank of the Poisson matrix at a generic point and for generic values of the parameters.
     pub generic_rank: usize,
     /// Its rank at the initial state, rounded to double precision, with default parameters.
     pub initial_rank: Option<usize>,
-    /// What was found out of the pieces of H.
-    pub kept: Kept,
 }
 
 impl Model {

@@ -10,10 +10,10 @@ use crate::structure::inertia::Body;
 impl Planner<'_> {
     /// The fused equations that are asked for; the others go to the list of generic ones.
     pub(super) fn collective(&mut self, generic: &mut Vec<String>) {
-        if self.source.matrices.is_some() {
+        if self.source.matrices().is_some() {
             self.isospectral(generic);
         }
-        if self.source.spins.is_some() {
+        if self.source.spins().is_some() {
             // with one stage an elimination of its own saves 2% of a step
             generic.push("hopf2".to_owned());
             for stages in 2..=3 {
@@ -28,7 +28,7 @@ impl Planner<'_> {
                 Self::spherical,
             );
         }
-        let body = match &self.source.body {
+        let body = match self.source.body() {
             Some(Body::Three) => Some(("moser_veselov", Partner::DiscreteTop)),
             Some(Body::Many { .. }) => Some(("moser_veselov_n", Partner::DiscreteBody)),
             None => None,
@@ -40,7 +40,7 @@ impl Planner<'_> {
 
     fn isospectral(&mut self, generic: &mut Vec<String>) {
         // with one stage over a closed representation it is the retraction method
-        let closed = self.source.triple.is_some();
+        let closed = self.source.triple().is_some();
         let stages = if closed { 2..=3 } else { 1..=3 };
         if closed {
             generic.push("isospectral2_cayley".to_owned());
@@ -85,7 +85,7 @@ impl Planner<'_> {
 
     fn spherical(&mut self) -> Option<Solver> {
         let kernels = self.source.spherical_kernels()?;
-        let spins = self.source.spins.as_ref().map_or(0, Vec::len);
+        let spins = self.source.spins().map_or(0, <[_]>::len);
         let form = Form {
             docs: &[
                 "The spherical midpoint method, unknown `u = mu1`: `u - mu - h f(w) = 0`,",

@@ -1,7 +1,7 @@
 //! The doc lines of a system.
 
 use crate::model::{Bracket, Model};
-use crate::structure::algebra;
+use crate::structure::Structure;
 
 /// What the bracket is, in words.
 fn bracket_in_words(model: &Model) -> String {
@@ -25,8 +25,8 @@ fn bracket_in_words(model: &Model) -> String {
 }
 
 /// The algebra by name and class; nothing where there is none, or where it is too large for a declaration.
-fn algebra_in_words(model: &Model) -> Option<String> {
-    let report = algebra::report(model, algebra::WORK)?;
+fn algebra_in_words(structure: &Structure) -> Option<String> {
+    let report = structure.algebra.as_ref()?;
     let class = report.class.words();
     let at_defaults = report.at_defaults.is_some();
     let generic = if at_defaults {
@@ -34,7 +34,7 @@ fn algebra_in_words(model: &Model) -> Option<String> {
     } else {
         ""
     };
-    Some(match report.name {
+    Some(match &report.name {
         Ok(name) if at_defaults => {
             format!("The algebra is `{name}` at the default parameters, and {class}{generic}.")
         }
@@ -44,7 +44,8 @@ fn algebra_in_words(model: &Model) -> Option<String> {
 }
 
 /// The doc lines of the generated type: the user's own, then the mathematics.
-pub(super) fn docs(model: &Model) -> Vec<String> {
+pub(super) fn docs(structure: &Structure) -> Vec<String> {
+    let model = &structure.model;
     let mut docs = model.description.clone();
     let names: Vec<&str> = model.coordinates.iter().map(|c| c.text.as_str()).collect();
     docs.push(String::new());
@@ -93,9 +94,9 @@ pub(super) fn docs(model: &Model) -> Vec<String> {
     if let Some(configuration) = &model.configuration {
         docs.push(format!("Coordinates: {}.", configuration.description()));
     }
-    docs.extend(algebra_in_words(model));
-    if !model.casimirs.is_empty() {
-        let casimirs: Vec<String> = model
+    docs.extend(algebra_in_words(structure));
+    if !structure.casimirs.is_empty() {
+        let casimirs: Vec<String> = structure
             .casimirs
             .iter()
             .map(|c| format!("`{} = {}`", c.name, model.display(c.expr)))
@@ -111,7 +112,7 @@ pub(super) fn docs(model: &Model) -> Vec<String> {
         };
         docs.push(format!("Casimirs: {}{missing}.", casimirs.join(", ")));
     }
-    for casimir in model.casimirs.iter().filter(|c| c.multivalued) {
+    for casimir in structure.casimirs.iter().filter(|c| c.multivalued) {
         docs.push(format!(
             "`{}` is multi-valued: it may jump, and its drift is not measured.",
             casimir.name

@@ -58,7 +58,7 @@ impl Planner<'_> {
             p.second_kind()
                 .or_else(|| p.along_function(&SECOND, Generating::Second))
         });
-        if self.source.triple.is_some() {
+        if self.source.triple().is_some() {
             generic.push("generating2_cayley".to_owned());
             let choice = Choice::Generating(4, Retraction::Cayley);
             self.method(

@@ -4,7 +4,7 @@ use super::function::Function;
 use super::planner::Planner;
 use super::structure::{Structure, Vectors};
 use crate::methods::{Choice, Lift};
-use crate::structure::lifts::{self, Smallest};
+use crate::structure::lifts::Smallest;
 
 impl Structure {
     /// The flows on linear spaces.
@@ -25,7 +25,7 @@ impl Structure {
 impl Planner<'_> {
     /// Whether a method that evaluates its stages together on the points of a space is asked for.
     fn lifts(&self, lift: Lift) -> bool {
-        let smallest = match lifts::smallest(self.model) {
+        let smallest = match self.structure.smallest {
             Some(Smallest::Hopf) => Some(Lift::Hopf),
             Some(Smallest::Quaternion) => Some(Lift::Quaternion),
             Some(Smallest::Representation) => Some(Lift::Representation),
@@ -53,7 +53,7 @@ impl Planner<'_> {
     }
 
     pub(super) fn vectors(&mut self) -> Option<Vectors> {
-        let vectors = self.source.vectors.clone()?;
+        let vectors = self.source.vectors()?.clone();
         Some(Vectors {
             rotation: vectors.rotation,
             vectors: vectors.vectors,

@@ -4,6 +4,8 @@ use super::equation::{Chart, Item, Method, Motion, Partner};
 use super::planner::Planner;
 use super::steps::Form;
 use crate::derive::trace::{self, Formulas, Step, Sym, SymbolicSystem};
+use crate::derive::{Kernel, Source};
+use crate::structure::Structure;
 
 /// An implicit method of a user: a type that names it, and an equation over any scalar whose unknown is a state.
 #[derive(Clone, Copy, Debug)]
@@ -23,22 +25,39 @@ pub struct Own {
     pub trace: fn(&SymbolicSystem, Sym) -> Step,
 }
 
-impl Planner<'_> {
-    /// The fused equation of a method that a user wrote.
-    pub(super) fn own(&mut self, own: &Own) -> Result<(), String> {
-        let method = own.method;
-        if self.model.energy.expression().is_none() {
+impl Own {
+    /// Whether the method can be fused with a system.
+    ///
+    /// # Errors
+    /// Why it stays generic.
+    pub fn check(&self, structure: &Structure) -> Result<(), String> {
+        let method = self.method;
+        if structure.energy.expression().is_none() {
             return Err(format!(
                 "`{method}` stays generic: the Hamiltonian of `{}` has no expression",
-                self.model.name
+                structure.name
             ));
         }
-        let kernels = trace::kernels(&mut self.source, &own.formulas, own.trace);
-        let kernels = kernels.ok_or_else(|| {
-            format!(
+        match self.kernels(&mut Source::of(structure)) {
+            Some(_) => Ok(()),
+            None => Err(format!(
                 "`{method}` stays generic: its equation compares numbers, so that it has no formula"
-            )
-        })?;
+            )),
+        }
+    }
+
+    fn kernels(&self, source: &mut Source) -> Option<Vec<Kernel>> {
+        source.energy.expression()?;
+        trace::kernels(source, &self.formulas, self.trace)
+    }
+}
+
+impl Planner<'_> {
+    /// The fused equation of a method that a user wrote, where it has one.
+    pub(super) fn own(&mut self, own: &Own) {
+        let Some(kernels) = own.kernels(&mut self.source) else {
+            return;
+        };
         let form = Form {
             docs: own.docs,
             motion: Motion::Either,
@@ -46,7 +65,7 @@ impl Planner<'_> {
             ..Form::new(own.name, own.name, Partner::Own(own.equation))
         };
         let solver = self.fused(form, &kernels);
-        self.items.push(Item::Method(Method::Own(method), solver));
-        Ok(())
+        self.items
+            .push(Item::Method(Method::Own(own.method), solver));
     }
 }

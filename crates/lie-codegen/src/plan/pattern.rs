@@ -141,7 +141,7 @@ impl Planner<'_> {
     pub(super) fn momenta_pattern(&mut self, lift: Lift) -> Pattern {
         let n = self.source.dimension;
         let hessian = self.hessian_pattern();
-        let spins = self.source.spins.as_deref().unwrap_or_default();
+        let spins = self.source.spins().unwrap_or_default();
         let moves = |row: usize, through: usize| {
             let both = |s: &crate::structure::spins::Spin| {
                 s.coordinates.contains(&row) && s.coordinates.contains(&through)

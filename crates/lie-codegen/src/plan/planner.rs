@@ -5,45 +5,41 @@ use super::equation::{Item, Solver, Unknown};
 use super::names::Names;
 use super::own::Own;
 use super::pattern::Pattern;
-use super::structure::Structure;
+use super::splitting::chosen;
 use super::system::System;
 use super::{Parameter, Plan};
 use crate::derive::Source;
 use crate::methods::Choice;
 use crate::model::Model;
-use crate::structure::{exponential, separable};
+use crate::structure::{Structure, exponential};
 
 /// The plan of a checked system with fused code for these methods; all others run on the generic forms.
-pub fn plan(model: &Model, choices: &[Choice]) -> Plan {
-    if let Some(family) = &model.family {
-        return super::family::plan(model, family);
-    }
-    let (planner, begun) = Planner::begin(model, choices);
-    planner.finish(begun)
+pub fn plan(structure: &Structure, choices: &[Choice]) -> Plan {
+    plan_with(structure, choices, &[])
 }
 
-/// The same with methods that a user wrote.
-///
-/// # Errors
-/// What cannot be traced, with the reason.
-pub fn plan_with(model: &Model, choices: &[Choice], own: &[Own]) -> Result<Plan, String> {
-    let (mut planner, begun) = Planner::begin(model, choices);
-    for method in own {
-        planner.own(method)?;
+/// The same with methods that a user wrote; those that have no formula ([`Own::check`]) stay generic.
+pub fn plan_with(structure: &Structure, choices: &[Choice], own: &[Own]) -> Plan {
+    if let Some(family) = &structure.family {
+        return super::family::plan(structure, family);
     }
-    Ok(planner.finish(begun))
+    let (mut planner, begun) = Planner::begin(structure, choices);
+    for method in own {
+        planner.own(method);
+    }
+    planner.finish(begun)
 }
 
 /// What is planned of the system and the methods of the catalogue.
 struct Begun {
     system: System,
-    structure: Structure,
+    structure: super::Structure,
     generic: Vec<String>,
 }
 
 /// A plan in the making.
 pub(super) struct Planner<'a> {
-    pub(super) model: &'a Model,
+    pub(super) structure: &'a Structure,
     pub(super) source: Source,
     pub(super) names: Names,
     /// The methods whose equations get fused code.
@@ -58,8 +54,8 @@ pub(super) struct Planner<'a> {
 }
 
 impl<'a> Planner<'a> {
-    fn begin(model: &'a Model, choices: &[Choice]) -> (Self, Begun) {
-        let mut planner = Self::new(model, choices);
+    fn begin(structure: &'a Structure, choices: &[Choice]) -> (Self, Begun) {
+        let mut planner = Self::new(structure, choices);
         let begun = Begun {
             system: planner.system(),
             structure: planner.structure(),
@@ -68,24 +64,20 @@ impl<'a> Planner<'a> {
         (planner, begun)
     }
 
-    fn new(model: &'a Model, choices: &[Choice]) -> Self {
-        let mut source = Source::of(model);
+    fn new(structure: &'a Structure, choices: &[Choice]) -> Self {
+        let mut source = Source::of(structure);
         let solved = choices.iter().map(Choice::solved);
-        let mut chosen = solved.clone();
-        if chosen.any(|choice| *choice == Choice::GeneratingSecondKind2) {
-            source.actions = model.bracket.algebra().map(separable::actions);
-        }
         if choices.is_empty() || choices.iter().any(|c| c.solved().follows_exponentials()) {
-            let algebra = model.bracket.algebra();
+            let algebra = structure.bracket.algebra();
             source.exponential = algebra.and_then(|a| exponential::closed_form(&a.exact));
         }
         Self {
-            model,
+            structure,
             source,
-            names: Names::of(model),
+            names: Names::of(structure),
             // without an expression of H there is nothing to fuse
             methods: solved
-                .filter(|_| model.energy.expression().is_some())
+                .filter(|_| structure.energy.expression().is_some())
                 .cloned()
                 .collect(),
             constants: Table::default(),
@@ -102,13 +94,19 @@ impl<'a> Planner<'a> {
             structure,
             generic,
         } = begun;
-        let splitting = self.splitting();
-        let found = self.found();
-        let defaults: Vec<_> = self.model.parameters.iter().map(|p| p.default).collect();
+        let chosen = chosen(self.structure);
+        let splitting = self.splitting(chosen.as_ref());
+        let found = self.found(chosen.as_ref());
+        let defaults: Vec<_> = self
+            .structure
+            .parameters
+            .iter()
+            .map(|p| p.default)
+            .collect();
         let defaults = self.preparation(&defaults);
         let table = std::mem::take(&mut self.constants);
         let constants = self.prepared(&table, "_k");
-        let initial = self.model.initial.as_ref();
+        let initial = self.structure.initial.as_ref();
         let initial = initial.map(|initial| self.preparation(initial));
         let (splitting, generic) = match splitting {
             Some(Ok(splitting)) => (Some(splitting), generic),
@@ -117,8 +115,8 @@ impl<'a> Planner<'a> {
         };
         Plan {
             names: self.names,
-            docs: super::docs::docs(self.model),
-            parameters: parameters(self.model),
+            docs: super::docs::docs(self.structure),
+            parameters: parameters(self.structure),
             defaults,
             initial,
             constants,

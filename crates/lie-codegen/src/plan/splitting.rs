@@ -5,8 +5,8 @@ use super::function::Function;
 use super::planner::Planner;
 use crate::derive::{FoundKernel, Kernel, PieceKernel, Source, Update};
 use crate::methods::{Choice, Pieces};
-use crate::model::Model;
 use crate::schedule::Counts;
+use crate::structure::Structure;
 use crate::structure::found::Chosen;
 
 /// The flows of all pieces.
@@ -81,8 +81,8 @@ impl Found {
 const SERIES: usize = 10_000;
 
 /// The way to split H whose step of order 2 has the fewest operations, and the order of its pieces.
-pub fn chosen(model: &Model) -> Option<Chosen> {
-    let searched = model.splitting();
+pub fn chosen(structure: &Structure) -> Option<Chosen> {
+    let searched = &structure.splitting;
     let first = searched.ways.first()?;
     if first.declared {
         return Some(Chosen {
@@ -91,11 +91,11 @@ pub fn chosen(model: &Model) -> Option<Chosen> {
             costs: vec![0],
         });
     }
-    let source = Source::of(model);
+    let source = Source::of(structure);
     let ways = searched.ways.iter().map(|way| {
         let mut source = source.clone();
-        source.found = Some(way.moved(&searched.graph, &mut source.graph));
-        let kernels = source.found_kernels().unwrap_or_default();
+        let way = way.moved(&searched.graph, &mut source.graph);
+        let kernels = source.found_kernels(&way);
         let costs: Vec<usize> = kernels.iter().map(|k| cost(&mut source, k)).collect();
         let mut order: Vec<usize> = (0..costs.len()).collect();
         order.sort_by_key(|place| costs[*place]);
@@ -147,18 +147,18 @@ impl Planner<'_> {
     /// their directions.
     ///
     /// They come behind all other kernels, whose code does not depend on them then.
-    pub(super) fn found(&mut self) -> Option<Found> {
-        let (found, chosen) = self.model.chosen()?;
+    pub(super) fn found(&mut self, chosen: Option<&Chosen>) -> Option<Found> {
+        let chosen = chosen?;
+        let searched = &self.structure.splitting;
+        let found = &searched.ways[chosen.way];
         if found.declared {
             return Some(Found::Same);
         }
-        let from = &self.model.splitting().graph;
-        self.source.found = Some(found.moved(from, &mut self.source.graph));
-        let found = self.source.found.as_ref()?;
+        let found = found.moved(&searched.graph, &mut self.source.graph);
         let (rest, whole) = (found.rest, found.whole);
         let mut methods = self.methods.iter();
         let fused = methods.any(|choice| matches!(choice, Choice::Splitting(_, _, Pieces::Found)));
-        let kernels = self.source.found_kernels()?;
+        let kernels = self.source.found_kernels(&found);
         let pieces = chosen.order.iter().enumerate();
         let pieces = pieces
             .map(|(place, piece)| self.found_piece(place + 1, &kernels[*piece], fused))
@@ -201,10 +201,13 @@ impl Planner<'_> {
 
     /// The flows where H has pieces: of code of their own where a splitting is asked for, else the key of the generic
     /// ones.
-    pub(super) fn splitting(&mut self) -> Option<Result<Splitting, String>> {
+    pub(super) fn splitting(
+        &mut self,
+        chosen: Option<&Chosen>,
+    ) -> Option<Result<Splitting, String>> {
         let pieces = self.source.splitting_kernels()?;
-        let found = self.model.chosen();
-        let same = found.is_some_and(|(found, _)| found.declared);
+        let ways = &self.structure.splitting.ways;
+        let same = chosen.is_some_and(|chosen| ways[chosen.way].declared);
         let splits = |choice: &Choice| match choice {
             Choice::Splitting(_, _, Pieces::Coordinate) => true,
             Choice::Splitting(_, _, Pieces::Found) => same,

@@ -64,7 +64,7 @@ impl Planner<'_> {
         methods.push((Choice::LieMidpoint(Retraction::Cayley), "cayley"));
         for (choice, key) in methods {
             let cayley = choice == Choice::LieMidpoint(Retraction::Cayley);
-            if cayley && self.source.triple.is_none() {
+            if cayley && self.source.triple().is_none() {
                 continue;
             }
             let asked = self.asked(&choice) || (cayley && self.asked_beside_cayley());
@@ -131,7 +131,7 @@ impl Planner<'_> {
         ];
         for (_, key) in kinds.into_iter().filter(|(present, _)| *present) {
             generic.push(key.to_owned());
-            if self.source.triple.is_some() {
+            if self.source.triple().is_some() {
                 generic.push(format!("{key}_cayley"));
             }
         }
@@ -262,7 +262,7 @@ impl Planner<'_> {
     /// Whether the Cayley map of the representation has poles along real elements.
     pub(super) fn has_poles(&self) -> bool {
         use crate::structure::spectrum::{Spectrum, spectrum};
-        let representation = self.source.matrices.as_ref();
+        let representation = self.source.matrices();
         representation.is_none_or(|r| spectrum(&r.matrices) != Spectrum::Imaginary)
     }
 

@@ -9,7 +9,7 @@ use crate::exact::Rational;
 use crate::methods::Lift;
 use crate::structure::inertia::Body;
 use crate::structure::integrable::Motion;
-use crate::structure::lifts::{self, Smallest};
+use crate::structure::lifts::Smallest;
 use crate::structure::spectrum;
 use crate::structure::vectors::Component;
 use crate::symbolic::ExprId;
@@ -141,17 +141,17 @@ impl Planner<'_> {
             group: self.group(),
             representation: self.representation(),
             spins,
-            motion: self.source.motion,
+            motion: self.source.motion(),
             vectors,
-            smallest: lifts::smallest(self.model),
+            smallest: self.structure.smallest,
             inertia,
-            momenta: self.source.momenta,
+            momenta: self.source.momenta(),
             realization: self.realization(),
         }
     }
 
     fn group(&self) -> Option<Group> {
-        let group = self.source.group.as_ref()?;
+        let group = self.source.group()?;
         Some(Group {
             size: group.size,
             matrices: group.matrices.clone(),
@@ -163,7 +163,7 @@ impl Planner<'_> {
 
     fn representation(&mut self) -> Option<Representation> {
         let flow = self.flow_on(Lift::Representation);
-        let representation = self.source.matrices.as_ref()?;
+        let representation = self.source.matrices()?;
         let dual = representation.dual.as_ref()?;
         let mut all = representation.matrices.iter().chain(dual);
         Some(Representation {
@@ -183,7 +183,7 @@ impl Planner<'_> {
     }
 
     fn spins(&mut self) -> Option<Spins> {
-        let spins = self.source.spins.clone()?;
+        let spins = self.source.spins()?.to_vec();
         Some(Spins {
             coordinates: spins.iter().map(|spin| spin.coordinates).collect(),
             scales: spins.iter().map(|spin| self.value(spin.scale)).collect(),
@@ -192,7 +192,7 @@ impl Planner<'_> {
     }
 
     fn inertia(&mut self) -> Option<Inertia> {
-        let Body::Many { planes, moments } = self.source.body.clone()? else {
+        let Body::Many { planes, moments } = self.source.body()?.clone() else {
             return None;
         };
         Some(Inertia {
@@ -202,7 +202,7 @@ impl Planner<'_> {
     }
 
     fn realization(&mut self) -> Option<Realization> {
-        let realization = self.source.realization.clone()?;
+        let realization = self.source.realization()?;
         let kernels = self.source.realization_kernels()?;
         let functions = self.functions(&kernels);
         let start = realization.start.iter();

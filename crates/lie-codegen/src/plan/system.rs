@@ -80,7 +80,7 @@ impl Planner<'_> {
         let derivatives = self.needs_derivatives();
         let field_alone = self.needs_field_alone();
         // the group element is found by brackets
-        let without_bracket = field_alone && self.source.group.is_none();
+        let without_bracket = field_alone && self.source.group().is_none();
         let kernels = if derivatives {
             self.source.basic_kernels()
         } else {
@@ -110,7 +110,11 @@ impl Planner<'_> {
         System {
             hamiltonian_degree: self.degree_of_h(),
             // of an algebra nothing is said: its Poisson matrix is linear
-            poisson_degree: self.model.bracket.matrix().and_then(|matrix| matrix.degree),
+            poisson_degree: self
+                .structure
+                .bracket
+                .matrix()
+                .and_then(|matrix| matrix.degree),
             casimirs,
             energy: match self.source.energy.expression() {
                 Some(_) => Energy::Expression,
@@ -159,7 +163,7 @@ impl Planner<'_> {
     }
 
     fn casimir_gradients(&mut self, kernels: &[Kernel], by_duals: bool) -> Vec<Casimir> {
-        let model = self.model;
+        let model = self.structure;
         let casimirs = model.casimirs.iter().zip(kernels);
         casimirs
             .map(|(casimir, kernel)| Casimir {

@@ -24,7 +24,7 @@ pub struct Surface {
 }
 
 impl Surface {
-    /// That of a declaration.
+    /// That of a declaration, with the runtime in its usual place.
     pub fn of(model: &Model) -> Self {
         let span = |origin: Origin| match origin {
             Origin::Span(span) => span,
@@ -32,7 +32,7 @@ impl Surface {
         };
         Self {
             visibility: model.visibility.clone(),
-            runtime: model.runtime.clone(),
+            runtime: Runtime::default(),
             name: span(model.name_origin),
             coordinates: match &model.family {
                 Some(family) => vec![Span::call_site(); family.names.len() + family.sums.len()],

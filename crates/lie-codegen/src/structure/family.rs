@@ -2,7 +2,8 @@
 //! each of two sites, on so(3) the exchange of two spins, and functions of sums of functions of one coordinate.
 
 use crate::model::{Family, Model, SiteSum};
-use crate::structure::{separable, spins};
+use crate::structure::separable;
+use crate::structure::spins::Spin;
 use crate::symbolic::{ExprId, Graph, Symbol};
 
 /// A piece, the same for all sites that it goes over.
@@ -30,6 +31,37 @@ pub enum Form {
     Exchange(ExprId),
 }
 
+/// The pieces of a Hamiltonian.
+#[derive(Clone, Debug)]
+pub struct Pieces {
+    /// The arena of their expressions, which has those of the model.
+    pub graph: Graph,
+    /// The pieces.
+    pub pieces: Vec<Piece>,
+}
+
+impl Pieces {
+    /// The pieces in another arena.
+    pub fn moved(&self, to: &mut Graph) -> Vec<Piece> {
+        let mut all = self.pieces.clone();
+        let mut ids: Vec<&mut ExprId> = Vec::new();
+        for piece in &mut all {
+            match &mut piece.form {
+                Form::Site(_, id) | Form::Product(_, id) | Form::Exchange(id) => ids.push(id),
+                Form::Collective(_, id, shares) => {
+                    ids.push(id);
+                    ids.extend(shares.iter_mut().map(|(_, share)| share));
+                }
+            }
+        }
+        let roots: Vec<ExprId> = ids.iter().map(|id| **id).collect();
+        for (id, image) in ids.into_iter().zip(to.import(&self.graph, &roots)) {
+            *id = image;
+        }
+        all
+    }
+}
+
 impl Piece {
     /// What it is, in the names of the coordinates.
     pub fn describe(&self, model: &Model) -> String {
@@ -47,15 +79,17 @@ impl Piece {
     }
 }
 
-/// The pieces, or why H does not consist of such; their expressions are in the arena, which has those of the model.
+/// The pieces, or why H does not consist of such.
 ///
 /// # Errors
 /// The reason.
-pub fn pieces(model: &Model, family: &Family, graph: &mut Graph) -> Result<Vec<Piece>, String> {
+pub fn pieces(model: &Model, family: &Family, spins: Option<&[Spin]>) -> Result<Pieces, String> {
+    let mut graph = model.graph.clone();
     let mut search = Search {
         model,
         family,
-        graph,
+        spins,
+        graph: &mut graph,
         found: Vec::new(),
     };
     search.collective()?;
@@ -78,12 +112,16 @@ pub fn pieces(model: &Model, family: &Family, graph: &mut Graph) -> Result<Vec<P
             ));
         }
     }
-    Ok(found)
+    Ok(Pieces {
+        graph,
+        pieces: found,
+    })
 }
 
 struct Search<'a> {
     model: &'a Model,
     family: &'a Family,
+    spins: Option<&'a [Spin]>,
     graph: &'a mut Graph,
     found: Vec<Piece>,
 }
@@ -259,8 +297,7 @@ impl Search<'_> {
 
     /// The rate of an exchange that leaves fewer products than there were, which are taken out.
     fn exchange(&mut self, factors: &mut Vec<([usize; 2], ExprId)>) -> Option<ExprId> {
-        let spins = spins::spins(self.model)?;
-        let [spin] = spins.as_slice() else {
+        let [spin] = self.spins? else {
             return None;
         };
         let zero = self.graph.integer(0);

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::Structure;
 use crate::ast::Invariance;
 use crate::exact::Rational;
 use crate::model::{Bracket, Model};
@@ -79,10 +80,10 @@ pub fn group(model: &Model) -> Option<Group> {
 }
 
 /// Why a chart of the group cannot be had, with a remedy.
-pub fn refusal(model: &Model, quaternion: bool) -> Option<(String, String)> {
-    let Some(group) = group(model) else {
-        return Some(match &model.bracket {
-            _ if model.family.is_some() => (
+pub fn refusal(structure: &Structure, quaternion: bool) -> Option<(String, String)> {
+    let Some(group) = &structure.group else {
+        return Some(match &structure.bracket {
+            _ if structure.family.is_some() => (
                 "the group elements of the sites of a family are not followed".into(),
                 "leave the option out".into(),
             ),
@@ -110,7 +111,6 @@ pub fn refusal(model: &Model, quaternion: bool) -> Option<(String, String)> {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use crate::compile::compile_spec;
 
     #[test]
@@ -118,7 +118,7 @@ mod tests {
         let turns = |name: &str| {
             let path = format!("{}/../../specs/{name}.json", env!("CARGO_MANIFEST_DIR"));
             let model = compile_spec(&std::fs::read_to_string(path).unwrap()).unwrap();
-            group(&model).unwrap().turns_space()
+            model.group.unwrap().turns_space()
         };
         // the last has translations in a fourth column
         for name in ["so3_free_rigid_body", "se3_heavy_top"] {

@@ -6,6 +6,8 @@
 //! `1/a_ij = J_i + J_j`, identically in the parameters; it is proven by the normal form that verifies
 //! Casimirs.
 
+use super::Structure;
+use super::spins::Spin;
 use crate::exact::{Budget, Rational};
 use crate::model::Model;
 use crate::prove::normal::{NormalForm, Verdict};
@@ -43,9 +45,8 @@ pub enum Other {
 ///
 /// # Errors
 /// Why it is none.
-pub fn body(model: &Model, graph: &mut Graph) -> Result<Body, Other> {
-    let spins = super::spins::spins(model);
-    let planes = match &spins {
+pub fn body(model: &Model, spins: Option<&[Spin]>, graph: &mut Graph) -> Result<Body, Other> {
+    let planes = match spins {
         Some(spins) if spins.len() == 1 => None,
         _ => Some(planes(model).ok_or(Other::Algebra)?),
     };
@@ -210,9 +211,9 @@ fn verified(planes: &[(usize, usize)], table: &[Vec<Option<(usize, i32)>>]) -> b
 }
 
 /// Why the discrete rigid body does not apply, with the nearest method that does.
-pub fn refusal(model: &Model) -> Option<(String, String)> {
-    let other = body(model, &mut model.graph.clone()).err()?;
-    let reason = match (other, &model.configuration) {
+pub fn refusal(structure: &Structure) -> Option<(String, String)> {
+    let other = structure.body.as_ref().err()?;
+    let reason = match (other, &structure.configuration) {
         (Other::Algebra, Some(configuration)) => configuration.refusal(),
         (Other::Algebra, None) => {
             "it needs so(3) in a basis with [e1, e2] = c e3 and cyclic, or so(n) in a basis of \
@@ -236,30 +237,26 @@ mod tests {
     use super::*;
     use crate::compile::compile_spec;
 
-    fn spec(name: &str) -> Model {
+    fn spec(name: &str) -> Structure {
         let path = format!("{}/../../specs/{name}.json", env!("CARGO_MANIFEST_DIR"));
         let text = std::fs::read_to_string(path).expect("the spec");
         compile_spec(&text).expect("a sound spec")
     }
 
-    fn of(model: &Model) -> Result<Body, Other> {
-        body(model, &mut model.graph.clone())
-    }
-
     #[test]
     fn moments_of_the_manakov_top_are_its_parameters() {
         let model = spec("so4_manakov");
-        let mut graph = model.graph.clone();
-        let Ok(Body::Many { planes, moments }) = body(&model, &mut graph) else {
-            panic!("{:?}", of(&model));
+        let Ok(Body::Many { planes, moments }) = &model.body else {
+            panic!("{:?}", model.body);
         };
+        let mut graph = model.graph.clone();
         let basis = ["E12", "E13", "E14", "E23", "E24", "E34"];
-        for (name, (from, to)) in basis.iter().zip(&planes) {
+        for (name, (from, to)) in basis.iter().zip(planes) {
             assert_eq!(*name, format!("E{}{}", from + 1, to + 1));
         }
-        for (axis, moment) in moments.into_iter().enumerate() {
+        for (axis, moment) in moments.iter().enumerate() {
             let parameter = graph.symbol(Symbol::Parameter(axis));
-            let rest = graph.sub(moment, parameter);
+            let rest = graph.sub(*moment, parameter);
             let budget = Budget::new(WORK);
             let verdict = NormalForm::new(&graph, &budget).verdict(rest);
             assert!(matches!(verdict, Verdict::Zero));
@@ -268,10 +265,10 @@ mod tests {
 
     #[test]
     fn other_systems_are_refused_for_their_reason() {
-        assert_eq!(of(&spec("so3_free_rigid_body")), Ok(Body::Three));
-        assert_eq!(of(&spec("so3_nonpolynomial")), Err(Other::NotDiagonal));
-        assert_eq!(of(&spec("se3_heavy_top")), Err(Other::Algebra));
-        assert_eq!(of(&spec("su3_quadratic")), Err(Other::Algebra));
-        assert_eq!(of(&spec("sl2_quadratic")), Err(Other::Algebra));
+        assert_eq!(spec("so3_free_rigid_body").body, Ok(Body::Three));
+        assert_eq!(spec("so3_nonpolynomial").body, Err(Other::NotDiagonal));
+        assert_eq!(spec("se3_heavy_top").body, Err(Other::Algebra));
+        assert_eq!(spec("su3_quadratic").body, Err(Other::Algebra));
+        assert_eq!(spec("sl2_quadratic").body, Err(Other::Algebra));
     }
 }

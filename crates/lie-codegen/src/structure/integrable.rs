@@ -9,7 +9,8 @@ use crate::model::{Algebra, Model};
 use crate::prove::normal::{NormalForm, Verdict};
 use crate::symbolic::{ExprId, Graph, Symbol};
 
-use super::spins;
+use super::Structure;
+use super::spins::Spin;
 
 /// Work allowed for the identities of one Hamiltonian.
 const WORK: u64 = 500_000;
@@ -24,7 +25,7 @@ pub enum Motion {
 }
 
 /// The flow of a system, where it is known.
-pub fn motion(model: &Model) -> Option<Motion> {
+pub fn motion(model: &Model, spins: Option<&[Spin]>) -> Option<Motion> {
     let algebra = model.bracket.algebra()?;
     let mut graph = model.graph.clone();
     let hamiltonian = model.energy.expression()?;
@@ -35,7 +36,7 @@ pub fn motion(model: &Model) -> Option<Motion> {
     if linear || commute(&graph, algebra, &slopes) {
         return Some(Motion::Uniform);
     }
-    (hamiltonian.degree == Some(2) && are_bodies(model, &mut graph, &slopes))
+    (hamiltonian.degree == Some(2) && are_bodies(spins, &mut graph, &slopes))
         .then_some(Motion::Bodies)
 }
 
@@ -47,8 +48,8 @@ fn commute(graph: &Graph, algebra: &Algebra, slopes: &[ExprId]) -> bool {
 }
 
 /// Whether H is a quadratic form, up to a constant, that does not couple the factors so(3).
-fn are_bodies(model: &Model, graph: &mut Graph, slopes: &[ExprId]) -> bool {
-    let Some(spins) = spins::spins(model) else {
+fn are_bodies(spins: Option<&[Spin]>, graph: &mut Graph, slopes: &[ExprId]) -> bool {
+    let Some(spins) = spins else {
         return false;
     };
     let body_of = |i: usize| spins.iter().position(|spin| spin.coordinates.contains(&i));
@@ -79,8 +80,8 @@ fn are_bodies(model: &Model, graph: &mut Graph, slopes: &[ExprId]) -> bool {
 }
 
 /// Why the flow is not known, with the nearest method.
-pub fn refusal(model: &Model) -> Option<(String, String)> {
-    motion(model).is_none().then(|| {
+pub fn refusal(structure: &Structure) -> Option<(String, String)> {
+    structure.motion.is_none().then(|| {
         let reason = "no closed form of the flow is known: it is for a direct sum of algebras so(3) in a basis with \
                       [e1, e2] = c e3 and its cyclic permutations and a quadratic form H that does not couple them, and for H \
                       that is linear or contains only coordinates that commute";

@@ -4,7 +4,9 @@ use crate::exact::Rational;
 use crate::model::Model;
 use crate::symbolic::{ExprId, Graph, Symbol};
 
-use super::{matrices, spins, vectors};
+use super::spins::Spin;
+use super::vectors::{Component, Vectors};
+use super::{Structure, matrices};
 
 /// The smallest space over a system that carries collective methods.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -29,10 +31,14 @@ impl Smallest {
 }
 
 /// The smallest space, if there is one.
-pub fn smallest(model: &Model) -> Option<Smallest> {
-    if spins::spins(model).is_some() {
+pub fn smallest(
+    model: &Model,
+    spins: Option<&[Spin]>,
+    vectors: Option<&Vectors>,
+) -> Option<Smallest> {
+    if spins.is_some() {
         Some(Smallest::Hopf)
-    } else if vectors::vectors(model).is_some() {
+    } else if vectors.is_some() {
         Some(Smallest::Quaternion)
     } else {
         let representation = model.bracket.representation()?;
@@ -42,23 +48,23 @@ pub fn smallest(model: &Model) -> Option<Smallest> {
 }
 
 /// Why collective methods of an order have no space to go over, with the nearest method that does without.
-pub fn refusal(model: &Model, order: u32) -> Option<(String, String)> {
-    if smallest(model).is_some() {
+pub fn refusal(structure: &Structure, order: u32) -> Option<(String, String)> {
+    if structure.smallest.is_some() {
         return None;
     }
-    let reason = match (&model.configuration, model.bracket.representation()) {
+    let reason = match (&structure.configuration, structure.bracket.representation()) {
         (Some(configuration), _) => configuration.refusal().to_owned(),
         (None, None) => "it needs a direct sum of algebras so(3), or so(3) with vectors that commute, in a basis with \
              [e1, e2] = c e3 and its cyclic permutations, or a matrix representation, and the algebra declares no `matrices`"
             .into(),
-        (None, Some(_)) => return matrices::refusal(model, order),
+        (None, Some(_)) => return matrices::refusal(structure, order),
     };
-    Some((reason, nearest(model, order)))
+    Some((reason, nearest(structure, order)))
 }
 
 /// What to use instead of a collective method of an order whose space there is not.
-pub(super) fn nearest(model: &Model, order: u32) -> String {
-    match smallest(model) {
+pub(super) fn nearest(structure: &Structure, order: u32) -> String {
+    match structure.smallest {
         Some(_) => format!("use `collective{order}` without `--lift`: it takes the smallest space that there is"),
         None if order > 8 => {
             "use `compose8(lie-midpoint)`, or `gauss16`, which is not a Poisson map but keeps quadratic Casimirs".into()
@@ -75,12 +81,16 @@ type Pairing = Vec<(ExprId, ExprId)>;
 /// It moves the same states, but another point over them: the field on the space is shorter, and its motion slower. The
 /// multiple of each quadratic Casimir is the coefficient of one of its terms in H. Of those that remove most, it is that
 /// which leaves the others smallest at the default parameters.
-pub fn gauge(model: &Model, graph: &mut Graph) -> Option<ExprId> {
+pub fn gauge(
+    model: &Model,
+    (spins, vectors): (Option<&[Spin]>, Option<&Vectors>),
+    graph: &mut Graph,
+) -> Option<ExprId> {
     let hamiltonian = model.energy.expression()?.value;
     let n = model.dimension();
     let start = graph.normal(hamiltonian);
     let mut value = start;
-    for pairing in pairings(model, graph) {
+    for pairing in pairings((spins, vectors), graph) {
         let slopes: Vec<ExprId> = pairing
             .iter()
             .map(|pair| coefficient(graph, value, *pair))
@@ -116,9 +126,12 @@ pub fn gauge(model: &Model, graph: &mut Graph) -> Option<ExprId> {
 }
 
 /// The quadratic Casimirs that are known: squares of spins, products of vectors, and the momentum along a single one.
-fn pairings(model: &Model, graph: &mut Graph) -> Vec<Pairing> {
+fn pairings(
+    (spins, vectors): (Option<&[Spin]>, Option<&Vectors>),
+    graph: &mut Graph,
+) -> Vec<Pairing> {
     let symbol = |graph: &mut Graph, k: usize| graph.symbol(Symbol::Coordinate(k));
-    if let Some(spins) = spins::spins(model) {
+    if let Some(spins) = spins {
         let pairs = spins.iter().map(|spin| {
             let pair = |k: &usize| {
                 let x = symbol(graph, *k);
@@ -128,12 +141,12 @@ fn pairings(model: &Model, graph: &mut Graph) -> Vec<Pairing> {
         });
         return pairs.collect();
     }
-    let Some(found) = vectors::vectors(model) else {
+    let Some(found) = vectors else {
         return Vec::new();
     };
     let mut rows: Vec<Vec<ExprId>> = Vec::new();
     for vector in &found.vectors {
-        let component = |(k, factor): &vectors::Component| {
+        let component = |(k, factor): &Component| {
             let x = graph.symbol(Symbol::Coordinate(*k));
             graph.scale(x, &(Rational::ONE / factor.clone()))
         };

@@ -1,23 +1,23 @@
 //! Representations that carry collective and isospectral methods.
 
-use crate::model::Model;
+use super::Structure;
 
 /// Why a collective or isospectral method in the declared representation does not apply, with the
 /// nearest one that does.
-pub fn refusal(model: &Model, order: u32) -> Option<(String, String)> {
+pub fn refusal(structure: &Structure, order: u32) -> Option<(String, String)> {
     let nearest = |also: &str| {
         let remedy = match order {
             2 => "use `lie-midpoint`, which works for every Lie algebra".to_owned(),
-            8.. => super::lifts::nearest(model, order),
+            8.. => super::lifts::nearest(structure, order),
             order => {
                 format!("use `compose{order}(lie-midpoint)`, which works for every Lie algebra")
             }
         };
         format!("{remedy}{also}")
     };
-    match model.bracket.representation() {
+    match structure.bracket.representation() {
         None => {
-            let spins = super::spins::spins(model).is_some();
+            let spins = structure.spins.is_some();
             let hopf = format!(", or `collective{order} --lift hopf`");
             Some((
                 "it needs a matrix representation, and the algebra declares no `matrices`".into(),

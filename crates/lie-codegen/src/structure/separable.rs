@@ -4,9 +4,10 @@
 //! H is such a sum exactly if its mixed second derivatives vanish. Each is proven to be zero by the
 //! normal form that verifies Casimirs; one that cannot be is taken for one that is not.
 
+use super::Structure;
 use super::one_parameter::{self, Block, Entry};
 use crate::exact::Budget;
-use crate::model::{Algebra, Model};
+use crate::model::Algebra;
 use crate::prove::confirmation::{Confirmation, Finding};
 use crate::prove::normal::{NormalForm, Verdict};
 use crate::symbolic::{ExprId, Graph, Symbol};
@@ -65,15 +66,8 @@ pub fn coordinates(
     Ok((0..dimension).filter(moves).collect())
 }
 
-/// The pieces with their flows, if H is such a sum; elements that act as zero are left out.
-pub fn pieces(model: &Model) -> Option<Vec<Piece>> {
-    let algebra = model.bracket.algebra()?;
-    let coordinates = model.energy.expression()?.pieces.as_ref().ok()?;
-    Some(moving(algebra, coordinates))
-}
-
 /// The pieces in some coordinates, without those whose elements act as zero.
-fn moving(algebra: &Algebra, coordinates: &[usize]) -> Vec<Piece> {
+pub fn pieces(algebra: &Algebra, coordinates: &[usize]) -> Vec<Piece> {
     let mut pieces = Vec::new();
     for &coordinate in coordinates {
         let entries = action(algebra, coordinate);
@@ -98,22 +92,26 @@ pub(super) fn action(algebra: &Algebra, coordinate: usize) -> Vec<Entry> {
         .collect()
 }
 
-/// The closed form of `exp(s ad*_(e_i))` for each basis element that has one.
+/// The closed form of `exp(s ad*_(e_i))`, where it has one.
+pub fn action_of(algebra: &Algebra, coordinate: usize) -> Option<Vec<Block>> {
+    one_parameter::closed_form(&action(algebra, coordinate))
+}
+
+/// The same for each basis element.
 pub fn actions(algebra: &Algebra) -> Vec<Option<Vec<Block>>> {
-    (0..algebra.basis.len())
-        .map(|i| one_parameter::closed_form(&action(algebra, i)))
-        .collect()
+    let elements = 0..algebra.basis.len();
+    elements.map(|i| action_of(algebra, i)).collect()
 }
 
 /// Why H cannot be split by coordinates, with the nearest method for each order.
-pub fn refusal(model: &Model, order: u32) -> Option<(String, String)> {
-    let Some(hamiltonian) = model.energy.expression() else {
+pub fn refusal(structure: &Structure, order: u32) -> Option<(String, String)> {
+    let Some(coordinates) = &structure.separable else {
         let reason = "the Hamiltonian is not a sum of functions of one coordinate each: it is the Legendre transform \
                       of a Lagrangian that is not quadratic";
         return Some((reason.to_owned(), nearest(order)));
     };
-    let (i, j) = hamiltonian.pieces.clone().err()?;
-    let name = |i: usize| &model.coordinates[i].text;
+    let (i, j) = *coordinates.as_ref().err()?;
+    let name = |i: usize| &structure.coordinates[i].text;
     let reason = format!(
         "the Hamiltonian is not a sum of functions of one coordinate each: it mixes `{}` and `{}`",
         name(i),

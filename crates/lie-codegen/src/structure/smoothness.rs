@@ -1,5 +1,7 @@
 //! How smooth the Hamiltonian of a system is, and its Lagrangian.
 
+use super::Structure;
+use crate::diagnostic::{Diagnostic, Kind, Report};
 use crate::model::{Family, Model};
 use crate::prove::joints::{Joint, of_function};
 use crate::symbolic::Symbol;
@@ -32,4 +34,36 @@ fn of_family(model: &Model, family: &Family) -> Vec<Joint> {
         }
     }
     all
+}
+
+/// Warns of joints at which the Hamiltonian or its gradient jumps: there a method has next to no order.
+pub fn check(structure: &Structure, report: &mut Report) {
+    for (message, help) in structure.joints.iter().filter_map(warning) {
+        report.push(
+            Diagnostic::new(Kind::Smoothness, structure.energy_origin, message)
+                .help(help)
+                .warning(),
+        );
+    }
+}
+
+fn warning(joint: &Joint) -> Option<(String, &'static str)> {
+    let place = &joint.place;
+    match joint.jump? {
+        0 => Some((
+            format!(
+                "the function jumps where {place}: no energy is kept across it, no method has an order there, and `taylor` and `lie-taylor` \
+                 go on as if it were not there"
+            ),
+            "make the branches equal where they meet",
+        )),
+        1 => Some((
+            format!(
+                "the gradient jumps where {place}: a method that crosses it has order 1 there, but `taylor` and `lie-taylor`, which go on as if \
+                 it were not there"
+            ),
+            "make the derivatives of the branches equal where they meet, or round the corner off: `sqrt(x^2 + a^2)` for `abs(x)`",
+        )),
+        _ => None,
+    }
 }

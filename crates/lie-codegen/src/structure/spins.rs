@@ -1,5 +1,6 @@
 //! Direct sums of algebras so(3) in bases with `[e_i, e_j] = c e_k` and its cyclic permutations.
 
+use super::Structure;
 use crate::exact::Budget;
 use crate::model::Model;
 use crate::symbolic::ExprId;
@@ -56,11 +57,11 @@ pub fn spins(model: &Model) -> Option<Vec<Spin>> {
 }
 
 /// Why a method for spins does not apply, with the nearest one that does.
-pub fn refusal(model: &Model, hopf: Option<u32>) -> Option<(String, String)> {
-    if spins(model).is_some() {
+pub fn refusal(structure: &Structure, hopf: Option<u32>) -> Option<(String, String)> {
+    if structure.spins.is_some() {
         return None;
     }
-    let reason = match &model.configuration {
+    let reason = match &structure.configuration {
         Some(configuration) => configuration.refusal(),
         None => {
             "it needs so(3), or a direct sum of algebras so(3), in a basis with [e1, e2] = c e3 and its \
@@ -68,10 +69,10 @@ pub fn refusal(model: &Model, hopf: Option<u32>) -> Option<(String, String)> {
         }
     };
     let remedy = match hopf {
-        Some(order) if order <= 6 && super::matrices::refusal(model, order).is_none() => {
+        Some(order) if order <= 6 && super::matrices::refusal(structure, order).is_none() => {
             format!("use `collective{order}` with `--lift representation`")
         }
-        Some(order) if order >= 8 => super::lifts::nearest(model, order),
+        Some(order) if order >= 8 => super::lifts::nearest(structure, order),
         Some(order) if order > 2 => {
             format!("use `compose{order}(lie-midpoint)`, which works for every Lie algebra")
         }

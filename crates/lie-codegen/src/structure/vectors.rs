@@ -1,6 +1,7 @@
 //! so(3) with vectors: a basis `J_1, J_2, J_3` and triples `V_1, V_2, V_3` that commute, with `[J_1, J_2] = c J_3`,
 //! `[J_1, V_2] = c V_3` and its cyclic permutations. Each `V_j` is a multiple of a basis element.
 
+use super::Structure;
 use crate::algebra::StructureConstants;
 use crate::exact::{Budget, Fraction, Rational};
 use crate::model::Model;
@@ -152,11 +153,11 @@ pub fn vectors(model: &Model) -> Option<Vectors> {
 }
 
 /// Why the lift to quaternions does not apply, with the nearest method that does.
-pub fn refusal(model: &Model, order: u32) -> Option<(String, String)> {
-    if vectors(model).is_some() {
+pub fn refusal(structure: &Structure, order: u32) -> Option<(String, String)> {
+    if structure.vectors.is_some() {
         return None;
     }
     let reason = "the lift `quaternion` needs so(3) with vectors that commute, such as se(3), in a basis with \
                   [J1, J2] = c J3, [J1, P2] = c P3 and cyclic permutations";
-    Some((reason.into(), super::lifts::nearest(model, order)))
+    Some((reason.into(), super::lifts::nearest(structure, order)))
 }

@@ -94,7 +94,7 @@ fn equations_have_their_derivatives_and_their_order() {
 fn the_discrete_body_in_four_dimensions() {
     let mut system = System::spec("so4_manakov");
     let kernels = system.source.discrete_body_kernels().expect("a body");
-    let Some(Body::Many { planes, .. }) = system.source.body.clone() else {
+    let Some(Body::Many { planes, .. }) = system.source.body().cloned() else {
         panic!("a body in four dimensions")
     };
     let basic = system.source.basic_kernels();

@@ -4,7 +4,6 @@ use std::collections::HashMap;
 
 use lie_codegen::compile::compile_spec;
 use lie_codegen::derive::{Kernel, Shape, Source};
-use lie_codegen::structure::separable;
 use lie_codegen::symbolic::Symbol;
 
 pub struct System {
@@ -22,9 +21,6 @@ impl System {
     pub fn of(name: &str, text: &str) -> Self {
         let model = compile_spec(text).expect("a sound declaration");
         let mut source = Source::of(&model);
-        if model.is_lie_poisson() {
-            source.actions = model.bracket.algebra().map(separable::actions);
-        }
         let basic = source.basic_kernels();
         let find = |name| basic.iter().find(|k| k.name == name).expect(name).clone();
         Self {
@@ -128,7 +124,7 @@ impl System {
                 .sum::<f64>()
                 .sqrt();
         let mut ratios = Vec::new();
-        for spin in self.source.spins.iter().flatten() {
+        for spin in self.source.spins().into_iter().flatten() {
             let size = |value: &dyn Fn(usize) -> f64| {
                 spin.coordinates
                     .iter()

@@ -5,7 +5,7 @@ mod latex;
 use lie_codegen::ast::{Expr, ExprKind, Index};
 use lie_codegen::diagnostic::Report;
 use lie_codegen::front::{Names, PIECEWISE, parse_expression_text};
-use lie_codegen::model::Model;
+use lie_codegen::structure::Structure;
 
 pub use latex::Latex;
 
@@ -93,7 +93,7 @@ enum Binding {
 }
 
 /// The names that formulas of a system contain.
-pub fn names(model: &Model) -> Names {
+pub fn names(model: &Structure) -> Names {
     let coordinates = model.coordinates.iter().map(|name| name.text.clone());
     let parameters = model
         .parameters

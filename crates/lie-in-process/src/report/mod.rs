@@ -5,35 +5,26 @@ pub mod motions;
 pub mod splitting;
 mod structure;
 
-use lie_codegen::check::{Effort, motions as search};
 use lie_codegen::compile;
 use lie_codegen::methods::applicability;
-use lie_codegen::model::{CasimirKind, Model};
-use lie_codegen::prove::joints::Joint;
-use lie_codegen::structure::algebra;
-use lie_codegen::structure::smoothness;
+use lie_codegen::model::CasimirKind;
+use lie_codegen::structure::Structure;
 use serde_json::{Value, json};
 use splitting::Splitting;
 
-/// What is found beside the model.
+/// What follows from the structure of a system.
 pub struct Report {
     /// Kernel, additions, multiplications, divisions, calls.
     pub operations: Vec<(String, [usize; 4])>,
     /// Every method, with the reason where it does not apply.
     pub methods: Vec<(&'static str, Option<String>)>,
-    /// Class, series and name of the algebra; none of brackets that are not linear.
-    pub algebra: Option<algebra::Report>,
-    /// Constants of the motion, or why none were looked for.
-    pub motions: Result<search::Motions, &'static str>,
     /// The pieces of H whose flows are exact, or why there are none.
     pub splitting: Result<Splitting, String>,
-    /// Where branches of H meet.
-    pub joints: Vec<Joint>,
 }
 
 impl Report {
-    /// Everything is found that `effort` allows.
-    pub fn on(model: &Model, effort: Effort) -> Self {
+    /// The methods, and what their code costs.
+    pub fn on(model: &Structure) -> Self {
         let plan = lie_codegen::plan::plan(model, &compile::declared_choices(model));
         let operations = plan
             .counts()
@@ -43,21 +34,12 @@ impl Report {
         Self {
             operations,
             methods: applicability(model),
-            algebra: algebra::report(model, algebra::DEEP),
-            motions: search::find(
-                model,
-                match effort {
-                    Effort::Declaration | Effort::Report => search::WORK,
-                    Effort::Deep => search::DEEP,
-                },
-            ),
             splitting: splitting::of(model),
-            joints: smoothness::joints(model),
         }
     }
 
     /// The report for programs: the object of `lie check --json`.
-    pub fn json(&self, model: &Model) -> Value {
+    pub fn json(&self, model: &Structure) -> Value {
         let casimirs: Vec<Value> = model
             .casimirs
             .iter()
@@ -97,15 +79,15 @@ impl Report {
             "initial_rank": model.initial_rank,
             "casimirs": casimirs,
             "independent_casimirs": sites * (model.dimension() - model.generic_rank),
-            "constants_of_motion": motions::json(model, &self.motions),
-            "class": self.algebra.as_ref().map(|report| structure::class(&report.class)),
-            "algebra_name": self.algebra.as_ref().and_then(|report| report.name.as_ref().ok()),
-            "series": self.algebra.as_ref().map(|report| structure::series(&report.series)),
-            "killing": self.algebra.as_ref().map(structure::killing),
+            "constants_of_motion": motions::json(model),
+            "class": model.algebra.as_ref().map(|report| structure::class(&report.class)),
+            "algebra_name": model.algebra.as_ref().and_then(|report| report.name.as_ref().ok()),
+            "series": model.algebra.as_ref().map(|report| structure::series(&report.series)),
+            "killing": model.algebra.as_ref().map(structure::killing),
             "splitting": splitting::json(&self.splitting),
             "splitting_cost": splitting::cost(&self.splitting),
-            "joints": joints::json(&self.joints),
-            "orders": joints::orders(&self.joints, &self.methods),
+            "joints": joints::json(&model.joints),
+            "orders": joints::orders(&model.joints, &self.methods),
             "operations": operations,
             "methods": methods,
         })
@@ -113,6 +95,6 @@ impl Report {
 }
 
 /// Rows and columns of a family with its default parameters.
-pub fn sites(model: &Model) -> Option<[usize; 2]> {
+pub fn sites(model: &Structure) -> Option<[usize; 2]> {
     model.family.as_ref()?.sites(&model.defaults())
 }

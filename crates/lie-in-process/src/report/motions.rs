@@ -1,11 +1,11 @@
 //! Constants of the motion.
 
-use lie_codegen::check::motions::Motions;
-use lie_codegen::model::Model;
+use lie_codegen::structure::Structure;
+use lie_codegen::structure::motions::Motions;
 use serde_json::{Value, json};
 
 /// The functions in the names of the declaration, with their degrees.
-pub fn named(model: &Model, motions: &Motions) -> Vec<(String, u32)> {
+pub fn named(model: &Structure, motions: &Motions) -> Vec<(String, u32)> {
     let name = |v: usize| match v.checked_sub(model.dimension()) {
         Some(parameter) => model.parameters[parameter].name.clone(),
         None => model.coordinates[v].text.clone(),
@@ -17,8 +17,8 @@ pub fn named(model: &Model, motions: &Motions) -> Vec<(String, u32)> {
 }
 
 /// The constants for programs; null where none were looked for.
-pub(super) fn json(model: &Model, motions: &Result<Motions, &'static str>) -> Value {
-    let Ok(motions) = motions else {
+pub(super) fn json(model: &Structure) -> Value {
+    let Some(Ok(motions)) = &model.motions else {
         return Value::Null;
     };
     let found = named(model, motions);

@@ -1,8 +1,8 @@
 //! The pieces of H whose flows are exact.
 
 use lie_codegen::methods::{Choice, Pieces, Scheme, refusal};
-use lie_codegen::model::Model;
-use lie_codegen::structure::family;
+use lie_codegen::plan::chosen;
+use lie_codegen::structure::Structure;
 use lie_codegen::structure::found::{self, Terms};
 use serde_json::{Value, json};
 
@@ -18,11 +18,12 @@ pub struct Splitting {
 ///
 /// # Errors
 /// Why there are none.
-pub(super) fn of(model: &Model) -> Result<Splitting, String> {
-    if let Some(own) = &model.family {
-        let pieces = family::pieces(model, own, &mut model.graph.clone())?;
+pub(super) fn of(model: &Structure) -> Result<Splitting, String> {
+    if let Some(found) = &model.family_pieces {
+        let found = found.as_ref().map_err(String::clone)?;
         let terms = Terms {
-            pieces: pieces
+            pieces: found
+                .pieces
                 .iter()
                 .map(|piece| vec![piece.describe(model)])
                 .collect(),
@@ -30,12 +31,14 @@ pub(super) fn of(model: &Model) -> Result<Splitting, String> {
         };
         return Ok(Splitting { terms, costs: None });
     }
-    let Some((found, chosen)) = model.chosen() else {
+    let searched = &model.splitting;
+    let Some(chosen) = chosen(model) else {
         let choice = Choice::Splitting(2, Scheme::Strang, Pieces::Found);
         let why = refusal(model, &choice).map(|(why, _)| why);
         return Err(why.unwrap_or_else(|| "H is too long to be taken apart".to_owned()));
     };
-    let mut terms = found::terms(model, model.splitting(), found);
+    let found = &searched.ways[chosen.way];
+    let mut terms = found::terms(model, searched, found);
     let order = chosen.order.iter();
     terms.pieces = order.map(|place| terms.pieces[*place].clone()).collect();
     let mut others = chosen.costs.clone();

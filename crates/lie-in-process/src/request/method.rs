@@ -3,7 +3,7 @@
 use lie_codegen::compile::with_options;
 use lie_codegen::diagnostic::Kind;
 use lie_codegen::methods::{self, Choice};
-use lie_codegen::model::Model;
+use lie_codegen::structure::Structure;
 
 use super::Front;
 use crate::message::Message;
@@ -38,7 +38,7 @@ pub fn labelled(text: &str, front: Front) -> Result<Choice, Message> {
 ///
 /// # Errors
 /// As of [`labelled`] and [`applies`].
-pub fn all(text: &str, model: &Model, front: Front) -> Result<Vec<Choice>, Message> {
+pub fn all(text: &str, model: &Structure, front: Front) -> Result<Vec<Choice>, Message> {
     let choice = labelled(text, front)?;
     let all = match text.contains("--") {
         true => Vec::new(),
@@ -59,7 +59,7 @@ pub fn takes(choice: &Choice, option: &str) -> bool {
 ///
 /// # Errors
 /// `method`, why not, and what can.
-pub fn applies(choice: Choice, model: &Model) -> Result<Choice, Message> {
+pub fn applies(choice: Choice, model: &Structure) -> Result<Choice, Message> {
     match methods::refusal(model, &choice) {
         None => Ok(choice),
         Some((reason, remedy)) => {

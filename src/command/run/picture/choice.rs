@@ -1,6 +1,6 @@
 //! `--picture`: components, orbit, phase, section, attitude, compare.
 
-use lie_codegen::model::Model;
+use lie_codegen::structure::Structure;
 use lie_codegen::structure::group;
 use lie_codegen::suggest::did_you_mean;
 use lie_in_process::request::{Given, Several};
@@ -124,7 +124,7 @@ fn orbit(spec: &Spec, given: &Given) -> Result<Kind, Message> {
 }
 
 /// What is drawn of systems of which a picture says nothing.
-fn elsewhere(model: &Model) -> &'static str {
+fn elsewhere(model: &Structure) -> &'static str {
     match model.dimension() {
         1 if model.family.is_none() => "take `--picture components`",
         _ => "take `--picture phase`, which draws one coordinate against another",
@@ -132,7 +132,7 @@ fn elsewhere(model: &Model) -> &'static str {
 }
 
 /// Why no orbit is drawn of a system; none where one is.
-pub fn no_orbit(model: &Model) -> Option<String> {
+pub fn no_orbit(model: &Structure) -> Option<String> {
     let n = model.dimension();
     if model.family.is_some() {
         return Some(format!(

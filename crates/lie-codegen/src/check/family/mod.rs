@@ -6,7 +6,7 @@ mod sums;
 
 use super::environment::{Allowed, Environment};
 use super::lower::Lowering;
-use super::{Effort, lets, methods, names, size, system};
+use super::{lets, names, size, system};
 use crate::ast::{self, Casimir, Declaration, Energy, Expr, ExprKind, Name, Structure};
 use crate::diagnostic::{Diagnostic, Kind, Report};
 use crate::exact::Rational;
@@ -19,7 +19,6 @@ use sums::{Collected, Sums};
 pub fn check(
     declaration: &Declaration,
     family: &ast::Family,
-    effort: Effort,
     report: &mut Report,
 ) -> Option<Model> {
     let before = report.has_errors();
@@ -40,7 +39,7 @@ pub fn check(
     if report.has_errors() {
         return None;
     }
-    let mut model = system::check(&site, None, effort, report)?;
+    let mut model = system::check(&site, None, report)?;
     let sizes = sizes(declaration, family, &model, report);
     let known = Family {
         sizes: sizes?,
@@ -63,7 +62,6 @@ pub fn check(
     model.methods.clone_from(&declaration.methods);
     model.run.clone_from(&declaration.run);
     model.family = Some(family);
-    methods::check(&model, report);
     (!report.has_errors()).then_some(model)
 }
 

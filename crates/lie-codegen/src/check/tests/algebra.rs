@@ -2,11 +2,11 @@ use super::*;
 use crate::algebra::{Representation, known};
 use crate::model::Algebra;
 
-fn algebra_of(model: &Model) -> &Algebra {
+fn algebra_of(model: &Structure) -> &Algebra {
     model.bracket.algebra().expect("an algebra")
 }
 
-fn matrices_of(model: &Model) -> Representation {
+fn matrices_of(model: &Structure) -> Representation {
     model.bracket.representation().expect("matrices").clone()
 }
 

@@ -6,7 +6,7 @@ use crate::structure::smoothness::joints;
 
 const NAMES: [&str; 4] = ["abs", "min", "max", "piecewise"];
 
-fn of(hamiltonian: &str) -> Model {
+fn of(hamiltonian: &str) -> Structure {
     let hamiltonian = format!("{hamiltonian:?}");
     model(&so3(&[
         (

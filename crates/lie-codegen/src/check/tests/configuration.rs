@@ -1,7 +1,7 @@
 use super::*;
 
 /// The energy as it was declared.
-fn declared(model: &Model) -> ExprId {
+fn declared(model: &Structure) -> ExprId {
     model.energy.expression().expect("an expression").energy
 }
 use crate::derive::Source;

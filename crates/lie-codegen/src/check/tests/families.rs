@@ -192,10 +192,17 @@ fn pieces_of_functions_of_sums_and_of_longer_summands_are_found() {
         let keys = hamiltonian_with(hamiltonian);
         let keys: Vec<(&str, &str)> = keys.iter().map(|(k, v)| (*k, v.as_str())).collect();
         let model = model(&ring(&keys));
-        let family = model.family.as_ref().expect("a family");
-        let found = crate::structure::family::pieces(&model, family, &mut model.graph.clone());
+        let found = model.family_pieces.as_ref().expect("a family");
         let described = |p: &crate::structure::family::Piece| p.describe(&model);
-        found.map(|pieces| pieces.iter().map(described).collect::<Vec<_>>().join(", "))
+        let found = found.as_ref().map_err(String::clone);
+        found.map(|found| {
+            found
+                .pieces
+                .iter()
+                .map(described)
+                .collect::<Vec<_>>()
+                .join(", ")
+        })
     };
     let ok = |text: &str| Ok(text.to_owned());
     let err = |text: &str| Err(text.to_owned());
@@ -244,7 +251,10 @@ fn an_initial_state_is_random_or_a_file() {
     use crate::model::Start;
     let start = |text: &str| {
         let model = model(&ring(&[("initial", text)]));
-        model.family.and_then(|family| family.start)
+        model
+            .family
+            .as_ref()
+            .and_then(|family| family.start.clone())
     };
     let seed = start(r#"{"random": "unit-sphere", "seed": 7}"#);
     assert!(matches!(seed, Some(Start::UnitSpheres(7))));

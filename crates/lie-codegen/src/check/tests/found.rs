@@ -1,14 +1,15 @@
 //! Casimirs that nobody declared.
 
 use super::*;
-use crate::model::{CasimirKind, Search};
+use crate::model::CasimirKind;
+use crate::structure::Search;
 
 const SE3: &str = r#"{"basis": ["J1", "J2", "J3", "P1", "P2", "P3"], "brackets": [
     "[J1, J2] = J3", "[J2, J3] = J1", "[J3, J1] = J2",
     "[J1, P2] = P3", "[J2, P3] = P1", "[J3, P1] = P2",
     "[P1, J2] = P3", "[P2, J3] = P1", "[P3, J1] = P2"]}"#;
 
-fn se3(extra: &[(&str, &str)]) -> Model {
+fn se3(extra: &[(&str, &str)]) -> Structure {
     let base = [
         ("algebra", SE3),
         ("state", r#"["m1", "m2", "m3", "g1", "g2", "g3"]"#),
@@ -18,14 +19,14 @@ fn se3(extra: &[(&str, &str)]) -> Model {
 }
 
 /// Name, text and kind of each.
-fn all(model: &Model) -> Vec<(String, String, CasimirKind)> {
+fn all(model: &Structure) -> Vec<(String, String, CasimirKind)> {
     let casimirs = model.casimirs.iter();
     casimirs
         .map(|c| (c.name.clone(), model.display(c.expr), c.kind))
         .collect()
 }
 
-fn texts(model: &Model) -> Vec<String> {
+fn texts(model: &Structure) -> Vec<String> {
     all(model)
         .into_iter()
         .map(|(name, text, _)| format!("{name} = {text}"))

@@ -29,7 +29,7 @@ fn a_diagonal_lagrangian_gives_the_hamiltonian_that_one_writes() {
     assert_eq!(text, expected.display(expected.hamiltonian()));
     let hamiltonian = model.energy.expression().expect("an expression");
     assert_eq!(hamiltonian.degree, Some(2));
-    assert_eq!(hamiltonian.pieces, Ok(vec![0, 1, 2]));
+    assert_eq!(model.separable, Some(Ok(vec![0, 1, 2])));
 }
 
 /// `l = <A w, w>/2 + <b, w> + c` as text and as numbers at a = 2, b = 1/3, c = -3/2.

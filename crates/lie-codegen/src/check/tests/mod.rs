@@ -21,9 +21,11 @@ mod soundness;
 mod tables;
 
 use super::*;
+use crate::compile::analysed;
 use crate::diagnostic::{Kind, Origin};
 use crate::exact::Rational;
 use crate::front::{Body, spec};
+use crate::structure::{Effort, Structure};
 use crate::symbolic::{ExprId, Symbol};
 
 /// so(3) with what is given: keys of the spec, each with its JSON.
@@ -55,11 +57,13 @@ pub(super) fn system(base: &[(&str, &str)], extra: &[(&str, &str)]) -> String {
 }
 
 /// What the checks make of a spec. Every diagnostic must have a place and a remedy.
-pub(super) fn run(text: &str) -> (Option<Model>, Vec<Diagnostic>) {
+pub(super) fn run(text: &str) -> (Option<Structure>, Vec<Diagnostic>) {
     let mut report = Report::new();
     let parsed = spec::read(text, &mut report);
     let model = match parsed.body {
-        Some(Body::Declaration(declaration)) => check(&declaration, &mut report),
+        Some(Body::Declaration(declaration)) => {
+            analysed(&declaration, Effort::Declaration, &mut report)
+        }
         _ => None,
     };
     let diagnostics = report.into_diagnostics();
@@ -73,7 +77,7 @@ pub(super) fn run(text: &str) -> (Option<Model>, Vec<Diagnostic>) {
 }
 
 /// A model without errors.
-pub(super) fn model(text: &str) -> Model {
+pub(super) fn model(text: &str) -> Structure {
     let (model, diagnostics) = run(text);
     model.unwrap_or_else(|| panic!("{text}\n{diagnostics:#?}"))
 }

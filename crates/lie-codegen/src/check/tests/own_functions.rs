@@ -14,20 +14,22 @@ fn body(functions: &str, rest: &str) -> String {
     )
 }
 
-fn checked(text: &str) -> (Option<Model>, Vec<Diagnostic>) {
+fn checked(text: &str) -> (Option<Structure>, Vec<Diagnostic>) {
     let tokens = text
         .parse()
         .unwrap_or_else(|error| panic!("{text}: {error}"));
     let mut report = Report::new();
     let parsed = declaration::parse(tokens, &mut report);
     let model = match parsed.body {
-        Some(Body::Declaration(declaration)) => check(&declaration, &mut report),
+        Some(Body::Declaration(declaration)) => {
+            analysed(&declaration, Effort::Declaration, &mut report)
+        }
         _ => None,
     };
     (model, report.into_diagnostics())
 }
 
-fn sound(functions: &str, rest: &str) -> Model {
+fn sound(functions: &str, rest: &str) -> Structure {
     let (model, diagnostics) = checked(&body(functions, rest));
     model.unwrap_or_else(|| panic!("{diagnostics:#?}"))
 }
@@ -45,21 +47,19 @@ const F: &str = "f(r) = crate::f;";
 
 #[test]
 fn derivatives_are_those_of_the_chain_rule() {
-    let mut model = sound(
+    let model = sound(
         "g(u, v) = m::g;",
         "hamiltonian = z + 3*g(x^2, x*y) + g(1, 2);",
     );
-    let hamiltonian = model.hamiltonian();
-    let slope = model.graph.derivative(hamiltonian, Symbol::Coordinate(0));
-    let text = model
-        .graph
-        .display(slope, &|symbol| model.symbol_name(symbol));
+    let mut graph = model.graph.clone();
+    let slope = graph.derivative(model.hamiltonian(), Symbol::Coordinate(0));
+    let text = graph.display(slope, &|symbol| model.symbol_name(symbol));
     assert!(
         text.contains("g^(1, 0)(x^2, x*y)") && text.contains("g^(0, 1)(x^2, x*y)"),
         "{text}"
     );
     let at = |x: f64| {
-        model.graph.evaluate(hamiltonian, &|symbol| match symbol {
+        graph.evaluate(model.hamiltonian(), &|symbol| match symbol {
             Symbol::Coordinate(0) => x,
             _ => 0.7,
         })
@@ -240,7 +240,7 @@ fn a_spec_has_no_functions_of_rust() {
 fn functions_of_one_coordinate_are_pieces() {
     let pieces = |hamiltonian: &str| {
         let model = sound(F, &format!("hamiltonian = {hamiltonian};"));
-        let searched = model.splitting();
+        let searched = &model.splitting;
         let way = searched.ways.first()?;
         Some(terms(&model, searched, way).pieces.len())
     };

@@ -3,7 +3,7 @@ use crate::methods::{Choice, refusal};
 use crate::model::Descent;
 
 /// so(3) with a realization: as many positions and momenta, and the three components.
-fn over(count: usize, parameters: &str, map: [&str; 3]) -> Model {
+fn over(count: usize, parameters: &str, map: [&str; 3]) -> Structure {
     let names = |letter| {
         let names: Vec<String> = (1..=count).map(|k| format!("\"{letter}{k}\"")).collect();
         names.join(", ")
@@ -20,7 +20,7 @@ fn over(count: usize, parameters: &str, map: [&str; 3]) -> Model {
     ]))
 }
 
-fn descent(model: &Model) -> Descent {
+fn descent(model: &Structure) -> Descent {
     model.realization.as_ref().expect("a realization").descent
 }
 

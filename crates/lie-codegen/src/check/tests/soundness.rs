@@ -128,7 +128,7 @@ fn brackets_with_logarithms() {
     accepted(&three("exp(log(-y))"));
 }
 
-fn declared(hamiltonian: &str) -> Model {
+fn declared(hamiltonian: &str) -> Structure {
     let hamiltonian = format!("{hamiltonian:?}");
     model(&so3(&[("hamiltonian", &hamiltonian), ("algebra", SO3)]))
 }
@@ -140,7 +140,7 @@ fn known(hamiltonian: &str) -> Hamiltonian {
 
 #[test]
 fn pieces_and_degrees_with_roots() {
-    let mixed = |text: &str| known(text).pieces;
+    let mixed = |text: &str| declared(text).separable.expect("an expression");
     for text in [
         "x^2/2 + y^2/3 + exp(log(x^2*y^2)/2) - x*y",
         "x^2/2 + y^2/3 + sqrt(x^2*y^2) - x*y",
@@ -197,7 +197,9 @@ fn a_contradiction_is_a_mistake_of_the_compiler() {
     use crate::prove::contradiction;
     let model = declared("x^2 + y^2");
     contradiction::keep(&model.graph, model.hamiltonian());
-    let found = contradicted(&contradiction::take().unwrap(), model.name_origin);
+    let mut report = Report::new();
+    contradicted(model.name_origin, &mut report);
+    let found = report.into_diagnostics().remove(0);
     assert_eq!(found.kind, Kind::Limit);
     assert!(found.message.contains("contradicts itself") && found.help.is_some());
     // it is told once, and does not outlive the check in which it was found

@@ -11,14 +11,14 @@ fn with(table: &str, hamiltonian: &str) -> String {
     so3(&[("functions", &functions), ("hamiltonian", &hamiltonian)])
 }
 
-fn curve(rest: &str, hamiltonian: &str) -> Model {
+fn curve(rest: &str, hamiltonian: &str) -> Structure {
     model(&with(
         &format!(r#"{{"table": {CURVE}{rest}}}"#),
         hamiltonian,
     ))
 }
 
-fn value(model: &Model, x: f64) -> f64 {
+fn value(model: &Structure, x: f64) -> f64 {
     model
         .graph
         .evaluate(model.hamiltonian(), &|symbol| match symbol {

@@ -169,7 +169,7 @@ fn traced(
         source.graph.symbol(Symbol::Input(quantity));
     }
     source.block(Block::Unknown);
-    let taken = std::mem::replace(source, Source::empty(crate::symbolic::Graph::new()));
+    let taken = source.lent();
     let system = SymbolicSystem::of(&taken);
     let tape = Tape::new(&taken, first);
     let session = Session {
@@ -196,7 +196,7 @@ pub(crate) fn values(
     run: impl FnOnce(&SymbolicSystem) -> Vec<Sym>,
 ) -> Option<Vec<ExprId>> {
     let first = Block::COUNT * source.dimension;
-    let taken = std::mem::replace(source, Source::empty(crate::symbolic::Graph::new()));
+    let taken = source.lent();
     let system = SymbolicSystem::of(&taken);
     let session = Session {
         tape: Tape::new(&taken, first),

@@ -14,6 +14,7 @@ use crate::derive::{
 };
 use crate::exact::Rational;
 use crate::structure::inertia::Body;
+use crate::structure::separable;
 use crate::structure::vectors::{Component, Vectors};
 use crate::symbolic::{ExprId, Symbol};
 
@@ -77,9 +78,9 @@ pub struct SymbolicSystem {
 
 impl SymbolicSystem {
     pub(super) fn of(source: &Source) -> Self {
-        let spins = source.spins.iter().flatten();
+        let spins = source.spins().into_iter().flatten();
         let (spins, scales) = spins.map(|s| (s.coordinates, Sym(s.scale))).unzip();
-        let (planes, moments) = match &source.body {
+        let (planes, moments) = match source.body() {
             Some(Body::Many { planes, moments }) => (planes.as_slice(), moments.as_slice()),
             _ => Default::default(),
         };
@@ -92,7 +93,7 @@ impl SymbolicSystem {
                 .map(|&(from, to)| Plane::new(from as u16, to as u16))
                 .collect(),
             moments: moments.iter().map(|moment| Sym(*moment)).collect(),
-            vectors: source.vectors.as_ref().map(SymbolicVectors::of),
+            vectors: source.vectors().map(SymbolicVectors::of),
             closed: None,
             exponential: source.exponential.is_some(),
         }
@@ -332,11 +333,9 @@ impl Actions<Sym, SymbolicSystem> for SymbolicActions {
     fn act(&mut self, _system: &SymbolicSystem, i: usize, s: Sym, m: &State, out: &mut State) {
         let m = ids(m);
         let moved = with(|Session { source, tape, .. }| {
-            let action = source
-                .actions
-                .as_ref()
-                .and_then(|actions| actions[i].clone());
-            let blocks = action.expect("a closed form of each action");
+            let algebra = source.structure.bracket.algebra();
+            let blocks = algebra.and_then(|algebra| separable::action_of(algebra, i));
+            let blocks = blocks.expect("a closed form of each action");
             let known = self.0.all().len();
             let moved = moved(source, &blocks, s.0, &m, &mut self.0);
             tape.extend(source, &self.0.all()[known..]);

@@ -8,7 +8,7 @@ use crate::model;
 use crate::plan::constants::Table;
 use crate::plan::function::Function;
 use crate::plan::planner::Planner;
-use crate::structure::family::{self as pieces, Form};
+use crate::structure::family::Form;
 use crate::structure::separable;
 use crate::symbolic::{ExprId, Symbol};
 
@@ -150,7 +150,7 @@ impl<'p, 'm> Derivation<'p, 'm> {
         Family {
             coordinates: self
                 .planner
-                .model
+                .structure
                 .coordinates
                 .iter()
                 .map(|c| c.text.clone())
@@ -256,8 +256,9 @@ impl<'p, 'm> Derivation<'p, 'm> {
 
     /// The pieces of H, if their flows are exact.
     fn pieces(&mut self) -> Option<FamilyPieces> {
-        let model = self.planner.model;
-        let found = pieces::pieces(model, self.family, &mut self.planner.source.graph).ok()?;
+        let model = self.planner.structure;
+        let found = model.family_pieces.as_ref()?.as_ref().ok()?;
+        let found = found.moved(&mut self.planner.source.graph);
         let own = Argument {
             name: "one",
             symbols: (0..self.n()).map(Symbol::Coordinate).collect(),
@@ -321,7 +322,7 @@ impl<'p, 'm> Derivation<'p, 'm> {
     /// The Casimirs of a site, in the coordinates of slot 0.
     fn casimirs(&mut self) -> Vec<(String, Option<u32>, [Function; 2])> {
         let n = self.n();
-        let model = self.planner.model;
+        let model = self.planner.structure;
         let mut casimirs = Vec::new();
         for casimir in &model.casimirs {
             let graph = &mut self.planner.source.graph;

@@ -6,11 +6,11 @@ use super::constants::Table;
 use super::function::Function;
 use super::names::Names;
 use super::planner::{Planner, parameters};
-use super::structure::Structure;
 use super::system::{Energy, System};
 use super::{Constants, Plan};
-use crate::derive::{Bracket, Source, Update};
-use crate::model::{self, Model, Size};
+use crate::derive::{Source, Update};
+use crate::model::{self, Size};
+use crate::structure::Structure;
 use derivation::Derivation;
 
 /// What is generated for a family.
@@ -125,27 +125,18 @@ impl Family {
 }
 
 /// The plan of a family.
-pub(super) fn plan(model: &Model, family: &model::Family) -> Plan {
-    let mut names = Names::of(model);
-    let n = model.dimension();
+pub(super) fn plan(structure: &Structure, family: &model::Family) -> Plan {
+    let mut names = Names::of(structure);
+    let n = structure.dimension();
     let of_slots = (0..family.names.len()).map(|place| {
-        let (slot, name) = (place / n, &model.coordinates[place % n].text);
+        let (slot, name) = (place / n, &structure.coordinates[place % n].text);
         format!("_{slot}{name}")
     });
     let of_sums = (0..family.sums.len()).map(|k| format!("_w{k}"));
     names.coordinates = of_slots.chain(of_sums).collect();
-    let constants = model
-        .bracket
-        .algebra()
-        .map_or_else(Vec::new, |algebra| algebra.constants.entries().to_vec());
-    let source = Source {
-        dimension: n,
-        bracket: Bracket::Lie(constants),
-        ..Source::empty(model.graph.clone())
-    };
     let mut planner = Planner {
-        model,
-        source,
+        structure,
+        source: Source::of(structure),
         names,
         methods: Vec::new(),
         constants: Table::default(),
@@ -159,14 +150,19 @@ pub(super) fn plan(model: &Model, family: &model::Family) -> Plan {
 
 impl Planner<'_> {
     fn family(mut self, family: Family) -> Plan {
-        let defaults: Vec<_> = self.model.parameters.iter().map(|p| p.default).collect();
+        let defaults: Vec<_> = self
+            .structure
+            .parameters
+            .iter()
+            .map(|p| p.default)
+            .collect();
         let defaults = self.preparation(&defaults);
         let table = std::mem::take(&mut self.constants);
         let constants: Constants = self.prepared(&table, "_k");
         Plan {
             names: self.names,
-            docs: super::docs::docs(self.model),
-            parameters: parameters(self.model),
+            docs: super::docs::docs(self.structure),
+            parameters: parameters(self.structure),
             defaults,
             initial: None,
             constants,
@@ -184,7 +180,7 @@ impl Planner<'_> {
                 lagrangian: Vec::new(),
                 discrete: Vec::new(),
             },
-            structure: Structure::default(),
+            structure: super::Structure::default(),
             items: Vec::new(),
             generic: Vec::new(),
             splitting: None,

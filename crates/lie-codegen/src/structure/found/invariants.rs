@@ -15,7 +15,7 @@ use std::collections::BTreeSet;
 use super::additive;
 use crate::algebra::{StructureConstants, rank};
 use crate::exact::{Fraction, Polynomial, Rational};
-use crate::model::{Algebra, Model};
+use crate::model::{self, Algebra};
 use crate::structure::casimirs::{self, Casimir};
 use crate::symbolic::{ExprId, Graph, Symbol};
 
@@ -46,9 +46,14 @@ pub(super) struct Invariant {
 }
 
 /// The Casimirs of the model that are polynomials, and quadratic ones of subalgebras in the coordinates of H.
-pub(super) fn of(model: &Model, algebra: &Algebra, graph: &mut Graph, h: ExprId) -> Vec<Invariant> {
+pub(super) fn of(
+    casimirs: &[model::Casimir],
+    algebra: &Algebra,
+    graph: &mut Graph,
+    h: ExprId,
+) -> Vec<Invariant> {
     let mut all = Vec::new();
-    for casimir in &model.casimirs {
+    for casimir in casimirs {
         if casimir.degree.is_some_and(|d| (2..=HIGHEST).contains(&d)) {
             let value = graph.normal(casimir.expr);
             add(&mut all, algebra, graph, value, casimir.degree == Some(2));

@@ -30,12 +30,12 @@ use super::exponential::Exponential;
 use super::one_parameter::Block;
 use super::separable;
 use crate::exact::{Budget, Rational};
-use crate::model::{Bracket, Model};
+use crate::model::{Bracket, Casimir, Model};
 use crate::symbolic::{ExprId, Graph};
 use atoms::{Atom, Commuting};
 use search::{Search, Work};
 
-pub use report::{Terms, count, refusal, terms};
+pub use report::{Terms, refusal, terms};
 
 /// Work allowed for the forms of one Hamiltonian.
 const WORK: u64 = 2_000_000;
@@ -172,14 +172,19 @@ struct Classified {
     classes: Vec<usize>,
 }
 
-/// Looks for the ways to split H into the fewest pieces. [`Model::splitting`] does so once.
-pub fn search(model: &Model) -> Searched {
+/// Looks for the ways to split H into the fewest pieces, given the Casimirs and the pieces of one coordinate each.
+pub fn search(model: &Model, known: &[Casimir], declared: Option<&[separable::Piece]>) -> Searched {
     let mut graph = model.graph.clone();
-    let ways = ways(model, &mut graph).unwrap_or_default();
+    let ways = ways(model, known, declared, &mut graph).unwrap_or_default();
     Searched { graph, ways }
 }
 
-fn ways(model: &Model, graph: &mut Graph) -> Option<Vec<Found>> {
+fn ways(
+    model: &Model,
+    known: &[Casimir],
+    declared: Option<&[separable::Piece]>,
+    graph: &mut Graph,
+) -> Option<Vec<Found>> {
     let Bracket::Lie(algebra) = &model.bracket else {
         return None;
     };
@@ -189,9 +194,8 @@ fn ways(model: &Model, graph: &mut Graph) -> Option<Vec<Found>> {
     }
     let start = graph.normal(hamiltonian.value);
     let budget = Budget::new(WORK);
-    let invariants = invariants::of(model, algebra, graph, start);
-    let declared = separable::pieces(model);
-    let least = declared.as_ref().map_or(usize::MAX, Vec::len);
+    let invariants = invariants::of(known, algebra, graph, start);
+    let least = declared.map_or(usize::MAX, <[_]>::len);
     // one piece cannot be less
     let mut best: Vec<Classified> = Vec::new();
     if least > 1 {
@@ -216,7 +220,7 @@ fn ways(model: &Model, graph: &mut Graph) -> Option<Vec<Found>> {
         }
     }
     if best.is_empty() {
-        return Some(vec![as_declared(graph, start, &declared?)]);
+        return Some(vec![as_declared(graph, start, declared?)]);
     }
     let mut ways: Vec<Found> = Vec::new();
     for way in best {

@@ -3,7 +3,7 @@
 use super::atoms::{Atom, Commuting};
 use super::{Found, Searched, additive};
 use crate::model::Model;
-use crate::structure::separable;
+use crate::structure::{Structure, separable};
 use crate::symbolic::ExprId;
 
 /// H as the sum of its pieces.
@@ -28,24 +28,25 @@ pub fn terms(model: &Model, searched: &Searched, found: &Found) -> Terms {
     }
 }
 
-/// How many pieces there are.
-pub fn count(model: &Model) -> usize {
-    let ways = &model.splitting().ways;
-    ways.first().map_or(0, |way| way.pieces.len())
+impl Searched {
+    /// How many pieces there are.
+    pub fn count(&self) -> usize {
+        self.ways.first().map_or(0, |way| way.pieces.len())
+    }
 }
 
 /// Why there are no pieces, with the nearest method for each order.
-pub fn refusal(model: &Model, order: u32) -> Option<(String, String)> {
-    let searched = model.splitting();
+pub fn refusal(structure: &Structure, order: u32) -> Option<(String, String)> {
+    let searched = &structure.splitting;
     if !searched.ways.is_empty() {
         return None;
     }
     let mut graph = searched.graph.clone();
     let nearest = separable::nearest(order);
-    let Some(hamiltonian) = model.energy.expression() else {
-        return separable::refusal(model, order);
+    let Some(hamiltonian) = structure.energy.expression() else {
+        return separable::refusal(structure, order);
     };
-    let algebra = model.bracket.algebra()?;
+    let algebra = structure.bracket.algebra()?;
     let Some(terms) = additive::terms(&mut graph, hamiltonian.value) else {
         return Some((
             "the Hamiltonian has too many terms to be split".to_owned(),
@@ -58,14 +59,14 @@ pub fn refusal(model: &Model, order: u32) -> Option<(String, String)> {
         Atom::Function(set, terms) => Some((commuting.mixed(set).first().copied()?, terms)),
         Atom::Form { .. } => None,
     });
-    let name = |symbol| model.symbol_name(symbol);
+    let name = |symbol| structure.symbol_name(symbol);
     let reason = match entangled.next() {
         Some(((i, j), terms)) => format!(
             "no pieces with exact flows were found: `{}` contains `{}` and `{}`, which do not commute, and no \
              combination of quadratic Casimirs, of the algebra or of a subalgebra, and no squares of linear forms change that",
             graph.display(terms[0], &name),
-            model.coordinates[i].text,
-            model.coordinates[j].text,
+            structure.coordinates[i].text,
+            structure.coordinates[j].text,
         ),
         None => "no pieces with exact flows were found".to_owned(),
     };

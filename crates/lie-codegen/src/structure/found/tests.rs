@@ -1,10 +1,10 @@
 use super::{Terms, refusal};
 use crate::compile::compile_spec;
-use crate::model::Model;
+use crate::structure::Structure;
 
 const SO3: &str = r#"{"basis": ["e1", "e2", "e3"], "brackets": ["[e1, e2] = e3", "[e2, e3] = e1", "[e3, e1] = e2"]}"#;
 
-fn model(algebra: &str, state: &[&str], rest: &str) -> Model {
+fn model(algebra: &str, state: &[&str], rest: &str) -> Structure {
     let state: Vec<String> = state.iter().map(|name| format!("{name:?}")).collect();
     let spec = format!(
         r#"{{"format": 1, "name": "Test", "algebra": {algebra}, "state": [{}], {rest}}}"#,
@@ -13,18 +13,18 @@ fn model(algebra: &str, state: &[&str], rest: &str) -> Model {
     compile_spec(&spec).expect("a spec without mistakes")
 }
 
-fn body(rest: &str) -> Model {
+fn body(rest: &str) -> Structure {
     model(SO3, &["x", "y", "z"], rest)
 }
 
 /// The pieces of the first way.
-fn terms(model: &Model) -> Option<Terms> {
-    let searched = model.splitting();
+fn terms(model: &Structure) -> Option<Terms> {
+    let searched = &model.splitting;
     let way = searched.ways.first()?;
     Some(super::terms(model, searched, way))
 }
 
-fn pieces(model: &Model) -> Vec<Vec<String>> {
+fn pieces(model: &Structure) -> Vec<Vec<String>> {
     terms(model).expect("pieces").pieces
 }
 
@@ -104,7 +104,7 @@ fn divisors_have_values() {
 const SE3: &str = r#"{"basis": ["J1", "J2", "J3", "P1", "P2", "P3"], "brackets": ["[J1, J2] = J3", "[J2, J3] = J1",
     "[J3, J1] = J2", "[J1, P2] = P3", "[J2, P3] = P1", "[J3, P1] = P2", "[P1, J2] = P3", "[P2, J3] = P1", "[P3, J1] = P2"]}"#;
 
-fn top(rest: &str) -> Model {
+fn top(rest: &str) -> Structure {
     model(SE3, &["a", "b", "c", "p", "q", "r"], rest)
 }
 
@@ -151,7 +151,7 @@ fn casimirs_of_subalgebras_are_arguments() {
 #[test]
 fn the_declared_pieces_are_kept() {
     let body = body(r#""hamiltonian": "cos(x) + y^4 + z^3""#);
-    let searched = body.splitting();
+    let searched = &body.splitting;
     assert!(searched.ways.len() == 1 && searched.ways[0].declared);
     assert_eq!(pieces(&body).len(), 3);
 }

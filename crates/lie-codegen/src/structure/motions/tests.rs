@@ -2,8 +2,9 @@
 
 use super::*;
 use crate::compile::compile_spec;
+use crate::structure::Structure;
 
-fn model(algebra: &str, state: &str, parameters: &str, hamiltonian: &str) -> Model {
+fn model(algebra: &str, state: &str, parameters: &str, hamiltonian: &str) -> Structure {
     let names: Vec<String> = state.split(' ').map(|name| format!("\"{name}\"")).collect();
     let text = format!(
         r#"{{"format": 1, "name": "System", "algebra": "{algebra}", "state": [{}], "parameters": {{{parameters}}},
@@ -13,8 +14,8 @@ fn model(algebra: &str, state: &str, parameters: &str, hamiltonian: &str) -> Mod
     compile_spec(&text).unwrap_or_else(|mistakes| panic!("{mistakes:?}"))
 }
 
-fn shown(model: &Model, work: u64) -> (Vec<String>, u32, End) {
-    let motions = find(model, work).unwrap();
+fn shown(model: &Structure, work: u64) -> (Vec<String>, u32, End) {
+    let motions = find(model, &model.casimirs, work).unwrap();
     let name = |v: usize| match v.checked_sub(model.dimension()) {
         Some(p) => model.parameters[p].name.clone(),
         None => model.coordinates[v].text.clone(),
@@ -57,7 +58,10 @@ fn clebsch_and_manakov() {
     );
     let (found, ..) = shown(&manakov, WORK);
     assert_eq!(found.len(), 1, "{found:?}");
-    assert_eq!(find(&manakov, WORK).unwrap().found[0].degree, 2);
+    assert_eq!(
+        find(&manakov, &manakov.casimirs, WORK).unwrap().found[0].degree,
+        2
+    );
     // parameters in the coefficients
     let clebsch = model(
         "se(3)",
@@ -74,12 +78,13 @@ fn clebsch_and_manakov() {
 fn what_is_not_looked_for_is_said() {
     let spin = model("so(3)", "x y z", "", "exp(x) + y");
     assert_eq!(
-        find(&spin, WORK),
+        find(&spin, &spin.casimirs, WORK),
         Err("H is no polynomial of the coordinates")
     );
     let still = model("so(3)", "x y z", "", "x^2 + y^2 + z^2");
-    assert_eq!(find(&still, WORK), Err("nothing moves"));
-    let spent = find(&model("so(3)", "x y z", "", "x^2 + z"), 10).unwrap();
+    assert_eq!(find(&still, &still.casimirs, WORK), Err("nothing moves"));
+    let spent = model("so(3)", "x y z", "", "x^2 + z");
+    let spent = find(&spent, &spent.casimirs, 10).unwrap();
     assert_eq!(
         (spent.found.len(), spent.searched, spent.end),
         (0, 0, End::Spent)

@@ -6,13 +6,12 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use crate::derive::Source;
-use crate::exact::{Budget, Exhausted, Fraction, Monomial, Polynomial, Rational};
-use crate::model::Model;
-use crate::prove::independence::{self, Standing};
-use crate::structure::casimirs::solve::{
+use super::casimirs::solve::{
     Field as _, Functions, PRIMES, Prime, Sparse, cleared, drawn, kernel,
 };
+use crate::exact::{Budget, Exhausted, Fraction, Monomial, Polynomial, Rational};
+use crate::model::{Bracket, Casimir, Model};
+use crate::prove::independence::{self, Standing};
 use crate::symbolic::{ExprId, Graph, Node, Symbol};
 
 /// The highest degree that is looked at.
@@ -65,7 +64,7 @@ pub struct Motions {
 ///
 /// # Errors
 /// Why none are looked for.
-pub fn find(model: &Model, work: u64) -> Result<Motions, &'static str> {
+pub fn find(model: &Model, casimirs: &[Casimir], work: u64) -> Result<Motions, &'static str> {
     if model.family.is_some() {
         return Err("H is that of a family");
     }
@@ -74,15 +73,12 @@ pub fn find(model: &Model, work: u64) -> Result<Motions, &'static str> {
             "the coordinates of a group element or of the time have relations of their own",
         );
     }
-    if model.family.is_some() {
-        return Err("the number of sites is that of each run");
-    }
     if model.energy.expression().is_none() {
         return Err("H is no expression in the coordinates");
     }
-    let mut source = Source::of(model);
-    let field = source.field_of_h();
-    if field.iter().all(|f| source.graph.is_zero(*f)) {
+    let mut graph = model.graph.clone();
+    let field = field(model, &mut graph);
+    if field.iter().all(|f| graph.is_zero(*f)) {
         return Err("nothing moves");
     }
     let budget = Budget::new(work);
@@ -91,13 +87,12 @@ pub fn find(model: &Model, work: u64) -> Result<Motions, &'static str> {
         searched: 0,
         end: End::Spent,
     };
-    let field = match functions(&source.graph, &field, &budget) {
+    let field = match functions(&graph, &field, &budget) {
         Ok(Some(field)) => field,
         Ok(None) => return Err("H is no polynomial of the coordinates"),
         Err(Exhausted) => return Ok(motions),
     };
-    let mut graph = source.graph;
-    let mut known: Vec<ExprId> = model.casimirs.iter().map(|casimir| casimir.expr).collect();
+    let mut known: Vec<ExprId> = casimirs.iter().map(|casimir| casimir.expr).collect();
     known.push(model.hamiltonian());
     for degree in 1..=MAX_DEGREE {
         let Some(columns) = monomials(field.len(), degree) else {
@@ -125,6 +120,34 @@ pub fn find(model: &Model, work: u64) -> Result<Motions, &'static str> {
     }
     motions.end = End::Degree;
     Ok(motions)
+}
+
+/// `Pi grad H`
+fn field(model: &Model, graph: &mut Graph) -> Vec<ExprId> {
+    let n = model.dimension();
+    let slopes: Vec<ExprId> = (0..n)
+        .map(|i| graph.derivative(model.hamiltonian(), Symbol::Coordinate(i)))
+        .collect();
+    let entries = match &model.bracket {
+        Bracket::Lie(algebra) => {
+            let constants = algebra.constants.entries().iter();
+            let entry = |(i, j, k, value): &(usize, usize, usize, ExprId)| {
+                // {mu_i, mu_j} = -C_ij^k mu_k
+                let mu = graph.symbol(Symbol::Coordinate(*k));
+                let value = graph.mul(*value, mu);
+                (*i, *j, graph.neg(value))
+            };
+            constants.map(entry).collect()
+        }
+        Bracket::Extended(_, matrix) | Bracket::General(matrix) => matrix.entries.clone(),
+    };
+    let mut terms: Vec<Vec<ExprId>> = vec![Vec::new(); n];
+    for (i, j, value) in entries {
+        terms[i].push(graph.mul(value, slopes[j]));
+        let term = graph.mul(value, slopes[i]);
+        terms[j].push(graph.neg(term));
+    }
+    terms.iter().map(|terms| graph.sum(terms)).collect()
 }
 
 /// Expressions as polynomials of the coordinates; `None` where one is none.

@@ -1,0 +1,419 @@
+//! Casimirs that nobody declared: the search, and what is made of its results.
+
+use super::{Effort, casimirs};
+use crate::algebra::{StructureConstants, rank};
+use crate::ast::{Expr, ExprKind};
+use crate::exact::{Fraction, Polynomial, Rational};
+use crate::model::{Bracket, Casimir, CasimirKind, Configuration, Model, PoissonMatrix};
+use crate::prove::independence::{self, Standing};
+use crate::symbolic::{ExprId, Graph, Symbol};
+
+/// Longer functions are not made part of a system, whose code would be as long.
+const MOST_TERMS: usize = 1000;
+/// Longer ones are not even told of.
+const MOST_REPORTED: usize = 12_000;
+/// The largest arena that they may fill.
+const LARGEST_ARENA: usize = 200_000;
+
+/// How the search for the Casimirs that a declaration lacks ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Search {
+    /// There was nothing to look for, or everything was looked for that is.
+    Complete,
+    /// Polynomials were looked for, and rational functions not: structure constants contain parameters, or brackets constant
+    /// terms.
+    Polynomials,
+    /// Its budget was spent.
+    Spent,
+    /// What it found is too long to be part of a system.
+    Long,
+    /// A rational function that was found is not defined at the initial state, and neither is its reciprocal.
+    Singular,
+    /// It was not made, for a reason.
+    None(&'static str),
+}
+
+/// The Casimirs with those that nobody declared, and how the search for them ended; the arena is that of the model.
+pub fn completed(model: &Model, effort: Effort, graph: &mut Graph) -> (Vec<Casimir>, Search) {
+    let declared = &model.declared_casimirs;
+    let only = |search| (declared.clone(), search);
+    let configuration = model.configuration.as_ref();
+    if declared.len() >= model.casimirs_to_find() {
+        return only(Search::Complete);
+    }
+    if configuration.is_some_and(|c| c.group.is_some()) {
+        return only(Search::None(
+            "the coordinates of a group element have relations of their own",
+        ));
+    }
+    let momenta = configuration.map(Configuration::own_momenta);
+    let field = match field(&model.bracket, momenta, &mut graph.clone()) {
+        Ok(field) => field,
+        Err(reason) => return only(Search::None(reason)),
+    };
+    let work = match effort {
+        Effort::Declaration => casimirs::WORK,
+        Effort::Report => casimirs::REPORT,
+        Effort::Deep => casimirs::DEEP,
+    };
+    complete(model, &field, work, graph)
+}
+
+/// An algebra in which Casimirs are looked for.
+struct Field {
+    /// Its structure constants; a unit is the last basis element.
+    constants: StructureConstants<Fraction>,
+    /// Whether there is one, of brackets with constant terms.
+    with_unit: bool,
+}
+
+impl Field {
+    /// How many independent Casimirs there are, without the unit.
+    fn count(&self) -> usize {
+        let n = self.constants.dimension();
+        n - rank::generic(&self.constants, n) - usize::from(self.with_unit)
+    }
+}
+
+/// The algebra in which the Casimirs of a bracket are invariants, or why there is none.
+///
+/// A bracket whose entries are affine is that of a central extension, with the unit set to one.
+fn field(
+    bracket: &Bracket,
+    momenta: Option<usize>,
+    graph: &mut Graph,
+) -> Result<Field, &'static str> {
+    match bracket {
+        Bracket::Lie(algebra) => {
+            let own = momenta.unwrap_or(algebra.exact.dimension());
+            let entries = algebra.exact.entries().iter();
+            let entries = entries
+                .filter(|(i, j, k, _)| *i.max(j).max(k) < own)
+                .cloned();
+            Ok(Field {
+                constants: StructureConstants::new(own, entries.collect()),
+                with_unit: false,
+            })
+        }
+        Bracket::Extended(algebra, matrix) => {
+            let n = algebra.exact.dimension();
+            let mut entries = algebra.exact.entries().to_vec();
+            for (i, j, value) in &matrix.entries {
+                let constant = graph.fraction(*value, Some(Rational::ZERO)).ok_or(
+                    "a constant term of the bracket is no rational function of parameters",
+                )?;
+                if !constant.is_zero() {
+                    entries.push((*i, *j, n, constant.neg()));
+                }
+            }
+            Ok(Field {
+                constants: StructureConstants::new(n + 1, entries),
+                with_unit: true,
+            })
+        }
+        Bracket::General(matrix) => affine(matrix, graph),
+    }
+}
+
+/// The extension for a Poisson matrix with affine entries.
+fn affine(matrix: &PoissonMatrix, graph: &mut Graph) -> Result<Field, &'static str> {
+    const REASON: &str = "the brackets are not affine functions of the coordinates with coefficients that are rational functions of parameters";
+    let n = matrix.dimension;
+    let mut entries = Vec::new();
+    let mut with_unit = false;
+    for (i, j, value) in &matrix.entries {
+        let mut terms = Vec::new();
+        for k in 0..n {
+            let slope = graph.derivative(*value, Symbol::Coordinate(k));
+            if graph.is_zero(slope) {
+                continue;
+            }
+            terms.push((*i, *j, k, graph.fraction(slope, None).ok_or(REASON)?.neg()));
+        }
+        let rest = graph.fraction(*value, Some(Rational::ZERO)).ok_or(REASON)?;
+        if !rest.is_zero() {
+            with_unit = true;
+            terms.push((*i, *j, n, rest.neg()));
+        }
+        entries.extend(terms);
+    }
+    let constants = StructureConstants::new(n + usize::from(with_unit), entries);
+    Ok(Field {
+        constants,
+        with_unit,
+    })
+}
+
+/// The Casimirs with those that the declared ones lack, and how the search ended.
+fn complete(model: &Model, field: &Field, work: u64, graph: &mut Graph) -> (Vec<Casimir>, Search) {
+    let declared = &model.declared_casimirs;
+    let count = field.count();
+    if declared.len() >= count {
+        return (declared.clone(), Search::Complete);
+    }
+    let found = casimirs::find(&field.constants, count, field.with_unit, work);
+    let exact = field.constants.try_map(Fraction::as_constant).is_some();
+    let mut end = match found.complete {
+        true if found.casimirs.len() == count || (exact && !field.with_unit) => Search::Complete,
+        true => Search::Polynomials,
+        false => Search::Spent,
+    };
+    let most = match work {
+        casimirs::WORK => MOST_TERMS,
+        _ => MOST_REPORTED,
+    };
+    let initial = model.initial_values(&model.defaults());
+    let initial = initial.into_iter().flatten().map(Rational::from_f64);
+    let initial: Option<Vec<Rational>> = initial.collect();
+    let initial = initial.filter(|mu| !mu.is_empty());
+    let dimension = field.constants.dimension();
+    let mut writer = Writer {
+        model,
+        dimension,
+        graph,
+    };
+    let mut written = Vec::new();
+    for casimir in found.casimirs {
+        let Some(casimir) = defined(casimir, initial.as_deref()) else {
+            end = Search::Singular;
+            continue;
+        };
+        match writer.casimir(&casimir, most) {
+            Some(casimir) => written.push(casimir),
+            None => end = Search::Long,
+        }
+    }
+    let declared_ones = declared.iter().map(|c| c.expr);
+    let all: Vec<ExprId> = declared_ones
+        .chain(written.iter().map(|(written, ..)| written.normal))
+        .collect();
+    // what is found is independent among itself
+    let standings = match declared.as_slice() {
+        [] => vec![Standing::Independent; all.len()],
+        _ => independence::check(writer.graph, &all, model.dimension()),
+    };
+    let standings = standings.into_iter().skip(declared.len());
+    let mut names = (1..).map(|i| format!("C{i}")).filter(|name| {
+        let taken = declared.iter().any(|casimir| casimir.name == *name);
+        !taken && !model.taken.contains(name)
+    });
+    let mut casimirs = declared.clone();
+    for ((written, kind, degree), standing) in written.into_iter().zip(standings) {
+        if standing == Standing::Independent && casimirs.len() < count {
+            casimirs.push(Casimir {
+                multivalued: false,
+                name: names.next().unwrap_or_default(),
+                origin: model.name_origin,
+                expr: written.normal,
+                degree,
+                kind,
+                written: Some(written.text),
+            });
+        }
+    }
+    (casimirs, end)
+}
+
+/// A rational function or its reciprocal, whichever is defined at the initial state.
+fn defined(casimir: casimirs::Casimir, initial: Option<&[Rational]>) -> Option<casimirs::Casimir> {
+    let (casimirs::Casimir::Rational(factors), Some(initial)) = (&casimir, initial) else {
+        return Some(casimir);
+    };
+    let value = |v: usize| initial.get(v).cloned().unwrap_or(Rational::ZERO);
+    let zero = |(function, _): &&(Polynomial, i64)| function.evaluate(&value).is_zero();
+    let zeros: Vec<i64> = factors
+        .iter()
+        .filter(zero)
+        .map(|(_, exponent)| *exponent)
+        .collect();
+    if zeros.iter().all(|exponent| *exponent > 0) {
+        Some(casimir)
+    } else if zeros.iter().all(|exponent| *exponent < 0) {
+        let turned = factors
+            .iter()
+            .map(|(function, exponent)| (function.clone(), -exponent));
+        Some(casimirs::Casimir::Rational(turned.collect()))
+    } else {
+        None
+    }
+}
+
+/// A function as it would have been declared: as text, in normal form, and as it is evaluated.
+#[derive(Clone)]
+struct Written {
+    text: Expr,
+    normal: ExprId,
+    form: ExprId,
+}
+
+/// Writes polynomials with the names of a declaration, and into its arena.
+struct Writer<'a> {
+    model: &'a Model,
+    /// Variables from this one on are parameters.
+    dimension: usize,
+    graph: &'a mut Graph,
+}
+
+impl Writer<'_> {
+    /// A function that was found, with its kind and its degree; `None` where it has more terms than `most`.
+    fn casimir(
+        &mut self,
+        casimir: &casimirs::Casimir,
+        most: usize,
+    ) -> Option<(Written, CasimirKind, Option<u32>)> {
+        let (written, kind, degree) = match casimir {
+            casimirs::Casimir::Polynomial(function) => {
+                if function.terms().len() > most {
+                    return None;
+                }
+                let degree = self.degree(function);
+                let written = self.polynomial(function);
+                (written, CasimirKind::Polynomial, Some(degree))
+            }
+            casimirs::Casimir::Rational(factors) => {
+                let terms: usize = factors.iter().map(|(f, _)| f.terms().len()).sum();
+                if terms > most {
+                    return None;
+                }
+                let mut powers: Vec<(bool, Written)> = Vec::new();
+                for (function, exponent) in factors {
+                    let base = self.polynomial(function);
+                    let power = self.power(base, exponent.unsigned_abs());
+                    powers.push((*exponent < 0, power));
+                }
+                powers.sort_by_key(|(below, _)| *below);
+                (self.product(powers), CasimirKind::Rational, None)
+            }
+        };
+        self.graph.remember_written(written.normal, written.form);
+        (self.graph.size() <= LARGEST_ARENA).then_some((written, kind, degree))
+    }
+
+    fn expr(&self, kind: ExprKind) -> Expr {
+        Expr {
+            kind,
+            origin: self.model.name_origin,
+        }
+    }
+
+    fn plain(&self, kind: ExprKind, id: ExprId) -> Written {
+        Written {
+            text: self.expr(kind),
+            normal: id,
+            form: id,
+        }
+    }
+
+    fn number(&mut self, value: Rational) -> Written {
+        let id = self.graph.number(value.clone());
+        self.plain(ExprKind::Number(value), id)
+    }
+
+    fn variable(&mut self, variable: usize) -> Written {
+        let parameter = variable.checked_sub(self.dimension);
+        let (name, symbol) = match parameter {
+            Some(p) => (&self.model.parameters[p].name, Symbol::Parameter(p)),
+            None => {
+                let name = &self.model.coordinates[variable].text;
+                (name, Symbol::Coordinate(variable))
+            }
+        };
+        let name = ExprKind::Name {
+            name: name.clone(),
+            index: None,
+        };
+        let id = self.graph.symbol(symbol);
+        self.plain(name, id)
+    }
+
+    fn power(&mut self, base: Written, exponent: u64) -> Written {
+        if exponent == 1 {
+            return base;
+        }
+        let value = Rational::from(exponent as i64);
+        let exponent = self.number(value.clone());
+        let text = ExprKind::Power(Box::new(base.text), Box::new(exponent.text));
+        Written {
+            text: self.expr(text),
+            normal: self.graph.pow(base.normal, &value),
+            form: self.graph.pow(base.form, &value),
+        }
+    }
+
+    /// A product, whose factors are divided by where that is said.
+    fn product(&mut self, factors: Vec<(bool, Written)>) -> Written {
+        let powers = |of: fn(&Written) -> ExprId| -> Vec<(ExprId, Rational)> {
+            let powers = factors
+                .iter()
+                .map(|(below, factor)| (of(factor), sign(*below)));
+            powers.collect()
+        };
+        let (normal, form) = (powers(|f| f.normal), powers(|f| f.form));
+        let (normal, form) = (
+            self.graph.power_product(&normal),
+            self.graph.power_product(&form),
+        );
+        let texts = factors.into_iter().map(|(below, f)| (below, f.text));
+        Written {
+            text: self.expr(ExprKind::Product(texts.collect())),
+            normal,
+            form,
+        }
+    }
+
+    /// A sum, whose terms are subtracted where that is said.
+    fn sum(&mut self, terms: Vec<(bool, Written)>) -> Written {
+        let signed = |of: fn(&Written) -> ExprId| -> Vec<(ExprId, Rational)> {
+            let signed = terms.iter().map(|(minus, term)| (of(term), sign(*minus)));
+            signed.collect()
+        };
+        let (normal, form) = (signed(|t| t.normal), signed(|t| t.form));
+        let (normal, form) = (self.graph.linear(&normal), self.graph.written_sum(&form));
+        let texts = terms.into_iter().map(|(minus, t)| (minus, t.text));
+        Written {
+            text: self.expr(ExprKind::Sum(texts.collect())),
+            normal,
+            form,
+        }
+    }
+
+    /// The degree in the coordinates.
+    fn degree(&self, function: &Polynomial) -> u32 {
+        let of = |m: &crate::exact::Monomial| {
+            let own = m.powers().filter(|(v, _)| *v < self.dimension);
+            own.map(|(_, e)| e).sum()
+        };
+        function.terms().map(|(m, _)| of(m)).max().unwrap_or(0)
+    }
+
+    fn polynomial(&mut self, function: &Polynomial) -> Written {
+        let mut terms = Vec::new();
+        for (monomial, coefficient) in function.terms().rev() {
+            let size = coefficient.abs();
+            let mut factors = Vec::new();
+            if !size.is_one() || monomial.is_one() {
+                factors.push((false, self.number(size)));
+            }
+            for (variable, exponent) in monomial.powers() {
+                let base = self.variable(variable);
+                factors.push((false, self.power(base, u64::from(exponent))));
+            }
+            let term = match factors.len() {
+                1 => factors.remove(0).1,
+                _ => self.product(factors),
+            };
+            terms.push((coefficient.is_negative(), term));
+        }
+        match terms.as_slice() {
+            [(false, _)] => terms.remove(0).1,
+            _ => self.sum(terms),
+        }
+    }
+}
+
+fn sign(turned: bool) -> Rational {
+    match turned {
+        true => Rational::MINUS_ONE,
+        false => Rational::ONE,
+    }
+}
