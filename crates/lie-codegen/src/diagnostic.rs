@@ -1,5 +1,6 @@
 //! Diagnostics: what is wrong, where, and what to do about it.
 
+use std::cell::RefCell;
 use std::fmt;
 
 use proc_macro2::Span;
@@ -39,11 +40,39 @@ pub fn plural(count: usize, word: &str) -> String {
     }
 }
 
+thread_local! {
+    static SPANS: RefCell<Vec<Span>> = const { RefCell::new(Vec::new()) };
+}
+
+/// A span by its number among those that this thread has met. A span itself cannot leave its thread, nor be compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct SpanId(usize);
+
+impl SpanId {
+    fn of(span: Span) -> Self {
+        SPANS.with_borrow_mut(|spans| {
+            spans.push(span);
+            Self(spans.len() - 1)
+        })
+    }
+
+    /// The span, on the thread that has met it.
+    pub fn span(self) -> Span {
+        let known = SPANS.with_borrow(|spans| spans.get(self.0).copied());
+        known.unwrap_or_else(Span::call_site)
+    }
+}
+
+/// Forgets the spans of an earlier invocation.
+pub(crate) fn forget_spans() {
+    SPANS.take();
+}
+
 /// The place of a token: a span of the macro input, or a byte range of the spec file.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Origin {
     /// A token of a macro invocation.
-    Span(Span),
+    Span(SpanId),
     /// A byte range of a spec file, or of an expression given on the command line.
     Text {
         /// First byte.
@@ -54,13 +83,29 @@ pub enum Origin {
 }
 
 impl Origin {
+    /// The place of a span.
+    pub fn at(span: Span) -> Self {
+        Self::Span(SpanId::of(span))
+    }
+
+    /// Its span, or that of the invocation.
+    pub fn span(self) -> Span {
+        match self {
+            Self::Span(id) => id.span(),
+            Self::Text { .. } => Span::call_site(),
+        }
+    }
+
     /// The smallest place that covers both.
     pub fn to(self, end: Origin) -> Origin {
         match (self, end) {
             (Origin::Text { start, .. }, Origin::Text { end, .. }) if start <= end => {
                 Origin::Text { start, end }
             }
-            (Origin::Span(a), Origin::Span(b)) => Origin::Span(a.join(b).unwrap_or(a)),
+            (Origin::Span(a), Origin::Span(b)) => {
+                let (a, b) = (a.span(), b.span());
+                Origin::at(a.join(b).unwrap_or(a))
+            }
             (start, _) => start,
         }
     }

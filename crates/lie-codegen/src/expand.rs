@@ -8,7 +8,7 @@ use quote::{format_ident, quote};
 use crate::ast::Name;
 use crate::characters::visible;
 use crate::compile::{compile_declaration, declared_choices};
-use crate::diagnostic::{Diagnostic, Kind, MOST_SHOWN, Origin, Report, not_shown};
+use crate::diagnostic::{Diagnostic, Kind, MOST_SHOWN, Origin, Report, forget_spans, not_shown};
 use crate::front::{Body, Parsed, declaration, file, line_column, spec};
 use crate::plan::plan;
 use crate::print::{Surface, of_this_version, print, rooted};
@@ -16,6 +16,7 @@ use crate::structure::Structure;
 
 /// What `lie_poisson! { input }` expands to; `manifest` is the folder that spec paths start from.
 pub fn expand_macro(input: TokenStream, manifest: &Path) -> TokenStream {
+    forget_spans();
     let mut report = Report::new();
     let parsed = declaration::parse(input, &mut report);
     if let Err(diagnostics) = report.gate() {
@@ -33,11 +34,7 @@ pub fn expand_macro(input: TokenStream, manifest: &Path) -> TokenStream {
 
 /// The items of a system with the methods that it declares.
 fn generated(structure: &Structure, parsed: &Parsed) -> TokenStream {
-    let surface = Surface {
-        visibility: parsed.visibility.clone(),
-        runtime: parsed.runtime.clone(),
-        ..Surface::of(structure)
-    };
+    let surface = Surface::of(structure).as_declared(parsed);
     print(&plan(structure, &declared_choices(structure)), &surface)
 }
 
@@ -120,7 +117,7 @@ fn failure(parsed: &Parsed, diagnostics: &[Diagnostic]) -> TokenStream {
             message.push_str(&format!("\nhelp: {help}"));
         }
         let span = match diagnostic.origin {
-            Some(Origin::Span(span)) => span,
+            Some(Origin::Span(id)) => id.span(),
             _ => Span::call_site(),
         };
         syn::Error::new(span, visible(&message)).into_compile_error()
@@ -133,8 +130,8 @@ fn failure(parsed: &Parsed, diagnostics: &[Diagnostic]) -> TokenStream {
 /// The types of a declaration without its content; none of it runs, since the crate fails to build.
 fn stub(parsed: &Parsed, name: &Name) -> TokenStream {
     let identifier = |name: &Name| match name.origin {
-        Origin::Span(span) => syn::parse_str::<Ident>(&name.text).ok().map(|mut ident| {
-            ident.set_span(span);
+        Origin::Span(id) => syn::parse_str::<Ident>(&name.text).ok().map(|mut ident| {
+            ident.set_span(id.span());
             ident
         }),
         Origin::Text { .. } => syn::parse_str::<Ident>(&name.text).ok(),

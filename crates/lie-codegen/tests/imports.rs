@@ -230,6 +230,20 @@ fn what_stands_below_the_compiler_needs_nothing_of_it() {
     below(&SYNTAX, &[&SYNTAX, &SYMBOLIC]);
 }
 
+/// A right-invariant declaration changes its sign in the checks. Behind them its invariance is read where the motion on the
+/// group is known, and nowhere else.
+#[test]
+fn one_file_behind_the_checks_reads_the_invariance() {
+    let before = ["ast", "check", "front", "judge"];
+    let sources = compiler();
+    let readers = sources.iter().filter(|source| {
+        let folder = &module(&source.path)[0];
+        !before.contains(&folder.as_str()) && source.text.contains(".invariance")
+    });
+    let readers: Vec<&str> = readers.map(|source| source.path.as_str()).collect();
+    assert_eq!(readers, ["structure/group.rs"]);
+}
+
 /// The control: one arrow back makes a circle of all on its way, whichever way the path is written.
 #[test]
 fn an_arrow_back_is_found() {

@@ -328,7 +328,7 @@ fn jacobiator(dimension: usize, entries: &[Entry], graph: &mut Graph) -> Vec<([u
 fn place(entries: &[Entry], triple: [usize; 3]) -> Origin {
     let between = |entry: &&Entry| triple.contains(&entry.row) && triple.contains(&entry.column);
     let found = entries.iter().find(between).or(entries.first());
-    found.map_or(Origin::Span(proc_macro2::Span::call_site()), |entry| {
+    found.map_or(Origin::at(proc_macro2::Span::call_site()), |entry| {
         entry.origin
     })
 }

@@ -334,10 +334,8 @@ impl<'a> System<'a> {
         let model = Model {
             name: declaration.name.text.clone(),
             name_origin: declaration.name.origin,
-            visibility: declaration.visibility.clone(),
             description: declaration.description.clone(),
             references: declaration.references.clone(),
-            functions: declaration.functions.clone(),
             graph,
             bracket,
             coordinates: declaration.state.clone(),

@@ -29,7 +29,7 @@ pub fn parse(input: TokenStream, report: &mut Report) -> Parsed {
     let tokens = rust::tokens(input);
     let start = tokens
         .first()
-        .map_or(Origin::Span(Span::call_site()), |t| t.origin);
+        .map_or(Origin::at(Span::call_site()), |t| t.origin);
     let mut found = Report::new();
     let parts = Parts {
         statements: statements(&tokens, &mut found),

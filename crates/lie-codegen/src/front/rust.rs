@@ -61,7 +61,7 @@ pub fn tokens(input: TokenStream) -> Vec<Token> {
 fn push(tokens: &mut Vec<Token>, kind: TokenKind, span: Span) {
     tokens.push(Token {
         kind,
-        origin: Origin::Span(span),
+        origin: Origin::at(span),
     });
 }
 
@@ -98,7 +98,7 @@ pub fn stream(tokens: &[Token]) -> TokenStream {
     let mut levels = vec![TokenStream::new()];
     for token in tokens {
         let span = match token.origin {
-            Origin::Span(span) => span,
+            Origin::Span(id) => id.span(),
             Origin::Text { .. } => Span::call_site(),
         };
         let tree = match &token.kind {

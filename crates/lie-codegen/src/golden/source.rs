@@ -4,10 +4,11 @@ use std::path::Path;
 
 use proc_macro2::{TokenStream, TokenTree};
 
-use super::{REMEDY, code, message};
-use crate::compile::{compile_declaration, declared_choices};
+use super::{REMEDY, message};
+use crate::compile::{compile_declaration, declared_choices, expand_on};
 use crate::diagnostic::{Diagnostic, MOST_SHOWN, Origin, Report, not_shown};
 use crate::front::{Body, declaration};
+use crate::print::Surface;
 
 /// A declaration of a source file: the name of its system and its generated code, or the path of the spec that it names.
 pub(super) enum Declared {
@@ -63,8 +64,8 @@ fn declared(place: &str, input: TokenStream) -> Result<Declared, String> {
         let rest = not_shown(errors.clone().count());
         let shown = errors.take(MOST_SHOWN).map(|d| {
             let place = match d.origin {
-                Some(Origin::Span(span)) => {
-                    let start = span.start();
+                Some(Origin::Span(id)) => {
+                    let start = id.span().start();
                     format!("{place}:{}:{}", start.line, start.column + 1)
                 }
                 _ => place.to_owned(),
@@ -78,9 +79,10 @@ fn declared(place: &str, input: TokenStream) -> Result<Declared, String> {
         Some(Body::Declaration(declaration)) => {
             let structure = compile_declaration(declaration).map_err(refused)?;
             let choices = declared_choices(&structure);
+            let surface = Surface::of(&structure).as_declared(&parsed);
             Ok(Declared::Code(
                 structure.name.clone(),
-                code(&structure, &choices, parsed.runtime),
+                expand_on(&structure, &choices, &surface),
             ))
         }
         Some(Body::Spec { path }) => Ok(Declared::Spec(path.text.clone())),

@@ -82,7 +82,9 @@ impl Judge {
             let mut declared = declaration.casimirs.iter().map(|casimir| &casimir.value);
             declared.find(|value| match (value.origin, origin) {
                 (Origin::Text { start: a, .. }, Origin::Text { start: b, .. }) => a == b,
-                (Origin::Span(a), Origin::Span(b)) => format!("{a:?}") == format!("{b:?}"),
+                (Origin::Span(a), Origin::Span(b)) => {
+                    format!("{:?}", a.span()) == format!("{:?}", b.span())
+                }
                 _ => false,
             })
         };

@@ -7,10 +7,8 @@ mod realization;
 
 use std::collections::HashSet;
 
-use proc_macro2::TokenStream;
-
 use crate::algebra::{Representation, StructureConstants};
-use crate::ast::{Invariance, Name, OwnFunction, RunOption};
+use crate::ast::{Invariance, Name, RunOption};
 use crate::diagnostic::Origin;
 use crate::exact::{Fraction, Rational};
 use crate::symbolic::{ExprId, Graph, Symbol};
@@ -199,14 +197,10 @@ pub struct Model {
     pub name: String,
     /// Where the name stands.
     pub name_origin: Origin,
-    /// Visibility of the generated type.
-    pub visibility: TokenStream,
     /// Description, by lines of Markdown.
     pub description: Vec<String>,
     /// References, for people, as Markdown within a line.
     pub references: Vec<String>,
-    /// Functions of Rust that expressions call.
-    pub functions: Vec<OwnFunction>,
     /// The arena of all expressions.
     pub graph: Graph,
     /// What the bracket is.

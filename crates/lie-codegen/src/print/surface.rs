@@ -1,9 +1,11 @@
 //! Where the names of a declaration stand, so that the compiler and an editor find them.
 
 use proc_macro2::{Span, TokenStream};
+use quote::quote;
 
 use crate::ast::Runtime;
 use crate::diagnostic::Origin;
+use crate::front::{Body, Parsed};
 use crate::model::Model;
 
 /// What generated items take from the place of their declaration.
@@ -24,26 +26,35 @@ pub struct Surface {
 }
 
 impl Surface {
-    /// That of a declaration, with the runtime in its usual place.
+    /// That of a system that is public, with the runtime in its usual place.
     pub fn of(model: &Model) -> Self {
-        let span = |origin: Origin| match origin {
-            Origin::Span(span) => span,
-            Origin::Text { .. } => Span::call_site(),
-        };
+        let places =
+            |origins: &mut dyn Iterator<Item = Origin>| origins.map(Origin::span).collect();
         Self {
-            visibility: model.visibility.clone(),
+            visibility: quote! { pub },
             runtime: Runtime::default(),
-            name: span(model.name_origin),
+            name: model.name_origin.span(),
             coordinates: match &model.family {
                 Some(family) => vec![Span::call_site(); family.names.len() + family.sums.len()],
-                None => model.coordinates.iter().map(|c| span(c.origin)).collect(),
+                None => places(&mut model.coordinates.iter().map(|c| c.origin)),
             },
-            functions: model
-                .functions
-                .iter()
-                .flat_map(|f| f.paths.clone())
-                .collect(),
-            parameters: model.parameters.iter().map(|p| span(p.origin)).collect(),
+            functions: Vec::new(),
+            parameters: places(&mut model.parameters.iter().map(|p| p.origin)),
+        }
+    }
+
+    /// The same with what only tokens have: visibility, the path of the runtime, those of functions.
+    #[must_use]
+    pub fn as_declared(self, parsed: &Parsed) -> Self {
+        let functions = match &parsed.body {
+            Some(Body::Declaration(declaration)) => declaration.functions.as_slice(),
+            _ => &[],
+        };
+        Self {
+            visibility: parsed.visibility.clone(),
+            runtime: parsed.runtime.clone(),
+            functions: functions.iter().flat_map(|f| f.paths.clone()).collect(),
+            ..self
         }
     }
 }

@@ -92,6 +92,12 @@ impl Deref for Structure {
     }
 }
 
+// a value that any thread may have
+const _: fn() = || {
+    fn is_shared<T: Send + Sync>() {}
+    is_shared::<Structure>();
+};
+
 /// Finds the structure of a system.
 pub fn structure(mut model: Model, effort: Effort) -> Structure {
     let mut graph = model.graph.clone();

@@ -31,7 +31,7 @@ impl<'a> Entry<'a> {
     pub fn origin(&self) -> Origin {
         self.tokens
             .first()
-            .map_or(Origin::Span(proc_macro2::Span::call_site()), |t| t.origin)
+            .map_or(Origin::at(proc_macro2::Span::call_site()), |t| t.origin)
     }
 
     /// The doc comment as one text.

@@ -56,7 +56,7 @@ pub(super) fn mistakes(text: &str) -> Vec<(Kind, String)> {
     let place = |d: Diagnostic| {
         assert!(d.help.is_some(), "{d:?}");
         match d.origin {
-            Some(Origin::Span(span)) => (d.kind, span.source_text().unwrap_or_default()),
+            Some(Origin::Span(id)) => (d.kind, id.span().source_text().unwrap_or_default()),
             other => panic!("no token: {other:?}"),
         }
     };
