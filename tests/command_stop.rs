@@ -281,8 +281,9 @@ fn measurements_end_with_the_command() {
         // all methods: each run is short, and all of them are long
         ("bench", "--until 100 --budget 0.5", "gauss4, step"),
     ] {
-        let (child, terminal) =
-            Terminal::start(command(format!("{call} {body} {long}").split_whitespace()));
+        let mut command = command(format!("{call} {body} {long}").split_whitespace());
+        command.stdout(Stdio::null());
+        let (child, terminal) = Terminal::start(command);
         terminal.wait(stage, |text| text.contains(stage));
         signal(child.id(), "-TERM");
         assert_eq!(ended(child).code, Some(143), "{call}");
@@ -367,7 +368,9 @@ fn one_long_run_of_a_benchmark_is_cut_short_and_those_before_it_are_kept() {
 fn what_does_not_end_is_left_behind() {
     let call =
         "bench tests/data/families/heisenberg_chain.json --param N=10000 --methods rk4 --until 1e6";
-    let (child, terminal) = Terminal::start(command(call.split_whitespace()));
+    let mut command = command(call.split_whitespace());
+    command.stdout(Stdio::null());
+    let (child, terminal) = Terminal::start(command);
     let stage = "the reference solution";
     terminal.wait(stage, |text| text.contains(stage));
     signal(child.id(), "-TERM");
