@@ -29,7 +29,7 @@ fn the_runtime_of_a_golden_file_is_at_a_path() {
     let folder = std::env::temp_dir().join(format!("lie-golden-path-{}", std::process::id()));
     let mut golden = Golden::new(&folder);
     golden.runtime("my_crate::lie_runtime");
-    golden.spec("../specs/so3_free_rigid_body.json", &[]);
+    golden.spec("../../specs/so3_free_rigid_body.json", &[]);
     let code = &golden.files["so3_free_rigid_body.rs"];
     assert!(
         code.contains("impl<S: my_crate::lie_runtime::Scalar>"),
@@ -53,7 +53,7 @@ fn macros_of_a_source_file() {
     std::fs::create_dir_all(&folder).unwrap();
     let source = folder.join("bodies.txt");
     let body = "lie_poisson! {\n    system Body;\n    algebra = so(3);\n    state x, y, z;\n    hamiltonian = x^2 + y^2;\n    methods = [midpoint];\n}\n";
-    let named = "lie_poisson! { pub spec = \"../specs/so3_free_rigid_body.json\"; }";
+    let named = "lie_poisson! { pub spec = \"../../specs/so3_free_rigid_body.json\"; }";
     std::fs::write(
         &source,
         format!("//! Bodies.\nmod inner {{\n{body}}}\n{named}\n"),

@@ -5,6 +5,8 @@ use crate::symbolic::{ExprId, Graph, Node};
 
 /// More terms are not looked at.
 const MOST: usize = 2000;
+/// Nor more factors in all of them: a tower of powers has few terms at a time, each longer than the last.
+const MOST_FACTORS: usize = 20_000;
 
 /// The terms of an expression in normal form, like terms collected, without a constant number; `None` where there are
 /// too many.
@@ -17,10 +19,13 @@ pub(super) fn collected(graph: &mut Graph, id: ExprId) -> Option<(Rational, Vec<
     let normal = graph.normal(id);
     let mut open = vec![normal];
     let mut atoms = Vec::new();
-    let mut work = 0;
+    let (mut work, mut factors) = (0, 0);
     while let Some(id) = open.pop() {
         work += 1;
-        if work > MOST || open.len() > MOST {
+        if let Node::Product(all) = graph.node(id) {
+            factors += all.len();
+        }
+        if work > MOST || open.len() > MOST || factors > MOST_FACTORS {
             return None;
         }
         match apart(graph, id) {
