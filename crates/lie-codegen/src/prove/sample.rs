@@ -7,6 +7,7 @@ use crate::symbolic::{Graph, Symbol};
 const LAST_BIT: i64 = -20;
 
 /// A sequence of generic points.
+#[derive(Default)]
 pub struct Samples(u64);
 
 /// A generic point: a value for every symbol.
