@@ -1,7 +1,6 @@
 //! What is published: packages with licences and without tests, mathematics where documentation is hosted, one version, and a top
 //! folder in which every entry is explained.
 
-#[allow(dead_code)]
 mod common;
 
 use common::markdown::read;

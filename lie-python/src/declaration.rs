@@ -84,6 +84,9 @@ impl Facts {
     }
 }
 
+/// What runs a method: its label, the form of the group element, the work.
+type Compiled = (String, Option<Chart>, Arc<Work>);
+
 /// A checked declaration.
 pub struct Declaration {
     /// Its number, among all.
@@ -91,7 +94,7 @@ pub struct Declaration {
     pub text: String,
     pub facts: Facts,
     /// What runs a method, by its label and the form of the group element.
-    compiled: Mutex<Vec<(String, Option<Chart>, Arc<Work>)>>,
+    compiled: Mutex<Vec<Compiled>>,
     /// The system without fused code for any method; none where H calls functions of Rust.
     plain: OnceLock<Option<Declared>>,
 }

@@ -124,7 +124,7 @@ impl Core {
 
     /// Every method as an object of JSON, with the reason where it does not apply.
     fn methods(&self, py: Python<'_>) -> String {
-        self.0.with_model(py, |model| report::methods(model))
+        self.0.with_model(py, report::methods)
     }
 
     /// What `lie check --json` says, with the warnings.
@@ -194,7 +194,7 @@ impl Core {
     /// The Hamiltonian and the equations of motion in the names of the declaration, line by line; the Hamiltonian alone where they
     /// are long.
     fn equations(&self, py: Python<'_>) -> Vec<String> {
-        self.0.with_model(py, |model| report::equations(model))
+        self.0.with_model(py, report::equations)
     }
 
     /// Lines of these as LaTeX, one below the other.

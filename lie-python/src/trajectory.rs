@@ -92,7 +92,10 @@ pub fn run<'py>(
             found.set_item("remedy", stop.remedy)?;
         }
         Some(End::Parameter { why, .. }) => return Err(PyValueError::new_err(why)),
-        Some(End::Refused { what, why }) if what == Obstacle::Option => {
+        Some(End::Refused {
+            what: Obstacle::Option,
+            why,
+        }) => {
             return Err(PyValueError::new_err(why));
         }
         other => {

@@ -150,7 +150,7 @@ fn opened(text: &str, request: &Value) -> Result<(Run, Value), Vec<Diagnostic>> 
             "use the command `lie run`".to_owned(),
         )
     })?;
-    let engine = Running::default();
+    let engine: Running = Default::default();
     let system = Dynamic::new(planned, &[], &engine).map_err(|error| {
         refused(
             Kind::Domain,

@@ -8,7 +8,7 @@ use super::{
 };
 use crate::scalar::{Mask, Scalar};
 
-/// As many functions as there are at most; those from the count on are zero.
+/// As many functions as there are at most; those from the count on mean nothing.
 type All<S> = [S; MOST_FUNCTIONS];
 
 /// Sums of the last functions, as many as the stride, then the recurrence `f_k = 1/k! + x f_(k + stride)` down.

@@ -160,10 +160,8 @@ fn compare<const COUNT: usize>(x: f64) -> usize {
     ];
     let bits = |dual: &Dual<f64>| (dual.value.to_bits(), dual.derivative.to_bits());
     for (array, all) in pairs {
-        let (known, rest) = all.split_at(COUNT);
-        let known = known.iter().map(bits);
+        let known = all[..COUNT].iter().map(bits);
         assert!(array.iter().map(bits).eq(known), "{COUNT} {x}");
-        assert!(rest.iter().all(|value| bits(value) == (0, 0)));
     }
     2 * COUNT
 }
