@@ -218,7 +218,7 @@ macro_rules! compare {
             $({
                 let choice = choice_of($id);
                 let steps = trajectory(&printed, &$method, &start);
-                let method = method(&choice, Default::default()).unwrap();
+                let method = method(&choice, Default::default());
                 let made = trajectory(&made, method.as_ref(), &start);
                 match (steps, made) {
                     (Ok(printed), Ok(made)) => $differences.compare(&name($id), &printed, &made),
@@ -363,7 +363,7 @@ fn realizations() {
 fn unknowns_left_out_of_long_eliminations() {
     let spec = "specs/so3_cotangent_euler_arnold.json";
     let id = "generating-second-kind2";
-    let method = method(&Choice::from_id(id).unwrap(), Default::default()).unwrap();
+    let method = method(&Choice::from_id(id).unwrap(), Default::default());
     for engine in [&Interpreted as &dyn Engine, &Jit] {
         let system = made(spec, &[id], engine);
         let mut mu = start_of(spec);

@@ -150,10 +150,11 @@ fn type_name(method: &Method) -> String {
         false => method.id.to_owned(),
     };
     let choice = Choice::from_id(&id).unwrap_or_else(|_| panic!("{id}"));
-    let path = choice.constructor().to_string().replace(' ', "");
-    let (_, name) = path.split_once("::methods::").expect("a path");
+    let value = choice.constructor().to_string();
+    let (_, path) = value.split_once("methods").expect("a path");
     let letter = |c: char| c.is_alphanumeric() || c == '_';
-    name.split(|c| !letter(c))
+    path.trim_start_matches([' ', ':'])
+        .split(|c| !letter(c))
         .next()
         .unwrap_or_default()
         .to_owned()

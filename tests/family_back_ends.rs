@@ -101,7 +101,7 @@ fn compare<P: LiePoisson<f64, State = Vec<f64>>>(
         }
         let start = made.initial_state().unwrap_or_else(|| random.numbers(n));
         for (label, of_printed) in methods {
-            let of_made = method(&Choice::from_id(label).unwrap(), Default::default()).unwrap();
+            let of_made = method(&Choice::from_id(label).unwrap(), Default::default());
             let printed = trajectory(printed, of_printed.as_ref(), &start).unwrap();
             let made = trajectory(&made, of_made.as_ref(), &start).unwrap();
             differences.compare(

@@ -47,14 +47,11 @@ const PROGRAM: &str = r#"
 #[allow(dead_code)]
 mod system;
 
-use lie_runtime::methods::{Method, Stepper};
+use lie_runtime::methods::{Method, Stepper, Tolerances};
 use lie_runtime::newton::NewtonOptions;
 use lie_runtime::prelude::*;
 
 type System = system::NAMESystem;
-
-#[allow(dead_code)]
-struct Tolerances { rtol: f64, atol: f64 }
 
 fn run(system: &System, method: impl Method<f64, System>, steps: u32) {
     let mut mu = system::NAME::new().initial_state();
@@ -74,7 +71,7 @@ fn main() {
     let steps: u32 = arguments[2].parse().expect("a number");
     let system = system::NAME::new().system().expect("valid");
     #[allow(unused_variables)]
-    let tolerances = Tolerances { rtol: 1e-6, atol: 1e-9 };
+    let tolerances = &Tolerances::default();
     match arguments[1].as_str() {
         METHODS
         _ => panic!("no such method"),

@@ -229,8 +229,3 @@ impl Declaration {
         system.map_err(|error| PyValueError::new_err(error.to_string()))
     }
 }
-
-/// Whether a method runs without a compiler of Rust.
-pub fn runs(choice: &Choice) -> bool {
-    lie_dynamic::method(choice, lie_dynamic::Tolerances::default()).is_some()
-}

@@ -1,8 +1,8 @@
 //! What `lie check` and `lie methods` say, as JSON.
 
-use crate::declaration::{Declaration, runs};
+use crate::declaration::Declaration;
 use crate::errors::shown;
-use lie_codegen::methods::{CATALOGUE, Choice, applicability};
+use lie_codegen::methods::{CATALOGUE, applicability};
 use lie_codegen::structure::Effort;
 use lie_codegen::structure::Structure;
 use lie_dynamic::Dynamic;
@@ -24,7 +24,7 @@ pub fn methods(model: &Structure) -> String {
         let mut row = catalogue::json(method);
         row["keeps"] = catalogue::kept(method).into();
         row["reason"] = reason(method.id).into();
-        row["here"] = (supported && here(method.id)).into();
+        row["here"] = supported.into();
         row
     });
     rows.collect::<Value>().to_string()
@@ -49,15 +49,6 @@ pub fn latex(model: &Structure, lines: &[String]) -> String {
     let names = names(model);
     let lines = lines.iter().map(|line| formula(line, &names, &Latex));
     lines.collect::<Vec<_>>().join(r" \\ ")
-}
-
-/// Whether a method runs without a compiler of Rust; a composition by that of the midpoint rule.
-fn here(id: &str) -> bool {
-    let choice = match id.starts_with("compose") {
-        true => Choice::from_id(&format!("{id}(midpoint)")),
-        false => Choice::from_id(id),
-    };
-    choice.is_ok_and(|choice| runs(&choice))
 }
 
 /// The object of `lie check --json`, with the warnings.

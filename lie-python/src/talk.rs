@@ -121,17 +121,14 @@ impl<'a> Subject<'a> {
     }
 }
 
-/// The choices of these labels; of all that `usual` gives where there are none, those that run here.
+/// The choices of these labels; all that `usual` gives where there are none.
 fn choices(
     model: &Structure,
     labels: &[String],
     usual: fn(&Structure) -> Vec<Choice>,
 ) -> Result<Vec<Choice>, Message> {
     match labels {
-        [] => Ok(usual(model)
-            .into_iter()
-            .filter(crate::declaration::runs)
-            .collect()),
+        [] => Ok(usual(model)),
         labels => labels.iter().map(|label| wanted(model, label)).collect(),
     }
 }

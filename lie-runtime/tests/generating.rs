@@ -150,7 +150,7 @@ fn a_wrong_coefficient_loses_the_order() {
             let all = generic::SecondKind2::new(system, h);
             let first = generic::Generating2::new(system, h);
             let function = Scaled { all, first, factor };
-            let equation = SecondKind::with_function(system, function);
+            let equation = SecondKind::with_function(system, function, h);
             ImplicitStepper::new(equation, state(system, &SPIN), &newton)
         })
         .0

@@ -77,20 +77,6 @@ pub struct LotkaVolterraMidpoint<'a, S: ::lie_runtime::Scalar> {
     _h10: S,
 }
 
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss6>
-for LotkaVolterraSystem<S> {
-    type Equation<'a> = ::lie_runtime::generic::Gauss<'a, S, LotkaVolterraSystem<S>, 3>
-    where
-        Self: 'a;
-    fn equation<'a>(
-        &'a self,
-        _method: &::lie_runtime::methods::Gauss6,
-        h: S,
-    ) -> Self::Equation<'a> {
-        ::lie_runtime::generic::Gauss::new(self, h)
-    }
-}
-
 /// Elimination of 3 rows in a fixed order, 0 entries of fill-in: 17 multiplications with the solution.
 #[derive(Clone, Copy, Debug)]
 pub struct LotkaVolterraGonzalezElimination;
@@ -151,73 +137,6 @@ impl<
         vector[0] = _b0;
         vector[1] = _b1;
         vector[2] = _b2;
-    }
-}
-
-/// Elimination of 9 rows in a fixed order, 0 entries of fill-in: 321 multiplications with the solution.
-#[derive(Clone, Copy, Debug)]
-pub struct LotkaVolterraCohenHairer6Elimination;
-
-impl LotkaVolterraCohenHairer6Elimination {
-    const LIST: ::lie_runtime::__private_0_1::StaticElimination = ::lie_runtime::__private_0_1::StaticElimination {
-        order: &[0, 1, 2, 3, 4, 5, 6, 7, 8],
-        below: &[
-            &[1, 2, 3, 4, 5, 6, 7, 8],
-            &[2, 3, 4, 5, 6, 7, 8],
-            &[3, 4, 5, 6, 7, 8],
-            &[4, 5, 6, 7, 8],
-            &[5, 6, 7, 8],
-            &[6, 7, 8],
-            &[7, 8],
-            &[8],
-            &[],
-        ],
-        right: &[
-            &[1, 2, 3, 4, 5, 6, 7, 8],
-            &[2, 3, 4, 5, 6, 7, 8],
-            &[3, 4, 5, 6, 7, 8],
-            &[4, 5, 6, 7, 8],
-            &[5, 6, 7, 8],
-            &[6, 7, 8],
-            &[7, 8],
-            &[8],
-            &[],
-        ],
-    };
-}
-
-impl<
-    S: ::lie_runtime::Scalar,
-> ::lie_runtime::__private_0_1::FixedElimination<
-    S,
-    ::lie_runtime::__private_0_1::StageMatrix<
-        ::lie_runtime::__private_0_1::SMatrix<S, 3, 3>,
-        3,
-    >,
-    ::lie_runtime::__private_0_1::Stages<::lie_runtime::__private_0_1::SVector<S, 3>, 3>,
-> for LotkaVolterraCohenHairer6Elimination {
-    #[inline]
-    fn factor(
-        matrix: &mut ::lie_runtime::__private_0_1::StageMatrix<
-            ::lie_runtime::__private_0_1::SMatrix<S, 3, 3>,
-            3,
-        >,
-    ) -> S::Mask {
-        Self::LIST.factor(matrix)
-    }
-
-    #[inline]
-    fn solve(
-        factors: &::lie_runtime::__private_0_1::StageMatrix<
-            ::lie_runtime::__private_0_1::SMatrix<S, 3, 3>,
-            3,
-        >,
-        vector: &mut ::lie_runtime::__private_0_1::Stages<
-            ::lie_runtime::__private_0_1::SVector<S, 3>,
-            3,
-        >,
-    ) {
-        Self::LIST.solve(factors, vector);
     }
 }
 
@@ -313,7 +232,7 @@ for LotkaVolterraSystem<S> {
 
 impl<
     S: ::lie_runtime::Scalar,
-> ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer<1>>
+> ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer2>
 for LotkaVolterraSystem<S> {
     type Equation<'a> = ::lie_runtime::__private_0_1::Eliminated<
         ::lie_runtime::generic::DiscreteGradientStep<
@@ -328,7 +247,7 @@ for LotkaVolterraSystem<S> {
         Self: 'a;
     fn equation<'a>(
         &'a self,
-        _method: &::lie_runtime::methods::CohenHairer<1>,
+        _method: &::lie_runtime::methods::CohenHairer2,
         h: S,
     ) -> Self::Equation<'a> {
         ::lie_runtime::__private_0_1::Eliminated::new(
@@ -343,7 +262,7 @@ for LotkaVolterraSystem<S> {
 
 impl<
     S: ::lie_runtime::Scalar,
-> ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer<2>>
+> ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer4>
 for LotkaVolterraSystem<S> {
     type Equation<'a> = ::lie_runtime::__private_0_1::Eliminated<
         ::lie_runtime::generic::CohenHairerStep<'a, S, LotkaVolterraSystem<S>, 2>,
@@ -353,7 +272,7 @@ for LotkaVolterraSystem<S> {
         Self: 'a;
     fn equation<'a>(
         &'a self,
-        _method: &::lie_runtime::methods::CohenHairer<2>,
+        _method: &::lie_runtime::methods::CohenHairer4,
         h: S,
     ) -> Self::Equation<'a> {
         ::lie_runtime::__private_0_1::Eliminated::new(
@@ -362,9 +281,76 @@ for LotkaVolterraSystem<S> {
     }
 }
 
+/// Elimination of 9 rows in a fixed order, 0 entries of fill-in: 321 multiplications with the solution.
+#[derive(Clone, Copy, Debug)]
+pub struct LotkaVolterraCohenHairer6Elimination;
+
+impl LotkaVolterraCohenHairer6Elimination {
+    const LIST: ::lie_runtime::__private_0_1::StaticElimination = ::lie_runtime::__private_0_1::StaticElimination {
+        order: &[0, 1, 2, 3, 4, 5, 6, 7, 8],
+        below: &[
+            &[1, 2, 3, 4, 5, 6, 7, 8],
+            &[2, 3, 4, 5, 6, 7, 8],
+            &[3, 4, 5, 6, 7, 8],
+            &[4, 5, 6, 7, 8],
+            &[5, 6, 7, 8],
+            &[6, 7, 8],
+            &[7, 8],
+            &[8],
+            &[],
+        ],
+        right: &[
+            &[1, 2, 3, 4, 5, 6, 7, 8],
+            &[2, 3, 4, 5, 6, 7, 8],
+            &[3, 4, 5, 6, 7, 8],
+            &[4, 5, 6, 7, 8],
+            &[5, 6, 7, 8],
+            &[6, 7, 8],
+            &[7, 8],
+            &[8],
+            &[],
+        ],
+    };
+}
+
 impl<
     S: ::lie_runtime::Scalar,
-> ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer<3>>
+> ::lie_runtime::__private_0_1::FixedElimination<
+    S,
+    ::lie_runtime::__private_0_1::StageMatrix<
+        ::lie_runtime::__private_0_1::SMatrix<S, 3, 3>,
+        3,
+    >,
+    ::lie_runtime::__private_0_1::Stages<::lie_runtime::__private_0_1::SVector<S, 3>, 3>,
+> for LotkaVolterraCohenHairer6Elimination {
+    #[inline]
+    fn factor(
+        matrix: &mut ::lie_runtime::__private_0_1::StageMatrix<
+            ::lie_runtime::__private_0_1::SMatrix<S, 3, 3>,
+            3,
+        >,
+    ) -> S::Mask {
+        Self::LIST.factor(matrix)
+    }
+
+    #[inline]
+    fn solve(
+        factors: &::lie_runtime::__private_0_1::StageMatrix<
+            ::lie_runtime::__private_0_1::SMatrix<S, 3, 3>,
+            3,
+        >,
+        vector: &mut ::lie_runtime::__private_0_1::Stages<
+            ::lie_runtime::__private_0_1::SVector<S, 3>,
+            3,
+        >,
+    ) {
+        Self::LIST.solve(factors, vector);
+    }
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer6>
 for LotkaVolterraSystem<S> {
     type Equation<'a> = ::lie_runtime::__private_0_1::Eliminated<
         ::lie_runtime::generic::CohenHairerStep<'a, S, LotkaVolterraSystem<S>, 3>,
@@ -374,7 +360,7 @@ for LotkaVolterraSystem<S> {
         Self: 'a;
     fn equation<'a>(
         &'a self,
-        _method: &::lie_runtime::methods::CohenHairer<3>,
+        _method: &::lie_runtime::methods::CohenHairer6,
         h: S,
     ) -> Self::Equation<'a> {
         ::lie_runtime::__private_0_1::Eliminated::new(
@@ -382,3 +368,7 @@ for LotkaVolterraSystem<S> {
         )
     }
 }
+
+::lie_runtime::generic_equations!(
+    [S : ::lie_runtime::Scalar] LotkaVolterraSystem < S >, S : gauss6
+);

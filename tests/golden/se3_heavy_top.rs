@@ -35,20 +35,6 @@ for HeavyTopSystem<S> {
     type Lift = ::lie_runtime::methods::Quaternion;
 }
 
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss4>
-for HeavyTopSystem<S> {
-    type Equation<'a> = ::lie_runtime::generic::Gauss<'a, S, HeavyTopSystem<S>, 2>
-    where
-        Self: 'a;
-    fn equation<'a>(
-        &'a self,
-        _method: &::lie_runtime::methods::Gauss4,
-        h: S,
-    ) -> Self::Equation<'a> {
-        ::lie_runtime::generic::Gauss::new(self, h)
-    }
-}
-
 impl HeavyTopGauss6Elimination {
     const LIST: ::lie_runtime::__private_0_1::StaticElimination = ::lie_runtime::__private_0_1::StaticElimination {
         order: &[0, 3, 6, 9, 12, 1, 2, 4, 5, 7, 8, 10, 11, 13, 14, 15, 16, 17],
@@ -173,13 +159,13 @@ for HeavyTopExpMidpoint<'_, S> {
 
 impl<
     S: ::lie_runtime::Scalar,
-> ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer<1>>
+> ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer2>
 for HeavyTopSystem<S> {
     type Equation<'a> = HeavyTopMidpoint<'a, S> where Self: 'a;
 
     fn equation<'a>(
         &'a self,
-        _method: &::lie_runtime::methods::CohenHairer<1>,
+        _method: &::lie_runtime::methods::CohenHairer2,
         h: S,
     ) -> Self::Equation<'a> {
         HeavyTopMidpoint::new(self, h)
@@ -188,23 +174,19 @@ for HeavyTopSystem<S> {
 
 impl<
     S: ::lie_runtime::Scalar,
-> ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer<2>>
+> ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer4>
 for HeavyTopSystem<S> {
     type Equation<'a> = ::lie_runtime::generic::Gauss<'a, S, HeavyTopSystem<S>, 2>
     where
         Self: 'a;
     fn equation<'a>(
         &'a self,
-        _method: &::lie_runtime::methods::CohenHairer<2>,
+        _method: &::lie_runtime::methods::CohenHairer4,
         h: S,
     ) -> Self::Equation<'a> {
         ::lie_runtime::generic::Gauss::new(self, h)
     }
 }
-
-/// Elimination of 18 rows in a fixed order, 0 entries of fill-in: 411 multiplications with the solution.
-#[derive(Clone, Copy, Debug)]
-pub struct HeavyTopIsospectral6Elimination;
 
 impl HeavyTopIsospectral6Elimination {
     const LIST: ::lie_runtime::__private_0_1::StaticElimination = ::lie_runtime::__private_0_1::StaticElimination {
@@ -287,18 +269,10 @@ impl<
     }
 }
 
-/// Taylor coefficients for `taylor`, order by order: 9 sums of products.
-#[derive(Clone, Debug)]
-#[allow(dead_code)]
-pub struct HeavyTopTaylor<'a, S: ::lie_runtime::Scalar> {
-    system: &'a HeavyTopSystem<S>,
-    kept: [S; 9],
-    sums: ::lie_runtime::recurrence::Sums<S, 9, 2>,
-}
-
 ::lie_runtime::generic_equations!(
-    [S : ::lie_runtime::Scalar] HeavyTopSystem < S >, S : generating2, generating4,
-    generating6, second_kind, generating2_cayley, generating4_cayley, isospectral2_cayley
+    [S : ::lie_runtime::Scalar] HeavyTopSystem < S >, S : gauss4, generating2,
+    generating4, generating6, second_kind, generating2_cayley, generating4_cayley,
+    momenta2_cayley, collective2, collective4, collective6
 );
 
 #[allow(non_snake_case, clippy::many_single_char_names)]

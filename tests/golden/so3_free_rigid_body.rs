@@ -1472,6 +1472,20 @@ impl<
     }
 }
 
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gonzalez>
+for FreeRigidBodySystem<S> {
+    type Equation<'a> = FreeRigidBodyMidpoint<'a, S> where Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::Gonzalez,
+        h: S,
+    ) -> Self::Equation<'a> {
+        FreeRigidBodyMidpoint::new(self, h)
+    }
+}
+
 /// Elimination of 3 rows in a fixed order, 0 entries of fill-in: 17 multiplications with the solution.
 #[derive(Clone, Copy, Debug)]
 pub struct FreeRigidBodyOrbitMeanValueElimination;
@@ -1536,20 +1550,6 @@ impl<
 
 impl<
     S: ::lie_runtime::Scalar,
-> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gonzalez>
-for FreeRigidBodySystem<S> {
-    type Equation<'a> = FreeRigidBodyMidpoint<'a, S> where Self: 'a;
-    fn equation<'a>(
-        &'a self,
-        _method: &::lie_runtime::methods::Gonzalez,
-        h: S,
-    ) -> Self::Equation<'a> {
-        FreeRigidBodyMidpoint::new(self, h)
-    }
-}
-
-impl<
-    S: ::lie_runtime::Scalar,
 > ::lie_runtime::Implicit<
     S,
     ::lie_runtime::methods::OrbitEnergy<::lie_runtime::methods::Gonzalez>,
@@ -1571,7 +1571,11 @@ impl<
         h: S,
     ) -> Self::Equation<'a> {
         ::lie_runtime::__private_0_1::Eliminated::new(
-            ::lie_runtime::generic::OrbitEnergyStep::new(self, h),
+            ::lie_runtime::generic::OrbitEnergyStep::<
+                S,
+                _,
+                ::lie_runtime::generic::MeanValueGradient<S, _>,
+            >::new(self, h),
         )
     }
 }
@@ -1613,7 +1617,11 @@ impl<
         h: S,
     ) -> Self::Equation<'a> {
         ::lie_runtime::__private_0_1::Eliminated::new(
-            ::lie_runtime::generic::OrbitEnergyStep::new(self, h),
+            ::lie_runtime::generic::OrbitEnergyStep::<
+                S,
+                _,
+                ::lie_runtime::generic::MeanValueGradient<S, _>,
+            >::new(self, h),
         )
     }
 }
@@ -1655,14 +1663,18 @@ impl<
         h: S,
     ) -> Self::Equation<'a> {
         ::lie_runtime::__private_0_1::Eliminated::new(
-            ::lie_runtime::generic::OrbitEnergyStep::new(self, h),
+            ::lie_runtime::generic::OrbitEnergyStep::<
+                S,
+                _,
+                ::lie_runtime::generic::MeanValueGradient<S, _>,
+            >::new(self, h),
         )
     }
 }
 
 impl<
     S: ::lie_runtime::Scalar,
-> ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer<2>>
+> ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer4>
 for FreeRigidBodySystem<S> {
     type Equation<'a> = ::lie_runtime::__private_0_1::Eliminated<
         ::lie_runtime::generic::Gauss<'a, S, FreeRigidBodySystem<S>, 2>,
@@ -1672,7 +1684,7 @@ for FreeRigidBodySystem<S> {
         Self: 'a;
     fn equation<'a>(
         &'a self,
-        _method: &::lie_runtime::methods::CohenHairer<2>,
+        _method: &::lie_runtime::methods::CohenHairer4,
         h: S,
     ) -> Self::Equation<'a> {
         ::lie_runtime::__private_0_1::Eliminated::new(
@@ -1896,63 +1908,253 @@ impl<
 
 impl<
     S: ::lie_runtime::Scalar,
-> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Isospectral<2>>
+> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Isospectral4>
 for FreeRigidBodySystem<S> {
     type Equation<'a> = ::lie_runtime::__private_0_1::Eliminated<
-        ::lie_runtime::generic::StageMomenta<
-            'a,
-            S,
-            FreeRigidBodySystem<S>,
-            ::lie_runtime::generic::MatrixStages<
-                S,
-                <FreeRigidBodySystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
-                2,
-            >,
-            2,
-        >,
+        ::lie_runtime::generic::MatrixMomenta<'a, S, FreeRigidBodySystem<S>, 2>,
         FreeRigidBodyIsospectral4Elimination,
     >
     where
         Self: 'a;
     fn equation<'a>(
         &'a self,
-        _method: &::lie_runtime::methods::Isospectral<2>,
+        _method: &::lie_runtime::methods::Isospectral4,
         h: S,
     ) -> Self::Equation<'a> {
         ::lie_runtime::__private_0_1::Eliminated::new(
-            ::lie_runtime::generic::StageMomenta::new(self, h),
+            ::lie_runtime::generic::MatrixMomenta::new(self, h),
         )
     }
 }
 
-::lie_runtime::generic_equations!(
-    @ collective[S : ::lie_runtime::Scalar] FreeRigidBodySystem < S >, S, 2
-);
+/// The discrete rigid body of Moser and Veselov; state and branch of the solution by the generic
+/// equation.
+#[derive(Clone, Debug)]
+#[allow(non_snake_case)]
+pub struct FreeRigidBodyMoserVeselov<'a, S: ::lie_runtime::Scalar> {
+    system: &'a FreeRigidBodySystem<S>,
+    base: ::lie_runtime::__private_0_1::SVector<S, 3>,
+    h: S,
+    /// `h/(2*I1)`
+    h_over_2_I1: S,
+    /// `h/(2*I2)`
+    h_over_2_I2: S,
+    /// `h/(2*I3)`
+    h_over_2_I3: S,
+    /// `(1/I2 - 1/I3)*h/2`
+    _h3: S,
+    /// `(1/I1 - 1/I3)*h/2`
+    _h4: S,
+    /// `(1/I1 - 1/I2)*h/2`
+    _h5: S,
+}
+
+impl<'a, S: ::lie_runtime::Scalar> FreeRigidBodyMoserVeselov<'a, S> {
+    /// The equation of a step of size h; what depends on h alone is computed here, once.
+    #[must_use]
+    pub fn new(system: &'a FreeRigidBodySystem<S>, h: S) -> Self {
+        let _t0 = S::one() / system._parameters.I1;
+        let _t1 = h * S::from_f64(0.5);
+        let _t2 = S::one() / system._parameters.I2;
+        let _t3 = S::one() / system._parameters.I3;
+        Self {
+            system,
+            base: ::lie_runtime::Poisson::zero_state(system),
+            h,
+            h_over_2_I1: _t0 * _t1,
+            h_over_2_I2: _t2 * _t1,
+            h_over_2_I3: _t3 * _t1,
+            _h3: (_t2 - _t3) * _t1,
+            _h4: (_t0 - _t3) * _t1,
+            _h5: (_t0 - _t2) * _t1,
+        }
+    }
+}
+
+#[allow(non_snake_case, clippy::many_single_char_names)]
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
+for FreeRigidBodyMoserVeselov<'_, S> {
+    type State = ::lie_runtime::__private_0_1::SVector<S, 3>;
+    type Unknown = Self::State;
+    type Matrix = ::lie_runtime::__private_0_1::SMatrix<S, 3, 3>;
+    fn zero_unknown(&self) -> Self::Unknown {
+        Self::State::repeat(S::zero())
+    }
+
+    fn zero_matrix(&self) -> Self::Matrix {
+        Self::Matrix::repeat(S::zero())
+    }
+
+    #[inline]
+    fn set_base(&mut self, mu: &Self::State) {
+        self.base = *mu;
+    }
+
+    /// `r = q0 u - (h/2) f(u) - mu`, `q0 = sqrt(1 - v.v)`, `v = (c h/2) grad H(u)`
+    ///
+    /// 9 additions, 15 multiplications, 1 function call.
+    #[inline]
+    fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
+        let [[x, y, z]] = self.base.data.0;
+        let [[_u_x, _u_y, _u_z]] = unknown.data.0;
+        let _t0 = _u_x * self.h_over_2_I1;
+        let _t1 = _u_y * self.h_over_2_I2;
+        let _t2 = _u_z * self.h_over_2_I3;
+        let _t3 = (S::one() - _t0 * _t0 - _t1 * _t1 - _t2 * _t2).sqrt();
+        residual[0] = _t3 * _u_x - x + _u_y * _u_z * self._h3;
+        residual[1] = _t3 * _u_y - y - _u_x * _u_z * self._h4;
+        residual[2] = _t3 * _u_z - z + _u_x * _u_y * self._h5;
+    }
+
+    /// `r = q0 u - (h/2) f(u) - mu`, and `dr/du = q0 - u (v^T V)/q0 - (h/2) Df(u)`, `V = (c h/2) H''`
+    ///
+    /// 20 additions, 33 multiplications, 1 division, 1 function call.
+    #[inline]
+    fn linearize(
+        &mut self,
+        unknown: &Self::State,
+        residual: &mut Self::State,
+        matrix: &mut Self::Matrix,
+    ) {
+        let [[x, y, z]] = self.base.data.0;
+        let [[_u_x, _u_y, _u_z]] = unknown.data.0;
+        let _t0 = _u_x * self.h_over_2_I1;
+        let _t1 = _u_y * self.h_over_2_I2;
+        let _t2 = _u_z * self.h_over_2_I3;
+        let _t3 = (S::one() - _t0 * _t0 - _t1 * _t1 - _t2 * _t2).sqrt();
+        let _t4 = _u_y * self._h3;
+        let _t5 = _u_x * self._h4;
+        let _t6 = _u_x * self._h5;
+        let _t7 = S::one() / _t3;
+        let _t8 = _t0 * _t7 * self.h_over_2_I1;
+        let _t9 = _t1 * _t7 * self.h_over_2_I2;
+        let _t10 = _t2 * _t7 * self.h_over_2_I3;
+        residual[0] = _t3 * _u_x - x + _u_z * _t4;
+        residual[1] = _t3 * _u_y - y - _u_z * _t5;
+        residual[2] = _t3 * _u_z - z + _u_y * _t6;
+        matrix[(0, 0)] = _t3 - _t8 * _u_x;
+        matrix[(0, 1)] = _u_z * self._h3 - _t9 * _u_x;
+        matrix[(0, 2)] = _t4 - _t10 * _u_x;
+        matrix[(1, 0)] = -(_t8 * _u_y) - _u_z * self._h4;
+        matrix[(1, 1)] = _t3 - _t9 * _u_y;
+        matrix[(1, 2)] = -(_t10 * _u_y) - _t5;
+        matrix[(2, 0)] = _u_y * self._h5 - _t8 * _u_z;
+        matrix[(2, 1)] = _t6 - _t9 * _u_z;
+        matrix[(2, 2)] = _t3 - _t10 * _u_z;
+    }
+
+    #[inline]
+    fn result(&mut self, unknown: &Self::State, mu: &mut Self::State) {
+        let mut equation = ::lie_runtime::generic::DiscreteTop::new(self.system, self.h);
+        ::lie_runtime::Equation::set_base(&mut equation, &self.base);
+        ::lie_runtime::Equation::result(&mut equation, unknown, mu);
+    }
+
+    #[inline]
+    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+        let mut field = self.base;
+        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
+        *unknown = self.base;
+        ::lie_runtime::State::axpy(unknown, self.h * S::from_f64(0.5), &field);
+    }
+
+    /// Sparse elimination in the order [0, 1, 2], 0 entries of fill-in: 17 multiplications with the solution.
+    #[inline]
+    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
+        let _a0_0 = matrix[(0, 0)];
+        let _a0_0 = S::one() / _a0_0;
+        let _a1_0 = matrix[(1, 0)];
+        let _a1_0 = _a1_0 * _a0_0;
+        let _a0_1 = matrix[(0, 1)];
+        let _a1_1 = matrix[(1, 1)];
+        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
+        let _a0_2 = matrix[(0, 2)];
+        let _a1_2 = matrix[(1, 2)];
+        let _a1_2 = _a1_2 - _a1_0 * _a0_2;
+        let _a2_0 = matrix[(2, 0)];
+        let _a2_0 = _a2_0 * _a0_0;
+        let _a2_1 = matrix[(2, 1)];
+        let _a2_1 = _a2_1 - _a2_0 * _a0_1;
+        let _a2_2 = matrix[(2, 2)];
+        let _a2_2 = _a2_2 - _a2_0 * _a0_2;
+        let _a1_1 = S::one() / _a1_1;
+        let _a2_1 = _a2_1 * _a1_1;
+        let _a2_2 = _a2_2 - _a2_1 * _a1_2;
+        let _a2_2 = S::one() / _a2_2;
+        matrix[(0, 0)] = _a0_0;
+        matrix[(1, 0)] = _a1_0;
+        matrix[(1, 1)] = _a1_1;
+        matrix[(1, 2)] = _a1_2;
+        matrix[(2, 0)] = _a2_0;
+        matrix[(2, 1)] = _a2_1;
+        matrix[(2, 2)] = _a2_2;
+        ::lie_runtime::__private_0_1::inverse_pivots_are_safe(
+            _a0_0.abs() + _a1_1.abs() + _a2_2.abs(),
+        )
+    }
+
+    #[inline]
+    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
+        let _b0 = residual[0];
+        let _b1 = residual[1] - factors[(1, 0)] * _b0;
+        let _b2 = residual[2] - factors[(2, 0)] * _b0 - factors[(2, 1)] * _b1;
+        let _b2 = _b2 * factors[(2, 2)];
+        let _b1 = (_b1 - factors[(1, 2)] * _b2) * factors[(1, 1)];
+        let _b0 = (_b0 - factors[(0, 1)] * _b1 - factors[(0, 2)] * _b2)
+            * factors[(0, 0)];
+        residual[0] = _b0;
+        residual[1] = _b1;
+        residual[2] = _b2;
+    }
+
+    fn jacobian_cost(&self) -> f64 {
+        244.0 / 110.0
+    }
+
+    fn group_factor(
+        &mut self,
+        unknown: &Self::State,
+        xi: &mut Self::State,
+    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
+        let mut equation = ::lie_runtime::generic::DiscreteTop::new(self.system, self.h);
+        ::lie_runtime::Equation::set_base(&mut equation, &self.base);
+        ::lie_runtime::Equation::group_factor(&mut equation, unknown, xi)
+    }
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<S, ::lie_runtime::methods::MoserVeselov>
+for FreeRigidBodySystem<S> {
+    type Equation<'a> = FreeRigidBodyMoserVeselov<'a, S> where Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::MoserVeselov,
+        h: S,
+    ) -> Self::Equation<'a> {
+        FreeRigidBodyMoserVeselov::new(self, h)
+    }
+}
+
 impl<
     S: ::lie_runtime::Scalar,
 > ::lie_runtime::Implicit<
     S,
-    ::lie_runtime::methods::Collective<::lie_runtime::methods::Hopf, 2>,
+    ::lie_runtime::methods::Collective4<::lie_runtime::methods::Hopf>,
 > for FreeRigidBodySystem<S> {
     type Equation<'a> = ::lie_runtime::__private_0_1::Eliminated<
-        ::lie_runtime::generic::StageMomenta<
-            'a,
-            S,
-            FreeRigidBodySystem<S>,
-            ::lie_runtime::generic::QuaternionStages<S, 2>,
-            2,
-        >,
+        ::lie_runtime::generic::QuaternionMomenta<'a, S, FreeRigidBodySystem<S>, 2>,
         FreeRigidBodyIsospectral4Elimination,
     >
     where
         Self: 'a;
     fn equation<'a>(
         &'a self,
-        _method: &::lie_runtime::methods::Collective<::lie_runtime::methods::Hopf, 2>,
+        _method: &::lie_runtime::methods::Collective4<::lie_runtime::methods::Hopf>,
         h: S,
     ) -> Self::Equation<'a> {
         ::lie_runtime::__private_0_1::Eliminated::new(
-            ::lie_runtime::generic::StageMomenta::new(self, h),
+            ::lie_runtime::generic::QuaternionMomenta::new(self, h),
         )
     }
 }
@@ -2173,215 +2375,6 @@ for FreeRigidBodySystem<S> {
     }
 }
 
-/// The discrete rigid body of Moser and Veselov; state and branch of the solution by the generic
-/// equation.
-#[derive(Clone, Debug)]
-#[allow(non_snake_case)]
-pub struct FreeRigidBodyMoserVeselov<'a, S: ::lie_runtime::Scalar> {
-    system: &'a FreeRigidBodySystem<S>,
-    base: ::lie_runtime::__private_0_1::SVector<S, 3>,
-    h: S,
-    /// `h/(2*I1)`
-    h_over_2_I1: S,
-    /// `h/(2*I2)`
-    h_over_2_I2: S,
-    /// `h/(2*I3)`
-    h_over_2_I3: S,
-    /// `(1/I2 - 1/I3)*h/2`
-    _h3: S,
-    /// `(1/I1 - 1/I3)*h/2`
-    _h4: S,
-    /// `(1/I1 - 1/I2)*h/2`
-    _h5: S,
-}
-
-impl<'a, S: ::lie_runtime::Scalar> FreeRigidBodyMoserVeselov<'a, S> {
-    /// The equation of a step of size h; what depends on h alone is computed here, once.
-    #[must_use]
-    pub fn new(system: &'a FreeRigidBodySystem<S>, h: S) -> Self {
-        let _t0 = S::one() / system._parameters.I1;
-        let _t1 = h * S::from_f64(0.5);
-        let _t2 = S::one() / system._parameters.I2;
-        let _t3 = S::one() / system._parameters.I3;
-        Self {
-            system,
-            base: ::lie_runtime::Poisson::zero_state(system),
-            h,
-            h_over_2_I1: _t0 * _t1,
-            h_over_2_I2: _t2 * _t1,
-            h_over_2_I3: _t3 * _t1,
-            _h3: (_t2 - _t3) * _t1,
-            _h4: (_t0 - _t3) * _t1,
-            _h5: (_t0 - _t2) * _t1,
-        }
-    }
-}
-
-#[allow(non_snake_case, clippy::many_single_char_names)]
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for FreeRigidBodyMoserVeselov<'_, S> {
-    type State = ::lie_runtime::__private_0_1::SVector<S, 3>;
-    type Unknown = Self::State;
-    type Matrix = ::lie_runtime::__private_0_1::SMatrix<S, 3, 3>;
-    fn zero_unknown(&self) -> Self::Unknown {
-        Self::State::repeat(S::zero())
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        Self::Matrix::repeat(S::zero())
-    }
-
-    #[inline]
-    fn set_base(&mut self, mu: &Self::State) {
-        self.base = *mu;
-    }
-
-    /// `r = q0 u - (h/2) f(u) - mu`, `q0 = sqrt(1 - v.v)`, `v = (c h/2) grad H(u)`
-    ///
-    /// 9 additions, 15 multiplications, 1 function call.
-    #[inline]
-    fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
-        let [[x, y, z]] = self.base.data.0;
-        let [[_u_x, _u_y, _u_z]] = unknown.data.0;
-        let _t0 = _u_x * self.h_over_2_I1;
-        let _t1 = _u_y * self.h_over_2_I2;
-        let _t2 = _u_z * self.h_over_2_I3;
-        let _t3 = (S::one() - _t0 * _t0 - _t1 * _t1 - _t2 * _t2).sqrt();
-        residual[0] = _t3 * _u_x - x + _u_y * _u_z * self._h3;
-        residual[1] = _t3 * _u_y - y - _u_x * _u_z * self._h4;
-        residual[2] = _t3 * _u_z - z + _u_x * _u_y * self._h5;
-    }
-
-    /// `r = q0 u - (h/2) f(u) - mu`, and `dr/du = q0 - u (v^T V)/q0 - (h/2) Df(u)`, `V = (c h/2) H''`
-    ///
-    /// 20 additions, 33 multiplications, 1 division, 1 function call.
-    #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::State,
-        residual: &mut Self::State,
-        matrix: &mut Self::Matrix,
-    ) {
-        let [[x, y, z]] = self.base.data.0;
-        let [[_u_x, _u_y, _u_z]] = unknown.data.0;
-        let _t0 = _u_x * self.h_over_2_I1;
-        let _t1 = _u_y * self.h_over_2_I2;
-        let _t2 = _u_z * self.h_over_2_I3;
-        let _t3 = (S::one() - _t0 * _t0 - _t1 * _t1 - _t2 * _t2).sqrt();
-        let _t4 = _u_y * self._h3;
-        let _t5 = _u_x * self._h4;
-        let _t6 = _u_x * self._h5;
-        let _t7 = S::one() / _t3;
-        let _t8 = _t0 * _t7 * self.h_over_2_I1;
-        let _t9 = _t1 * _t7 * self.h_over_2_I2;
-        let _t10 = _t2 * _t7 * self.h_over_2_I3;
-        residual[0] = _t3 * _u_x - x + _u_z * _t4;
-        residual[1] = _t3 * _u_y - y - _u_z * _t5;
-        residual[2] = _t3 * _u_z - z + _u_y * _t6;
-        matrix[(0, 0)] = _t3 - _t8 * _u_x;
-        matrix[(0, 1)] = _u_z * self._h3 - _t9 * _u_x;
-        matrix[(0, 2)] = _t4 - _t10 * _u_x;
-        matrix[(1, 0)] = -(_t8 * _u_y) - _u_z * self._h4;
-        matrix[(1, 1)] = _t3 - _t9 * _u_y;
-        matrix[(1, 2)] = -(_t10 * _u_y) - _t5;
-        matrix[(2, 0)] = _u_y * self._h5 - _t8 * _u_z;
-        matrix[(2, 1)] = _t6 - _t9 * _u_z;
-        matrix[(2, 2)] = _t3 - _t10 * _u_z;
-    }
-
-    #[inline]
-    fn result(&mut self, unknown: &Self::State, mu: &mut Self::State) {
-        let mut equation = ::lie_runtime::generic::DiscreteTop::new(self.system, self.h);
-        ::lie_runtime::Equation::set_base(&mut equation, &self.base);
-        ::lie_runtime::Equation::result(&mut equation, unknown, mu);
-    }
-
-    #[inline]
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        let mut field = self.base;
-        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
-        *unknown = self.base;
-        ::lie_runtime::State::axpy(unknown, self.h * S::from_f64(0.5), &field);
-    }
-
-    /// Sparse elimination in the order [0, 1, 2], 0 entries of fill-in: 17 multiplications with the solution.
-    #[inline]
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
-        let _a0_0 = matrix[(0, 0)];
-        let _a0_0 = S::one() / _a0_0;
-        let _a1_0 = matrix[(1, 0)];
-        let _a1_0 = _a1_0 * _a0_0;
-        let _a0_1 = matrix[(0, 1)];
-        let _a1_1 = matrix[(1, 1)];
-        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
-        let _a0_2 = matrix[(0, 2)];
-        let _a1_2 = matrix[(1, 2)];
-        let _a1_2 = _a1_2 - _a1_0 * _a0_2;
-        let _a2_0 = matrix[(2, 0)];
-        let _a2_0 = _a2_0 * _a0_0;
-        let _a2_1 = matrix[(2, 1)];
-        let _a2_1 = _a2_1 - _a2_0 * _a0_1;
-        let _a2_2 = matrix[(2, 2)];
-        let _a2_2 = _a2_2 - _a2_0 * _a0_2;
-        let _a1_1 = S::one() / _a1_1;
-        let _a2_1 = _a2_1 * _a1_1;
-        let _a2_2 = _a2_2 - _a2_1 * _a1_2;
-        let _a2_2 = S::one() / _a2_2;
-        matrix[(0, 0)] = _a0_0;
-        matrix[(1, 0)] = _a1_0;
-        matrix[(1, 1)] = _a1_1;
-        matrix[(1, 2)] = _a1_2;
-        matrix[(2, 0)] = _a2_0;
-        matrix[(2, 1)] = _a2_1;
-        matrix[(2, 2)] = _a2_2;
-        ::lie_runtime::__private_0_1::inverse_pivots_are_safe(
-            _a0_0.abs() + _a1_1.abs() + _a2_2.abs(),
-        )
-    }
-
-    #[inline]
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        let _b0 = residual[0];
-        let _b1 = residual[1] - factors[(1, 0)] * _b0;
-        let _b2 = residual[2] - factors[(2, 0)] * _b0 - factors[(2, 1)] * _b1;
-        let _b2 = _b2 * factors[(2, 2)];
-        let _b1 = (_b1 - factors[(1, 2)] * _b2) * factors[(1, 1)];
-        let _b0 = (_b0 - factors[(0, 1)] * _b1 - factors[(0, 2)] * _b2)
-            * factors[(0, 0)];
-        residual[0] = _b0;
-        residual[1] = _b1;
-        residual[2] = _b2;
-    }
-
-    fn jacobian_cost(&self) -> f64 {
-        244.0 / 110.0
-    }
-
-    fn group_factor(
-        &mut self,
-        unknown: &Self::State,
-        xi: &mut Self::State,
-    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        let mut equation = ::lie_runtime::generic::DiscreteTop::new(self.system, self.h);
-        ::lie_runtime::Equation::set_base(&mut equation, &self.base);
-        ::lie_runtime::Equation::group_factor(&mut equation, unknown, xi)
-    }
-}
-
-impl<
-    S: ::lie_runtime::Scalar,
-> ::lie_runtime::Implicit<S, ::lie_runtime::methods::MoserVeselov>
-for FreeRigidBodySystem<S> {
-    type Equation<'a> = FreeRigidBodyMoserVeselov<'a, S> where Self: 'a;
-    fn equation<'a>(
-        &'a self,
-        _method: &::lie_runtime::methods::MoserVeselov,
-        h: S,
-    ) -> Self::Equation<'a> {
-        FreeRigidBodyMoserVeselov::new(self, h)
-    }
-}
-
 /// Taylor coefficients for `taylor`, order by order: 3 sums of products.
 #[derive(Clone, Debug)]
 #[allow(dead_code)]
@@ -2527,8 +2520,8 @@ for FreeRigidBodySystem<S> {
 ::lie_runtime::generic_equations!(
     [S : ::lie_runtime::Scalar] FreeRigidBodySystem < S >, S : gauss6, cohen_hairer2,
     cohen_hairer6, generating2, generating4, generating6, second_kind,
-    generating2_cayley, generating4_cayley, isospectral2_cayley, isospectral6, hopf2,
-    hopf6
+    generating2_cayley, generating4_cayley, momenta2_cayley, momenta6, collective2,
+    hopf2, collective4, collective6, hopf6
 );
 /// The flows of the pieces of H in `x`, `y`, `z`.
 #[derive(Debug)]

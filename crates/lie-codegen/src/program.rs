@@ -1,5 +1,6 @@
 //! The programs that the command builds: the system and one entry per method.
 
+pub use lie_core::structure::Chart;
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
 
@@ -23,22 +24,19 @@ pub enum Purpose {
     Stress,
 }
 
-/// How the group element is written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Chart {
-    /// As a matrix of the declared representation.
-    Matrix,
-    /// As a unit quaternion.
-    Quaternion,
+/// The names of the columns of the group element.
+pub fn columns(chart: Chart, size: usize) -> Vec<String> {
+    match chart {
+        Chart::Matrix => crate::model::configuration::entries_of("g", size),
+        Chart::Quaternion => (0..4).map(|k| format!("q{k}")).collect(),
+    }
 }
 
-impl Chart {
-    /// The names of the columns.
-    pub fn columns(self, size: usize) -> Vec<String> {
-        match self {
-            Self::Matrix => crate::model::configuration::entries_of("g", size),
-            Self::Quaternion => (0..4).map(|k| format!("q{k}")).collect(),
-        }
+/// The method that confirms the reference solution of `lie bench`: one that needs no matrix for a family.
+pub fn confirming(model: &Structure) -> Choice {
+    match model.family {
+        Some(_) => Choice::Gauss(8),
+        None => Choice::Gauss(3),
     }
 }
 
@@ -74,6 +72,10 @@ pub fn program(structure: &Structure, choices: &[Choice], purpose: Purpose) -> S
         ),
         Purpose::Stress => (quote! { lie_measure::Stress }, None, None),
     };
+    let confirming = (purpose == Purpose::Bench).then(|| {
+        let method = confirming(structure).constructor();
+        quote! { , #method }
+    });
     let main = quote! {
         #[allow(dead_code)]
         mod system { #system }
@@ -83,7 +85,7 @@ pub fn program(structure: &Structure, choices: &[Choice], purpose: Purpose) -> S
             ::#kind::new(&[#(#defaults),*], |values: &[f64]| {
                 let values: &[f64; #count] = values.try_into().unwrap_or(&[f64::NAN; #count]);
                 system::#name::from_values(values).system()
-            })
+            } #confirming)
             #(#entries)*
             #end
             .main()

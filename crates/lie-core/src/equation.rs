@@ -130,7 +130,7 @@ pub fn newton_update<S: Scalar, E: Equation<S> + ?Sized>(
 /// The equation of one step of the implicit method M for a system.
 ///
 /// The generated code returns a fused equation for the methods that the declaration asks for, and
-/// the generic one of [`crate::generic`] for all others; by hand, [`crate::generic_equations!`]
+/// the generic one of [`crate::generic`] for all others; by hand, `generic_equations!`
 /// implements it with the generic ones.
 #[diagnostic::on_unimplemented(
     message = "the system `{Self}` has no equation for a step of `{M}` over the scalar `{S}`",

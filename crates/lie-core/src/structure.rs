@@ -75,6 +75,17 @@ macro_rules! __entries {
     };
 }
 
+/// How the group element is written.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Chart {
+    /// As a matrix of the declared representation, by rows.
+    #[default]
+    Matrix,
+    /// As a unit quaternion `(q0, q1, q2, q3)`, the real part first, where the matrices are rotations in three
+    /// dimensions. It is normalised after every step; its sign changes continuously.
+    Quaternion,
+}
+
 /// A Hamiltonian system on `T*G`: the Hamiltonian `H(g, mu)` is not invariant under the group, and the state
 /// is mu with the coordinates of the configuration, the entries of g.
 ///

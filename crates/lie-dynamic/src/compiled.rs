@@ -322,7 +322,7 @@ impl Compiled {
                         Some(_) => lie_taylor = Some(codes),
                     }
                 }
-                Item::Collective(_) | Item::Method(Method::Own(_), _) => {}
+                Item::Method(Method::Own(_), _) => {}
             }
         }
         let flows = crate::flows::Codes::new(&plan, &mut making);

@@ -6,7 +6,7 @@ use crate::kernels::ARGUMENTS;
 use crate::straight;
 use crate::system::Dynamic;
 use lie_codegen::methods::Choice;
-use lie_codegen::plan::{Chart, Ending, Fused, Guess, Item, Partner, Solver};
+use lie_codegen::plan::{Chart, Ending, Fused, Guess, Item, Solver};
 use lie_core::{equation::newton_update, generic};
 use lie_runtime::methods::Retraction;
 use lie_runtime::{Equation, Mask as _, Poisson, Scalar, Unknown};
@@ -62,7 +62,7 @@ impl<'a, S: Scalar, G> Planned<'a, S, G> {
                         both: [zero.as_slice(), &zero].concat(),
                         base: zero,
                         of_step: system.values.of_step(&codes.step, h),
-                        ratios: vec![S::zero(); 2 * spins(row)],
+                        ratios: vec![S::zero(); 2 * spins(system, row)],
                     }
                 });
             }
@@ -87,18 +87,17 @@ impl<'a, S: Scalar, G> Planned<'a, S, G> {
     }
 }
 
-fn spins(row: &Fused) -> usize {
-    match row.partner {
-        Partner::Spherical(spins) => spins,
-        _ => 0,
-    }
+/// How many spins an equation asks for.
+fn spins<S: Scalar>(system: &Dynamic<S>, row: &Fused) -> usize {
+    let spherical = row.partner.choice() == Some(&Choice::SphericalMidpoint);
+    let spins = system.plan().structure.spins.as_ref().filter(|_| spherical);
+    spins.map_or(0, |spins| spins.coordinates.len())
 }
 
 impl<S: Scalar> Running<'_, S> {
     /// What the runtime computes from the state and the unknown before a kernel.
     fn prepare(&mut self, system: &Dynamic<S>, unknown: &[S]) {
-        let count = spins(self.row);
-        if count > 0 {
+        if !self.ratios.is_empty() {
             generic::sphere_ratios_into(system, &self.base, unknown, &mut self.ratios);
         }
     }

@@ -11,19 +11,19 @@ use lie_core::generic::{
 use lie_runtime::{Poisson, Scalar};
 use std::marker::PhantomData;
 
-/// A method named after a discrete gradient.
+/// A generic discrete gradient.
 pub trait Named {
     /// Which.
     const GRADIENT: Gradient;
 }
 
-impl Named for lie_runtime::methods::Gonzalez {
+impl<S: Scalar> Named for GonzalezGradient<S, Dynamic<S>> {
     const GRADIENT: Gradient = Gradient::Gonzalez;
 }
-impl Named for lie_runtime::methods::MeanValue {
+impl<S: Scalar> Named for MeanValueGradient<S, Dynamic<S>> {
     const GRADIENT: Gradient = Gradient::MeanValue;
 }
-impl Named for lie_runtime::methods::ItohAbe {
+impl<S: Scalar> Named for ItohAbeGradient<S, Dynamic<S>> {
     const GRADIENT: Gradient = Gradient::ItohAbe;
 }
 
@@ -74,11 +74,17 @@ impl<S: Scalar, K: Named> DiscreteGradient<S, Dynamic<S>> for Planned<S, K> {
             _ => None,
         };
         let form = match partner {
-            Some(Partner::OrbitEnergy(gradient, true)) => Form::Coded {
-                gradient: *gradient,
-                start: system.zero_state(),
+            Some(Partner::Catalogue {
+                of: Choice::OrbitEnergy(gradient),
+                along,
+                ..
+            }) => match along {
+                Some(_) => Form::Coded {
+                    gradient: *gradient,
+                    start: system.zero_state(),
+                },
+                None => generic_form(*gradient, system),
             },
-            Some(Partner::OrbitEnergy(gradient, false)) => generic_form(*gradient, system),
             _ => generic_form(K::GRADIENT, system),
         };
         Self {

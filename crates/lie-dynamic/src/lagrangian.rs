@@ -1,33 +1,12 @@
-//! Systems by a Lagrangian or a discrete Lagrangian, and their methods.
+//! Systems by a Lagrangian or a discrete Lagrangian.
 
 use crate::compiled::Place;
 use crate::kernels::ARGUMENTS;
-use crate::methods::{Method, boxed};
 use crate::system::Dynamic;
 use crate::traits::there;
-use lie_codegen::methods::{Choice, Retraction};
 use lie_codegen::plan::Energy;
 use lie_core::family::LateMatrix;
-use lie_core::generic_equations;
-use lie_runtime::methods as m;
 use lie_runtime::{DiscreteLagrangianPoisson, LagrangianPoisson, Scalar};
-
-generic_equations!([S: Scalar] Dynamic<S>, S: variational, variational_cayley, discrete, discrete_cayley);
-
-/// The method of a choice, if it needs a Lagrangian.
-pub(crate) fn method<S: Scalar>(choice: &Choice) -> Option<Method<S>> {
-    match choice {
-        Choice::Variational(2, Retraction::Exp) => boxed(m::Variational2::exp()),
-        Choice::Variational(2, Retraction::Cayley) => boxed(m::Variational2::cayley()),
-        Choice::Variational(4, _) => boxed(m::Variational4::exp()),
-        Choice::Variational(6, _) => boxed(m::Variational6::exp()),
-        Choice::DiscreteEulerPoincare(Retraction::Exp) => boxed(m::DiscreteEulerPoincare::exp()),
-        Choice::DiscreteEulerPoincare(Retraction::Cayley) => {
-            boxed(m::DiscreteEulerPoincare::cayley())
-        }
-        _ => None,
-    }
-}
 
 impl<S: Scalar> Dynamic<S> {
     /// Whether H is a Legendre transform by Newton's iteration.

@@ -18,7 +18,7 @@
 //! let model = compile_spec(spec).map_err(|errors| format!("{errors:?}"))?;
 //! let midpoint = Choice::from_id("midpoint").map_err(|error| error.message)?;
 //! let system = Dynamic::new(plan(&model, std::slice::from_ref(&midpoint)), &[], &Interpreted)?;
-//! let method = method(&midpoint, Default::default()).ok_or("no such method")?;
+//! let method = method(&midpoint, Default::default());
 //! let mut stepper = method.any_stepper(&system, 0.1, &NewtonOptions::default());
 //! let mut mu = vec![0.3, -0.4, 1.2];
 //! let energy = system.hamiltonian(&mu);
@@ -61,8 +61,9 @@ pub use elementary::{BINARY, Binary, UNARY, Unary};
 pub use interpreter::{Interpreted, Interpreter, phi, stumpff};
 pub use kernels::{Engine, Frame, Machine, Targets, place_by_place};
 pub use layout::{Lengths, SLICES};
+pub use lie_runtime::methods::Tolerances;
 pub use methods::{
-    Method, Tolerances, at_defaults, at_defaults_dual, is_compiled_for_lanes, method, method_dual,
+    Method, at_defaults, at_defaults_dual, is_compiled_for_lanes, method, method_dual,
     method_in_lanes,
 };
 pub use straight::PATIENCE;

@@ -50,7 +50,7 @@ impl Question for Ensemble {
         let members = Members {
             declared: work.declared(),
             choice: &self.plan.method,
-            tolerances: crate::of_dynamic(&self.plan.tolerances),
+            tolerances: self.plan.tolerances,
             parameters: self.parameters,
             starts: self.starts,
             end: run.end(),

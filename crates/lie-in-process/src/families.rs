@@ -1,6 +1,5 @@
 //! What is measured of families, and of how many sites.
 
-use lie_codegen::methods::Choice;
 use lie_codegen::program::Purpose;
 use lie_codegen::structure::Structure;
 
@@ -52,13 +51,5 @@ impl Limit {
         );
         let sites = most / model.dimension();
         Some((text, format!("measure fewer sites, at most {sites}")))
-    }
-}
-
-/// The method that confirms the reference solution: one that needs no matrix for a family.
-pub fn confirming(model: &Structure) -> Choice {
-    match model.family {
-        Some(_) => Choice::Gauss(8),
-        None => Choice::Gauss(3),
     }
 }

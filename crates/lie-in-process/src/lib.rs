@@ -28,16 +28,16 @@ pub mod words;
 use lie_codegen::methods::Choice;
 use lie_codegen::model::Size;
 use lie_codegen::plan::plan;
-use lie_codegen::program::{Chart, Purpose, beside, compared};
+use lie_codegen::program::{Chart, Purpose, beside, compared, confirming};
 use lie_codegen::structure::Structure;
-use lie_dynamic::{Declared, Dynamic, Method, at_defaults, at_defaults_dual, method, method_dual};
+use lie_dynamic::{Declared, Dynamic, at_defaults, at_defaults_dual, method, method_dual};
 use lie_jit::Jit;
 use lie_measure::verify::Kind;
 use lie_measure::{Bench, Request, Stress, Verify, bench, stress as limits, verify as claims};
 use lie_program::Program;
 use lie_program::protocol::{End, Found, Run, Tolerances};
 use lie_program::session::Session;
-use lie_runtime::{ParameterError, driver};
+use lie_runtime::ParameterError;
 
 /// The text of [`clock`], which built programs have too.
 pub const CLOCK: &str = include_str!("clock.rs");
@@ -116,20 +116,6 @@ pub struct Work {
     orbits: bool,
 }
 
-/// What is known to be there: whether there is a method depends neither on tolerances nor on the scalar.
-fn there<M>(method: Option<M>) -> M {
-    method.unwrap_or_else(|| unreachable!("the method was there before"))
-}
-
-fn of_dynamic(tolerances: &Tolerances) -> lie_dynamic::Tolerances {
-    let (rtol, atol) = (tolerances.rtol, tolerances.atol);
-    lie_dynamic::Tolerances { rtol, atol }
-}
-
-fn made(choice: &Choice, tolerances: &Tolerances) -> Method {
-    there(method(choice, of_dynamic(tolerances)))
-}
-
 /// Makes the system of values of the parameters.
 fn maker(
     declared: &Declared,
@@ -148,8 +134,7 @@ impl Work {
         clock: fn() -> Option<f64>,
     ) -> Option<Self> {
         let plan = plan(model, choices);
-        let known = |choice: &Choice| method(choice, lie_dynamic::Tolerances::default()).is_some();
-        if !Dynamic::supports(&plan) || !choices.iter().all(known) {
+        if !Dynamic::supports(&plan) {
             return None;
         }
         let parameters = model.parameters.iter();
@@ -171,7 +156,7 @@ impl Work {
             choices: choices.to_vec(),
             parameters: parameters.collect(),
             compared: compared(model, choices).into_iter().cloned().collect(),
-            confirming: families::confirming(model),
+            confirming: confirming(model),
             sizes: sizes(model),
             orbits: model.is_lie_poisson(),
         })
@@ -193,10 +178,10 @@ impl Work {
         let mut program = Program::new(&self.parameters(), maker(&self.declared));
         for choice in &self.choices {
             let (label, choice) = (choice.label(), choice.clone());
-            let make = move |tolerances: &Tolerances| made(&choice, tolerances);
+            let make = move |tolerances: &Tolerances| method(&choice, *tolerances);
             program = match self.chart {
                 None => program.any_method(&label, make),
-                Some(chart) => program.any_on_group(&label, of_driver(chart), make),
+                Some(chart) => program.any_on_group(&label, chart, make),
             };
         }
         program.run(run, session)
@@ -219,13 +204,10 @@ impl Work {
                 Kind::Plain
             };
             program = program.any_method(&label, kind, move |tolerances| match series {
-                true => (
-                    there(at_defaults(&choice)),
-                    there(at_defaults_dual(&choice)),
-                ),
+                true => (at_defaults(&choice), at_defaults_dual(&choice)),
                 false => (
-                    made(&choice, tolerances),
-                    there(method_dual(&choice, of_dynamic(tolerances))),
+                    method(&choice, *tolerances),
+                    method_dual(&choice, *tolerances),
                 ),
             });
         }
@@ -233,7 +215,7 @@ impl Work {
             let Some(plain) = &self.plain else { break };
             let (label, build) = (choice.label(), maker(plain));
             let choice = choice.clone();
-            let make = move |tolerances: &Tolerances| made(&choice, tolerances);
+            let make = move |tolerances: &Tolerances| method(&choice, *tolerances);
             program = program.any_plain(&label, build, make);
         }
         if self.orbits {
@@ -268,14 +250,15 @@ impl Work {
         // what is compiled is compiled before a time is taken
         let (declared, parameters) = (self.declared.clone(), self.parameters());
         let build = move |values: &[f64]| Ok(declared.system(values)?.without_patience());
-        let program = Bench::new(&parameters, build);
-        let confirming = made(&self.confirming, &Tolerances::default());
-        let mut program = program.clock(self.clock).confirmed_by(confirming);
+        let confirming = method(&self.confirming, Tolerances::default());
+        let mut program = Bench::with_any(&parameters, build, confirming).clock(self.clock);
         for choice in &self.choices {
             let (label, choice) = (choice.label(), choice.clone());
             program = match choice.is_adaptive() {
-                true => program.any_adaptive(&label, move |tolerances| made(&choice, tolerances)),
-                false => program.any_method(&label, move || made(&choice, &Tolerances::default())),
+                true => {
+                    program.any_adaptive(&label, move |tolerances| method(&choice, *tolerances))
+                }
+                false => program.any_method(&label, move || method(&choice, Tolerances::default())),
             };
         }
         program.work(request, session)
@@ -290,7 +273,7 @@ impl Work {
         let mut program = program.leaving(&self.sizes);
         for choice in &self.choices {
             let (label, choice) = (choice.label(), choice.clone());
-            program = program.any_method(&label, move || made(&choice, &Tolerances::default()));
+            program = program.any_method(&label, move || method(&choice, Tolerances::default()));
         }
         program.work(request, session)
     }
@@ -304,12 +287,4 @@ fn sizes(model: &Structure) -> Vec<String> {
         Size::Number(_) => None,
     });
     named.collect()
-}
-
-/// The chart of the driver.
-fn of_driver(chart: Chart) -> driver::Chart {
-    match chart {
-        Chart::Matrix => driver::Chart::Matrix,
-        Chart::Quaternion => driver::Chart::Quaternion,
-    }
 }

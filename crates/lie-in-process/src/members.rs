@@ -142,10 +142,7 @@ enum Lost {
 impl Members<'_> {
     /// Runs some of the members, in order. Sets `stop` where the options suit no member, and ends early where it is set.
     pub fn run(&self, some: Range<usize>, watch: &Watch) -> Vec<Member> {
-        let Some(alone) = method(self.choice, self.tolerances) else {
-            let none = |_| Member::failing(0.0, "there is no such method".to_owned());
-            return some.map(none).collect();
-        };
+        let alone = method(self.choice, self.tolerances);
         let lanes = self.takes_lanes();
         let together = lanes.then(|| method_in_lanes(self.choice, self.tolerances));
         let worker = Worker {

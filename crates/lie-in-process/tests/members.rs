@@ -4,7 +4,7 @@ use lie_codegen::compile::{compile_spec, with_options};
 use lie_codegen::methods::Choice;
 use lie_codegen::plan::plan;
 use lie_codegen::structure::Structure;
-use lie_dynamic::{Declared, Tolerances, method};
+use lie_dynamic::{Declared, Tolerances};
 use lie_in_process::list;
 use lie_in_process::members::{LANES, Member, Members, Watch};
 use lie_jit::Jit;
@@ -69,8 +69,7 @@ fn alone(members: &Members<'_>) -> Vec<Member> {
 /// What is different between members in lanes and alone, by method; the control differs in the last digits of one member's start.
 fn different(name: &str, save: Save, newton: NewtonOptions) -> (usize, Vec<String>) {
     let model = model(name);
-    let there = |choice: &Choice| method(choice, Tolerances::default()).is_some();
-    let choices: Vec<_> = list::all(&model).into_iter().filter(there).collect();
+    let choices = list::all(&model);
     let declared = Declared::new(plan(&model, &choices), &Jit);
     let starts = starts(&declared);
     let (mut compared, mut different) = (0, Vec::new());

@@ -141,15 +141,15 @@ fn opened(text: &str, request: &Value) -> Result<(Run, Value), Vec<Diagnostic>> 
         )
     })?;
     let planned = plan(&model, std::slice::from_ref(&choice));
-    let method = at_defaults(&choice).filter(|_| Dynamic::supports(&planned));
-    let method = method.ok_or_else(|| {
+    if !Dynamic::supports(&planned) {
         let text = "functions of Rust do not run in a page";
-        refused(
+        return Err(refused(
             Kind::Method,
             text.to_owned(),
             "use the command `lie run`".to_owned(),
-        )
-    })?;
+        ));
+    }
+    let method = at_defaults(&choice);
     let engine: Running = Default::default();
     let system = Dynamic::new(planned, &[], &engine).map_err(|error| {
         refused(

@@ -25,6 +25,7 @@ use crate::generic::{gauss_entry, gauss_weight, quaternion_product as product};
 use crate::methods::{Retraction, RungeKutta};
 use crate::scalar::{Scalar, largest};
 use crate::state::State;
+pub use crate::structure::Chart;
 use crate::structure::{Group, MatrixGroup};
 use core::ops::ControlFlow;
 
@@ -38,17 +39,6 @@ const BERNOULLI: [(f64, f64); 5] = [
 ];
 /// Sweeps of the implicit equations in exponential coordinates.
 const SWEEPS: usize = 60;
-
-/// How the group element is written.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Chart {
-    /// As a matrix of the declared representation, by rows.
-    #[default]
-    Matrix,
-    /// As a unit quaternion `(q0, q1, q2, q3)`, the real part first, where the matrices are rotations in three
-    /// dimensions. It is normalised after every step; its sign changes continuously.
-    Quaternion,
-}
 
 /// Observes a run and keeps the group element; see the [module's text](self).
 ///

@@ -4,10 +4,10 @@ mod picture;
 mod table;
 
 use lie_codegen::diagnostic::Kind;
-use lie_codegen::program::Purpose;
+use lie_codegen::program::{Purpose, confirming};
 use lie_in_process::request::{Given, Request, span};
 use lie_in_process::words::{counted, short};
-use lie_in_process::{families, list, table::text as aligned};
+use lie_in_process::{list, table::text as aligned};
 use lie_measure::bench::{ClockKind, Found, Measure, Options, Plane, Point, Reference};
 use lie_program::protocol::Obstacle;
 
@@ -197,7 +197,7 @@ fn basis(bed: &Bed, results: &Results) -> String {
         }) => format!(
             "reference: extrapolation, error about {}; differs from {} by {}; errors below {} are not told from 0\n",
             short(error),
-            families::confirming(&bed.spec.model).label(),
+            confirming(&bed.spec.model).label(),
             short(difference),
             short(floor)
         ),

@@ -5,9 +5,8 @@ use std::ops::Range;
 use std::collections::BTreeMap;
 
 use lie_codegen::model::{Family, Parameter};
-use lie_codegen::program::Chart;
-use lie_codegen::structure::Structure;
-use lie_codegen::structure::group;
+use lie_codegen::program::{Chart, columns};
+use lie_codegen::structure::{Structure, group};
 use lie_program::protocol::Columns;
 
 /// The columns that are shown.
@@ -115,7 +114,7 @@ fn entries(model: &Structure, chart: Option<Chart>) -> Vec<String> {
         model.coordinates.iter().any(|c| c.text == *name)
             || model.casimirs.iter().any(|c| c.name == *name)
     };
-    let names = chart.columns(group.size);
+    let names = columns(chart, group.size);
     if names.iter().any(taken) {
         names.iter().map(|name| format!("group_{name}")).collect()
     } else {

@@ -82,8 +82,8 @@ fn near_integrable(order: u32, scheme: Scheme, pieces: usize) -> Option<(String,
 
 /// The remedy: the default scheme of an order.
 fn other_scheme(order: u32) -> String {
-    let default = Scheme::of_splitting(order).first().copied();
-    let name = default.unwrap_or_default().name();
+    let default = Scheme::of_splitting(order).next();
+    let name = default.map_or("", Scheme::name);
     format!("use `splitting{order}` with `--composition {name}`, which is for any number of pieces")
 }
 
@@ -168,27 +168,10 @@ fn lagrangian(model: &Model, choice: &Choice) -> Option<(String, String)> {
     }
 }
 
-/// Whether a method moves along coadjoint orbits, and so needs the Lie–Poisson bracket of an algebra.
-fn needs_algebra(choice: &Choice) -> bool {
-    !matches!(
-        choice,
-        Choice::Midpoint
-            | Choice::Gauss(_)
-            | Choice::DiscreteGradient(..)
-            | Choice::CohenHairer(_)
-            | Choice::Rk4
-            | Choice::Dopri5
-            | Choice::Taylor
-    )
-}
-
 /// Why a method does not apply to the bracket of a system, whatever H is.
 fn bracket(model: &Model, choice: &Choice) -> Option<(String, String)> {
-    if !needs_algebra(choice) {
-        return None;
-    }
-    let order = choice.entry().map_or(2, |method| method.order);
-    let nearest = match order {
+    let method = choice.entry().filter(|method| method.needs_algebra())?;
+    let nearest = match method.order {
         1 | 2 => "`midpoint` or `gonzalez`",
         3 | 4 => "`gauss4` or `cohen-hairer4`",
         5 | 6 => "`gauss6` or `cohen-hairer6`",

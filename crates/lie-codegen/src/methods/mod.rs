@@ -6,12 +6,14 @@ mod choice;
 mod constructor;
 pub mod declared;
 mod options;
+mod rows;
 mod table;
 
 pub use applicability::{applicability, kind_of_refusal, refusal};
 pub use choice::{Choice, Unusable};
 pub use lie_core::methods::Preserves;
 pub use options::{Gradient, Lift, OptionError, Pieces, Retraction, Scheme, Tensor};
+pub use rows::{Carrier, GenericEquation, Row};
 pub use table::CATALOGUE;
 
 /// One method of the catalogue.

@@ -1,6 +1,9 @@
 //! The options of methods, by the names of their flags.
 
+pub use lie_core::methods::Scheme;
+
 use super::Choice;
+use super::rows::Row;
 use crate::suggest::{did_you_mean, listed};
 
 macro_rules! named {
@@ -94,84 +97,6 @@ named! {
     }
 }
 
-named! {
-    /// The coefficients of a composition, `--composition`.
-    Scheme, Suzuki {
-        /// Five stages for each two orders.
-        Suzuki = "suzuki",
-        /// Three stages for each two orders.
-        TripleJump = "triple-jump",
-        /// Yoshida's solution A: seven stages, order 6.
-        Yoshida = "yoshida",
-        /// Kahan and Li: nine stages for order 6, seventeen for order 8.
-        KahanLi = "kahan-li",
-        /// Suzuki and Umeno: fifteen stages, order 8.
-        SuzukiUmeno = "suzuki-umeno",
-        /// Blanes and Moan: splittings with the fewest stages for their error.
-        BlanesMoan = "blanes-moan",
-        /// Strang: order 2.
-        Strang = "strang",
-        /// Laskar and Robutel: order 2, for two pieces, the second small, two stages.
-        Saba2 = "saba2",
-        /// The same with four stages.
-        Saba4 = "saba4",
-        /// Laskar and Robutel: order 2, for two pieces, the first small, two stages.
-        Sbab2 = "sbab2",
-        /// The same with four stages.
-        Sbab4 = "sbab4",
-        /// McLachlan: order (8, 4), for two pieces, the second small, five stages.
-        McLachlan84 = "mclachlan-8-4",
-    }
-}
-
-impl Scheme {
-    /// The schemes of a composition of an order; the first is the default.
-    pub const fn of_composition(order: u32) -> &'static [Self] {
-        match order {
-            4 => &[Self::Suzuki, Self::TripleJump],
-            6 => &[Self::KahanLi, Self::Yoshida, Self::Suzuki, Self::TripleJump],
-            8 => &[Self::KahanLi, Self::SuzukiUmeno],
-            _ => &[],
-        }
-    }
-
-    /// Whether it is for two pieces one of which is small.
-    pub const fn is_near_integrable(self) -> bool {
-        matches!(
-            self,
-            Self::Saba2 | Self::Saba4 | Self::Sbab2 | Self::Sbab4 | Self::McLachlan84
-        )
-    }
-
-    /// The schemes of a splitting of an order; the first is the default.
-    pub const fn of_splitting(order: u32) -> &'static [Self] {
-        match order {
-            2 => &[
-                Self::Strang,
-                Self::Saba2,
-                Self::Saba4,
-                Self::Sbab2,
-                Self::Sbab4,
-            ],
-            4 => &[
-                Self::BlanesMoan,
-                Self::Suzuki,
-                Self::TripleJump,
-                Self::McLachlan84,
-            ],
-            6 => &[
-                Self::BlanesMoan,
-                Self::KahanLi,
-                Self::Yoshida,
-                Self::Suzuki,
-                Self::TripleJump,
-            ],
-            8 => &[Self::KahanLi, Self::SuzukiUmeno],
-            _ => &[],
-        }
-    }
-}
-
 /// Why an option cannot be set.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum OptionError {
@@ -181,43 +106,6 @@ pub enum OptionError {
     Value(String, String),
 }
 
-fn pick<T: Copy + PartialEq>(
-    what: &str,
-    text: &str,
-    all: &[T],
-    name: impl Fn(T) -> &'static str,
-) -> Result<T, OptionError> {
-    all.iter()
-        .copied()
-        .find(|value| name(*value) == text)
-        .ok_or_else(|| {
-            let names: Vec<&str> = all.iter().map(|value| name(*value)).collect();
-            let near = did_you_mean(text, names.iter().copied());
-            let near = near.map_or(String::new(), |near| format!("did you mean `{near}`? "));
-            OptionError::Value(
-                format!("--{what} has no value `{text}`"),
-                format!("{near}here it may be {}", listed(&names)),
-            )
-        })
-}
-
-impl Lift {
-    /// Those of the collective method of an order: from order 8 on the stages are evaluated together on the points of a linear
-    /// space, the smallest one unless another is asked for.
-    pub fn of_collective(order: u32) -> &'static [Self] {
-        if order > 6 {
-            &[
-                Self::Smallest,
-                Self::Hopf,
-                Self::Quaternion,
-                Self::Representation,
-            ]
-        } else {
-            &[Self::Representation, Self::Hopf, Self::Spec]
-        }
-    }
-}
-
 impl Choice {
     /// The same method with an option set; the options of a composition are those of its base, and
     /// its own.
@@ -225,47 +113,33 @@ impl Choice {
     /// # Errors
     /// The option is none of this method, or its value none of the option.
     pub fn with_option(self, option: &str, value: &str) -> Result<Self, OptionError> {
-        Ok(match (self, option) {
-            (Self::LieMidpoint(_), "retraction") => {
-                Self::LieMidpoint(pick(option, value, Retraction::ALL, Retraction::name)?)
-            }
-            (Self::Variational(2, _), "retraction") => {
-                Self::Variational(2, pick(option, value, Retraction::ALL, Retraction::name)?)
-            }
-            (Self::DiscreteEulerPoincare(_), "retraction") => {
-                Self::DiscreteEulerPoincare(pick(option, value, Retraction::ALL, Retraction::name)?)
-            }
-            (Self::Generating(order, _), "retraction") => Self::Generating(
-                order,
-                pick(option, value, Retraction::ALL, Retraction::name)?,
-            ),
-            (Self::Collective(order, _), "lift") => {
-                let all = Lift::of_collective(order);
-                Self::Collective(order, pick(option, value, all, Lift::name)?)
-            }
-            (Self::DiscreteGradient(gradient, _), "tensor") => {
-                let tensor = pick(option, value, Tensor::ALL, Tensor::name)?;
-                Self::DiscreteGradient(gradient, tensor)
-            }
-            (Self::OrbitEnergy(_), "gradient") => {
-                Self::OrbitEnergy(pick(option, value, Gradient::ALL, Gradient::name)?)
-            }
-            (Self::Splitting(order, _, pieces), "composition") if order > 1 => {
-                let all = Scheme::of_splitting(order);
-                Self::Splitting(order, pick(option, value, all, Scheme::name)?, pieces)
-            }
-            (Self::Splitting(order, scheme, _), "pieces") => {
-                let all = Pieces::ALL;
-                Self::Splitting(order, scheme, pick(option, value, all, Pieces::name)?)
-            }
-            (Self::Compose(order, _, base), "composition") => {
-                let all = Scheme::of_composition(order);
-                Self::Compose(order, pick(option, value, all, Scheme::name)?, base)
-            }
-            (Self::Compose(order, scheme, base), _) => {
-                Self::Compose(order, scheme, Box::new(base.with_option(option, value)?))
-            }
-            _ => return Err(OptionError::Foreign),
+        let others = |choice: &Self| {
+            let mut options = choice.options();
+            options.retain(|(name, _)| *name != option);
+            options
+        };
+        let set = |choice: &Self| {
+            let options = choice.options();
+            let set = options.iter().find(|(name, _)| *name == option);
+            set.map(|(_, value)| *value)
+        };
+        let unchanged = others(&self);
+        let mut alternatives = self.alternatives();
+        alternatives.retain(|choice| others(choice) == unchanged);
+        let values: Vec<&str> = alternatives.iter().filter_map(set).collect();
+        // tolerances are numbers, and arguments of a program
+        if values.is_empty() || self.is_adaptive() {
+            return Err(OptionError::Foreign);
+        }
+        let mut chosen = alternatives.iter();
+        let chosen = chosen.find(|choice| set(choice) == Some(value));
+        chosen.cloned().ok_or_else(|| {
+            let near = did_you_mean(value, values.iter().copied());
+            let near = near.map_or(String::new(), |near| format!("did you mean `{near}`? "));
+            OptionError::Value(
+                format!("--{option} has no value `{value}`"),
+                format!("{near}here it may be {}", listed(&values)),
+            )
         })
     }
 
@@ -303,60 +177,56 @@ impl Choice {
         }
     }
 
-    /// The method with every combination of its options, the default first.
+    /// The method with every combination of its options, the default first; of splittings the schemes with the pieces that
+    /// are found, and others with the default scheme.
     pub fn variants(&self) -> Vec<Self> {
+        let mut all = self.alternatives();
+        if let Some(Self::Splitting(_, default, _)) = all.first().cloned() {
+            all.retain(|choice| match choice {
+                Self::Splitting(_, scheme, pieces) => {
+                    *pieces == Pieces::Found || *scheme == default
+                }
+                _ => false,
+            });
+        }
+        all
+    }
+
+    /// The method with every combination of its options, the default first.
+    fn alternatives(&self) -> Vec<Self> {
         match self {
-            Self::LieMidpoint(_) => Retraction::ALL
-                .iter()
-                .map(|r| Self::LieMidpoint(*r))
-                .collect(),
-            Self::Variational(2, _) => Retraction::ALL
-                .iter()
-                .map(|r| Self::Variational(2, *r))
-                .collect(),
-            Self::DiscreteEulerPoincare(_) => Retraction::ALL
-                .iter()
-                .map(|r| Self::DiscreteEulerPoincare(*r))
-                .collect(),
-            Self::Generating(order, _) => Retraction::ALL
-                .iter()
-                .map(|r| Self::Generating(*order, *r))
-                .collect(),
-            Self::Collective(order, _) => Lift::of_collective(*order)
-                .iter()
-                .map(|l| Self::Collective(*order, *l))
-                .collect(),
-            Self::DiscreteGradient(gradient, _) => Tensor::ALL
-                .iter()
-                .map(|tensor| Self::DiscreteGradient(*gradient, *tensor))
-                .collect(),
-            Self::OrbitEnergy(_) => Gradient::ALL
-                .iter()
-                .map(|g| Self::OrbitEnergy(*g))
-                .collect(),
             Self::Splitting(order, scheme, _) => {
-                let schemes = Scheme::of_splitting(*order);
-                let default = schemes.first().copied().unwrap_or(*scheme);
-                let of = |scheme| Self::Splitting(*order, scheme, Pieces::Found);
-                let mut all = vec![of(default)];
-                all.extend(schemes.iter().skip(1).map(|scheme| of(*scheme)));
-                all.push(Self::Splitting(*order, default, Pieces::Coordinate));
-                all
+                let mut schemes: Vec<Scheme> = Scheme::of_splitting(*order).collect();
+                if schemes.is_empty() {
+                    schemes.push(*scheme);
+                }
+                let with = |pieces: &Pieces| {
+                    let (order, pieces) = (*order, *pieces);
+                    let schemes = schemes.iter();
+                    schemes.map(move |scheme| Self::Splitting(order, *scheme, pieces))
+                };
+                Pieces::ALL.iter().flat_map(with).collect()
             }
             Self::Compose(order, _, base) => {
-                let schemes = Scheme::of_composition(*order);
                 let mut bases = base.variants();
                 bases.retain(|base| !base.is_near_integrable());
-                let of = |scheme: &Scheme| {
-                    let scheme = *scheme;
-                    bases
-                        .iter()
-                        .map(move |base| Self::Compose(*order, scheme, Box::new(base.clone())))
-                        .collect::<Vec<_>>()
+                let with = |scheme| {
+                    let bases = bases.iter().cloned();
+                    bases.map(move |base| Self::Compose(*order, scheme, Box::new(base)))
                 };
-                schemes.iter().flat_map(of).collect()
+                Scheme::of_composition(*order).flat_map(with).collect()
             }
-            other => vec![other.clone()],
+            Self::Generating(order, _) => {
+                let retractions = Retraction::ALL.iter();
+                retractions
+                    .map(|tau| Self::Generating(*order, *tau))
+                    .collect()
+            }
+            _ => {
+                let id = Row::find(self).id;
+                let rows = Row::all().iter().filter(|row| row.id == id);
+                rows.map(|row| row.choice.clone()).collect()
+            }
         }
     }
 }

@@ -1,17 +1,6 @@
-//! The table itself: one row for each method. What is known of it stands in its type.
+//! The catalogue: one row for each id of the list of methods. What is known of a method stands in its type.
 
-use lie_core::methods::{
-    CohenHairer2, CohenHairer4, CohenHairer6, CohenHairer8, CohenHairer10, CohenHairer12,
-    CohenHairer14, CohenHairer16, Collective2, Collective4, Collective6, Collective8, Collective10,
-    Collective12, Collective14, Collective16, CommutatorFree4, Compose4, Compose6, Compose8,
-    CrouchGrossman3, DiscreteEulerPoincare, Dopri5, EulerArnold2, Exact, Exp, Facts, Gauss4,
-    Gauss6, Gauss8, Gauss10, Gauss12, Gauss14, Gauss16, Generating2, Generating4, Generating6,
-    GeneratingSecondKind2, Gonzalez, ImplicitMidpoint, Isospectral2, Isospectral4, Isospectral6,
-    Isospectral8, Isospectral10, Isospectral12, Isospectral14, Isospectral16, ItohAbe, LieEuler,
-    LieMidpoint, LieTaylor, MeanValue, MoserVeselov, OrbitEnergy, Preserves, Representation, Rk4,
-    Rkmk2, Rkmk3, Rkmk4, Rkmk6, Smallest, SphericalMidpoint, Splitting1, Splitting2, Splitting4,
-    Splitting6, Splitting8, Taylor, Variational2, Variational4, Variational6,
-};
+use lie_core::methods::{self as m, Facts, Preserves};
 
 use super::Method;
 
@@ -19,6 +8,7 @@ const ANY: &str = "any Poisson system";
 const ALGEBRA: &str = "any Lie algebra";
 const RETRACTION: &str =
     "any Lie algebra (exp), a matrix representation closed under (abc + cba)/2 (cayley)";
+const DISCRETE: &str = "a system given by its discrete Lagrangian; for --retraction cayley a matrix representation closed under (abc + cba)/2";
 const LAGRANGIAN: &str = "a system given by its Lagrangian; for --retraction cayley a matrix representation closed under (abc + cba)/2";
 const REDUCTIVE: &str =
     "a matrix representation closed under (abc + cba)/2, up to matrices that commute with it";
@@ -53,6 +43,13 @@ const JZ: &str = "Jorba, Zou (2005), 10.1080/10586458.2005.10128904";
 const KL: &str =
     "Suzuki (1990), 10.1016/0375-9601(90)90962-N; Kahan, Li (1997), 10.1090/S0025-5718-97-00873-9";
 
+impl Method {
+    /// Whether it moves along coadjoint orbits, and so needs the Lie–Poisson bracket of an algebra.
+    pub(super) fn needs_algebra(&self) -> bool {
+        ![ANY, EXPRESSION].contains(&self.needs)
+    }
+}
+
 /// The row of a method.
 const fn row<M: Facts>(
     title: &'static str,
@@ -82,82 +79,20 @@ const fn row<M: Facts>(
 }
 
 macro_rules! catalogue {
-    ($($method:ty: $title:literal, $needs:expr, $reference:expr;)+) => {
+    (
+        {} choices $choices:tt
+        $({ $title:literal $needs:tt $reference:tt $($choice:tt $type:tt $value:tt $how:tt)+ })+
+    ) => {
         /// Every method.
-        pub const CATALOGUE: &[Method] = &[$(row::<$method>($title, $needs, $reference)),+];
+        pub const CATALOGUE: &[Method] = &[
+            $(catalogue!(@row $title $needs $reference $($type)+)),+
+        ];
+    };
+    (@row $title:tt $needs:tt $reference:tt [$name:ident $(<$($argument:ident),+>)?] $($others:tt)*) => {
+        row::<m::$name $(<$(m::$argument),+>)?>($title, $needs, $reference)
     };
 }
-
-catalogue! {
-    ImplicitMidpoint: "Poisson midpoint rule", ANY, AKW;
-    Gauss4: "Gauss collocation, 2 stages", ANY, HLW;
-    Gauss6: "Gauss collocation, 3 stages", ANY, HLW;
-    Gauss8: "stage-parallel Gauss collocation", ANY, HLW;
-    Gauss10: "stage-parallel Gauss collocation", ANY, HLW;
-    Gauss12: "stage-parallel Gauss collocation", ANY, HLW;
-    Gauss14: "stage-parallel Gauss collocation", ANY, HLW;
-    Gauss16: "stage-parallel Gauss collocation", ANY, HLW;
-    LieMidpoint<Exp>: "retraction Lie–Poisson integrator", RETRACTION, MPS;
-    Rk4: "classical Runge–Kutta method (control)", ANY, "Kutta (1901)";
-    Dopri5: "Dormand–Prince pair with step control (control)", ANY, "Dormand, Prince (1980), 10.1016/0771-050X(80)90013-3";
-    Taylor: "Taylor series, order and step from a tolerance", EXPRESSION, JZ;
-    LieTaylor: "Taylor series in the algebra, order and step from a tolerance", "any Lie algebra, a Hamiltonian with an expression", JZ;
-    LieEuler: "Lie–Euler", ALGEBRA, MK;
-    Rkmk2: "Runge–Kutta–Munthe-Kaas", ALGEBRA, MK;
-    Rkmk3: "Runge–Kutta–Munthe-Kaas", ALGEBRA, MK;
-    Rkmk4: "Runge–Kutta–Munthe-Kaas", ALGEBRA, MK;
-    Rkmk6: "Runge–Kutta–Munthe-Kaas", ALGEBRA, MK;
-    CrouchGrossman3: "Crouch–Grossman", ALGEBRA, CROUCH;
-    CommutatorFree4: "commutator-free", ALGEBRA, CMO;
-    Variational2: "variational integrator (discrete Euler–Poincaré)", LAGRANGIAN, MPS;
-    Variational4: "variational integrator (Lie-group Galerkin)", "a system given by its Lagrangian", LEOK;
-    Variational6: "variational integrator (Lie-group Galerkin)", "a system given by its Lagrangian", LEOK;
-    DiscreteEulerPoincare<Exp>: "step of a declared discrete Lagrangian; its order is at least 1", "a system given by its discrete Lagrangian; for --retraction cayley a matrix representation closed under (abc + cba)/2", MPS;
-    MoserVeselov: "discrete rigid body", "so(3) with a diagonal quadratic H, or so(n) with H = sum M_ij^2/(2(J_i + J_j))", MV;
-    Compose4<ImplicitMidpoint>: "composition of a symmetric method", "a symmetric method of order 2", KL;
-    Compose6<ImplicitMidpoint>: "composition of a symmetric method", "a symmetric method of order 2", KL;
-    Compose8<ImplicitMidpoint>: "composition of a symmetric method", "a symmetric method of order 2", KL;
-    Generating2: "generating function", RETRACTION, GM;
-    Generating4: "generating function", RETRACTION, GM;
-    Generating6: "generating function", ALGEBRA, GM;
-    GeneratingSecondKind2: "generating function, coordinates of the second kind", ALGEBRA, GM;
-    Collective2<Representation>: "collective symplectic", COLLECTIVE, COLL;
-    Collective4<Representation>: "collective symplectic", COLLECTIVE, COLL;
-    Collective6<Representation>: "collective symplectic", COLLECTIVE, COLL;
-    Collective8<Smallest>: "stage-parallel collective symplectic", LINEAR, COLL;
-    Collective10<Smallest>: "stage-parallel collective symplectic", LINEAR, COLL;
-    Collective12<Smallest>: "stage-parallel collective symplectic", LINEAR, COLL;
-    Collective14<Smallest>: "stage-parallel collective symplectic", LINEAR, COLL;
-    Collective16<Smallest>: "stage-parallel collective symplectic", LINEAR, COLL;
-    Isospectral2: "isospectral symplectic Runge–Kutta", REDUCTIVE, MODIN;
-    Isospectral4: "isospectral symplectic Runge–Kutta", REDUCTIVE, MODIN;
-    Isospectral6: "isospectral symplectic Runge–Kutta", REDUCTIVE, MODIN;
-    Isospectral8: "stage-parallel isospectral Runge–Kutta", REDUCTIVE, MODIN;
-    Isospectral10: "stage-parallel isospectral Runge–Kutta", REDUCTIVE, MODIN;
-    Isospectral12: "stage-parallel isospectral Runge–Kutta", REDUCTIVE, MODIN;
-    Isospectral14: "stage-parallel isospectral Runge–Kutta", REDUCTIVE, MODIN;
-    Isospectral16: "stage-parallel isospectral Runge–Kutta", REDUCTIVE, MODIN;
-    SphericalMidpoint: "spherical midpoint", SPINS, MMV;
-    Splitting1: "Lie–Trotter splitting", SUM, MCL;
-    Splitting2: "Strang splitting", SUM, MCL;
-    Splitting4: "Blanes–Moan splitting", SUM, BM;
-    Splitting6: "Blanes–Moan splitting", SUM, BM;
-    Splitting8: "composed splitting", SUM, MCL;
-    Gonzalez: "midpoint discrete gradient", ANY, DG;
-    MeanValue: "mean-value discrete gradient", ANY, DG;
-    ItohAbe: "coordinate-increment discrete gradient", ANY, DG;
-    OrbitEnergy<Gonzalez>: "orbit- and energy-preserving", ALGEBRA, EF;
-    CohenHairer2: "energy-preserving collocation", ANY, CH;
-    CohenHairer4: "energy-preserving collocation", ANY, CH;
-    CohenHairer6: "energy-preserving collocation", ANY, CH;
-    CohenHairer8: "stage-parallel energy-preserving collocation", ANY, CH;
-    CohenHairer10: "stage-parallel energy-preserving collocation", ANY, CH;
-    CohenHairer12: "stage-parallel energy-preserving collocation", ANY, CH;
-    CohenHairer14: "stage-parallel energy-preserving collocation", ANY, CH;
-    CohenHairer16: "stage-parallel energy-preserving collocation", ANY, CH;
-    Exact: "exact flow; the order is that of the group element", "so(3), or a sum of such, with a quadratic form H that does not couple them; or H that is linear or contains only coordinates that commute", WW;
-    EulerArnold2: "symplectic method on T*G", "a system on T*G: a group element is declared", BRM;
-}
+lie_core::for_each_method!(catalogue! {});
 
 #[cfg(test)]
 mod tests {

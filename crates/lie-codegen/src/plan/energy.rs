@@ -6,7 +6,7 @@
 //! its elimination specialised to the pattern.
 
 use super::constants::Table;
-use super::equation::{Gradient as Closed, Item, Partner, Solver, Unknown};
+use super::equation::{Gradient as Closed, Item, Solver, Unknown};
 use super::planner::Planner;
 use super::steps::Form;
 use crate::methods::{Choice, Gradient, Tensor};
@@ -23,8 +23,8 @@ struct Names {
     method: &'static str,
     /// The same with orbits.
     orbit: &'static str,
-    /// The generic equations by key, without and with orbits.
-    generic: [&'static str; 2],
+    /// The gradient.
+    gradient: &'static str,
     /// Doc lines of its fused equation.
     docs: &'static [&'static str],
 }
@@ -34,7 +34,7 @@ const fn names(gradient: Gradient) -> Names {
         Gradient::Gonzalez => Names {
             method: "Gonzalez",
             orbit: "OrbitGonzalez",
-            generic: ["gonzalez", "orbit_gonzalez"],
+            gradient: "GonzalezGradient",
             docs: &[
                 "The midpoint discrete gradient method, unknown `u = mu1`: `u - mu - h Pi((mu + u)/2) g(mu, u) = 0`.",
             ],
@@ -42,7 +42,7 @@ const fn names(gradient: Gradient) -> Names {
         Gradient::MeanValue => Names {
             method: "MeanValue",
             orbit: "OrbitMeanValue",
-            generic: ["mean_value", "orbit_mean_value"],
+            gradient: "MeanValueGradient",
             docs: &[
                 "The mean-value discrete gradient method, unknown `u = mu1`: `u - mu - h Pi((mu + u)/2) g(mu, u) = 0`.",
             ],
@@ -50,7 +50,7 @@ const fn names(gradient: Gradient) -> Names {
         Gradient::ItohAbe => Names {
             method: "ItohAbe",
             orbit: "OrbitItohAbe",
-            generic: ["itoh_abe", "orbit_itoh_abe"],
+            gradient: "ItohAbeGradient",
             docs: &[
                 "The symmetrised coordinate-increment method, unknown `u = mu1`: `u - mu - h Pi((mu + u)/2) g(mu, u) = 0`.",
             ],
@@ -59,53 +59,6 @@ const fn names(gradient: Gradient) -> Names {
 }
 
 impl Planner<'_> {
-    /// The equations of these methods: fused where asked for, the others named in `generic`.
-    pub(super) fn energy(&mut self, generic: &mut Vec<String>) {
-        let mut hooks = Vec::new();
-        let mut left: [Vec<String>; 3] = Default::default();
-        let [steps, orbits, collocation] = &mut left;
-        for gradient in Gradient::ALL.iter().copied() {
-            let [plain, orbit] = names(gradient).generic;
-            let choice = Choice::DiscreteGradient(gradient, Tensor::Midpoint);
-            if self.asked(&choice) {
-                hooks.push(Item::Method(
-                    choice.into(),
-                    self.discrete_gradient(gradient),
-                ));
-            } else {
-                steps.push(plain.to_owned());
-            }
-            if !self.source.is_lie() {
-                continue;
-            }
-            let choice = Choice::OrbitEnergy(gradient);
-            if self.asked(&choice) {
-                hooks.push(Item::Method(choice.into(), self.orbit_energy(gradient)));
-            } else {
-                orbits.push(orbit.to_owned());
-            }
-        }
-        for stages in 1..=3_usize {
-            let choice = Choice::CohenHairer(2 * stages as u32);
-            if self.asked(&choice) {
-                hooks.push(Item::Method(choice.into(), self.cohen_hairer(stages)));
-            } else {
-                collocation.push(format!("cohen_hairer{}", 2 * stages));
-            }
-        }
-        for (family, left) in ["discrete_gradients", "orbit_energy", "cohen_hairer"]
-            .into_iter()
-            .zip(left)
-        {
-            if left.len() == 3 {
-                generic.push(family.to_owned());
-            } else {
-                generic.extend(left);
-            }
-        }
-        self.items.extend(hooks);
-    }
-
     pub(super) fn quadratic(&self) -> bool {
         self.degree_of_h().is_some_and(|degree| degree <= 2)
     }
@@ -122,13 +75,14 @@ impl Planner<'_> {
     }
 
     /// The equation of a discrete gradient method.
-    fn discrete_gradient(&mut self, gradient: Gradient) -> Solver {
+    pub(super) fn discrete_gradient(&mut self, gradient: Gradient) -> Solver {
         if self.quadratic() {
             return self.midpoint();
         }
         let names = names(gradient);
         self.once(names.method, |planner| {
-            let partner = Partner::DiscreteGradient(gradient);
+            let choice = Choice::DiscreteGradient(gradient, Tensor::Midpoint);
+            let partner = planner.partner(&choice);
             if let Some(degree) = planner.closed() {
                 let kernels = planner.source.discrete_gradient_kernels(gradient, degree);
                 let form = Form {
@@ -149,7 +103,7 @@ impl Planner<'_> {
     }
 
     /// The equation of coadjoint motion along a discrete gradient.
-    fn orbit_energy(&mut self, gradient: Gradient) -> Solver {
+    pub(super) fn orbit_energy(&mut self, gradient: Gradient) -> Solver {
         // for a quadratic H all three are the mean value, by one node
         let gradient = if self.quadratic() {
             Gradient::MeanValue
@@ -164,14 +118,17 @@ impl Planner<'_> {
             }
             let derivative = planner.derivative_pattern(gradient);
             let pattern = planner.exp_pattern(&derivative);
-            let partner = Partner::OrbitEnergy(gradient, degree.is_some());
+            let mut partner = planner.partner(&Choice::OrbitEnergy(gradient));
+            if degree.is_some() {
+                partner = partner.along(names.gradient);
+            }
             let label = format!("orbit-energy {}", gradient.name());
             planner.eliminated(partner, names.orbit, &label, Unknown::State, pattern)
         })
     }
 
     /// The equation of energy-preserving collocation.
-    fn cohen_hairer(&mut self, stages: usize) -> Solver {
+    pub(super) fn cohen_hairer(&mut self, stages: usize) -> Solver {
         if stages == 1 {
             return self.discrete_gradient(Gradient::MeanValue);
         }
@@ -185,7 +142,7 @@ impl Planner<'_> {
                 format!("CohenHairer{order}"),
                 format!("cohen-hairer{order}"),
             );
-            let partner = Partner::CohenHairer(stages);
+            let partner = planner.partner(&Choice::CohenHairer(2 * stages as u32));
             planner.eliminated(partner, &suffix, &label, Unknown::Stages(stages), pattern)
         })
     }

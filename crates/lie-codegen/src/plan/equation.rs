@@ -6,7 +6,7 @@ use super::function::Function;
 use super::recurrence::Recurrence;
 use crate::derive::Shape;
 use crate::derive::trace::COMPLETED;
-use crate::methods::{self, Choice, Lift};
+use crate::methods::{self, Choice, GenericEquation};
 use crate::schedule::Counts;
 
 /// A definition that the steps of methods are made of.
@@ -22,8 +22,6 @@ pub enum Item {
     Generating(Box<Generating>),
     /// A method and the equation that its step solves.
     Method(Method, Solver),
-    /// The collective methods over the representation with so many stages: their steps are those of the isospectral ones.
-    Collective(usize),
     /// The Taylor coefficients of field and gradient.
     Recurrence(Box<Recurrence>),
 }
@@ -151,36 +149,39 @@ pub enum Ending {
 /// A generic equation of the numeric core.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Partner {
-    /// The midpoint rule.
-    Midpoint,
-    /// Gauss collocation with so many stages.
-    Gauss(usize),
-    /// The retraction method with the exponential.
-    ExpMidpoint,
-    /// The retraction method with the Cayley map.
-    CayleyMidpoint,
-    /// A discrete gradient method.
-    DiscreteGradient(methods::Gradient),
-    /// Coadjoint motion along a discrete gradient, which may be one in closed form.
-    OrbitEnergy(methods::Gradient, bool),
-    /// Energy-preserving collocation with so many stages.
-    CohenHairer(usize),
-    /// The exponential retraction along a generating function, by the end of its type's name.
-    ExpRetraction(&'static str),
-    /// Coordinates of the second kind, along a fused generating function if one is named.
-    SecondKind(Option<&'static str>),
-    /// The Cayley map along the generating function of order 4.
-    CayleyGenerating4,
-    /// The spherical midpoint method, with so many spins.
-    Spherical(usize),
-    /// The discrete rigid body in three dimensions.
-    DiscreteTop,
-    /// The discrete rigid body in more.
-    DiscreteBody,
-    /// Momenta at so many stages over a map.
-    Stages(Lift, usize),
+    /// That of a method of the catalogue.
+    Catalogue {
+        /// The method whose own equation it is.
+        of: &'static Choice,
+        /// The equation.
+        equation: &'static GenericEquation,
+        /// The generating function or the discrete gradient that has code of its own, by the end of its type's name.
+        along: Option<&'static str>,
+    },
     /// That of a method which a user wrote, by the path of its type.
     Own(&'static str),
+}
+
+impl Partner {
+    /// The same along a function or a gradient that has code of its own.
+    pub(super) fn along(self, suffix: &'static str) -> Self {
+        match self {
+            Self::Catalogue { of, equation, .. } => Self::Catalogue {
+                of,
+                equation,
+                along: Some(suffix),
+            },
+            own => own,
+        }
+    }
+
+    /// The method of the catalogue whose own equation it is.
+    pub fn choice(&self) -> Option<&'static Choice> {
+        match self {
+            Self::Catalogue { of, .. } => Some(of),
+            Self::Own(_) => None,
+        }
+    }
 }
 
 /// The equation that the step of a method solves.
@@ -264,9 +265,7 @@ impl Item {
                     function.linearize.as_ref(),
                 )
             }
-            Self::Sparse(_) | Self::Method(..) | Self::Collective(_) | Self::Recurrence(_) => {
-                (&[][..], None, None)
-            }
+            Self::Sparse(_) | Self::Method(..) | Self::Recurrence(_) => (&[][..], None, None),
         };
         list.iter().chain(gradient).chain(linearize)
     }

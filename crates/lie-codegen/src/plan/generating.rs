@@ -2,9 +2,7 @@
 //! coordinates of the second kind, and the fused equation with the Cayley map.
 
 use super::constants::Table;
-use super::equation::{
-    Chart, Generating as Planned, Guess, Item, Motion, Partner, Solver, Unknown,
-};
+use super::equation::{Chart, Generating as Planned, Guess, Item, Motion, Solver, Unknown};
 use super::planner::Planner;
 use super::steps::Form;
 use crate::derive::{Generating, Kernel, Shape};
@@ -42,46 +40,19 @@ const SECOND: Named = Named {
 };
 
 impl Planner<'_> {
-    /// The equations of generating-function methods that are asked for; the names of the others go
-    /// to the generic ones.
-    pub(super) fn generating(&mut self, generic: &mut Vec<String>) {
-        let choice = Choice::Generating(2, Retraction::Exp);
-        self.method(generic, choice, "generating2", Self::exp);
-        for (order, named) in [(4, FOUR), (6, SIX)] {
-            let choice = Choice::Generating(order, Retraction::Exp);
-            let kind = Generating::First(Retraction::Exp, order);
-            self.method(generic, choice, named.label, |planner| {
-                planner.along_function(&named, kind)
-            });
-        }
-        self.method(generic, Choice::GeneratingSecondKind2, "second_kind", |p| {
-            p.second_kind()
-                .or_else(|| p.along_function(&SECOND, Generating::Second))
-        });
-        if self.source.triple().is_some() {
-            generic.push("generating2_cayley".to_owned());
-            let choice = Choice::Generating(4, Retraction::Cayley);
-            self.method(
-                generic,
-                choice,
-                "generating4_cayley",
-                Self::cayley_generating,
-            );
-        }
+    /// The equation of a generating-function method with the exponential.
+    pub(super) fn generating(&mut self, order: u32) -> Option<Solver> {
+        let named = match order {
+            4 => FOUR,
+            _ => SIX,
+        };
+        self.along_function(&named, Generating::First(Retraction::Exp, order))
     }
 
-    /// Plans a method if it is asked for; else, or where it is not worth it, its key goes to the generic ones.
-    pub(super) fn method(
-        &mut self,
-        generic: &mut Vec<String>,
-        choice: Choice,
-        key: &str,
-        make: impl FnOnce(&mut Self) -> Option<Solver>,
-    ) {
-        match self.asked(&choice).then(|| make(self)).flatten() {
-            Some(solver) => self.items.push(Item::Method(choice.into(), solver)),
-            None => generic.push(key.to_owned()),
-        }
+    /// The same in coordinates of the second kind.
+    pub(super) fn generating_second_kind(&mut self) -> Option<Solver> {
+        let fused = self.second_kind();
+        fused.or_else(|| self.along_function(&SECOND, Generating::Second))
     }
 
     /// A generic equation along a fused function; `None` if the function would be too long.
@@ -110,16 +81,17 @@ impl Planner<'_> {
             step: self.prepared(&step, "_h"),
         };
         self.items.push(Item::Generating(Box::new(planned)));
-        let (partner, pattern) = match kind {
+        let (choice, pattern) = match kind {
             Generating::Second => (
-                Partner::SecondKind(Some(named.suffix)),
+                Choice::GeneratingSecondKind2,
                 self.second_kind_pattern(&function.pattern),
             ),
-            Generating::First(..) => (
-                Partner::ExpRetraction(named.suffix),
+            Generating::First(retraction, order) => (
+                Choice::Generating(order, retraction),
                 self.exp_pattern(&function.pattern),
             ),
         };
+        let partner = self.partner(&choice).along(named.suffix);
         Some(self.eliminated(partner, named.suffix, named.label, Unknown::State, pattern))
     }
 
@@ -138,7 +110,7 @@ impl Planner<'_> {
             ..Form::new(
                 "SecondKind2Equation",
                 SECOND.label,
-                Partner::SecondKind(None),
+                self.partner(&Choice::GeneratingSecondKind2),
             )
         };
         Some(self.fused(form, &kernels))
@@ -152,7 +124,7 @@ impl Planner<'_> {
             .is_none_or(|kernel| size(&kernel.program(&mut self.source.graph)) <= MOST_OPERATIONS)
     }
 
-    fn cayley_generating(&mut self) -> Option<Solver> {
+    pub(super) fn cayley_generating(&mut self) -> Option<Solver> {
         let kernels = self.source.cayley_generating_kernels(4)?;
         if !self.short(&kernels) {
             return None;
@@ -169,7 +141,7 @@ impl Planner<'_> {
             ..Form::new(
                 "CayleyGenerating4",
                 "generating4 cayley",
-                Partner::CayleyGenerating4,
+                self.partner(&Choice::Generating(4, Retraction::Cayley)),
             )
         };
         Some(self.fused(form, &kernels))

@@ -2,8 +2,6 @@
 
 use std::collections::BTreeSet;
 
-use lie_core::methods::gauss::BY_NEWTON;
-
 use super::constants::Table;
 use super::elimination::Elimination;
 use super::equation::{
@@ -12,8 +10,9 @@ use super::equation::{
 use super::pattern::Pattern;
 use super::planner::Planner;
 use crate::derive::{Kernel, Shape};
-use crate::methods::{CATALOGUE, Choice, Lift, Retraction};
+use crate::methods::{Carrier, Choice, Lift, Retraction, Row};
 use crate::schedule::{Program, Value};
+use crate::structure::inertia::Body;
 
 /// What distinguishes one fused equation from another.
 pub(super) struct Form {
@@ -52,40 +51,92 @@ impl Planner<'_> {
     /// Plans the equation of each method; the keys of those that stay generic.
     pub(super) fn equations(&mut self) -> Vec<String> {
         let mut generic = Vec::new();
-        let gauss = CATALOGUE.iter().filter(|row| row.id.starts_with("gauss"));
-        let gauss = gauss.filter_map(|row| Some((Choice::from_id(row.id).ok()?, row.id)));
-        // those of more stages have no equation: they run on the field over all stages at once
-        let gauss = gauss.filter(|(choice, _)| match choice {
-            Choice::Gauss(stages) => *stages <= BY_NEWTON,
-            _ => false,
-        });
-        let mut methods = vec![(Choice::Midpoint, "midpoint")];
-        methods.extend(gauss);
-        methods.push((Choice::LieMidpoint(Retraction::Cayley), "cayley"));
-        for (choice, key) in methods {
-            let cayley = choice == Choice::LieMidpoint(Retraction::Cayley);
-            if cayley && self.source.triple().is_none() {
+        let mut rows: Vec<&'static Row> = Row::all().iter().collect();
+        rows.sort_by_key(|row| place(&row.choice));
+        for row in rows {
+            let Some(statement) = row.statement(|carrier| self.carries(carrier)) else {
                 continue;
+            };
+            let solver = self
+                .is_solved(&row.choice)
+                .then(|| self.solver(&row.choice));
+            match solver.flatten() {
+                Some(solver) => {
+                    let method = row.choice.clone().into();
+                    self.items.push(Item::Method(method, solver));
+                }
+                None => generic.push(statement.key.to_owned()),
             }
-            let asked = self.asked(&choice) || (cayley && self.asked_beside_cayley());
-            match asked.then(|| self.solver(&choice)).flatten() {
-                Some(solver) => self.items.push(Item::Method(choice.into(), solver)),
-                None => generic.push(key.to_owned()),
-            }
         }
-        if self.source.is_lie() {
-            // without a closed form an elimination of its own saves under 3% beside the series of the exponential
-            let choice = Choice::LieMidpoint(Retraction::Exp);
-            self.method(&mut generic, choice, "exp", Self::exp);
-        }
-        self.energy(&mut generic);
-        if self.source.is_lie() {
-            self.generating(&mut generic);
-            self.collective(&mut generic);
-        }
-        self.lagrangian(&mut generic);
         self.series(&mut generic);
         generic
+    }
+
+    /// Whether a method that is asked for solves the equation of a choice, which is its own.
+    fn is_solved(&self, choice: &Choice) -> bool {
+        let carries = |carrier| self.carries(carrier);
+        self.methods.iter().any(|method| {
+            let equation = Row::find(method).equation(&carries);
+            equation.is_some_and(|(own, _)| own == choice)
+        })
+    }
+
+    /// Whether the system has the generic equations of a carrier.
+    fn carries(&self, carrier: Carrier) -> bool {
+        let source = &self.source;
+        let closed = source.triple().is_some();
+        match carrier {
+            Carrier::Any => true,
+            Carrier::Algebra => source.is_lie(),
+            Carrier::Closed => closed,
+            Carrier::Matrices => source.matrices().is_some(),
+            Carrier::Reductive => source.matrices().is_some() && !closed,
+            Carrier::Spins => source.spins().is_some(),
+            Carrier::Body => matches!(source.body(), Some(Body::Three)),
+            Carrier::BodyOfMany => matches!(source.body(), Some(Body::Many { .. })),
+            Carrier::Lagrangian => source.energy.lagrangian().is_some(),
+            Carrier::ClosedLagrangian => source.energy.lagrangian().is_some() && closed,
+            Carrier::DiscreteLagrangian => source.discrete().is_some(),
+            Carrier::ClosedDiscreteLagrangian => source.discrete().is_some() && closed,
+        }
+    }
+
+    /// The generic equation of a method.
+    pub(super) fn partner(&self, choice: &Choice) -> Partner {
+        let equation = Row::find(choice).equation(&|carrier| self.carries(carrier));
+        let (of, equation) =
+            equation.unwrap_or_else(|| unreachable!("the system has the equation"));
+        Partner::Catalogue {
+            of,
+            equation,
+            along: None,
+        }
+    }
+
+    /// The equation of a method that has code of its own; none where that saves too little.
+    fn solver(&mut self, choice: &Choice) -> Option<Solver> {
+        match choice {
+            Choice::Midpoint => Some(self.midpoint()),
+            Choice::Gauss(stages) => match self.gauss(*stages) {
+                Solver::Generic(_) => None,
+                solver => Some(solver),
+            },
+            Choice::LieMidpoint(Retraction::Cayley) => self.cayley(),
+            // without a closed form an elimination of its own saves under 3% beside the series of the exponential
+            Choice::LieMidpoint(Retraction::Exp) => self.exp(),
+            Choice::DiscreteGradient(gradient, _) => Some(self.discrete_gradient(*gradient)),
+            Choice::OrbitEnergy(gradient) => Some(self.orbit_energy(*gradient)),
+            Choice::CohenHairer(order) => Some(self.cohen_hairer(*order as usize / 2)),
+            Choice::Generating(_, Retraction::Cayley) => self.cayley_generating(),
+            Choice::Generating(order, Retraction::Exp) => self.generating(*order),
+            Choice::GeneratingSecondKind2 => self.generating_second_kind(),
+            // with one stage an elimination of its own saves 2% of a step
+            Choice::Collective(2, Lift::Hopf) => None,
+            Choice::Collective(..) | Choice::Isospectral(_) => self.momenta(choice),
+            Choice::SphericalMidpoint => self.spherical(),
+            Choice::MoserVeselov => self.body(),
+            _ => None,
+        }
     }
 
     /// The Taylor series.
@@ -104,39 +155,6 @@ impl Planner<'_> {
         }
     }
 
-    /// Whether another method that is asked for runs on the equation of the Cayley map.
-    fn asked_beside_cayley(&self) -> bool {
-        let beside = [
-            Choice::Generating(2, Retraction::Cayley),
-            Choice::Isospectral(2),
-            Choice::Collective(2, Lift::Representation),
-        ];
-        beside.iter().any(|choice| self.asked(choice))
-    }
-
-    fn solver(&mut self, choice: &Choice) -> Option<Solver> {
-        match choice {
-            Choice::Midpoint => Some(self.midpoint()),
-            Choice::Gauss(stages) => Some(self.gauss(*stages)),
-            Choice::LieMidpoint(Retraction::Cayley) => self.cayley(),
-            _ => None,
-        }
-    }
-
-    /// The equations of systems by a Lagrangian, which are generic.
-    fn lagrangian(&mut self, generic: &mut Vec<String>) {
-        let kinds = [
-            (self.source.energy.lagrangian().is_some(), "variational"),
-            (self.source.discrete().is_some(), "discrete"),
-        ];
-        for (_, key) in kinds.into_iter().filter(|(present, _)| *present) {
-            generic.push(key.to_owned());
-            if self.source.triple().is_some() {
-                generic.push(format!("{key}_cayley"));
-            }
-        }
-    }
-
     pub(super) fn midpoint(&mut self) -> Solver {
         self.once("midpoint", |planner| {
             let kernels = planner.source.midpoint_kernels();
@@ -144,7 +162,7 @@ impl Planner<'_> {
                 docs: &[
                     "The Poisson midpoint rule, unknown `u = mu1`: `u - mu - h f((mu + u)/2) = 0`.",
                 ],
-                ..Form::new("Midpoint", "midpoint", Partner::Midpoint)
+                ..Form::new("Midpoint", "midpoint", planner.partner(&Choice::Midpoint))
             };
             planner.fused(form, &kernels)
         })
@@ -160,11 +178,12 @@ impl Planner<'_> {
             let elimination = of_stages(stages, n, &pattern);
             let full = Elimination::multiplications_of_full(stages * n);
             if !elimination.is_unrolled() && 5 * elimination.multiplications() > 4 * full {
-                return Solver::Generic(Partner::Gauss(stages));
+                return Solver::Generic(planner.partner(&Choice::Gauss(stages)));
             }
             let (suffix, label) = (format!("Gauss{order}"), format!("gauss{order}"));
             let unknown = Unknown::Stages(stages);
-            planner.eliminated(Partner::Gauss(stages), &suffix, &label, unknown, pattern)
+            let partner = planner.partner(&Choice::Gauss(stages));
+            planner.eliminated(partner, &suffix, &label, unknown, pattern)
         })
     }
 
@@ -181,19 +200,14 @@ impl Planner<'_> {
             ..Form::new(
                 "CayleyMidpoint",
                 "lie-midpoint cayley",
-                Partner::CayleyMidpoint,
+                self.partner(&Choice::LieMidpoint(Retraction::Cayley)),
             )
         };
         Some(self.fused(form, &kernels))
     }
 
-    /// The retraction method with the exponential, where that has a closed form. Methods of the generating function `h H`
-    /// have the same equation.
-    pub(super) fn exp(&mut self) -> Option<Solver> {
-        let known = self.known.iter().find(|(name, _)| name == "exp");
-        if let Some((_, known)) = known {
-            return Some(known.clone());
-        }
+    /// The retraction method with the exponential, where that has a closed form.
+    fn exp(&mut self) -> Option<Solver> {
         let kernels = self.source.exp_kernels()?;
         let form = Form {
             docs: &[
@@ -202,9 +216,13 @@ impl Planner<'_> {
             ],
             guess: Guess::HalfStep,
             motion: Motion::Factor,
-            ..Form::new("ExpMidpoint", "lie-midpoint", Partner::ExpMidpoint)
+            ..Form::new(
+                "ExpMidpoint",
+                "lie-midpoint",
+                self.partner(&Choice::LieMidpoint(Retraction::Exp)),
+            )
         };
-        Some(self.once("exp", |planner| planner.fused(form, &kernels)))
+        Some(self.fused(form, &kernels))
     }
 
     /// An equation that is planned once.
@@ -231,10 +249,10 @@ impl Planner<'_> {
             functions.push(self.of_program(label, kernel, &program, &mut step));
         }
         let has = |name: &str| kernels.iter().any(|kernel| kernel.name == name);
-        let bodies = [Partner::DiscreteTop, Partner::DiscreteBody];
+        let of_body = form.partner.choice() == Some(&Choice::MoserVeselov);
         let ending = match has("result") {
             true => Ending::Kernel,
-            false if bodies.contains(&form.partner) => Ending::Partner,
+            false if of_body => Ending::Partner,
             false => Ending::Unknown,
         };
         let fused = Fused {
@@ -291,6 +309,25 @@ impl Planner<'_> {
         self.items.push(Item::Sparse(sparse));
         self.eliminations.push((unknown, block, name.clone()));
         Solver::Eliminated(partner, name)
+    }
+}
+
+/// The place of a method in the order in which equations are planned, and their constants numbered.
+fn place(choice: &Choice) -> (u32, u32) {
+    match choice {
+        Choice::Midpoint => (0, 0),
+        Choice::Gauss(_) => (1, 0),
+        Choice::LieMidpoint(Retraction::Cayley) => (2, 0),
+        Choice::LieMidpoint(Retraction::Exp) => (3, 0),
+        Choice::DiscreteGradient(gradient, _) | Choice::OrbitEnergy(gradient) => {
+            (4, *gradient as u32)
+        }
+        Choice::CohenHairer(_) => (5, 0),
+        Choice::Generating(_, Retraction::Exp) => (6, 0),
+        Choice::GeneratingSecondKind2 => (7, 0),
+        Choice::Generating(_, Retraction::Cayley) => (8, 0),
+        Choice::Isospectral(_) => (9, 0),
+        _ => (10, 0),
     }
 }
 

@@ -187,9 +187,6 @@ impl fmt::Display for Item {
             }
             Self::Method(method, solver) => writeln!(f, "{method} -> {solver}"),
             Self::Recurrence(recurrence) => write!(f, "{recurrence}"),
-            Self::Collective(stages) => {
-                writeln!(f, "collective{} -> the same", 2 * stages)
-            }
         }
     }
 }
@@ -262,7 +259,15 @@ impl fmt::Display for Solver {
 
 impl fmt::Display for Partner {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "generic {self:?}")
+        match self {
+            Self::Catalogue {
+                equation, along, ..
+            } => {
+                write!(f, "generic {}", equation.key)?;
+                along.map_or(Ok(()), |along| write!(f, " along {along}"))
+            }
+            Self::Own(path) => write!(f, "generic {path}"),
+        }
     }
 }
 

@@ -8,7 +8,7 @@ use super::names::{ident, index};
 use super::{Printer, elimination};
 use crate::derive::Shape;
 use crate::derive::trace::COMPLETED;
-use crate::plan::{Chart, Constants, Ending, Function, Fused, Guess, Motion, Partner};
+use crate::plan::{Chart, Constants, Ending, Function, Fused, Guess, Motion};
 use crate::schedule::Value;
 use crate::symbolic::Symbol;
 
@@ -87,7 +87,7 @@ impl Printer<'_> {
         let function = fused.completed()?;
         let (n, docs) = (index(self.plan.dimension()), self.docs(function));
         let (unknown, all) = (self.argument("unknown"), self.argument("mu"));
-        let place = self.places_of_arguments(fused);
+        let place = self.places_of_arguments();
         let body = self.body(
             function,
             &Body::of(Owner::Equation(&fused.step), &place, &["mu"]),
@@ -154,7 +154,7 @@ impl Printer<'_> {
         let docs = self.docs(function);
         let name = ident(function.name);
         let unknown = self.argument("unknown");
-        let place = self.places_of_arguments(fused);
+        let place = self.places_of_arguments();
         let body = |targets: &[&str]| {
             let body = Body::of(Owner::Equation(&fused.step), &place, targets);
             match &function.shape {
@@ -192,12 +192,10 @@ impl Printer<'_> {
     }
 
     /// Where the arguments of a kernel of an equation are found.
-    fn places_of_arguments(&self, fused: &Fused) -> impl Fn(&str) -> TokenStream + use<> {
+    fn places_of_arguments(&self) -> impl Fn(&str) -> TokenStream + use<> {
         let unknown = self.argument("unknown");
-        let ratios = match fused.partner {
-            Partner::Spherical(spins) => index(2 * spins),
-            _ => index(0),
-        };
+        let spins = self.plan.structure.spins.as_ref();
+        let ratios = index(2 * spins.map_or(0, |spins| spins.coordinates.len()));
         move |name: &str| match name {
             "mu" => quote! { self.base },
             "inverse" => {

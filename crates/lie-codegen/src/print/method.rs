@@ -4,7 +4,6 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::Printer;
-use super::names::index;
 use crate::plan::{Method, Solver};
 
 impl Printer<'_> {
@@ -41,16 +40,6 @@ impl Printer<'_> {
                     #value
                 }
             }
-        }
-    }
-
-    /// The collective methods over the representation run on the equations of the isospectral ones.
-    pub(super) fn collective(&self, stages: usize) -> TokenStream {
-        let (system, stages) = (self.system_name(), index(stages));
-        quote! {
-            ::lie_runtime::generic_equations!(
-                @collective [S: ::lie_runtime::Scalar] #system<S>, S, #stages
-            );
         }
     }
 }

@@ -91,7 +91,6 @@ impl Printer<'_> {
             Item::Gradient(gradient) => self.gradient(gradient),
             Item::Generating(function) => self.generating(function),
             Item::Method(method, solver) => self.method(method, solver),
-            Item::Collective(stages) => self.collective(*stages),
             Item::Recurrence(recurrence) => self.recurrence(recurrence),
         }
     }

@@ -40,7 +40,11 @@ impl<'a, S: Scalar, P: LagrangianPoisson<S> + CayleyPoisson<S>> CayleyVariationa
     }
 }
 
-impl<'a, S, P> CayleyVariational<'a, S, P, DeclaredDiscreteLagrangian<'a, S, P>>
+/// The same for a declared discrete Lagrangian.
+pub type CayleyDiscrete<'a, S, P> =
+    CayleyVariational<'a, S, P, DeclaredDiscreteLagrangian<'a, S, P>>;
+
+impl<'a, S, P> CayleyDiscrete<'a, S, P>
 where
     S: Scalar,
     P: DiscreteLagrangianPoisson<S> + CayleyPoisson<S>,

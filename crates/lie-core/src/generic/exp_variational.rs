@@ -40,7 +40,10 @@ impl<'a, S: Scalar, P: LagrangianPoisson<S>> ExpVariational<'a, S, P> {
     }
 }
 
-impl<'a, S, P> ExpVariational<'a, S, P, DeclaredDiscreteLagrangian<'a, S, P>>
+/// The same for a declared discrete Lagrangian.
+pub type ExpDiscrete<'a, S, P> = ExpVariational<'a, S, P, DeclaredDiscreteLagrangian<'a, S, P>>;
+
+impl<'a, S, P> ExpDiscrete<'a, S, P>
 where
     S: Scalar,
     P: DiscreteLagrangianPoisson<S>,

@@ -18,7 +18,7 @@ macro_rules! unknown_of_a_state {
         }
     };
 }
-use unknown_of_a_state;
+pub(crate) use unknown_of_a_state;
 
 /// The unknown of an equation is a state of its system for each stage.
 macro_rules! unknown_of_stages {
@@ -64,7 +64,6 @@ mod kernels;
 mod lifts;
 mod matrix_stages;
 mod mean_gradients;
-mod midpoint;
 mod orbit_energy;
 mod pair;
 mod part_flows;
@@ -85,8 +84,9 @@ mod stage_work;
 mod tableau;
 mod tensor;
 
+pub use crate::methods::equations::*;
 pub use cayley_midpoint::{CayleyMidpoint, CayleyRetraction};
-pub use cayley_variational::CayleyVariational;
+pub use cayley_variational::{CayleyDiscrete, CayleyVariational};
 pub(crate) use chart::invertible_along;
 pub use chart::{CAYLEY_POLE, cayley_chart, cayley_chart_of_step};
 pub use cohen_hairer::CohenHairerStep;
@@ -101,7 +101,7 @@ pub use discrete_gradient_step::DiscreteGradientStep;
 pub use discrete_top::DiscreteTop;
 pub use euler_arnold::{EulerArnoldHalf, Half};
 pub use exp_midpoint::{ExpMidpoint, ExpRetraction};
-pub use exp_variational::ExpVariational;
+pub use exp_variational::{ExpDiscrete, ExpVariational};
 pub use free_body::{FreeBody, principal_axes};
 pub use galerkin::GalerkinStep;
 pub use gauss::Gauss;
@@ -117,7 +117,6 @@ pub use kernels::{
 pub use lifts::LinearLift;
 pub use matrix_stages::MatrixStages;
 pub use mean_gradients::MeanGradients;
-pub use midpoint::Midpoint;
 pub use orbit_energy::OrbitEnergyStep;
 pub use part_flows::{PartFlows, Parts};
 pub use power_series::PowerSeries;
@@ -131,7 +130,7 @@ pub(crate) use series::{Scratch, coadjoint_action_in};
 pub use series::{coadjoint_action, dexp_dual};
 pub use spherical::{Spherical, sphere_ratio, sphere_ratios, sphere_ratios_into};
 pub use spinors::{flow_of_spinors, flow_over_spins, spinors_of, spins_of};
-pub use stage_momenta::{StageMap, StageMomenta};
+pub use stage_momenta::{MatrixMomenta, QuaternionMomenta, StageMap, StageMomenta};
 pub use stage_parallel::{Iterated, StageParallel};
 pub use stage_work::At;
 pub use tableau::{MOST_STAGES, Tableau, gauss_ahead, gauss_entry, gauss_tableau, gauss_weight};

@@ -74,7 +74,7 @@ where
 {
     /// The equation of a step of size h, order 2.
     pub fn new(system: &'a P, h: S) -> Self {
-        Self::with_function(system, SecondKind2::new(system, h))
+        Self::with_function(system, SecondKind2::new(system, h), h)
     }
 }
 
@@ -84,8 +84,8 @@ where
     P: LiePoisson<S>,
     G: GeneratingFunction<S, State = P::State, Jacobian = P::Jacobian>,
 {
-    /// The equation of the step of a generating function.
-    pub fn with_function(system: &'a P, function: G) -> Self {
+    /// The equation of the step of a generating function, which knows the size of the step.
+    pub fn with_function(system: &'a P, function: G, _h: S) -> Self {
         Self::with_actions(system, function)
     }
 }

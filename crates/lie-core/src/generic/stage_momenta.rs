@@ -2,6 +2,8 @@
 
 use super::blocks::factor;
 use super::kernels::direction;
+use super::matrix_stages::MatrixStages;
+use super::quaternion_stages::QuaternionStages;
 use super::tableau::{Tableau, gauss_tableau};
 use crate::equation::Equation;
 use crate::matrix::{SquareMatrix, StageMatrix};
@@ -9,6 +11,7 @@ use crate::methods::Retraction;
 use crate::poisson::LiePoisson;
 use crate::scalar::{Mask as _, Scalar};
 use crate::state::{Stages, State};
+use crate::structure::MatrixPoisson;
 
 /// The momenta `M_i` of the stages of a Gauss method on a space over g*, on which elements of the algebra
 /// act linearly, as functions of the elements `x_j = h grad H(m_j)` along which the stages move.
@@ -71,6 +74,14 @@ pub struct StageMomenta<'a, S: Scalar, P: LiePoisson<S>, M, const STAGES: usize>
     slopes: StageMatrix<P::Jacobian, STAGES>,
     hessian: P::Jacobian,
 }
+
+/// The Gauss methods on `T*V` of the declared representation V: [`StageMomenta`] over matrices.
+pub type MatrixMomenta<'a, S, P, const STAGES: usize> =
+    StageMomenta<'a, S, P, MatrixStages<S, <P as MatrixPoisson<S>>::Matrix, STAGES>, STAGES>;
+
+/// The Gauss methods on `T*R^2` for each spin: [`StageMomenta`] over quaternions.
+pub type QuaternionMomenta<'a, S, P, const STAGES: usize> =
+    StageMomenta<'a, S, P, QuaternionStages<S, STAGES>, STAGES>;
 
 impl<'a, S, P, M, const STAGES: usize> StageMomenta<'a, S, P, M, STAGES>
 where

@@ -21,35 +21,83 @@
 
 use crate::scalar::Scalar;
 
-/// The coefficients of a composition or a splitting.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Scheme {
+/// Every scheme: its name as an option, and its coefficients by order. The first of those that a method may have is its
+/// default. `sweeps` are of splittings alone; those that say so are for two pieces of which one is small.
+macro_rules! schemes {
+    ($(
+        $(#[$doc:meta])*
+        $scheme:ident = $name:literal $($near:ident)? { $($order:literal $kind:ident $steps:ident),+ };
+    )+) => {
+        /// The coefficients of a composition or a splitting.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        #[non_exhaustive]
+        pub enum Scheme {
+            $($(#[$doc])* $scheme,)+
+        }
+
+        impl Scheme {
+            /// Every scheme.
+            pub const ALL: &'static [Self] = &[$(Self::$scheme),+];
+
+            /// The scheme as an option spells it.
+            pub const fn name(self) -> &'static str {
+                match self {
+                    $(Self::$scheme => $name,)+
+                }
+            }
+
+            /// Whether it is for two pieces of which one is small.
+            pub const fn is_near_integrable(self) -> bool {
+                match self {
+                    $(Self::$scheme => { let near: &[&str] = &[$(stringify!($near))?]; !near.is_empty() })+
+                }
+            }
+
+            const fn steps(self, order: u32) -> Option<Steps> {
+                match (self, order) {
+                    $($((Self::$scheme, $order) => Some(Steps::$kind(&$steps)),)+)+
+                    _ => None,
+                }
+            }
+        }
+    };
+}
+
+/// The first half of the steps of a scheme, whose second half is the mirror image.
+#[derive(Clone, Copy)]
+enum Steps {
+    /// Steps of a symmetric method of order 2, the middle included.
+    Composition(&'static [Parts]),
+    /// Sweeps of a splitting, forwards and backwards in turn.
+    Sweeps(&'static [Parts]),
+}
+
+schemes! {
+    /// For splittings alone: order 4 with 6 stages (S6), order 6 with 10 stages (S10).
+    BlanesMoan = "blanes-moan" { 4 Sweeps BLANES_MOAN_4, 6 Sweeps BLANES_MOAN_6 };
+    /// Order 6 with 9 stages, order 8 with 17 stages.
+    KahanLi = "kahan-li" { 6 Composition KAHAN_LI_6, 8 Composition KAHAN_LI_8 };
+    /// Order 8 with 15 stages.
+    SuzukiUmeno = "suzuki-umeno" { 8 Composition SUZUKI_UMENO_8 };
+    /// Order 6 with 7 stages, solution A of Yoshida.
+    Yoshida = "yoshida" { 6 Composition YOSHIDA_6 };
     /// Suzuki's five stages with `1/(4 - 4^(1/3))`; of order 6, five times those.
-    Suzuki,
+    Suzuki = "suzuki" { 4 Composition SUZUKI_4, 6 Composition SUZUKI_6 };
     /// Three stages with `1/(2 - 2^(1/3))`; of order 6, three times those. Its stages are long: a
     /// cheap step with a large error.
-    TripleJump,
-    /// Order 6 with 7 stages, solution A of Yoshida.
-    Yoshida,
-    /// Order 6 with 9 stages, order 8 with 17 stages.
-    KahanLi,
-    /// Order 8 with 15 stages.
-    SuzukiUmeno,
-    /// For splittings alone: order 4 with 6 stages (S6), order 6 with 10 stages (S10).
-    BlanesMoan,
+    TripleJump = "triple-jump" { 4 Composition TRIPLE_JUMP_4, 6 Composition TRIPLE_JUMP_6 };
     /// For splittings alone: order 2, two sweeps.
-    Strang,
+    Strang = "strang" { 2 Sweeps STRANG };
     /// For a splitting into A, the first piece, and a small B: order 2, two stages, Gauss nodes, `O(e h^4 + e^2 h^2)`.
-    Saba2,
+    Saba2 = "saba2" near { 2 Sweeps SABA_2 };
     /// The same with four stages, `O(e h^8 + e^2 h^2)`.
-    Saba4,
+    Saba4 = "saba4" near { 2 Sweeps SABA_4 };
     /// For a splitting into a small A, the first piece, and B: order 2, two stages, Lobatto nodes, `O(e h^4 + e^2 h^2)`.
-    Sbab2,
+    Sbab2 = "sbab2" near { 2 Sweeps SBAB_2 };
     /// The same with four stages, `O(e h^8 + e^2 h^2)`.
-    Sbab4,
+    Sbab4 = "sbab4" near { 2 Sweeps SBAB_4 };
     /// For a splitting into A, the first piece, and a small B: order 4, five stages, `O(e h^8 + e^2 h^4)`.
-    McLachlan84,
+    McLachlan84 = "mclachlan-8-4" near { 4 Sweeps MCLACHLAN_84 };
 }
 
 /// High and low part of a coefficient; the sum is good to 100 bits.
@@ -67,44 +115,54 @@ impl Parts {
 }
 
 impl Scheme {
-    /// The scheme that a composition of an order takes if none is chosen.
-    pub(super) const fn of_composition(order: u32) -> Self {
-        match order {
-            4 => Self::Suzuki,
-            _ => Self::KahanLi,
+    /// The steps of a composition of symmetric steps of order 2: the first half, the middle included. None if there is no
+    /// such scheme.
+    pub(super) const fn composition(self, order: u32) -> Option<&'static [Parts]> {
+        match self.steps(order) {
+            Some(Steps::Composition(steps)) => Some(steps),
+            _ => None,
         }
     }
 
-    /// The steps of a composition of symmetric steps of order 2: the first half, the middle
-    /// included; the second half is its mirror image. None if there is no such scheme.
-    pub(super) const fn composition(self, order: u32) -> Option<&'static [Parts]> {
-        Some(match (self, order) {
-            (Self::Suzuki, 4) => &SUZUKI_4,
-            (Self::TripleJump, 4) => &TRIPLE_JUMP_4,
-            (Self::Suzuki, 6) => &SUZUKI_6,
-            (Self::TripleJump, 6) => &TRIPLE_JUMP_6,
-            (Self::Yoshida, 6) => &YOSHIDA_6,
-            (Self::KahanLi, 6) => &KAHAN_LI_6,
-            (Self::KahanLi, 8) => &KAHAN_LI_8,
-            (Self::SuzukiUmeno, 8) => &SUZUKI_UMENO_8,
-            _ => return None,
-        })
+    /// The sweeps of a splitting of its own, forwards and backwards in turn: the first half of an even number.
+    pub(super) const fn sweeps(self, order: u32) -> Option<&'static [Parts]> {
+        match self.steps(order) {
+            Some(Steps::Sweeps(steps)) => Some(steps),
+            _ => None,
+        }
     }
 
-    /// The sweeps of a splitting of its own, forwards and backwards in turn: the first half of an
-    /// even number; the second half is its mirror image.
-    pub(super) const fn sweeps(self, order: u32) -> Option<&'static [Parts]> {
-        Some(match (self, order) {
-            (Self::BlanesMoan, 4) => &BLANES_MOAN_4,
-            (Self::BlanesMoan, 6) => &BLANES_MOAN_6,
-            (Self::Strang, 2) => &STRANG,
-            (Self::Saba2, 2) => &SABA_2,
-            (Self::Saba4, 2) => &SABA_4,
-            (Self::Sbab2, 2) => &SBAB_2,
-            (Self::Sbab4, 2) => &SBAB_4,
-            (Self::McLachlan84, 4) => &MCLACHLAN_84,
-            _ => return None,
-        })
+    /// The schemes of a composition of an order, the default first.
+    pub fn of_composition(order: u32) -> impl Iterator<Item = Self> + Clone {
+        let all = Self::ALL.iter().copied();
+        all.filter(move |scheme| scheme.composition(order).is_some())
+    }
+
+    /// The schemes of a splitting of an order, the default first.
+    pub fn of_splitting(order: u32) -> impl Iterator<Item = Self> + Clone {
+        let all = Self::ALL.iter().copied();
+        all.filter(move |scheme| scheme.steps(order).is_some())
+    }
+
+    /// The default of a composition of an order.
+    pub(super) const fn default_of_composition(order: u32) -> Self {
+        let mut place = 0;
+        while Self::ALL[place].composition(order).is_none() {
+            place += 1;
+        }
+        Self::ALL[place]
+    }
+
+    /// The default of a splitting of an order; none of order 1.
+    pub(super) const fn default_of_splitting(order: u32) -> Option<Self> {
+        let mut place = 0;
+        while place < Self::ALL.len() {
+            if Self::ALL[place].steps(order).is_some() {
+                return Some(Self::ALL[place]);
+            }
+            place += 1;
+        }
+        None
     }
 }
 

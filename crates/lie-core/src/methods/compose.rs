@@ -79,7 +79,7 @@ impl<M: Facts, const ORDER: u32> Compose<M, ORDER> {
         }
         Self {
             base,
-            scheme: Scheme::of_composition(ORDER),
+            scheme: Scheme::default_of_composition(ORDER),
         }
     }
 

@@ -2,9 +2,16 @@
 
 use super::*;
 
-/// Methods without a choice.
-macro_rules! plain {
-    ($($method:ident),+ $(,)?) => {$(
+/// Methods that are a name.
+macro_rules! by_name {
+    (
+        {} choices $choices:tt
+        $({ $title:literal $needs:tt $reference:tt $($choice:tt $type:tt $value:tt $how:tt)+ })+
+    ) => {
+        $($(by_name!($type $value $how);)+)+
+    };
+    ([$method:ident] [$value:ident] { tolerances }) => {};
+    ([$method:ident] [$value:ident] $how:tt) => {
         impl $method {
             /// The method.
             #[must_use]
@@ -12,35 +19,10 @@ macro_rules! plain {
                 Self
             }
         }
-    )+};
+    };
+    ($type:tt $value:tt $how:tt) => {};
 }
-
-plain!(
-    CommutatorFree4,
-    CrouchGrossman3,
-    EulerArnold2,
-    Exact,
-    Gauss4,
-    Gauss6,
-    Gauss8,
-    Gauss10,
-    Gauss12,
-    Gauss14,
-    Gauss16,
-    GeneratingSecondKind2,
-    Gonzalez,
-    ImplicitMidpoint,
-    ItohAbe,
-    LieEuler,
-    MeanValue,
-    MoserVeselov,
-    Rk4,
-    Rkmk2,
-    Rkmk3,
-    Rkmk4,
-    Rkmk6,
-    SphericalMidpoint,
-);
+crate::for_each_method!(by_name! {});
 
 /// Methods with a choice, which has a name.
 macro_rules! by_default {
@@ -69,26 +51,67 @@ by_default!(
     [<const STAGES: usize>] ParallelCollective<Smallest, STAGES>, smallest, "Over the smallest space that there is.";
 );
 
-impl Dopri5 {
-    /// With the tolerances 1e-6, relative, and 1e-9, absolute.
-    #[must_use]
-    pub fn new() -> Self {
-        Self::default()
+/// Methods that choose their steps.
+macro_rules! by_tolerances {
+    ($($method:ident, $doc:literal;)+) => {$(
+        impl $method {
+            #[doc = $doc]
+            #[must_use]
+            pub fn new() -> Self {
+                Self::default()
+            }
+        }
+    )+};
+}
+
+by_tolerances!(
+    Dopri5, "With the tolerances 1e-6, relative, and 1e-9, absolute.";
+    Taylor, "With a tolerance of 1e-15: as exact as round-off lets it be.";
+    LieTaylor, "With a tolerance of 1e-15: as exact as round-off lets it be.";
+);
+
+/// Tolerances of methods that choose their steps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tolerances {
+    /// Relative tolerance.
+    pub rtol: f64,
+    /// Absolute tolerance.
+    pub atol: f64,
+}
+
+impl Default for Tolerances {
+    fn default() -> Self {
+        Self {
+            rtol: 1e-6,
+            atol: 1e-9,
+        }
     }
 }
 
-impl Taylor {
-    /// With a tolerance of 1e-15: as exact as round-off lets it be.
-    #[must_use]
-    pub fn new() -> Self {
-        Self::default()
+impl Tolerances {
+    /// Both alike.
+    pub const fn both(tolerance: f64) -> Self {
+        Self {
+            rtol: tolerance,
+            atol: tolerance,
+        }
     }
 }
 
-impl LieTaylor {
-    /// With a tolerance of 1e-15: as exact as round-off lets it be.
-    #[must_use]
-    pub fn new() -> Self {
-        Self::default()
+impl From<Tolerances> for Dopri5 {
+    fn from(Tolerances { rtol, atol }: Tolerances) -> Self {
+        Self { rtol, atol }
+    }
+}
+
+impl From<Tolerances> for Taylor {
+    fn from(tolerances: Tolerances) -> Self {
+        Self::with_tolerance(tolerances.rtol)
+    }
+}
+
+impl From<Tolerances> for LieTaylor {
+    fn from(tolerances: Tolerances) -> Self {
+        Self::with_tolerance(tolerances.rtol)
     }
 }

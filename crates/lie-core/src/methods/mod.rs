@@ -88,6 +88,7 @@ pub mod lie_euler;
 pub mod lie_midpoint;
 pub mod lie_taylor;
 mod lifted;
+mod list;
 mod made;
 pub mod mean_value;
 pub mod midpoint;
@@ -104,6 +105,11 @@ mod stepper;
 pub mod taylor;
 pub mod tensor;
 pub mod variational;
+
+/// Equations that stand in the file of their method: a part of [`generic`](crate::generic).
+pub(crate) mod equations {
+    pub use super::midpoint::Midpoint;
+}
 
 pub use coefficients::Scheme;
 pub use cohen_hairer::{
@@ -137,6 +143,7 @@ pub use lie_euler::{LieEuler, LieEulerStepper};
 pub use lie_midpoint::{Cayley, Exp, LieMidpoint};
 pub use lie_taylor::{LieTaylor, LieTaylorDevelopment};
 pub use lifted::{LiftedStepper, StageLift};
+pub use made::Tolerances;
 pub use mean_value::MeanValue;
 pub use midpoint::ImplicitMidpoint;
 pub use moser_veselov::{MoserVeselov, MoserVeselovStepper};

@@ -130,14 +130,8 @@ impl<const ORDER: u32> Splitting<ORDER> {
                 "splittings have order 1, 2, 4, 6 or 8"
             );
         }
-        let scheme = match ORDER {
-            1 => None,
-            2 => Some(Scheme::Strang),
-            4 | 6 => Some(Scheme::BlanesMoan),
-            _ => Some(Scheme::of_composition(ORDER)),
-        };
         Self {
-            scheme,
+            scheme: Scheme::default_of_splitting(ORDER),
             pieces: Found,
         }
     }

@@ -121,7 +121,7 @@ request! {
     quantity at "at" "T1,T2,…";
     /// Retraction of lie-midpoint and of generating methods: exp or cayley
     word retraction "retraction" "NAME";
-    /// Coefficients of a composition or a splitting: suzuki, triple-jump, kahan-li, …; for two pieces of which one is small: saba2, saba4, sbab2, sbab4, mclachlan-8-4
+    /// Coefficients of a composition or a splitting: suzuki, triple-jump, kahan-li, …; some are for two pieces of which one is small (`lie methods` lists them)
     word composition "composition" "NAME";
     /// Pieces of a splitting: found (default: the fewest with exact flows; `lie check` lists them) or coordinate (H = sum f_i(x_i), in the order of the coordinates)
     word pieces "pieces" "NAME";

@@ -15,8 +15,7 @@ use lie_program::blueprint::{Blueprint, Built};
 use lie_program::protocol::{End, Obstacle, number};
 use lie_program::session::Session;
 use lie_runtime::diagnostics::{AnyMethod, reference};
-use lie_runtime::equation::Implicit;
-use lie_runtime::methods::{Gauss6, Method};
+use lie_runtime::methods::Method;
 use lie_runtime::newton::NewtonOptions;
 use lie_runtime::{ParameterError, Poisson, State, Unknown};
 use measure::{Judge, NoSection};
@@ -80,17 +79,28 @@ pub struct Bench<P: Poisson<f64>> {
     confirming: Made<P>,
 }
 
-impl<P: Implicit<f64, Gauss6> + 'static> Bench<P> {
-    /// A program from the parameters with their defaults and the function that makes a system of their values.
-    pub fn new(
+impl<P: Poisson<f64> + 'static> Bench<P> {
+    /// A program from the parameters with their defaults, the function that makes a system of their values, and the method
+    /// that confirms the reference solution.
+    pub fn new<M: Method<f64, P> + 'static>(
         parameters: &[(&str, f64)],
         build: impl Fn(&[f64]) -> Result<P, ParameterError> + Send + Sync + 'static,
+        confirming: M,
+    ) -> Self {
+        Self::with_any(parameters, build, Box::new(confirming))
+    }
+
+    /// The same with a method whose type is forgotten.
+    pub fn with_any(
+        parameters: &[(&str, f64)],
+        build: impl Fn(&[f64]) -> Result<P, ParameterError> + Send + Sync + 'static,
+        confirming: Box<dyn AnyMethod<f64, P>>,
     ) -> Self {
         Self {
             blueprint: Blueprint::new(parameters, build),
             entries: Vec::new(),
             clock: Clock::wall(),
-            confirming: Box::new(Gauss6),
+            confirming,
         }
     }
 
@@ -99,12 +109,6 @@ impl<P: Implicit<f64, Gauss6> + 'static> Bench<P> {
     pub fn clock(self, processor: fn() -> Option<f64>) -> Self {
         let clock = Clock::new(processor);
         Self { clock, ..self }
-    }
-
-    /// Confirms the reference solution by this method in place of `gauss6`.
-    #[must_use]
-    pub fn confirmed_by(self, confirming: Box<dyn AnyMethod<f64, P>>) -> Self {
-        Self { confirming, ..self }
     }
 
     /// Adds a method under the name by which requests ask for it.

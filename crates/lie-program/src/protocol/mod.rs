@@ -13,42 +13,12 @@ mod words;
 
 use crate::listen;
 use lie_runtime::driver::{Chosen, Options, Pace, Save, Stats};
+pub use lie_runtime::methods::Tolerances;
 use lie_runtime::newton::NewtonOptions;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::io::{self, BufRead};
-
-/// Tolerances of adaptive methods; others ignore them.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
-#[serde(deny_unknown_fields)]
-pub struct Tolerances {
-    /// Relative tolerance.
-    #[serde(with = "number")]
-    pub rtol: f64,
-    /// Absolute tolerance.
-    #[serde(with = "number")]
-    pub atol: f64,
-}
-
-impl Default for Tolerances {
-    fn default() -> Self {
-        Self {
-            rtol: 1e-6,
-            atol: 1e-9,
-        }
-    }
-}
-
-impl Tolerances {
-    /// Both alike.
-    pub fn both(tolerance: f64) -> Self {
-        Self {
-            rtol: tolerance,
-            atol: tolerance,
-        }
-    }
-}
 
 /// Where a system starts.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
@@ -91,6 +61,7 @@ pub struct Run {
     /// When rows are wanted.
     pub times: Times,
     /// The tolerances of an adaptive method.
+    #[serde(with = "words::TolerancesFields")]
     pub tolerances: Tolerances,
     /// The solver of an implicit method.
     #[serde(with = "words::NewtonFields")]

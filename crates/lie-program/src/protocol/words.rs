@@ -2,6 +2,7 @@
 
 use super::number;
 use lie_runtime::driver::Pace;
+use lie_runtime::methods::Tolerances;
 use lie_runtime::newton::{Convergence, Iteration, NewtonOptions};
 use serde::{Deserialize, Serialize};
 
@@ -44,4 +45,14 @@ pub(super) struct NewtonFields {
     max_iterations: u32,
     #[serde(with = "ConvergenceInWords")]
     convergence: Convergence,
+}
+
+/// The fields of [`Tolerances`].
+#[derive(Deserialize, Serialize)]
+#[serde(remote = "Tolerances", deny_unknown_fields)]
+pub(super) struct TolerancesFields {
+    #[serde(with = "number")]
+    rtol: f64,
+    #[serde(with = "number")]
+    atol: f64,
 }

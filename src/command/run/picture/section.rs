@@ -93,7 +93,7 @@ fn passage(
     coordinate: usize,
     value: f64,
 ) -> Option<Vec<f64>> {
-    let gauss = method(&Choice::from_id("gauss16").ok()?, Tolerances::default())?;
+    let gauss = method(&Choice::Gauss(8), Tolerances::default());
     let after = |part: f64| {
         let mut state = start.to_vec();
         let newton = NewtonOptions::default();
@@ -157,7 +157,7 @@ mod tests {
             value: 0.1,
             axes: [1, 2],
         };
-        let rk4 = method(&Choice::Rk4, Tolerances::default()).unwrap();
+        let rk4 = method(&Choice::Rk4, Tolerances::default());
         let mut stepper = rk4.any_stepper(&system, 0.05, &NewtonOptions::default());
         let mut state = system.initial_state().unwrap();
         let mut found = 0;
