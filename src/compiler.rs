@@ -3,10 +3,10 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use lie_codegen::diagnostic::Kind;
-use lie_codegen::front::file;
 use lie_codegen::structure::Effort;
 pub use lie_in_process::spec::Spec;
+use lie_syntax::diagnostic::Kind;
+use lie_syntax::front::file;
 
 use crate::message::{Failure, Message, Source};
 

@@ -7,8 +7,8 @@ use std::ops::Range;
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
-use lie_codegen::characters::visible;
-use lie_codegen::diagnostic::{MOST_SHOWN, not_shown};
+use lie_syntax::characters::visible;
+use lie_syntax::diagnostic::{MOST_SHOWN, not_shown};
 
 use crate::message::{Message, Place};
 
@@ -194,7 +194,7 @@ fn ceil(text: &str, mut at: usize) -> usize {
 mod tests {
     use std::sync::Arc;
 
-    use lie_codegen::diagnostic::Kind;
+    use lie_syntax::diagnostic::Kind;
 
     use super::*;
     use crate::message::Source;

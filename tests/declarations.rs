@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use common::{Run, command, folder, lie, spec};
-use lie_codegen::diagnostic::Kind;
+use lie_syntax::diagnostic::Kind;
 
 const DATA: &str = "tests/data/declarations";
 

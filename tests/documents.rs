@@ -4,8 +4,8 @@ use std::path::Path;
 use std::process::Command;
 
 use lie_codegen::compile::{compile_spec, declared_choices, expand};
-use lie_codegen::constructors::FAMILIES;
 use lie_codegen::methods::{CATALOGUE, Choice, Method};
+use lie_syntax::constructors::FAMILIES;
 
 mod common;
 

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use common::{folder, lie, spec};
-use lie_codegen::characters::{is_control, is_direction_control};
+use lie_syntax::characters::{is_control, is_direction_control};
 use serde_json::json;
 
 /// Texts that rustdoc would run, resolve or take into the page.

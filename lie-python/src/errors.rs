@@ -1,8 +1,8 @@
 //! Mistakes as exceptions of the package.
 
-use lie_codegen::diagnostic::{Diagnostic, Origin};
 use lie_in_process::message::{Fault, Message, Place};
 use lie_in_process::request::Front;
+use lie_syntax::diagnostic::{Diagnostic, Origin};
 use pyo3::exceptions::{PyRuntimeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
@@ -49,7 +49,7 @@ impl Mistakes {
 /// Line and column in the text.
 fn place(text: &str, diagnostic: &Diagnostic) -> Option<(usize, usize)> {
     match diagnostic.origin {
-        Some(Origin::Text { start, .. }) => Some(lie_codegen::front::line_column(text, start)),
+        Some(Origin::Text { start, .. }) => Some(lie_syntax::front::line_column(text, start)),
         _ => None,
     }
 }
@@ -67,7 +67,7 @@ pub fn shown(text: &str, diagnostic: &Diagnostic) -> String {
 /// A message with the line of the declaration in which it is, and with its remedy.
 fn with_place(mut message: String, text: &str, start: Option<usize>, help: Option<&str>) -> String {
     if let Some(start) = start {
-        let (line, column) = lie_codegen::front::line_column(text, start);
+        let (line, column) = lie_syntax::front::line_column(text, start);
         message.push_str(&format!(" (line {line}, column {column})"));
         if let Some(source) = text.lines().nth(line.saturating_sub(1)) {
             message.push_str(&format!("\n    {}", source.trim()));

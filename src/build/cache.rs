@@ -3,7 +3,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use lie_codegen::diagnostic::Kind;
+use lie_syntax::diagnostic::Kind;
 
 use crate::message::{Failure, Message};
 

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::Output;
 
-use lie_codegen::diagnostic::Kind;
+use lie_syntax::diagnostic::Kind;
 
 use crate::message::{Failure, Message};
 

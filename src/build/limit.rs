@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
-use lie_codegen::diagnostic::Kind;
+use lie_syntax::diagnostic::Kind;
 
 use crate::message::{Failure, Message};
 

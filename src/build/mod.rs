@@ -24,8 +24,8 @@ use std::fs::{File, TryLockError};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use lie_codegen::diagnostic::Kind;
 use lie_codegen::program::Purpose;
+use lie_syntax::diagnostic::Kind;
 
 use crate::interrupt::Interrupt;
 use crate::message::{Failure, Message};

@@ -7,11 +7,11 @@ use std::process::{Child, ChildStderr, Command, Stdio};
 use std::sync::Arc;
 use std::time::Duration;
 
-use lie_codegen::diagnostic::Kind;
 use lie_in_process::converse::{Last, Listener, converse};
 use lie_in_process::{Question, Work};
 use lie_program::listen::listen;
 use lie_program::protocol::{End, Message, Obstacle, Progress, Stop, Wire};
+use lie_syntax::diagnostic::Kind;
 use serde::Serialize;
 
 use crate::interrupt::{Interrupt, own_group};

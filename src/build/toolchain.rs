@@ -5,7 +5,7 @@ use std::io;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
-use lie_codegen::diagnostic::Kind;
+use lie_syntax::diagnostic::Kind;
 
 use super::processor::Processor;
 use crate::interrupt::Interrupt;

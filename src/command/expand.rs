@@ -1,10 +1,10 @@
 //! `lie expand`: prints the generated code of a spec, or the plan of it.
 
-use lie_codegen::ast::Runtime;
 use lie_codegen::compile;
 use lie_codegen::plan::plan;
 use lie_codegen::print::Surface;
 use lie_in_process::request::{Front, method};
+use lie_syntax::ast::Runtime;
 
 use super::{args, print};
 use crate::compiler;

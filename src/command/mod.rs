@@ -17,7 +17,7 @@ pub mod usage;
 use std::io::{self, Write as _};
 
 use args::{Command, Later};
-use lie_codegen::diagnostic::Kind;
+use lie_syntax::diagnostic::Kind;
 
 use crate::message::{Failure, Message};
 

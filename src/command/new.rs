@@ -5,8 +5,8 @@ use std::io::Write as _;
 use std::path::PathBuf;
 
 use lie_codegen::compile::compile_spec;
-use lie_codegen::diagnostic::Diagnostic;
 use lie_in_process::words::counted;
+use lie_syntax::diagnostic::Diagnostic;
 
 use super::{args, print, shell};
 use crate::message::{Failure, Message};

@@ -8,6 +8,6 @@ use crate::message::Failure;
 /// # Errors
 /// stdout cannot be written.
 pub fn run() -> Result<u8, Failure> {
-    print(&format!("{:#}\n", lie_codegen::front::schema()))?;
+    print(&format!("{:#}\n", lie_syntax::front::schema()))?;
     Ok(0)
 }

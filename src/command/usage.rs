@@ -2,8 +2,8 @@
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory as _, Parser as _};
-use lie_codegen::diagnostic::Kind;
-use lie_codegen::suggest::meant;
+use lie_syntax::diagnostic::Kind;
+use lie_syntax::suggest::meant;
 
 use super::BUILT;
 use super::args::Cli;

@@ -3,9 +3,9 @@
 use std::fmt::Write as _;
 
 use lie_codegen::compile::{compile_spec, expand};
-use lie_codegen::diagnostic::Kind;
-use lie_codegen::front::{schema, vocabulary};
 use lie_codegen::methods::CATALOGUE;
+use lie_syntax::diagnostic::Kind;
+use lie_syntax::front::{schema, vocabulary};
 use serde_json::Value;
 
 use crate::common::catalogue::words;

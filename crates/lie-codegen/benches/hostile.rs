@@ -17,7 +17,7 @@ use std::time::{Duration, Instant};
 use cases::Case;
 use clock::Clock;
 use lie_codegen::compile::{compile_spec, declared_choices, expand};
-use lie_codegen::front::file::oversized;
+use lie_syntax::front::file::oversized;
 
 /// The stack that `lie` gives the compiler.
 const STACK: usize = 256 << 20;

@@ -5,14 +5,14 @@ use std::path::Path;
 
 use proc_macro2::TokenStream;
 
-use crate::ast::Declaration;
 use crate::check::{check, constant_of, contradicted};
-use crate::diagnostic::{Diagnostic, Report};
-use crate::front::{Body, parse_constant_text, spec};
 use crate::methods::{Choice, declared, refusal};
 use crate::plan::{Own, plan, plan_with};
 use crate::print::{Surface, format, print};
 use crate::structure::{Effort, Structure, smoothness, structure};
+use lie_syntax::ast::Declaration;
+use lie_syntax::diagnostic::{Diagnostic, Report};
+use lie_syntax::front::{Body, parse_constant_text, spec};
 
 /// Checks a declaration and finds its structure; `None` if there are mistakes. Those and warnings go to the report.
 pub fn analysed(

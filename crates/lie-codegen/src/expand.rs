@@ -5,14 +5,16 @@ use std::path::{Path, PathBuf};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 
-use crate::ast::Name;
-use crate::characters::visible;
 use crate::compile::{compile_declaration, declared_choices};
-use crate::diagnostic::{Diagnostic, Kind, MOST_SHOWN, Origin, Report, forget_spans, not_shown};
-use crate::front::{Body, Parsed, declaration, file, line_column, spec};
 use crate::plan::plan;
 use crate::print::{Surface, of_this_version, print, rooted};
 use crate::structure::Structure;
+use lie_syntax::ast::Name;
+use lie_syntax::characters::visible;
+use lie_syntax::diagnostic::{
+    Diagnostic, Kind, MOST_SHOWN, Origin, Report, forget_spans, not_shown,
+};
+use lie_syntax::front::{Body, Parsed, declaration, file, line_column, spec};
 
 /// What `lie_poisson! { input }` expands to; `manifest` is the folder that spec paths start from.
 pub fn expand_macro(input: TokenStream, manifest: &Path) -> TokenStream {

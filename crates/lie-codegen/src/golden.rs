@@ -19,15 +19,15 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use crate::ast::Runtime;
-use crate::characters::visible;
 use crate::compile::{compile_spec, declared_choices, expand_on, with_options};
-use crate::diagnostic::{Diagnostic, MOST_SHOWN, Origin, not_shown};
-use crate::front::line_column;
 use crate::methods::Choice;
 use crate::plan::plan;
 use crate::print::Surface;
 use crate::structure::Structure;
+use lie_syntax::ast::Runtime;
+use lie_syntax::characters::visible;
+use lie_syntax::diagnostic::{Diagnostic, MOST_SHOWN, Origin, not_shown};
+use lie_syntax::front::line_column;
 use source::Declared;
 
 /// The environment variable that makes [`Golden::check`] write instead of compare.

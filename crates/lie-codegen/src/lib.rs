@@ -49,28 +49,15 @@
 #![cfg_attr(doc, doc = include_str!("../docs/katex.html"))]
 
 pub mod algebra;
-pub mod ast;
-pub mod characters;
 pub mod check;
 pub mod compile;
-pub mod constructors;
 pub mod derive;
-pub mod diagnostic;
-pub mod exact;
 pub mod expand;
-pub mod front;
 pub mod golden;
-mod hints;
 pub mod judge;
-pub mod limits;
-pub mod linear;
 pub mod methods;
 pub mod model;
 pub mod plan;
 pub mod print;
 pub mod program;
-pub mod prove;
-pub mod schedule;
 pub mod structure;
-pub mod suggest;
-pub mod symbolic;

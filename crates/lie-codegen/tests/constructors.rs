@@ -5,11 +5,11 @@ use std::fmt::Write as _;
 
 use lie_codegen::algebra::Representation;
 use lie_codegen::compile::{compile_spec, expand, with_options};
-use lie_codegen::diagnostic::{Diagnostic, Origin};
 use lie_codegen::methods::Choice;
 use lie_codegen::model::{Algebra, Bracket};
 use lie_codegen::structure::Structure;
 use lie_codegen::structure::algebra::{DEEP, report};
+use lie_syntax::diagnostic::{Diagnostic, Origin};
 use serde_json::{Value, json};
 
 fn compiled(algebra: &Value) -> Result<Structure, Vec<Diagnostic>> {
@@ -241,7 +241,7 @@ fn the_names_are_those_of_the_committed_specs() {
 /// Basis and state of a declaration without `state`.
 fn names(name: &str) -> (Vec<String>, Vec<String>) {
     let model = model(name);
-    let texts = |names: &[lie_codegen::ast::Name]| names.iter().map(|n| n.text.clone()).collect();
+    let texts = |names: &[lie_syntax::ast::Name]| names.iter().map(|n| n.text.clone()).collect();
     (texts(&algebra(&model).basis), texts(&model.coordinates))
 }
 

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 
 use lie_codegen::compile::{compile_spec, declared_choices, expand};
 use lie_codegen::derive::{Kernel, Source};
-use lie_codegen::schedule::{Operation, Program, Value};
+use lie_symbolic::schedule::{Operation, Program, Value};
 
 /// The operation with commuting operands in order.
 fn normal(operation: &Operation) -> Operation {
@@ -75,8 +75,8 @@ fn kernels_of_all_systems() {
 /// The control: a program with a repeated product is caught.
 #[test]
 fn waste_is_found() {
-    let x = Value::Symbol(lie_codegen::symbolic::Symbol::Coordinate(0));
-    let y = Value::Symbol(lie_codegen::symbolic::Symbol::Coordinate(1));
+    let x = Value::Symbol(lie_symbolic::symbolic::Symbol::Coordinate(0));
+    let y = Value::Symbol(lie_symbolic::symbolic::Symbol::Coordinate(1));
     let program = Program {
         operations: vec![Operation::Mul(x.clone(), y.clone()), Operation::Mul(y, x)],
         ..Program::default()

@@ -8,8 +8,8 @@ use std::collections::HashMap;
 
 use lie_codegen::compile::compile_spec;
 use lie_codegen::derive::{Kernel, Source};
-use lie_codegen::schedule::{Operation, Program, Value};
-use lie_codegen::symbolic::{Graph, Symbol};
+use lie_symbolic::schedule::{Operation, Program, Value};
+use lie_symbolic::symbolic::{Graph, Symbol};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 

@@ -4,8 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use lie_codegen::compile::{compile_spec, compile_spec_in, expand};
-use lie_codegen::diagnostic::{Diagnostic, Kind};
 use lie_codegen::structure::Effort;
+use lie_syntax::diagnostic::{Diagnostic, Kind};
 
 /// A spec whose Hamiltonian calls the table.
 fn spec(table: &str) -> String {

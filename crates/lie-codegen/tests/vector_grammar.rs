@@ -1,8 +1,8 @@
 //! Vectors and matrices of a declaration: what is written with them is what is written out.
 
 use lie_codegen::compile::{compile_spec, declared_choices, expand};
-use lie_codegen::diagnostic::{Diagnostic, Kind, Origin};
 use lie_codegen::expand::expand_macro;
+use lie_syntax::diagnostic::{Diagnostic, Kind, Origin};
 use serde_json::{Value, json};
 
 /// A system on se(3)* with parameters and vectors.

@@ -3,7 +3,7 @@
 
 use lie_codegen::compile::compile_spec;
 use lie_codegen::structure::Structure;
-use lie_codegen::symbolic::Symbol;
+use lie_symbolic::symbolic::Symbol;
 use serde_json::{Value, json};
 
 /// so(3) with these keys; the message of the first error where it is refused.

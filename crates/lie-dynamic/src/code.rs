@@ -4,8 +4,8 @@ mod lowering;
 
 use lie_codegen::derive::{Quantity, Shape};
 use lie_codegen::plan::{Code as Program, Constant, Function as Kernel};
-use lie_codegen::schedule::{self, Value};
 use lie_core::Elementary;
+use lie_symbolic::schedule::{self, Value};
 use lowering::{source_of_quantity, source_of_state, source_of_value};
 
 /// The place of a number while code runs.

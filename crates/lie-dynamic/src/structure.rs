@@ -4,7 +4,6 @@ use crate::code::Code;
 use crate::compiled::Making;
 use crate::names;
 use crate::system::Dynamic;
-use lie_codegen::exact::Rational;
 use lie_codegen::plan::{self, Function, Plan};
 use lie_codegen::structure::integrable::Motion;
 use lie_core::family::LateMatrix;
@@ -14,6 +13,7 @@ use lie_runtime::{
     ColumnPoisson, CotangentPoisson, InertiaPoisson, IntegrablePoisson, MatrixGroup, MatrixPoisson,
     Scalar, Spectrum, SpinPoisson, VectorPoisson,
 };
+use lie_symbolic::exact::Rational;
 
 /// Tables, and codes of constants.
 #[derive(Debug)]

@@ -8,11 +8,11 @@ use crate::kernels::{ARGUMENTS, Engine, Machine};
 use crate::names;
 use crate::values::Values;
 use lie_codegen::plan::{Code as Program, Plan};
-use lie_codegen::schedule::Operation;
-use lie_codegen::symbolic::{self, Symbol};
 use lie_core::parameter::{ParameterError, all_finite, all_positive};
 use lie_runtime::Scalar;
 use lie_runtime::family::{Family, unit_spheres};
+use lie_symbolic::schedule::Operation;
+use lie_symbolic::symbolic::{self, Symbol};
 use std::sync::Arc;
 
 /// A Lie–Poisson system made at run time, over states on the heap.

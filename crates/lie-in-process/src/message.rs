@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
-use lie_codegen::diagnostic::{Diagnostic, Kind, Origin};
+use lie_syntax::diagnostic::{Diagnostic, Kind, Origin};
 
 /// A spec as it was read.
 #[derive(Debug)]

@@ -1,9 +1,9 @@
 //! What was verified: claims of methods, and kernels before the declaration.
 
-use lie_codegen::prove::joints::reached;
 use lie_codegen::structure::Structure;
 use lie_measure::facts::{Finding, Verdict};
 use lie_measure::verify::{Found, GroundFound as Ground, Options};
+use lie_symbolic::prove::joints::reached;
 use serde_json::{Value, json};
 
 use crate::evidence::Evidence;

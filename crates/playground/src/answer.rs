@@ -1,14 +1,14 @@
 //! Requests and their answers.
 
 use lie_codegen::compile::compile_spec;
-use lie_codegen::diagnostic::{Diagnostic, Kind, Origin};
-use lie_codegen::front::line_column;
 use lie_codegen::methods::{Choice, applicability, refusal};
 use lie_codegen::plan::plan;
 use lie_codegen::structure::Structure;
 use lie_dynamic::{Dynamic, Engine as _, Method, at_defaults};
 use lie_runtime::Poisson as _;
 use lie_runtime::newton::NewtonOptions;
+use lie_syntax::diagnostic::{Diagnostic, Kind, Origin};
+use lie_syntax::front::line_column;
 use serde_json::{Value, json};
 
 #[cfg(target_arch = "wasm32")]

@@ -4,10 +4,10 @@
 use std::path::Path;
 
 use lie_codegen::compile::{compile_spec, generate, with_options};
-use lie_codegen::diagnostic::Origin;
 use lie_codegen::expand::expand_macro;
 use lie_codegen::methods::{CATALOGUE, Choice};
 use lie_codegen::structure::Structure;
+use lie_syntax::diagnostic::Origin;
 use proc_macro2::TokenStream;
 
 /// Fused code of all methods is made of systems up to this dimension, and of the others that of some:

@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 
-use lie_codegen::prove::joints::{Joint, reached};
 use lie_in_process::report::joints::{Methods, across};
+use lie_symbolic::prove::joints::{Joint, reached};
 
 /// The joints by lines, and what methods lose.
 pub(super) fn write(joints: &[Joint], methods: &Methods, text: &mut String) -> std::fmt::Result {

@@ -3,13 +3,13 @@
 mod picture;
 mod table;
 
-use lie_codegen::diagnostic::Kind;
 use lie_codegen::program::{Purpose, confirming};
 use lie_in_process::request::{Given, Request, span};
 use lie_in_process::words::{counted, short};
 use lie_in_process::{list, table::text as aligned};
 use lie_measure::bench::{ClockKind, Found, Measure, Options, Plane, Point, Reference};
 use lie_program::protocol::Obstacle;
+use lie_syntax::diagnostic::Kind;
 
 use self::table::{cells, lines, micro};
 use super::quiet::Quiet;

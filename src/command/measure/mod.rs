@@ -8,13 +8,13 @@ mod sense;
 pub mod stress;
 pub mod verify;
 
-use lie_codegen::diagnostic::Kind;
 use lie_codegen::methods::Choice;
 use lie_codegen::program::{Purpose, program};
 use lie_in_process::Question;
 use lie_in_process::families::Limit;
 use lie_in_process::request::{self, Point};
 use lie_program::protocol::{Obstacle, Wire};
+use lie_syntax::diagnostic::Kind;
 use serde::Serialize;
 
 use super::args::Measured;

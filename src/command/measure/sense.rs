@@ -1,9 +1,9 @@
 //! The sense in which `lie bench` measures errors: from the flags, and in words.
 
-use lie_codegen::front::names::normalised;
-use lie_codegen::suggest::did_you_mean;
 use lie_in_process::request::Given;
 use lie_measure::bench::{Measure, Plane};
+use lie_syntax::front::names::normalised;
+use lie_syntax::suggest::did_you_mean;
 
 use super::Bed;
 use crate::command::args::{self, Sense};

@@ -1,6 +1,5 @@
 //! `lie stress`: methods at the limits of steps, parameters and states, and through a long run.
 
-use lie_codegen::diagnostic::Kind;
 use lie_codegen::program::Purpose;
 use lie_in_process::list;
 use lie_in_process::request::Given;
@@ -9,6 +8,7 @@ use lie_in_process::table;
 use lie_in_process::words::{counted, short};
 use lie_measure::stress::{Cell, Experiment, Growth, Moved, Options, Outcome};
 use lie_poisson::plot::map::{self, Cell as Square, Column, Map};
+use lie_syntax::diagnostic::Kind;
 
 use super::{Bed, Ended, bed, files, interrupted};
 use crate::command::fold::folded;

@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use lie_codegen::diagnostic::Kind;
 use lie_codegen::program::Purpose;
 use lie_in_process::evidence::Evidence;
 use lie_in_process::list;
@@ -13,6 +12,7 @@ use lie_in_process::words::{counted, number, short};
 use lie_measure::facts::{Finding, Verdict};
 use lie_measure::verify::GroundFound as Ground;
 use lie_program::protocol::Obstacle;
+use lie_syntax::diagnostic::Kind;
 use serde_json::{Map, Value, json};
 
 use super::{Ended, bed, interrupted};

@@ -4,7 +4,7 @@ use std::ffi::OsString;
 use std::path::Path;
 use std::process::Command;
 
-use lie_codegen::diagnostic::Kind;
+use lie_syntax::diagnostic::Kind;
 
 use super::Report;
 use crate::command::{args, shell};

@@ -1,9 +1,9 @@
 //! What the mathematics of a system is, in formulas.
 
-use lie_codegen::front::Names;
 use lie_codegen::plan::plan;
 use lie_codegen::structure::Structure;
 use lie_in_process::formula::names;
+use lie_syntax::front::Names;
 
 use super::mathml::{formula, identifier};
 

@@ -1,7 +1,7 @@
 //! Formulas as MathML, which browsers set themselves.
 
-use lie_codegen::front::Names;
 use lie_in_process::formula::{self, GREEK, Notation};
+use lie_syntax::front::Names;
 
 use super::page::escaped;
 

@@ -11,10 +11,10 @@ mod tally;
 
 use std::sync::Arc;
 
-use lie_codegen::diagnostic::Kind;
 use lie_codegen::methods::Choice;
 use lie_codegen::program::{Purpose, program};
 use lie_in_process::request::{Member, Plan, Several, several};
+use lie_syntax::diagnostic::Kind;
 
 use super::args;
 use crate::build::talk::Worker;

@@ -25,7 +25,7 @@ use lie_codegen::compile::{compile_spec, declared_choices};
 use lie_codegen::derive::Source;
 use lie_codegen::plan::plan;
 use lie_codegen::print::{Surface, print};
-use lie_codegen::schedule::Counts;
+use lie_symbolic::schedule::Counts;
 
 /// What a declaration cost.
 pub struct Cost {

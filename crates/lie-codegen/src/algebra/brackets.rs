@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 
 use super::StructureConstants;
-use crate::ast::Bracket;
-use crate::diagnostic::{Diagnostic, Kind, Report};
-use crate::exact::{Budget, Exhausted, Fraction};
-use crate::linear::{Scope, bracket_value};
+use lie_symbolic::exact::{Budget, Exhausted, Fraction};
+use lie_syntax::ast::Bracket;
+use lie_syntax::diagnostic::{Diagnostic, Kind, Report};
+use lie_syntax::linear::{Scope, bracket_value};
 
 type Form = Vec<(usize, Fraction)>;
 

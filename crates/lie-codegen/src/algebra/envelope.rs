@@ -8,9 +8,9 @@
 //! step would depend on more than mu and leave the coadjoint orbit.
 
 use super::sparse::SparseMatrix;
-use crate::exact::matrix::solve;
-use crate::exact::span::{NoSpan, Span};
-use crate::exact::{Budget, Exhausted, Rational};
+use lie_symbolic::exact::matrix::solve;
+use lie_symbolic::exact::span::{NoSpan, Span};
+use lie_symbolic::exact::{Budget, Exhausted, Rational};
 
 /// Work allowed to leave columns out.
 const WORK: u64 = 20_000_000;

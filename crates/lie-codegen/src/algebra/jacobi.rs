@@ -8,10 +8,10 @@ use num_traits::One;
 
 use super::StructureConstants;
 use super::ring::Ring;
-use crate::ast::Algebra;
-use crate::diagnostic::{Diagnostic, Kind, Report};
-use crate::exact::{Budget, Exhausted, Fraction, Rational};
-use crate::linear::Scope;
+use lie_symbolic::exact::{Budget, Exhausted, Fraction, Rational};
+use lie_syntax::ast::Algebra;
+use lie_syntax::diagnostic::{Diagnostic, Kind, Report};
+use lie_syntax::linear::Scope;
 
 /// Longer common denominators cost more than they save.
 const MAX_DENOMINATOR_BITS: u64 = 1024;

@@ -1,6 +1,6 @@
 //! Well-known algebras for tests.
 
-use crate::exact::{Fraction, Rational};
+use lie_symbolic::exact::{Fraction, Rational};
 
 use super::StructureConstants;
 
@@ -219,8 +219,8 @@ pub(crate) fn from_matrices(matrices: &[Integers]) -> StructureConstants<Fractio
         .into_iter()
         .map(|m| m.concat())
         .collect();
-    let budget = crate::exact::Budget::new(1 << 40);
-    let span = crate::exact::span::Span::new(&flat, &budget).unwrap();
+    let budget = lie_symbolic::exact::Budget::new(1 << 40);
+    let span = lie_symbolic::exact::span::Span::new(&flat, &budget).unwrap();
     let mut entries = Vec::new();
     for i in 0..matrices.len() {
         for j in i + 1..matrices.len() {

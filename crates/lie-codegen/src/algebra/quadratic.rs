@@ -26,8 +26,8 @@
 
 use super::envelope;
 use super::sparse::SparseMatrix;
-use crate::exact::span::{NoSpan, Span};
-use crate::exact::{Budget, Exhausted, Rational};
+use lie_symbolic::exact::span::{NoSpan, Span};
+use lie_symbolic::exact::{Budget, Exhausted, Rational};
 
 /// A function of degree two in z: the matrix of its quadratic form in `(1, z)`, twice the function itself.
 pub type Form = Vec<Vec<Rational>>;

@@ -5,7 +5,7 @@
 //! (1966) 62, doi:10.1016/0031-9163(66)91048-1).
 
 use super::StructureConstants;
-use crate::exact::{Fraction, Polynomial, Rational, Residue, elimination, matrix};
+use lie_symbolic::exact::{Fraction, Polynomial, Rational, Residue, elimination, matrix};
 
 /// Points of the prime field at which the generic rank is looked for. At each the determinant of a maximal
 /// minor vanishes with probability below degree / 2^61.

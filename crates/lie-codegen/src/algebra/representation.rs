@@ -3,11 +3,11 @@
 use super::envelope::Columns;
 use super::sparse::SparseMatrix;
 use super::{StructureConstants, envelope, triple};
-use crate::ast::{Algebra, Expr, Matrix};
-use crate::diagnostic::{Diagnostic, Kind, Report};
-use crate::exact::span::{NoSpan, Span};
-use crate::exact::{Budget, Exhausted, Fraction, Rational};
-use crate::linear::{Scope, rational};
+use lie_symbolic::exact::span::{NoSpan, Span};
+use lie_symbolic::exact::{Budget, Exhausted, Fraction, Rational};
+use lie_syntax::ast::{Algebra, Expr, Matrix};
+use lie_syntax::diagnostic::{Diagnostic, Kind, Report};
+use lie_syntax::linear::{Scope, rational};
 
 /// Entries of all matrices together that are still looked at.
 const MAX_ENTRIES: usize = 4_000_000;

@@ -3,7 +3,7 @@
 use num_bigint::BigInt;
 use num_traits::{One, Zero};
 
-use crate::exact::{Budget, Exhausted, Fraction, Rational};
+use lie_symbolic::exact::{Budget, Exhausted, Fraction, Rational};
 
 /// Exact coefficients: integers or rationals where no parameter occurs (fast), rational
 /// functions otherwise.

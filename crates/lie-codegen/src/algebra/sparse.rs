@@ -1,6 +1,6 @@
 //! Square matrices of rationals by their nonzero entries: those of representations are mostly zero.
 
-use crate::exact::{Budget, Exhausted, Rational};
+use lie_symbolic::exact::{Budget, Exhausted, Rational};
 
 /// A square matrix, rows of `(column, value)` with ascending columns and no zero.
 #[derive(Clone, Debug, PartialEq)]

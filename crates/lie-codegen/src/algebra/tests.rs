@@ -1,9 +1,9 @@
 use super::known::{self, Integers};
 use super::sparse::SparseMatrix;
 use super::*;
-use crate::exact::span::Span;
-use crate::exact::{Budget, Fraction, Rational};
-use crate::linear::WORK;
+use lie_symbolic::exact::span::Span;
+use lie_symbolic::exact::{Budget, Fraction, Rational};
+use lie_syntax::linear::WORK;
 
 fn budget() -> Budget {
     Budget::new(WORK)

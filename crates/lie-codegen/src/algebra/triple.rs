@@ -3,8 +3,8 @@
 
 use super::representation::TripleEntry;
 use super::sparse::SparseMatrix;
-use crate::exact::span::Span;
-use crate::exact::{Budget, Exhausted, Rational};
+use lie_symbolic::exact::span::Span;
+use lie_symbolic::exact::{Budget, Exhausted, Rational};
 
 /// The triple product of the matrices, `None` where their span is not closed under it.
 pub(super) fn closure(

@@ -1,12 +1,12 @@
 //! The algebra: brackets, Jacobi identity, representation.
 
 use crate::algebra::{Representation, StructureConstants, brackets, jacobi, representation};
-use crate::ast::{self, Declaration, Invariance};
-use crate::diagnostic::Report;
-use crate::exact::{Budget, Fraction};
-use crate::linear::{Scope, WORK};
 use crate::model;
-use crate::symbolic::Graph;
+use lie_symbolic::exact::{Budget, Fraction};
+use lie_symbolic::symbolic::Graph;
+use lie_syntax::ast::{self, Declaration, Invariance};
+use lie_syntax::diagnostic::Report;
+use lie_syntax::linear::{Scope, WORK};
 
 /// A Lie algebra in which nothing is wrong.
 pub struct Algebra {

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::model::PoissonMatrix;
-use crate::symbolic::{ExprId, Graph, Node, Symbol};
+use lie_symbolic::symbolic::{ExprId, Graph, Node, Symbol};
+use lie_syntax::diagnostic::{Diagnostic, Kind, Origin, Report};
 
 /// The most entries above the diagonal that may differ from zero. That of gl(16), n = 256, has 4,000, and
 /// neither the search for common terms nor the compiler behind it gets through many more.

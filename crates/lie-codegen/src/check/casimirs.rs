@@ -1,12 +1,12 @@
 //! Casimirs: `{C, x_i} = sum_j dC/dx_j Pi_ji = 0` for all `i`, proven by a normal form.
 
-use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
-use crate::exact::{Budget, Rational};
 use crate::model::PoissonMatrix;
-use crate::prove::degree::degree;
-use crate::prove::normal::NormalForm;
-use crate::prove::proof::{Proof, examine};
-use crate::symbolic::{ExprId, Graph, Symbol};
+use lie_symbolic::exact::{Budget, Rational};
+use lie_symbolic::prove::degree::degree;
+use lie_symbolic::prove::normal::NormalForm;
+use lie_symbolic::prove::proof::{Proof, examine};
+use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
+use lie_syntax::diagnostic::{Diagnostic, Kind, Origin, Report};
 
 /// Work allowed for one Casimir.
 const WORK: u64 = 2_000_000;

@@ -2,13 +2,13 @@
 
 use super::poisson::{Entry, symbol_name};
 use crate::algebra::StructureConstants;
-use crate::ast::{Declaration, Expr, ExprKind, Structure};
-use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
-use crate::exact::Budget;
 use crate::model::Parameter;
-use crate::prove::normal::NormalForm;
-use crate::prove::proof::{Proof, examine};
-use crate::symbolic::{ExprId, Graph, Symbol};
+use lie_symbolic::exact::Budget;
+use lie_symbolic::prove::normal::NormalForm;
+use lie_symbolic::prove::proof::{Proof, examine};
+use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
+use lie_syntax::ast::{Declaration, Expr, ExprKind, Structure};
+use lie_syntax::diagnostic::{Diagnostic, Kind, Origin, Report};
 
 /// Work allowed for the identity.
 const WORK: u64 = 5_000_000;

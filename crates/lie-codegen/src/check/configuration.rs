@@ -12,12 +12,12 @@
 
 mod larger;
 
-use crate::ast::{Algebra, Bracket, Declaration, Expr, ExprKind, Invariance, Name, Structure};
-use crate::diagnostic::{Diagnostic, Kind, Origin, Report, plural};
-use crate::exact::Rational;
-use crate::limits::MAX_DIMENSION;
 use crate::model::configuration::{Configuration, TIME, TIME_MOMENTUM, UNIT};
 use larger::Builder;
+use lie_symbolic::exact::Rational;
+use lie_syntax::ast::{Algebra, Bracket, Declaration, Expr, ExprKind, Invariance, Name, Structure};
+use lie_syntax::diagnostic::{Diagnostic, Kind, Origin, Report, plural};
+use lie_syntax::limits::MAX_DIMENSION;
 
 /// The configuration of a declaration; `None` where it has neither a group element nor the time.
 pub fn of(declaration: &Declaration, report: &mut Report) -> Option<Configuration> {

@@ -2,9 +2,9 @@
 
 use super::environment::{Allowed, Environment};
 use super::lower::Lowering;
-use crate::ast::Expr;
-use crate::diagnostic::Report;
-use crate::symbolic::Graph;
+use lie_symbolic::symbolic::Graph;
+use lie_syntax::ast::Expr;
+use lie_syntax::diagnostic::Report;
 
 /// The value of an expression without names, in double precision; it need not be finite there. `None` if anything was
 /// reported.
@@ -19,7 +19,7 @@ pub fn constant_of(expr: &Expr, report: &mut Report) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use crate::compile::constant;
-    use crate::diagnostic::Kind;
+    use lie_syntax::diagnostic::Kind;
 
     #[test]
     fn signs_are_exact() {

@@ -1,10 +1,10 @@
 //! Structure constants at the default values of the exact parameters.
 
 use super::algebra::Algebra;
-use crate::ast::Declaration;
-use crate::diagnostic::{Diagnostic, Kind, Report};
-use crate::exact::Rational;
 use crate::model::Parameter;
+use lie_symbolic::exact::Rational;
+use lie_syntax::ast::Declaration;
+use lie_syntax::diagnostic::{Diagnostic, Kind, Report};
 
 /// Work that exact evaluation may cost, in products of words.
 const WORK: u64 = 300_000_000;

@@ -4,11 +4,11 @@
 //! integers, as ranks are: what holds for all parameters holds there, and what does not fails at almost every point.
 
 use crate::algebra::quadratic::{Closure, Form, closure};
-use crate::exact::{Budget, Rational};
 use crate::model::{CANONICAL, Descent};
-use crate::prove::ranks;
-use crate::prove::sample::Samples;
-use crate::symbolic::{ExprId, Graph, Symbol};
+use lie_symbolic::exact::{Budget, Rational};
+use lie_symbolic::prove::ranks;
+use lie_symbolic::prove::sample::Samples;
+use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 
 /// Work allowed for the closure at one point.
 const WORK: u64 = 20_000_000;

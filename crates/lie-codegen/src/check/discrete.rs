@@ -4,10 +4,10 @@
 //! `l_d(h xi)`. Those of lower powers must not depend on xi; a constant in l_d moves nothing.
 
 use super::series::{Series, in_step};
-use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
-use crate::exact::Budget;
-use crate::prove::normal::{NormalForm, Verdict};
-use crate::symbolic::{ExprId, Graph, Symbol};
+use lie_symbolic::exact::Budget;
+use lie_symbolic::prove::normal::{NormalForm, Verdict};
+use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
+use lie_syntax::diagnostic::{Diagnostic, Kind, Origin, Report};
 
 /// Work allowed for the decisions of the normal form.
 const WORK: u64 = 2_000_000;

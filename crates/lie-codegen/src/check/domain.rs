@@ -1,10 +1,10 @@
 //! The domain: the Hamiltonian, its gradient and the Casimirs must be finite where a run begins.
 
 use super::velocity::velocity;
-use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
-use crate::exact::Rational;
 use crate::model::{Bracket, Energy, Model};
-use crate::symbolic::{ExprId, Graph, Node, Symbol};
+use lie_symbolic::exact::Rational;
+use lie_symbolic::symbolic::{ExprId, Graph, Node, Symbol};
+use lie_syntax::diagnostic::{Diagnostic, Kind, Origin, Report};
 
 /// A group element within this of the group is one, written with few digits.
 const OFF_THE_GROUP: f64 = 1e-4;

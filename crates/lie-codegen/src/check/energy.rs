@@ -2,11 +2,11 @@
 
 use super::legendre::{self, Lagrangian, Transform};
 use super::{discrete, size};
-use crate::ast::{Declaration, Energy, Name};
-use crate::diagnostic::{Origin, Report};
 use crate::model::configuration::Configuration;
 use crate::model::{self, Discrete, Parameter};
-use crate::symbolic::{ExprId, Graph, Symbol};
+use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
+use lie_syntax::ast::{Declaration, Energy, Name};
+use lie_syntax::diagnostic::{Origin, Report};
 
 /// What the equations of motion come from.
 pub struct Motion<'a> {

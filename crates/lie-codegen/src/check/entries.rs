@@ -4,9 +4,9 @@
 //! `g = (1 - X/2)^-1 (1 + X/2) = 2 (1 - X/2)^-1 - 1`, a rational function by the adjugate matrix.
 
 use super::configuration;
-use crate::ast::{Declaration, Expr, ExprKind, Invariance, Name};
-use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
-use crate::exact::Rational;
+use lie_symbolic::exact::Rational;
+use lie_syntax::ast::{Declaration, Expr, ExprKind, Invariance, Name};
+use lie_syntax::diagnostic::{Diagnostic, Kind, Origin, Report};
 
 /// The largest matrix whose inverse is written out.
 const MAX_SIZE: usize = 4;

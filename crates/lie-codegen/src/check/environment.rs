@@ -2,12 +2,12 @@
 
 use std::collections::HashMap;
 
-use crate::ast::{Declaration, Name, OwnFunction, Realization};
-use crate::diagnostic::{Diagnostic, Kind, Origin};
-use crate::front::habits;
 use crate::model::CANONICAL;
-use crate::suggest::{listed, misspelt, series};
-use crate::symbolic::{ExprId, Function, Opaque, Symbol};
+use lie_symbolic::symbolic::{ExprId, Function, Opaque, Symbol};
+use lie_syntax::ast::{Declaration, Name, OwnFunction, Realization};
+use lie_syntax::diagnostic::{Diagnostic, Kind, Origin};
+use lie_syntax::front::habits;
+use lie_syntax::suggest::{listed, misspelt, series};
 
 /// So many names are listed.
 const MOST_LISTED: usize = 12;

@@ -3,10 +3,10 @@
 
 use std::collections::BTreeSet;
 
-use crate::ast::{Declaration, Expr, ExprKind, Size, Structure};
-use crate::diagnostic::{Diagnostic, Kind, Report};
 use crate::model::{Bracket, Model};
-use crate::symbolic::Symbol;
+use lie_symbolic::symbolic::Symbol;
+use lie_syntax::ast::{Declaration, Expr, ExprKind, Size, Structure};
+use lie_syntax::diagnostic::{Diagnostic, Kind, Report};
 
 /// Warns of parameters and abbreviations that no expression mentions, of brackets that are all
 /// zero and of a Hamiltonian that is constant.

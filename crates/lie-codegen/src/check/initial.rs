@@ -2,9 +2,9 @@
 
 use super::environment::{Allowed, Environment};
 use super::lower::Lowering;
-use crate::ast::Declaration;
-use crate::diagnostic::{Diagnostic, Kind, Report, plural};
-use crate::symbolic::{ExprId, Graph};
+use lie_symbolic::symbolic::{ExprId, Graph};
+use lie_syntax::ast::Declaration;
+use lie_syntax::diagnostic::{Diagnostic, Kind, Report, plural};
 
 /// Lowers the initial state; `Some(None)` where none is declared.
 pub fn check(

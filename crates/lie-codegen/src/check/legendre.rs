@@ -10,11 +10,11 @@
 
 mod quadratic;
 
-use crate::ast::Name;
-use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::model::Parameter;
 use crate::model::configuration::Configuration;
-use crate::symbolic::{ExprId, Graph, Symbol};
+use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
+use lie_syntax::ast::Name;
+use lie_syntax::diagnostic::{Diagnostic, Kind, Origin, Report};
 use quadratic::Quadratic;
 
 /// A lowered Lagrangian; the components of the velocity are [`Symbol::Input`].

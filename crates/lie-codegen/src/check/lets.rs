@@ -2,9 +2,9 @@
 
 use super::environment::{Allowed, Environment};
 use super::lower::Lowering;
-use crate::ast::Declaration;
-use crate::diagnostic::Report;
-use crate::symbolic::Graph;
+use lie_symbolic::symbolic::Graph;
+use lie_syntax::ast::Declaration;
+use lie_syntax::diagnostic::Report;
 
 /// Lowers the abbreviations in their order and binds their names.
 pub fn check<'a>(

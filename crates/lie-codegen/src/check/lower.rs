@@ -6,11 +6,11 @@ mod real;
 use std::collections::HashMap;
 
 use super::environment::{Allowed, Binding, Environment};
-use crate::ast::{Expr, Name};
-use crate::diagnostic::{Kind, Origin, Report, plural};
-use crate::exact::Rational;
-use crate::linear::walk::{Lower, MAX_EXPONENT, Operand, Operands};
-use crate::symbolic::{Elementary, ExprId, Function, Graph, Node};
+use lie_symbolic::exact::Rational;
+use lie_symbolic::symbolic::{Elementary, ExprId, Function, Graph, Node};
+use lie_syntax::ast::{Expr, Name};
+use lie_syntax::diagnostic::{Kind, Origin, Report, plural};
+use lie_syntax::linear::walk::{Lower, MAX_EXPONENT, Operand, Operands};
 
 /// The longest exact constant, numerator and denominator together.
 const MAX_BITS: u64 = 1 << 14;

@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 
 use super::poisson;
 use crate::algebra::StructureConstants;
-use crate::exact::Rational;
 use crate::model::{Model, PoissonMatrix};
-use crate::prove::ranks;
-use crate::symbolic::{ExprId, Graph, Symbol};
+use lie_symbolic::exact::Rational;
+use lie_symbolic::prove::ranks;
+use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 
 /// The entries: `-C_ij^k x_k` of an algebra, and what is declared. Nothing is known of their degree.
 pub fn of(

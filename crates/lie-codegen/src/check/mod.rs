@@ -39,10 +39,10 @@ mod velocity;
 #[cfg(test)]
 mod tests;
 
-use crate::ast::Declaration;
-use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::model::Model;
-use crate::prove::contradiction;
+use lie_symbolic::prove::contradiction;
+use lie_syntax::ast::Declaration;
+use lie_syntax::diagnostic::{Diagnostic, Kind, Origin, Report};
 
 pub use constant::constant_of;
 

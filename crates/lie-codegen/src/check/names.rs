@@ -2,9 +2,9 @@
 
 use std::collections::HashMap;
 
-use crate::ast::names::{is_keyword, is_reserved};
-use crate::ast::{Declaration, Name, Realization};
-use crate::diagnostic::{Diagnostic, Kind, Report};
+use lie_syntax::ast::names::{is_keyword, is_reserved};
+use lie_syntax::ast::{Declaration, Name, Realization};
+use lie_syntax::diagnostic::{Diagnostic, Kind, Report};
 
 /// Types that generated code names without a path: a system of that name would hide them.
 const TYPES: &[&str] = &[

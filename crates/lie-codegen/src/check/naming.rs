@@ -3,12 +3,12 @@
 use std::collections::HashSet;
 
 use super::casimirs::Candidate;
-use crate::ast::Declaration;
-use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::model::{Casimir, CasimirKind};
-use crate::prove::branches;
-use crate::prove::independence::{self, Standing};
-use crate::symbolic::{ExprId, Graph};
+use lie_symbolic::prove::branches;
+use lie_symbolic::prove::independence::{self, Standing};
+use lie_symbolic::symbolic::{ExprId, Graph};
+use lie_syntax::ast::Declaration;
+use lie_syntax::diagnostic::{Diagnostic, Kind, Origin, Report};
 
 /// The Casimirs with names: unnamed ones are C1, C2, …, skipping what is taken.
 pub fn named(declaration: &Declaration, lowered: &[ExprId]) -> Vec<Candidate> {

@@ -1,9 +1,9 @@
 //! Where functions of Rust may stand: nothing is known of their values while the compiler runs.
 
 use super::poisson::Entry;
-use crate::ast::{Declaration, Energy};
-use crate::diagnostic::{Diagnostic, Kind, Report};
-use crate::symbolic::{ExprId, Graph};
+use lie_symbolic::symbolic::{ExprId, Graph};
+use lie_syntax::ast::{Declaration, Energy};
+use lie_syntax::diagnostic::{Diagnostic, Kind, Report};
 
 /// Reports functions of Rust in brackets, whose Jacobi identity and rank need more than a symbol, and in Lagrangians, whose
 /// Legendre transform does.

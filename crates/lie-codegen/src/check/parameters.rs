@@ -2,11 +2,11 @@
 
 use super::environment::{Allowed, Binding, Environment};
 use super::lower::Lowering;
-use crate::ast::Declaration;
-use crate::diagnostic::{Diagnostic, Kind, Report};
 use crate::model::Parameter;
-use crate::prove::sign;
-use crate::symbolic::Graph;
+use lie_symbolic::prove::sign;
+use lie_symbolic::symbolic::Graph;
+use lie_syntax::ast::Declaration;
+use lie_syntax::diagnostic::{Diagnostic, Kind, Report};
 
 /// Lowers the defaults.
 pub fn check(

@@ -5,15 +5,15 @@ use std::collections::BTreeMap;
 
 use super::environment::{Allowed, Environment};
 use super::lower::Lowering;
-use crate::ast::{Bracket, Declaration, Name, Structure};
-use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
-use crate::exact::Budget;
 use crate::model::CANONICAL;
-use crate::prove::normal::{NormalForm, Verdict};
-use crate::prove::proof::{Proof, examine};
-use crate::prove::residues;
-use crate::suggest::{listed, misspelt};
-use crate::symbolic::{ExprId, Graph, Symbol};
+use lie_symbolic::exact::Budget;
+use lie_symbolic::prove::normal::{NormalForm, Verdict};
+use lie_symbolic::prove::proof::{Proof, examine};
+use lie_symbolic::prove::residues;
+use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
+use lie_syntax::ast::{Bracket, Declaration, Name, Structure};
+use lie_syntax::diagnostic::{Diagnostic, Kind, Origin, Report};
+use lie_syntax::suggest::{listed, misspelt};
 
 /// Work allowed for the Jacobi identity of one system.
 const WORK: u64 = 5_000_000;

@@ -3,14 +3,14 @@
 use super::descent::{self, Component};
 use super::environment::{Allowed, Environment};
 use super::lower::Lowering;
-use crate::ast::{self, Declaration, Expr};
-use crate::diagnostic::{Diagnostic, Kind, Origin, Report, plural};
-use crate::exact::{Budget, Rational};
 use crate::model::configuration::Configuration;
 use crate::model::{CANONICAL, Descent, PoissonMatrix, Realization};
-use crate::prove::normal::{NormalForm, Verdict};
-use crate::prove::proof::{Proof, examine};
-use crate::symbolic::{ExprId, Graph, Symbol};
+use lie_symbolic::exact::{Budget, Rational};
+use lie_symbolic::prove::normal::{NormalForm, Verdict};
+use lie_symbolic::prove::proof::{Proof, examine};
+use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
+use lie_syntax::ast::{self, Declaration, Expr};
+use lie_syntax::diagnostic::{Diagnostic, Kind, Origin, Report, plural};
 
 /// Work allowed for all brackets of one realization.
 const WORK: u64 = 5_000_000;

@@ -2,9 +2,9 @@
 
 use std::collections::HashMap;
 
-use crate::exact::{Budget, Rational};
-use crate::prove::normal::{NormalForm, Verdict};
-use crate::symbolic::{ExprId, Function, Graph, Node, Symbol};
+use lie_symbolic::exact::{Budget, Rational};
+use lie_symbolic::prove::normal::{NormalForm, Verdict};
+use lie_symbolic::symbolic::{ExprId, Function, Graph, Node, Symbol};
 
 /// Work allowed for one decision of the normal form.
 const WORK: u64 = 500_000;

@@ -4,11 +4,11 @@
 use super::casimirs::{self, Candidate};
 use super::matrix;
 use crate::algebra::{StructureConstants, jacobi};
-use crate::ast::Declaration;
-use crate::diagnostic::{Diagnostic, Kind, Report};
-use crate::exact::{Budget, Fraction};
-use crate::linear::WORK;
-use crate::symbolic::{Graph, Symbol};
+use lie_symbolic::exact::{Budget, Fraction};
+use lie_symbolic::symbolic::{Graph, Symbol};
+use lie_syntax::ast::Declaration;
+use lie_syntax::diagnostic::{Diagnostic, Kind, Report};
+use lie_syntax::linear::WORK;
 
 /// Brackets whose signs are tried; each trial is a check of the algebra and of its Casimirs.
 const MOST_TRIED: usize = 16;

@@ -1,10 +1,10 @@
 //! Dimension, one coordinate for every basis element, and the size of what is derived.
 
-use crate::ast::Declaration;
-use crate::diagnostic::{Diagnostic, Kind, Origin, Report, plural};
-use crate::limits::MAX_DIMENSION;
 use crate::model::PoissonMatrix;
-use crate::symbolic::{ExprId, Graph, Symbol};
+use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
+use lie_syntax::ast::Declaration;
+use lie_syntax::diagnostic::{Diagnostic, Kind, Origin, Report, plural};
+use lie_syntax::limits::MAX_DIMENSION;
 
 /// Each parameter is a field of the generated type and a word of every system; a quadratic H with a parameter
 /// for every coefficient has as many in 76 dimensions.

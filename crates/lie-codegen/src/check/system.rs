@@ -10,15 +10,15 @@ use super::{
     poisson, realization, sign, size,
 };
 use crate::algebra::rank as algebra_rank;
-use crate::ast::{self, Declaration};
-use crate::diagnostic::{Origin, Report};
-use crate::exact::Rational;
 use crate::model::configuration::Configuration;
 use crate::model::{
     self, Bracket, Casimir, Energy, Hamiltonian, Model, Parameter, PoissonMatrix, Realization,
 };
-use crate::prove::degree;
-use crate::symbolic::{ExprId, Graph};
+use lie_symbolic::exact::Rational;
+use lie_symbolic::prove::degree;
+use lie_symbolic::symbolic::{ExprId, Graph};
+use lie_syntax::ast::{self, Declaration};
+use lie_syntax::diagnostic::{Origin, Report};
 
 /// Checks a declaration; of a system on `T*G` it is the one with all coordinates.
 pub fn check(

@@ -1,7 +1,7 @@
 //! The velocity of a momentum in floating point: where a Lagrangian that is not quadratic is looked at. The same
 //! path as that of generated programs (`lagrangian/legendre.rs` and `path.rs` of lie-runtime).
 
-use crate::symbolic::{ExprId, Graph, Symbol};
+use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 
 /// Iterations towards one momentum. One that shrinks the steps as fast as is asked for needs fewer.
 const ITERATIONS: usize = 24;

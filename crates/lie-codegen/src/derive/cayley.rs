@@ -3,8 +3,8 @@
 use super::coadjoint::xi;
 use super::field::mu;
 use super::{Argument, Block, Kernel, Source};
-use crate::exact::Rational;
-use crate::symbolic::ExprId;
+use lie_symbolic::exact::Rational;
+use lie_symbolic::symbolic::ExprId;
 
 /// `out_b = T_abc^d x^a z^c mu_d`
 pub(super) fn triple(source: &mut Source) -> Kernel {

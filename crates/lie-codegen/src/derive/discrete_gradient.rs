@@ -12,9 +12,9 @@
 //! For a quadratic H all three are `grad H(m)`.
 
 use super::{Argument, Block, Kernel, Source};
-use crate::exact::Rational;
 use crate::methods::Gradient;
-use crate::symbolic::{ExprId, Symbol};
+use lie_symbolic::exact::Rational;
+use lie_symbolic::symbolic::{ExprId, Symbol};
 
 /// A discrete gradient with its derivative in u, row by row, in the symbols of both ends and of what
 /// is defined from them.

@@ -10,9 +10,9 @@ use super::coadjoint::xi;
 use super::field::mu;
 use super::tape::{Tangents, Tape};
 use super::{Block, Kernel, Source};
-use crate::exact::Rational;
 use crate::structure::exponential::{Factor, Summand};
-use crate::symbolic::{ExprId, Function, Symbol};
+use lie_symbolic::exact::Rational;
+use lie_symbolic::symbolic::{ExprId, Function, Symbol};
 
 /// A combination of the functions of one argument, by their indices.
 type Combination = Vec<(u8, Rational)>;
@@ -229,7 +229,11 @@ impl Source {
     }
 
     /// A coefficient times entries of x.
-    fn scaled(&mut self, coefficient: &crate::exact::Fraction, entries: &[ExprId]) -> ExprId {
+    fn scaled(
+        &mut self,
+        coefficient: &lie_symbolic::exact::Fraction,
+        entries: &[ExprId],
+    ) -> ExprId {
         let coefficient = self.graph.rational_function(coefficient);
         let product = self.graph.product(entries);
         self.graph.mul(coefficient, product)

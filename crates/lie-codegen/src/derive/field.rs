@@ -2,7 +2,7 @@
 
 use super::{Argument, Bracket, Kernel, Source};
 use crate::model::Hamiltonian;
-use crate::symbolic::{ExprId, Symbol};
+use lie_symbolic::symbolic::{ExprId, Symbol};
 
 pub(super) fn mu(source: &Source) -> Argument {
     Argument {

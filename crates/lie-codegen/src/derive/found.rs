@@ -8,7 +8,7 @@ use super::tape::Tape;
 use super::{Kernel, Source};
 use crate::structure::exponential::Exponential;
 use crate::structure::found::{Factor, Found, Piece};
-use crate::symbolic::{ExprId, Symbol};
+use lie_symbolic::symbolic::{ExprId, Symbol};
 
 /// Symbols of intermediate quantities, beyond those of all vector arguments.
 const FIRST: usize = 1 << 24;
@@ -213,7 +213,7 @@ impl Source {
 }
 
 /// The coordinates in an expression.
-fn symbols(graph: &crate::symbolic::Graph, id: ExprId) -> Vec<usize> {
+fn symbols(graph: &lie_symbolic::symbolic::Graph, id: ExprId) -> Vec<usize> {
     let symbols = graph.symbols(id).into_iter();
     let coordinates = symbols.filter_map(|symbol| match symbol {
         Symbol::Coordinate(i) => Some(i),

@@ -13,9 +13,9 @@ use super::field::mu;
 use super::leaner::{Derived, leaner_jacobian};
 use super::tape::{Tangents, Tape};
 use super::{Argument, Kernel, Source};
-use crate::exact::Rational;
 use crate::methods::Retraction;
-use crate::symbolic::{ExprId, Symbol};
+use lie_symbolic::exact::Rational;
+use lie_symbolic::symbolic::{ExprId, Symbol};
 
 /// The generating function of a method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -6,8 +6,8 @@ use std::sync::{Arc, OnceLock};
 
 use super::field::mu;
 use super::{Block, Source};
-use crate::schedule::{Known, Program, Task, schedule, schedule_beside};
-use crate::symbolic::{ExprId, Graph, Symbol};
+use lie_symbolic::schedule::{Known, Program, Task, schedule, schedule_beside};
+use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 
 /// A vector argument and the symbols of its entries.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]

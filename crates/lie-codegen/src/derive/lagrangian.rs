@@ -2,7 +2,7 @@
 
 use super::coadjoint::xi;
 use super::{Argument, Block, Kernel, Source};
-use crate::symbolic::ExprId;
+use lie_symbolic::symbolic::ExprId;
 
 pub(super) fn kernels(source: &mut Source, value: ExprId) -> Vec<Kernel> {
     let argument = xi(source);

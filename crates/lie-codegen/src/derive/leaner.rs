@@ -3,8 +3,8 @@
 use super::Source;
 use super::generating::too_large;
 use super::tape::{Tangents, Tape};
-use crate::schedule::{Known, Operation, Task, schedule};
-use crate::symbolic::{ExprId, Symbol};
+use lie_symbolic::schedule::{Known, Operation, Task, schedule};
+use lie_symbolic::symbolic::{ExprId, Symbol};
 
 /// Lists longer than this are not scheduled twice.
 const MOST_COMPARED: usize = 400;

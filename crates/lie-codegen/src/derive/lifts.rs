@@ -6,7 +6,7 @@ use super::{Argument, Kernel, Source};
 use crate::algebra::Representation;
 use crate::derive::trace::{Sym, values};
 use crate::model::{CANONICAL, Energy, Hamiltonian};
-use crate::symbolic::{ExprId, Symbol};
+use lie_symbolic::symbolic::{ExprId, Symbol};
 
 /// The symbols of so many entries of a point, from a place on.
 fn places(first: usize, count: usize) -> Vec<Symbol> {

@@ -35,7 +35,7 @@ pub(crate) use splitting::{Definitions, action};
 pub use splitting::{PieceKernel, Update};
 pub(crate) use tape::{Tangents, Tape};
 
-use crate::symbolic::{ExprId, Symbol};
+use lie_symbolic::symbolic::{ExprId, Symbol};
 
 /// Vector arguments of kernels besides the state; each has n symbols.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

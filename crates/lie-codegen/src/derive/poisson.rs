@@ -3,7 +3,7 @@
 use super::coadjoint::xi;
 use super::field::mu;
 use super::{Block, Bracket, Kernel, Source};
-use crate::symbolic::ExprId;
+use lie_symbolic::symbolic::ExprId;
 
 /// The derivative against a fixed vector, of which that of a Lie algebra is `ad*_xi`.
 pub(super) fn slope(source: &mut Source) -> Kernel {

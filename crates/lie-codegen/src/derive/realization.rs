@@ -3,7 +3,7 @@
 use super::coadjoint::xi;
 use super::{Argument, Block, Kernel, Source};
 use crate::model::CANONICAL;
-use crate::symbolic::{ExprId, Symbol};
+use lie_symbolic::symbolic::{ExprId, Symbol};
 
 /// A map from canonical coordinates to the state.
 #[derive(Clone, Debug)]

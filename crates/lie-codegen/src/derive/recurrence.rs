@@ -23,10 +23,10 @@ mod rules;
 
 use std::collections::HashMap;
 
-use crate::exact::Rational;
-use crate::schedule::{Counts, Operation, Program, Value};
-use crate::symbolic::ExprId;
 use lie_core::functions::Curve;
+use lie_symbolic::exact::Rational;
+use lie_symbolic::schedule::{Counts, Operation, Program, Value};
+use lie_symbolic::symbolic::ExprId;
 
 /// What a program for order k reads beside the coefficients of the coordinates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

@@ -2,9 +2,9 @@
 
 use super::Source;
 use super::splitting::{Definitions, sigma, weights};
-use crate::exact::Rational;
 use crate::structure::one_parameter::{Block, Form};
-use crate::symbolic::{ExprId, Node};
+use lie_symbolic::exact::Rational;
+use lie_symbolic::symbolic::{ExprId, Node};
 
 /// A quantity of its own, unless it is one.
 fn quantity(source: &mut Source, made: &mut Definitions, value: ExprId) -> ExprId {

@@ -13,7 +13,7 @@ use crate::structure::integrable::Motion;
 use crate::structure::separable::Piece;
 use crate::structure::spins::Spin;
 use crate::structure::vectors::Vectors;
-use crate::symbolic::{ExprId, Graph};
+use lie_symbolic::symbolic::{ExprId, Graph};
 
 /// What the Poisson matrix is made of.
 #[derive(Clone, Debug)]

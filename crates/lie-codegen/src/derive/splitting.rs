@@ -10,10 +10,10 @@
 
 use super::field::mu;
 use super::{Kernel, Source};
-use crate::exact::Rational;
 use crate::structure::one_parameter::{Block, Form};
 use crate::structure::separable::Piece;
-use crate::symbolic::{Elementary, ExprId, Graph, Node, Symbol};
+use lie_symbolic::exact::Rational;
+use lie_symbolic::symbolic::{Elementary, ExprId, Graph, Node, Symbol};
 
 /// Symbols of intermediate quantities, beyond those of all vector arguments.
 const AUXILIARY: usize = 1 << 24;
@@ -282,7 +282,7 @@ mod tests {
 
     use crate::compile::compile_spec;
     use crate::derive::Source;
-    use crate::symbolic::Symbol;
+    use lie_symbolic::symbolic::Symbol;
 
     /// On the filiform algebra `[e1, e2] = e3, [e1, e3] = e4, [e1, e4] = e5` the flow of `mu1^2/2` has terms of the
     /// third order.

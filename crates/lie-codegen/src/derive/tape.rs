@@ -8,7 +8,7 @@
 use std::collections::{BTreeMap, HashMap};
 
 use super::Source;
-use crate::symbolic::{ExprId, Node, Symbol};
+use lie_symbolic::symbolic::{ExprId, Node, Symbol};
 
 /// Definitions in order; each may use the coordinates and earlier ones.
 #[derive(Clone, Debug)]

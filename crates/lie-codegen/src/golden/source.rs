@@ -6,9 +6,9 @@ use proc_macro2::{TokenStream, TokenTree};
 
 use super::{REMEDY, message};
 use crate::compile::{compile_declaration, declared_choices, expand_on};
-use crate::diagnostic::{Diagnostic, MOST_SHOWN, Origin, Report, not_shown};
-use crate::front::{Body, declaration};
 use crate::print::Surface;
+use lie_syntax::diagnostic::{Diagnostic, MOST_SHOWN, Origin, Report, not_shown};
+use lie_syntax::front::{Body, declaration};
 
 /// A declaration of a source file: the name of its system and its generated code, or the path of the spec that it names.
 pub(super) enum Declared {

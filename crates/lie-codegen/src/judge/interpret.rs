@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 
 use super::number::Number;
-use crate::ast::{Expr, ExprKind};
 use lie_core::Elementary;
+use lie_syntax::ast::{Expr, ExprKind};
 
 /// What names stand for.
 #[derive(Clone, Debug)]

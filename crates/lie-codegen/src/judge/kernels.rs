@@ -148,7 +148,7 @@ impl Kernels {
     }
 
     /// The gradient of a declared function of the state.
-    pub(super) fn slope_of(&self, expr: &crate::ast::Expr, mu: &[f64]) -> Vec<Rounded> {
+    pub(super) fn slope_of(&self, expr: &lie_syntax::ast::Expr, mu: &[f64]) -> Vec<Rounded> {
         let n = mu.len();
         let slope = |i| self.declared.function(expr, &once(mu, i)).slope;
         (0..n).map(slope).collect()

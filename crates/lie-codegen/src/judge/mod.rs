@@ -15,11 +15,11 @@ mod system;
 #[cfg(test)]
 mod tests;
 
-use crate::ast::{Declaration, Energy, Expr};
-use crate::diagnostic::{Origin, Report};
-use crate::front::{Body, spec};
 use crate::structure::Structure;
 use kernels::{Expected, Kernels, inputs, known};
+use lie_syntax::ast::{Declaration, Energy, Expr};
+use lie_syntax::diagnostic::{Origin, Report};
+use lie_syntax::front::{Body, spec};
 use number::{Jet, Number, Rounded};
 use system::Declared;
 

@@ -1,8 +1,8 @@
 //! Numbers that an interpretation computes with: values with a bound of their round-off, and derivatives of those.
 
 use super::functions::slope;
-use crate::exact::Rational;
 use lie_core::Elementary;
+use lie_symbolic::exact::Rational;
 
 /// What an expression can be evaluated over.
 pub trait Number: Clone {

@@ -3,8 +3,8 @@
 use super::interpret::{Scope, size};
 use super::linear;
 use super::number::{Jet, Number};
-use crate::ast::{Algebra, Declaration, Energy, Expr, Invariance, Name, Structure};
 use crate::model::configuration::{Configuration, TIME};
+use lie_syntax::ast::{Algebra, Declaration, Energy, Expr, Invariance, Name, Structure};
 
 /// Newton's iterations of a Legendre transform, from a velocity that is nearly right.
 const ITERATIONS: usize = 6;
@@ -299,7 +299,7 @@ impl Declared {
         matrix
     }
 
-    fn pair(&self, names: &[Name], bracket: &crate::ast::Bracket) -> (usize, usize) {
+    fn pair(&self, names: &[Name], bracket: &lie_syntax::ast::Bracket) -> (usize, usize) {
         let place = |name: &Name| names.iter().position(|n| n.text == name.text);
         (
             place(&bracket.left).unwrap_or(0),

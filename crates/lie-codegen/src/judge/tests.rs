@@ -1,7 +1,7 @@
 use super::*;
 use crate::compile::compile_spec;
 use crate::derive::{Kernel, Shape, Source};
-use crate::symbolic::{Graph, Symbol};
+use lie_symbolic::symbolic::{Graph, Symbol};
 
 fn spec_text(name: &str) -> String {
     let path = format!("{}/../../specs/{name}.json", env!("CARGO_MANIFEST_DIR"));

@@ -1,11 +1,11 @@
 //! Which methods a system can carry.
 
 use super::{CATALOGUE, Choice, Lift, Pieces, Retraction, Scheme, Tensor};
-use crate::diagnostic::Kind;
 use crate::model::{Bracket, Descent, Discrete, Model};
 use crate::structure::{
     Structure, found, inertia, integrable, lifts, matrices, separable, spins, vectors,
 };
+use lie_syntax::diagnostic::Kind;
 
 /// Why a method does not apply to a system, with the nearest one that does; `None` if it applies.
 pub fn refusal(structure: &Structure, choice: &Choice) -> Option<(String, String)> {

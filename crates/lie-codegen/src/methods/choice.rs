@@ -3,7 +3,7 @@
 use super::options::{Gradient, Lift, OptionError, Pieces, Retraction, Scheme, Tensor};
 use super::rows::Row;
 use super::{CATALOGUE, find};
-use crate::suggest::meant;
+use lie_syntax::suggest::meant;
 
 macro_rules! choice {
     ({} choices { $($variants:tt)* } $($rows:tt)*) => {

@@ -2,8 +2,8 @@
 //! to the system.
 
 use super::{Choice, kind_of_refusal, refusal};
-use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::structure::Structure;
+use lie_syntax::diagnostic::{Diagnostic, Kind, Origin, Report};
 
 /// Reports the methods of the declaration that cannot be had, with the reason.
 pub fn check(structure: &Structure, report: &mut Report) {

@@ -4,7 +4,7 @@ pub use lie_core::methods::Scheme;
 
 use super::Choice;
 use super::rows::Row;
-use crate::suggest::{did_you_mean, listed};
+use lie_syntax::suggest::{did_you_mean, listed};
 
 macro_rules! named {
     ($(#[$doc:meta])* $type:ident, $default:ident { $($(#[$variant_doc:meta])* $variant:ident = $name:literal,)+ }) => {

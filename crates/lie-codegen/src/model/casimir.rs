@@ -1,8 +1,8 @@
 //! Casimirs.
 
-use crate::ast::Expr;
-use crate::diagnostic::Origin;
-use crate::symbolic::ExprId;
+use lie_symbolic::symbolic::ExprId;
+use lie_syntax::ast::Expr;
+use lie_syntax::diagnostic::Origin;
 
 /// Where a Casimir comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 //! Families of copies of an algebra.
 
-pub use crate::ast::Start;
-use crate::symbolic::ExprId;
+use lie_symbolic::symbolic::ExprId;
+pub use lie_syntax::ast::Start;
 
 /// A family `A^N`: H is a function of sums over the sites.
 #[derive(Clone, Debug)]
@@ -9,7 +9,7 @@ pub struct Family {
     /// The number of sites along each axis, one or two.
     pub sizes: Vec<Size>,
     /// The distances, in rows and columns, of the sites that a summand or the motion of a site depends on; a chain is a row.
-    /// Coordinate a of a site in slot s is [`Symbol::Coordinate`](crate::symbolic::Symbol::Coordinate) `s n + a`.
+    /// Coordinate a of a site in slot s is [`Symbol::Coordinate`](lie_symbolic::symbolic::Symbol::Coordinate) `s n + a`.
     pub slots: Vec<[i64; 2]>,
     /// The slot of the site itself.
     pub own: usize,

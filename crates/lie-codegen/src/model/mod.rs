@@ -8,10 +8,10 @@ mod realization;
 use std::collections::HashSet;
 
 use crate::algebra::{Representation, StructureConstants};
-use crate::ast::{Invariance, Name, RunOption};
-use crate::diagnostic::Origin;
-use crate::exact::{Fraction, Rational};
-use crate::symbolic::{ExprId, Graph, Symbol};
+use lie_symbolic::exact::{Fraction, Rational};
+use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
+use lie_syntax::ast::{Invariance, Name, RunOption};
+use lie_syntax::diagnostic::Origin;
 
 pub use casimir::{Casimir, CasimirKind};
 pub use configuration::Configuration;

@@ -1,10 +1,10 @@
 //! Realizations in canonical coordinates.
 
-use crate::ast::Name;
-use crate::diagnostic::Origin;
-use crate::symbolic::ExprId;
+use lie_symbolic::symbolic::ExprId;
+use lie_syntax::ast::Name;
+use lie_syntax::diagnostic::Origin;
 
-/// [`Symbol::Input`](crate::symbolic::Symbol::Input) of the first canonical coordinate of a realization: beyond all other inputs.
+/// [`Symbol::Input`](lie_symbolic::symbolic::Symbol::Input) of the first canonical coordinate of a realization: beyond all other inputs.
 pub const CANONICAL: usize = 1 << 20;
 
 /// A verified realization of the bracket: a Poisson map from canonical coordinates.

@@ -3,8 +3,8 @@
 use std::collections::{BTreeSet, HashMap};
 
 use super::planner::Planner;
-use crate::schedule::{Known, Program, Task, schedule};
-use crate::symbolic::{ExprId, Node, Symbol};
+use lie_symbolic::schedule::{Known, Program, Task, schedule};
+use lie_symbolic::symbolic::{ExprId, Node, Symbol};
 
 /// What is known before a kernel runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::schedule::Counts;
+use lie_symbolic::schedule::Counts;
 
 /// One step of the factorisation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -7,7 +7,7 @@ use super::recurrence::Recurrence;
 use crate::derive::Shape;
 use crate::derive::trace::COMPLETED;
 use crate::methods::{self, Choice, GenericEquation};
-use crate::schedule::Counts;
+use lie_symbolic::schedule::Counts;
 
 /// A definition that the steps of methods are made of.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]

@@ -3,7 +3,7 @@
 use super::constants::{Code, Table};
 use super::planner::Planner;
 use crate::derive::{Argument, Kernel, Shape};
-use crate::schedule::Program;
+use lie_symbolic::schedule::Program;
 
 /// A kernel that is ready to be written.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]

@@ -7,7 +7,7 @@ use super::planner::Planner;
 use super::steps::Form;
 use crate::derive::{Generating, Kernel, Shape};
 use crate::methods::{Choice, Retraction};
-use crate::schedule::Program;
+use lie_symbolic::schedule::Program;
 
 /// A function with more operations than this is not written out: its Hessian then comes from its
 /// gradient over dual numbers, or all of it from the generic form.

@@ -43,7 +43,7 @@ pub use structure::{
 };
 pub use system::{Casimir, Energy, System};
 
-use crate::schedule::Counts;
+use lie_symbolic::schedule::Counts;
 
 /// The plan of a system and of the methods that were asked for.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]

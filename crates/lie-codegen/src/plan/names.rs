@@ -2,7 +2,7 @@
 //! with them do.
 
 use crate::model::{CANONICAL, Model};
-use crate::symbolic::Symbol;
+use lie_symbolic::symbolic::Symbol;
 
 /// The names of a system.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -22,7 +22,8 @@ impl Names {
     pub(super) fn of(model: &Model) -> Self {
         let algebra = model.bracket.algebra();
         let basis = algebra.map_or(&model.coordinates, |algebra| &algebra.basis);
-        let texts = |names: &[crate::ast::Name]| names.iter().map(|n| n.text.clone()).collect();
+        let texts =
+            |names: &[lie_syntax::ast::Name]| names.iter().map(|n| n.text.clone()).collect();
         Self {
             system: model.name.clone(),
             coordinates: texts(&model.coordinates),

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::planner::Planner;
 use crate::derive::Bracket;
 use crate::methods::{Gradient, Lift};
-use crate::symbolic::{ExprId, Symbol};
+use lie_symbolic::symbolic::{ExprId, Symbol};
 
 /// Rows and columns.
 pub(super) type Pattern = Vec<(usize, usize)>;

@@ -3,8 +3,8 @@
 use super::constants::{Code, Constant};
 use super::planner::Planner;
 use crate::derive::{Kernel, Quantity, Shape, recurrences};
-use crate::schedule::{Counts, Program};
-use crate::symbolic::ExprId;
+use lie_symbolic::schedule::{Counts, Program};
+use lie_symbolic::symbolic::ExprId;
 
 /// The recurrence of a field, or of a field and the gradient of H.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -69,7 +69,7 @@ impl Planner<'_> {
             task.outputs.extend(values);
             gradient = Some(places);
         }
-        let program = crate::schedule::schedule(&mut self.source.graph, &task);
+        let program = lie_symbolic::schedule::schedule(&mut self.source.graph, &task);
         let found = recurrences(&program);
         let begin = self.code_of_system(&found.begin);
         let advance = found

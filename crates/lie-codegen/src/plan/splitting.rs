@@ -5,9 +5,9 @@ use super::function::Function;
 use super::planner::Planner;
 use crate::derive::{FoundKernel, Kernel, PieceKernel, Source, Update};
 use crate::methods::{Choice, Pieces};
-use crate::schedule::Counts;
 use crate::structure::Structure;
 use crate::structure::found::Chosen;
+use lie_symbolic::schedule::Counts;
 
 /// The flows of all pieces.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]

@@ -11,8 +11,8 @@ use super::pattern::Pattern;
 use super::planner::Planner;
 use crate::derive::{Kernel, Shape};
 use crate::methods::{Carrier, Choice, Lift, Retraction, Row};
-use crate::schedule::{Program, Value};
 use crate::structure::inertia::Body;
+use lie_symbolic::schedule::{Program, Value};
 
 /// What distinguishes one fused equation from another.
 pub(super) struct Form {

@@ -5,14 +5,14 @@ use super::function::Function;
 use super::planner::Planner;
 use crate::algebra::Columns;
 use crate::derive::Kernel;
-use crate::exact::Rational;
 use crate::methods::Lift;
 use crate::structure::inertia::Body;
 use crate::structure::integrable::Motion;
 use crate::structure::lifts::Smallest;
 use crate::structure::spectrum;
 use crate::structure::vectors::Component;
-use crate::symbolic::ExprId;
+use lie_symbolic::exact::Rational;
+use lie_symbolic::symbolic::ExprId;
 
 /// Matrices by rows.
 pub type Matrices = Vec<Vec<Vec<Rational>>>;

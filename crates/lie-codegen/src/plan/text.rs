@@ -5,8 +5,8 @@ use std::hash::{Hash, Hasher};
 
 use super::{Constants, Fused, Generating, Item, Method, Partner, Plan, Recurrence, Solver};
 use super::{Energy, Found, Function, Spectrum, Structure};
-use crate::schedule::Program;
 use crate::structure::integrable::Motion;
+use lie_symbolic::schedule::Program;
 
 /// The width of the column of labels.
 const LABEL: usize = 34;

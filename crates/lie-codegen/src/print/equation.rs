@@ -9,8 +9,8 @@ use super::{Printer, elimination};
 use crate::derive::Shape;
 use crate::derive::trace::COMPLETED;
 use crate::plan::{Chart, Constants, Ending, Function, Fused, Guess, Motion};
-use crate::schedule::Value;
-use crate::symbolic::Symbol;
+use lie_symbolic::schedule::Value;
+use lie_symbolic::symbolic::Symbol;
 
 /// The constants of a step size: fields of a struct, how they are computed, the fields of its value.
 pub(super) struct StepConstants {

@@ -7,10 +7,10 @@ use quote::{format_ident, quote};
 use super::Printer;
 use super::function::Owner;
 use super::names::{ident, index};
-use crate::exact::Rational;
 use crate::plan::Constant;
-use crate::schedule::{Operation, Program, Value};
-use crate::symbolic::Function;
+use lie_symbolic::exact::Rational;
+use lie_symbolic::schedule::{Operation, Program, Value};
+use lie_symbolic::symbolic::Function;
 
 /// An expression with more operations than this is bound to a local even if it is used once.
 const LONGEST: usize = 16;

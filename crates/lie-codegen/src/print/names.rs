@@ -4,7 +4,7 @@ use proc_macro2::{Ident, Literal, Span};
 use quote::format_ident;
 
 use super::Printer;
-use crate::symbolic::Symbol;
+use lie_symbolic::symbolic::Symbol;
 
 /// An identifier of ours.
 pub fn ident(name: &str) -> Ident {

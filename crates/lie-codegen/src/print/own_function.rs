@@ -5,7 +5,7 @@ use quote::quote;
 
 use super::Printer;
 use super::names::index;
-use crate::symbolic::Opaque;
+use lie_symbolic::symbolic::Opaque;
 
 impl Printer<'_> {
     /// A function of the user at arguments, or a derivative of it: the declared one where there is one, differentiated

@@ -7,8 +7,8 @@ use super::Printer;
 use super::function::Owner;
 use super::names::{ident, index};
 use crate::plan::Code;
-use crate::schedule::Value;
-use crate::symbolic::Symbol;
+use lie_symbolic::schedule::Value;
+use lie_symbolic::symbolic::Symbol;
 
 impl Printer<'_> {
     /// The field of the system that holds a constant.

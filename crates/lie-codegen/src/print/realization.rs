@@ -8,7 +8,7 @@ use super::names::{ident, index};
 use crate::derive::Shape;
 use crate::model::CANONICAL;
 use crate::plan::Function;
-use crate::symbolic::Symbol;
+use lie_symbolic::symbolic::Symbol;
 
 impl Printer<'_> {
     /// The impl of `RealizedPoisson`, where a realization is declared.

@@ -8,8 +8,8 @@ use super::function::{Owner, entries};
 use super::names::index;
 use crate::derive::Quantity;
 use crate::plan::{Constants, Recurrence};
-use crate::schedule::{Program, Value};
-use crate::symbolic::Symbol;
+use lie_symbolic::schedule::{Program, Value};
+use lie_symbolic::symbolic::Symbol;
 
 /// Pairs of series that are summed together.
 const LANES: usize = 8;

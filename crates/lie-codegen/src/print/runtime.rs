@@ -2,7 +2,7 @@
 
 use proc_macro2::{Group, TokenStream, TokenTree};
 
-use crate::ast::Runtime;
+use lie_syntax::ast::Runtime;
 
 /// The crate of that name, which the printer writes in full wherever it is used.
 const RUNTIME: &str = "lie_runtime";

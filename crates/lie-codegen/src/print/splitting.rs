@@ -8,8 +8,8 @@ use super::function::Owner;
 use super::names::index;
 use crate::derive::{Shape, Update};
 use crate::plan::{Constants, Flow, Function};
-use crate::schedule::Value;
-use crate::symbolic::Symbol;
+use lie_symbolic::schedule::Value;
+use lie_symbolic::symbolic::Symbol;
 
 impl Printer<'_> {
     /// The flows of the pieces of H and their hook.

@@ -6,9 +6,9 @@ use quote::quote;
 use super::Printer;
 use super::function::Owner;
 use super::names::{ident, index};
-use crate::exact::Rational;
 use crate::plan::{Code, Spectrum};
 use crate::structure::integrable::Motion;
+use lie_symbolic::exact::Rational;
 
 impl Printer<'_> {
     /// The impls that the system has a structure for.

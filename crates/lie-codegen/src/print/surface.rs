@@ -3,10 +3,10 @@
 use proc_macro2::{Span, TokenStream};
 use quote::quote;
 
-use crate::ast::Runtime;
-use crate::diagnostic::Origin;
-use crate::front::{Body, Parsed};
 use crate::model::Model;
+use lie_syntax::ast::Runtime;
+use lie_syntax::diagnostic::Origin;
+use lie_syntax::front::{Body, Parsed};
 
 /// What generated items take from the place of their declaration.
 #[derive(Clone, Debug)]

@@ -2,11 +2,11 @@
 
 use super::{Effort, casimirs};
 use crate::algebra::{StructureConstants, rank};
-use crate::ast::{Expr, ExprKind};
-use crate::exact::{Fraction, Polynomial, Rational};
 use crate::model::{Bracket, Casimir, CasimirKind, Configuration, Model, PoissonMatrix};
-use crate::prove::independence::{self, Standing};
-use crate::symbolic::{ExprId, Graph, Symbol};
+use lie_symbolic::exact::{Fraction, Polynomial, Rational};
+use lie_symbolic::prove::independence::{self, Standing};
+use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
+use lie_syntax::ast::{Expr, ExprKind};
 
 /// Longer functions are not made part of a system, whose code would be as long.
 const MOST_TERMS: usize = 1000;
@@ -379,7 +379,7 @@ impl Writer<'_> {
 
     /// The degree in the coordinates.
     fn degree(&self, function: &Polynomial) -> u32 {
-        let of = |m: &crate::exact::Monomial| {
+        let of = |m: &lie_symbolic::exact::Monomial| {
             let own = m.powers().filter(|(v, _)| *v < self.dimension);
             own.map(|(_, e)| e).sum()
         };

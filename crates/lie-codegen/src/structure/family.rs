@@ -4,7 +4,7 @@
 use crate::model::{Family, Model, SiteSum};
 use crate::structure::separable;
 use crate::structure::spins::Spin;
-use crate::symbolic::{ExprId, Graph, Symbol};
+use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 
 /// A piece, the same for all sites that it goes over.
 #[derive(Clone, Debug, PartialEq, Eq)]

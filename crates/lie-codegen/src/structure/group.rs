@@ -3,9 +3,9 @@
 use std::ops::Range;
 
 use super::Structure;
-use crate::ast::Invariance;
-use crate::exact::Rational;
 use crate::model::{Bracket, Model};
+use lie_symbolic::exact::Rational;
+use lie_syntax::ast::Invariance;
 
 /// Matrices of the algebra, and what is known of their group.
 #[derive(Clone, Debug)]

@@ -8,10 +8,10 @@
 
 use super::Structure;
 use super::spins::Spin;
-use crate::exact::{Budget, Rational};
 use crate::model::Model;
-use crate::prove::normal::{NormalForm, Verdict};
-use crate::symbolic::{ExprId, Graph, Symbol};
+use lie_symbolic::exact::{Budget, Rational};
+use lie_symbolic::prove::normal::{NormalForm, Verdict};
+use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 
 /// Work allowed for the identities of one Hamiltonian.
 const WORK: u64 = 500_000;

@@ -4,10 +4,10 @@
 //! velocities: H is linear, or the coordinates that it contains commute, so that they and the gradient of H are constant
 //! along each solution. Both are identities in the parameters, proven by the normal form that verifies Casimirs.
 
-use crate::exact::Budget;
 use crate::model::{Algebra, Model};
-use crate::prove::normal::{NormalForm, Verdict};
-use crate::symbolic::{ExprId, Graph, Symbol};
+use lie_symbolic::exact::Budget;
+use lie_symbolic::prove::normal::{NormalForm, Verdict};
+use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 
 use super::Structure;
 use super::spins::Spin;

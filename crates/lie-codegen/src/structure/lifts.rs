@@ -1,8 +1,8 @@
 //! Which linear symplectic space collective methods go over, where none is asked for, and what they take from H.
 
-use crate::exact::Rational;
 use crate::model::Model;
-use crate::symbolic::{ExprId, Graph, Symbol};
+use lie_symbolic::exact::Rational;
+use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 
 use super::spins::Spin;
 use super::vectors::{Component, Vectors};

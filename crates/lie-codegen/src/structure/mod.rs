@@ -22,10 +22,10 @@ pub mod vectors;
 use std::ops::Deref;
 use std::sync::Arc;
 
-use crate::diagnostic::Diagnostic;
 use crate::model::{Casimir, Model};
-use crate::prove::joints::Joint;
-use crate::symbolic::ExprId;
+use lie_symbolic::prove::joints::Joint;
+use lie_symbolic::symbolic::ExprId;
+use lie_syntax::diagnostic::Diagnostic;
 
 pub use completion::Search;
 

@@ -9,10 +9,10 @@ use std::collections::{BTreeMap, HashMap};
 use super::casimirs::solve::{
     Field as _, Functions, PRIMES, Prime, Sparse, cleared, drawn, kernel,
 };
-use crate::exact::{Budget, Exhausted, Fraction, Monomial, Polynomial, Rational};
 use crate::model::{Bracket, Casimir, Model};
-use crate::prove::independence::{self, Standing};
-use crate::symbolic::{ExprId, Graph, Node, Symbol};
+use lie_symbolic::exact::{Budget, Exhausted, Fraction, Monomial, Polynomial, Rational};
+use lie_symbolic::prove::independence::{self, Standing};
+use lie_symbolic::symbolic::{ExprId, Graph, Node, Symbol};
 
 /// The highest degree that is looked at.
 pub const MAX_DEGREE: u32 = 4;

@@ -12,7 +12,7 @@
 //! become zero. A block that is no such product, or has another minimal polynomial, has no closed
 //! form here.
 
-use crate::exact::{Budget, Fraction, Rational};
+use lie_symbolic::exact::{Budget, Fraction, Rational};
 
 /// Larger blocks are left to the series.
 const LARGEST: usize = 32;

@@ -6,11 +6,11 @@
 
 use super::Structure;
 use super::one_parameter::{self, Block, Entry};
-use crate::exact::Budget;
 use crate::model::Algebra;
-use crate::prove::confirmation::{Confirmation, Finding};
-use crate::prove::normal::{NormalForm, Verdict};
-use crate::symbolic::{ExprId, Graph, Symbol};
+use lie_symbolic::exact::Budget;
+use lie_symbolic::prove::confirmation::{Confirmation, Finding};
+use lie_symbolic::prove::normal::{NormalForm, Verdict};
+use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 
 /// Work allowed for the derivatives of one Hamiltonian.
 const WORK: u64 = 500_000;

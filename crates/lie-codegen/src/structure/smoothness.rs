@@ -1,10 +1,10 @@
 //! How smooth the Hamiltonian of a system is, and its Lagrangian.
 
 use super::Structure;
-use crate::diagnostic::{Diagnostic, Kind, Report};
 use crate::model::{Family, Model};
-use crate::prove::joints::{Joint, of_function};
-use crate::symbolic::Symbol;
+use lie_symbolic::prove::joints::{Joint, of_function};
+use lie_symbolic::symbolic::Symbol;
+use lie_syntax::diagnostic::{Diagnostic, Kind, Report};
 
 /// The joints of the Hamiltonian of a system, or of its Lagrangian.
 pub fn joints(model: &Model) -> Vec<Joint> {

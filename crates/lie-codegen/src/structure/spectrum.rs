@@ -1,6 +1,6 @@
 //! Real eigenvalues of representations, at which the Cayley map and Gauss methods have poles.
 
-use crate::exact::Rational;
+use lie_symbolic::exact::Rational;
 
 /// What is known of the eigenvalues of all elements of a representation.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,9 +1,9 @@
 //! Direct sums of algebras so(3) in bases with `[e_i, e_j] = c e_k` and its cyclic permutations.
 
 use super::Structure;
-use crate::exact::Budget;
 use crate::model::Model;
-use crate::symbolic::ExprId;
+use lie_symbolic::exact::Budget;
+use lie_symbolic::symbolic::ExprId;
 
 /// Work allowed to compare the constants.
 const WORK: u64 = 100_000;

@@ -3,9 +3,9 @@
 
 use super::Structure;
 use crate::algebra::StructureConstants;
-use crate::exact::{Budget, Fraction, Rational};
 use crate::model::Model;
-use crate::symbolic::ExprId;
+use lie_symbolic::exact::{Budget, Fraction, Rational};
+use lie_symbolic::symbolic::ExprId;
 
 /// Work allowed to compare the constants.
 const WORK: u64 = 200_000;

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use lie_codegen::compile::compile_spec;
 use lie_codegen::derive::{Kernel, Shape, Source};
-use lie_codegen::symbolic::Symbol;
+use lie_symbolic::symbolic::Symbol;
 
 pub struct System {
     pub name: String,

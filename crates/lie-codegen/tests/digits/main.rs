@@ -9,7 +9,7 @@ mod system;
 
 use lie_codegen::compile::compile_spec;
 use lie_codegen::derive::{Kernel, Source};
-use lie_codegen::symbolic::Symbol;
+use lie_symbolic::symbolic::Symbol;
 use program::{constants, full, run};
 use random::Random;
 use scalar::{Number, Pair};

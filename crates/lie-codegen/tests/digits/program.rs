@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 
 use lie_codegen::derive::{Kernel, Shape, Source};
-use lie_codegen::schedule::{Known, Operation, Program, Task, Value, schedule};
-use lie_codegen::symbolic::{Elementary, ExprId, Function, Symbol};
+use lie_symbolic::schedule::{Known, Operation, Program, Task, Value, schedule};
+use lie_symbolic::symbolic::{Elementary, ExprId, Function, Symbol};
 
 use crate::scalar::Number;
 

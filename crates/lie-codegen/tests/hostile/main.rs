@@ -9,10 +9,10 @@ use std::panic::catch_unwind;
 
 use cases::Case;
 use lie_codegen::compile::{compile_spec, declared_choices};
-use lie_codegen::diagnostic::{Diagnostic, Origin};
-use lie_codegen::front::file::oversized;
 use lie_codegen::plan::plan;
 use lie_codegen::print::{Surface, print};
+use lie_syntax::diagnostic::{Diagnostic, Origin};
+use lie_syntax::front::file::oversized;
 
 /// The stack that `lie` gives the compiler.
 const STACK: usize = 256 << 20;

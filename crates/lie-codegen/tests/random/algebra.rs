@@ -1,6 +1,6 @@
 //! Algebras: direct and semidirect sums of known ones in a random rational basis.
 
-use lie_codegen::exact::Rational;
+use lie_symbolic::exact::Rational;
 use proptest::prelude::*;
 
 /// A square matrix.

@@ -6,7 +6,7 @@
 pub mod algebra;
 pub mod function;
 
-use lie_codegen::exact::Rational;
+use lie_symbolic::exact::Rational;
 use proptest::prelude::*;
 
 pub use algebra::Algebra;

@@ -2,10 +2,10 @@
 
 use super::{Code, Instruction, Number, Register, Source};
 use lie_codegen::derive::{Argument, Quantity};
-use lie_codegen::exact::Rational;
 use lie_codegen::plan::Constant;
-use lie_codegen::schedule::{self, Operation, Value};
-use lie_codegen::symbolic::{Function, Symbol};
+use lie_symbolic::exact::Rational;
+use lie_symbolic::schedule::{self, Operation, Value};
+use lie_symbolic::symbolic::{Function, Symbol};
 use std::collections::HashMap;
 
 /// A number of the plan.

@@ -147,7 +147,7 @@ impl Notation for Latex {
 mod tests {
     use super::super::formula;
     use super::*;
-    use lie_codegen::front::Names;
+    use lie_syntax::front::Names;
 
     #[test]
     fn what_is_shown_is_what_was_written() {

@@ -2,10 +2,10 @@
 
 mod latex;
 
-use lie_codegen::ast::{Expr, ExprKind, Index};
-use lie_codegen::diagnostic::Report;
-use lie_codegen::front::{Names, PIECEWISE, parse_expression_text};
 use lie_codegen::structure::Structure;
+use lie_syntax::ast::{Expr, ExprKind, Index};
+use lie_syntax::diagnostic::Report;
+use lie_syntax::front::{Names, PIECEWISE, parse_expression_text};
 
 pub use latex::Latex;
 

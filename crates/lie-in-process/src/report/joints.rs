@@ -1,7 +1,7 @@
 //! Joints, where branches of H meet, and the orders that methods have across them.
 
 use lie_codegen::methods::CATALOGUE;
-use lie_codegen::prove::joints::{Joint, reached};
+use lie_symbolic::prove::joints::{Joint, reached};
 use serde_json::{Value, json};
 
 /// The methods with the reason why they do not apply.

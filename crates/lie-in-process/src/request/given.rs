@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use lie_codegen::diagnostic::{Diagnostic, Kind, Origin};
+use lie_syntax::diagnostic::{Diagnostic, Kind, Origin};
 
 use super::Value;
 use crate::message::{Message, Place, Source};

@@ -1,9 +1,9 @@
 //! Methods as options name them.
 
 use lie_codegen::compile::with_options;
-use lie_codegen::diagnostic::Kind;
 use lie_codegen::methods::{self, Choice};
 use lie_codegen::structure::Structure;
+use lie_syntax::diagnostic::Kind;
 
 use super::Front;
 use crate::message::Message;

@@ -1,7 +1,7 @@
 //! Several runs in one: methods, values of parameters, initial states.
 
-use lie_codegen::diagnostic::Kind;
 use lie_program::protocol::Start;
+use lie_syntax::diagnostic::Kind;
 
 use super::plan::{Foreign, Planned, Planner, planned};
 use super::states::{States, states};

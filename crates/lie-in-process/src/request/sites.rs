@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use lie_codegen::diagnostic::{Kind, Origin};
 use lie_codegen::model::{Family, Start};
 use lie_runtime::family::unit_spheres;
+use lie_syntax::diagnostic::{Kind, Origin};
 
 use super::npy::{self, Array};
 use super::plan::Planner;

@@ -1,9 +1,9 @@
 //! Parameters and the initial state.
 
 use lie_codegen::check::domain;
-use lie_codegen::diagnostic::Kind;
-use lie_codegen::front::names::normalised;
-use lie_codegen::suggest::did_you_mean;
+use lie_syntax::diagnostic::Kind;
+use lie_syntax::front::names::normalised;
+use lie_syntax::suggest::did_you_mean;
 
 use super::plan::{Planner, Point};
 use super::states::{States, without_commas};

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use lie_codegen::diagnostic::Kind;
+use lie_syntax::diagnostic::Kind;
 
 use super::several::MOST;
 use super::{constant, npy};

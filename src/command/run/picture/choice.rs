@@ -2,9 +2,9 @@
 
 use lie_codegen::structure::Structure;
 use lie_codegen::structure::group;
-use lie_codegen::suggest::did_you_mean;
 use lie_in_process::request::{Given, Several};
 use lie_in_process::words::counted;
+use lie_syntax::suggest::did_you_mean;
 
 use super::section::Chosen;
 use crate::build;

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use lie_codegen::diagnostic::Kind;
+use lie_syntax::diagnostic::Kind;
 use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::{self, fontdb};
 

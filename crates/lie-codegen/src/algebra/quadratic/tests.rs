@@ -1,7 +1,7 @@
 //! The verdicts against what Gauss steps do.
 
 use super::{Closure, Form, closure};
-use crate::exact::{Budget, Rational};
+use lie_symbolic::exact::{Budget, Rational};
 
 type Matrix = Vec<Vec<i64>>;
 

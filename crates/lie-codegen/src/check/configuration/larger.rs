@@ -1,9 +1,9 @@
 //! Brackets and matrices of the larger algebra.
 
-use crate::ast::{Algebra, Bracket, Expr, ExprKind, Invariance, Matrix, Name};
-use crate::diagnostic::Origin;
-use crate::exact::Rational;
 use crate::model::configuration::{Configuration, TIME, TIME_MOMENTUM, UNIT, entry};
+use lie_symbolic::exact::Rational;
+use lie_syntax::ast::{Algebra, Bracket, Expr, ExprKind, Invariance, Matrix, Name};
+use lie_syntax::diagnostic::Origin;
 
 /// What the additions are made from.
 pub(super) struct Builder<'a> {

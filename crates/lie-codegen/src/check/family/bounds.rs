@@ -1,8 +1,8 @@
 //! The bounds of sums over sites.
 
-use crate::ast::{Expr, ExprKind, Size};
-use crate::diagnostic::{Diagnostic, Kind, Report};
-use crate::exact::Rational;
+use lie_symbolic::exact::Rational;
+use lie_syntax::ast::{Expr, ExprKind, Size};
+use lie_syntax::diagnostic::{Diagnostic, Kind, Report};
 
 /// The first site and the number of sites behind the last one; none where a sum goes over all.
 pub type Span = Option<(usize, usize)>;

@@ -7,12 +7,12 @@ mod sums;
 use super::environment::{Allowed, Environment};
 use super::lower::Lowering;
 use super::{lets, names, size, system};
-use crate::ast::{self, Casimir, Declaration, Energy, Expr, ExprKind, Name, Structure};
-use crate::diagnostic::{Diagnostic, Kind, Report};
-use crate::exact::Rational;
 use crate::model::{Family, Model, SiteSum, Size};
-use crate::prove::degree;
-use crate::symbolic::{ExprId, Symbol};
+use lie_symbolic::exact::Rational;
+use lie_symbolic::prove::degree;
+use lie_symbolic::symbolic::{ExprId, Symbol};
+use lie_syntax::ast::{self, Casimir, Declaration, Energy, Expr, ExprKind, Name, Structure};
+use lie_syntax::diagnostic::{Diagnostic, Kind, Report};
 use sums::{Collected, Sums};
 
 /// Checks a family; `None` if any error was reported.

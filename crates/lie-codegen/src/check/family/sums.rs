@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 
 use super::bounds::{self, Span};
-use crate::ast::{Declaration, Expr, ExprKind, Family, Index, Name};
-use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
+use lie_syntax::ast::{Declaration, Expr, ExprKind, Family, Index, Name};
+use lie_syntax::diagnostic::{Diagnostic, Kind, Origin, Report};
 
 /// A sum as it was written.
 pub struct Collected {

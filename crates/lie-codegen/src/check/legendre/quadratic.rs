@@ -1,11 +1,11 @@
 //! The quadratic part of a Lagrangian, and its elimination row by row.
 
 use super::{Lagrangian, not_at_rest};
-use crate::diagnostic::{Diagnostic, Kind};
-use crate::exact::{Budget, Rational};
 use crate::model::configuration::Configuration;
-use crate::prove::normal::{NormalForm, Verdict};
-use crate::symbolic::{ExprId, Graph, Symbol};
+use lie_symbolic::exact::{Budget, Rational};
+use lie_symbolic::prove::normal::{NormalForm, Verdict};
+use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
+use lie_syntax::diagnostic::{Diagnostic, Kind};
 
 /// Work allowed for one decision of the normal form.
 const WORK: u64 = 2_000_000;

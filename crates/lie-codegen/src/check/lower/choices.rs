@@ -1,9 +1,9 @@
 //! Choices between expressions by the sign of one.
 
 use super::{Lowered, Lowering};
-use crate::diagnostic::Origin;
-use crate::exact::Rational;
-use crate::symbolic::Function;
+use lie_symbolic::exact::Rational;
+use lie_symbolic::symbolic::Function;
+use lie_syntax::diagnostic::Origin;
 
 impl Lowering<'_, '_> {
     /// `abs(x)`, `min(x, y)`, `max(x, y)`, `piecewise(x < y: a, b)`.

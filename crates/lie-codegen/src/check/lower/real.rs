@@ -1,12 +1,12 @@
 //! Which powers and functions of constants are real and finite, by the exact signs of constants.
 
 use super::Lowering;
-use crate::diagnostic::{Kind, Origin};
-use crate::exact::Rational;
-use crate::linear::walk::Lower as _;
-use crate::prove::sign;
-use crate::symbolic::{Elementary, ExprId};
 use lie_core::functions::Domain;
+use lie_symbolic::exact::Rational;
+use lie_symbolic::prove::sign;
+use lie_symbolic::symbolic::{Elementary, ExprId};
+use lie_syntax::diagnostic::{Kind, Origin};
+use lie_syntax::linear::walk::Lower as _;
 
 impl Lowering<'_, '_> {
     /// The sign of a constant, exactly: of rational numbers, of irrational ones by rigorous bounds where these

@@ -1,7 +1,7 @@
 //! Which functions have several branches.
 
 use super::{model, so3};
-use crate::prove::branches::jumps;
+use lie_symbolic::prove::branches::jumps;
 
 #[test]
 fn angles_jump_and_other_functions_do_not() {

@@ -1,8 +1,8 @@
 //! `abs`, `min`, `max` and `piecewise`: names, constants, proofs, and how smooth they are.
 
 use super::*;
-use crate::prove::joints::reached;
 use crate::structure::smoothness::joints;
+use lie_symbolic::prove::joints::reached;
 
 const NAMES: [&str; 4] = ["abs", "min", "max", "piecewise"];
 

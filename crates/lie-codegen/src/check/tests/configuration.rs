@@ -5,7 +5,7 @@ fn declared(model: &Structure) -> ExprId {
     model.energy.expression().expect("an expression").energy
 }
 use crate::derive::Source;
-use crate::symbolic::Symbol;
+use lie_symbolic::symbolic::Symbol;
 
 const MATRICES: &str = r#""matrices": {"e1": [[0,0,0],[0,0,-1],[0,1,0]], "e2": [[0,0,1],[0,0,0],[-1,0,0]], "e3": [[0,-1,0],[1,0,0],[0,0,0]]}"#;
 
@@ -22,7 +22,7 @@ fn top(extra: &[(&str, &str)]) -> String {
     system(&base, extra)
 }
 
-fn value(source: &Source, expr: crate::symbolic::ExprId, mu: &[f64]) -> f64 {
+fn value(source: &Source, expr: lie_symbolic::symbolic::ExprId, mu: &[f64]) -> f64 {
     source.graph.evaluate(expr, &|symbol| match symbol {
         Symbol::Coordinate(i) => mu[i],
         _ => f64::NAN,

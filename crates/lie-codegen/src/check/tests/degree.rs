@@ -1,10 +1,10 @@
 //! The degrees of functions of the coordinates.
 
 use super::{model, so3};
-use crate::exact::{Budget, Rational};
-use crate::prove::degree::degree;
-use crate::prove::normal::NormalForm;
-use crate::symbolic::{ExprId, Graph, Symbol};
+use lie_symbolic::exact::{Budget, Rational};
+use lie_symbolic::prove::degree::degree;
+use lie_symbolic::prove::normal::NormalForm;
+use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 
 const PARAMETERS: &str = r#"{"a": 2, "b": "3/2", "k": 5}"#;
 

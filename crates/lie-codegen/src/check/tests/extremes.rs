@@ -1,8 +1,8 @@
 //! Coefficients and exponents at the ends of machine words: exact all the same, and no panic.
 
 use super::*;
-use crate::exact::Budget;
-use crate::symbolic::Graph;
+use lie_symbolic::exact::Budget;
+use lie_symbolic::symbolic::Graph;
 use proptest::prelude::*;
 
 const ENDS: [i64; 9] = [
@@ -81,11 +81,11 @@ proptest! {
         let expected = graph.scale(lower, &factor);
         let difference = graph.sub(slope, expected);
         let budget = Budget::new(1_000_000);
-        let mut normal = crate::prove::normal::NormalForm::new(&graph, &budget);
+        let mut normal = lie_symbolic::prove::normal::NormalForm::new(&graph, &budget);
         for zero in [rest, difference] {
-            prop_assert!(matches!(normal.verdict(zero), crate::prove::normal::Verdict::Zero));
+            prop_assert!(matches!(normal.verdict(zero), lie_symbolic::prove::normal::Verdict::Zero));
         }
-        prop_assert!(!matches!(normal.verdict(left), crate::prove::normal::Verdict::Zero));
+        prop_assert!(!matches!(normal.verdict(left), lie_symbolic::prove::normal::Verdict::Zero));
         graph.display(left, &|_| "x".into());
     }
 

@@ -1,9 +1,9 @@
 use super::*;
-use crate::ast::{Expr, ExprKind};
 use crate::check::environment::{Allowed, Environment};
 use crate::check::lower::Lowering;
-use crate::limits::MAX_DIMENSION;
-use crate::symbolic::Graph;
+use lie_symbolic::symbolic::Graph;
+use lie_syntax::ast::{Expr, ExprKind};
+use lie_syntax::limits::MAX_DIMENSION;
 use std::sync::mpsc::RecvTimeoutError;
 use std::time::Duration;
 

@@ -22,11 +22,11 @@ mod tables;
 
 use super::*;
 use crate::compile::analysed;
-use crate::diagnostic::{Kind, Origin};
-use crate::exact::Rational;
-use crate::front::{Body, spec};
 use crate::structure::{Effort, Structure};
-use crate::symbolic::{ExprId, Symbol};
+use lie_symbolic::exact::Rational;
+use lie_symbolic::symbolic::{ExprId, Symbol};
+use lie_syntax::diagnostic::{Kind, Origin};
+use lie_syntax::front::{Body, spec};
 
 /// so(3) with what is given: keys of the spec, each with its JSON.
 pub(super) fn so3(extra: &[(&str, &str)]) -> String {

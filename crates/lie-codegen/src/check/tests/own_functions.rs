@@ -1,10 +1,10 @@
 //! Functions of Rust: what is known of them, what is refused, and where.
 
 use super::*;
-use crate::front::declaration;
-use crate::prove::joints::reached;
 use crate::structure::found::terms;
 use crate::structure::smoothness::joints;
+use lie_symbolic::prove::joints::reached;
+use lie_syntax::front::declaration;
 
 /// so(3) with functions and statements.
 fn body(functions: &str, rest: &str) -> String {

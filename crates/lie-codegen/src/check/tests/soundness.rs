@@ -193,8 +193,8 @@ fn casimirs_with_several_branches_are_warned_of() {
 
 #[test]
 fn a_contradiction_is_a_mistake_of_the_compiler() {
-    use crate::diagnostic::Kind;
-    use crate::prove::contradiction;
+    use lie_symbolic::prove::contradiction;
+    use lie_syntax::diagnostic::Kind;
     let model = declared("x^2 + y^2");
     contradiction::keep(&model.graph, model.hamiltonian());
     let mut report = Report::new();

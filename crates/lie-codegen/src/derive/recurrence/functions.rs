@@ -2,9 +2,9 @@
 
 use super::rules::Composed;
 use super::{At, Lowering, Term, number};
-use crate::schedule::{Operation, Value};
-use crate::symbolic::Function;
 use lie_core::functions::Curve;
+use lie_symbolic::schedule::{Operation, Value};
+use lie_symbolic::symbolic::Function;
 
 impl Lowering {
     pub(super) fn call(&mut self, function: Function, arguments: &[Term]) -> Term {

@@ -1,9 +1,9 @@
 //! The recurrences of the elementary functions of one number, by their differential equations.
 
 use super::{At, Lowering, Term, number};
-use crate::exact::Rational;
-use crate::schedule::{Operation, Value};
 use lie_core::functions::{Curve, Elementary, Quadratic, Rules, Words};
+use lie_symbolic::exact::Rational;
+use lie_symbolic::schedule::{Operation, Value};
 
 /// A function of what varies.
 pub(super) struct Composed<'a> {

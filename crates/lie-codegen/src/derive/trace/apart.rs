@@ -11,7 +11,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::linear::{Group, groups};
 use crate::derive::{Block, Source};
-use crate::symbolic::{ExprId, Symbol};
+use lie_symbolic::symbolic::{ExprId, Symbol};
 
 /// Definitions in order.
 pub(super) type List = Vec<(Symbol, ExprId)>;

@@ -6,7 +6,7 @@ use super::apart::Apart;
 use super::sym::{Session, Sym, with, within};
 use super::system::{Square, SymbolicSystem};
 use crate::derive::{Argument, Block, Derived, Kernel, Source, Tangents, Tape, leaner_jacobian};
-use crate::symbolic::{ExprId, Symbol};
+use lie_symbolic::symbolic::{ExprId, Symbol};
 
 /// A list with more definitions for each entry of the unknown is long.
 const LONG: usize = 4;

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::apart::{Formulas, List, symbols};
 use crate::derive::Source;
-use crate::symbolic::{ExprId, Symbol};
+use lie_symbolic::symbolic::{ExprId, Symbol};
 
 /// The most unknowns that are solved for together, by the determinant of their matrix.
 const MOST: usize = 3;

@@ -7,8 +7,8 @@ use lie_core::scalar::Pack;
 use lie_core::{Elementary, Scalar};
 
 use crate::derive::{Block, Source, Tape};
-use crate::exact::Rational;
-use crate::symbolic::{ExprId, Function, Symbol};
+use lie_symbolic::exact::Rational;
+use lie_symbolic::symbolic::{ExprId, Function, Symbol};
 
 /// What a trace writes to. It belongs to the thread because arithmetic has no place for it.
 pub(super) struct Session {

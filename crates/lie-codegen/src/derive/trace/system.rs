@@ -12,11 +12,11 @@ use super::sym::{Session, Sym, with};
 use crate::derive::{
     Block, Closed, Definitions, Generating, Slope, Source, moved, slope, symmetric,
 };
-use crate::exact::Rational;
 use crate::structure::inertia::Body;
 use crate::structure::separable;
 use crate::structure::vectors::{Component, Vectors};
-use crate::symbolic::{ExprId, Symbol};
+use lie_symbolic::exact::Rational;
+use lie_symbolic::symbolic::{ExprId, Symbol};
 
 /// A square matrix of expressions, row by row.
 #[derive(Clone, Debug)]

@@ -10,7 +10,7 @@ use crate::plan::function::Function;
 use crate::plan::planner::Planner;
 use crate::structure::family::Form;
 use crate::structure::separable;
-use crate::symbolic::{ExprId, Symbol};
+use lie_symbolic::symbolic::{ExprId, Symbol};
 
 /// The derivation of the kernels.
 pub(super) struct Derivation<'p, 'm> {

@@ -11,7 +11,7 @@ use super::names::{ident, index};
 use crate::derive::Shape;
 use crate::model::Size;
 use crate::plan::{Family, Function};
-use crate::symbolic::Symbol;
+use lie_symbolic::symbolic::Symbol;
 
 impl Printer<'_> {
     /// All items of a family.

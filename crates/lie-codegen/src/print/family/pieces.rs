@@ -8,8 +8,8 @@ use super::super::function::Owner;
 use super::super::names::{ident, index};
 use super::span;
 use crate::plan::{Family, FamilyForm, FamilyPieces};
-use crate::schedule::Value;
-use crate::symbolic::Symbol;
+use lie_symbolic::schedule::Value;
+use lie_symbolic::symbolic::Symbol;
 
 /// The turn about a coordinate.
 fn turn(a: usize) -> Ident {

@@ -6,7 +6,7 @@
 
 use super::subspace::{Signature, Subspace};
 use super::table::Table;
-use crate::exact::{Budget, Exhausted, Rational};
+use lie_symbolic::exact::{Budget, Exhausted, Rational};
 
 /// What an algebra is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -3,7 +3,7 @@
 use super::name::{invariant_forms, name};
 use super::subspace::{Subspace, Vector, signature};
 use super::table::Table;
-use crate::exact::{Budget, Exhausted, Rational};
+use lie_symbolic::exact::{Budget, Exhausted, Rational};
 
 /// The name of an algebra with this derived algebra and this radical.
 pub fn extension(

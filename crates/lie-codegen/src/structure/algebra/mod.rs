@@ -15,8 +15,8 @@ mod subspace;
 mod table;
 
 use crate::algebra::StructureConstants;
-use crate::exact::{Budget, Exhausted, Fraction, Rational};
 use crate::model::Model;
+use lie_symbolic::exact::{Budget, Exhausted, Fraction, Rational};
 
 pub use class::{Class, Series, class};
 pub use parts::eigenvalues;

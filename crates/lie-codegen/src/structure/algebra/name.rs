@@ -10,7 +10,7 @@ use super::series;
 use super::simple;
 use super::subspace::{Subspace, Vector, signature};
 use super::table::Table;
-use crate::exact::{Budget, Exhausted, Rational};
+use lie_symbolic::exact::{Budget, Exhausted, Rational};
 
 /// Larger algebras that are not semisimple are not taken apart.
 const LARGEST: usize = 9;

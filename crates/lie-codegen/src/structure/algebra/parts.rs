@@ -7,8 +7,8 @@
 use super::roots::rational_roots;
 use super::subspace::{Subspace, Vector};
 use super::table::Table;
-use crate::exact::{Budget, Exhausted, Fraction, Polynomial, Rational};
 use crate::structure::casimirs;
+use lie_symbolic::exact::{Budget, Exhausted, Fraction, Polynomial, Rational};
 
 /// A linear map by its columns: the image of every basis element.
 pub type Map = Vec<Vector>;

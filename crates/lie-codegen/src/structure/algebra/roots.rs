@@ -4,7 +4,7 @@ use num_bigint::BigInt;
 use num_integer::Integer;
 use num_traits::{One, Signed, Zero};
 
-use crate::exact::Rational;
+use lie_symbolic::exact::Rational;
 
 /// The distinct rational roots of `sum_k c_k t^k`, ascending.
 ///

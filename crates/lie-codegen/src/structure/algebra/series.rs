@@ -10,8 +10,8 @@
 //! the type is right. All of it is done modulo a prime: an identity that does not hold there does not hold.
 
 use super::table::Table;
-use crate::exact::{Budget, Exhausted};
 use crate::structure::casimirs::{Field, PRIMES, Prime};
+use lie_symbolic::exact::{Budget, Exhausted};
 
 /// A type of complex simple algebras.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,6 +1,6 @@
 //! Subspaces of rational vectors by their reduced echelon basis, kernels, and the signature of a symmetric matrix.
 
-use crate::exact::{Budget, Exhausted, Rational};
+use lie_symbolic::exact::{Budget, Exhausted, Rational};
 
 /// A vector by its entries.
 pub type Vector = Vec<Rational>;

@@ -3,7 +3,7 @@
 
 use super::subspace::{Signature, Subspace, Vector, signature};
 use crate::algebra::StructureConstants;
-use crate::exact::{Budget, Exhausted, Rational};
+use lie_symbolic::exact::{Budget, Exhausted, Rational};
 
 /// The brackets of a basis.
 #[derive(Clone, Debug)]

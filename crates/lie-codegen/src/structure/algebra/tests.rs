@@ -40,7 +40,7 @@ fn remixed(constants: &StructureConstants<Fraction>, seed: u64) -> StructureCons
             }
         }
     }
-    let span = crate::exact::span::Span::new(&basis, &budget).unwrap();
+    let span = lie_symbolic::exact::span::Span::new(&basis, &budget).unwrap();
     let mixed = Table::from_brackets(n, |i, j| {
         let value = table.bracket(&basis[i], &basis[j], &budget)?;
         Ok(span.coordinates(&value, &budget)?.unwrap())

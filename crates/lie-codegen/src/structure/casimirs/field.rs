@@ -1,6 +1,6 @@
 //! The fields over which invariants are looked for: modulo a prime, and rational functions of the parameters.
 
-use crate::exact::{Budget, Exhausted, Fraction, Polynomial, Rational};
+use lie_symbolic::exact::{Budget, Exhausted, Fraction, Polynomial, Rational};
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_traits::ToPrimitive;

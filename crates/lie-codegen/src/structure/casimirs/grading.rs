@@ -5,7 +5,7 @@
 //! the coadjoint action map functions of one degree to functions of one degree, so that each
 //! class of monomials is looked at alone.
 
-use crate::exact::{Budget, Exhausted};
+use lie_symbolic::exact::{Budget, Exhausted};
 
 /// The largest entry of the lattice; where it would be passed there is no grading.
 const LARGEST: i64 = 1 << 30;

@@ -13,7 +13,7 @@ use super::operators::{self, Echelon, Operator, Word};
 use super::residues::{combine, lifted, reconstructed};
 use super::traces;
 use crate::algebra::StructureConstants;
-use crate::exact::{Budget, Exhausted, Fraction, Polynomial, Rational};
+use lie_symbolic::exact::{Budget, Exhausted, Fraction, Polynomial, Rational};
 
 /// A function by its terms, highest words last.
 pub type Terms<T> = Vec<(Word, T)>;

@@ -1,7 +1,7 @@
 //! The kernel of a sparse matrix, by elimination row after row.
 
 use super::field::Field;
-use crate::exact::Exhausted;
+use lie_symbolic::exact::Exhausted;
 
 /// A row or a vector by its nonzero entries, columns ascending.
 pub type Sparse<T> = Vec<(usize, T)>;
@@ -104,7 +104,7 @@ fn vectors<F: Field>(
 mod tests {
     use super::super::field::{PRIMES, Prime};
     use super::*;
-    use crate::exact::Budget;
+    use lie_symbolic::exact::Budget;
 
     #[test]
     fn kernels() {

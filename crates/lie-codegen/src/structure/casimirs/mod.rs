@@ -21,7 +21,7 @@ mod residues;
 mod traces;
 
 use crate::algebra::{StructureConstants, rank};
-use crate::exact::{Budget, Exhausted, Fraction, Monomial, Polynomial};
+use lie_symbolic::exact::{Budget, Exhausted, Fraction, Monomial, Polynomial};
 
 use invariants::Search;
 

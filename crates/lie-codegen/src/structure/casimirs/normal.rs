@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::operators::{self, Word};
-use crate::exact::{Budget, Exhausted, Fraction, Monomial, Polynomial, Rational};
+use lie_symbolic::exact::{Budget, Exhausted, Fraction, Monomial, Polynomial, Rational};
 
 /// The highest monomial, by which functions of equal length are ordered: those of early variables first.
 pub fn largest(function: &Polynomial) -> std::cmp::Reverse<Option<Monomial>> {

@@ -5,7 +5,7 @@ use rustc_hash::FxHashMap;
 use super::field::{Field, Prime};
 use super::kernel::Sparse;
 use crate::algebra::StructureConstants;
-use crate::exact::{Exhausted, Fraction};
+use lie_symbolic::exact::{Exhausted, Fraction};
 
 /// The largest degree of a monomial.
 pub const MAX_DEGREE: usize = 12;

@@ -12,8 +12,8 @@ use super::kernel::kernel;
 use super::normal::{primitive, sum_of};
 use super::operators::{self, Operator, Word};
 use crate::algebra::StructureConstants;
-use crate::exact::{Budget, Exhausted, Fraction, Polynomial, Rational};
 use crate::structure::algebra::{Subspace, Table, Vector, eigenvalues};
+use lie_symbolic::exact::{Budget, Exhausted, Fraction, Polynomial, Rational};
 
 /// The largest degree of a semi-invariant that is looked for.
 pub const HIGHEST: usize = 3;
@@ -200,7 +200,7 @@ fn relations(
             .iter()
             .enumerate()
             .fold(Polynomial::default(), |mut sum, (i, c)| {
-                sum.accumulate(crate::exact::Monomial::power(i, 1), c);
+                sum.accumulate(lie_symbolic::exact::Monomial::power(i, 1), c);
                 sum
             });
         let integers = primitive(&function);

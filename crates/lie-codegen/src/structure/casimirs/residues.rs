@@ -4,7 +4,7 @@ use num_bigint::BigInt;
 use num_integer::Integer;
 
 use super::kernel::Sparse;
-use crate::exact::Rational;
+use lie_symbolic::exact::Rational;
 
 /// The residues as integers.
 pub fn lifted(vectors: &[Sparse<u64>]) -> Vec<Sparse<BigInt>> {
@@ -57,7 +57,7 @@ pub fn reconstructed(residue: &BigInt, modulus: &BigInt) -> Option<Rational> {
 mod tests {
     use super::super::field::{PRIMES, Prime};
     use super::*;
-    use crate::exact::Budget;
+    use lie_symbolic::exact::Budget;
 
     #[test]
     fn rationals_come_back_from_their_residues() {

@@ -90,7 +90,7 @@ fn a_sum_of_many_is_searched_part_by_part() {
 fn parts_keep_their_parameters_and_a_unit_is_of_all() {
     // the third pair has a bracket k with a constant term: x4 is the unit
     let k = Fraction::variable(0);
-    let one = Fraction::from(crate::exact::Rational::ONE);
+    let one = Fraction::from(lie_symbolic::exact::Rational::ONE);
     let entries = vec![
         (0, 2, 5, one.clone()),
         (0, 5, 2, one.neg()),
@@ -130,7 +130,7 @@ fn degrees_in_their_bases_and_in_others() {
 #[test]
 fn parameters_stay_in_the_coefficients() {
     let k = Fraction::variable(0);
-    let one = Fraction::from(crate::exact::Rational::ONE);
+    let one = Fraction::from(lie_symbolic::exact::Rational::ONE);
     let entries = vec![(0, 1, 2, one.clone()), (0, 2, 1, one.neg()), (1, 2, 0, k)];
     let found = search(&StructureConstants::new(3, entries), WORK);
     assert_eq!(shown(&found), ["x0^2*x3 + x1^2 + x2^2"]);

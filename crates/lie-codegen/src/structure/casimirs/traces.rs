@@ -12,7 +12,7 @@ use super::invariants::Terms;
 use super::kernel::Sparse;
 use super::operators::{self, Operator, Word};
 use super::residues::{combine, reconstructed};
-use crate::exact::{Budget, Exhausted, Rational};
+use lie_symbolic::exact::{Budget, Exhausted, Rational};
 
 /// The terms of `tr (ad_x)^4` up to a factor, by the operators of all basis elements; none where the Killing form is degenerate or the
 /// numbers are too long.
@@ -241,7 +241,7 @@ mod tests {
     use super::*;
     use crate::algebra::StructureConstants;
     use crate::algebra::known::{self, from_matrices, mixed};
-    use crate::exact::Fraction;
+    use lie_symbolic::exact::Fraction;
 
     fn operators_of(constants: &StructureConstants<Fraction>) -> Vec<Operator<Rational>> {
         let all: Vec<usize> = (0..constants.dimension()).collect();

@@ -5,8 +5,8 @@
 //! the dual is the sum of the eigenspaces, and functions of `ad*_x` are the sums of those on each.
 
 use super::operator::{Form, Operator};
-use crate::exact::matrix::reduce;
-use crate::exact::{Budget, Exhausted, Rational};
+use lie_symbolic::exact::matrix::reduce;
+use lie_symbolic::exact::{Budget, Exhausted, Rational};
 
 /// Larger components are left whole: the equations have the square of this many unknowns.
 const LARGEST: usize = 8;
@@ -155,7 +155,7 @@ fn eigenprojections(matrix: &Matrix, budget: &Budget) -> Result<Option<Vec<Matri
             if dimensions == size || roots.contains(&root) {
                 continue;
             }
-            let defect = size - crate::exact::matrix::rank(&shifted(&root), size);
+            let defect = size - lie_symbolic::exact::matrix::rank(&shifted(&root), size);
             if defect > 0 {
                 dimensions += defect;
                 roots.push(root);

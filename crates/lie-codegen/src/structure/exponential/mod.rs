@@ -16,8 +16,8 @@ mod operator;
 mod sample;
 
 use crate::algebra::StructureConstants;
-use crate::exact::{Budget, Exhausted, Fraction, Rational};
 use ideals::{Ideal, ideals};
+use lie_symbolic::exact::{Budget, Exhausted, Fraction, Rational};
 use operator::Operator;
 use sample::{Factors, Shape, factors};
 

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::Factor;
 use crate::algebra::StructureConstants;
-use crate::exact::{Budget, Exhausted, Fraction, Rational};
+use lie_symbolic::exact::{Budget, Exhausted, Fraction, Rational};
 
 /// The variable of `x_i` in polynomials is `FIRST + i`: parameters come before.
 const FIRST: usize = 1 << 20;

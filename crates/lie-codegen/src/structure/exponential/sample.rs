@@ -1,7 +1,7 @@
 //! The factors of the minimal polynomial at a random point, modulo a prime.
 
 use super::operator::Operator;
-use crate::exact::{Fraction, Residue};
+use lie_symbolic::exact::{Fraction, Residue};
 
 /// `z^a` times the rest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -85,7 +85,7 @@ fn at_random_point(operator: &Operator, places: &[usize]) -> Option<Entries> {
 /// A rational function of the parameters at a random point.
 fn residue(value: &Fraction) -> Option<Residue> {
     let parameter = |p: usize| Draw(!(p as u64)).number();
-    let of = |polynomial: &crate::exact::Polynomial| {
+    let of = |polynomial: &lie_symbolic::exact::Polynomial| {
         let mut sum = Residue::ZERO;
         for (monomial, coefficient) in polynomial.terms() {
             let mut term = Residue::of(coefficient)?;

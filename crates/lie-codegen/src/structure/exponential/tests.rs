@@ -166,7 +166,7 @@ fn in_another_basis(
                     }
                 }
             }
-            let solution = crate::exact::matrix::solve(&transposed, &bracket, &budget);
+            let solution = lie_symbolic::exact::matrix::solve(&transposed, &bracket, &budget);
             let solution = solution.expect("within the budget").expect("a basis");
             for (c, value) in solution.into_iter().enumerate() {
                 if !value.is_zero() {

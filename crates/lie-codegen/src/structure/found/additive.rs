@@ -1,7 +1,7 @@
 //! Expressions as sums of terms that are taken apart as far as that goes: `a*(x + y)^2` has three.
 
-use crate::exact::Rational;
-use crate::symbolic::{ExprId, Graph, Node};
+use lie_symbolic::exact::Rational;
+use lie_symbolic::symbolic::{ExprId, Graph, Node};
 
 /// More terms are not looked at.
 const MOST: usize = 2000;

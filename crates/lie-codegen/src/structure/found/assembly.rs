@@ -3,12 +3,12 @@
 use super::atoms::{self, Atom, Form};
 use super::invariants::Invariant;
 use super::{Classified, Conserved, Factor, Found, Piece};
-use crate::exact::{Budget, Fraction};
 use crate::model::Algebra;
 use crate::structure::exponential;
 use crate::structure::one_parameter::{self, Entry};
 use crate::structure::separable;
-use crate::symbolic::{ExprId, Graph, Symbol};
+use lie_symbolic::exact::{Budget, Fraction};
+use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 
 /// The pieces of a classification; `start` is H.
 pub(super) fn put_together(

@@ -3,9 +3,9 @@
 use std::collections::BTreeSet;
 
 use super::invariants::{self, Invariant};
-use crate::exact::{Budget, Exhausted, Fraction, Rational};
 use crate::model::Algebra;
-use crate::symbolic::{ExprId, Graph, Symbol};
+use lie_symbolic::exact::{Budget, Exhausted, Fraction, Rational};
+use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 
 /// A linear form `l = sum_i v_i x_i` by the entries of v that do not vanish: the element v of the algebra.
 pub(super) type Form = Vec<(usize, Fraction)>;

@@ -10,9 +10,9 @@ use super::atoms::{Atom, Commuting};
 use super::colouring;
 use super::invariants::Invariant;
 use super::search::{Work, classes};
-use crate::exact::Rational;
 use crate::model::Model;
-use crate::symbolic::{ExprId, Graph, Symbol};
+use lie_symbolic::exact::Rational;
+use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 
 /// Larger systems are not searched.
 const LARGEST: usize = 40;

@@ -1,6 +1,6 @@
 //! The fewest classes of things some of which are in conflict: a colouring of their graph.
 
-use crate::exact::Budget;
+use lie_symbolic::exact::Budget;
 
 /// A class for each vertex, none with two vertices in conflict: the fewest, where the budget allows to prove that, else few.
 /// Classes are numbered by their first vertices.

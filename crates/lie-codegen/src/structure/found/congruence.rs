@@ -7,8 +7,8 @@
 //! Source: J.-L. Lagrange, "Recherches sur la méthode de maximis et minimis", Miscellanea Taurinensia 1 (1759) 18–42.
 
 use super::atoms::{Atom, Commuting, Form};
-use crate::exact::{Budget, Exhausted, Fraction, Rational};
-use crate::symbolic::{ExprId, Graph, Node, Symbol};
+use lie_symbolic::exact::{Budget, Exhausted, Fraction, Rational};
+use lie_symbolic::symbolic::{ExprId, Graph, Node, Symbol};
 
 /// Larger systems are left as they are.
 const LARGEST: usize = 64;

@@ -14,10 +14,10 @@ use std::collections::BTreeSet;
 
 use super::additive;
 use crate::algebra::{StructureConstants, rank};
-use crate::exact::{Fraction, Polynomial, Rational};
 use crate::model::{self, Algebra};
 use crate::structure::casimirs::{self, Casimir};
-use crate::symbolic::{ExprId, Graph, Symbol};
+use lie_symbolic::exact::{Fraction, Polynomial, Rational};
+use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 
 /// The first symbol of a Casimir, beyond those of all arguments and definitions of kernels.
 const FIRST: usize = 1 << 26;
@@ -197,7 +197,7 @@ fn quadratic_casimirs(algebra: &Algebra, elements: &[usize]) -> Vec<Polynomial> 
             Casimir::Rational(_) => None,
         });
     let degree = |function: &Polynomial| {
-        let of = |m2: &crate::exact::Monomial| -> u32 {
+        let of = |m2: &lie_symbolic::exact::Monomial| -> u32 {
             m2.powers().filter(|(v, _)| *v < m).map(|(_, e)| e).sum()
         };
         function.terms().map(|(monomial, _)| of(monomial)).max()

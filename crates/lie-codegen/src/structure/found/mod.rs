@@ -29,10 +29,10 @@ mod search;
 use super::exponential::Exponential;
 use super::one_parameter::Block;
 use super::separable;
-use crate::exact::{Budget, Rational};
 use crate::model::{Bracket, Casimir, Model};
-use crate::symbolic::{ExprId, Graph};
 use atoms::{Atom, Commuting};
+use lie_symbolic::exact::{Budget, Rational};
+use lie_symbolic::symbolic::{ExprId, Graph};
 use search::{Search, Work};
 
 pub use report::{Terms, refusal, terms};

@@ -6,8 +6,8 @@
 
 use super::additive;
 use super::invariants::Invariant;
-use crate::exact::Rational;
-use crate::symbolic::{ExprId, Graph, Node};
+use lie_symbolic::exact::Rational;
+use lie_symbolic::symbolic::{ExprId, Graph, Node};
 
 /// Multiples that are tried in one sum.
 const MULTIPLES: usize = 400;

@@ -4,7 +4,7 @@ use super::atoms::{Atom, Commuting};
 use super::{Found, Searched, additive};
 use crate::model::Model;
 use crate::structure::{Structure, separable};
-use crate::symbolic::ExprId;
+use lie_symbolic::symbolic::ExprId;
 
 /// H as the sum of its pieces.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -4,9 +4,9 @@ use super::atoms::{Atom, Commuting};
 use super::congruence::{Order, Quadratic};
 use super::invariants::Invariant;
 use super::{Classified, additive, casimirs, colouring, recognition};
-use crate::exact::{Budget, Rational};
 use crate::model::Model;
-use crate::symbolic::{ExprId, Graph};
+use lie_symbolic::exact::{Budget, Rational};
+use lie_symbolic::symbolic::{ExprId, Graph};
 
 /// What work is left.
 #[derive(Clone, Copy)]

@@ -1,0 +1,377 @@
+//! The syntax tree that both front ends produce: nothing in it is resolved or checked yet.
+//!
+//! Sums and products are n-ary, so that the depth of the tree is the nesting of the text and a
+//! long sum cannot exhaust the stack. Names may carry indices and sums may run over an index:
+//! families of systems need both, so they are in the tree from the start.
+
+pub mod names;
+mod runtime;
+
+use crate::diagnostic::Origin;
+use lie_symbolic::exact::Rational;
+use lie_symbolic::symbolic::Opaque;
+
+pub use runtime::{NoPath, Runtime};
+
+/// A name and its place.
+#[derive(Clone, Debug)]
+pub struct Name {
+    /// The identifier.
+    pub text: String,
+    /// Where it stands.
+    pub origin: Origin,
+}
+
+/// An expression with its place.
+#[derive(Clone, Debug)]
+pub struct Expr {
+    /// What it is.
+    pub kind: ExprKind,
+    /// Where it stands.
+    pub origin: Origin,
+}
+
+/// The forms of an expression.
+#[derive(Clone, Debug)]
+pub enum ExprKind {
+    /// An exact constant.
+    Number(Rational),
+    /// A name, with an index if it belongs to a family.
+    Name {
+        /// The identifier.
+        name: String,
+        /// `x[i+1]`.
+        index: Option<Index>,
+    },
+    /// `-a`.
+    Negative(Box<Expr>),
+    /// `a + b - c`: the flag is true where a minus stands before the term.
+    Sum(Vec<(bool, Expr)>),
+    /// `a * b / c`: the flag is true where the factor divides.
+    Product(Vec<(bool, Expr)>),
+    /// `a ^ b`.
+    Power(Box<Expr>, Box<Expr>),
+    /// `f(a, …)`.
+    Call {
+        /// The function.
+        function: Name,
+        /// Its arguments.
+        arguments: Vec<Expr>,
+    },
+    /// `sum(i in 0..N: body)`.
+    IndexedSum {
+        /// The running index.
+        index: Name,
+        /// First value.
+        from: Box<Expr>,
+        /// One past the last value.
+        to: Box<Expr>,
+        /// The summand.
+        body: Box<Expr>,
+    },
+}
+
+/// An index `i + offset` (modulo the size of the family) or a constant one.
+#[derive(Clone, Debug)]
+pub struct Index {
+    /// The running index, if there is one.
+    pub variable: Option<Name>,
+    /// What is added to it.
+    pub offset: i64,
+    /// The second index of a lattice.
+    pub second: Option<Box<Index>>,
+}
+
+/// The number of sites of a family along one axis.
+#[derive(Clone, Debug)]
+pub enum Size {
+    /// A number.
+    Number(usize, Origin),
+    /// The value of a parameter, which a run may set.
+    Parameter(Name),
+}
+
+impl Size {
+    /// Where it stands.
+    pub fn origin(&self) -> Origin {
+        match self {
+            Self::Number(_, origin) => *origin,
+            Self::Parameter(name) => name.origin,
+        }
+    }
+}
+
+/// What makes a declaration that of a family `A^N`: its algebra and its state are those of a site.
+#[derive(Clone, Debug)]
+pub struct Family {
+    /// The number of sites, of a lattice rows and columns.
+    pub sizes: Vec<Size>,
+    /// The indices in the names of the state.
+    pub indices: Vec<Name>,
+    /// Where a run starts.
+    pub start: Option<Start>,
+}
+
+/// The initial state of a family.
+#[derive(Clone, Debug)]
+pub enum Start {
+    /// A point on the unit sphere for each site, at random with a seed.
+    UnitSpheres(u64),
+    /// The numbers of a file in NumPy's format; the path is relative to that of the spec.
+    File(Name),
+}
+
+/// `[left, right] = value` of basis elements, or `{left, right} = value` of coordinates.
+#[derive(Clone, Debug)]
+pub struct Bracket {
+    /// First name.
+    pub left: Name,
+    /// Second name.
+    pub right: Name,
+    /// Linear in basis names; of coordinates a function of the state.
+    pub value: Expr,
+    /// The whole bracket.
+    pub origin: Origin,
+}
+
+/// The matrix that represents one basis element.
+#[derive(Clone, Debug)]
+pub struct Matrix {
+    /// The basis name.
+    pub name: Name,
+    /// Rows of exact entries.
+    pub rows: Vec<Vec<Expr>>,
+    /// The whole matrix.
+    pub origin: Origin,
+}
+
+/// A Lie algebra as it was written.
+#[derive(Clone, Debug)]
+pub struct Algebra {
+    /// Names of the basis.
+    pub basis: Vec<Name>,
+    /// The brackets; `None` where the key is absent, so that matrices may define them.
+    pub brackets: Option<Vec<Bracket>>,
+    /// A matrix representation.
+    pub matrices: Vec<Matrix>,
+    /// The whole block.
+    pub origin: Origin,
+}
+
+/// What gives the Poisson bracket of the coordinates.
+#[derive(Clone, Debug)]
+pub enum Structure {
+    /// The Lie–Poisson bracket of an algebra, and brackets of coordinates that are added to it.
+    Lie {
+        /// The algebra.
+        algebra: Algebra,
+        /// The constants that are added; none where the key is absent.
+        cocycle: Vec<Bracket>,
+    },
+    /// The brackets of the coordinates, one by one.
+    General {
+        /// The brackets.
+        brackets: Vec<Bracket>,
+        /// The whole block.
+        origin: Origin,
+    },
+}
+
+/// A parameter with its default.
+#[derive(Clone, Debug)]
+pub struct Parameter {
+    /// Its name.
+    pub name: Name,
+    /// Its default, an expression in constants.
+    pub default: Expr,
+    /// Whether brackets may use it (as an exact number).
+    pub exact: bool,
+    /// Whether it takes positive values only.
+    pub positive: bool,
+    /// Unit, for people, as Markdown within a line.
+    pub unit: Option<String>,
+    /// Description, for people, as Markdown.
+    pub description: Option<String>,
+}
+
+/// A Casimir; an unnamed one is named later.
+#[derive(Clone, Debug)]
+pub struct Casimir {
+    /// `NAME =`, if it was there.
+    pub name: Option<Name>,
+    /// The function.
+    pub value: Expr,
+}
+
+/// The function that gives the equations of motion.
+#[derive(Clone, Debug)]
+pub enum Energy {
+    /// H(mu).
+    Hamiltonian(Expr),
+    /// The reduced Lagrangian l(xi) and the names of the components of the velocity xi.
+    Lagrangian {
+        /// One name for each basis element.
+        velocity: Vec<Name>,
+        /// The function.
+        value: Expr,
+    },
+    /// A discrete Lagrangian l_d of one step of size `h`, in the coordinates x of a retraction.
+    DiscreteLagrangian {
+        /// The names of x, one for each basis element.
+        velocity: Vec<Name>,
+        /// The function.
+        value: Expr,
+    },
+}
+
+impl Energy {
+    /// The function.
+    pub fn expression(&self) -> &Expr {
+        match self {
+            Self::Hamiltonian(value)
+            | Self::Lagrangian { value, .. }
+            | Self::DiscreteLagrangian { value, .. } => value,
+        }
+    }
+
+    /// The names of the velocity of a Lagrangian, or of the coordinates of a discrete one; none of a Hamiltonian.
+    pub fn velocity(&self) -> &[Name] {
+        match self {
+            Self::Hamiltonian(_) => &[],
+            Self::Lagrangian { velocity, .. } | Self::DiscreteLagrangian { velocity, .. } => {
+                velocity
+            }
+        }
+    }
+
+    /// Whether it may contain the step size `h`.
+    pub fn has_step(&self) -> bool {
+        matches!(self, Self::DiscreteLagrangian { .. })
+    }
+}
+
+/// A realization of the bracket: a map from canonical coordinates (q, p) to the state.
+#[derive(Clone, Debug)]
+pub struct Realization {
+    /// Names of the positions q.
+    pub positions: Vec<Name>,
+    /// Names of the momenta p.
+    pub momenta: Vec<Name>,
+    /// `STATE = expression` for each coordinate.
+    pub map: Vec<(Name, Expr)>,
+    /// A point (q, p) near which points over a state are sought.
+    pub start: Option<Vec<Expr>>,
+    /// The whole declaration.
+    pub origin: Origin,
+}
+
+impl Realization {
+    /// Positions, then momenta.
+    pub fn names(&self) -> impl Iterator<Item = &Name> {
+        self.positions.iter().chain(&self.momenta)
+    }
+}
+
+/// Which invariance the system has; the right-invariant one has the opposite sign.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Invariance {
+    /// `mu' = ad*_{grad H} mu`.
+    #[default]
+    Left,
+    /// `mu' = -ad*_{grad H} mu`.
+    Right,
+}
+
+/// One entry of `run`: option name (as on the command line, without dashes) and its text.
+#[derive(Clone, Debug)]
+pub struct RunOption {
+    /// The option.
+    pub name: Name,
+    /// Its values: one for most options, several for `at`.
+    pub values: Vec<(String, Origin)>,
+}
+
+/// A whole declaration.
+#[derive(Clone, Debug)]
+pub struct Declaration {
+    /// Visibility tokens of the macro form (`pub`, `pub(crate)`, nothing); `pub` for specs.
+    pub visibility: proc_macro2::TokenStream,
+    /// Name of the system.
+    pub name: Name,
+    /// Doc lines (macro, as the user wrote them) or the description (spec, escaped to Markdown).
+    pub description: Vec<String>,
+    /// References, for people, as Markdown within a line.
+    pub references: Vec<String>,
+    /// The algebra, or the brackets of the coordinates.
+    pub structure: Structure,
+    /// The name of the group element, where functions may use its entries.
+    pub group: Option<Name>,
+    /// Names of the coordinates of `mu`; of a family those of a site.
+    pub state: Vec<Name>,
+    /// Present where the system is many copies of the algebra.
+    pub family: Option<Family>,
+    /// The parameters.
+    pub parameters: Vec<Parameter>,
+    /// Functions of Rust.
+    pub functions: Vec<OwnFunction>,
+    /// Abbreviations, each may use the earlier ones.
+    pub lets: Vec<(Name, Expr)>,
+    /// The Hamiltonian or the Lagrangian.
+    pub energy: Energy,
+    /// A realization, for collective methods.
+    pub realization: Option<Realization>,
+    /// Declared Casimirs.
+    pub casimirs: Vec<Casimir>,
+    /// Methods that get fused code.
+    pub methods: Vec<Name>,
+    /// Left or right invariance.
+    pub invariance: Invariance,
+    /// The initial state, expressions in constants and parameters.
+    pub initial: Option<Vec<Expr>>,
+    /// Where `initial` stands.
+    pub initial_origin: Option<Origin>,
+    /// Defaults of `lie run`.
+    pub run: Vec<RunOption>,
+}
+
+/// A function that is written in Rust.
+#[derive(Clone, Debug)]
+pub struct OwnFunction {
+    /// Its name in expressions.
+    pub name: Name,
+    /// What is known of it.
+    pub function: Opaque,
+    /// Its paths, each as text and as tokens at their places.
+    pub paths: Vec<(String, proc_macro2::TokenStream)>,
+}
+
+impl Declaration {
+    /// The algebra, if there is one.
+    pub fn algebra(&self) -> Option<&Algebra> {
+        match &self.structure {
+            Structure::Lie { algebra, .. } => Some(algebra),
+            Structure::General { .. } => None,
+        }
+    }
+
+    /// Names of the basis of the algebra; none where there is no algebra.
+    pub fn basis(&self) -> &[Name] {
+        self.algebra().map_or(&[], |algebra| &algebra.basis)
+    }
+
+    /// The number of coordinates that the bracket asks for.
+    pub fn dimension(&self) -> usize {
+        match &self.structure {
+            Structure::Lie { algebra, .. } => algebra.basis.len(),
+            Structure::General { .. } => self.state.len(),
+        }
+    }
+
+    /// Where the bracket is declared.
+    pub fn place(&self) -> Origin {
+        match &self.structure {
+            Structure::Lie { algebra, .. } => algebra.origin,
+            Structure::General { origin, .. } => *origin,
+        }
+    }
+}

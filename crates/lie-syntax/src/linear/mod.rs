@@ -1,0 +1,358 @@
+//! Expressions that are linear in basis names, with rational functions of exact parameters as
+//! coefficients: the right sides of brackets, and exact constants as the case without names.
+
+mod scope;
+pub mod walk;
+
+use std::collections::BTreeMap;
+
+use crate::ast::{Expr, ExprKind, Name};
+use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
+use crate::suggest::listed;
+use lie_symbolic::exact::{Budget, Exhausted, Fraction, Rational};
+use lie_symbolic::symbolic::Function;
+use scope::Meaning;
+use walk::{Lower, MAX_EXPONENT, Operand, Operands};
+
+pub use scope::Scope;
+
+/// Work allowed for the exact checks of one algebra: seconds, not minutes.
+pub const WORK: u64 = 20_000_000;
+
+/// `constant + sum of coefficient * e_k`.
+#[derive(Clone, Debug, Default)]
+struct Form {
+    constant: Fraction,
+    linear: BTreeMap<usize, Fraction>,
+}
+
+impl Form {
+    fn is_scalar(&self) -> bool {
+        self.linear.values().all(Fraction::is_zero)
+    }
+}
+
+impl From<Fraction> for Form {
+    fn from(constant: Fraction) -> Self {
+        Self {
+            constant,
+            linear: BTreeMap::new(),
+        }
+    }
+}
+
+/// Lowers one expression, reporting every mistake in it.
+struct Lowering<'a, 'b> {
+    /// `None` for constants, which know no names.
+    scope: Option<&'b Scope<'a>>,
+    report: &'b mut Report,
+    budget: &'b Budget,
+}
+
+/// The right side of a bracket: the nonzero coefficients by basis index.
+pub fn bracket_value(
+    value: &Expr,
+    scope: &Scope<'_>,
+    budget: &Budget,
+    report: &mut Report,
+) -> Option<Vec<(usize, Fraction)>> {
+    let form = Lowering {
+        scope: Some(scope),
+        report,
+        budget,
+    }
+    .walk(value)?;
+    if !form.constant.is_zero() {
+        let constant = form.constant.display(&|p| scope.parameter(p));
+        report.push(
+            Diagnostic::new(
+                Kind::Syntax,
+                constant_term(value, scope, budget).unwrap_or(value.origin),
+                format!("the right side of a bracket is linear in the basis, but it has the constant term {constant}"),
+            )
+            .help("write a linear combination of basis names, or 0"),
+        );
+        return None;
+    }
+    if form.linear.values().any(|c| degree(c) > MAX_EXPONENT) {
+        let message = format!("a coefficient has a degree above {MAX_EXPONENT} in the parameters");
+        report
+            .push(Diagnostic::new(Kind::Limit, value.origin, message).help("simplify the bracket"));
+        return None;
+    }
+    Some(
+        form.linear
+            .into_iter()
+            .filter(|(_, c)| !c.is_zero())
+            .collect(),
+    )
+}
+
+/// A linear combination with rational coefficients: those that are not zero, by basis index.
+pub fn rational_form(
+    value: &Expr,
+    scope: &Scope<'_>,
+    budget: &Budget,
+    report: &mut Report,
+) -> Option<BTreeMap<usize, Rational>> {
+    let terms = bracket_value(value, scope, budget, report)?.into_iter();
+    terms
+        .map(|(k, value)| Some((k, value.as_constant()?)))
+        .collect()
+}
+
+/// The largest total degree in numerator and denominator.
+fn degree(value: &Fraction) -> i64 {
+    let below = value
+        .denominator()
+        .map(|(f, e)| i64::from(f.degree()).saturating_mul(e.into()));
+    below.fold(i64::from(value.numerator().degree()), i64::max)
+}
+
+/// The place of the first term that has a constant part.
+fn constant_term(value: &Expr, scope: &Scope<'_>, budget: &Budget) -> Option<Origin> {
+    let ExprKind::Sum(terms) = &value.kind else {
+        return None;
+    };
+    let mut report = Report::new();
+    let mut lower = |term| {
+        Lowering {
+            scope: Some(scope),
+            report: &mut report,
+            budget,
+        }
+        .walk(term)
+    };
+    let found = terms
+        .iter()
+        .find(|(_, term)| lower(term).is_some_and(|form| !form.constant.is_zero()));
+    report.ignore("the terms were lowered before, as parts of the value");
+    found.map(|(_, term)| term.origin)
+}
+
+/// The value of an exact rational constant; anything else is reported.
+pub fn rational(value: &Expr, budget: &Budget, report: &mut Report) -> Option<Rational> {
+    Lowering {
+        scope: None,
+        report,
+        budget,
+    }
+    .walk(value)?
+    .constant
+    .as_constant()
+}
+
+impl Lowering<'_, '_> {
+    fn limited<T>(&mut self, result: Result<T, Exhausted>, origin: Origin) -> Option<T> {
+        result
+            .or_else(|Exhausted| {
+                self.fail(
+                    Kind::Limit,
+                    origin,
+                    "this expression is too large to be expanded exactly",
+                    "simplify it; powers of sums grow fast",
+                )
+                .ok_or(())
+            })
+            .ok()
+    }
+
+    /// What is said of anything that is not rational.
+    fn irrational<T>(&mut self, origin: Origin, what: &str) -> Option<T> {
+        let (kind, rule) = match self.scope {
+            Some(_) => (
+                Kind::Syntax,
+                "the right side of a bracket is linear in the basis, with rational functions of exact parameters as coefficients",
+            ),
+            None => (Kind::Number, "an exact rational constant is expected here"),
+        };
+        let help = match self.scope {
+            Some(_) => "write a linear combination of basis names, such as 2*e1 - k^2*e2",
+            None => "write an integer, a fraction such as 1/2, or a decimal number",
+        };
+        self.report
+            .push(Diagnostic::new(kind, origin, format!("{what}: {rule}")).help(help));
+        None
+    }
+
+    fn scale(&mut self, form: &Form, factor: &Fraction, origin: Origin) -> Option<Form> {
+        let budget = self.budget;
+        let constant = self.limited(form.constant.mul(factor, budget), origin)?;
+        let mut linear = BTreeMap::new();
+        for (k, value) in &form.linear {
+            linear.insert(*k, self.limited(value.mul(factor, budget), origin)?);
+        }
+        Some(Form { constant, linear })
+    }
+}
+
+impl Lower for Lowering<'_, '_> {
+    type Value = Form;
+
+    fn report(&mut self) -> &mut Report {
+        self.report
+    }
+
+    fn number(&mut self, value: &Rational) -> Form {
+        Fraction::from(value.clone()).into()
+    }
+
+    fn negative(&mut self, value: Form, origin: Origin) -> Option<Form> {
+        self.scale(&value, &Fraction::from(Rational::MINUS_ONE), origin)
+    }
+
+    fn sum(&mut self, terms: Operands<Form>, origin: Origin) -> Option<Form> {
+        let budget = self.budget;
+        let mut sum = Form::default();
+        for term in terms {
+            let sign = term.sign();
+            let form = term.value?;
+            let added = sum.constant.add(&form.constant.scale(&sign), budget);
+            sum.constant = self.limited(added, origin)?;
+            for (k, value) in form.linear {
+                let entry = sum.linear.entry(k).or_default();
+                let added = entry.add(&value.scale(&sign), budget);
+                *entry = self.limited(added, origin)?;
+            }
+        }
+        Some(sum)
+    }
+
+    fn product(&mut self, factors: Operands<Form>, origin: Origin) -> Option<Form> {
+        let mut product = Form::from(Fraction::from(Rational::ONE));
+        for factor in factors {
+            let form = factor.value?;
+            if factor.turned {
+                if !form.is_scalar() {
+                    return self.irrational(origin, "a basis name stands in a denominator");
+                }
+                let inverse = form.constant.recip(self.budget);
+                let Some(inverse) = self.limited(inverse, factor.origin)? else {
+                    return self.division_by_zero(factor.origin);
+                };
+                product = self.scale(&product, &inverse, origin)?;
+            } else if form.is_scalar() {
+                product = self.scale(&product, &form.constant, origin)?;
+            } else if product.is_scalar() {
+                product = self.scale(&form, &product.constant, origin)?;
+            } else {
+                return self.irrational(origin, "a product of basis names");
+            }
+        }
+        Some(product)
+    }
+
+    fn power(
+        &mut self,
+        base: Operand<Form>,
+        exponent: Operand<Form>,
+        origin: Origin,
+    ) -> Option<Form> {
+        let constant = exponent.value.constant.as_constant();
+        let integer = constant
+            .filter(|_| exponent.value.linear.is_empty())
+            .filter(Rational::is_integer);
+        let Some(integer) = integer else {
+            return self.irrational(exponent.origin, "an exponent that is not an integer");
+        };
+        let small = |e: &i64| (-MAX_EXPONENT..=MAX_EXPONENT).contains(e);
+        let Some(integer) = integer.to_integer().filter(small) else {
+            return self.large_exponent(exponent.origin);
+        };
+        if integer == 1 {
+            return Some(base.value);
+        }
+        if !base.value.is_scalar() {
+            return self.irrational(origin, "a power of a basis name");
+        }
+        let power = base.value.constant.pow(integer as i32, self.budget);
+        match self.limited(power, origin)? {
+            Some(power) => Some(power.into()),
+            None => self.power_of_zero(base.origin),
+        }
+    }
+
+    fn call(&mut self, function: &Name, _: Operands<Form>, origin: Origin) -> Option<Form> {
+        let name = &function.text;
+        if Function::is_name(name) {
+            return self.irrational(origin, &format!("`{name}` is not rational"));
+        }
+        self.unknown_function(
+            function,
+            "coefficients are rational: they have no functions",
+        )
+    }
+
+    fn name(&mut self, name: &str, origin: Origin) -> Option<Form> {
+        if name == "pi" || name == "t" {
+            return self.irrational(origin, &format!("`{name}` is not rational"));
+        }
+        let Some(scope) = self.scope else {
+            self.report.push(
+                Diagnostic::new(Kind::Number, origin, format!("`{name}` is not a number"))
+                    .help("write an exact rational constant, such as 1/2"),
+            );
+            return None;
+        };
+        let wrong = match scope.meaning(name) {
+            Some(Meaning::Basis(k)) => {
+                let linear = BTreeMap::from([(k, Fraction::from(Rational::ONE))]);
+                return Some(Form {
+                    constant: Fraction::default(),
+                    linear,
+                });
+            }
+            Some(Meaning::Exact(parameter)) => return Some(Fraction::variable(parameter).into()),
+            other => not_in_brackets(name, origin, other, scope),
+        };
+        self.report.push(wrong);
+        None
+    }
+}
+
+/// A name that is declared for something else, or not at all.
+fn not_in_brackets(
+    name: &str,
+    origin: Origin,
+    meaning: Option<Meaning>,
+    scope: &Scope<'_>,
+) -> Diagnostic {
+    match meaning {
+        Some(Meaning::Inexact) => Diagnostic::new(
+            Kind::UnknownSymbol,
+            origin,
+            format!("the parameter `{name}` is not exact, so a bracket cannot use it"),
+        )
+        .help(format!(
+            "declare it exact: `exact {name} = …;` in the macro, `\"exact\": true` in a spec"
+        )),
+        Some(Meaning::Let) => Diagnostic::new(
+            Kind::UnknownSymbol,
+            origin,
+            format!(
+                "`{name}` is an abbreviation; a bracket knows basis names and exact parameters only"
+            ),
+        )
+        .help("write it out"),
+        Some(Meaning::Coordinate) => Diagnostic::new(
+            Kind::UnknownSymbol,
+            origin,
+            format!("`{name}` is a coordinate; a bracket is written in basis names"),
+        )
+        .help(format!("the basis is {}", scope.basis().join(", "))),
+        _ => {
+            let diagnostic = Diagnostic::new(
+                Kind::UnknownSymbol,
+                origin,
+                format!("`{name}` is neither a basis name nor an exact parameter"),
+            );
+            match scope.nearest_basis(name) {
+                Some(near) => diagnostic.help(format!("did you mean `{near}`?")),
+                None => diagnostic.help(format!(
+                    "the basis is {}: add it, or declare it as an exact parameter",
+                    listed(scope.basis())
+                )),
+            }
+        }
+    }
+}
