@@ -44,6 +44,16 @@ impl FreeRigidBody<f64> {
 
 #[allow(non_snake_case)]
 impl<S: ::lie_runtime::Scalar> FreeRigidBody<S> {
+    /// The parameters from their values, in the order of the declaration.
+    #[must_use]
+    pub fn from_values(_values: &[S; 3]) -> Self {
+        Self {
+            I1: _values[0],
+            I2: _values[1],
+            I3: _values[2],
+        }
+    }
+
     /// The system for these parameters; what depends on them alone is computed here, once.
     ///
     /// # Errors
@@ -150,19 +160,6 @@ impl<S> FreeRigidBodySystem<S> {
     #[must_use]
     pub fn parameters(&self) -> &FreeRigidBody<S> {
         &self._parameters
-    }
-}
-
-#[allow(non_snake_case)]
-impl<S: ::lie_runtime::Scalar> FreeRigidBody<S> {
-    /// The parameters from their values, in the order of the declaration.
-    #[must_use]
-    pub fn from_values(_values: &[S; 3]) -> Self {
-        Self {
-            I1: _values[0],
-            I2: _values[1],
-            I3: _values[2],
-        }
     }
 }
 

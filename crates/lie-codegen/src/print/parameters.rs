@@ -57,6 +57,7 @@ impl Printer<'_> {
             quote! { #[doc(hidden)] pub _scalar: ::core::marker::PhantomData<S> }
         });
         let marker_value = self.marker();
+        let (count, places) = (index(names.len()), (0..names.len()).map(index));
         let build = self.build();
         let errors = if self.plan.parameters.iter().any(|p| p.positive) {
             " If a parameter that must be positive is not, or a constant that the system needs is not finite."
@@ -98,6 +99,12 @@ impl Printer<'_> {
 
             #[allow(non_snake_case)]
             impl<S: ::lie_runtime::Scalar> #name<S> {
+                #[doc = " The parameters from their values, in the order of the declaration."]
+                #[must_use]
+                pub fn from_values(_values: &[S; #count]) -> Self {
+                    Self { #(#names: _values[#places],)* #marker_value }
+                }
+
                 #[doc = #what]
                 #[doc = ""]
                 #[doc = " # Errors"]
@@ -184,9 +191,6 @@ impl Printer<'_> {
             quote! { #[doc = #doc] #field: S }
         });
         let doc = format!(" The system [`{name}`] with its derived constants.");
-        let names = self.parameters_by_name();
-        let (count, places) = (index(names.len()), (0..names.len()).map(index));
-        let marker = self.marker();
         let branch = self.has_branches().then(|| {
             let size = index(self.plan.dimension());
             quote! {
@@ -209,15 +213,6 @@ impl Printer<'_> {
                 #[must_use]
                 pub fn parameters(&self) -> &#name<S> {
                     &self._parameters
-                }
-            }
-
-            #[allow(non_snake_case)]
-            impl<S: ::lie_runtime::Scalar> #name<S> {
-                #[doc = " The parameters from their values, in the order of the declaration."]
-                #[must_use]
-                pub fn from_values(_values: &[S; #count]) -> Self {
-                    Self { #(#names: _values[#places],)* #marker }
                 }
             }
         }
