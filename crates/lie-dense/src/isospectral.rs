@@ -215,7 +215,7 @@ impl<M: StreamMap> Stepper<f64> for IsospectralStepper<'_, M> {
         };
         self.finish(mu);
         self.predictor.record(self.midpoint.as_slice());
-        if K::ACTIVE {
+        if sink.is_active() {
             // h grad H in the coordinates of the algebra, which are paired with those of the state
             self.stream.weigh(-self.step);
             sink.push(Retraction::Cayley, &self.stream);

@@ -316,7 +316,7 @@ impl<S: Scalar> Stepper<S> for StraightStepper<'_, S> {
         if self.wait.is_over(length) {
             self.compile();
         }
-        let whole = self.whole.as_mut().filter(|_| !K::ACTIVE);
+        let whole = self.whole.as_mut().filter(|_| !sink.is_active());
         let whole = whole.map(|whole| (whole.run(self.system, &self.step_size, mu), whole));
         match (whole, &mut self.apart) {
             (Some((good, whole)), None) => whole.accept(good, mu),

@@ -161,7 +161,7 @@ fn the_motion_on_the_group_is_shown_all_the_same() {
     for choice in explicit() {
         let hurried = both.compiled.clone().without_patience();
         let shown = |system| {
-            let (mut mu, mut motions) = (mu.clone(), Motions(Vec::new()));
+            let (mut mu, mut motions) = (mu.clone(), Motions::new());
             let mut stepper = stepper(system, &choice, 0.1);
             stepper.step(&mut mu).unwrap();
             stepper.step_with_motions(&mut mu, &mut motions).unwrap();

@@ -61,14 +61,52 @@ pub enum GroupMotion<V> {
     Velocity(RungeKutta, Stage, V),
 }
 
-/// The motion of one step on the group, in order.
+/// The motion of one step on the group, in order, where it is asked for.
+///
+/// Whether it is asked for is known when the program runs, so that the steps of a method whose type is forgotten are compiled
+/// once and not twice.
 #[derive(Clone, Debug)]
-pub struct Motions<V>(pub Vec<GroupMotion<V>>);
+pub struct Motions<V> {
+    shown: Vec<GroupMotion<V>>,
+    is_active: bool,
+}
+
+impl<V> Default for Motions<V> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
 
 impl<V> Motions<V> {
+    /// Of steps whose motion is asked for.
+    pub const fn new() -> Self {
+        Self {
+            shown: Vec::new(),
+            is_active: true,
+        }
+    }
+
+    /// Of steps whose motion nobody asks for.
+    const fn unasked() -> Self {
+        Self {
+            shown: Vec::new(),
+            is_active: false,
+        }
+    }
+
+    /// Whether nothing was shown.
+    pub const fn is_empty(&self) -> bool {
+        self.shown.is_empty()
+    }
+
+    /// Forgets what was shown.
+    pub fn clear(&mut self) {
+        self.shown.clear();
+    }
+
     /// Shows the same to another.
     pub fn show(&self, sink: &mut impl FactorSink<V>) {
-        for shown in &self.0 {
+        for shown in &self.shown {
             match shown {
                 GroupMotion::Factor(retraction, xi) => sink.push(*retraction, xi),
                 GroupMotion::Velocity(method, stage, xi) => sink.push_velocity(*method, *stage, xi),
@@ -78,13 +116,21 @@ impl<V> Motions<V> {
 }
 
 impl<V: Clone> FactorSink<V> for Motions<V> {
+    fn is_active(&self) -> bool {
+        self.is_active
+    }
+
     fn push(&mut self, retraction: Retraction, xi: &V) {
-        self.0.push(GroupMotion::Factor(retraction, xi.clone()));
+        if self.is_active {
+            self.shown.push(GroupMotion::Factor(retraction, xi.clone()));
+        }
     }
 
     fn push_velocity(&mut self, method: RungeKutta, stage: Stage, xi: &V) {
-        self.0
-            .push(GroupMotion::Velocity(method, stage, xi.clone()));
+        if self.is_active {
+            self.shown
+                .push(GroupMotion::Velocity(method, stage, xi.clone()));
+        }
     }
 }
 
@@ -113,7 +159,7 @@ pub trait AnyStepper<S, V> {
 
 impl<S: Scalar, V: State<S>, T: Stepper<S, State = V>> AnyStepper<S, V> for T {
     fn step(&mut self, mu: &mut V) -> Result<StepReport, StepFailure> {
-        Stepper::step(self, mu, &mut ())
+        Stepper::step(self, mu, &mut Motions::unasked())
     }
 
     fn step_with_motions(
@@ -126,8 +172,9 @@ impl<S: Scalar, V: State<S>, T: Stepper<S, State = V>> AnyStepper<S, V> for T {
 
     fn advance(&mut self, mu: &mut V, steps: u64) -> Result<Stats, (u64, StepFailure)> {
         let mut stats = Stats::default();
+        let mut motions = Motions::unasked();
         for step in 0..steps {
-            match Stepper::step(self, mu, &mut ()) {
+            match Stepper::step(self, mu, &mut motions) {
                 Ok(report) => stats.add(&report),
                 Err(failure) => return Err((step, failure)),
             }
@@ -201,7 +248,7 @@ impl<S: Scalar, P: Poisson<S>> Method<S, P> for Forgotten<'_, P, S> {
     fn stepper<'a>(&self, system: &'a P, h: S, newton: &NewtonOptions) -> Self::Stepper<'a> {
         ForgottenStepper {
             stepper: self.0.any_stepper(system, h, newton),
-            motions: Motions(Vec::new()),
+            motions: Motions::new(),
         }
     }
 }
@@ -214,10 +261,10 @@ impl<S: Scalar, V: State<S>> Stepper<S> for ForgottenStepper<'_, V, S> {
         mu: &mut V,
         sink: &mut K,
     ) -> Result<StepReport, StepFailure> {
-        if !K::ACTIVE {
+        if !sink.is_active() {
             return self.stepper.step(mu);
         }
-        self.motions.0.clear();
+        self.motions.clear();
         let report = self.stepper.step_with_motions(mu, &mut self.motions);
         self.motions.show(sink);
         report

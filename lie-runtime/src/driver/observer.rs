@@ -91,7 +91,9 @@ impl<'a, S, P, O> MotionSink<'a, S, P, O> {
 }
 
 impl<S: Scalar, P: Poisson<S>, O: Observer<S, P>> FactorSink<P::State> for MotionSink<'_, S, P, O> {
-    const ACTIVE: bool = O::MOTION;
+    fn is_active(&self) -> bool {
+        O::MOTION
+    }
 
     fn push(&mut self, retraction: Retraction, xi: &P::State) {
         let motion = Motion::Factor(retraction, xi);

@@ -181,7 +181,9 @@ struct Masked<'a, S: Scalar, V, K> {
 }
 
 impl<S: Scalar, V: State<S>, K: FactorSink<V>> FactorSink<V> for Masked<'_, S, V, K> {
-    const ACTIVE: bool = K::ACTIVE;
+    fn is_active(&self) -> bool {
+        self.sink.is_active()
+    }
 
     fn push(&mut self, retraction: Retraction, xi: &V) {
         self.factor.copy_from(xi);
@@ -260,7 +262,7 @@ impl<S: Scalar, T: Stepper<S>> Stepper<S> for ComposeStepper<S, T> {
         let outcome = stages.run(&mut ());
         let failed = failed_lanes::<S>(outcome.as_ref().err());
         mu.assign_where(!failed, &stages.state);
-        if K::ACTIVE && !failed.all() {
+        if sink.is_active() && !failed.all() {
             // Only after the last stage it is known which lanes have no factors to give away; the
             // second run is the same as the first.
             let _same = stages.run(&mut Masked::<S, _, _> {

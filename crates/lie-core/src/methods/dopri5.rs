@@ -331,7 +331,7 @@ impl<S: Scalar, P: Poisson<S>> Stepper<S> for Dopri5Stepper<'_, S, P> {
             let accepted = progress.active & error.less_equal(S::one()) & self.point.finite();
             self.adapt(&mut progress, (size, last), error, accepted);
             progress.covered = S::select(accepted, progress.covered + size, progress.covered);
-            if K::ACTIVE && accepted.any() {
+            if sink.is_active() && accepted.any() {
                 self.give_velocities(self.sign * size, accepted, sink);
             }
             self.current.assign_where(accepted, &self.point);

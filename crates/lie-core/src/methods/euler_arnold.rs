@@ -95,7 +95,7 @@ impl<S: Scalar, P: CotangentPoisson<S>> Stepper<S> for EulerArnoldStepper<'_, S,
             self.half
                 .with_solution(|equation, _| equation.set_half(half));
             let outcome = self.half.step(&mut self.next, &mut ());
-            if K::ACTIVE {
+            if sink.is_active() {
                 let found = self.half.with_solution(EulerArnoldHalf::factors);
                 for (factor, xi) in factors.iter_mut().zip(found) {
                     factor.copy_from(xi);
@@ -118,7 +118,7 @@ impl<S: Scalar, P: CotangentPoisson<S>> Stepper<S> for EulerArnoldStepper<'_, S,
         }
         let failed = S::Mask::from_bits(failure.map_or(0, |failure| failure.lanes));
         mu.assign_where(!failed, &self.next);
-        if K::ACTIVE && !failed.all() {
+        if sink.is_active() && !failed.all() {
             for factor in &mut self.factors {
                 clear(factor, failed);
                 sink.push(Retraction::Exp, factor);

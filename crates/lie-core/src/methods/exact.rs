@@ -204,7 +204,7 @@ impl<S: Scalar, P: IntegrablePoisson<S>> Stepper<S> for ExactStepper<'_, S, P> {
             }
         }
         let good = self.next.finite();
-        if K::ACTIVE && good.any() {
+        if sink.is_active() && good.any() {
             if motion == Motion::Uniform {
                 super::implicit::clear(&mut self.place, !good);
                 sink.push(Retraction::Exp, &self.place);

@@ -16,7 +16,7 @@ pub(super) fn accept<S: Scalar, V: State<S>, K: FactorSink<V>>(
 ) -> Result<StepReport, StepFailure> {
     let finite = next.finite();
     mu.assign_where(finite, next);
-    if K::ACTIVE && finite.any() {
+    if sink.is_active() && finite.any() {
         for factor in factors {
             for entry in factor.as_mut_slice() {
                 *entry = S::select(finite, *entry, S::zero());

@@ -165,7 +165,7 @@ impl<S: Scalar, E: Equation<S>> Stepper<S> for ImplicitStepper<S, E> {
         sink: &mut K,
     ) -> Result<StepReport, StepFailure> {
         let outcome = self.advance(mu);
-        if K::ACTIVE {
+        if sink.is_active() {
             let failed = S::Mask::from_bits(outcome.map_or_else(|failure| failure.lanes, |_| 0));
             // the state at the end has been taken over: its place is free
             let factor = &mut self.next;

@@ -174,7 +174,7 @@ where
         let solved = self.stages.iterate(|at, slopes| {
             L::flow(wide, labels, at.points, slopes);
         });
-        if K::ACTIVE {
+        if sink.is_active() {
             self.stages.base_into(self.point.as_mut_slice());
         }
         self.stages.advance();
@@ -194,7 +194,7 @@ where
         };
         let finite = self.next.finite();
         let good = solved.converged & finite;
-        if K::ACTIVE && good.any() {
+        if sink.is_active() && good.any() {
             self.give_velocities(!good, sink);
         }
         self.settle();

@@ -193,7 +193,7 @@ where
         let good = lifted & solved & finite & charted;
         mu.assign_where(good, &self.end);
         self.point.assign_where(good, &self.next);
-        if K::ACTIVE && good.any() {
+        if sink.is_active() && good.any() {
             self.give_velocities(&base, !good, sink);
         }
         failure.map_or(Ok(report), Err)

@@ -112,7 +112,7 @@ impl<S: Scalar, P: Poisson<S>> Stepper<S> for Rk4Stepper<'_, S, P> {
         }
         self.point.copy_from(mu);
         self.point.axpy(self.step * S::ratio(1.0, 6.0), &self.sum);
-        if K::ACTIVE {
+        if sink.is_active() {
             self.give_velocities(mu, sink);
         }
         let finite = self.point.finite();

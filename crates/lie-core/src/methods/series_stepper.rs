@@ -133,7 +133,7 @@ impl<S: Scalar, D: Development<S>> Stepper<S> for SeriesStepper<S, D> {
             let finite = self.point.finite();
             failures.add(FailureReason::NotFinite, active & !finite, report);
             active = active & finite;
-            if K::ACTIVE && active.any() {
+            if sink.is_active() && active.any() {
                 let (from, to) = (self.sign * from, self.sign * place);
                 self.development.push_factors(from, to, active, sink);
             }

@@ -374,7 +374,7 @@ impl<S: Scalar, F: PieceFlows<S>> Stepper<S> for SplittingStepper<S, F> {
         self.flows.gather(mu, &mut self.next);
         self.advance();
         let finite = self.next.finite();
-        if K::ACTIVE && finite.any() {
+        if sink.is_active() && finite.any() {
             // only at the end it is known which lanes have no factors to give away
             self.flows.gather(mu, &mut self.next);
             self.advance_with(finite, sink);

@@ -246,7 +246,7 @@ where
             }
         }
         let good = solved & finite & resolved;
-        if K::ACTIVE && good.any() {
+        if sink.is_active() && good.any() {
             self.give_velocities(mu, !good, sink);
         }
         mu.assign_where(good, &self.next);

@@ -83,7 +83,9 @@ pub enum Retraction {
 /// `mu1 = Ad*_(tau(xi)) mu`, and `g1 = g tau(xi)` reconstructs the motion on the group.
 pub trait FactorSink<V> {
     /// Whether anything is listening; steppers skip the work otherwise.
-    const ACTIVE: bool = true;
+    fn is_active(&self) -> bool {
+        true
+    }
     /// Takes one factor `tau(xi)`. In lanes whose step failed, xi is 0.
     fn push(&mut self, retraction: Retraction, xi: &V);
     /// Takes `h xi` at one stage of a step that is not of coadjoint form: the stages come in order, and after
@@ -116,7 +118,10 @@ pub struct Stage {
 
 /// Nothing is listening.
 impl<V> FactorSink<V> for () {
-    const ACTIVE: bool = false;
+    fn is_active(&self) -> bool {
+        false
+    }
+
     fn push(&mut self, _retraction: Retraction, _xi: &V) {}
 }
 

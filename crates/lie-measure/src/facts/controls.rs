@@ -56,8 +56,8 @@ impl<S: Scalar, V: State<S>> Stepper<S> for SpoiledStepper<'_, S, V> {
         mu: &mut V,
         sink: &mut K,
     ) -> Result<StepReport, StepFailure> {
-        let report = if K::ACTIVE {
-            let mut motions = Motions(Vec::new());
+        let report = if sink.is_active() {
+            let mut motions = Motions::new();
             let report = self.stepper.step_with_motions(mu, &mut motions)?;
             motions.show(sink);
             report

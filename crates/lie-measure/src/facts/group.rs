@@ -120,11 +120,11 @@ fn method_moves<P: Lift<f64>>(
     h: f64,
     mu: &P::State,
 ) -> bool {
-    let mut motions = lie_runtime::diagnostics::Motions(Vec::new());
+    let mut motions = lie_runtime::diagnostics::Motions::new();
     let newton = lie_runtime::newton::NewtonOptions::default();
     let mut state = mu.clone();
     let mut stepper = method.any_stepper(system, h, &newton);
-    stepper.step_with_motions(&mut state, &mut motions).is_ok() && !motions.0.is_empty()
+    stepper.step_with_motions(&mut state, &mut motions).is_ok() && !motions.is_empty()
 }
 
 /// Group elements and states at some times.
