@@ -32,39 +32,21 @@
 
 mod code;
 mod compiled;
-mod either;
-mod elementary;
-mod elimination;
-mod equation;
+mod engine;
 mod equations;
-mod family;
-mod flows;
-mod generating;
-mod gradient;
-mod interpreter;
-mod kernels;
-mod lagrangian;
-mod lanes;
-mod layout;
 mod methods;
-mod names;
-mod realization;
-mod series;
-mod straight;
-mod structure;
+mod recording;
 mod system;
-mod traits;
-mod values;
 
 pub use code::{Code, Instruction, Number, Register, Source, Store};
-pub use elementary::{BINARY, Binary, UNARY, Unary};
-pub use interpreter::{Interpreted, Interpreter, phi, stumpff};
-pub use kernels::{Engine, Frame, Machine, Targets, place_by_place};
-pub use layout::{Lengths, SLICES};
+pub use engine::{
+    BINARY, Binary, Engine, Frame, Interpreted, Interpreter, Lengths, Machine, SLICES, Targets,
+    UNARY, Unary, phi, place_by_place, stumpff,
+};
 pub use lie_runtime::methods::Tolerances;
 pub use methods::{
     Method, at_defaults, at_defaults_dual, is_compiled_for_lanes, method, method_dual,
     method_in_lanes,
 };
-pub use straight::PATIENCE;
+pub use recording::PATIENCE;
 pub use system::{Declared, Dynamic};

@@ -1,6 +1,6 @@
 //! Discrete gradients in code.
 
-use crate::kernels::ARGUMENTS;
+use crate::engine::ARGUMENTS;
 use crate::system::Dynamic;
 use lie_codegen::methods::{Choice, Gradient};
 use lie_codegen::plan::{Partner, Solver};

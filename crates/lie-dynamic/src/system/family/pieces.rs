@@ -2,9 +2,9 @@
 
 use super::codes::{PieceCodes, Turn};
 use super::{EIGHT, Few, FewOf, OfSite, eight, zeros};
-use crate::flows::update;
-use crate::kernels::ARGUMENTS;
-use crate::values::Values;
+use crate::compiled::Values;
+use crate::engine::ARGUMENTS;
+use crate::system::flows::update;
 use lie_codegen::plan::FamilyForm;
 use lie_core::family::{Kind, Pieces, Shape as _, Sites as _, Strip, site_by_site};
 use lie_runtime::Scalar;

@@ -1,9 +1,9 @@
 //! Systems by a Lagrangian or a discrete Lagrangian.
 
 use crate::compiled::Place;
-use crate::kernels::ARGUMENTS;
+use crate::engine::ARGUMENTS;
 use crate::system::Dynamic;
-use crate::traits::there;
+use crate::system::traits::there;
 use lie_codegen::plan::Energy;
 use lie_core::family::LateMatrix;
 use lie_runtime::{DiscreteLagrangianPoisson, LagrangianPoisson, Scalar};

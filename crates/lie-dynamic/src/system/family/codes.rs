@@ -2,7 +2,7 @@
 
 use crate::code::Code;
 use crate::compiled::Making;
-use crate::flows;
+use crate::system::flows;
 use lie_codegen::derive::Update;
 use lie_codegen::plan::{Family, FamilyForm, Function};
 use lie_core::family::{Kind, Span};

@@ -1,6 +1,8 @@
-//! The methods of the catalogue over systems made at run time.
+//! The methods of the catalogue over systems made at run time, and which of them run in lanes.
 
-use crate::straight::Straight;
+mod lanes;
+
+use crate::recording::Straight;
 use crate::system::Dynamic;
 use lie_codegen::methods::{Choice, Gradient, Lift, Pieces, Retraction, Scheme, Tensor};
 use lie_codegen::structure::lifts::Smallest;

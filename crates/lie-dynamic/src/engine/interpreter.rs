@@ -1,7 +1,7 @@
 //! Code run by a loop over its instructions, for every scalar: the reference of all other ways.
 
+use super::machine::{Engine, Frame, Machine, Targets};
 use crate::code::{Code, Instruction, Number, Source};
-use crate::kernels::{Engine, Frame, Machine, Targets};
 use lie_core::closed;
 use lie_runtime::Scalar;
 use std::sync::Arc;

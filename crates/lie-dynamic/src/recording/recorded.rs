@@ -2,7 +2,7 @@
 
 use super::record::with;
 use crate::code::{Code, Instruction, Number, Register, Source};
-use crate::kernels::{Frame, Machine, Targets};
+use crate::engine::{Frame, Machine, Targets};
 use lie_core::Elementary;
 use lie_runtime::Scalar;
 use lie_runtime::scalar::Pack;

@@ -2,7 +2,7 @@
 
 use crate::code::Code;
 use crate::compiled::Making;
-use crate::kernels::ARGUMENTS;
+use crate::engine::ARGUMENTS;
 use crate::system::Dynamic;
 use lie_codegen::plan;
 use lie_core::generic::PowerSeries;

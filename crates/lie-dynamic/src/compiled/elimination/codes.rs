@@ -14,7 +14,7 @@ pub struct Layout {
 }
 
 /// More blocks in a row of them do not fit the arguments of a code, of which the matrix is one and each part of a vector another.
-const MOST: usize = crate::kernels::ARGUMENTS - 1;
+const MOST: usize = crate::engine::ARGUMENTS - 1;
 
 impl Layout {
     /// Of so many rows, in blocks of a size.

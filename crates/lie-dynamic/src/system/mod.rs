@@ -1,12 +1,18 @@
-//! A system made at run time.
+//! A system made at run time: the traits of the numeric core by the codes of its plan, a file for each structure that a system may have.
+
+pub(crate) mod family;
+pub(crate) mod flows;
+mod lagrangian;
+mod names;
+pub(crate) mod realization;
+pub(crate) mod series;
+pub(crate) mod structure;
+mod traits;
 
 use crate::code::Code;
-use crate::compiled::Compiled;
-use crate::family::{OfSite, sizes};
-use crate::interpreter::Interpreter;
-use crate::kernels::{ARGUMENTS, Engine, Machine};
-use crate::names;
-use crate::values::Values;
+use crate::compiled::{Compiled, Values};
+use crate::engine::{ARGUMENTS, Engine, Interpreter, Machine};
+use family::{OfSite, sizes};
 use lie_codegen::plan::{Code as Program, Plan};
 use lie_core::parameter::{ParameterError, all_finite, all_positive};
 use lie_runtime::Scalar;

@@ -6,8 +6,8 @@ mod pieces;
 
 pub(crate) use codes::Codes;
 
-use crate::names;
-use crate::values::Values;
+use crate::compiled::Values;
+use crate::system::names;
 use lie_codegen::model::Size;
 use lie_codegen::plan;
 use lie_core::family::{Shape, Sites, Stretch, Term, size};

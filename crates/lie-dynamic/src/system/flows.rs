@@ -2,8 +2,8 @@
 
 use crate::code::Code;
 use crate::compiled::Making;
-use crate::family::OfSite;
 use crate::system::Dynamic;
+use crate::system::family::OfSite;
 use lie_codegen::derive::{Shape, Update};
 use lie_codegen::plan::{Flow, Found, Function, Plan};
 use lie_core::family::FamilyFlows;

@@ -1,9 +1,9 @@
 //! The equations of steps: fused ones in code, generic ones with the elimination of the plan.
 
+use crate::compiled::elimination::{Blocks, Elimination, Scratch};
 use crate::compiled::{Call, FusedCodes, Given};
-use crate::elimination::{Blocks, Elimination, Scratch};
-use crate::kernels::ARGUMENTS;
-use crate::straight;
+use crate::engine::ARGUMENTS;
+use crate::recording;
 use crate::system::Dynamic;
 use lie_codegen::methods::Choice;
 use lie_codegen::plan::{Chart, Ending, Fused, Guess, Item, Solver};
@@ -33,7 +33,7 @@ pub struct Planned<'a, S: Scalar, G> {
     elimination: Option<&'a Elimination>,
     scratch: RefCell<Scratch<S>>,
     /// Where the equation is not fused, its residual and its Jacobian as programs.
-    programs: Option<straight::Running<S>>,
+    programs: Option<recording::Running<S>>,
 }
 
 impl<'a, S: Scalar, G> Planned<'a, S, G> {
@@ -43,7 +43,7 @@ impl<'a, S: Scalar, G> Planned<'a, S, G> {
         choice: &Choice,
         h: S,
         generic: G,
-        write: straight::Write,
+        write: recording::Write,
     ) -> Self {
         let solver = system.values.compiled.solvers.get(choice);
         let (mut fused, mut elimination) = (None, None);
@@ -73,7 +73,7 @@ impl<'a, S: Scalar, G> Planned<'a, S, G> {
         }
         let programs = match &fused {
             Some(_) => None,
-            None => straight::Running::new(system, choice, h, write),
+            None => recording::Running::new(system, choice, h, write),
         };
         Self {
             system,

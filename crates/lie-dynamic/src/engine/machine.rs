@@ -1,7 +1,6 @@
 //! What runs code, and what it runs on.
 
 use crate::code::Code;
-use crate::layout::SLICES;
 use lie_runtime::Scalar;
 use smallvec::SmallVec;
 use std::ops::Range;
@@ -9,6 +8,9 @@ use std::sync::Arc;
 
 /// More vector arguments a kernel does not have.
 pub const ARGUMENTS: usize = 4;
+
+/// The number of slices in a [`Frame`].
+pub const SLICES: usize = ARGUMENTS + 4;
 
 /// What code reads, in the order of [`Source::place`](crate::Source::place): the vector arguments, the constants of the system
 /// and of the step size, the parameters, the step size with the time.

@@ -1,10 +1,10 @@
 //! Systems of one declaration side by side, each in a lane.
 
-use crate::family::OfSite;
-use crate::interpreter::Interpreter;
-use crate::methods::is_compiled_for_lanes;
+use super::is_compiled_for_lanes;
+use crate::compiled::Values;
+use crate::engine::Interpreter;
 use crate::system::Dynamic;
-use crate::values::Values;
+use crate::system::family::OfSite;
 use lie_codegen::methods::Choice;
 use lie_runtime::Scalar;
 use lie_runtime::family::Family;

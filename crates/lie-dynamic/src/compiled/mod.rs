@@ -1,9 +1,14 @@
-//! The codes of a plan: each of its programs, by its place.
+//! A plan as codes: each of its programs, by its place; its eliminations; and the values of its parameters.
+
+pub(crate) mod elimination;
+mod values;
+
+pub(crate) use values::Values;
 
 use crate::code::Code;
-use crate::elimination::Elimination;
-use crate::kernels::ARGUMENTS;
-use crate::straight::{Programs, Step};
+use crate::engine::ARGUMENTS;
+use crate::recording::{Programs, Step};
+use elimination::Elimination;
 use lie_codegen::methods::{Choice, Gradient};
 use lie_codegen::plan::{Constants, Function, Fused, Generating, Item, Method, Plan, Solver};
 use smallvec::SmallVec;
@@ -112,12 +117,12 @@ pub(crate) struct Compiled {
     pub eliminations: HashMap<String, Elimination>,
     /// The equation of each method.
     pub solvers: HashMap<Choice, Solver>,
-    pub taylor: Option<crate::series::Codes>,
-    pub lie_taylor: Option<crate::series::Codes>,
-    pub flows: crate::flows::Codes,
-    pub structure: crate::structure::Codes,
-    pub realization: Option<crate::realization::Codes>,
-    pub family: Option<crate::family::Codes>,
+    pub taylor: Option<crate::system::series::Codes>,
+    pub lie_taylor: Option<crate::system::series::Codes>,
+    pub flows: crate::system::flows::Codes,
+    pub structure: crate::system::structure::Codes,
+    pub realization: Option<crate::system::realization::Codes>,
+    pub family: Option<crate::system::family::Codes>,
     pub casimir_degrees: Vec<Option<u32>>,
     /// Steps as one program.
     pub steps: Asked<Step>,
@@ -316,7 +321,7 @@ impl Compiled {
                     gradients.insert(gradient.gradient, (codes, functions));
                 }
                 Item::Recurrence(recurrence) => {
-                    let codes = crate::series::Codes::new(recurrence, &mut making);
+                    let codes = crate::system::series::Codes::new(recurrence, &mut making);
                     match recurrence.gradient {
                         None => taylor = Some(codes),
                         Some(_) => lie_taylor = Some(codes),
@@ -325,12 +330,13 @@ impl Compiled {
                 Item::Method(Method::Own(_), _) => {}
             }
         }
-        let flows = crate::flows::Codes::new(&plan, &mut making);
-        let structure = crate::structure::Codes::new(&plan, &mut making);
+        let flows = crate::system::flows::Codes::new(&plan, &mut making);
+        let structure = crate::system::structure::Codes::new(&plan, &mut making);
         let realization = plan.structure.realization.as_ref();
-        let realization = realization.map(|r| crate::realization::Codes::new(r, &mut making));
+        let realization =
+            realization.map(|r| crate::system::realization::Codes::new(r, &mut making));
         let family = plan.family.as_ref();
-        let family = family.map(|family| crate::family::Codes::new(family, &mut making));
+        let family = family.map(|family| crate::system::family::Codes::new(family, &mut making));
         let casimir_degrees = plan.system.casimirs.iter().map(|c| c.degree).collect();
         Self {
             codes: making.codes.into(),

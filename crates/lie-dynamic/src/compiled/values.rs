@@ -1,8 +1,7 @@
 //! A plan whose parameters have values.
 
 use crate::compiled::{Compiled, Kernels, OfStep};
-use crate::interpreter::Interpreter;
-use crate::kernels::{ARGUMENTS, Frame, Machine};
+use crate::engine::{ARGUMENTS, Frame, Interpreter, Machine};
 use lie_runtime::Scalar;
 use std::sync::Arc;
 

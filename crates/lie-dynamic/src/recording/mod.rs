@@ -10,12 +10,10 @@ mod record;
 mod recorded;
 
 use crate::code::{Code, Source};
-use crate::compiled::Compiled;
-use crate::interpreter::Interpreter;
-use crate::kernels::{ARGUMENTS, Machine};
+use crate::compiled::{Compiled, Values};
+use crate::engine::{ARGUMENTS, Interpreter, Machine};
 use crate::methods::{Method, explicit};
 use crate::system::Dynamic;
-use crate::values::Values;
 use lie_codegen::methods::Choice;
 use lie_runtime::Scalar;
 use lie_runtime::diagnostics::{AnyMethod, AnyStepper, Claims, Forgotten, ForgottenStepper};

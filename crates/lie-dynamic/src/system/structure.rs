@@ -2,8 +2,7 @@
 
 use crate::code::Code;
 use crate::compiled::Making;
-use crate::names;
-use crate::system::Dynamic;
+use crate::system::{Dynamic, names};
 use lie_codegen::plan::{self, Function, Plan};
 use lie_codegen::structure::integrable::Motion;
 use lie_core::family::LateMatrix;

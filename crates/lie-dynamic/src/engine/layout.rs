@@ -1,11 +1,8 @@
 //! What compiled code agrees on with those who call it: the order of the slices it reads, and their least lengths.
 
+use super::machine::{ARGUMENTS, Frame, SLICES, Targets};
 use crate::code::{Code, Source};
-use crate::kernels::{ARGUMENTS, Frame, Targets};
 use smallvec::SmallVec;
-
-/// The number of slices in a [`Frame`].
-pub const SLICES: usize = ARGUMENTS + 4;
 
 impl Source {
     /// The slice of [`Frame::slices`] that it is in, and its entry there; none of a number.

@@ -1,16 +1,20 @@
 //! Which equation each implicit method of the list has over systems made at run time: the generic one, as the plan has it.
+//! The parts that a plan may replace stand beside: fused equations, eliminations, generating functions and discrete gradients.
 
-use crate::either::Either;
-use crate::equation::Planned;
-use crate::generating;
-use crate::gradient;
-use crate::straight::{Recorded, write};
+mod either;
+mod generating;
+mod gradient;
+mod planned;
+
+use crate::recording::{Recorded, write};
 use crate::system::Dynamic;
+use either::Either;
 use lie_codegen::methods::{Choice, Gradient, Lift, Retraction, Tensor};
 use lie_codegen::plan::Solver;
 use lie_core::generic;
 use lie_runtime::methods as m;
 use lie_runtime::{Implicit, Scalar};
+use planned::Planned;
 
 /// How something of the equation of a method is written down.
 macro_rules! written {

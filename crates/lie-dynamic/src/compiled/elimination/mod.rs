@@ -4,9 +4,8 @@ mod codes;
 mod table;
 
 use crate::code::Code;
-use crate::compiled::Making;
-use crate::kernels::ARGUMENTS;
-use crate::values::Values;
+use crate::compiled::{Making, Values};
+use crate::engine::ARGUMENTS;
 use codes::Layout;
 use lie_codegen::plan::elimination::Elimination as Pattern;
 use lie_core::family::LateMatrix;

@@ -1,0 +1,11 @@
+//! What runs codes: the interface of an engine, what codes and their callers agree on, and the engine that needs no compiler.
+
+mod elementary;
+mod interpreter;
+mod layout;
+mod machine;
+
+pub use elementary::{BINARY, Binary, UNARY, Unary};
+pub use interpreter::{Interpreted, Interpreter, phi, stumpff};
+pub use layout::Lengths;
+pub use machine::{ARGUMENTS, Engine, Frame, Machine, SLICES, Targets, place_by_place};
