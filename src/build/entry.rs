@@ -30,7 +30,7 @@ impl Entry {
             std::fs::read(self.folder.join(file)).is_ok_and(|found| found == text.as_bytes())
         };
         same("main.rs", source)
-            && std::fs::read(&self.program).is_ok_and(|bytes| same(SUM, &Key::of(&bytes)))
+            && std::fs::read(&self.program).is_ok_and(|bytes| same(SUM, &Key::digest(&bytes)))
     }
 
     /// Puts a built program in its place: beside it first, then by a rename.
@@ -42,7 +42,7 @@ impl Entry {
         if std::fs::hard_link(built, &draft).is_err() {
             std::fs::copy(built, &draft)?;
         }
-        let sum = Key::of(&std::fs::read(&draft)?);
+        let sum = Key::digest(&std::fs::read(&draft)?);
         cache::write(&self.folder.join(SUM), sum.as_bytes())?;
         std::fs::rename(&draft, &self.program)
     }

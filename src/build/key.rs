@@ -23,7 +23,7 @@ impl Key {
     }
 
     /// The hash of one text of bytes, as digits.
-    pub fn of(bytes: &[u8]) -> String {
+    pub fn digest(bytes: &[u8]) -> String {
         Self::new().bytes(bytes).hex()
     }
 

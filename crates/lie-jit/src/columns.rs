@@ -196,7 +196,7 @@ impl OverColumns {
         let all = code.clear[0].unwrap_or(0) as usize;
         Some(Self {
             function: memory.over_columns(place),
-            lengths: Lengths::of(code),
+            lengths: Lengths::new(code),
             clear: (0..all).filter(|entry| !written(entry)).collect(),
             _memory: memory,
         })

@@ -61,15 +61,18 @@ impl Machine<Wide> for Lanes {
         true
     }
 
-    fn has(&self, codes: &Arc<[Code]>) -> bool {
-        self.others.has(codes)
+    fn has_compiled(&self, codes: &Arc<[Code]>) -> bool {
+        self.others.has_compiled(codes)
     }
 
-    fn of(&self, codes: &Arc<[Code]>) -> Option<Arc<dyn Machine<Wide>>> {
-        Some(self.others.of(codes, || Some(Self::new(codes)))?)
+    fn compile(&self, codes: &Arc<[Code]>) -> Option<Arc<dyn Machine<Wide>>> {
+        Some(
+            self.others
+                .get_or_compile(codes, || Some(Self::new(codes)))?,
+        )
     }
 
-    fn along(
+    fn run_columns(
         &self,
         code: usize,
         columns: &[&[Wide]],
@@ -82,7 +85,7 @@ impl Machine<Wide> for Lanes {
             .get(code, &self.codes[code], Columns::lanes(LANES));
         match compiled {
             Some(compiled) if places > 0 => compiled.call(columns, frame, to, places),
-            _ => Machine::<Wide>::along(&self.interpreted, code, columns, frame, to),
+            _ => Machine::<Wide>::run_columns(&self.interpreted, code, columns, frame, to),
         }
     }
 }

@@ -111,14 +111,18 @@ impl<M> Others<M> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn has(&self, codes: &Arc<[Code]>) -> bool {
+    fn has_compiled(&self, codes: &Arc<[Code]>) -> bool {
         self.all()
             .iter()
             .any(|(known, _)| Arc::ptr_eq(known, codes))
     }
 
     /// The machine of these codes, made where it is asked for the first time.
-    fn of(&self, codes: &Arc<[Code]>, make: impl FnOnce() -> Option<M>) -> Option<Arc<M>> {
+    fn get_or_compile(
+        &self,
+        codes: &Arc<[Code]>,
+        make: impl FnOnce() -> Option<M>,
+    ) -> Option<Arc<M>> {
         let mut all = self.all();
         if let Some((_, machine)) = all.iter().find(|(known, _)| Arc::ptr_eq(known, codes)) {
             return machine.clone();
@@ -162,7 +166,7 @@ impl Entry {
     fn new(code: &Code, function: Option<Function>) -> Self {
         Self {
             function,
-            lengths: Lengths::of(code),
+            lengths: Lengths::new(code),
             clear: code.clear.map(|count| count.unwrap_or(0) as usize),
         }
     }
@@ -202,7 +206,7 @@ impl Machine<f64> for Compiled {
         }
     }
 
-    fn along(
+    fn run_columns(
         &self,
         code: usize,
         columns: &[&[f64]],
@@ -220,7 +224,7 @@ impl Machine<f64> for Compiled {
             _ => 0,
         };
         place_by_place(done..places, columns, to, |at, out| {
-            self.run(code, &frame.at(at), [out, &mut []]);
+            self.run(code, &frame.with_first(at), [out, &mut []]);
         });
     }
 
@@ -228,13 +232,13 @@ impl Machine<f64> for Compiled {
         true
     }
 
-    fn has(&self, codes: &Arc<[Code]>) -> bool {
-        self.others.has(codes)
+    fn has_compiled(&self, codes: &Arc<[Code]>) -> bool {
+        self.others.has_compiled(codes)
     }
 
-    fn of(&self, codes: &Arc<[Code]>) -> Option<Arc<dyn Machine<f64>>> {
+    fn compile(&self, codes: &Arc<[Code]>) -> Option<Arc<dyn Machine<f64>>> {
         let make = || Self::new(codes, Interpreted.machine(codes));
-        Some(self.others.of(codes, make)?)
+        Some(self.others.get_or_compile(codes, make)?)
     }
 
     fn wide(&self) -> Option<Arc<dyn Machine<Wide>>> {

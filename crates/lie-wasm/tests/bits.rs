@@ -174,7 +174,7 @@ fn along<S: Scalar>(
     let mut out = vec![S::from_f64(7.0); entries * places];
     let mut to: Vec<&mut [S]> = out.chunks_exact_mut(places).collect();
     let columns: Vec<&[S]> = columns.iter().map(Vec::as_slice).collect();
-    machine.along(code, &columns, &frame, &mut to);
+    machine.run_columns(code, &columns, &frame, &mut to);
     let lanes = out
         .iter()
         .flat_map(|x| (0..S::LANES).map(|lane| x.lane(lane)));

@@ -51,7 +51,7 @@ impl Engine for Linking {
         let kernels = kernels.map(|(compiled, code)| {
             let kernel = compiled.then(|| kernel(next));
             next += usize::from(*compiled);
-            (kernel, Lengths::of(code))
+            (kernel, Lengths::new(code))
         });
         let kernels = kernels.collect();
         Arc::new(Linked {

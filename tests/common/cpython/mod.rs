@@ -70,7 +70,7 @@ impl Process {
         write!(asks, "{}\n{functions}", functions.lines().count()).unwrap();
         Self {
             codes: Arc::clone(codes),
-            lengths: codes.iter().map(Lengths::of).collect(),
+            lengths: codes.iter().map(Lengths::new).collect(),
             talk: Mutex::new(Talk { child, asks, says }),
         }
     }

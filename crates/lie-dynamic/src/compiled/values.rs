@@ -78,7 +78,7 @@ impl<S: Scalar> Values<S> {
     }
 
     /// The same as other scalars: by this machine, or by the interpreter.
-    pub fn over<T: Scalar>(
+    pub fn with_scalar<T: Scalar>(
         &self,
         constant: impl Fn(S) -> T,
         machine: Option<Arc<dyn Machine<T>>>,

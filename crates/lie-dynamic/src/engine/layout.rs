@@ -29,7 +29,7 @@ pub struct Lengths {
 
 impl Lengths {
     /// Those of a code.
-    pub fn of(code: &Code) -> Self {
+    pub fn new(code: &Code) -> Self {
         let mut lengths = Self::default();
         let mut inputs = [0; SLICES];
         for (slice, entry) in code.sources.iter().filter_map(Source::place) {

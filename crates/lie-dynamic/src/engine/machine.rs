@@ -37,7 +37,7 @@ impl<'a, S> Frame<'a, S> {
     /// The same with another first argument.
     #[inline]
     #[must_use]
-    pub fn at<'b>(&self, first: &'b [S]) -> Frame<'b, S>
+    pub fn with_first<'b>(&self, first: &'b [S]) -> Frame<'b, S>
     where
         'a: 'b,
     {
@@ -64,29 +64,29 @@ pub trait Machine<S>: Send + Sync {
     ///
     /// # Panics
     /// A slice is shorter than the code needs, or a column than the first of `to`.
-    fn along(&self, code: usize, columns: &[&[S]], frame: &Frame<'_, S>, to: &mut [&mut [S]])
+    fn run_columns(&self, code: usize, columns: &[&[S]], frame: &Frame<'_, S>, to: &mut [&mut [S]])
     where
         S: Scalar,
     {
         let places = to.first().map_or(0, |to| to.len());
         place_by_place(0..places, columns, to, |at, out| {
-            self.run(code, &frame.at(at), [out, &mut []]);
+            self.run(code, &frame.with_first(at), [out, &mut []]);
         });
     }
 
-    /// Whether [`Machine::of`] makes machines.
+    /// Whether [`Machine::compile`] makes machines.
     fn compiles(&self) -> bool {
         false
     }
 
-    /// Whether [`Machine::of`] has made a machine for these codes.
-    fn has(&self, _codes: &Arc<[Code]>) -> bool {
+    /// Whether [`Machine::compile`] has made a machine for these codes.
+    fn has_compiled(&self, _codes: &Arc<[Code]>) -> bool {
         false
     }
 
     /// A machine of the same engine for other codes, made once for each set of them; none where the engine cannot make one, or
     /// nothing better than the interpreter.
-    fn of(&self, _codes: &Arc<[Code]>) -> Option<Arc<dyn Machine<S>>> {
+    fn compile(&self, _codes: &Arc<[Code]>) -> Option<Arc<dyn Machine<S>>> {
         None
     }
 

@@ -93,7 +93,7 @@ impl<S: Scalar> Dynamic<S> {
     /// Whether steppers compile programs of the whole when they are made: where the engine has these, or nobody waits.
     fn compiles_at_once(&self, known: Option<&Arc<[Code]>>) -> bool {
         let machine = &self.values.machine;
-        let there = known.is_some_and(|codes| machine.has(codes));
+        let there = known.is_some_and(|codes| machine.has_compiled(codes));
         machine.compiles() && (self.values.hurry || there)
     }
 
@@ -114,7 +114,7 @@ impl<S: Scalar> Dynamic<S> {
         let equation = compiled.equations.known(choice);
         let steps = step.iter().map(|step| &step.codes);
         let equations = equation.iter().flat_map(|programs| programs.codes());
-        let made = |codes: &&Arc<[Code]>| self.values.machine.of(codes).is_some();
+        let made = |codes: &&Arc<[Code]>| self.values.machine.compile(codes).is_some();
         steps.chain(equations).filter(made).count()
     }
 }
@@ -164,7 +164,7 @@ impl<S: Scalar> Ready<S> {
     fn new(system: &Dynamic<S>, codes: &Arc<[Code]>, h: S, interpret: bool) -> Option<Self> {
         let interpreter =
             || -> Arc<dyn Machine<S>> { Arc::new(Interpreter::new(Arc::clone(codes))) };
-        let machine = system.values.machine.of(codes);
+        let machine = system.values.machine.compile(codes);
         let machine = machine.or_else(|| interpret.then(interpreter))?;
         let mut of_step = vec![S::zero(); codes[0].stores.len()];
         let scalars = [h];

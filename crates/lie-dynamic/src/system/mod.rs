@@ -208,14 +208,14 @@ impl<S: Scalar> Dynamic<S> {
     }
 
     /// The same with its constants as other scalars.
-    pub(crate) fn over<T: Scalar>(
+    pub(crate) fn with_scalar<T: Scalar>(
         &self,
         constant: impl Fn(S) -> T,
         machine: Option<Arc<dyn Machine<T>>>,
     ) -> Dynamic<T> {
         let branch = self.branch.as_deref();
         let branch = branch.map(|values| values.iter().map(|value| constant(*value)).collect());
-        let values = self.values.over(constant, machine);
+        let values = self.values.with_scalar(constant, machine);
         let family = self.sizes();
         let family = family.map(|sizes| Family::new(OfSite::new(values.clone()), sizes));
         Dynamic {

@@ -270,20 +270,20 @@ impl<S: Scalar> CayleyPoisson<S> for Dynamic<S> {
 impl<S: Scalar> Lift<S> for Dynamic<S> {
     type Lifted = Dynamic<Dual<S>>;
     fn lift(&self) -> Self::Lifted {
-        self.over(Dual::constant_of, None)
+        self.with_scalar(Dual::constant_of, None)
     }
 }
 
 impl<S: Scalar> Widen<S> for Dynamic<S> {
     type Widened = Dynamic<S::Wide>;
     fn widen(&self) -> Self::Widened {
-        self.over(S::widen, self.values.machine.wide())
+        self.with_scalar(S::widen, self.values.machine.wide())
     }
 }
 
 impl<S: Scalar> Expand<S> for Dynamic<S> {
     type Expanded = Dynamic<Truncated<S>>;
     fn expand(&self) -> Self::Expanded {
-        self.over(Truncated::constant_of, None)
+        self.with_scalar(Truncated::constant_of, None)
     }
 }

@@ -142,7 +142,7 @@ impl<'a, P: Poisson<f64>> Ladder<'a, P> {
             let look =
                 |wanted: &Wanted<'_>, see: &mut dyn FnMut(f64, &P::State)| look(value, wanted, see);
             let outcome = outcome.and_then(|run| {
-                let judged = self.judge.of(self.system, &run.end, &look)?;
+                let judged = self.judge.error(self.system, &run.end, &look)?;
                 Ok((run, judged))
             });
             // what was cut short says nothing
@@ -230,7 +230,7 @@ pub(super) fn time(
             let times = (SAMPLE / rung.first.seconds).ceil().clamp(1.0, 1e5) as u32;
             let ((), spent) = clock.spent(|| (0..times).for_each(|_| (rung.run)()));
             session.goes_on()?;
-            rung.samples.push(spent.over(f64::from(times)));
+            rung.samples.push(spent.divided_by(f64::from(times)));
         }
         for rung in &*rungs {
             session.found(Found::Point(rung.timed(until)));

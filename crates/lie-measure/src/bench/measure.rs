@@ -90,7 +90,7 @@ impl<V: State<f64>> Judge<V> {
     }
 
     /// The error of a run with this end; `look` shows the rest of it.
-    pub(super) fn of<P: Poisson<f64, State = V>>(
+    pub(super) fn error<P: Poisson<f64, State = V>>(
         &self,
         system: &P,
         end: &V,

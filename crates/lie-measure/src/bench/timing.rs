@@ -51,7 +51,7 @@ impl Clock {
 
 impl Spent {
     /// A part of it.
-    pub(super) fn over(self, times: f64) -> Self {
+    pub(super) fn divided_by(self, times: f64) -> Self {
         Self {
             seconds: self.seconds / times,
             wall: self.wall / times,
@@ -100,6 +100,6 @@ mod tests {
         let samples = [spent(3.0, 4.0), spent(1.0, 9.0), spent(2.0, 2.5)];
         assert_eq!(summary(&samples, spent(8.0, 8.0)), [1.0, 2.0, 4.0]);
         assert_eq!(summary(&[], spent(8.0, 9.0)), [8.0, 8.0, 9.0]);
-        assert_eq!(spent(3.0, 4.0).over(2.0), spent(1.5, 2.0));
+        assert_eq!(spent(3.0, 4.0).divided_by(2.0), spent(1.5, 2.0));
     }
 }

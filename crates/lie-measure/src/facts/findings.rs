@@ -111,7 +111,7 @@ impl Finding {
     }
 
     /// Adds the step of the measurement.
-    pub(super) fn at(mut self, step: f64) -> Self {
+    pub(super) fn at_step(mut self, step: f64) -> Self {
         self.step = step;
         self
     }

@@ -54,7 +54,7 @@ pub(super) fn findings<P: Lift<f64>>(
                     } else {
                         bound(0.0)
                     };
-                    Finding::zero(group.fact, group.claimed, drift, bound).at(h)
+                    Finding::zero(group.fact, group.claimed, drift, bound).at_step(h)
                 }
                 Err(failure) => Finding::unmeasured(group.fact, group.claimed, &failure),
             }

@@ -143,7 +143,7 @@ fn worst<P: Lift<f64>>(
         Ok(largest)
     };
     match smaller_steps(ground.step, all) {
-        Ok((value, step)) => Finding::zero(fact, claimed, value, bound).at(step),
+        Ok((value, step)) => Finding::zero(fact, claimed, value, bound).at_step(step),
         Err(failure) => Finding::unmeasured(fact, claimed, &failure),
     }
 }
@@ -250,7 +250,7 @@ fn iterations<P: Lift<f64>>(
         Err(failure) => return vec![Finding::unmeasured("explicit", claims.explicit, &failure)],
     };
     let explicit = Finding::zero("explicit", claims.explicit, f64::from(most), 0.0)
-        .at(step)
+        .at_step(step)
         .note(format!("{most} iterations"));
     if most == 0 {
         return vec![explicit];
@@ -268,7 +268,7 @@ fn iterations<P: Lift<f64>>(
         format!("at round-off at once, at most {most} iterations")
     };
     let newton = Finding::at_least("Newton", true, slowest, 2.0, NEWTON)
-        .at(step)
+        .at_step(step)
         .note(note);
     let exchanges = exchanges(system, ground, method);
     vec![

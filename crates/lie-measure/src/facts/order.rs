@@ -100,7 +100,7 @@ fn measured<P: Lift<f64>>(
     let last = tail(&best, order);
     let note = format!("errors {:.1e} to {:.1e}", last[0].1, last[last.len() - 1].1);
     Finding::at_least("order", true, slope(last), claim, bound)
-        .at(last[0].0)
+        .at_step(last[0].0)
         .note(note)
 }
 

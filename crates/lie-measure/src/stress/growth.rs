@@ -44,7 +44,7 @@ pub(super) struct Growth {
 
 impl Growth {
     /// The same of a method, in words.
-    pub(super) fn of<P: Poisson<f64>>(
+    pub(super) fn named<P: Poisson<f64>>(
         self,
         method: String,
         system: &P,

@@ -226,7 +226,7 @@ impl<P: Poisson<f64> + Sync> Stress<P> {
                 let mut start = system.zero_state();
                 start.as_mut_slice().copy_from_slice(mu);
                 let found = growth::growth(&system, method, &start, *step, *steps, stop)?;
-                Some(Found::Growth(found.of(label, &system, *step)))
+                Some(Found::Growth(found.named(label, &system, *step)))
             }
         }
     }

@@ -5,7 +5,7 @@
 //! `n3 = -1` or `1` asks for a square root. VI with h = 0 has `n2 = 1`, `n3 = -1`, VII with h = 0 has `n2 = n3 = 1`. III is VI with h = -1.
 
 use super::family::{Argument, Constructor, Family, Wrong};
-use super::matrix::{Entries, add, unit, whole};
+use super::matrix::{Entries, add, integer_matrix, unit};
 use super::{Constants, Matrices, Named};
 use crate::suggest::did_you_mean;
 use lie_symbolic::exact::Rational;
@@ -179,6 +179,10 @@ impl Bianchi {
         for (row, column, value) in [(0, 0, &self.a), (1, 0, n3), (0, 1, &-n2), (1, 1, &self.a)] {
             add(&mut turn, (row, column), value);
         }
-        vec![turn, whole(&[(0, 2, 1)]), whole(&[(1, 2, 1)])]
+        vec![
+            turn,
+            integer_matrix(&[(0, 2, 1)]),
+            integer_matrix(&[(1, 2, 1)]),
+        ]
     }
 }

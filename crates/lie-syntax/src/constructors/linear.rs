@@ -5,7 +5,7 @@
 //! matrices of size n + 1.
 
 use super::family::{Argument, Constructor, Family, Wrong, real, size};
-use super::matrix::{unit, whole};
+use super::matrix::{integer_matrix, unit};
 use super::names::{indexed, numbered};
 use super::orthogonal::pairs;
 use super::{Element, Named};
@@ -46,7 +46,7 @@ impl Constructor for Special {
 
     fn build(&self) -> Named {
         let n = self.n;
-        let h = |k| whole(&[(k, k, 1), (k + 1, k + 1, -1)]);
+        let h = |k| integer_matrix(&[(k, k, 1), (k + 1, k + 1, -1)]);
         if n == 2 {
             let matrices = [("h", h(0)), ("e", unit(0, 1)), ("f", unit(1, 0))];
             let elements = matrices.map(|(name, matrix)| Element::new(name, name, matrix));

@@ -8,7 +8,7 @@ use lie_symbolic::exact::Rational;
 pub type Entries = BTreeMap<(usize, usize), Rational>;
 
 /// A matrix of whole entries.
-pub fn whole(entries: &[(usize, usize, i64)]) -> Entries {
+pub fn integer_matrix(entries: &[(usize, usize, i64)]) -> Entries {
     let mut matrix = Entries::new();
     for &(row, column, value) in entries {
         add(&mut matrix, (row, column), &Rational::from(value));
@@ -18,7 +18,7 @@ pub fn whole(entries: &[(usize, usize, i64)]) -> Entries {
 
 /// The matrix with a one in row i and column j, `E_ij`.
 pub fn unit(i: usize, j: usize) -> Entries {
-    whole(&[(i, j, 1)])
+    integer_matrix(&[(i, j, 1)])
 }
 
 /// Adds to an entry.

@@ -8,7 +8,7 @@
 
 use super::family::{Argument, Constructor, Family, Wrong, size};
 use super::linear::translations;
-use super::matrix::{Entries, unit, whole};
+use super::matrix::{Entries, integer_matrix, unit};
 use super::names::{indexed, numbered};
 use super::orthogonal::{pairs, triangle};
 use super::{Element, Named};
@@ -99,7 +99,7 @@ impl Constructor for Oscillator {
             let half = Rational::new(sign, 2).unwrap_or(Rational::ZERO);
             [((at, last), Rational::ONE), ((0, partner), half)].into()
         };
-        let mut elements = vec![Element::new("N", "n", whole(&turns))];
+        let mut elements = vec![Element::new("N", "n", integer_matrix(&turns))];
         elements.extend((0..n).map(|i| {
             Element::new(
                 numbered("Q", i, n),

@@ -4,7 +4,7 @@
 //! the signs differ. so(3) has `e1, e2, e3`, the rotations about the axes, with `[e1, e2] = e3`.
 
 use super::family::{Argument, Constructor, Family, Wrong, size};
-use super::matrix::{Entries, whole};
+use super::matrix::{Entries, integer_matrix};
 use super::names::indexed;
 use super::{Element, Named};
 
@@ -49,7 +49,7 @@ impl Constructor for Orthogonal {
         }
         let element = |(i, j)| {
             let same = (i < self.plus) == (j < self.plus);
-            let matrix = whole(&[(j, i, 1), (i, j, if same { -1 } else { 1 })]);
+            let matrix = integer_matrix(&[(j, i, 1), (i, j, if same { -1 } else { 1 })]);
             Element::new(indexed("E", &[i, j], n), indexed("m", &[i, j], n), matrix)
         };
         Named::of_matrices(pairs(n).map(element).collect(), n)
@@ -68,7 +68,7 @@ pub fn pairs(n: usize) -> impl Iterator<Item = (usize, usize)> {
 
 /// The rotation from the axis i towards the axis j.
 pub fn rotation(i: usize, j: usize) -> Entries {
-    whole(&[(j, i, 1), (i, j, -1)])
+    integer_matrix(&[(j, i, 1), (i, j, -1)])
 }
 
 /// The basis of so(n): in three dimensions the rotations about the axes.

@@ -5,7 +5,7 @@
 
 use super::euclidean::rotations;
 use super::family::{Constructor, Family, size};
-use super::matrix::{unit, whole};
+use super::matrix::{integer_matrix, unit};
 use super::names::numbered;
 use super::orthogonal::triangle;
 use super::{Element, Named};
@@ -48,7 +48,7 @@ impl Constructor for SpaceTime {
         let (n, time, last) = (self.n, self.n, self.n + 1);
         let boost = |i| match self.limit {
             true => unit(i, time),
-            false => whole(&[(i, time, 1), (time, i, 1)]),
+            false => integer_matrix(&[(i, time, 1), (time, i, 1)]),
         };
         let mut elements = rotations(n);
         for i in 0..n {

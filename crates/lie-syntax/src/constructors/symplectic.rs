@@ -3,7 +3,7 @@
 //! The basis is `A_ij` in the order of rows, `B_ij` and `C_ij` for `i <= j`.
 
 use super::family::{Argument, Constructor, Family, Wrong, real, size};
-use super::matrix::{unit, whole};
+use super::matrix::{integer_matrix, unit};
 use super::names::indexed;
 use super::{Element, Named};
 
@@ -54,7 +54,7 @@ impl Constructor for Symplectic {
         let mut elements = Vec::new();
         for i in 0..n {
             for j in 0..n {
-                let matrix = whole(&[(i, j, 1), (n + j, n + i, -1)]);
+                let matrix = integer_matrix(&[(i, j, 1), (n + j, n + i, -1)]);
                 elements.push(element("A", "a", (i, j), matrix));
             }
         }
@@ -62,7 +62,8 @@ impl Constructor for Symplectic {
             for i in 0..n {
                 elements.push(element(basis, state, (i, i), unit(row + i, column + i)));
                 for j in i + 1..n {
-                    let matrix = whole(&[(row + i, column + j, 1), (row + j, column + i, 1)]);
+                    let matrix =
+                        integer_matrix(&[(row + i, column + j, 1), (row + j, column + i, 1)]);
                     elements.push(element(basis, state, (i, j), matrix));
                 }
             }

@@ -5,7 +5,7 @@
 //! `w = h_i - h_i+1`, and the trace.
 
 use super::family::{Constructor, Family, size};
-use super::matrix::{unit, whole};
+use super::matrix::{integer_matrix, unit};
 use super::{Element, Named};
 
 pub const FAMILY: Family = Family {
@@ -41,7 +41,7 @@ impl Constructor for Toda {
             elements.push(Element::new(
                 format!("h{}", i + 1),
                 format!("b{}", i + 1),
-                whole(&entries),
+                integer_matrix(&entries),
             ));
         }
         for i in 0..n - 1 {

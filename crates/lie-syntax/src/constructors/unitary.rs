@@ -4,7 +4,7 @@
 //! `D_k,k+1 = i (e_kk - e_k+1,k+1)` of su(n), `D_k = i e_kk` of u(n). No entry is irrational.
 
 use super::family::{Argument, Constructor, Family, Wrong, size};
-use super::matrix::{Entries, real, unit, whole};
+use super::matrix::{Entries, integer_matrix, real, unit};
 use super::names::{indexed, numbered};
 use super::orthogonal::pairs;
 use super::{Element, Named};
@@ -42,7 +42,7 @@ impl Unitary {
             return (0..n).map(|k| (numbered("D", k, n), unit(k, k))).collect();
         }
         let difference = |k| {
-            let matrix = whole(&[(k, k, 1), (k + 1, k + 1, -1)]);
+            let matrix = integer_matrix(&[(k, k, 1), (k + 1, k + 1, -1)]);
             (indexed("D", &[k, k + 1], n), matrix)
         };
         (0..n - 1).map(difference).collect()
@@ -59,8 +59,8 @@ impl Constructor for Unitary {
         let none = Entries::new();
         let mut matrices = Vec::new();
         for (j, k) in pairs(n) {
-            let skew = whole(&[(j, k, 1), (k, j, -1)]);
-            let symmetric = whole(&[(j, k, 1), (k, j, 1)]);
+            let skew = integer_matrix(&[(j, k, 1), (k, j, -1)]);
+            let symmetric = integer_matrix(&[(j, k, 1), (k, j, 1)]);
             matrices.push((indexed("A", &[j, k], n), real(&skew, &none, n)));
             matrices.push((indexed("S", &[j, k], n), real(&none, &symmetric, n)));
         }

@@ -89,7 +89,7 @@ pub fn parse_expression_text(
     let tokens = source.tokens();
     if tokens.is_empty() {
         report.push(
-            Diagnostic::new(Kind::Syntax, source.whole(), "an expression is missing")
+            Diagnostic::new(Kind::Syntax, source.extent(), "an expression is missing")
                 .help("write one, such as x^2/2"),
         );
         return None;
@@ -103,7 +103,7 @@ pub fn parse_constant_text(text: &str, offset: usize, report: &mut Report) -> Op
     let source = Source::plain(text, offset);
     let tokens = source.tokens();
     if tokens.is_empty() {
-        report.push(item::missing_constant(source.whole()));
+        report.push(item::missing_constant(source.extent()));
         return None;
     }
     item::constant(&tokens, report)

@@ -25,7 +25,7 @@ impl<'a> Object<'a> {
         let (mut members, mut misspelt) = (Vec::<Member<'a>>::new(), Vec::new());
         for member in value.members(report) {
             let key = &*member.key.text;
-            let place = member.key.whole();
+            let place = member.key.extent();
             let mut error = |message: String, help: String| {
                 report.push(Diagnostic::new(Kind::Schema, place, message).help(help));
             };

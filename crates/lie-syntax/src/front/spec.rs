@@ -146,7 +146,7 @@ impl Entries for Object<'_> {
         let ids = self.strings("methods", report);
         ids.into_iter()
             .map(|id| Name {
-                origin: id.whole(),
+                origin: id.extent(),
                 text: id.text.into_owned(),
             })
             .collect()
@@ -154,7 +154,7 @@ impl Entries for Object<'_> {
 
     fn invariance(&self, report: &mut Report) -> Option<(String, Origin)> {
         let source = string(self.get("invariance")?, "`invariance`", report)?;
-        Some((source.text.to_string(), source.whole()))
+        Some((source.text.to_string(), source.extent()))
     }
 
     fn algebra(&self, parameters: &[String], report: &mut Report) -> Option<Read> {

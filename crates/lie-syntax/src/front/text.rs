@@ -80,7 +80,7 @@ impl<'a> Source<'a> {
     }
 
     /// The place of the whole text.
-    pub fn whole(&self) -> Origin {
+    pub fn extent(&self) -> Origin {
         self.origin(0..self.text.len())
     }
 

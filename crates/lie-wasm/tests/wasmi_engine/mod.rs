@@ -57,7 +57,7 @@ impl Instance {
         });
         Self {
             kernels: kernels.collect(),
-            lengths: codes.iter().map(Lengths::of).collect(),
+            lengths: codes.iter().map(Lengths::new).collect(),
             interpreted: Interpreted.machine(codes),
             memory,
             store: Mutex::new(store),

@@ -144,7 +144,7 @@ fn at(
             entries.push((*i, *j, *k, value));
         }
     }
-    Some(Table::of(&StructureConstants::new(
+    Some(Table::new(&StructureConstants::new(
         constants.dimension(),
         entries,
     )))

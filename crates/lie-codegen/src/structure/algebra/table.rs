@@ -14,7 +14,7 @@ pub struct Table {
 
 impl Table {
     /// The table of structure constants.
-    pub fn of(constants: &StructureConstants<Rational>) -> Self {
+    pub fn new(constants: &StructureConstants<Rational>) -> Self {
         Self {
             brackets: constants.table(),
         }
@@ -33,7 +33,7 @@ impl Table {
                 entries.extend(value.map(|(k, c)| (i, j, k, c)));
             }
         }
-        Ok(Self::of(&StructureConstants::new(dimension, entries)))
+        Ok(Self::new(&StructureConstants::new(dimension, entries)))
     }
 
     /// Its dimension n.
@@ -67,7 +67,7 @@ impl Table {
                 None => kinds.push((block, 1)),
             }
         }
-        let table = |(kind, count)| (Self::of(&kind), count);
+        let table = |(kind, count)| (Self::new(&kind), count);
         kinds.into_iter().map(table).collect()
     }
 

@@ -19,7 +19,7 @@ pub struct Grading {
 
 impl Grading {
     /// The grading of an algebra whose nonzero constants are at these places; trivial where its numbers become too long.
-    pub fn of(
+    pub fn new(
         dimension: usize,
         places: impl Iterator<Item = (usize, usize, usize)>,
         budget: &Budget,
@@ -93,7 +93,7 @@ mod tests {
     fn rotations_keep_the_signs_of_reflections() {
         let budget = Budget::new(10_000);
         let so3 = [(0, 1, 2), (0, 2, 1), (1, 2, 0)];
-        let grading = Grading::of(3, so3.into_iter(), &budget).unwrap().unwrap();
+        let grading = Grading::new(3, so3.into_iter(), &budget).unwrap().unwrap();
         let class = |e: [i64; 3]| grading.class(e.to_vec());
         // x^2, y^2, z^2 are of one degree, x y of that of z, and x of another than y
         assert_eq!(class([2, 0, 0]), class([0, 0, 2]));

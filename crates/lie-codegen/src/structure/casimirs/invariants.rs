@@ -76,7 +76,7 @@ impl<'a> Search<'a> {
         Ok(Some(Self {
             constants,
             budget,
-            grading: Grading::of(n, places, budget)?,
+            grading: Grading::new(n, places, budget)?,
             generators,
             rational,
             point: (0..n).map(drawn).collect(),

@@ -37,7 +37,7 @@ pub(super) fn add(
     let Some(rational) = constants.try_map(Fraction::as_constant) else {
         return Ok(found);
     };
-    let table = Table::of(&rational);
+    let table = Table::new(&rational);
     let whole = table.whole(budget)?;
     let derived = table.product(&whole, &whole, budget)?;
     let outside = derived.others();

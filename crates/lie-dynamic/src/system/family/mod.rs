@@ -65,7 +65,7 @@ impl<S: Scalar> OfSite<S> {
     /// A site of a family with these values.
     pub(crate) fn new(values: Values<S>) -> Self {
         let wide = values.machine.wide();
-        let wide = wide.map(|machine| values.over(S::widen, Some(machine)));
+        let wide = wide.map(|machine| values.with_scalar(S::widen, Some(machine)));
         Self { values, wide }
     }
 
@@ -97,7 +97,7 @@ impl<S: Scalar> OfSite<S> {
             stretch.part(offsets[place / dimension], place % dimension)
         });
         let frame = self.values.frame([&[], weights, &[], &[]], &[], &[]);
-        self.values.machine.along(code, &columns, &frame, to);
+        self.values.machine.run_columns(code, &columns, &frame, to);
     }
 }
 
@@ -186,10 +186,13 @@ impl<S: Scalar> Sites<S> for OfSite<S> {
     }
 
     fn widen(&self) -> Self::Widened {
-        OfSite::new(self.values.over(S::widen, self.values.machine.wide()))
+        OfSite::new(
+            self.values
+                .with_scalar(S::widen, self.values.machine.wide()),
+        )
     }
     fn lift(&self) -> Self::Lifted {
-        OfSite::new(self.values.over(Dual::constant_of, None))
+        OfSite::new(self.values.with_scalar(Dual::constant_of, None))
     }
 
     fn fields(&self, stretch: &Stretch<'_, S>, weights: &FewOf<S>, out: &mut [S]) {

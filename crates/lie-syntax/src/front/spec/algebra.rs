@@ -123,7 +123,7 @@ fn matrices(value: Value<'_>, names: &Names, report: &mut Report) -> Vec<Matrix>
     }
     let mut matrices = Vec::new();
     for member in value.members(report) {
-        let name = item::name(&member.key.tokens(), member.key.whole(), report);
+        let name = item::name(&member.key.tokens(), member.key.extent(), report);
         let rows = list(member.value, "a matrix", report).unwrap_or_default();
         let rows = rows.into_iter().map(|row| {
             let entries = list(row, "a row of a matrix", report).unwrap_or_default();

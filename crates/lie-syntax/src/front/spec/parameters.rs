@@ -17,7 +17,7 @@ pub fn read(value: Value<'_>, report: &mut Report) -> Parameters {
         return parameters;
     }
     for member in value.members(report) {
-        let name = item::name(&member.key.tokens(), member.key.whole(), report);
+        let name = item::name(&member.key.tokens(), member.key.extent(), report);
         let what = format!("the parameter `{}`", member.key.text.escape_debug());
         parameters.names.extend(name.clone());
         let parameter = if member.value.kind() == Type::Object {

@@ -25,13 +25,13 @@ pub fn read(value: Value<'_>, report: &mut Report) -> Vec<RunOption> {
             | "max-iterations" => constant(member.value, &what, report).into_iter().collect(),
             "at" => times(member.value, &what, report),
             _ => string(member.value, &what, report)
-                .map(|s| (s.text.to_string(), s.whole()))
+                .map(|s| (s.text.to_string(), s.extent()))
                 .into_iter()
                 .collect(),
         };
         let name = Name {
             text: key.to_owned(),
-            origin: member.key.whole(),
+            origin: member.key.extent(),
         };
         options.push(RunOption { name, values });
     }
@@ -41,7 +41,7 @@ pub fn read(value: Value<'_>, report: &mut Report) -> Vec<RunOption> {
 fn constant(value: Value<'_>, what: &str, report: &mut Report) -> Option<(String, Origin)> {
     quantity(value, what, None, report)?;
     match value.kind() {
-        Type::String => string(value, what, report).map(|s| (s.text.to_string(), s.whole())),
+        Type::String => string(value, what, report).map(|s| (s.text.to_string(), s.extent())),
         _ => Some((value.raw().to_owned(), value.origin())),
     }
 }
@@ -72,11 +72,11 @@ fn split(source: &Source<'_>, report: &mut Report) -> Vec<(String, Origin)> {
     let tokens = source.tokens();
     let parts = token::split_commas(&tokens);
     if parts.is_empty() {
-        report.push(item::missing_constant(source.whole()));
+        report.push(item::missing_constant(source.extent()));
     }
     for part in parts {
         let Some(place) = token::span(part) else {
-            report.push(item::missing_constant(source.whole()));
+            report.push(item::missing_constant(source.extent()));
             continue;
         };
         if item::constant(part, report).is_some() {

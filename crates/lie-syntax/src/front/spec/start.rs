@@ -28,7 +28,7 @@ fn file(value: Value<'_>, report: &mut Report) -> Option<Start> {
     object.require("`initial`", schema::Numbers::REQUIRED, report);
     let path = string(object.get("npy")?, "`npy`", report)?;
     Some(Start::File(Name {
-        origin: path.whole(),
+        origin: path.extent(),
         text: path.text.into_owned(),
     }))
 }
@@ -41,7 +41,7 @@ fn random(value: Value<'_>, report: &mut Report) -> Option<u64> {
     if kind.text != "unit-sphere" {
         let message = format!("unknown distribution `{}`", kind.text.escape_debug());
         let help = "write `unit-sphere`: a point on it for each site";
-        report.push(Diagnostic::new(Kind::Schema, kind.whole(), message).help(help));
+        report.push(Diagnostic::new(Kind::Schema, kind.extent(), message).help(help));
     }
     let Some(seed) = object.get("seed") else {
         return Some(1);

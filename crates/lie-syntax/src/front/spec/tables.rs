@@ -22,7 +22,7 @@ pub fn read(value: Value<'_>, folder: Option<&Path>, report: &mut Report) -> Vec
     }
     let mut read = Vec::new();
     for member in value.members(report) {
-        let name = item::name(&member.key.tokens(), member.key.whole(), report);
+        let name = item::name(&member.key.tokens(), member.key.extent(), report);
         let written = table(member.value, folder, report);
         read.extend(name.map(|name| (name, written)));
     }
@@ -46,7 +46,7 @@ fn table(value: Value<'_>, folder: Option<&Path>, report: &mut Report) -> Option
     let outside = match object.get("outside") {
         Some(value) => {
             let word = string(value, "`outside`", report)?;
-            Outside::read(&word.text, word.whole(), report)?
+            Outside::read(&word.text, word.extent(), report)?
         }
         None => Outside::default(),
     };
@@ -61,7 +61,7 @@ fn table(value: Value<'_>, folder: Option<&Path>, report: &mut Report) -> Option
 fn points(value: Value<'_>, folder: Option<&Path>, report: &mut Report) -> Option<Vec<Point>> {
     if value.kind() == Type::String {
         let path = string(value, "`table`", report)?;
-        let read = csv::read(&path.text, path.whole(), folder);
+        let read = csv::read(&path.text, path.extent(), folder);
         return read.map_err(|mistake| report.push(mistake)).ok();
     }
     let points = list(value, "`table`", report)?;

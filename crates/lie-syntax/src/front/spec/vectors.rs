@@ -16,7 +16,7 @@ pub fn read(value: Value<'_>, names: &Names, report: &mut Report) -> Vec<Declare
     }
     let mut declared = Vec::new();
     for member in value.members(report) {
-        let name = item::name(&member.key.tokens(), member.key.whole(), report);
+        let name = item::name(&member.key.tokens(), member.key.extent(), report);
         let value = vector(member.value, names, report);
         let both = name.zip(value);
         declared.extend(both.map(|(name, value)| Declared { name, value }));

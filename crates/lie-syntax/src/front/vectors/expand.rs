@@ -47,7 +47,7 @@ impl Expansion<'_> {
     fn scalar(&self, expression: &Expr) -> Result<Expr> {
         match self.value(expression)? {
             Value::Scalar(scalar) => Ok(scalar),
-            other => Err(no_scalar(&Operand::of(expression), &other).into()),
+            other => Err(no_scalar(&Operand::new(expression), &other).into()),
         }
     }
 
@@ -139,13 +139,13 @@ impl Expansion<'_> {
             .iter()
             .position(|(_, v)| form(v) != form(&values[0].1));
         if let Some(other) = other {
-            let operands = [0, other].map(|at| Operand::of(&terms[at].1));
+            let operands = [0, other].map(|at| Operand::new(&terms[at].1));
             let help = "add what has the same shape";
             let shapes = [
                 (&operands[0], &values[0].1),
                 (&operands[1], &values[other].1),
             ];
-            return Err(mistake(&Operand::of(whole), shapes, help).into());
+            return Err(mistake(&Operand::new(whole), shapes, help).into());
         }
         if values.iter().all(|(_, v)| matches!(v, Value::Scalar(_))) {
             let mut all = Vec::new();
@@ -192,11 +192,11 @@ impl Expansion<'_> {
             match self.value(factor)? {
                 Value::Scalar(scalar) => scalars.push((*divides, scalar)),
                 value => {
-                    let operand = Operand::of(factor);
+                    let operand = Operand::new(factor);
                     if *divides {
                         let help = "divide by a scalar, such as norm(v)";
                         let shapes = [(&operand, &value)];
-                        return Err(mistake(&Operand::of(whole), shapes, help).into());
+                        return Err(mistake(&Operand::new(whole), shapes, help).into());
                     }
                     if tensors.is_empty() {
                         before = scalars.len();
@@ -264,11 +264,11 @@ impl Expansion<'_> {
             }
             (Value::Vector(_), Value::Vector(_)) => {
                 let help = "the products of vectors are dot(v, w) and cross(v, w)";
-                return Err(mistake(&Operand::of(whole), [left, right], help).into());
+                return Err(mistake(&Operand::new(whole), [left, right], help).into());
             }
             _ => {
                 let help = "a product is A*v, with as many columns of A as v has entries";
-                return Err(mistake(&Operand::of(whole), [left, right], help).into());
+                return Err(mistake(&Operand::new(whole), [left, right], help).into());
             }
         };
         Ok(result)
@@ -310,10 +310,10 @@ impl Expansion<'_> {
             ("quad", _) => ("quad(A, v)", "a square matrix and a vector of its size"),
             _ => ("norm(v), norm2(v)", "a vector"),
         };
-        let operands: Vec<Operand> = arguments.iter().map(Operand::of).collect();
+        let operands: Vec<Operand> = arguments.iter().map(Operand::new).collect();
         let shapes = operands.iter().zip(&values);
         let help = format!("the form is {scalar}, of {help}");
-        Err(shapes::mistake(&Operand::of(whole), shapes, &help).into())
+        Err(shapes::mistake(&Operand::new(whole), shapes, &help).into())
     }
 
     fn cross(&self, a: &[Expr], b: &[Expr], origin: Origin) -> Result<Value> {

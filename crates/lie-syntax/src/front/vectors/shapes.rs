@@ -15,7 +15,7 @@ pub struct Operand {
 
 impl Operand {
     /// Of an expression before its expansion.
-    pub fn of(expression: &Expr) -> Self {
+    pub fn new(expression: &Expr) -> Self {
         Self {
             text: excerpt(&text(expression), LONGEST_QUOTE).into_owned(),
             origin: expression.origin,
