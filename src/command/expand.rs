@@ -21,7 +21,7 @@ pub fn run(arguments: &args::Expand) -> Result<u8, Failure> {
     let mut choices = Vec::new();
     let mut mistakes: Vec<Message> = Vec::new();
     if let Some(path) = &arguments.runtime {
-        match Runtime::at(path) {
+        match Runtime::parse(path) {
             Ok(found) => runtime = found,
             Err(no_path) => mistakes.push(
                 Message::option("--crate", no_path.to_string())
@@ -53,7 +53,7 @@ pub fn run(arguments: &args::Expand) -> Result<u8, Failure> {
     } else {
         let surface = Surface {
             runtime,
-            ..Surface::of(&spec.model)
+            ..Surface::new(&spec.model)
         };
         print(&compile::expand_on(&spec.model, &choices, &surface))?;
     }

@@ -67,7 +67,7 @@ fn the_page_of_functions_is_current() {
         );
     }
     text += "\n## Of vectors and matrices\n\n| Written | Is |\n|---|---|\n";
-    for function in vocabulary::of_vectors() {
+    for function in vocabulary::vector_functions() {
         let _ = writeln!(
             text,
             "| `{}` | {} |",

@@ -80,12 +80,12 @@ pub fn compile_spec_in(
 
 /// The generated items of a system with fused code for these methods.
 pub fn generate(structure: &Structure, choices: &[Choice]) -> TokenStream {
-    print(&plan(structure, choices), &Surface::of(structure))
+    print(&plan(structure, choices), &Surface::new(structure))
 }
 
 /// The generated code as a formatted file.
 pub fn expand(structure: &Structure, choices: &[Choice]) -> String {
-    expand_on(structure, choices, &Surface::of(structure))
+    expand_on(structure, choices, &Surface::new(structure))
 }
 
 /// The same with another surface, such as another path of the runtime.
@@ -106,7 +106,7 @@ pub fn expand_with(
         method.check(structure)?;
     }
     let plan = plan_with(structure, choices, own);
-    Ok(file(structure, print(&plan, &Surface::of(structure))))
+    Ok(file(structure, print(&plan, &Surface::new(structure))))
 }
 
 fn file(structure: &Structure, items: TokenStream) -> String {

@@ -36,7 +36,7 @@ pub fn expand_macro(input: TokenStream, manifest: &Path) -> TokenStream {
 
 /// The items of a system with the methods that it declares.
 fn generated(structure: &Structure, parsed: &Parsed) -> TokenStream {
-    let surface = Surface::of(structure).as_declared(parsed);
+    let surface = Surface::new(structure).as_declared(parsed);
     print(&plan(structure, &declared_choices(structure)), &surface)
 }
 

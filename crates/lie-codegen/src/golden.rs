@@ -86,7 +86,7 @@ impl Golden {
     /// The path at which the generated code of the systems that follow finds the runtime, such as
     /// `my_crate::lie_runtime`, where it is not `::lie_runtime`.
     pub fn runtime(&mut self, path: &str) -> &mut Self {
-        match Runtime::at(path) {
+        match Runtime::parse(path) {
             Ok(runtime) => self.runtime = runtime,
             Err(no_path) => self.problems.push(format!(
                 "{no_path}{REMEDY}write the path at which the runtime is re-exported, such as my_crate::lie_runtime"
@@ -240,7 +240,7 @@ impl Golden {
 fn code(structure: &Structure, choices: &[Choice], runtime: Runtime) -> String {
     let surface = Surface {
         runtime,
-        ..Surface::of(structure)
+        ..Surface::new(structure)
     };
     expand_on(structure, choices, &surface)
 }

@@ -53,7 +53,7 @@ fn kernels_of_all_systems() {
             continue;
         }
         let model = compile_spec(&std::fs::read_to_string(&path).unwrap()).unwrap();
-        let mut source = Source::of(&model);
+        let mut source = Source::new(&model);
         let mut kernels: Vec<Kernel> = source.basic_kernels();
         kernels.extend(source.midpoint_kernels());
         kernels.extend(source.cayley_kernels().unwrap_or_default());

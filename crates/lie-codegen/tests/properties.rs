@@ -82,7 +82,7 @@ fn check(system: &random::System, offset: f64) -> Result<(), TestCaseError> {
         Symbol::Step => 0.1,
         Symbol::Time => 0.0,
     };
-    let mut source = Source::of(&model);
+    let mut source = Source::new(&model);
     for kernel in kernels(&mut source) {
         let program = kernel.program(&mut source.graph);
         let defined = values(&kernel, &source.graph, &point);

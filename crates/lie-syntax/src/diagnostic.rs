@@ -49,7 +49,7 @@ thread_local! {
 pub struct SpanId(usize);
 
 impl SpanId {
-    fn of(span: Span) -> Self {
+    fn new(span: Span) -> Self {
         SPANS.with_borrow_mut(|spans| {
             spans.push(span);
             Self(spans.len() - 1)
@@ -84,8 +84,8 @@ pub enum Origin {
 
 impl Origin {
     /// The place of a span.
-    pub fn at(span: Span) -> Self {
-        Self::Span(SpanId::of(span))
+    pub fn from_span(span: Span) -> Self {
+        Self::Span(SpanId::new(span))
     }
 
     /// Its span, or that of the invocation.
@@ -97,14 +97,14 @@ impl Origin {
     }
 
     /// The smallest place that covers both.
-    pub fn to(self, end: Origin) -> Origin {
+    pub fn join(self, end: Origin) -> Origin {
         match (self, end) {
             (Origin::Text { start, .. }, Origin::Text { end, .. }) if start <= end => {
                 Origin::Text { start, end }
             }
             (Origin::Span(a), Origin::Span(b)) => {
                 let (a, b) = (a.span(), b.span());
-                Origin::at(a.join(b).unwrap_or(a))
+                Origin::from_span(a.join(b).unwrap_or(a))
             }
             (start, _) => start,
         }

@@ -11,14 +11,14 @@ pub fn table(name: &'static str) -> impl Iterator<Item = (&'static str, &'static
 }
 
 /// What belongs to a word in a table with several words in a row.
-pub fn of_word(name: &'static str, word: &str) -> Option<&'static str> {
+pub fn lookup_word(name: &'static str, word: &str) -> Option<&'static str> {
     let mut rows = table(name);
     let found = rows.find(|(theirs, _)| theirs.split(' ').any(|other| other == word));
     found.map(|(_, ours)| ours)
 }
 
 /// What belongs to a character in a table with several characters in a row.
-pub fn of_character(name: &'static str, c: char) -> Option<&'static str> {
+pub fn lookup_character(name: &'static str, c: char) -> Option<&'static str> {
     let found = table(name).find(|(theirs, _)| theirs.contains(c));
     found.map(|(_, ours)| ours)
 }

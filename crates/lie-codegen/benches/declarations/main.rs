@@ -94,7 +94,7 @@ fn measure(declaration: &Declaration) -> Cost {
     let choices = declared_choices(&model);
     let clock = Clock::start();
     let plan = plan(&model, &choices);
-    let items = print(&plan, &Surface::of(&model));
+    let items = print(&plan, &Surface::new(&model));
     cost.generate = clock.seconds();
     cost.operations = plan.counts().iter().map(|(_, c)| c.weight()).sum();
     let clock = Clock::start();
@@ -110,7 +110,7 @@ fn dissect(cost: &mut Cost) -> Vec<KernelCost> {
     let Ok(model) = compile_spec(&cost.text) else {
         return Vec::new();
     };
-    let mut source = Source::of(&model);
+    let mut source = Source::new(&model);
     let mut kernels = source.basic_kernels();
     kernels.extend(source.midpoint_kernels());
     let mut costs = Vec::new();

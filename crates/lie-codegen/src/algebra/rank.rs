@@ -42,7 +42,7 @@ fn modulo_prime(
     let polynomial = |p: &Polynomial| {
         let mut sum = Residue::ZERO;
         for (monomial, coefficient) in p.terms() {
-            let mut product = Residue::of(coefficient)?;
+            let mut product = Residue::from_rational(coefficient)?;
             for (v, e) in monomial.powers() {
                 product = product.times(parameters.get(v)?.power(i64::from(e))?);
             }

@@ -37,7 +37,7 @@ pub fn check(
     let budget = Budget::new(WORK);
     let mut domain = vec![candidate.expr];
     domain.extend(poisson.entries.iter().map(|(.., value)| *value));
-    let mut normal = NormalForm::within(scratch, &budget, &domain);
+    let mut normal = NormalForm::with_domain(scratch, &budget, &domain);
     let mut undecided = None;
     for (i, bracket) in &brackets {
         let coordinate = name(Symbol::Coordinate(*i));

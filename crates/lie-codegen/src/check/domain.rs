@@ -139,7 +139,9 @@ fn first_part(graph: &mut Graph, root: ExprId, value: &dyn Fn(Symbol) -> f64) ->
     let parts = graph.dependencies(&[root]);
     let values = graph.evaluate_all(&parts, value);
     let at = |id: ExprId| Some(values[parts.binary_search(&id).ok()?]);
-    let taken = graph.taken(&[root], &|id| Some(at(id)? < 0.0)).into_iter();
+    let taken = graph
+        .taken_dependencies(&[root], &|id| Some(at(id)? < 0.0))
+        .into_iter();
     let mut not_finite = taken.filter(|id| at(*id).is_some_and(|v| !v.is_finite()));
     culprit(graph, not_finite.next().unwrap_or(root), value)
 }

@@ -207,7 +207,7 @@ pub fn jacobi(
     let scratch = &*scratch;
     let budget = Budget::new(WORK);
     let domain: Vec<ExprId> = entries.iter().map(|entry| entry.value).collect();
-    let mut normal = NormalForm::within(scratch, &budget, &domain);
+    let mut normal = NormalForm::with_domain(scratch, &budget, &domain);
     let mut first: Option<(Diagnostic, usize)> = None;
     for (triple, sum) in &sums {
         let name = |symbol| symbol_name(declaration, symbol);
@@ -328,7 +328,7 @@ fn jacobiator(dimension: usize, entries: &[Entry], graph: &mut Graph) -> Vec<([u
 fn place(entries: &[Entry], triple: [usize; 3]) -> Origin {
     let between = |entry: &&Entry| triple.contains(&entry.row) && triple.contains(&entry.column);
     let found = entries.iter().find(between).or(entries.first());
-    found.map_or(Origin::at(proc_macro2::Span::call_site()), |entry| {
+    found.map_or(Origin::from_span(proc_macro2::Span::call_site()), |entry| {
         entry.origin
     })
 }

@@ -176,7 +176,7 @@ pub fn check(
     let (components, thirds) = higher_derivatives(scratch, &map, &slopes);
     let scratch = &*scratch;
     let budget = Budget::new(WORK);
-    let mut normal = NormalForm::within(scratch, &budget, &map);
+    let mut normal = NormalForm::with_domain(scratch, &budget, &map);
     for (a, b, difference) in differences {
         let shown = |k| name(Symbol::Coordinate(k));
         let proof = examine(&mut normal, scratch, difference, name);

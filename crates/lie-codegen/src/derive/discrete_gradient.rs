@@ -69,7 +69,7 @@ impl Source {
 
     fn middle_gradient(&mut self) -> Vec<ExprId> {
         let (gradient, middle) = (self.gradient_of_h(), self.middle());
-        self.at(&gradient, &middle)
+        self.at_point(&gradient, &middle)
     }
 
     /// The derivative of an expression in the coordinates along a vector.
@@ -100,7 +100,7 @@ impl Source {
             })
             .collect();
         let middle = self.middle();
-        self.at(&sums, &middle)
+        self.at_point(&sums, &middle)
     }
 
     /// With `r = 1/|d|`, the correction c and the direction e defined, the derivative in `u_j` of
@@ -117,7 +117,7 @@ impl Source {
         }
         let correction = self.graph.linear(&terms);
         let middle = self.middle();
-        let correction = self.at(&[correction], &middle)[0];
+        let correction = self.at_point(&[correction], &middle)[0];
         let inverse = self.block(Block::Given)[0];
         let difference = self.block(Block::Difference);
         for (i, symbol) in self.symbols(Block::Direction).into_iter().enumerate() {
@@ -182,8 +182,8 @@ impl Source {
                     point[i] = middle[i];
                     point
                 };
-                let there = self.at(&[mean], &corner(&u, &x))[0];
-                let back = self.at(&[mean], &corner(&x, &u))[0];
+                let there = self.at_point(&[mean], &corner(&u, &x))[0];
+                let back = self.at_point(&[mean], &corner(&x, &u))[0];
                 self.graph
                     .linear(&[(there, half.clone()), (back, half.clone())])
             })

@@ -6,7 +6,7 @@ use std::sync::{Arc, OnceLock};
 
 use super::field::mu;
 use super::{Block, Source};
-use lie_symbolic::schedule::{Known, Program, Task, schedule, schedule_beside};
+use lie_symbolic::schedule::{KnownSymbols, Program, Task, schedule, schedule_beside};
 use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 
 /// A vector argument and the symbols of its entries.
@@ -52,19 +52,19 @@ pub struct Kernel {
     /// What is to be computed.
     pub task: Task,
     /// The larger computation that it is a part of, and which of its results are this kernel's.
-    pub whole: Option<(Arc<Whole>, Range<usize>)>,
+    pub whole: Option<(Arc<JointComputation>, Range<usize>)>,
 }
 
 /// A computation whose parts are kernels too: each of them takes the operations that stand there, so that
 /// kernels which compute the same quantity agree bit for bit.
 #[derive(Debug)]
-pub struct Whole {
+pub struct JointComputation {
     first: Task,
     second: Task,
     program: OnceLock<Program>,
 }
 
-impl Whole {
+impl JointComputation {
     fn program(&self, graph: &mut Graph) -> &Program {
         self.program
             .get_or_init(|| schedule_beside(graph, &self.first, &self.second))
@@ -82,7 +82,7 @@ impl Kernel {
         let task = Task {
             definitions: Vec::new(),
             outputs: vec![value],
-            known: Known::Parameters,
+            known: KnownSymbols::Parameters,
         };
         Self {
             name,
@@ -106,7 +106,7 @@ impl Kernel {
         let task = Task {
             definitions: Vec::new(),
             outputs,
-            known: Known::Parameters,
+            known: KnownSymbols::Parameters,
         };
         Self {
             name,
@@ -130,7 +130,7 @@ impl Kernel {
         let task = Task {
             definitions: Vec::new(),
             outputs,
-            known: Known::Parameters,
+            known: KnownSymbols::Parameters,
         };
         Self {
             name,
@@ -157,7 +157,7 @@ impl Kernel {
         let task = Task {
             definitions: Vec::new(),
             outputs,
-            known: Known::Parameters,
+            known: KnownSymbols::Parameters,
         };
         Self {
             name,
@@ -173,7 +173,7 @@ impl Kernel {
     #[must_use]
     pub fn within_step(mut self, definitions: Vec<(Symbol, ExprId)>) -> Self {
         self.task.definitions = definitions;
-        self.task.known = Known::Step;
+        self.task.known = KnownSymbols::Step;
         self
     }
 
@@ -187,7 +187,7 @@ impl Kernel {
 
     /// Makes two kernels and the one that computes both agree: all three take the same operations.
     pub fn agree(first: &mut Self, second: &mut Self, both: &mut Self) {
-        let whole = Arc::new(Whole {
+        let whole = Arc::new(JointComputation {
             first: first.task.clone(),
             second: second.task.clone(),
             program: OnceLock::new(),

@@ -3,7 +3,7 @@
 use super::Source;
 use super::generating::too_large;
 use super::tape::{Tangents, Tape};
-use lie_symbolic::schedule::{Known, Operation, Task, schedule};
+use lie_symbolic::schedule::{KnownSymbols, Operation, Task, schedule};
 use lie_symbolic::symbolic::{ExprId, Symbol};
 
 /// Lists longer than this are not scheduled twice.
@@ -31,7 +31,7 @@ pub(crate) fn leaner_jacobian(
     if too_large(source, tape) || tape.definitions().len() > MOST_COMPARED {
         return rows;
     }
-    let other_rows = other.jacobian_in(source, values, symbols, preferred.others());
+    let other_rows = other.jacobian_in(source, values, symbols, preferred.opposite());
     if too_large(source, &other) || other.definitions().len() > MOST_COMPARED {
         return rows;
     }
@@ -46,7 +46,7 @@ pub(crate) fn leaner_jacobian(
         let task = Task {
             definitions: derived.definitions,
             outputs: derived.values.into_iter().chain(rows).collect(),
-            known: Known::Step,
+            known: KnownSymbols::Step,
         };
         let program = schedule(&mut source.graph, &task);
         // derivatives in place may cancel only once they are computed: what is left is no form to write out

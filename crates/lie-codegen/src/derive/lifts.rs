@@ -22,7 +22,10 @@ fn argument(name: &'static str, symbols: &[Symbol]) -> Argument {
 }
 
 fn syms(symbols: &[Symbol]) -> Vec<Sym> {
-    symbols.iter().map(|symbol| Sym::of(*symbol)).collect()
+    symbols
+        .iter()
+        .map(|symbol| Sym::from_symbol(*symbol))
+        .collect()
 }
 
 impl Source {
@@ -145,6 +148,6 @@ impl Source {
             momenta.push(self.graph.sum(&terms));
         }
         let gradient = self.gradient_of_h();
-        self.at(&gradient, &momenta)
+        self.at_point(&gradient, &momenta)
     }
 }

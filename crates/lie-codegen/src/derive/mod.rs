@@ -191,7 +191,7 @@ impl Source {
     }
 
     /// The expressions with the coordinates replaced by another block of symbols.
-    pub(crate) fn at(&mut self, expressions: &[ExprId], point: &[ExprId]) -> Vec<ExprId> {
+    pub(crate) fn at_point(&mut self, expressions: &[ExprId], point: &[ExprId]) -> Vec<ExprId> {
         self.graph.substitute(expressions, &|symbol| match symbol {
             Symbol::Coordinate(i) => Some(point[i]),
             _ => None,

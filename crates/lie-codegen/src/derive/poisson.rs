@@ -48,7 +48,7 @@ impl Source {
             return self.ad_star_of(xi, point);
         };
         let values: Vec<ExprId> = entries.iter().map(|(.., value)| *value).collect();
-        let values = self.at(&values, point);
+        let values = self.at_point(&values, point);
         let mut terms: Vec<Vec<ExprId>> = vec![Vec::new(); self.dimension];
         for ((i, j, _), value) in entries.iter().zip(values) {
             terms[*i].push(self.graph.mul(value, xi[*j]));

@@ -45,7 +45,7 @@ pub struct Source {
 
 impl Source {
     /// What the kernels of a system are derived from.
-    pub fn of(structure: &Structure) -> Self {
+    pub fn new(structure: &Structure) -> Self {
         // What is proven was proven of normal forms; what is evaluated is what was written.
         let written = |id: ExprId| structure.graph.as_written(id);
         let bracket = match &structure.bracket {

@@ -293,7 +293,7 @@ mod tests {
                         "brackets": ["[e1, e2] = e3", "[e1, e3] = e4", "[e1, e4] = e5"]},
             "state": ["x", "y", "z", "u", "v"], "hamiltonian": "x^2/2 + y^2"}"#;
         let model = compile_spec(spec).expect("a spec without mistakes");
-        let mut source = Source::of(&model);
+        let mut source = Source::new(&model);
         let pieces = source.splitting_kernels().expect("H is separable");
         let flow = pieces.iter().find(|piece| piece.coordinate == 0);
         let kernel = flow

@@ -34,7 +34,7 @@ pub enum Tangents {
 
 impl Tangents {
     /// The other way.
-    pub fn others(self) -> Self {
+    pub fn opposite(self) -> Self {
         match self {
             Self::Named => Self::Inline,
             Self::Inline => Self::Named,

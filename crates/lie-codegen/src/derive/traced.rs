@@ -33,7 +33,7 @@ impl Source {
             result: "",
         };
         trace::kernels(self, &formulas, |system, h| {
-            trace::linearized(generic::Spherical::new(system, h)).with("ratios")
+            trace::linearized(generic::Spherical::new(system, h)).with_given("ratios")
         })
     }
 
@@ -70,9 +70,9 @@ impl Source {
             result: "",
         };
         let kernels = trace::kernels(self, &formulas, |system, h| {
-            let system = system.along(closed);
+            let system = system.with_gradient(closed);
             let step = DiscreteGradientStep::<_, _, SymbolicGradient>::new(&system, h);
-            trace::linearized(step).with("inverse")
+            trace::linearized(step).with_given("inverse")
         });
         kernels.expect("nothing is compared")
     }
@@ -122,7 +122,7 @@ impl Source {
         let function = SymbolicFunction(Generating::Second);
         let kernels = trace::kernels(self, &formulas, |system, _| {
             let equation = SecondKind::<_, _, _, SymbolicActions>::with_actions(system, function);
-            trace::whole(equation, "`p_i = (m_(i-1))_i` with `xi = grad S(mu)`")
+            trace::complete(equation, "`p_i = (m_(i-1))_i` with `xi = grad S(mu)`")
         });
         kernels.filter(|_| self.graph.size() - size <= MOST_SCHEDULED)
     }

@@ -79,7 +79,7 @@ fn declared(place: &str, input: TokenStream) -> Result<Declared, String> {
         Some(Body::Declaration(declaration)) => {
             let structure = compile_declaration(declaration).map_err(refused)?;
             let choices = declared_choices(&structure);
-            let surface = Surface::of(&structure).as_declared(&parsed);
+            let surface = Surface::new(&structure).as_declared(&parsed);
             Ok(Declared::Code(
                 structure.name.clone(),
                 expand_on(&structure, &choices, &surface),

@@ -57,7 +57,7 @@ fn check_text(name: &str, text: &str) -> usize {
     let model = compile_spec(text).expect("a spec without mistakes");
     let parameters = model.defaults();
     let judge = Judge::of_spec(text, &model, &parameters).expect("a declaration");
-    let mut source = Source::of(&model);
+    let mut source = Source::new(&model);
     let kernels = source.basic_kernels();
     let initial = model.initial_values(&parameters).expect("an initial state");
     let n = initial.len();

@@ -3,7 +3,7 @@
 use super::elimination::Elimination;
 use super::equation::{Guess, Motion, Solver, Unknown};
 use super::planner::Planner;
-use super::steps::{Form, of_stages};
+use super::steps::{Form, stage_elimination};
 use crate::methods::{Choice, Lift};
 
 impl Planner<'_> {
@@ -21,7 +21,7 @@ impl Planner<'_> {
         let pattern = self.momenta_pattern(lift);
         let n = self.source.dimension;
         let full = Elimination::multiplications_of_full(stages * n);
-        let elimination = of_stages(stages, n, &pattern);
+        let elimination = stage_elimination(stages, n, &pattern);
         if !elimination.is_unrolled() && 2 * elimination.multiplications() > full {
             return None;
         }

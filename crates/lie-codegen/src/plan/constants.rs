@@ -3,7 +3,7 @@
 use std::collections::{BTreeSet, HashMap};
 
 use super::planner::Planner;
-use lie_symbolic::schedule::{Known, Program, Task, schedule};
+use lie_symbolic::schedule::{KnownSymbols, Program, Task, schedule};
 use lie_symbolic::symbolic::{ExprId, Node, Symbol};
 
 /// What is known before a kernel runs.
@@ -94,7 +94,7 @@ impl Planner<'_> {
         let task = Task {
             definitions: Vec::new(),
             outputs: outputs.to_vec(),
-            known: Known::Nothing,
+            known: KnownSymbols::Nothing,
         };
         let program = schedule(&mut self.source.graph, &task);
         self.code_of_system(&program)
@@ -144,7 +144,7 @@ impl Planner<'_> {
     /// An expression in the names of the declaration.
     pub(super) fn text(&self, id: ExprId) -> String {
         let graph = &self.source.graph;
-        graph.display(id, &|symbol| self.names.shown(symbol))
+        graph.display(id, &|symbol| self.names.display_name(symbol))
     }
 }
 

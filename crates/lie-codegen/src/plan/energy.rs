@@ -120,7 +120,7 @@ impl Planner<'_> {
             let pattern = planner.exp_pattern(&derivative);
             let mut partner = planner.partner(&Choice::OrbitEnergy(gradient));
             if degree.is_some() {
-                partner = partner.along(names.gradient);
+                partner = partner.with_own_code(names.gradient);
             }
             let label = format!("orbit-energy {}", gradient.name());
             planner.eliminated(partner, names.orbit, &label, Unknown::State, pattern)

@@ -164,7 +164,7 @@ pub enum Partner {
 
 impl Partner {
     /// The same along a function or a gradient that has code of its own.
-    pub(super) fn along(self, suffix: &'static str) -> Self {
+    pub(super) fn with_own_code(self, suffix: &'static str) -> Self {
         match self {
             Self::Catalogue { of, equation, .. } => Self::Catalogue {
                 of,

@@ -49,11 +49,11 @@ impl Planner<'_> {
         step: &mut Table,
     ) -> Function {
         let program = kernel.program(&mut self.source.graph);
-        self.of_program(label, kernel, &program, step)
+        self.program_function(label, kernel, &program, step)
     }
 
     /// The same from a program that was found before.
-    pub(super) fn of_program(
+    pub(super) fn program_function(
         &mut self,
         label: String,
         kernel: &Kernel,

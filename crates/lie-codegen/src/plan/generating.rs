@@ -68,10 +68,10 @@ impl Planner<'_> {
         });
         let mut step = Table::default();
         let label = format!("{} gradient", named.label);
-        let gradient = self.of_program(label, &function.gradient, &short, &mut step);
+        let gradient = self.program_function(label, &function.gradient, &short, &mut step);
         let linearize = long.map(|(kernel, program)| {
             let label = format!("{} linearize", named.label);
-            self.of_program(label, &kernel, &program, &mut step)
+            self.program_function(label, &kernel, &program, &mut step)
         });
         let planned = Planned {
             suffix: named.suffix,
@@ -91,7 +91,7 @@ impl Planner<'_> {
                 self.exp_pattern(&function.pattern),
             ),
         };
-        let partner = self.partner(&choice).along(named.suffix);
+        let partner = self.partner(&choice).with_own_code(named.suffix);
         Some(self.eliminated(partner, named.suffix, named.label, Unknown::State, pattern))
     }
 

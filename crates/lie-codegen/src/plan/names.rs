@@ -19,7 +19,7 @@ pub struct Names {
 
 impl Names {
     /// The names that a declaration gives.
-    pub(super) fn of(model: &Model) -> Self {
+    pub(super) fn new(model: &Model) -> Self {
         let algebra = model.bracket.algebra();
         let basis = algebra.map_or(&model.coordinates, |algebra| &algebra.basis);
         let texts =
@@ -55,7 +55,7 @@ impl Names {
     }
 
     /// The name of a symbol in messages and doc comments.
-    pub fn shown(&self, symbol: Symbol) -> String {
+    pub fn display_name(&self, symbol: Symbol) -> String {
         match symbol {
             Symbol::Step => "h".into(),
             Symbol::Time => "t".into(),

@@ -38,7 +38,7 @@ impl Own {
                 structure.name
             ));
         }
-        match self.kernels(&mut Source::of(structure)) {
+        match self.kernels(&mut Source::new(structure)) {
             Some(_) => Ok(()),
             None => Err(format!(
                 "`{method}` stays generic: its equation compares numbers, so that it has no formula"

@@ -65,7 +65,7 @@ impl<'a> Planner<'a> {
     }
 
     fn new(structure: &'a Structure, choices: &[Choice]) -> Self {
-        let mut source = Source::of(structure);
+        let mut source = Source::new(structure);
         let solved = choices.iter().map(Choice::solved);
         if choices.is_empty() || choices.iter().any(|c| c.solved().follows_exponentials()) {
             let algebra = structure.bracket.algebra();
@@ -74,7 +74,7 @@ impl<'a> Planner<'a> {
         Self {
             structure,
             source,
-            names: Names::of(structure),
+            names: Names::new(structure),
             // without an expression of H there is nothing to fuse
             methods: solved
                 .filter(|_| structure.energy.expression().is_some())
@@ -96,7 +96,7 @@ impl<'a> Planner<'a> {
         } = begun;
         let chosen = chosen(self.structure);
         let splitting = self.splitting(chosen.as_ref());
-        let found = self.found(chosen.as_ref());
+        let found = self.found_splitting(chosen.as_ref());
         let defaults: Vec<_> = self
             .structure
             .parameters
@@ -131,7 +131,7 @@ impl<'a> Planner<'a> {
     }
 
     /// Whether fused code is wanted for a method.
-    pub(super) fn asked(&self, choice: &Choice) -> bool {
+    pub(super) fn is_requested(&self, choice: &Choice) -> bool {
         self.methods.contains(choice)
     }
 }

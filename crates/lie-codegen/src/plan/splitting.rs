@@ -91,7 +91,7 @@ pub fn chosen(structure: &Structure) -> Option<Chosen> {
             costs: vec![0],
         });
     }
-    let source = Source::of(structure);
+    let source = Source::new(structure);
     let ways = searched.ways.iter().map(|way| {
         let mut source = source.clone();
         let way = way.moved(&searched.graph, &mut source.graph);
@@ -147,7 +147,7 @@ impl Planner<'_> {
     /// their directions.
     ///
     /// They come behind all other kernels, whose code does not depend on them then.
-    pub(super) fn found(&mut self, chosen: Option<&Chosen>) -> Option<Found> {
+    pub(super) fn found_splitting(&mut self, chosen: Option<&Chosen>) -> Option<Found> {
         let chosen = chosen?;
         let searched = &self.structure.splitting;
         let found = &searched.ways[chosen.way];

@@ -146,7 +146,7 @@ impl Planner<'_> {
             methods.push((Choice::LieTaylor, "lie_taylor"));
         }
         for (choice, key) in methods {
-            if self.asked(&choice) && !self.source.has_own_functions() {
+            if self.is_requested(&choice) && !self.source.has_own_functions() {
                 let recurrence = self.recurrence(choice == Choice::LieTaylor);
                 self.items.push(Item::Recurrence(Box::new(recurrence)));
             } else {
@@ -175,7 +175,7 @@ impl Planner<'_> {
         self.once(&format!("gauss{order}"), |planner| {
             let pattern = planner.field_pattern();
             let n = planner.source.dimension;
-            let elimination = of_stages(stages, n, &pattern);
+            let elimination = stage_elimination(stages, n, &pattern);
             let full = Elimination::multiplications_of_full(stages * n);
             if !elimination.is_unrolled() && 5 * elimination.multiplications() > 4 * full {
                 return Solver::Generic(planner.partner(&Choice::Gauss(stages)));
@@ -243,10 +243,10 @@ impl Planner<'_> {
         for kernel in kernels {
             let program = kernel.program(&mut self.source.graph);
             if let Shape::VectorAndMatrix(_, places) = &kernel.shape {
-                elimination = of_jacobian(self.source.dimension, places, &program);
+                elimination = jacobian_elimination(self.source.dimension, places, &program);
             }
             let label = format!("{} {}", form.label, kernel.name);
-            functions.push(self.of_program(label, kernel, &program, &mut step));
+            functions.push(self.program_function(label, kernel, &program, &mut step));
         }
         let has = |name: &str| kernels.iter().any(|kernel| kernel.name == name);
         let of_body = form.partner.choice() == Some(&Choice::MoserVeselov);
@@ -304,7 +304,7 @@ impl Planner<'_> {
             suffix: name.clone(),
             label: format!("{label} elimination"),
             unknown,
-            elimination: of_stages(unknown.states(), self.source.dimension, &block),
+            elimination: stage_elimination(unknown.states(), self.source.dimension, &block),
         };
         self.items.push(Item::Sparse(sparse));
         self.eliminations.push((unknown, block, name.clone()));
@@ -333,7 +333,7 @@ fn place(choice: &Choice) -> (u32, u32) {
 
 /// The elimination of a pattern that repeats a block for each pair of stages; rows outside the pattern are those of the
 /// identity.
-pub(super) fn of_stages(stages: usize, n: usize, block: &Pattern) -> Elimination {
+pub(super) fn stage_elimination(stages: usize, n: usize, block: &Pattern) -> Elimination {
     let mut pattern = Vec::new();
     for row in 0..stages {
         for column in 0..stages {
@@ -347,7 +347,7 @@ pub(super) fn of_stages(stages: usize, n: usize, block: &Pattern) -> Elimination
 
 /// The elimination of a Jacobian; diagonal entries that are the number one are known to be it. So are those of empty rows,
 /// whose unknowns the iteration leaves out.
-fn of_jacobian(n: usize, places: &[(usize, usize)], program: &Program) -> Elimination {
+fn jacobian_elimination(n: usize, places: &[(usize, usize)], program: &Program) -> Elimination {
     let matrix = &program.outputs[program.outputs.len() - places.len()..];
     let one = |value: &Value| matches!(value, Value::Number(number) if number.is_one());
     let entries = places.iter().zip(matrix);

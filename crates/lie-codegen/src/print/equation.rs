@@ -90,7 +90,7 @@ impl Printer<'_> {
         let place = self.places_of_arguments();
         let body = self.body(
             function,
-            &Body::of(Owner::Equation(&fused.step), &place, &["mu"]),
+            &Body::new(Owner::Equation(&fused.step), &place, &["mu"]),
         );
         let state = quote! { ::lie_runtime::__private::SVector<S, #n> };
         Some(quote! {
@@ -156,7 +156,7 @@ impl Printer<'_> {
         let unknown = self.argument("unknown");
         let place = self.places_of_arguments();
         let body = |targets: &[&str]| {
-            let body = Body::of(Owner::Equation(&fused.step), &place, targets);
+            let body = Body::new(Owner::Equation(&fused.step), &place, targets);
             match &function.shape {
                 Shape::VectorAndMatrix(..) => self.linearize_body(fused, function, &body),
                 _ => self.body(function, &body),

@@ -11,7 +11,7 @@ use crate::plan::{Constants, Found, FoundPart, FoundPiece, Function};
 
 impl Printer<'_> {
     /// The flows of the pieces that were found and their hook.
-    pub(super) fn found(&self) -> Option<TokenStream> {
+    pub(super) fn found_splitting(&self) -> Option<TokenStream> {
         let system = self.system_name();
         let (name, items) = match self.plan.found.as_ref()? {
             Found::Same if self.plan.splitting.is_none() => return None,
@@ -73,7 +73,7 @@ impl Printer<'_> {
         };
         let methods = methods_of_flows(pieces.len(), &functions, &direction);
         let follow = follow(pieces);
-        let rest = (!whole).then(|| beside(&directions));
+        let rest = (!whole).then(|| rest_of_gradient(&directions));
         quote! {
             #(#[doc = #docs])*
             #[derive(Debug)]
@@ -125,7 +125,7 @@ impl Printer<'_> {
         let arms = kernels.iter().map(|(place, part, kernel)| {
             let (place, part) = (index(*place), index(*part));
             let argument = |_: &str| quote! { #mu };
-            let body = Body::of(Owner::System, &argument, &["_xi"]);
+            let body = Body::new(Owner::System, &argument, &["_xi"]);
             let body = self.body(kernel, &body);
             quote! { (#place, #part) => { #body } }
         });
@@ -205,7 +205,7 @@ impl Printer<'_> {
         let none = Constants::default();
         let body = self.body(
             kernel,
-            &Body::of(Owner::Equation(&none), &|_| quote! { #mu }, &["_xi"]),
+            &Body::new(Owner::Equation(&none), &|_| quote! { #mu }, &["_xi"]),
         );
         let docs = self.docs(kernel);
         quote! {
@@ -324,7 +324,7 @@ fn follow(pieces: &[FoundPiece]) -> Option<TokenStream> {
 }
 
 /// What H is beside the pieces.
-fn beside(directions: &[Ident]) -> TokenStream {
+fn rest_of_gradient(directions: &[Ident]) -> TokenStream {
     quote! {
         fn rest(&self, t: S, mu: &Self::State, xi: &mut Self::State) -> bool {
             let mut part = *mu;

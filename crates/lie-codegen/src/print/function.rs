@@ -33,7 +33,7 @@ pub(super) struct Body<'a> {
 
 impl<'a> Body<'a> {
     /// Results of the size of the state.
-    pub fn of(
+    pub fn new(
         owner: Owner<'a>,
         place: &'a dyn Fn(&str) -> TokenStream,
         targets: &'a [&'a str],
@@ -158,7 +158,7 @@ impl Printer<'_> {
         };
         let body = Body {
             size,
-            ..Body::of(Owner::System, &place, targets)
+            ..Body::new(Owner::System, &place, targets)
         };
         self.body(function, &body)
     }

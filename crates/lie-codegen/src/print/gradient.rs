@@ -54,7 +54,7 @@ impl Printer<'_> {
         };
         let body = self.body(
             function,
-            &Body::of(Owner::Argument, &place, &["_out", "_slopes"]),
+            &Body::new(Owner::Argument, &place, &["_out", "_slopes"]),
         );
         let (system, n) = (self.system_name(), index(self.plan.dimension()));
         let state = quote! { ::lie_runtime::__private::SVector<S, #n> };
@@ -117,7 +117,7 @@ impl Printer<'_> {
         let place = move |_: &str| quote! { #argument };
         let body = |function_of: &Function, targets: &[&str]| {
             let owner = Owner::Equation(&function.step);
-            self.body(function_of, &Body::of(owner, &place, targets))
+            self.body(function_of, &Body::new(owner, &place, targets))
         };
         let docs = self.docs(&function.gradient);
         let gradient = body(&function.gradient, &["xi"]);

@@ -50,7 +50,7 @@ pub fn print(plan: &Plan, surface: &Surface) -> TokenStream {
     let items: TokenStream = plan.items.iter().map(|item| printer.item(item)).collect();
     let generic = printer.generic();
     let splitting = printer.splitting();
-    let found = printer.found();
+    let found = printer.found_splitting();
     let items = of_this_version(quote! {
         #parameters #system #traits #lagrangian #other_scalars #structure #realization #items #generic #splitting #found
     });

@@ -143,7 +143,7 @@ impl Printer<'_> {
         let locals: Vec<Ident> = (0..names.len()).map(|k| format_ident!("_c{k}")).collect();
         let checks = constants.entries.iter().zip(&locals).map(|(entry, local)| {
             let parameter = entry.parameter.map(Symbol::Parameter);
-            let parameter = parameter.map(|symbol| self.plan.names.shown(symbol));
+            let parameter = parameter.map(|symbol| self.plan.names.display_name(symbol));
             let (parameter, text) = (parameter.unwrap_or_default(), &entry.text);
             quote! { (#local, #parameter, #text), }
         });
@@ -220,7 +220,7 @@ impl Printer<'_> {
 
     /// The same system over dual numbers, and over eight numbers at once.
     pub(super) fn other_scalars(&self) -> TokenStream {
-        let (over, system) = (self.over(), self.system_name());
+        let (over, system) = (self.scalar_conversion(), self.system_name());
         quote! {
             #over
 
@@ -229,7 +229,7 @@ impl Printer<'_> {
     }
 
     /// The same with its constants as other scalars.
-    pub(super) fn over(&self) -> TokenStream {
+    pub(super) fn scalar_conversion(&self) -> TokenStream {
         let (name, system) = (self.name(), self.system_name());
         let fields = self.constant_names();
         let names = self.parameters_by_name();

@@ -53,7 +53,7 @@ mod tests {
         };
         let unchanged = rooted(tokens.clone(), &Runtime::default());
         assert_eq!(unchanged.to_string(), tokens.to_string());
-        let found = rooted(tokens, &Runtime::at("crate::deep::rt").unwrap());
+        let found = rooted(tokens, &Runtime::parse("crate::deep::rt").unwrap());
         let expected = quote! {
             pub(in a::lie_runtime) struct T<S: crate::deep::rt::Scalar>(crate::deep::rt::X<S>);
             impl crate::deep::rt::Y for lie_runtime { fn f() { ::core::g(<crate::deep::rt::Z>::h()) } }

@@ -27,7 +27,7 @@ pub struct Surface {
 
 impl Surface {
     /// That of a system that is public, with the runtime in its usual place.
-    pub fn of(model: &Model) -> Self {
+    pub fn new(model: &Model) -> Self {
         let places =
             |origins: &mut dyn Iterator<Item = Origin>| origins.map(Origin::span).collect();
         Self {

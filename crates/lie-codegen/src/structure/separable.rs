@@ -50,12 +50,13 @@ pub fn coordinates(
     }
     let graph = &*graph;
     let budget = Budget::new(WORK);
-    let mut normal = NormalForm::within(graph, &budget, &[hamiltonian]);
+    let mut normal = NormalForm::with_domain(graph, &budget, &[hamiltonian]);
     let mut values = Confirmation::new(graph, &[hamiltonian]);
     // Values refute what the normal form may not decide within its budget.
     let mut vanishes = |id: ExprId| {
         graph.is_zero(id)
-            || values.of(id) != Finding::Nonzero && matches!(normal.verdict(id), Verdict::Zero)
+            || values.check_zero(id) != Finding::Nonzero
+                && matches!(normal.verdict(id), Verdict::Zero)
     };
     for (i, j, second) in mixed {
         if !vanishes(second) {

@@ -2,7 +2,7 @@
 
 use super::Structure;
 use crate::model::{Family, Model};
-use lie_symbolic::prove::joints::{Joint, of_function};
+use lie_symbolic::prove::joints::{Joint, find_joints};
 use lie_symbolic::symbolic::Symbol;
 use lie_syntax::diagnostic::{Diagnostic, Kind, Report};
 
@@ -11,7 +11,7 @@ pub fn joints(model: &Model) -> Vec<Joint> {
     let name = |symbol| model.symbol_name(symbol);
     match &model.family {
         Some(family) => of_family(model, family),
-        None => of_function(&model.graph, model.hamiltonian(), &name),
+        None => find_joints(&model.graph, model.hamiltonian(), &name),
     }
 }
 
@@ -27,7 +27,7 @@ fn of_family(model: &Model, family: &Family) -> Vec<Joint> {
     let summands = family.sums.iter().map(|sum| sum.summand);
     let mut all: Vec<Joint> = Vec::new();
     for function in summands.chain([family.energy]) {
-        for joint in of_function(&model.graph, function, &sites) {
+        for joint in find_joints(&model.graph, function, &sites) {
             if !all.contains(&joint) {
                 all.push(joint);
             }

@@ -20,7 +20,7 @@ pub type Arguments<'a> = &'a [(&'a str, &'a [f64])];
 impl System {
     pub fn of(name: &str, text: &str) -> Self {
         let model = compile_spec(text).expect("a sound declaration");
-        let mut source = Source::of(&model);
+        let mut source = Source::new(&model);
         let basic = source.basic_kernels();
         let find = |name| basic.iter().find(|k| k.name == name).expect(name).clone();
         Self {

@@ -18,7 +18,7 @@ use system::{Length, System, Term};
 /// The greatest loss against the written formula over all results, and where.
 fn loss<T: Number>(system: &System, states: &[Vec<f64>], unit: f64) -> (f64, String) {
     let model = compile_spec(&system.spec()).unwrap_or_else(|e| panic!("{}: {e:?}", system.spec()));
-    let mut source = Source::of(&model);
+    let mut source = Source::new(&model);
     let n = system.rest.len();
     let kernels: Vec<Kernel> = source.basic_kernels();
     let mut worst = (0.0, String::new());
@@ -135,7 +135,7 @@ fn a_stiff_spring() {
 /// The results of a kernel of a spec at a state, and the exact ones by double-double.
 fn kernel<T: Number>(spec: &str, name: &str, parameters: &[f64], state: &[f64]) -> Vec<T> {
     let model = compile_spec(spec).unwrap_or_else(|e| panic!("{spec}: {e:?}"));
-    let mut source = Source::of(&model);
+    let mut source = Source::new(&model);
     let kernels = source.basic_kernels();
     let kernel = kernels.iter().find(|kernel| kernel.name == name);
     let program = kernel.expect("a kernel").program(&mut source.graph);
@@ -218,7 +218,7 @@ fn kernels_agree_bit_for_bit() {
         let system = System::random(&mut random);
         let text = system.spec();
         let model = compile_spec(&text).expect("a system");
-        let mut source = Source::of(&model);
+        let mut source = Source::new(&model);
         let kernels = source.basic_kernels();
         let state = states(&system, &mut random, -3).remove(0);
         let mut results = |name: &str| {

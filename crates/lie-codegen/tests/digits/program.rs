@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use lie_codegen::derive::{Kernel, Shape, Source};
-use lie_symbolic::schedule::{Known, Operation, Program, Task, Value, schedule};
+use lie_symbolic::schedule::{KnownSymbols, Operation, Program, Task, Value, schedule};
 use lie_symbolic::symbolic::{Elementary, ExprId, Function, Symbol};
 
 use crate::scalar::Number;
@@ -58,7 +58,7 @@ pub fn constants<T: Number>(
     let task = Task {
         definitions: Vec::new(),
         outputs: ids.clone(),
-        known: Known::Nothing,
+        known: KnownSymbols::Nothing,
     };
     let preparation = schedule(&mut source.graph, &task);
     let symbol = |s| match s {

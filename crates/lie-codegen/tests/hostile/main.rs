@@ -34,7 +34,7 @@ fn verdict(case: &Case) -> Result<String, String> {
         None => match compile_spec(&case.text) {
             Ok(model) => {
                 let plan = plan(&model, &declared_choices(&model));
-                if plan.counts().is_empty() || print(&plan, &Surface::of(&model)).is_empty() {
+                if plan.counts().is_empty() || print(&plan, &Surface::new(&model)).is_empty() {
                     return Err("no kernel".into());
                 }
                 readable(&model.warnings, &case.text)?;

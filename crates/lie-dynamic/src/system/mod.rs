@@ -184,7 +184,7 @@ fn check_constants(values: &Values<f64>) -> Result<(), ParameterError> {
         .map(|(entry, value)| {
             let symbol = entry.parameter.map(Symbol::Parameter);
             let name = symbol
-                .map(|symbol| plan.names.shown(symbol))
+                .map(|symbol| plan.names.display_name(symbol))
                 .unwrap_or_default();
             (*value, names::text(&name), names::text(&entry.text))
         })

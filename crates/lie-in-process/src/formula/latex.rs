@@ -183,7 +183,7 @@ mod tests {
             assert_eq!(formula(text, &names, &Latex), latex, "{text}");
         }
         let sites: Names = ["x", "N"].into_iter().collect();
-        let sites = sites.of_family(true);
+        let sites = sites.with_indices(true);
         for (text, latex) in [
             (
                 "sum(i in 0..N: x[i])^2/(2*N)",

@@ -106,7 +106,7 @@ pub fn names(model: &Structure) -> Names {
         .flat_map(|algebra| algebra.basis.iter());
     let basis = basis.map(|name| name.text.clone());
     let all: Names = coordinates.chain(parameters).chain(basis).collect();
-    all.of_family(model.family.is_some())
+    all.with_indices(model.family.is_some())
 }
 
 /// A formula `left = right`, or an expression alone; as it is written where it is none of the grammar's.

@@ -107,7 +107,7 @@ fn to_integers(row: &[Rational]) -> Vec<BigInt> {
 
 /// The rank modulo a prime, never above the rank.
 fn rank_modulo(rows: &[Vec<BigInt>]) -> usize {
-    let residues = |row: &Vec<BigInt>| row.iter().map(Residue::of_integer).collect();
+    let residues = |row: &Vec<BigInt>| row.iter().map(Residue::from_integer).collect();
     elimination::rank(rows.iter().map(residues))
 }
 

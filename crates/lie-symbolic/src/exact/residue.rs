@@ -28,12 +28,15 @@ impl Residue {
     }
 
     /// The residue of a rational number; `None` where the prime divides its denominator.
-    pub fn of(value: &Rational) -> Option<Self> {
+    pub fn from_rational(value: &Rational) -> Option<Self> {
         let (numerator, denominator) = match value.to_words() {
-            Some((n, d)) => (Self::of_word(n), Self::of_word(d)),
+            Some((n, d)) => (Self::from_word(n), Self::from_word(d)),
             None => {
                 let big = value.to_big();
-                (Self::of_integer(big.numer()), Self::of_integer(big.denom()))
+                (
+                    Self::from_integer(big.numer()),
+                    Self::from_integer(big.denom()),
+                )
             }
         };
         match denominator {
@@ -42,7 +45,7 @@ impl Residue {
         }
     }
 
-    fn of_word(word: i64) -> Self {
+    fn from_word(word: i64) -> Self {
         let size = Self::from_bits(word.unsigned_abs());
         if word < 0 {
             Self::ZERO.minus(size)
@@ -52,7 +55,7 @@ impl Residue {
     }
 
     /// The residue of an integer.
-    pub fn of_integer(value: &BigInt) -> Self {
+    pub fn from_integer(value: &BigInt) -> Self {
         let rest = value.mod_floor(&BigInt::from(PRIME));
         Self(rest.to_u64().unwrap_or(0))
     }
@@ -114,7 +117,7 @@ mod tests {
 
     #[test]
     fn the_laws_of_a_field_hold() {
-        let third = Residue::of(&Rational::new(-1, 3).unwrap()).unwrap();
+        let third = Residue::from_rational(&Rational::new(-1, 3).unwrap()).unwrap();
         assert_eq!(third.times(Residue(3)).plus(Residue::ONE), Residue::ZERO);
         let a = Residue::from_bits(0x9e37_79b9_7f4a_7c15);
         assert_eq!(a.times(a.inverse().unwrap()), Residue::ONE);
@@ -127,13 +130,13 @@ mod tests {
         assert_eq!(Residue::ZERO.power(0), Some(Residue::ONE));
         // 2^61 = 1 modulo 2^61 - 1, as a word and as a long number
         let power = |e| Rational::from(2).pow(e).unwrap();
-        assert_eq!(Residue::of(&power(61)), Some(Residue::ONE));
-        assert_eq!(Residue::of(&power(610)), Some(Residue::ONE));
+        assert_eq!(Residue::from_rational(&power(61)), Some(Residue::ONE));
+        assert_eq!(Residue::from_rational(&power(610)), Some(Residue::ONE));
         assert_eq!(
-            Residue::of(&Rational::from(i64::MIN)),
+            Residue::from_rational(&Rational::from(i64::MIN)),
             Some(Residue::ZERO.minus(Residue(4)))
         );
         let pole = Rational::new(1, PRIME as i64).unwrap();
-        assert_eq!(Residue::of(&pole), None);
+        assert_eq!(Residue::from_rational(&pole), None);
     }
 }

@@ -108,7 +108,7 @@ fn independent_entries(
     let residues = |column: usize| {
         vectors
             .iter()
-            .map(move |vector| Residue::of(&vector[column]))
+            .map(move |vector| Residue::from_rational(&vector[column]))
     };
     let columns: Option<Vec<Vec<Residue>>> = (0..length).map(|c| residues(c).collect()).collect();
     let Some(columns) = columns else {

@@ -94,12 +94,12 @@ fn growths(graph: &Graph, function: ExprId) -> Vec<Option<Growth>> {
             known[place].as_ref()
         };
         let growth = match graph.node(*id) {
-            Node::Number(value) => leaf(0, |_| Residue::of(value)),
+            Node::Number(value) => leaf(0, |_| Residue::from_rational(value)),
             // transcendental, so that no relation holds for it
-            Node::Pi => leaf(0, |point| Some(residues::of_pi(point))),
+            Node::Pi => leaf(0, |point| Some(residues::pi_value(point))),
             Node::Symbol(symbol) => {
                 let degree = i64::from(matches!(symbol, Symbol::Coordinate(_)));
-                leaf(degree, |point| Some(residues::of_symbol(point, *symbol)))
+                leaf(degree, |point| Some(residues::symbol_value(point, *symbol)))
             }
             Node::Sum { constant, terms } => {
                 let terms = terms.iter().map(|(term, c)| Some((of(term)?, c)));
@@ -118,7 +118,7 @@ fn growths(graph: &Graph, function: ExprId) -> Vec<Option<Growth>> {
                 let constant = arguments
                     .iter()
                     .all(|a| of(a).is_some_and(Growth::is_constant));
-                let value = |point| Some(residues::of_constant(point, id.index() as u64));
+                let value = |point| Some(residues::constant_value(point, id.index() as u64));
                 leaf(0, value).filter(|_| constant).map(|leaf| Growth {
                     opaque: true,
                     uncertain: *function != Elementary::Exp.into(),
@@ -132,7 +132,7 @@ fn growths(graph: &Graph, function: ExprId) -> Vec<Option<Growth>> {
 }
 
 fn sum(constant: &Rational, terms: &[(&Growth, &Rational)]) -> Option<Growth> {
-    let number = leaf(0, |_| Residue::of(constant));
+    let number = leaf(0, |_| Residue::from_rational(constant));
     let one = Rational::ONE;
     let all = terms
         .iter()
@@ -145,7 +145,7 @@ fn sum(constant: &Rational, terms: &[(&Growth, &Rational)]) -> Option<Growth> {
         degree: top,
         leading: std::array::from_fn(|point| {
             leading.iter().try_fold(Residue::ZERO, |sum, (term, c)| {
-                Some(sum.plus(term.leading[point]?.times(Residue::of(c)?)))
+                Some(sum.plus(term.leading[point]?.times(Residue::from_rational(c)?)))
             })
         }),
         polynomial: all.clone().all(|(term, _)| term.polynomial),
@@ -172,7 +172,7 @@ fn product<'a>(
                 .map_or(0, |(n, d)| n.wrapping_mul(1009) ^ d);
             for (point, leading) in all.leading.iter_mut().enumerate() {
                 let value =
-                    residues::of_constant(point, (base.index() as u64) << 32 ^ place as u64);
+                    residues::constant_value(point, (base.index() as u64) << 32 ^ place as u64);
                 *leading = leading.map(|l| l.times(value));
             }
             all.opaque = true;

@@ -43,9 +43,9 @@ pub fn reached(joints: &[Joint], order: u32) -> Option<u32> {
 }
 
 /// The joints of a function of the coordinates, with names of symbols.
-pub fn of_function(graph: &Graph, function: ExprId, name: &dyn Fn(Symbol) -> String) -> Vec<Joint> {
+pub fn find_joints(graph: &Graph, function: ExprId, name: &dyn Fn(Symbol) -> String) -> Vec<Joint> {
     let mut joints = in_own_functions(graph, function);
-    joints.extend(of_branches(graph, function, name));
+    joints.extend(in_branches(graph, function, name));
     joints
 }
 
@@ -67,7 +67,7 @@ fn in_own_functions(graph: &Graph, function: ExprId) -> Vec<Joint> {
 }
 
 /// Where branches meet.
-fn of_branches(graph: &Graph, function: ExprId, name: &dyn Fn(Symbol) -> String) -> Vec<Joint> {
+fn in_branches(graph: &Graph, function: ExprId, name: &dyn Fn(Symbol) -> String) -> Vec<Joint> {
     let conditions = conditions(graph, function);
     if conditions.is_empty() {
         return Vec::new();

@@ -26,7 +26,7 @@ fn drawn(point: usize, kind: u64, index: u64) -> Residue {
 }
 
 /// The value of a symbol.
-pub fn of_symbol(point: usize, symbol: Symbol) -> Residue {
+pub fn symbol_value(point: usize, symbol: Symbol) -> Residue {
     let (kind, index) = match symbol {
         Symbol::Parameter(i) => (1, i),
         Symbol::Step => (2, 0),
@@ -38,12 +38,12 @@ pub fn of_symbol(point: usize, symbol: Symbol) -> Residue {
 }
 
 /// The value of pi, of which only algebra is asked.
-pub fn of_pi(point: usize) -> Residue {
+pub fn pi_value(point: usize) -> Residue {
     drawn(point, PI, 0)
 }
 
 /// A value for a constant that is neither a number nor a symbol.
-pub fn of_constant(point: usize, index: u64) -> Residue {
+pub fn constant_value(point: usize, index: u64) -> Residue {
     drawn(point, CONSTANT, index)
 }
 
@@ -57,20 +57,20 @@ pub fn is_nonzero(graph: &Graph, id: ExprId) -> bool {
 /// with roots or functions. The parts are in ascending order.
 pub fn on_line(graph: &Graph, parts: &[ExprId], step: Residue) -> Option<Residue> {
     let symbol = |symbol| {
-        let value = of_symbol(0, symbol);
+        let value = symbol_value(0, symbol);
         match symbol {
             Symbol::Coordinate(i) => value.plus(step.times(drawn(0, DIRECTION, i as u64))),
             _ => value,
         }
     };
-    values(graph, parts, of_pi(0), &symbol)?.last().copied()
+    values(graph, parts, pi_value(0), &symbol)?.last().copied()
 }
 
 /// The values of expressions at a point; `None` as above.
 pub fn at_point(graph: &Graph, roots: &[ExprId], point: usize) -> Option<Vec<Residue>> {
     let parts = graph.dependencies(roots);
-    let symbol = |symbol| of_symbol(point, symbol);
-    let values = values(graph, &parts, of_pi(point), &symbol)?;
+    let symbol = |symbol| symbol_value(point, symbol);
+    let values = values(graph, &parts, pi_value(point), &symbol)?;
     let of = |root: &ExprId| Some(values[parts.binary_search(root).ok()?]);
     roots.iter().map(of).collect()
 }
@@ -86,13 +86,13 @@ fn values(
     for id in parts {
         let of = |child: &ExprId| Some(values[parts.binary_search(child).ok()?]);
         let value = match graph.node(*id) {
-            Node::Number(value) => Residue::of(value)?,
+            Node::Number(value) => Residue::from_rational(value)?,
             Node::Pi => pi,
             Node::Symbol(name) => symbol(*name),
             Node::Sum { constant, terms } => {
-                let mut sum = Residue::of(constant)?;
+                let mut sum = Residue::from_rational(constant)?;
                 for (term, coefficient) in terms {
-                    sum = sum.plus(of(term)?.times(Residue::of(coefficient)?));
+                    sum = sum.plus(of(term)?.times(Residue::from_rational(coefficient)?));
                 }
                 sum
             }

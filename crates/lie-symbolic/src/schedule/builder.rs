@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use rustc_hash::FxHashMap as HashMap;
 
-use super::Known;
+use super::KnownSymbols;
 use super::collect::{Answers, is_known};
 use super::formula::{Atom, AtomId, Formula, Signed};
 use super::inverse::Inverse;
@@ -20,7 +20,7 @@ type Powers = Vec<(ExprId, Rational)>;
 
 pub(super) struct Builder<'a> {
     pub(super) graph: &'a mut Graph,
-    known: Known,
+    known: KnownSymbols,
     group: bool,
     /// Coefficients that are prepared with the opposite sign.
     flipped: BTreeSet<ExprId>,
@@ -35,7 +35,7 @@ pub fn build(
     graph: &mut Graph,
     symbols: &[Symbol],
     roots: &[ExprId],
-    (known, answers): (Known, &mut Answers),
+    (known, answers): (KnownSymbols, &mut Answers),
     group: bool,
     flipped: BTreeSet<ExprId>,
 ) -> (Formula, BTreeSet<ExprId>) {
@@ -93,7 +93,7 @@ impl Builder<'_> {
     /// Whether a power of a known quantity goes into a prepared coefficient. Where nothing is known but
     /// numbers, only what is a rational number again does: nobody prepares the rest.
     fn goes_before(&mut self, base: ExprId, exponent: &Rational) -> bool {
-        if self.known != Known::Nothing {
+        if self.known != KnownSymbols::Nothing {
             return self.is_known(base);
         }
         self.graph.as_number(base).is_some() && exponent.to_integer().is_some()
@@ -266,7 +266,7 @@ impl Builder<'_> {
             for (position, &factor) in factors.iter().enumerate() {
                 let coefficient = match &self.formula.atoms[factor] {
                     // pi stands for itself where nothing is prepared
-                    Atom::Leaf(Value::Prepared(id)) if self.known != Known::Nothing => *id,
+                    Atom::Leaf(Value::Prepared(id)) if self.known != KnownSymbols::Nothing => *id,
                     Atom::Leaf(Value::Number(value)) => {
                         let value = value.clone();
                         self.graph.number(value)

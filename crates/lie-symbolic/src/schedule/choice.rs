@@ -5,7 +5,7 @@ use super::forms::{self, Roots};
 use super::formula::Formula;
 use super::judge::Judge;
 use super::program::Program;
-use super::{Known, linearise, points, reuse, share, signs};
+use super::{KnownSymbols, linearise, points, reuse, share, signs};
 use crate::symbolic::{Graph, Symbol};
 
 /// Forms whose repeated pairs are searched.
@@ -19,7 +19,7 @@ pub const LONGEST: usize = 5_000;
 pub struct Choice<'a> {
     graph: &'a mut Graph,
     symbols: Vec<Symbol>,
-    known: Known,
+    known: KnownSymbols,
     collector: &'a mut Collector,
     budget: usize,
 }
@@ -45,7 +45,7 @@ impl<'a> Choice<'a> {
     /// The program of the roots.
     pub fn program(mut self, roots: Roots) -> Program {
         // What is prepared is computed as it stands, once.
-        if self.known == Known::Nothing {
+        if self.known == KnownSymbols::Nothing {
             let trial = self.trial(roots, false);
             return self.shared(trial);
         }

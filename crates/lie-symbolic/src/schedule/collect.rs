@@ -8,7 +8,7 @@ use std::rc::Rc;
 
 use rustc_hash::FxHashMap as HashMap;
 
-use super::Known;
+use super::KnownSymbols;
 use crate::exact::Rational;
 use crate::symbolic::{ExprId, Graph, Node};
 
@@ -29,7 +29,7 @@ pub type Answers = HashMap<ExprId, bool>;
 
 /// Collection with what it has found out about the expressions of one arena.
 pub struct Collector {
-    known: Known,
+    known: KnownSymbols,
     /// What is prepared.
     pub answers: Answers,
     expanded: HashMap<ExprId, Expanded>,
@@ -46,7 +46,12 @@ struct Expanded {
 }
 
 /// Whether an expression contains only what is known beforehand.
-pub(super) fn is_known(graph: &Graph, id: ExprId, known: Known, cache: &mut Answers) -> bool {
+pub(super) fn is_known(
+    graph: &Graph,
+    id: ExprId,
+    known: KnownSymbols,
+    cache: &mut Answers,
+) -> bool {
     if let Some(answer) = cache.get(&id) {
         return *answer;
     }
@@ -71,7 +76,7 @@ pub(super) fn is_known(graph: &Graph, id: ExprId, known: Known, cache: &mut Answ
             Node::Number(_) | Node::Pi => true,
             Node::Symbol(symbol) => known.covers(*symbol),
             // What is prepared itself is computed from numbers.
-            _ => known != Known::Nothing && children.iter().all(|child| cache[child]),
+            _ => known != KnownSymbols::Nothing && children.iter().all(|child| cache[child]),
         };
         cache.insert(node, answer);
     }
@@ -79,7 +84,7 @@ pub(super) fn is_known(graph: &Graph, id: ExprId, known: Known, cache: &mut Answ
 }
 
 impl Collector {
-    pub fn new(known: Known) -> Self {
+    pub fn new(known: KnownSymbols) -> Self {
         Self {
             known,
             answers: Answers::default(),
@@ -91,7 +96,7 @@ impl Collector {
     }
 
     /// What is known beforehand.
-    pub fn known(&self) -> Known {
+    pub fn known(&self) -> KnownSymbols {
         self.known
     }
 

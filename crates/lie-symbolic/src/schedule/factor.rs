@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use rustc_hash::FxHashMap as HashMap;
 
-use super::Known;
+use super::KnownSymbols;
 use super::collect::{Answers, is_known};
 use crate::exact::Rational;
 use crate::symbolic::{ExprId, Graph, Node};
@@ -16,7 +16,7 @@ const LONGEST: usize = 400;
 pub fn factor(
     graph: &mut Graph,
     roots: &[ExprId],
-    known: Known,
+    known: KnownSymbols,
     answers: &mut Answers,
 ) -> Option<Vec<ExprId>> {
     let mut image: HashMap<ExprId, ExprId> = HashMap::default();

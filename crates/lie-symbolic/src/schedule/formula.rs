@@ -6,7 +6,7 @@ use rustc_hash::FxHashMap as HashMap;
 
 use super::collect::Answers;
 use super::program::Value;
-use super::{Known, builder};
+use super::{KnownSymbols, builder};
 use crate::exact::Rational;
 use crate::symbolic::{ExprId, Function, Graph, Symbol};
 
@@ -60,7 +60,7 @@ impl Formula {
         graph: &mut Graph,
         symbols: &[Symbol],
         roots: &[ExprId],
-        known: Known,
+        known: KnownSymbols,
         group: bool,
         answers: &mut Answers,
     ) -> Self {

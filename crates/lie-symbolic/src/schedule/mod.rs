@@ -34,7 +34,7 @@ use collect::Collector;
 
 /// Which symbols are known before the kernel runs, so that expressions in them are prepared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Known {
+pub enum KnownSymbols {
     /// Nothing but numbers: for what is prepared itself.
     Nothing,
     /// Parameters only: prepared once, at construction.
@@ -43,12 +43,12 @@ pub enum Known {
     Step,
 }
 
-impl Known {
+impl KnownSymbols {
     /// Whether the symbol is known.
     pub fn covers(self, symbol: Symbol) -> bool {
         match symbol {
-            Symbol::Parameter(_) => self != Known::Nothing,
-            Symbol::Step => self == Known::Step,
+            Symbol::Parameter(_) => self != KnownSymbols::Nothing,
+            Symbol::Step => self == KnownSymbols::Step,
             _ => false,
         }
     }
@@ -62,7 +62,7 @@ pub struct Task {
     /// The results.
     pub outputs: Vec<ExprId>,
     /// What is known beforehand.
-    pub known: Known,
+    pub known: KnownSymbols,
 }
 
 /// The cheapest straight-line program found for a task, among those that compute as well as the form in

@@ -7,7 +7,7 @@ use rustc_hash::FxHashMap as HashMap;
 use super::collect::Answers;
 use super::formula::Formula;
 use super::program::{Program, Value};
-use super::{Known, linearise};
+use super::{KnownSymbols, linearise};
 use crate::exact::Rational;
 use crate::symbolic::{ExprId, Graph, Node, Symbol};
 
@@ -218,7 +218,7 @@ impl Sum {
             graph,
             &symbols,
             &outputs,
-            Known::Nothing,
+            KnownSymbols::Nothing,
             false,
             &mut Answers::default(),
         );

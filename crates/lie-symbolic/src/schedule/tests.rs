@@ -59,7 +59,7 @@ fn values(symbol: Symbol) -> f64 {
     }
 }
 
-fn check(g: &mut Graph, outputs: Vec<ExprId>, known: Known) -> Program {
+fn check(g: &mut Graph, outputs: Vec<ExprId>, known: KnownSymbols) -> Program {
     let program = schedule(
         g,
         &Task {
@@ -87,7 +87,7 @@ fn field_of_the_free_rigid_body() {
         g.div(mu[i], inertia)
     });
     let field = cross(&mut g, mu, omega);
-    let counts = check(&mut g, field.to_vec(), Known::Parameters).counts;
+    let counts = check(&mut g, field.to_vec(), KnownSymbols::Parameters).counts;
     assert_eq!(
         counts,
         Counts {
@@ -114,7 +114,7 @@ fn field_of_the_heavy_top() {
     let (a, b) = (cross(&mut g, pi, omega), cross(&mut g, gamma, chi));
     let mut field: Vec<_> = a.iter().zip(b).map(|(&a, b)| g.add(a, b)).collect();
     field.extend(cross(&mut g, gamma, omega));
-    let counts = check(&mut g, field, Known::Parameters).counts;
+    let counts = check(&mut g, field, KnownSymbols::Parameters).counts;
     assert_eq!(
         counts,
         Counts {
@@ -130,20 +130,25 @@ fn powers_and_quotients_are_shared() {
     let mut g = Graph::new();
     let [x, y, z] = [0, 1, 2].map(|i| coordinate(&mut g, i));
     let fourth = g.pow(x, &rational(4, 1));
-    assert_eq!(check(&mut g, vec![fourth], Known::Parameters).counts.mul, 2);
+    assert_eq!(
+        check(&mut g, vec![fourth], KnownSymbols::Parameters)
+            .counts
+            .mul,
+        2
+    );
     // z / sqrt(s) and z^2 / s^(3/2): one root, one division.
     let zz = g.pow(z, &rational(2, 1));
     let yy = g.pow(y, &rational(2, 1));
     let s = g.sum(&[zz, yy]);
     let a = g.power_product(&[(z, Rational::ONE), (s, rational(-1, 2))]);
     let b = g.power_product(&[(z, rational(2, 1)), (s, rational(-3, 2))]);
-    let program = check(&mut g, vec![a, b], Known::Parameters);
+    let program = check(&mut g, vec![a, b], KnownSymbols::Parameters);
     assert_eq!((program.counts.div, program.counts.call), (1, 1));
     let sine = g.call(Elementary::Sin, &[s]);
     let e = g.mul(sine, a);
     let f = g.sub(sine, b);
     let third = g.pow(x, &rational(1, 3));
-    check(&mut g, vec![e, f, third], Known::Parameters);
+    check(&mut g, vec![e, f, third], KnownSymbols::Parameters);
 }
 
 #[test]
@@ -160,7 +165,7 @@ fn definitions_stay_opaque_and_signs_cost_nothing() {
     let task = Task {
         definitions: vec![(Symbol::Input(0), middle)],
         outputs: vec![residual],
-        known: Known::Step,
+        known: KnownSymbols::Step,
     };
     let program = schedule(&mut g, &task);
     // (x + y)/2: 1 addition, 1 multiplication; x - (h k) m m: 2 multiplications, 1 subtraction.
@@ -174,7 +179,7 @@ fn definitions_stay_opaque_and_signs_cost_nothing() {
     );
     let (a, b) = (g.sub(x, y), g.sub(y, x));
     let (p, q) = (g.product(&[a, k, x]), g.product(&[b, k, y]));
-    let counts = check(&mut g, vec![p, q], Known::Parameters).counts;
+    let counts = check(&mut g, vec![p, q], KnownSymbols::Parameters).counts;
     assert!(counts.mul + counts.add <= 5, "{counts:?}");
 }
 
@@ -219,8 +224,8 @@ fn random_tasks_are_computed_rightly_and_reproducibly() {
             pool.push(new);
         }
         let outputs: Vec<ExprId> = pool[pool.len() - 4..].to_vec();
-        let first = check(&mut g, outputs.clone(), Known::Parameters);
-        let second = check(&mut g, outputs, Known::Parameters);
+        let first = check(&mut g, outputs.clone(), KnownSymbols::Parameters);
+        let second = check(&mut g, outputs, KnownSymbols::Parameters);
         assert_eq!(first, second);
     }
 }

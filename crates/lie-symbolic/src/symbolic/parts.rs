@@ -51,7 +51,7 @@ impl Graph {
 
     /// What the values of the roots depend on where the conditions have these signs, in ascending order: of a choice one
     /// branch, or both where the sign is not known.
-    pub fn taken(
+    pub fn taken_dependencies(
         &self,
         roots: &[ExprId],
         negative: &dyn Fn(ExprId) -> Option<bool>,

@@ -15,13 +15,13 @@ impl Runtime {
     ///
     /// # Errors
     /// What is no path of a module: names, joined by `::`.
-    pub fn at(path: &str) -> Result<Self, NoPath> {
+    pub fn parse(path: &str) -> Result<Self, NoPath> {
         let tokens: TokenStream = path.parse().map_err(|_| NoPath(path.to_owned()))?;
-        Self::of_tokens(tokens).ok_or_else(|| NoPath(path.to_owned()))
+        Self::from_tokens(tokens).ok_or_else(|| NoPath(path.to_owned()))
     }
 
     /// The same of tokens; `None` if they are no path.
-    pub fn of_tokens(path: TokenStream) -> Option<Self> {
+    pub fn from_tokens(path: TokenStream) -> Option<Self> {
         let parsed = syn::Path::parse_mod_style.parse2(path.clone());
         parsed.ok().map(|_| Self { path: Some(path) })
     }
@@ -58,12 +58,12 @@ mod tests {
             "super::super::a",
             "r#type::a",
         ] {
-            assert!(Runtime::at(path).is_ok(), "{path}");
+            assert!(Runtime::parse(path).is_ok(), "{path}");
         }
         for path in [
             "", "a::", "a.b", "a::<u8>", "a b", "1", "\"a\"", "a::(b)", "(", "a-b", "dyn",
         ] {
-            let found = Runtime::at(path).unwrap_err().to_string();
+            let found = Runtime::parse(path).unwrap_err().to_string();
             assert!(found.contains(&format!("`{path}`")), "{found}");
         }
     }

@@ -6,7 +6,7 @@
 
 use super::family::{Argument, Constructor, Family, Wrong};
 use super::matrix::{Entries, add, integer_matrix, unit};
-use super::{Constants, Matrices, Named};
+use super::{Constants, Matrices, NamedAlgebra};
 use crate::suggest::did_you_mean;
 use lie_symbolic::exact::Rational;
 
@@ -131,7 +131,7 @@ impl Constructor for Bianchi {
         3
     }
 
-    fn build(&self) -> Named {
+    fn build(&self) -> NamedAlgebra {
         let mut constants = Constants::new();
         let [n1, n2, n3] = &self.n;
         let brackets = [
@@ -146,7 +146,7 @@ impl Constructor for Bianchi {
                 constants.insert(pair, terms);
             }
         }
-        let mut named = Named {
+        let mut named = NamedAlgebra {
             basis: ["e1", "e2", "e3"].map(str::to_owned).into(),
             state: ["x", "y", "z"].map(str::to_owned).into(),
             constants,
@@ -159,7 +159,7 @@ impl Constructor for Bianchi {
 
 impl Bianchi {
     /// Matrices of size 3, of I of size 4.
-    fn matrices(&self, named: &Named) -> Matrices {
+    fn matrices(&self, named: &NamedAlgebra) -> Matrices {
         let zeros = self.n.iter().filter(|n| n.is_zero()).count();
         let flat = self.a.is_zero();
         let (size, entries) = match zeros {

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::frame::Frame;
 use super::matrix::{Entries, add, add_multiple, commutator};
-use super::{Constants, Matrices, Named};
+use super::{Constants, Matrices, NamedAlgebra};
 use lie_symbolic::exact::Rational;
 
 /// What a central extension adds: names of the new, central elements, and brackets with values among these.
@@ -22,9 +22,9 @@ pub struct Central {
 /// Three elements for which the cocycle identity fails, with the residual
 /// `S([a, b], c) + S([b, c], a) + S([c, a], b)`.
 pub fn extended(
-    named: Named,
+    named: NamedAlgebra,
     central: &Central,
-) -> Result<Named, ([usize; 3], BTreeMap<usize, Rational>)> {
+) -> Result<NamedAlgebra, ([usize; 3], BTreeMap<usize, Rational>)> {
     let n = named.dimension();
     for i in 0..n {
         for j in i + 1..n {
@@ -52,7 +52,7 @@ pub fn extended(
         }
     }
     constants.retain(|_, terms| !terms.is_empty());
-    Ok(Named {
+    Ok(NamedAlgebra {
         basis: named
             .basis
             .into_iter()
@@ -68,10 +68,10 @@ pub fn extended(
 ///
 /// `None` where the new elements are dependent, or not as many as before.
 pub fn changed(
-    named: &Named,
+    named: &NamedAlgebra,
     names: Vec<String>,
     rows: &[BTreeMap<usize, Rational>],
-) -> Option<Named> {
+) -> Option<NamedAlgebra> {
     let n = named.dimension();
     let vector = |row: &BTreeMap<usize, Rational>| -> Entries {
         row.iter()
@@ -109,7 +109,7 @@ pub fn changed(
             entries: rows.iter().map(combined).collect(),
         }
     });
-    Some(Named {
+    Some(NamedAlgebra {
         basis: names,
         state: Vec::new(),
         constants,
@@ -117,7 +117,7 @@ pub fn changed(
     })
 }
 
-impl Named {
+impl NamedAlgebra {
     /// The first pair whose bracket matrices do not represent.
     pub fn not_represented(&self, matrices: &Matrices) -> Option<(usize, usize)> {
         let n = self.dimension();

@@ -4,16 +4,16 @@ use std::collections::BTreeMap;
 
 use super::matrix::moved;
 use super::names::{numbered, tell_apart};
-use super::{Constants, Entries, Matrices, Named};
+use super::{Constants, Entries, Matrices, NamedAlgebra};
 use lie_symbolic::exact::Rational;
 
 /// The direct sum, its matrices in blocks. Parts whose names are not different are numbered.
-pub fn direct_sum(mut parts: Vec<Named>) -> Named {
+pub fn direct_sum(mut parts: Vec<NamedAlgebra>) -> NamedAlgebra {
     if parts.len() == 1 {
         return parts.swap_remove(0);
     }
     tell_apart(&mut parts);
-    let mut sum = Named {
+    let mut sum = NamedAlgebra {
         basis: Vec::new(),
         state: Vec::new(),
         constants: Constants::new(),
@@ -73,9 +73,9 @@ impl Acted {
 }
 
 /// The semidirect product: `[e_i, v] = rho_i v`, the vectors commute.
-pub fn semidirect(algebra: Named, spaces: Vec<Acted>) -> Named {
+pub fn semidirect(algebra: NamedAlgebra, spaces: Vec<Acted>) -> NamedAlgebra {
     let representation = with_translations(&algebra, &spaces);
-    let vectors = |space: &Acted| Named {
+    let vectors = |space: &Acted| NamedAlgebra {
         basis: space.basis.clone(),
         state: space.state.clone(),
         constants: Constants::new(),
@@ -101,7 +101,7 @@ pub fn semidirect(algebra: Named, spaces: Vec<Acted>) -> Named {
 
 /// Matrices `[[rho, v1, v2, …], [0, 0]]` for the spaces with one action, in blocks for different actions; the
 /// algebra's own ones are among them, so that they are faithful.
-fn with_translations(algebra: &Named, spaces: &[Acted]) -> Option<Matrices> {
+fn with_translations(algebra: &NamedAlgebra, spaces: &[Acted]) -> Option<Matrices> {
     let own = algebra.representation.as_ref()?;
     let mut actions = vec![own];
     for space in spaces {
@@ -135,7 +135,7 @@ fn with_translations(algebra: &Named, spaces: &[Acted]) -> Option<Matrices> {
 
 /// The tangent algebra: to each e a `de`, with `[e_i, de_j] = d[e_i, e_j]` and `[de_i, de_j] = 0`, in matrices
 /// `[[rho, d rho], [0, rho]]`.
-pub fn tangent(algebra: Named) -> Named {
+pub fn tangent(algebra: NamedAlgebra) -> NamedAlgebra {
     let n = algebra.dimension();
     let mut constants = algebra.constants.clone();
     for i in 0..n {
@@ -160,7 +160,7 @@ pub fn tangent(algebra: Named) -> Named {
         let copies: Vec<String> = names.iter().map(|name| format!("d{name}")).collect();
         names.into_iter().chain(copies).collect()
     };
-    Named {
+    NamedAlgebra {
         basis: with_copies(algebra.basis),
         state: with_copies(algebra.state),
         constants,

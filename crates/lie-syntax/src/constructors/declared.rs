@@ -1,11 +1,11 @@
 //! A named algebra as it would have been written.
 
-use super::Named;
+use super::NamedAlgebra;
 use crate::ast::{Algebra, Bracket, Expr, ExprKind, Matrix, Name};
 use crate::diagnostic::Origin;
 use lie_symbolic::exact::Rational;
 
-impl Named {
+impl NamedAlgebra {
     /// The algebra with every name at one place.
     pub fn declared(&self, origin: Origin) -> Algebra {
         let basis: Vec<Name> = self.basis.iter().map(|text| name(text, origin)).collect();

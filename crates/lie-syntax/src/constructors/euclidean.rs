@@ -6,7 +6,7 @@
 use super::family::{Constructor, Family, size};
 use super::linear::translations;
 use super::orthogonal::{triangle, turned};
-use super::{Element, Named};
+use super::{Element, NamedAlgebra};
 
 pub const FAMILY: Family = Family {
     names: &["se", "e"],
@@ -27,9 +27,9 @@ impl Constructor for Euclidean {
         triangle(self.n.saturating_add(1))
     }
 
-    fn build(&self) -> Named {
+    fn build(&self) -> NamedAlgebra {
         let elements = rotations(self.n).into_iter().chain(translations(self.n));
-        Named::of_matrices(elements.collect(), self.n + 1)
+        NamedAlgebra::from_matrices(elements.collect(), self.n + 1)
     }
 }
 

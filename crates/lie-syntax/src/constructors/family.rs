@@ -1,7 +1,8 @@
 //! The table of the families, and the arguments in their names.
 
 use super::{
-    Named, bianchi, euclidean, linear, nilpotent, orthogonal, relativity, symplectic, toda, unitary,
+    NamedAlgebra, bianchi, euclidean, linear, nilpotent, orthogonal, relativity, symplectic, toda,
+    unitary,
 };
 use lie_symbolic::exact::Rational;
 
@@ -30,7 +31,7 @@ pub trait Constructor {
     /// Its dimension, which is known before anything is built.
     fn dimension(&self) -> usize;
     /// The algebra.
-    fn build(&self) -> Named;
+    fn build(&self) -> NamedAlgebra;
 }
 
 /// What the arguments of a name stand for.

@@ -8,7 +8,7 @@ use super::family::{Argument, Constructor, Family, Wrong, real, size};
 use super::matrix::{integer_matrix, unit};
 use super::names::{indexed, numbered};
 use super::orthogonal::pairs;
-use super::{Element, Named};
+use super::{Element, NamedAlgebra};
 
 pub const SPECIAL: Family = Family {
     names: &["sl"],
@@ -44,13 +44,13 @@ impl Constructor for Special {
         self.n.saturating_mul(self.n) - 1
     }
 
-    fn build(&self) -> Named {
+    fn build(&self) -> NamedAlgebra {
         let n = self.n;
         let h = |k| integer_matrix(&[(k, k, 1), (k + 1, k + 1, -1)]);
         if n == 2 {
             let matrices = [("h", h(0)), ("e", unit(0, 1)), ("f", unit(1, 0))];
             let elements = matrices.map(|(name, matrix)| Element::new(name, name, matrix));
-            return Named::of_matrices(elements.into(), n);
+            return NamedAlgebra::from_matrices(elements.into(), n);
         }
         let entry = |(i, j): (usize, usize)| {
             Element::new(
@@ -63,7 +63,7 @@ impl Constructor for Special {
             (0..n - 1).map(|k| Element::new(numbered("H", k, n), numbered("h", k, n), h(k)));
         let upper = pairs(n).map(entry);
         let lower = pairs(n).map(|(i, j)| entry((j, i)));
-        Named::of_matrices(diagonal.chain(upper).chain(lower).collect(), n)
+        NamedAlgebra::from_matrices(diagonal.chain(upper).chain(lower).collect(), n)
     }
 }
 
@@ -87,7 +87,7 @@ impl Constructor for General {
         self.n.saturating_mul(rows)
     }
 
-    fn build(&self) -> Named {
+    fn build(&self) -> NamedAlgebra {
         let n = self.n;
         let name = |stem: &str, i, j| match n {
             1 => stem.to_owned(),
@@ -99,7 +99,7 @@ impl Constructor for General {
         if self.translations {
             elements.extend(translations(n));
         }
-        Named::of_matrices(elements, n + usize::from(self.translations))
+        NamedAlgebra::from_matrices(elements, n + usize::from(self.translations))
     }
 }
 

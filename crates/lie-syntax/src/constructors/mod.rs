@@ -1,8 +1,8 @@
 //! Lie algebras by name: families with a size, and what is made of them by sums, powers, semidirect products,
 //! tangent algebras, central extensions and a change of basis.
 //!
-//! A [`Named`] algebra has names, structure constants and, where there is one of moderate size, a faithful
-//! representation. [`Named::declared`] writes it into the syntax tree, so that every check sees brackets and matrices as
+//! A [`NamedAlgebra`] algebra has names, structure constants and, where there is one of moderate size, a faithful
+//! representation. [`NamedAlgebra::declared`] writes it into the syntax tree, so that every check sees brackets and matrices as
 //! if they had been written.
 
 mod bianchi;
@@ -50,7 +50,7 @@ pub struct Matrices {
 
 /// A Lie algebra with names.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Named {
+pub struct NamedAlgebra {
     /// Names of the basis.
     pub basis: Vec<String>,
     /// Names of the coordinates, for declarations that name none.
@@ -61,14 +61,14 @@ pub struct Named {
     pub representation: Option<Matrices>,
 }
 
-impl Named {
+impl NamedAlgebra {
     /// The number of basis elements.
     pub fn dimension(&self) -> usize {
         self.basis.len()
     }
 
     /// The algebra that independent matrices span; its brackets are their commutators.
-    fn of_matrices(elements: Vec<Element>, size: usize) -> Self {
+    fn from_matrices(elements: Vec<Element>, size: usize) -> Self {
         let (mut basis, mut state, mut entries) = (Vec::new(), Vec::new(), Vec::new());
         for element in elements {
             basis.push(element.basis);

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::Named;
+use super::NamedAlgebra;
 
 /// A name with indices from 0 on, shown from 1 on: `E12`, in larger sizes `E1_12`.
 pub fn indexed(stem: &str, indices: &[usize], size: usize) -> String {
@@ -33,7 +33,7 @@ fn copy(name: &str, k: usize) -> String {
 
 /// Gives the parts of a sum different names: a part that shares one with others is numbered among these, and if that
 /// does not do, every part by its place.
-pub fn tell_apart(parts: &mut [Named]) {
+pub fn tell_apart(parts: &mut [NamedAlgebra]) {
     let shared = (0..parts.len()).map(|i| {
         let others = (0..parts.len()).filter(|j| *j != i && share(&parts[i], &parts[*j]));
         let others: Vec<usize> = others.collect();
@@ -56,20 +56,20 @@ pub fn tell_apart(parts: &mut [Named]) {
     parts.clone_from_slice(&attempt);
 }
 
-fn rename(part: &mut Named, new: impl Fn(&str) -> String) {
+fn rename(part: &mut NamedAlgebra, new: impl Fn(&str) -> String) {
     for name in part.basis.iter_mut().chain(&mut part.state) {
         *name = new(name);
     }
 }
 
 /// Whether two parts have a name in common.
-fn share(a: &Named, b: &Named) -> bool {
+fn share(a: &NamedAlgebra, b: &NamedAlgebra) -> bool {
     let common = |a: &[String], b: &[String]| a.iter().any(|name| b.contains(name));
     common(&a.basis, &b.basis) || common(&a.state, &b.state)
 }
 
 /// Whether no name stands twice.
-fn all_different(parts: &[Named]) -> bool {
+fn all_different(parts: &[NamedAlgebra]) -> bool {
     let (mut basis, mut state) = (BTreeSet::new(), BTreeSet::new());
     let mut parts = parts.iter();
     parts.all(|part| {

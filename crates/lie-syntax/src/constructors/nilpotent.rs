@@ -11,7 +11,7 @@ use super::linear::translations;
 use super::matrix::{Entries, integer_matrix, unit};
 use super::names::{indexed, numbered};
 use super::orthogonal::{pairs, triangle};
-use super::{Element, Named};
+use super::{Element, NamedAlgebra};
 use lie_symbolic::exact::Rational;
 
 pub const HEISENBERG: Family = Family {
@@ -68,14 +68,14 @@ impl Constructor for Heisenberg {
         self.n.saturating_mul(2).saturating_add(1)
     }
 
-    fn build(&self) -> Named {
+    fn build(&self) -> NamedAlgebra {
         let (n, last) = (self.n, self.n + 1);
         let q =
             (0..n).map(|i| Element::new(numbered("Q", i, n), numbered("q", i, n), unit(0, i + 1)));
         let p = (0..n)
             .map(|i| Element::new(numbered("P", i, n), numbered("p", i, n), unit(i + 1, last)));
         let centre = Element::new("Z", "z", unit(0, last));
-        Named::of_matrices(q.chain(p).chain([centre]).collect(), n + 2)
+        NamedAlgebra::from_matrices(q.chain(p).chain([centre]).collect(), n + 2)
     }
 }
 
@@ -88,7 +88,7 @@ impl Constructor for Oscillator {
         self.n.saturating_mul(2).saturating_add(2)
     }
 
-    fn build(&self) -> Named {
+    fn build(&self) -> NamedAlgebra {
         let (n, last) = (self.n, 2 * self.n + 1);
         let (q, p) = (|i| i + 1, |i| n + i + 1);
         let turns: Vec<_> = (0..n)
@@ -115,7 +115,7 @@ impl Constructor for Oscillator {
             )
         }));
         elements.push(Element::new("Z", "z", unit(0, last)));
-        Named::of_matrices(elements, 2 * n + 2)
+        NamedAlgebra::from_matrices(elements, 2 * n + 2)
     }
 }
 
@@ -128,7 +128,7 @@ impl Constructor for Upper {
         triangle(self.n)
     }
 
-    fn build(&self) -> Named {
+    fn build(&self) -> NamedAlgebra {
         let n = self.n;
         let element = |(i, j)| {
             Element::new(
@@ -137,7 +137,7 @@ impl Constructor for Upper {
                 unit(i, j),
             )
         };
-        Named::of_matrices(pairs(n).map(element).collect(), n)
+        NamedAlgebra::from_matrices(pairs(n).map(element).collect(), n)
     }
 }
 
@@ -158,7 +158,7 @@ impl Constructor for Abelian {
         self.n
     }
 
-    fn build(&self) -> Named {
-        Named::of_matrices(translations(self.n).collect(), self.n + 1)
+    fn build(&self) -> NamedAlgebra {
+        NamedAlgebra::from_matrices(translations(self.n).collect(), self.n + 1)
     }
 }

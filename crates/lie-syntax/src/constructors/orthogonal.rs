@@ -6,7 +6,7 @@
 use super::family::{Argument, Constructor, Family, Wrong, size};
 use super::matrix::{Entries, integer_matrix};
 use super::names::indexed;
-use super::{Element, Named};
+use super::{Element, NamedAlgebra};
 
 pub const FAMILY: Family = Family {
     names: &["so"],
@@ -42,17 +42,17 @@ impl Constructor for Orthogonal {
         triangle(self.plus.saturating_add(self.minus))
     }
 
-    fn build(&self) -> Named {
+    fn build(&self) -> NamedAlgebra {
         let n = self.plus + self.minus;
         if n == 3 && self.plus.min(self.minus) == 0 {
-            return Named::of_matrices(rotations(3), 3);
+            return NamedAlgebra::from_matrices(rotations(3), 3);
         }
         let element = |(i, j)| {
             let same = (i < self.plus) == (j < self.plus);
             let matrix = integer_matrix(&[(j, i, 1), (i, j, if same { -1 } else { 1 })]);
             Element::new(indexed("E", &[i, j], n), indexed("m", &[i, j], n), matrix)
         };
-        Named::of_matrices(pairs(n).map(element).collect(), n)
+        NamedAlgebra::from_matrices(pairs(n).map(element).collect(), n)
     }
 }
 

@@ -8,7 +8,7 @@ use super::family::{Constructor, Family, size};
 use super::matrix::{integer_matrix, unit};
 use super::names::numbered;
 use super::orthogonal::triangle;
-use super::{Element, Named};
+use super::{Element, NamedAlgebra};
 
 pub const GALILEI: Family = Family {
     names: &["galilei"],
@@ -44,7 +44,7 @@ impl Constructor for SpaceTime {
         triangle(self.n.saturating_add(2))
     }
 
-    fn build(&self) -> Named {
+    fn build(&self) -> NamedAlgebra {
         let (n, time, last) = (self.n, self.n, self.n + 1);
         let boost = |i| match self.limit {
             true => unit(i, time),
@@ -67,6 +67,6 @@ impl Constructor for SpaceTime {
             ));
         }
         elements.push(Element::new("H", "E", unit(time, last)));
-        Named::of_matrices(elements, n + 2)
+        NamedAlgebra::from_matrices(elements, n + 2)
     }
 }

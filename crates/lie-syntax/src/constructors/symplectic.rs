@@ -5,7 +5,7 @@
 use super::family::{Argument, Constructor, Family, Wrong, real, size};
 use super::matrix::{integer_matrix, unit};
 use super::names::indexed;
-use super::{Element, Named};
+use super::{Element, NamedAlgebra};
 
 pub const FAMILY: Family = Family {
     names: &["sp"],
@@ -42,7 +42,7 @@ impl Constructor for Symplectic {
             .saturating_mul(self.n.saturating_mul(2).saturating_add(1))
     }
 
-    fn build(&self) -> Named {
+    fn build(&self) -> NamedAlgebra {
         let n = self.n;
         let element = |basis: &str, state: &str, (i, j): (usize, usize), matrix| {
             Element::new(
@@ -68,6 +68,6 @@ impl Constructor for Symplectic {
                 }
             }
         }
-        Named::of_matrices(elements, 2 * n)
+        NamedAlgebra::from_matrices(elements, 2 * n)
     }
 }

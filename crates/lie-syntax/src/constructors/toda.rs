@@ -6,7 +6,7 @@
 
 use super::family::{Constructor, Family, size};
 use super::matrix::{integer_matrix, unit};
-use super::{Element, Named};
+use super::{Element, NamedAlgebra};
 
 pub const FAMILY: Family = Family {
     names: &["toda"],
@@ -27,7 +27,7 @@ impl Constructor for Toda {
         self.n.saturating_mul(2) - 1
     }
 
-    fn build(&self) -> Named {
+    fn build(&self) -> NamedAlgebra {
         let (n, last) = (self.n, 2 * (self.n - 1));
         let mut elements = Vec::new();
         for i in 0..n {
@@ -52,6 +52,6 @@ impl Constructor for Toda {
                 matrix,
             ));
         }
-        Named::of_matrices(elements, last + 1)
+        NamedAlgebra::from_matrices(elements, last + 1)
     }
 }

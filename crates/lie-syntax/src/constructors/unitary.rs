@@ -7,7 +7,7 @@ use super::family::{Argument, Constructor, Family, Wrong, size};
 use super::matrix::{Entries, integer_matrix, real, unit};
 use super::names::{indexed, numbered};
 use super::orthogonal::pairs;
-use super::{Element, Named};
+use super::{Element, NamedAlgebra};
 
 pub const SPECIAL: Family = Family {
     names: &["su"],
@@ -54,7 +54,7 @@ impl Constructor for Unitary {
         self.n.saturating_mul(self.n) - usize::from(self.traceless)
     }
 
-    fn build(&self) -> Named {
+    fn build(&self) -> NamedAlgebra {
         let n = self.n;
         let none = Entries::new();
         let mut matrices = Vec::new();
@@ -69,6 +69,6 @@ impl Constructor for Unitary {
         let count = matrices.len();
         let element = |(k, (name, matrix))| Element::new(name, numbered("x", k, count), matrix);
         let elements = matrices.into_iter().enumerate().map(element);
-        Named::of_matrices(elements.collect(), 2 * n)
+        NamedAlgebra::from_matrices(elements.collect(), 2 * n)
     }
 }

@@ -29,7 +29,7 @@ pub fn parse(input: TokenStream, report: &mut Report) -> Parsed {
     let tokens = rust::tokens(input);
     let start = tokens
         .first()
-        .map_or(Origin::at(Span::call_site()), |t| t.origin);
+        .map_or(Origin::from_span(Span::call_site()), |t| t.origin);
     let mut found = Report::new();
     let parts = Parts {
         statements: statements(&tokens, &mut found),
@@ -154,7 +154,7 @@ fn runtime(statement: &Statement<'_>, report: &mut Report) -> Option<Runtime> {
     let runtime = path
         .iter()
         .all(|token| token.identifier().is_some() || token.is(':'))
-        .then(|| Runtime::of_tokens(rust::stream(&path)))
+        .then(|| Runtime::from_tokens(rust::stream(&path)))
         .flatten();
     if runtime.is_none() {
         let place = span(value).unwrap_or(statement.origin);

@@ -20,7 +20,7 @@ pub fn sign(cursor: &mut Cursor<'_>, report: &mut Report) -> Option<Origin> {
     for _ in foreign.chars() {
         cursor.advance();
     }
-    let place = span(cursor.since(start))?;
+    let place = span(cursor.tokens_since(start))?;
     let message = format!("`{foreign}` where a value is given");
     report.push(Diagnostic::new(Kind::Syntax, place, message).help("write `=`"));
     Some(place)

@@ -132,7 +132,7 @@ impl<'a> Parser<'a> {
                         self.fail(mistakes::programming_word(word));
                         return None;
                     }
-                    let left = last_operand(self.cursor.since(start));
+                    let left = last_operand(self.cursor.tokens_since(start));
                     self.fail(mistakes::missing_times(left, self.cursor.rest()));
                     divides = false;
                 }
@@ -155,7 +155,7 @@ impl<'a> Parser<'a> {
             return Some(base);
         }
         let exponent = self.nested(Self::exponent)?;
-        let origin = base.origin.to(exponent.origin);
+        let origin = base.origin.join(exponent.origin);
         Some(Expr {
             kind: ExprKind::Power(Box::new(base), Box::new(exponent)),
             origin,
@@ -191,7 +191,7 @@ impl<'a> Parser<'a> {
             TokenKind::Identifier(name) => self.name(name, token),
             TokenKind::Open(delimiter @ (Delimiter::Parenthesis | Delimiter::Invisible)) => {
                 let mut inner = self.nested(Self::sum)?;
-                inner.origin = token.origin.to(self.close(token, *delimiter)?);
+                inner.origin = token.origin.join(self.close(token, *delimiter)?);
                 Some(inner)
             }
             TokenKind::Punctuation('+') => {
@@ -235,7 +235,7 @@ impl<'a> Parser<'a> {
                     self.cursor.advance();
                 }
             }
-            self.fail(mistakes::malformed_number(self.cursor.since(start)));
+            self.fail(mistakes::malformed_number(self.cursor.tokens_since(start)));
             None
         } else {
             match number::read(literal, self.names) {
@@ -272,7 +272,7 @@ fn n_ary(mut operands: Vec<(bool, Expr)>, kind: fn(Vec<(bool, Expr)>) -> ExprKin
     let origin = operands[0]
         .1
         .origin
-        .to(operands[operands.len() - 1].1.origin);
+        .join(operands[operands.len() - 1].1.origin);
     Expr {
         kind: kind(operands),
         origin,
@@ -280,7 +280,7 @@ fn n_ary(mut operands: Vec<(bool, Expr)>, kind: fn(Vec<(bool, Expr)>) -> ExprKin
 }
 
 fn negative(minus: Origin, operand: Expr) -> Expr {
-    let origin = minus.to(operand.origin);
+    let origin = minus.join(operand.origin);
     Expr {
         kind: ExprKind::Negative(Box::new(operand)),
         origin,

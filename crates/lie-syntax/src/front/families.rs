@@ -79,7 +79,9 @@ pub(super) fn indexed_sum<'a>(parser: &mut Parser<'a>, word: &'a Token) -> Optio
     }
     expect(parser, ':', word)?;
     let body = parser.sum()?;
-    let origin = word.origin.to(parser.close(open, Delimiter::Parenthesis)?);
+    let origin = word
+        .origin
+        .join(parser.close(open, Delimiter::Parenthesis)?);
     let sum = |body: Expr, (index, from, to): (Name, Expr, Expr)| Expr {
         kind: ExprKind::IndexedSum {
             index,
@@ -143,7 +145,7 @@ pub(super) fn index<'a>(
         index.second = Some(Box::new(one_index(parser, open)?));
     }
     let end = parser.close(open, Delimiter::Bracket)?;
-    Some((Some(index), name.origin.to(end)))
+    Some((Some(index), name.origin.join(end)))
 }
 
 /// `i`, `i+1`, `i-2` or `0`

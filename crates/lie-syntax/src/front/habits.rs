@@ -10,7 +10,7 @@ pub fn functions() -> impl Iterator<Item = (&'static str, String)> {
 
 /// What to write for a call of a function of another language, its arguments as text.
 pub fn function(name: &str, arguments: &[String]) -> Option<String> {
-    let form = hints::of_word("functions", &name.to_lowercase())?;
+    let form = hints::lookup_word("functions", &name.to_lowercase())?;
     let operand = |text: &String| {
         let simple = text
             .chars()
@@ -34,17 +34,17 @@ pub fn function(name: &str, arguments: &[String]) -> Option<String> {
 
 /// Why the grammar has no such function.
 pub fn without(name: &str) -> Option<&'static str> {
-    hints::of_word("no such functions", name)
+    hints::lookup_word("no such functions", name)
 }
 
 /// Why there is no such sign.
 pub fn sign(c: char) -> Option<&'static str> {
-    hints::of_character("no such signs", c)
+    hints::lookup_character("no such signs", c)
 }
 
 /// What to write in place of a word of programming languages.
 pub fn word(name: &str) -> Option<&'static str> {
-    hints::of_word("words of programs", name)
+    hints::lookup_word("words of programs", name)
 }
 
 /// What is meant by a name that nobody declared: message and remedy.

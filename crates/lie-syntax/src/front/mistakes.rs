@@ -110,7 +110,7 @@ fn leading_point(point: &Token, rest: &[Token]) -> Diagnostic {
 
 /// Any other sign where none can stand: message and remedy.
 fn sign(sign: char, after: &str) -> (String, String) {
-    if let Some(meant) = hints::of_character("signs", sign) {
+    if let Some(meant) = hints::lookup_character("signs", sign) {
         return (
             format!("`{sign}` is not part of the grammar"),
             format!("write `{meant}`"),
@@ -212,7 +212,7 @@ pub fn missing_times(left: &[Token], rest: &[Token]) -> Diagnostic {
     let place = span(left).into_iter();
     let place = place
         .chain(rest.first().map(|t| t.origin))
-        .reduce(Origin::to);
+        .reduce(Origin::join);
     let message = format!("`*` is missing between `{before}` and `{after}`");
     let diagnostic = Diagnostic {
         origin: place,

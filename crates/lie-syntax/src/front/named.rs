@@ -9,7 +9,7 @@ use mistakes::{unexpected, unknown};
 
 use super::item;
 use super::token::{Cursor, Delimiter, Token, TokenKind, render, span, split_commas};
-use crate::constructors::{Argument, Family, Named, Wrong, direct_sum, family};
+use crate::constructors::{Argument, Family, NamedAlgebra, Wrong, direct_sum, family};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::limits::MAX_DIMENSION;
 use crate::linear::{WORK, rational};
@@ -20,7 +20,7 @@ const DEEPEST: usize = 32;
 const EXAMPLES: &str = "write the name of an algebra, such as `so(3)` or `so(3) + R^2`";
 
 /// The algebra that tokens name; `whole` is the place of an empty text.
-pub fn parse(tokens: &[Token], whole: Origin, report: &mut Report) -> Option<Named> {
+pub fn parse(tokens: &[Token], whole: Origin, report: &mut Report) -> Option<NamedAlgebra> {
     if tokens.is_empty() {
         let missing = Diagnostic::new(Kind::Syntax, whole, "the name of the algebra is missing");
         report.push(missing.help(EXAMPLES));
@@ -30,7 +30,7 @@ pub fn parse(tokens: &[Token], whole: Origin, report: &mut Report) -> Option<Nam
 }
 
 /// The parts of a direct sum.
-fn parts(tokens: &[Token], depth: usize, report: &mut Report) -> Option<Vec<Named>> {
+fn parts(tokens: &[Token], depth: usize, report: &mut Report) -> Option<Vec<NamedAlgebra>> {
     let cursor = Cursor::new(tokens);
     let mut parser = Parser {
         cursor,
@@ -55,7 +55,7 @@ struct Parser<'a, 'r> {
 }
 
 /// An atom: the parts of a sum, and whether it is `R` alone.
-type Atom = (Vec<Named>, bool);
+type Atom = (Vec<NamedAlgebra>, bool);
 
 impl<'a> Parser<'a, '_> {
     fn fail<T>(&mut self, kind: Kind, place: Origin, message: String, help: &str) -> Option<T> {
@@ -69,12 +69,12 @@ impl<'a> Parser<'a, '_> {
     }
 
     fn place_since(&self, start: usize) -> Origin {
-        let place = span(self.cursor.since(start));
+        let place = span(self.cursor.tokens_since(start));
         place.unwrap_or(Origin::Text { start: 0, end: 0 })
     }
 
     /// `A + B + C`
-    fn sum(&mut self) -> Option<Vec<Named>> {
+    fn sum(&mut self) -> Option<Vec<NamedAlgebra>> {
         let start = self.cursor.position();
         let mut parts = self.power()?;
         while let Some(plus) = self.cursor.eat('+') {
@@ -92,7 +92,7 @@ impl<'a> Parser<'a, '_> {
     }
 
     /// `A` or `A^N`
-    fn power(&mut self) -> Option<Vec<Named>> {
+    fn power(&mut self) -> Option<Vec<NamedAlgebra>> {
         let start = self.cursor.position();
         let (parts, line) = self.atom()?;
         let Some(caret) = self.cursor.eat('^') else {
@@ -179,7 +179,7 @@ impl<'a> Parser<'a, '_> {
         let place = self
             .cursor
             .previous()
-            .map_or(token.origin, |t| token.origin.to(t.origin));
+            .map_or(token.origin, |t| token.origin.join(t.origin));
         match word.as_str() {
             "semidirect" => return Some((vec![self.semidirect(&arguments, place)?], false)),
             "tangent" => return Some((vec![self.tangent(&arguments, place)?], false)),
@@ -210,7 +210,7 @@ impl<'a> Parser<'a, '_> {
     }
 
     /// The parts of the sum in parentheses.
-    fn deeper(&mut self, tokens: &[Token], place: Origin) -> Option<Vec<Named>> {
+    fn deeper(&mut self, tokens: &[Token], place: Origin) -> Option<Vec<NamedAlgebra>> {
         if self.depth >= DEEPEST {
             let message = format!("parentheses are nested deeper than {DEEPEST}");
             return self.fail(
@@ -230,7 +230,7 @@ impl<'a> Parser<'a, '_> {
         family: &Family,
         parts: &[&[Token]],
         place: Origin,
-    ) -> Option<Named> {
+    ) -> Option<NamedAlgebra> {
         let (least, most) = family.arguments;
         if parts.len() < least || parts.len() > most {
             let count = if least == most {
@@ -304,6 +304,6 @@ fn fits(dimension: usize, place: Origin, report: &mut Report) -> bool {
     dimension <= MAX_DIMENSION
 }
 
-fn dimension(parts: &[Named]) -> usize {
-    parts.iter().map(Named::dimension).sum()
+fn dimension(parts: &[NamedAlgebra]) -> usize {
+    parts.iter().map(NamedAlgebra::dimension).sum()
 }

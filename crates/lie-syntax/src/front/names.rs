@@ -84,8 +84,8 @@ pub struct Names {
 impl Names {
     /// The same for a family, in whose functions names may have indices.
     #[must_use]
-    pub fn of_family(mut self, family: bool) -> Self {
-        self.indexed = family;
+    pub fn with_indices(mut self, indexed: bool) -> Self {
+        self.indexed = indexed;
         self
     }
 

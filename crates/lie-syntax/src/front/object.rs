@@ -65,7 +65,7 @@ impl<'a> Object<'a> {
 
     /// The same in a folder, relative to which it names files.
     #[must_use]
-    pub fn within(self, folder: Option<&Path>) -> Self {
+    pub fn with_folder(self, folder: Option<&Path>) -> Self {
         let folder = folder.map(Path::to_owned);
         Self { folder, ..self }
     }

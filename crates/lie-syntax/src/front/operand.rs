@@ -58,5 +58,5 @@ pub fn operand_text(tokens: &[Token]) -> String {
         cursor.take_until(|_| false);
         cursor.advance();
     }
-    render(cursor.since(0))
+    render(cursor.tokens_since(0))
 }

@@ -56,7 +56,9 @@ pub(super) fn cases<'a>(parser: &mut Parser<'a>, word: &'a Token) -> Option<Expr
         parser.fail(mistake(comma.origin, message));
         return None;
     }
-    let origin = word.origin.to(parser.close(open, Delimiter::Parenthesis)?);
+    let origin = word
+        .origin
+        .join(parser.close(open, Delimiter::Parenthesis)?);
     let cases = cases.into_iter().rev();
     Some(cases.fold(last, |otherwise, (condition, value)| {
         choice(condition, value, otherwise, (word.origin, origin))

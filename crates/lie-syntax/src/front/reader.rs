@@ -220,7 +220,7 @@ fn with_vectors<E: Entries>(
     let vectors = vectors.with_mistake(found.has_errors());
     let vectors = match parsed.indices.is_empty() {
         true => vectors,
-        false => vectors.of_sites(texts(&parsed.state)),
+        false => vectors.with_sites(texts(&parsed.state)),
     };
     let found = found.into_diagnostics();
     found.into_iter().for_each(|mistake| report.push(mistake));
@@ -243,7 +243,7 @@ fn in_functions<E: Entries>(
         .chain(defined.filter_map(|name| Some(name.identifier()?.to_owned())))
         .chain(step)
         .collect::<Names>()
-        .of_family(!parsed.indices.is_empty())
+        .with_indices(!parsed.indices.is_empty())
 }
 
 fn structure<E: Entries>(

@@ -61,7 +61,7 @@ pub fn tokens(input: TokenStream) -> Vec<Token> {
 fn push(tokens: &mut Vec<Token>, kind: TokenKind, span: Span) {
     tokens.push(Token {
         kind,
-        origin: Origin::at(span),
+        origin: Origin::from_span(span),
     });
 }
 

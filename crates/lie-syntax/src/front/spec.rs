@@ -62,7 +62,7 @@ fn document(text: &str, folder: Option<&Path>, report: &mut Report) -> Parsed {
         }
     };
     let Some(spec) = spec else { return parsed };
-    let spec = spec.within(folder);
+    let spec = spec.with_folder(folder);
     spec.require("a spec", Spec::REQUIRED, report);
     if !spec.get("algebra").is_some_and(algebra::is_named) {
         spec.require("a spec", &["state"], report);
@@ -168,7 +168,7 @@ impl Entries for Object<'_> {
         if indices.is_empty() {
             algebra::read(value, parameters, report)
         } else {
-            algebra::of_family(value, report)
+            algebra::family_algebra(value, report)
         }
     }
 

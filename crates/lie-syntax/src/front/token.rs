@@ -117,7 +117,7 @@ pub fn render_whole(tokens: &[Token]) -> String {
 
 /// The place that the tokens cover, `None` where there are none.
 pub fn span(tokens: &[Token]) -> Option<Origin> {
-    Some(tokens.first()?.origin.to(tokens.last()?.origin))
+    Some(tokens.first()?.origin.join(tokens.last()?.origin))
 }
 
 /// A position in a slice of tokens.
@@ -184,7 +184,7 @@ impl<'a> Cursor<'a> {
     }
 
     /// The tokens from an earlier position up to the next token.
-    pub fn since(&self, position: usize) -> &'a [Token] {
+    pub fn tokens_since(&self, position: usize) -> &'a [Token] {
         &self.tokens[position.min(self.at)..self.at]
     }
 
@@ -204,7 +204,7 @@ impl<'a> Cursor<'a> {
             }
             self.at += 1;
         }
-        self.since(start)
+        self.tokens_since(start)
     }
 }
 
@@ -222,7 +222,7 @@ pub fn split_commas(tokens: &[Token]) -> Vec<&[Token]> {
                 _ => break,
             };
         }
-        parts.push(cursor.since(start));
+        parts.push(cursor.tokens_since(start));
         cursor.advance();
     }
     parts

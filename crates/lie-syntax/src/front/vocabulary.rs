@@ -9,7 +9,7 @@ pub fn functions() -> &'static [Function] {
 }
 
 /// The functions of vectors and matrices.
-pub fn of_vectors() -> &'static [Function] {
+pub fn vector_functions() -> &'static [Function] {
     super::vectors::FUNCTIONS
 }
 

@@ -72,7 +72,7 @@ impl<'a> Scope<'a> {
     }
 
     /// A basis alone.
-    pub fn of_basis(basis: &'a [Name]) -> Self {
+    pub fn from_basis(basis: &'a [Name]) -> Self {
         let basis: Vec<&str> = basis.iter().map(|name| name.text.as_str()).collect();
         let meanings = basis.iter().enumerate();
         Self {

@@ -3,7 +3,7 @@
 use lie_core::{Equation, SquareMatrix};
 
 use super::apart::Apart;
-use super::sym::{Session, Sym, with, within};
+use super::sym::{Session, Sym, run_session, with_session};
 use super::system::{Square, SymbolicSystem};
 use crate::derive::{Argument, Block, Derived, Kernel, Source, Tangents, Tape, leaner_jacobian};
 use lie_symbolic::symbolic::{ExprId, Symbol};
@@ -45,11 +45,11 @@ pub struct Step {
 
 /// The state before the step.
 fn start() -> Vec<Sym> {
-    symbols(with(|s| s.source.coordinates()))
+    symbols(with_session(|s| s.source.coordinates()))
 }
 
 fn unknown() -> Vec<Sym> {
-    symbols(with(|s| s.source.block(Block::Unknown)))
+    symbols(with_session(|s| s.source.block(Block::Unknown)))
 }
 
 fn symbols(ids: Vec<ExprId>) -> Vec<Sym> {
@@ -71,7 +71,7 @@ impl Step {
         equation.residual(&unknown(), &mut residual);
         Self {
             residual: expressions(residual),
-            of_residual: with(|s| s.tape.clone()),
+            of_residual: with_session(|s| s.tape.clone()),
             rows: None,
             result: None,
             guess: None,
@@ -119,7 +119,7 @@ impl Step {
 
     /// The same step with the name of the argument that holds what the equation takes as given.
     #[must_use]
-    pub(crate) fn with(self, given: &'static str) -> Self {
+    pub(crate) fn with_given(self, given: &'static str) -> Self {
         Self { given, ..self }
     }
 }
@@ -143,7 +143,7 @@ where
 
 /// Runs an equation whose Jacobian is that which it states, with the state at the end and, under this formula, where the
 /// iteration begins.
-pub(crate) fn whole<E>(mut equation: E, formula: &'static str) -> Step
+pub(crate) fn complete<E>(mut equation: E, formula: &'static str) -> Step
 where
     E: Equation<Sym, State = Vec<Sym>, Unknown = Vec<Sym>, Matrix = Square>,
 {
@@ -170,7 +170,7 @@ fn traced(
     }
     source.block(Block::Unknown);
     let taken = source.lent();
-    let system = SymbolicSystem::of(&taken);
+    let system = SymbolicSystem::new(&taken);
     let tape = Tape::new(&taken, first);
     let session = Session {
         source: taken,
@@ -178,7 +178,7 @@ fn traced(
         given: 0,
         branched: false,
     };
-    let (step, session) = within(session, || run(&system, Sym::of(Symbol::Step)));
+    let (step, session) = run_session(session, || run(&system, Sym::from_symbol(Symbol::Step)));
     *source = session.source;
     if session.branched || (session.given > 0 && step.given.is_empty()) {
         return None;
@@ -197,14 +197,14 @@ pub(crate) fn values(
 ) -> Option<Vec<ExprId>> {
     let first = Block::COUNT * source.dimension;
     let taken = source.lent();
-    let system = SymbolicSystem::of(&taken);
+    let system = SymbolicSystem::new(&taken);
     let session = Session {
         tape: Tape::new(&taken, first),
         source: taken,
         given: 0,
         branched: false,
     };
-    let (values, session) = within(session, || run(&system));
+    let (values, session) = run_session(session, || run(&system));
     *source = session.source;
     let plain = !session.branched && session.given == 0 && session.tape.definitions().is_empty();
     plain.then(|| expressions(values))

@@ -12,7 +12,7 @@ mod sym;
 mod system;
 
 pub use equation::{COMPLETED, Formulas, Step, kernels, step};
-pub(crate) use equation::{linearized, values, whole};
+pub(crate) use equation::{complete, linearized, values};
 pub use sym::Sym;
 pub use system::{Square, SymbolicSystem};
 pub(crate) use system::{SymbolicActions, SymbolicFunction, SymbolicGradient};
@@ -37,7 +37,7 @@ mod tests {
 
     #[test]
     fn an_equation_with_one_path_is_written_down() {
-        let mut source = Source::of(&compile_spec(SPEC).expect("a sound spec"));
+        let mut source = Source::new(&compile_spec(SPEC).expect("a sound spec"));
         let dimension = source.dimension;
         let found = kernels(&mut source, &FORMULAS, |system, h| {
             step(generic::Midpoint::new(system, h))
@@ -51,7 +51,7 @@ mod tests {
     /// The exponential series ends by a comparison.
     #[test]
     fn an_equation_that_compares_is_refused() {
-        let mut source = Source::of(&compile_spec(SPEC).expect("a sound spec"));
+        let mut source = Source::new(&compile_spec(SPEC).expect("a sound spec"));
         let found = kernels(&mut source, &FORMULAS, |system, h| {
             step(generic::ExpMidpoint::new(system, h))
         });
@@ -64,7 +64,7 @@ mod tests {
         kernels: fn(&mut Source) -> Option<Vec<crate::derive::Kernel>>,
     ) -> Vec<usize> {
         let model = compile_spec(spec).expect("a sound spec");
-        let mut source = Source::of(&model);
+        let mut source = Source::new(&model);
         let algebra = model.bracket.algebra().expect("an algebra");
         source.exponential = crate::structure::exponential::closed_form(&algebra.exact);
         let kernels = kernels(&mut source).expect("one path");
@@ -133,7 +133,7 @@ mod tests {
     #[test]
     fn time_is_not_iterated() {
         let spec = SPEC.replace("z^4/5", "z^4/5 + x*sin(t)");
-        let all = Source::of(&compile_spec(&spec).expect("a sound spec")).dimension;
+        let all = Source::new(&compile_spec(&spec).expect("a sound spec")).dimension;
         let hidden: Vec<usize> = (3..all).collect();
         assert_eq!(hidden.len(), 3, "time, its momentum, one");
         assert_eq!(

@@ -25,7 +25,7 @@ thread_local! {
 }
 
 /// Runs code that may compute with [`Sym`], and gives the session back.
-pub(super) fn within<T>(session: Session, run: impl FnOnce() -> T) -> (T, Session) {
+pub(super) fn run_session<T>(session: Session, run: impl FnOnce() -> T) -> (T, Session) {
     SESSION.with(|cell| {
         let before = cell.borrow_mut().replace(session);
         let value = run();
@@ -35,7 +35,7 @@ pub(super) fn within<T>(session: Session, run: impl FnOnce() -> T) -> (T, Sessio
 }
 
 /// The session of the trace that runs.
-pub(super) fn with<T>(use_it: impl FnOnce(&mut Session) -> T) -> T {
+pub(super) fn with_session<T>(use_it: impl FnOnce(&mut Session) -> T) -> T {
     SESSION.with(|cell| {
         let mut session = cell.borrow_mut();
         use_it(session.as_mut().expect("symbols live within a trace"))
@@ -47,21 +47,21 @@ pub(super) fn with<T>(use_it: impl FnOnce(&mut Session) -> T) -> T {
 pub struct Sym(pub(super) ExprId);
 
 impl Sym {
-    pub(crate) fn of(symbol: Symbol) -> Self {
-        Self(with(|s| s.source.graph.symbol(symbol)))
+    pub(crate) fn from_symbol(symbol: Symbol) -> Self {
+        Self(with_session(|s| s.source.graph.symbol(symbol)))
     }
 
     fn number(value: Rational) -> Self {
-        Self(with(|s| s.source.graph.number(value)))
+        Self(with_session(|s| s.source.graph.number(value)))
     }
 
     fn call(self, function: Elementary) -> Self {
-        Self(with(|s| s.source.graph.call(function, &[self.0])))
+        Self(with_session(|s| s.source.graph.call(function, &[self.0])))
     }
 
     /// An answer that depends on the values.
     fn branch<T>(answer: T) -> T {
-        with(|s| s.branched = true);
+        with_session(|s| s.branched = true);
         answer
     }
 }
@@ -77,7 +77,7 @@ macro_rules! operators {
         impl $trait for Sym {
             type Output = Self;
             fn $method(self, other: Self) -> Self {
-                Self(with(|s| s.source.graph.$build(self.0, other.0)))
+                Self(with_session(|s| s.source.graph.$build(self.0, other.0)))
             }
         }
         impl $assign for Sym {
@@ -97,7 +97,7 @@ operators! {
 impl Neg for Sym {
     type Output = Self;
     fn neg(self) -> Self {
-        Self(with(|s| s.source.graph.neg(self.0)))
+        Self(with_session(|s| s.source.graph.neg(self.0)))
     }
 }
 
@@ -140,11 +140,11 @@ impl Scalar for Sym {
     }
 
     fn quantity(self) -> Self {
-        Self(with(|s| s.tape.define(&mut s.source, self.0)))
+        Self(with_session(|s| s.tape.define(&mut s.source, self.0)))
     }
 
     fn given<const K: usize>(first: usize, _compute: impl FnOnce() -> [Self; K]) -> [Self; K] {
-        with(|s| {
+        with_session(|s| {
             s.given = s.given.max(first + K);
             let symbols = s.source.block(Block::Given);
             std::array::from_fn(|k| Self(symbols[first + k]))
@@ -178,14 +178,14 @@ impl Scalar for Sym {
     }
     lie_core::elementary_functions!(functions);
     fn atan2(self, x: Self) -> Self {
-        Self(with(|s| {
+        Self(with_session(|s| {
             s.source.graph.call(Function::Atan2, &[self.0, x.0])
         }))
     }
     fn powf(self, exponent: Self) -> Self {
-        let number = with(|s| s.source.graph.as_number(exponent.0).cloned());
+        let number = with_session(|s| s.source.graph.as_number(exponent.0).cloned());
         match number {
-            Some(number) => Self(with(|s| s.source.graph.pow(self.0, &number))),
+            Some(number) => Self(with_session(|s| s.source.graph.pow(self.0, &number))),
             None => (exponent * self.log()).exp(),
         }
     }

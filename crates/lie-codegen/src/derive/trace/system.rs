@@ -8,7 +8,7 @@ use lie_core::{
     SquareMatrix, VectorPoisson,
 };
 
-use super::sym::{Session, Sym, with};
+use super::sym::{Session, Sym, with_session};
 use crate::derive::{
     Block, Closed, Definitions, Generating, Slope, Source, moved, slope, symmetric,
 };
@@ -48,7 +48,7 @@ struct SymbolicVectors {
 }
 
 impl SymbolicVectors {
-    fn of(vectors: &Vectors) -> Self {
+    fn new(vectors: &Vectors) -> Self {
         let entry = |(k, factor): &Component| {
             let high = factor.to_f64();
             let low = Rational::from_f64(high).map_or(0.0, |high| (factor - &high).to_f64());
@@ -77,7 +77,7 @@ pub struct SymbolicSystem {
 }
 
 impl SymbolicSystem {
-    pub(super) fn of(source: &Source) -> Self {
+    pub(super) fn new(source: &Source) -> Self {
         let spins = source.spins().into_iter().flatten();
         let (spins, scales) = spins.map(|s| (s.coordinates, Sym(s.scale))).unzip();
         let (planes, moments) = match source.body() {
@@ -93,14 +93,14 @@ impl SymbolicSystem {
                 .map(|&(from, to)| Plane::new(from as u16, to as u16))
                 .collect(),
             moments: moments.iter().map(|moment| Sym(*moment)).collect(),
-            vectors: source.vectors().map(SymbolicVectors::of),
+            vectors: source.vectors().map(SymbolicVectors::new),
             closed: None,
             exponential: source.exponential.is_some(),
         }
     }
 
     /// The system with a discrete gradient.
-    pub(crate) fn along(&self, closed: Closed) -> Self {
+    pub(crate) fn with_gradient(&self, closed: Closed) -> Self {
         Self {
             closed: Some(closed),
             ..self.clone()
@@ -121,10 +121,10 @@ impl SymbolicSystem {
     /// Expressions in the coordinates, at a point.
     fn at(expressions: impl FnOnce(&mut Source) -> Vec<ExprId>, point: &[Sym]) -> Vec<Sym> {
         let point: Vec<ExprId> = point.iter().map(|x| x.0).collect();
-        with(|Session { source, .. }| {
+        with_session(|Session { source, .. }| {
             let expressions = expressions(source);
             source
-                .at(&expressions, &point)
+                .at_point(&expressions, &point)
                 .into_iter()
                 .map(Sym)
                 .collect()
@@ -191,7 +191,7 @@ impl Poisson<Sym> for SymbolicSystem {
     }
     fn poisson_slope(&self, mu: &State, xi: &State, out: &mut Square) {
         let (mu, xi) = (ids(mu), ids(xi));
-        let entries = with(|Session { source, .. }| {
+        let entries = with_session(|Session { source, .. }| {
             let (entries, vector) = (source.poisson_slope().concat(), source.symbols(Block::Xi));
             source.graph.substitute(&entries, &|symbol| match symbol {
                 Symbol::Coordinate(i) => Some(mu[i]),
@@ -207,15 +207,15 @@ impl Poisson<Sym> for SymbolicSystem {
 impl LiePoisson<Sym> for SymbolicSystem {
     fn ad(&self, xi: &State, eta: &State, out: &mut State) {
         let (xi, eta) = (ids(xi), ids(eta));
-        write(with(|s| s.source.ad_of(&xi, &eta)), out);
+        write(with_session(|s| s.source.ad_of(&xi, &eta)), out);
     }
     fn ad_star(&self, xi: &State, mu: &State, out: &mut State) {
         let (xi, mu) = (ids(xi), ids(mu));
-        write(with(|s| s.source.ad_star_of(&xi, &mu)), out);
+        write(with_session(|s| s.source.ad_star_of(&xi, &mu)), out);
     }
     fn ad_star_matrix(&self, xi: &State, out: &mut Square) {
         let xi = ids(xi);
-        let rows = with(|s| s.source.ad_star_matrix_of(&xi));
+        let rows = with_session(|s| s.source.ad_star_matrix_of(&xi));
         self.matrix(rows.concat().into_iter().map(Sym).collect(), out);
     }
     fn has_closed_exponential(&self) -> bool {
@@ -232,7 +232,7 @@ impl LiePoisson<Sym> for SymbolicSystem {
 /// `f_k(ad*_x) m` in closed form.
 fn closed_function(x: &[Sym], m: &[Sym], k: usize) -> Vec<ExprId> {
     let (x, m) = (ids(x), ids(m));
-    with(|Session { source, tape, .. }| {
+    with_session(|Session { source, tape, .. }| {
         let x = tape.define_all(source, &x);
         source.closed_function(tape, (&x, &m), k)
     })
@@ -241,7 +241,7 @@ fn closed_function(x: &[Sym], m: &[Sym], k: usize) -> Vec<ExprId> {
 impl CayleyPoisson<Sym> for SymbolicSystem {
     fn triple(&self, x: &State, z: &State, mu: &State, out: &mut State) {
         let (x, z, mu) = (ids(x), ids(z), ids(mu));
-        write(with(|s| s.source.triple_of(&x, &z, &mu)), out);
+        write(with_session(|s| s.source.triple_of(&x, &z, &mu)), out);
     }
 }
 
@@ -258,7 +258,7 @@ impl DiscreteGradient<Sym, SymbolicSystem> for SymbolicGradient {
         let Closed {
             value, definitions, ..
         } = system.gradient();
-        let value = with(
+        let value = with_session(
             |Session {
                  source,
                  tape,
@@ -295,7 +295,7 @@ impl GeneratingFunction<Sym> for SymbolicFunction {
 
     fn gradient(&mut self, p: &State, xi: &mut State) {
         let p = ids(p);
-        let entries = with(|Session { source, tape, .. }| {
+        let entries = with_session(|Session { source, tape, .. }| {
             let Slope {
                 tape: list,
                 entries,
@@ -306,7 +306,7 @@ impl GeneratingFunction<Sym> for SymbolicFunction {
     }
     fn linearize(&mut self, p: &State, xi: &mut State, hessian: &mut Square) {
         let p = ids(p);
-        let (entries, rows) = with(|Session { source, tape, .. }| {
+        let (entries, rows) = with_session(|Session { source, tape, .. }| {
             let Slope {
                 tape: mut list,
                 mut entries,
@@ -332,7 +332,7 @@ impl Actions<Sym, SymbolicSystem> for SymbolicActions {
     }
     fn act(&mut self, _system: &SymbolicSystem, i: usize, s: Sym, m: &State, out: &mut State) {
         let m = ids(m);
-        let moved = with(|Session { source, tape, .. }| {
+        let moved = with_session(|Session { source, tape, .. }| {
             let algebra = source.structure.bracket.algebra();
             let blocks = algebra.and_then(|algebra| separable::action_of(algebra, i));
             let blocks = blocks.expect("a closed form of each action");

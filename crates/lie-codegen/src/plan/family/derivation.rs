@@ -23,7 +23,7 @@ pub(super) struct Derivation<'p, 'm> {
 }
 
 impl<'p, 'm> Derivation<'p, 'm> {
-    pub(super) fn of(planner: &'p mut Planner<'m>, family: &'m model::Family) -> Self {
+    pub(super) fn new(planner: &'p mut Planner<'m>, family: &'m model::Family) -> Self {
         let graph = &mut planner.source.graph;
         let energy = graph.as_written(family.energy);
         let (mut weights, mut mean) = (Vec::new(), Vec::new());

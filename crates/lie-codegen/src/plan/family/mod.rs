@@ -126,7 +126,7 @@ impl Family {
 
 /// The plan of a family.
 pub(super) fn plan(structure: &Structure, family: &model::Family) -> Plan {
-    let mut names = Names::of(structure);
+    let mut names = Names::new(structure);
     let n = structure.dimension();
     let of_slots = (0..family.names.len()).map(|place| {
         let (slot, name) = (place / n, &structure.coordinates[place % n].text);
@@ -136,7 +136,7 @@ pub(super) fn plan(structure: &Structure, family: &model::Family) -> Plan {
     names.coordinates = of_slots.chain(of_sums).collect();
     let mut planner = Planner {
         structure,
-        source: Source::of(structure),
+        source: Source::new(structure),
         names,
         methods: Vec::new(),
         constants: Table::default(),
@@ -144,7 +144,7 @@ pub(super) fn plan(structure: &Structure, family: &model::Family) -> Plan {
         known: Vec::new(),
         eliminations: Vec::new(),
     };
-    let planned = Derivation::of(&mut planner, family).family();
+    let planned = Derivation::new(&mut planner, family).family();
     planner.family(planned)
 }
 

@@ -18,7 +18,7 @@ impl Printer<'_> {
     pub(super) fn family(&self, family: &Family) -> TokenStream {
         let parameters = self.parameters();
         let sites = self.system_struct();
-        let over = self.over();
+        let over = self.scalar_conversion();
         let system = self.system_of_family(family);
         let kernels = self.sites(family);
         let pieces = family.pieces.as_ref();

@@ -129,7 +129,7 @@ fn direct_sum((a, s): &(Class, Series), (b, t): &(Class, Series)) -> (Class, Ser
 
 /// Class and series, of the algebra as a whole.
 fn of_ideal(table: &Table, budget: &Budget) -> Result<(Class, Series), Exhausted> {
-    let whole = table.whole(budget)?;
+    let whole = table.as_subspace(budget)?;
     let derived = table.product(&whole, &whole, budget)?;
     let derived_series = series(&whole, &derived, |last| table.product(last, last, budget))?;
     let lower_central = series(&whole, &derived, |last| table.product(&whole, last, budget))?;

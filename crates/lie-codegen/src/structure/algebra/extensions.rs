@@ -49,7 +49,7 @@ fn galilei(
     if n != radical.dimension() + k * (k - 1) / 2 {
         return Ok(None);
     }
-    let whole = table.whole(budget)?;
+    let whole = table.as_subspace(budget)?;
     let vectors = table.product(&whole, radical, budget)?;
     if vectors.dimension() != 2 * k || table.product(&vectors, &vectors, budget)?.dimension() > 0 {
         return Ok(None);
@@ -62,7 +62,7 @@ fn galilei(
         return Ok(None);
     }
     // the radical does nothing on the second vectors, so any elements beside it do what s does
-    let matrices = radical.others().into_iter();
+    let matrices = radical.complement_places().into_iter();
     let matrices = matrices.map(|i| table.action(&table.unit(i), &second, budget));
     let matrices: Vec<Vec<Vector>> = matrices.collect::<Result<_, _>>()?;
     let flat = matrices.iter().map(|m| m.concat());
@@ -90,18 +90,18 @@ fn oscillator(
     if n < 4 || n % 2 == 1 || derived.dimension() + 1 != n {
         return Ok(None);
     }
-    let centre = table.centralizer(&table.whole(budget)?, budget)?;
+    let centre = table.centralizer(&table.as_subspace(budget)?, budget)?;
     if centre.dimension() != 1 || table.product(derived, derived, budget)? != centre {
         return Ok(None);
     }
-    let places = centre.others();
+    let places = centre.complement_places();
     let quotient = table.quotient(&centre, budget)?;
     let mut rest = Subspace::zero(n - 1);
     for vector in derived.basis() {
         let vector = centre.reduced(vector.clone(), budget)?;
         rest.insert(places.iter().map(|&p| vector[p].clone()).collect(), budget)?;
     }
-    let [outside] = rest.others()[..] else {
+    let [outside] = rest.complement_places()[..] else {
         return Ok(None);
     };
     let m = quotient.action(&quotient.unit(outside), &rest, budget)?;

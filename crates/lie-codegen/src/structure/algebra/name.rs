@@ -151,7 +151,7 @@ fn conjugate(
 /// The name of an algebra that is known as a whole.
 fn indecomposable(table: &Table, budget: &Budget) -> Result<Option<String>, Exhausted> {
     let n = table.dimension();
-    let whole = table.whole(budget)?;
+    let whole = table.as_subspace(budget)?;
     let derived = table.product(&whole, &whole, budget)?;
     if n == 2 {
         return Ok((derived.dimension() == 1).then(|| "aff(1)".to_owned()));
@@ -173,7 +173,7 @@ fn indecomposable(table: &Table, budget: &Budget) -> Result<Option<String>, Exha
 /// The solvable algebras of dimension three with a derived algebra of dimension two, by trace and determinant of the third
 /// basis element on it (Bianchi's types IV to VII).
 fn bianchi(table: &Table, derived: &Subspace, budget: &Budget) -> Result<String, Exhausted> {
-    let outside = derived.others();
+    let outside = derived.complement_places();
     let action = table.action(&table.unit(outside[0]), derived, budget)?;
     let [[a, b], [c, d]] = [
         [&action[0][0], &action[0][1]],
@@ -211,7 +211,7 @@ fn semidirect(
     budget: &Budget,
 ) -> Result<Option<String>, Exhausted> {
     let size = radical.dimension();
-    let outside = radical.others();
+    let outside = radical.complement_places();
     let dimension = outside.len();
     // faithful: only V commutes with V
     if table.centralizer(radical, budget)?.dimension() > size {
@@ -319,7 +319,7 @@ fn inverse(matrix: Vec<Vector>, budget: &Budget) -> Result<Vec<Vector>, Exhauste
 /// What is said of an algebra without a name.
 pub fn description(table: &Table, budget: &Budget) -> Result<String, Exhausted> {
     let n = table.dimension();
-    let whole = table.whole(budget)?;
+    let whole = table.as_subspace(budget)?;
     let derived = table.product(&whole, &whole, budget)?;
     let radical = table.radical(&derived, budget)?;
     let (class, _) = super::class::class(&table.subalgebra(&radical, budget)?, budget)?;

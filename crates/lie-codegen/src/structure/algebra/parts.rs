@@ -16,7 +16,7 @@ pub type Map = Vec<Vector>;
 /// An abelian direct summand, split off: the rest and its dimension.
 pub fn without_centre(table: &Table, budget: &Budget) -> Result<(Table, usize), Exhausted> {
     let n = table.dimension();
-    let whole = table.whole(budget)?;
+    let whole = table.as_subspace(budget)?;
     let derived = table.product(&whole, &whole, budget)?;
     let centre = table.centralizer(&whole, budget)?;
     let mut all = derived.clone();
@@ -148,14 +148,14 @@ pub fn eigenspaces(table: &Table, maps: &[Map], budget: &Budget) -> Result<Eigen
         }
     }
     let mut rational = Vec::new();
-    let mut rest = table.whole(budget)?;
+    let mut rest = table.as_subspace(budget)?;
     for root in distinct {
         let mut shifted = map.clone();
         for (i, column) in shifted.iter_mut().enumerate() {
             column[i] = &column[i] - &root;
         }
         // the kernel and the image of the n-th power
-        let mut image = table.whole(budget)?;
+        let mut image = table.as_subspace(budget)?;
         let mut power: Map = (0..n).map(|i| table.unit(i)).collect();
         loop {
             let before = image.dimension();

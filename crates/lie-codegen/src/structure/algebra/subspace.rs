@@ -61,7 +61,7 @@ impl Subspace {
     }
 
     /// The other entries, the coordinates of the quotient by the subspace.
-    pub fn others(&self) -> Vec<usize> {
+    pub fn complement_places(&self) -> Vec<usize> {
         (0..self.length)
             .filter(|c| !self.pivots.contains(c))
             .collect()
@@ -108,7 +108,7 @@ impl Subspace {
 
     /// The vectors that all the rows of the basis annihilate.
     pub fn annihilated(&self) -> Vec<Vector> {
-        let kernel = self.others().into_iter().map(|free| {
+        let kernel = self.complement_places().into_iter().map(|free| {
             let mut vector = vec![Rational::ZERO; self.length];
             vector[free] = Rational::ONE;
             for (row, &pivot) in self.rows.iter().zip(&self.pivots) {
@@ -230,7 +230,7 @@ mod tests {
     fn subspaces() {
         let budget = Budget::new(10_000);
         let a = Subspace::span(3, matrix(&[&[1, 1, 0], &[2, 2, 0], &[0, 0, 3]]), &budget).unwrap();
-        assert_eq!((a.dimension(), a.others()), (2, vec![1]));
+        assert_eq!((a.dimension(), a.complement_places()), (2, vec![1]));
         let b = Subspace::span(3, matrix(&[&[1, 0, 0], &[0, 1, 0]]), &budget).unwrap();
         let both = a.intersection(&b, &budget).unwrap();
         assert_eq!(both.basis(), matrix(&[&[1, 1, 0]]));

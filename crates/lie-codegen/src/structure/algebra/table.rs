@@ -129,7 +129,7 @@ impl Table {
     }
 
     /// The whole algebra as a subspace.
-    pub fn whole(&self, budget: &Budget) -> Result<Subspace, Exhausted> {
+    pub fn as_subspace(&self, budget: &Budget) -> Result<Subspace, Exhausted> {
         let n = self.dimension();
         Subspace::span(n, (0..n).map(|i| self.unit(i)), budget)
     }
@@ -163,7 +163,7 @@ impl Table {
 
     /// The quotient by an ideal, in the basis elements that are no pivots of the ideal.
     pub fn quotient(&self, ideal: &Subspace, budget: &Budget) -> Result<Self, Exhausted> {
-        let places = ideal.others();
+        let places = ideal.complement_places();
         Self::from_brackets(places.len(), |i, j| {
             let (x, y) = (self.unit(places[i]), self.unit(places[j]));
             let value = ideal.reduced(self.bracket(&x, &y, budget)?, budget)?;

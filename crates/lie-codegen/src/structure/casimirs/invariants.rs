@@ -299,7 +299,7 @@ impl<'a> Search<'a> {
     }
 
     /// How many were found.
-    pub fn found(&self) -> usize {
+    pub fn count(&self) -> usize {
         self.found.len()
     }
 

@@ -155,7 +155,7 @@ fn of_ideal(
         _ => return Found::default(),
     };
     found.complete = polynomials(&mut search, wanted).is_ok();
-    let missing = wanted - search.found();
+    let missing = wanted - search.count();
     let added = match missing {
         1.. if !with_unit => quotients::add(&mut search, constants, missing, rational),
         _ => Ok(Vec::new()),

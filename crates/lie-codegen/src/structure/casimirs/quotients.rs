@@ -38,9 +38,9 @@ pub(super) fn add(
         return Ok(found);
     };
     let table = Table::new(&rational);
-    let whole = table.whole(budget)?;
+    let whole = table.as_subspace(budget)?;
     let derived = table.product(&whole, &whole, budget)?;
-    let outside = derived.others();
+    let outside = derived.complement_places();
     let mut all: Vec<SemiInvariant> = Vec::new();
     for degree in 1..=HIGHEST {
         all.extend(of_degree(&table, &derived, &outside, degree, budget)?);

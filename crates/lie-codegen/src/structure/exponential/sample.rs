@@ -88,7 +88,7 @@ fn residue(value: &Fraction) -> Option<Residue> {
     let of = |polynomial: &lie_symbolic::exact::Polynomial| {
         let mut sum = Residue::ZERO;
         for (monomial, coefficient) in polynomial.terms() {
-            let mut term = Residue::of(coefficient)?;
+            let mut term = Residue::from_rational(coefficient)?;
             for (variable, exponent) in monomial.powers() {
                 term = term.times(parameter(variable).power(exponent.into())?);
             }

@@ -82,7 +82,7 @@ pub(super) struct Commuting<'a> {
 }
 
 impl<'a> Commuting<'a> {
-    pub(super) fn of(algebra: &'a Algebra, graph: &mut Graph, invariants: &[Invariant]) -> Self {
+    pub(super) fn new(algebra: &'a Algebra, graph: &mut Graph, invariants: &[Invariant]) -> Self {
         let n = algebra.basis.len();
         let size = n + invariants.len();
         let mut pairs = vec![vec![false; size]; size];

@@ -38,7 +38,7 @@ pub(super) enum Order {
 
 impl Quadratic {
     /// The parts of a sum of terms; `None` where the system is too large.
-    pub(super) fn of(
+    pub(super) fn from_terms(
         graph: &mut Graph,
         terms: &[ExprId],
         n: usize,

@@ -46,7 +46,7 @@ pub(super) struct Invariant {
 }
 
 /// The Casimirs of the model that are polynomials, and quadratic ones of subalgebras in the coordinates of H.
-pub(super) fn of(
+pub(super) fn collect(
     casimirs: &[model::Casimir],
     algebra: &Algebra,
     graph: &mut Graph,

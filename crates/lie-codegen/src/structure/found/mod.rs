@@ -194,21 +194,21 @@ fn ways(
     }
     let start = graph.normal(hamiltonian.value);
     let budget = Budget::new(WORK);
-    let invariants = invariants::of(known, algebra, graph, start);
+    let invariants = invariants::collect(known, algebra, graph, start);
     let least = declared.map_or(usize::MAX, <[_]>::len);
     // one piece cannot be less
     let mut best: Vec<Classified> = Vec::new();
     if least > 1 {
         let search = Search {
             model,
-            commuting: Commuting::of(algebra, graph, &invariants),
+            commuting: Commuting::new(algebra, graph, &invariants),
             invariants: &invariants,
             work: Work {
                 forms: &budget,
                 colouring: &Budget::new(COLOURING),
             },
         };
-        for way in search.all(graph, start) {
+        for way in search.ways(graph, start) {
             let count = best.first().map_or(least, |best| best.count + 1);
             if way.count >= count {
                 continue;

@@ -13,7 +13,11 @@ use lie_symbolic::symbolic::{ExprId, Graph, Node};
 const MULTIPLES: usize = 400;
 
 /// H with the symbols; `None` where it contains none of these Casimirs.
-pub(super) fn of(graph: &mut Graph, h: ExprId, casimirs: &[Invariant]) -> Option<ExprId> {
+pub(super) fn substitute_casimirs(
+    graph: &mut Graph,
+    h: ExprId,
+    casimirs: &[Invariant],
+) -> Option<ExprId> {
     let mut value = inside(graph, h, casimirs);
     if let Some(other) = of_sum(graph, value, casimirs, false) {
         value = other;

@@ -53,7 +53,7 @@ pub fn refusal(structure: &Structure, order: u32) -> Option<(String, String)> {
             nearest,
         ));
     };
-    let commuting = Commuting::of(algebra, &mut graph, &[]);
+    let commuting = Commuting::new(algebra, &mut graph, &[]);
     let atoms = commuting.by_arguments(&graph, &terms);
     let mut entangled = atoms.iter().filter_map(|atom| match atom {
         Atom::Function(set, terms) => Some((commuting.mixed(set).first().copied()?, terms)),

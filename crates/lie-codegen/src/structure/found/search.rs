@@ -25,7 +25,7 @@ pub(super) struct Search<'a> {
 
 impl Search<'_> {
     /// All ways that are looked at.
-    pub fn all(&self, graph: &mut Graph, start: ExprId) -> Vec<Classified> {
+    pub fn ways(&self, graph: &mut Graph, start: ExprId) -> Vec<Classified> {
         let of_algebra: Vec<Invariant> = self
             .invariants
             .iter()
@@ -34,7 +34,7 @@ impl Search<'_> {
             .collect();
         let mut starts = vec![start];
         for known in [&of_algebra[..], self.invariants] {
-            if let Some(value) = recognition::of(graph, start, known)
+            if let Some(value) = recognition::substitute_casimirs(graph, start, known)
                 && !starts.contains(&value)
             {
                 starts.push(value);
@@ -112,7 +112,7 @@ impl Search<'_> {
             all.push(plain);
         }
         let n = self.model.dimension();
-        let Some(quadratic) = Quadratic::of(graph, &terms, n, self.work.forms) else {
+        let Some(quadratic) = Quadratic::from_terms(graph, &terms, n, self.work.forms) else {
             return all;
         };
         if let Some((form, others)) = quadratic.linear_part(graph) {

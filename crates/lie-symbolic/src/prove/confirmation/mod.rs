@@ -63,7 +63,7 @@ impl<'a> Confirmation<'a> {
     }
 
     /// What the values of an expression say.
-    pub fn of(&mut self, id: ExprId) -> Finding {
+    pub fn check_zero(&mut self, id: ExprId) -> Finding {
         if let Some(zero) = self.residues.vanishes(id) {
             return if zero {
                 Finding::Zero
@@ -74,7 +74,7 @@ impl<'a> Confirmation<'a> {
         let roots: Vec<ExprId> = self.domain.iter().copied().chain([id]).collect();
         let parts = self.graph.dependencies(&roots);
         let mut finding = Finding::Unknown;
-        for point in self.points.of(&roots, &parts) {
+        for point in self.points.select(&roots, &parts) {
             if !self.evaluate(&roots, &parts, point) {
                 continue;
             }
@@ -90,7 +90,7 @@ impl<'a> Confirmation<'a> {
 
     /// Whether an expression is a polynomial of a degree d in the coordinates along a line, as far as values
     /// tell: the difference of order d + 1 of its values at equal distances is zero.
-    pub fn of_degree(&mut self, id: ExprId, degree: u32) -> Finding {
+    pub fn check_degree(&mut self, id: ExprId, degree: u32) -> Finding {
         if self.residues.vanishes(id).is_some() || degree > HIGHEST {
             return Finding::Zero;
         }
@@ -159,7 +159,7 @@ impl<'a> Confirmation<'a> {
         }
         let negative = |id: ExprId| Some(known.get(&id)?.as_ref()?.sign()? < 0);
         let taken = match graph.has_choices() {
-            true => Cow::from(graph.taken(roots, &negative)),
+            true => Cow::from(graph.taken_dependencies(roots, &negative)),
             false => Cow::from(parts),
         };
         taken.iter().all(|part| known[part].is_some())

@@ -40,7 +40,7 @@ impl<'a> Points<'a> {
 
     /// The points for expressions that consist of these parts: those in the domain that reach a side of a branch
     /// that no earlier one reaches, and a few others.
-    pub fn of(&mut self, roots: &[ExprId], parts: &[ExprId]) -> Vec<usize> {
+    pub fn select(&mut self, roots: &[ExprId], parts: &[ExprId]) -> Vec<usize> {
         let graph = self.graph;
         let branches = branches(graph, parts);
         let most = if parts.len() > LARGE { ENOUGH } else { POINTS };
@@ -57,7 +57,7 @@ impl<'a> Points<'a> {
             let values = &self.values[point];
             let negative = |id: ExprId| Some(values[&id] < 0.0);
             let taken = match graph.has_choices() {
-                true => Cow::from(graph.taken(roots, &negative)),
+                true => Cow::from(graph.taken_dependencies(roots, &negative)),
                 false => Cow::from(parts),
             };
             if !taken.iter().all(|id| values[id].is_finite()) {

@@ -5,7 +5,7 @@ fn finding(build: impl Fn(&mut Graph, [ExprId; 2]) -> ExprId) -> Finding {
     let x = graph.symbol(Symbol::Coordinate(0));
     let y = graph.symbol(Symbol::Coordinate(1));
     let id = build(&mut graph, [x, y]);
-    Confirmation::new(&graph, &[]).of(id)
+    Confirmation::new(&graph, &[]).check_zero(id)
 }
 
 fn half() -> Rational {
@@ -78,7 +78,7 @@ fn degrees_are_looked_at_along_lines() {
         (3, Finding::Nonzero),
         (4, Finding::Zero),
     ] {
-        assert_eq!(confirmation.of_degree(whole, degree), expected);
+        assert_eq!(confirmation.check_degree(whole, degree), expected);
     }
 }
 

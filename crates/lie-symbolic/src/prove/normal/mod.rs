@@ -84,12 +84,12 @@ pub struct NormalForm<'a> {
 impl<'a> NormalForm<'a> {
     /// A conversion that knows nothing yet.
     pub fn new(graph: &'a Graph, budget: &'a Budget) -> Self {
-        Self::within(graph, budget, &[])
+        Self::with_domain(graph, budget, &[])
     }
 
     /// A conversion of functions on the domain where these are real and defined too: of derivatives on that of
     /// the function.
-    pub fn within(graph: &'a Graph, budget: &'a Budget, domain: &[ExprId]) -> Self {
+    pub fn with_domain(graph: &'a Graph, budget: &'a Budget, domain: &[ExprId]) -> Self {
         Self {
             graph,
             budget,
@@ -107,7 +107,7 @@ impl<'a> NormalForm<'a> {
     /// Whether an expression is identically zero.
     pub fn verdict(&mut self, id: ExprId) -> Verdict {
         match self.unconfirmed(id) {
-            Verdict::Zero => match self.confirmation.of(id) {
+            Verdict::Zero => match self.confirmation.check_zero(id) {
                 Finding::Zero => Verdict::Zero,
                 Finding::Unknown => Verdict::Undecided,
                 Finding::Nonzero => {
@@ -121,7 +121,7 @@ impl<'a> NormalForm<'a> {
 
     /// Whether an expression is not zero at some point of the domain, by rigorous bounds.
     pub fn finding(&mut self, id: ExprId) -> Finding {
-        self.confirmation.of(id)
+        self.confirmation.check_zero(id)
     }
 
     /// The verdict of the normal form alone.
@@ -164,7 +164,7 @@ impl<'a> NormalForm<'a> {
     /// The total degree in the coordinates, if the expression is a polynomial in them.
     pub fn degree(&mut self, id: ExprId) -> Option<u32> {
         let degree = self.unconfirmed_degree(id)?;
-        match self.confirmation.of_degree(id, degree) {
+        match self.confirmation.check_degree(id, degree) {
             Finding::Zero => Some(degree),
             Finding::Unknown => None,
             Finding::Nonzero => {

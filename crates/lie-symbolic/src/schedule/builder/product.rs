@@ -2,7 +2,7 @@
 
 use super::Builder;
 use crate::exact::Rational;
-use crate::schedule::Known;
+use crate::schedule::KnownSymbols;
 use crate::schedule::formula::{Atom, AtomId, Signed};
 use crate::schedule::program::Value;
 use crate::symbolic::{ExprId, Node};
@@ -54,7 +54,7 @@ impl Builder<'_> {
         let Atom::Product(factors) = &self.formula.atoms[atom] else {
             return None;
         };
-        if self.known == Known::Nothing {
+        if self.known == KnownSymbols::Nothing {
             return None;
         }
         factors

@@ -31,7 +31,9 @@ impl<'a> Entry<'a> {
     pub fn origin(&self) -> Origin {
         self.tokens
             .first()
-            .map_or(Origin::at(proc_macro2::Span::call_site()), |t| t.origin)
+            .map_or(Origin::from_span(proc_macro2::Span::call_site()), |t| {
+                t.origin
+            })
     }
 
     /// The doc comment as one text.
@@ -54,7 +56,7 @@ pub fn docs(cursor: &mut Cursor<'_>, report: &mut Report) -> Vec<String> {
             cursor.take_until(|_| false);
             cursor.advance();
         }
-        match inside(cursor.since(start), Delimiter::Bracket) {
+        match inside(cursor.tokens_since(start), Delimiter::Bracket) {
             Some(
                 [
                     word,

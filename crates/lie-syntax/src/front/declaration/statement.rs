@@ -168,7 +168,7 @@ fn rest<'a>(cursor: &mut Cursor<'a>, keyword: &str, report: &mut Report) -> &'a 
     {
         cursor.take_until(|_| false);
         cursor.advance();
-        let block = cursor.since(start);
+        let block = cursor.tokens_since(start);
         cursor.eat(';');
         return block;
     }
@@ -298,7 +298,7 @@ fn visibility<'a>(cursor: &mut Cursor<'a>) -> &'a [Token] {
             cursor.advance();
         }
     }
-    cursor.since(start)
+    cursor.tokens_since(start)
 }
 
 #[cfg(test)]

@@ -77,7 +77,7 @@ impl<'a> Parser<'a> {
             self.cursor.advance();
             self.cursor.advance();
         }
-        let power = render(self.cursor.since(start));
+        let power = render(self.cursor.tokens_since(start));
         let follows = self.cursor.peek().is_some_and(begins_factor);
         let argument = if follows {
             operand_text(self.cursor.rest())
@@ -100,13 +100,13 @@ impl<'a> Parser<'a> {
             loop {
                 let start = self.cursor.position();
                 arguments.push(self.sum()?);
-                texts.push(render(self.cursor.since(start)));
+                texts.push(render(self.cursor.tokens_since(start)));
                 if self.cursor.eat(',').is_none() {
                     break;
                 }
             }
         }
-        let origin = token.origin.to(self.close(open, Delimiter::Parenthesis)?);
+        let origin = token.origin.join(self.close(open, Delimiter::Parenthesis)?);
         let of_table = || self.names.tables().arity(function);
         let expected = arity(function).or_else(|| vectors::arity(function));
         match expected.or_else(of_table) {

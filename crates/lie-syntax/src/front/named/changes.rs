@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::fits;
 use crate::ast::{Bracket, Matrix, Name};
 use crate::constructors::{
-    Acted, Central, Constants, Entries, Matrices, Named, changed, extended, semidirect,
+    Acted, Central, Constants, Entries, Matrices, NamedAlgebra, changed, extended, semidirect,
 };
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::front::reader::{Line, Read};
@@ -15,7 +15,7 @@ use crate::linear::{Scope, WORK, rational, rational_form};
 use lie_symbolic::exact::{Budget, Fraction, Rational};
 
 /// A named algebra as it is.
-pub fn standard(named: &Named, place: Origin) -> Read {
+pub fn standard(named: &NamedAlgebra, place: Origin) -> Read {
     Read {
         algebra: named.declared(place),
         state: Some(named.coordinates(place)),
@@ -48,7 +48,7 @@ pub struct Changes<'a> {
 
 impl Changes<'_> {
     /// The algebra with its changes: first the further space, then the extension, then the basis.
-    pub fn apply(self, mut named: Named, report: &mut Report) -> Option<Read> {
+    pub fn apply(self, mut named: NamedAlgebra, report: &mut Report) -> Option<Read> {
         let is_standard = self.basis.is_none() && self.central.is_empty();
         if let Some(action) = &self.action {
             named = self.acting(named, action, report)?;
@@ -92,9 +92,14 @@ impl Changes<'_> {
     }
 
     /// The semidirect product with a space on which these matrices act.
-    fn acting(&self, named: Named, action: &[Matrix], report: &mut Report) -> Option<Named> {
+    fn acting(
+        &self,
+        named: NamedAlgebra,
+        action: &[Matrix],
+        report: &mut Report,
+    ) -> Option<NamedAlgebra> {
         let basis = named.declared(self.origin).basis;
-        let scope = Scope::of_basis(&basis);
+        let scope = Scope::from_basis(&basis);
         for (index, matrix) in action.iter().enumerate() {
             let name = &matrix.name;
             if scope.basis_index(&name.text).is_none() {
@@ -151,10 +156,10 @@ impl Changes<'_> {
     }
 
     /// The central extension by the brackets.
-    fn extended(&self, named: Named, report: &mut Report) -> Option<Named> {
+    fn extended(&self, named: NamedAlgebra, report: &mut Report) -> Option<NamedAlgebra> {
         let old = named.declared(self.origin).basis;
         let elements: Names = names(&old).chain(names(&self.central)).collect();
-        let (old, new) = (Scope::of_basis(&old), Scope::of_basis(&self.central));
+        let (old, new) = (Scope::from_basis(&old), Scope::from_basis(&self.central));
         let mut central = Central {
             names: names(&self.central).collect(),
             cocycle: Constants::new(),
@@ -195,13 +200,13 @@ impl Changes<'_> {
     /// The algebra in the basis of these lines, and its names with their places.
     fn changed(
         &self,
-        named: &Named,
+        named: &NamedAlgebra,
         lines: &[Line<'_>],
         report: &mut Report,
-    ) -> Option<(Named, Vec<Name>)> {
+    ) -> Option<(NamedAlgebra, Vec<Name>)> {
         let declared = named.declared(self.origin).basis;
         let known: Names = names(&declared).collect();
-        let scope = Scope::of_basis(&declared);
+        let scope = Scope::from_basis(&declared);
         let budget = Budget::new(WORK);
         let (mut new, mut rows) = (Vec::new(), Vec::new());
         for (index, line) in lines.iter().enumerate() {
@@ -317,5 +322,5 @@ fn names(names: &[Name]) -> impl Iterator<Item = String> {
 
 fn span_of(lines: &[Line<'_>]) -> Option<Origin> {
     let place = |line: &Line<'_>| span(&line.tokens).unwrap_or(line.place);
-    Some(place(lines.first()?).to(place(lines.last()?)))
+    Some(place(lines.first()?).join(place(lines.last()?)))
 }

@@ -1,7 +1,7 @@
 //! `tangent(A)` and `semidirect(A, R^n, …)`.
 
 use super::Parser;
-use crate::constructors::{Acted, Matrices, Named, direct_sum, semidirect, tangent};
+use crate::constructors::{Acted, Matrices, NamedAlgebra, direct_sum, semidirect, tangent};
 use crate::diagnostic::{Kind, Origin};
 use crate::front::token::{Token, render, span};
 
@@ -11,7 +11,11 @@ const SPACES: &str =
 
 impl Parser<'_, '_> {
     /// `tangent(A)`
-    pub(super) fn tangent(&mut self, arguments: &[&[Token]], place: Origin) -> Option<Named> {
+    pub(super) fn tangent(
+        &mut self,
+        arguments: &[&[Token]],
+        place: Origin,
+    ) -> Option<NamedAlgebra> {
         let [algebra] = arguments else {
             let message = format!("`tangent` takes 1 argument, not {}", arguments.len());
             return self.fail(
@@ -27,7 +31,11 @@ impl Parser<'_, '_> {
     }
 
     /// `semidirect(A, R^n, …)`
-    pub(super) fn semidirect(&mut self, arguments: &[&[Token]], place: Origin) -> Option<Named> {
+    pub(super) fn semidirect(
+        &mut self,
+        arguments: &[&[Token]],
+        place: Origin,
+    ) -> Option<NamedAlgebra> {
         let [algebra, spaces @ ..] = arguments else {
             let message = "`semidirect` takes an algebra and spaces on which it acts".to_owned();
             return self.fail(
@@ -59,7 +67,12 @@ impl Parser<'_, '_> {
     }
 
     /// The action on `R^n`, `dual(R^n)`, `adjoint` or `coadjoint`.
-    fn action(&mut self, algebra: &Named, space: &[Token], place: Origin) -> Option<Matrices> {
+    fn action(
+        &mut self,
+        algebra: &NamedAlgebra,
+        space: &[Token],
+        place: Origin,
+    ) -> Option<Matrices> {
         let place = span(space).unwrap_or(place);
         let text: Vec<String> = space
             .iter()

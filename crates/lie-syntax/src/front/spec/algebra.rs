@@ -60,7 +60,7 @@ pub fn read(value: Value<'_>, parameters: &[String], report: &mut Report) -> Opt
 }
 
 /// The algebra of a site of a family, by its name, and the number of copies.
-pub fn of_family(value: Value<'_>, report: &mut Report) -> Option<Read> {
+pub fn family_algebra(value: Value<'_>, report: &mut Report) -> Option<Read> {
     let line = line(value, "the algebra of a family", report)?;
     families::algebra(&line.tokens, line.place, report)
 }

@@ -23,7 +23,7 @@ pub(super) struct Piece {
 
 impl Piece {
     /// The value, and the derivative, at a place.
-    pub fn at(&self, x: &Rational) -> [Rational; 2] {
+    pub fn value_and_slope(&self, x: &Rational) -> [Rational; 2] {
         let t = x - &self.center;
         let zero = [Rational::ZERO, Rational::ZERO];
         let terms = self.coefficients.iter().rev();
@@ -194,7 +194,11 @@ mod tests {
                 for piece in &pieces {
                     for shift in [-1, 0, 2, 7] {
                         let x = &piece.center + &number(shift);
-                        assert_eq!(piece.at(&x)[0], value(own, &x), "degree {degree}");
+                        assert_eq!(
+                            piece.value_and_slope(&x)[0],
+                            value(own, &x),
+                            "degree {degree}"
+                        );
                     }
                 }
                 // the control: one degree more is not met
@@ -204,7 +208,7 @@ mod tests {
                     let pieces = spline(&points, degree).expect("a spline");
                     let x = &points[6].0 + &(&Rational::ONE / &number(3));
                     let piece = pieces.iter().rfind(|p| p.center <= x).expect("a piece");
-                    assert_ne!(piece.at(&x)[0], value(more, &x));
+                    assert_ne!(piece.value_and_slope(&x)[0], value(more, &x));
                 }
             }
         }
@@ -219,7 +223,7 @@ mod tests {
             assert_eq!(pieces.len(), 14 - degree, "degree {degree}");
             for (x, y) in &points {
                 let piece = pieces.iter().rfind(|p| p.center <= *x).expect("a piece");
-                assert_eq!(piece.at(x)[0], *y);
+                assert_eq!(piece.value_and_slope(x)[0], *y);
             }
             let mut jumps = 0;
             for pair in pieces.windows(2) {

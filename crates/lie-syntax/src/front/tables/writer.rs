@@ -83,7 +83,7 @@ impl Writer {
         let [first, last] = [0, table.pieces.len() - 1].map(|k| &table.pieces[k]);
         let [below, above] = [(0, first), (1, last)].map(|(end, piece)| {
             let place = &table.ends[end];
-            let [value, slope] = piece.at(place);
+            let [value, slope] = piece.value_and_slope(place);
             let place = self.number(place);
             match table.outside {
                 // not a number beyond the end, with all its derivatives

@@ -80,7 +80,7 @@ impl Vectors {
     }
 
     /// The same for a family whose sites have these coordinates.
-    pub fn of_sites(self, coordinates: impl IntoIterator<Item = String>) -> Self {
+    pub fn with_sites(self, coordinates: impl IntoIterator<Item = String>) -> Self {
         let sites = coordinates.into_iter().collect();
         Self { sites, ..self }
     }

@@ -373,7 +373,7 @@ fn no_verdict_on_random_identities_is_wrong() {
         let id = source.difference();
         let budget = Budget::new(300_000);
         let verdict = NormalForm::new(&source.graph, &budget).unconfirmed(id);
-        let truth = Confirmation::new(&source.graph, &[]).of(id);
+        let truth = Confirmation::new(&source.graph, &[]).check_zero(id);
         let text = source.graph.display(id, &|symbol| match symbol {
             Symbol::Coordinate(0) => "x".into(),
             Symbol::Coordinate(_) => "y".into(),

@@ -26,7 +26,7 @@ impl Fixture {
     fn same_within(&mut self, a: ExprId, b: ExprId, domain: &[ExprId]) -> bool {
         let difference = self.graph.sub(a, b);
         let budget = Budget::new(1_000_000);
-        let mut normal = NormalForm::within(&self.graph, &budget, domain);
+        let mut normal = NormalForm::with_domain(&self.graph, &budget, domain);
         matches!(normal.unconfirmed(difference), Verdict::Zero)
     }
 }
