@@ -31,14 +31,14 @@ pub struct Columns {
 impl Columns {
     /// Columns of numbers: two neighbours at a time.
     pub const NUMBERS: Self = Self {
-        shape: Shape::two_of(1),
+        shape: Shape::pair_of_lanes(1),
         single: true,
         step: 2 * WORD,
     };
 
     /// Columns of so many lanes, of which two neighbours are done.
     pub const fn lanes(lanes: usize) -> Self {
-        let shape = Shape::two_of(lanes);
+        let shape = Shape::pair_of_lanes(lanes);
         Self {
             shape,
             single: false,
@@ -157,7 +157,7 @@ impl Body<'_, '_> {
 }
 
 /// Codes over columns, each compiled when it is first run.
-pub struct Along(Vec<OnceLock<Option<OverColumns>>>);
+pub struct ColumnKernels(Vec<OnceLock<Option<OverColumns>>>);
 
 /// A code over columns.
 pub struct OverColumns {
@@ -168,7 +168,7 @@ pub struct OverColumns {
     _memory: Memory,
 }
 
-impl Along {
+impl ColumnKernels {
     pub fn new(codes: usize) -> Self {
         Self((0..codes).map(|_| OnceLock::new()).collect())
     }

@@ -40,7 +40,7 @@ impl Shape {
     };
 
     /// Two neighbours of so many lanes.
-    pub const fn two_of(lanes: usize) -> Self {
+    pub const fn pair_of_lanes(lanes: usize) -> Self {
         Self {
             number: types::F64X2,
             stride: WORD * lanes as i32,

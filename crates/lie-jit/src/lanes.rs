@@ -1,6 +1,6 @@
 //! Codes over lanes.
 
-use crate::columns::{Along, Columns};
+use crate::columns::{ColumnKernels, Columns};
 use crate::compile::{Compiler, Shape};
 use crate::{Entry, Function, LONGEST, Memory, Others};
 use lie_dynamic::{Code, Frame, Interpreter, Machine, Targets};
@@ -20,7 +20,7 @@ const _: () = assert!(
 pub struct Lanes {
     entries: Vec<OnceLock<Option<(Entry, Function, Memory)>>>,
     codes: Arc<[Code]>,
-    along: Along,
+    column_kernels: ColumnKernels,
     others: Others<Self>,
     interpreted: Interpreter,
 }
@@ -30,7 +30,7 @@ impl Lanes {
         Self {
             entries: codes.iter().map(|_| OnceLock::new()).collect(),
             codes: Arc::clone(codes),
-            along: Along::new(codes.len()),
+            column_kernels: ColumnKernels::new(codes.len()),
             others: Others::new(),
             interpreted: Interpreter::new(Arc::clone(codes)),
         }
@@ -41,7 +41,7 @@ impl Lanes {
             return None;
         }
         let mut compiler = Compiler::new()?;
-        let place = compiler.add(code, Shape::two_of(LANES))?;
+        let place = compiler.add(code, Shape::pair_of_lanes(LANES))?;
         let memory = Memory::new(compiler)?;
         let function = memory.function(place);
         Some((Entry::new(code, Some(function)), function, memory))
@@ -81,7 +81,7 @@ impl Machine<Wide> for Lanes {
     ) {
         let places = to.first().map_or(0, |to| to.len());
         let compiled = self
-            .along
+            .column_kernels
             .get(code, &self.codes[code], Columns::lanes(LANES));
         match compiled {
             Some(compiled) if places > 0 => compiled.call(columns, frame, to, places),

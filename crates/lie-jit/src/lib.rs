@@ -11,7 +11,7 @@ mod compile;
 mod functions;
 mod lanes;
 
-use columns::{Along, Columns};
+use columns::{ColumnKernels, Columns};
 use compile::{Compiler, Shape};
 use cranelift_jit::JITModule;
 use cranelift_module::FuncId;
@@ -92,7 +92,7 @@ struct Compiled {
     interpreted: Arc<dyn Machine<f64>>,
     codes: Arc<[Code]>,
     wide: OnceLock<Arc<Lanes>>,
-    along: Along,
+    column_kernels: ColumnKernels,
     others: Others<Self>,
     _memory: Memory,
 }
@@ -155,7 +155,7 @@ impl Compiled {
             interpreted,
             codes: Arc::clone(codes),
             wide: OnceLock::new(),
-            along: Along::new(codes.len()),
+            column_kernels: ColumnKernels::new(codes.len()),
             others: Others::new(),
             _memory: memory,
         })
@@ -215,7 +215,9 @@ impl Machine<f64> for Compiled {
     ) {
         let places = to.first().map_or(0, |to| to.len());
         let pairs = places - places % 2;
-        let compiled = self.along.get(code, &self.codes[code], Columns::NUMBERS);
+        let compiled = self
+            .column_kernels
+            .get(code, &self.codes[code], Columns::NUMBERS);
         let done = match compiled {
             Some(compiled) if pairs > 0 => {
                 compiled.call(columns, frame, to, pairs);

@@ -160,7 +160,7 @@ fn all_codes_of_all_specs() {
 }
 
 /// What a code gives along columns of so many places, of which each has numbers of its own.
-fn along<S: Scalar>(
+fn run_columns<S: Scalar>(
     machine: &dyn Machine<S>,
     code: usize,
     of: &Code,
@@ -218,8 +218,8 @@ fn differs_along<S: Scalar>(
         if let Some(last) = read.last_mut().filter(|_| moved) {
             last.rotate_left(1);
         }
-        let expected = along(one, place, code, &numbers, &columns);
-        if along(other, place, code, &numbers, &read) != expected {
+        let expected = run_columns(one, place, code, &numbers, &columns);
+        if run_columns(other, place, code, &numbers, &read) != expected {
             return Some(place);
         }
     }

@@ -109,7 +109,7 @@ pub struct Code {
 
 impl Code {
     /// The code of a kernel; vectors have so many entries, matrices the square of it.
-    pub fn of_kernel(kernel: &Kernel, size: usize) -> Self {
+    pub fn from_kernel(kernel: &Kernel, size: usize) -> Self {
         let (mut code, outputs) = Self::lowered(&kernel.program, &|value| {
             source_of_value(value, &kernel.arguments)
         });
@@ -140,18 +140,18 @@ impl Code {
     }
 
     /// The code of a program without arguments whose results follow one another.
-    pub fn of_program(program: &Program) -> Self {
+    pub fn from_program(program: &Program) -> Self {
         Self::in_order(program, &|value| source_of_value(value, &[]))
     }
 
     /// The code for order 0 of a recurrence, whose argument is the state.
-    pub fn of_beginning(program: &Program) -> Self {
+    pub fn from_beginning(program: &Program) -> Self {
         Self::in_order(program, &source_of_state)
     }
 
     /// The code for order k of a recurrence, whose arguments are the coefficients, the rests of sums, what was kept, and k
     /// with 1/k.
-    pub fn of_advance(program: &schedule::Program<Quantity<Constant>>) -> Self {
+    pub fn from_advance(program: &schedule::Program<Quantity<Constant>>) -> Self {
         Self::in_order(program, &source_of_quantity)
     }
 

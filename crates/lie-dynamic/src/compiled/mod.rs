@@ -47,7 +47,7 @@ pub(crate) struct Kernels {
 
 /// Codes of what depends on the step size, and what is computed once for a step size.
 #[derive(Clone, Debug)]
-pub(crate) struct OfStep {
+pub(crate) struct StepConstants {
     /// The program of the constants.
     pub constants: usize,
     /// How many they are.
@@ -56,7 +56,7 @@ pub(crate) struct OfStep {
 
 /// What a kernel of an equation has as an argument.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Given {
+pub(crate) enum CallArgument {
     /// The state from which the step starts.
     Base,
     /// What is solved for.
@@ -71,7 +71,7 @@ pub(crate) enum Given {
 #[derive(Clone, Debug)]
 pub(crate) struct Call {
     pub code: usize,
-    pub arguments: SmallVec<[Given; ARGUMENTS]>,
+    pub arguments: SmallVec<[CallArgument; ARGUMENTS]>,
 }
 
 /// A fused equation: its codes, and its row in the plan.
@@ -88,7 +88,7 @@ pub(crate) struct FusedCodes {
     pub completed: Option<Call>,
     /// Those of it.
     pub left_out: Vec<usize>,
-    pub step: OfStep,
+    pub step: StepConstants,
     pub elimination: Elimination,
     /// The cost of an iteration with a Jacobian in those without.
     pub cost: Option<f64>,
@@ -99,7 +99,7 @@ pub(crate) struct FusedCodes {
 pub(crate) struct GeneratingCodes {
     pub gradient: usize,
     pub linearize: Place,
-    pub step: OfStep,
+    pub step: StepConstants,
 }
 
 /// The codes of a plan, which systems of all parameters and scalars share.
@@ -125,16 +125,16 @@ pub(crate) struct Compiled {
     pub family: Option<crate::system::family::Codes>,
     pub casimir_degrees: Vec<Option<u32>>,
     /// Steps as one program.
-    pub steps: Asked<Step>,
+    pub steps: MethodCache<Step>,
     /// Equations as programs.
-    pub equations: Asked<Programs>,
+    pub equations: MethodCache<Programs>,
 }
 
 /// What was made for each method; `None` where there is none.
 #[derive(Debug)]
-pub(crate) struct Asked<T>(Mutex<HashMap<Choice, Option<Arc<T>>>>);
+pub(crate) struct MethodCache<T>(Mutex<HashMap<Choice, Option<Arc<T>>>>);
 
-impl<T> Asked<T> {
+impl<T> MethodCache<T> {
     fn new() -> Self {
         Self(Mutex::new(HashMap::new()))
     }
@@ -155,41 +155,41 @@ impl<T> Asked<T> {
     }
 
     /// That of a method where it was asked for before.
-    pub fn known(&self, choice: &Choice) -> Option<Arc<T>> {
+    pub fn cached(&self, choice: &Choice) -> Option<Arc<T>> {
         self.all().get(choice).cloned().flatten()
     }
 }
 
 /// Codes in the making.
-pub(crate) struct Making {
+pub(crate) struct CodeBuilder {
     codes: Vec<Code>,
     size: usize,
 }
 
-impl Making {
+impl CodeBuilder {
     pub fn push(&mut self, code: Code) -> usize {
         self.codes.push(code);
         self.codes.len() - 1
     }
 
     pub fn kernel(&mut self, function: &Function) -> usize {
-        let code = Code::of_kernel(function, self.size);
+        let code = Code::from_kernel(function, self.size);
         self.push(code)
     }
 
     /// A kernel of an equation.
     fn call(&mut self, function: &Function) -> Call {
-        self.call_of(Code::of_kernel(function, self.size), function)
+        self.call_of(Code::from_kernel(function, self.size), function)
     }
 
     /// A code with the arguments of a kernel.
     fn call_of(&mut self, code: Code, function: &Function) -> Call {
         let arguments = function.arguments.iter();
         let arguments = arguments.map(|argument| match argument.name {
-            "mu" => Given::Base,
-            "inverse" => Given::Inverse,
-            "ratios" => Given::Ratios,
-            _ => Given::Unknown,
+            "mu" => CallArgument::Base,
+            "inverse" => CallArgument::Inverse,
+            "ratios" => CallArgument::Ratios,
+            _ => CallArgument::Unknown,
         });
         Call {
             arguments: arguments.collect(),
@@ -197,9 +197,9 @@ impl Making {
         }
     }
 
-    fn step(&mut self, constants: &Constants) -> OfStep {
-        OfStep {
-            constants: self.push(Code::of_program(&constants.program)),
+    fn step(&mut self, constants: &Constants) -> StepConstants {
+        StepConstants {
+            constants: self.push(Code::from_program(&constants.program)),
             count: constants.entries.len(),
         }
     }
@@ -207,7 +207,7 @@ impl Making {
     fn fused(&mut self, item: usize, fused: &Fused) -> Option<FusedCodes> {
         let named = |name: &str| fused.functions.iter().find(|f| f.name == name);
         let jacobian = named("linearize")?;
-        let linearize = Code::of_kernel(jacobian, self.size);
+        let linearize = Code::from_kernel(jacobian, self.size);
         let linearize = Code {
             clear: [linearize.clear[0], None],
             ..linearize.with_zeros(&fused.elimination.fill, self.size)
@@ -284,12 +284,12 @@ impl Making {
 
 impl Compiled {
     pub fn new(plan: Plan) -> Self {
-        let mut making = Making {
+        let mut making = CodeBuilder {
             codes: Vec::new(),
             size: plan.dimension(),
         };
         let kernels = making.kernels(&plan);
-        let constants = making.push(Code::of_program(&plan.constants.program));
+        let constants = making.push(Code::from_program(&plan.constants.program));
         let (mut fused, mut generating) = (HashMap::new(), HashMap::new());
         let (mut eliminations, mut solvers) = (HashMap::new(), HashMap::new());
         let mut gradients = HashMap::new();
@@ -355,8 +355,8 @@ impl Compiled {
             realization,
             family,
             casimir_degrees,
-            steps: Asked::new(),
-            equations: Asked::new(),
+            steps: MethodCache::new(),
+            equations: MethodCache::new(),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! A plan whose parameters have values.
 
-use crate::compiled::{Compiled, Kernels, OfStep};
+use crate::compiled::{Compiled, Kernels, StepConstants};
 use crate::engine::{ARGUMENTS, Frame, Interpreter, Machine};
 use lie_runtime::Scalar;
 use std::sync::Arc;
@@ -64,7 +64,7 @@ impl<S: Scalar> Values<S> {
     }
 
     /// The constants of a step size.
-    pub fn of_step(&self, step: &OfStep, h: S) -> Vec<S> {
+    pub fn step_constants(&self, step: &StepConstants, h: S) -> Vec<S> {
         let mut constants = vec![S::zero(); step.count];
         let scalars = [h];
         let frame = self.frame([&[]; ARGUMENTS], &[], &scalars);

@@ -19,7 +19,7 @@ impl<'a, S: Scalar, G> Planned<'a, S, G> {
     /// The function under the end of its type's name.
     pub fn new(system: &'a Dynamic<S>, suffix: &'static str, h: S, generic: G) -> Self {
         let codes = system.values.compiled.generating.get(suffix);
-        let of_step = codes.map(|codes| system.values.of_step(&codes.step, h));
+        let of_step = codes.map(|codes| system.values.step_constants(&codes.step, h));
         Self {
             system,
             suffix,
@@ -91,7 +91,7 @@ where
             system: &lifted,
             code: codes.gradient,
             h,
-            of_step: lifted.values.of_step(&codes.step, h),
+            of_step: lifted.values.step_constants(&codes.step, h),
         };
         let zero = lifted.zero_state();
         generic::linearize_by_duals(&mut function, &zero, p, xi, hessian);

@@ -12,18 +12,18 @@ use lie_runtime::{Poisson, Scalar};
 use std::marker::PhantomData;
 
 /// A generic discrete gradient.
-pub trait Named {
+pub trait NamedGradient {
     /// Which.
     const GRADIENT: Gradient;
 }
 
-impl<S: Scalar> Named for GonzalezGradient<S, Dynamic<S>> {
+impl<S: Scalar> NamedGradient for GonzalezGradient<S, Dynamic<S>> {
     const GRADIENT: Gradient = Gradient::Gonzalez;
 }
-impl<S: Scalar> Named for MeanValueGradient<S, Dynamic<S>> {
+impl<S: Scalar> NamedGradient for MeanValueGradient<S, Dynamic<S>> {
     const GRADIENT: Gradient = Gradient::MeanValue;
 }
-impl<S: Scalar> Named for ItohAbeGradient<S, Dynamic<S>> {
+impl<S: Scalar> NamedGradient for ItohAbeGradient<S, Dynamic<S>> {
     const GRADIENT: Gradient = Gradient::ItohAbe;
 }
 
@@ -66,7 +66,7 @@ fn coded<S: Scalar>(
     system.values.run(codes[place], &frame, targets);
 }
 
-impl<S: Scalar, K: Named> DiscreteGradient<S, Dynamic<S>> for Planned<S, K> {
+impl<S: Scalar, K: NamedGradient> DiscreteGradient<S, Dynamic<S>> for Planned<S, K> {
     fn new(system: &Dynamic<S>) -> Self {
         let choice = Choice::OrbitEnergy(K::GRADIENT);
         let partner = match system.values.compiled.solvers.get(&choice) {

@@ -1,7 +1,7 @@
 //! The equations of steps: fused ones in code, generic ones with the elimination of the plan.
 
 use crate::compiled::elimination::{Blocks, Elimination, Scratch};
-use crate::compiled::{Call, FusedCodes, Given};
+use crate::compiled::{Call, CallArgument, FusedCodes};
 use crate::engine::ARGUMENTS;
 use crate::recording;
 use crate::system::Dynamic;
@@ -61,7 +61,7 @@ impl<'a, S: Scalar, G> Planned<'a, S, G> {
                         field: zero.clone(),
                         both: [zero.as_slice(), &zero].concat(),
                         base: zero,
-                        of_step: system.values.of_step(&codes.step, h),
+                        of_step: system.values.step_constants(&codes.step, h),
                         ratios: vec![S::zero(); 2 * spins(system, row)],
                     }
                 });
@@ -109,17 +109,17 @@ impl<S: Scalar> Running<'_, S> {
         (h, unknown): (S, &[S]),
         targets: [&mut [S]; 2],
     ) {
-        let inverse = match call.arguments.contains(&Given::Inverse) {
+        let inverse = match call.arguments.contains(&CallArgument::Inverse) {
             true => generic::inverse_length(&self.base, &unknown.to_vec()),
             false => [S::zero()],
         };
         let mut places: [&[S]; ARGUMENTS] = [&[]; ARGUMENTS];
         for (place, argument) in places.iter_mut().zip(&call.arguments) {
             *place = match argument {
-                Given::Base => &self.base,
-                Given::Unknown => unknown,
-                Given::Inverse => &inverse,
-                Given::Ratios => &self.ratios,
+                CallArgument::Base => &self.base,
+                CallArgument::Unknown => unknown,
+                CallArgument::Inverse => &inverse,
+                CallArgument::Ratios => &self.ratios,
             };
         }
         let scalars = [h];

@@ -4,7 +4,7 @@ use super::is_compiled_for_lanes;
 use crate::compiled::Values;
 use crate::engine::Interpreter;
 use crate::system::Dynamic;
-use crate::system::family::OfSite;
+use crate::system::family::FamilySite;
 use lie_codegen::methods::Choice;
 use lie_runtime::Scalar;
 use lie_runtime::family::Family;
@@ -16,7 +16,8 @@ impl<S: Scalar> Dynamic<S> {
     /// Where a velocity is followed along its branch they cannot: each becomes another system. By an explicit method that is not
     /// compiled for lanes they can where its step is one program.
     pub fn takes_lanes(&self, choice: &Choice) -> bool {
-        !self.is_by_legendre() && (is_compiled_for_lanes(choice) || self.step_of(choice).is_some())
+        !self.is_by_legendre()
+            && (is_compiled_for_lanes(choice) || self.step_program(choice).is_some())
     }
 
     /// Up to eight systems of one declaration as one system over lanes, with the parameters of each. The first fills the lanes
@@ -54,7 +55,7 @@ impl<S: Scalar> Dynamic<S> {
             hurry: first.values.hurry,
         };
         let family = first.sizes();
-        let family = family.map(|sizes| Family::new(OfSite::new(values.clone()), sizes));
+        let family = family.map(|sizes| Family::new(FamilySite::new(values.clone()), sizes));
         Dynamic {
             values,
             branch: None,

@@ -2,7 +2,7 @@
 
 mod lanes;
 
-use crate::recording::Straight;
+use crate::recording::RecordedMethod;
 use crate::system::Dynamic;
 use lie_codegen::methods::{Choice, Gradient, Lift, Pieces, Retraction, Scheme, Tensor};
 use lie_codegen::structure::lifts::Smallest;
@@ -42,12 +42,12 @@ impl<S: Scalar> m::Method<S, Dynamic<S>> for Base<S> {
 type Choose<S> = dyn Fn(&Dynamic<S>) -> Method<S>;
 
 /// A method that claims what another does: a composition of its base, or one of several by the system.
-struct Claiming<S: Scalar> {
+struct WithClaims<S: Scalar> {
     claims: Claims,
     choose: Box<Choose<S>>,
 }
 
-impl<S: Scalar> AnyMethod<S, Dynamic<S>> for Claiming<S> {
+impl<S: Scalar> AnyMethod<S, Dynamic<S>> for WithClaims<S> {
     fn claims(&self) -> Claims {
         self.claims
     }
@@ -89,7 +89,7 @@ fn at_defaults_over<S: Scalar>(choice: &Choice) -> Method<S> {
 /// Of double precision, so that all methods are compiled once, here, and not with every crate that asks for one.
 pub fn method(choice: &Choice, tolerances: Tolerances) -> Method {
     match explicit(choice) {
-        Some(apart) => Box::new(Straight::patient(choice, apart)),
+        Some(apart) => Box::new(RecordedMethod::patient(choice, apart)),
         None => method_over(choice, tolerances),
     }
 }
@@ -199,7 +199,7 @@ pub fn method_in_lanes(
         return Some(method);
     }
     let claims = explicit::<f64>(choice)?.claims();
-    Some(Box::new(Straight::at_once(choice, claims)))
+    Some(Box::new(RecordedMethod::at_once(choice, claims)))
 }
 
 /// The methods that are compiled for lanes.
@@ -213,7 +213,7 @@ fn compiled_for_lanes(
         Choice::LieMidpoint(Retraction::Exp) => Box::new(m::LieMidpoint::exp()),
         Choice::Taylor => Box::new(m::Taylor::from(tolerances)),
         // kernel by kernel for families, whose steps are loops over their sites
-        Choice::Rk4 => Box::new(Straight::patient(choice, Box::new(m::Rk4))),
+        Choice::Rk4 => Box::new(RecordedMethod::patient(choice, Box::new(m::Rk4))),
         _ => return None,
     })
 }
@@ -233,7 +233,7 @@ fn smallest<S: Scalar>(order: u32) -> Method<S> {
             Some(Smallest::Representation) | None => Lift::Representation,
         })
     };
-    Box::new(Claiming {
+    Box::new(WithClaims {
         claims: over(Lift::Hopf).claims(),
         choose: Box::new(choose),
     })
@@ -247,7 +247,7 @@ fn isospectral2<S: Scalar>(claims: Claims) -> Method<S> {
             None => Box::new(m::Isospectral2::new()),
         }
     };
-    Box::new(Claiming {
+    Box::new(WithClaims {
         claims,
         choose: Box::new(choose),
     })
@@ -273,7 +273,7 @@ fn compose<S: Scalar>(
             _ => Box::new(m::Compose8::new(base).scheme(scheme)),
         }
     };
-    Box::new(Claiming {
+    Box::new(WithClaims {
         claims,
         choose: Box::new(choose),
     })

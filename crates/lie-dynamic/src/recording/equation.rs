@@ -1,7 +1,7 @@
 //! The residual of an equation, and its Jacobian, as one program each.
 
 use super::record::{Written, written};
-use super::{Ready, Recorded, Wait, all, recording};
+use super::{Countdown, Ready, Recorded, recording, source_numbers};
 use crate::code::{Code, Source};
 use crate::compiled::Compiled;
 use crate::compiled::elimination::Blocks;
@@ -14,7 +14,7 @@ use std::sync::Arc;
 
 /// What is written down of an equation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum What {
+pub(crate) enum Evaluation {
     Residual,
     /// The residual with its Jacobian.
     Linearize,
@@ -24,7 +24,7 @@ pub(crate) enum What {
 pub(crate) type Numbers = [Vec<Recorded>; 2];
 
 /// Writes down something of the equation of a step, for a system and a step size.
-pub(crate) type Write = fn(&Dynamic<Recorded>, Recorded, What) -> Option<Numbers>;
+pub(crate) type Write = fn(&Dynamic<Recorded>, Recorded, Evaluation) -> Option<Numbers>;
 
 /// An unknown of more parts does not fit the arguments of a code, beside the state.
 const PARTS: usize = ARGUMENTS - 1;
@@ -34,7 +34,11 @@ const ENTRIES: usize = 10_000;
 const EVALUATIONS: u32 = 5;
 
 /// Something of an equation, of the state that is the first argument and the parts of the unknown behind it.
-pub(crate) fn write<E>(mut equation: E, system: &Dynamic<Recorded>, what: What) -> Option<Numbers>
+pub(crate) fn write<E>(
+    mut equation: E,
+    system: &Dynamic<Recorded>,
+    what: Evaluation,
+) -> Option<Numbers>
 where
     E: Equation<Recorded, State = Vec<Recorded>>,
     E::Matrix: Blocks<Recorded>,
@@ -46,18 +50,20 @@ where
         return None;
     }
     for part in 0..parts {
-        let numbers = all(size, |entry| Source::Argument(1 + part as u8, entry));
+        let numbers = source_numbers(size, |entry| Source::Argument(1 + part as u8, entry));
         unknown.part_mut(part).copy_from_slice(&numbers);
     }
-    equation.set_base(&all(system.dimension(), |entry| Source::Argument(0, entry)));
+    equation.set_base(&source_numbers(system.dimension(), |entry| {
+        Source::Argument(0, entry)
+    }));
     let mut residual = equation.zero_unknown();
     let mut blocks = Vec::new();
     match what {
-        What::Residual => equation.residual(&unknown, &mut residual),
-        What::Linearize => {
+        Evaluation::Residual => equation.residual(&unknown, &mut residual),
+        Evaluation::Linearize => {
             let mut matrix = equation.zero_matrix();
             equation.linearize(&unknown, &mut residual, &mut matrix);
-            let across = 0..matrix.across();
+            let across = 0..matrix.block_count();
             for (row, column) in across
                 .clone()
                 .flat_map(|i| across.clone().map(move |j| (i, j)))
@@ -80,18 +86,23 @@ pub(crate) struct Programs {
 impl Programs {
     fn new(compiled: &Arc<Compiled>, write: Write) -> Option<Self> {
         let codes = |what| -> Option<Arc<[Code]>> {
-            let (numbers, written): (Numbers, Written) =
-                written(|| write(&recording(compiled), Recorded::of(Source::Step), what))?;
+            let (numbers, written): (Numbers, Written) = written(|| {
+                write(
+                    &recording(compiled),
+                    Recorded::from_source(Source::Step),
+                    what,
+                )
+            })?;
             let [vector, matrix] = numbers;
             // a program does not report numbers that were asked whether they are finite, so there is none
             written
-                .asked()
+                .finiteness_tests()
                 .is_empty()
                 .then(|| Arc::from(written.codes(&vector, &matrix)))
         };
         Some(Self {
-            residual: codes(What::Residual)?,
-            linearize: codes(What::Linearize),
+            residual: codes(Evaluation::Residual)?,
+            linearize: codes(Evaluation::Linearize),
         })
     }
 
@@ -111,7 +122,7 @@ pub(crate) struct Running<S> {
     choice: Choice,
     h: [S; 1],
     base: Vec<S>,
-    wait: Wait,
+    wait: Countdown,
     residual: Option<Ready<S>>,
     linearize: Option<Ready<S>>,
     vector: Vec<S>,
@@ -130,7 +141,7 @@ impl<S: Scalar> Running<S> {
         {
             return None;
         }
-        let known = system.values.compiled.equations.known(choice);
+        let known = system.values.compiled.equations.cached(choice);
         let known = known.as_ref().map(|programs| &programs.residual);
         let at_once = system.compiles_at_once(known);
         let mut running = Self {
@@ -138,7 +149,7 @@ impl<S: Scalar> Running<S> {
             choice: choice.clone(),
             h: [h],
             base: system.zero_state(),
-            wait: Wait::new(EVALUATIONS, at_once),
+            wait: Countdown::new(EVALUATIONS, at_once),
             residual: None,
             linearize: None,
             vector: Vec::new(),
@@ -186,7 +197,7 @@ impl<S: Scalar> Running<S> {
 
     #[inline(never)]
     fn count(&mut self, system: &Dynamic<S>) {
-        let mut wait = std::mem::replace(&mut self.wait, Wait::new(0, true));
+        let mut wait = std::mem::replace(&mut self.wait, Countdown::new(0, true));
         let length = || {
             self.programs(system)
                 .map_or(0, |programs| programs.length())
@@ -230,7 +241,7 @@ impl<S: Scalar> Running<S> {
         let Some(ready) = &self.linearize else {
             return false;
         };
-        let (arguments, across) = ([self.base.as_slice(), &self.h], matrix.across());
+        let (arguments, across) = ([self.base.as_slice(), &self.h], matrix.block_count());
         if across == 1 {
             let targets = [residual.part_mut(0), matrix.block_mut(0, 0)];
             ready.run(system, arguments, unknown, targets);

@@ -32,9 +32,9 @@ pub(crate) use recorded::Recorded;
 pub const PATIENCE: u32 = 4000;
 
 /// Numbers of these sources.
-fn all(count: usize, source: impl Fn(u32) -> Source) -> Vec<Recorded> {
+fn source_numbers(count: usize, source: impl Fn(u32) -> Source) -> Vec<Recorded> {
     (0..count as u32)
-        .map(|place| Recorded::of(source(place)))
+        .map(|place| Recorded::from_source(source(place)))
         .collect()
 }
 
@@ -45,8 +45,8 @@ fn recording(compiled: &Arc<Compiled>) -> Dynamic<Recorded> {
         values: Values {
             compiled: Arc::clone(compiled),
             machine: Arc::new(Inlined(Arc::clone(&compiled.codes))),
-            parameters: all(plan.parameters.len(), Source::Parameter),
-            constants: all(plan.constants.entries.len(), Source::System),
+            parameters: source_numbers(plan.parameters.len(), Source::Parameter),
+            constants: source_numbers(plan.constants.entries.len(), Source::System),
             hurry: true,
         },
         branch: None,
@@ -68,15 +68,15 @@ impl Step {
         let method = explicit::<Recorded>(choice)?;
         let ((mu, report), written) = written(|| {
             let system = recording(compiled);
-            let mut mu = all(compiled.plan.dimension(), |place| {
+            let mut mu = source_numbers(compiled.plan.dimension(), |place| {
                 Source::Argument(0, place)
             });
-            let h = Recorded::of(Source::Step);
+            let h = Recorded::from_source(Source::Step);
             let mut stepper = method.any_stepper(&system, h, &NewtonOptions::default());
             let report = stepper.step(&mut mu).ok()?;
             Some((mu, report))
         })?;
-        let stored = [mu, written.asked()].concat();
+        let stored = [mu, written.finiteness_tests()].concat();
         Some(Self {
             codes: Arc::from(written.codes(&stored, &[])),
             report,
@@ -98,7 +98,7 @@ impl<S: Scalar> Dynamic<S> {
     }
 
     /// The step of a method as one program; none where it is not one, nor where nothing would compile it.
-    pub(crate) fn step_of(&self, choice: &Choice) -> Option<Arc<Step>> {
+    pub(crate) fn step_program(&self, choice: &Choice) -> Option<Arc<Step>> {
         if cfg!(target_arch = "wasm32") || !self.is_recordable() {
             return None;
         }
@@ -110,8 +110,8 @@ impl<S: Scalar> Dynamic<S> {
     /// residual with the Jacobian. 0 where the plan fuses the equation.
     pub fn programs(&self, choice: &Choice) -> usize {
         let compiled = &self.values.compiled;
-        let step = compiled.steps.known(choice);
-        let equation = compiled.equations.known(choice);
+        let step = compiled.steps.cached(choice);
+        let equation = compiled.equations.cached(choice);
         let steps = step.iter().map(|step| &step.codes);
         let equations = equation.iter().flat_map(|programs| programs.codes());
         let made = |codes: &&Arc<[Code]>| self.values.machine.compile(codes).is_some();
@@ -120,7 +120,7 @@ impl<S: Scalar> Dynamic<S> {
 }
 
 /// How long a stepper waits for its program of the whole.
-struct Wait {
+struct Countdown {
     left: u32,
     /// How often it is counted in a step.
     times: u32,
@@ -128,7 +128,7 @@ struct Wait {
     recorded: bool,
 }
 
-impl Wait {
+impl Countdown {
     /// Counted so many times in a step; `none` where there is nothing to wait for.
     fn new(times: u32, none: bool) -> Self {
         Self {
@@ -175,14 +175,14 @@ impl<S: Scalar> Ready<S> {
 }
 
 /// A method whose steps become one program.
-pub(crate) struct Straight<S: Scalar> {
+pub(crate) struct RecordedMethod<S: Scalar> {
     choice: Choice,
     claims: Claims,
     /// What makes steps kernel by kernel; none where all are made as a whole.
     apart: Option<Method<S>>,
 }
 
-impl<S: Scalar> Straight<S> {
+impl<S: Scalar> RecordedMethod<S> {
     /// The method, made kernel by kernel at first.
     pub fn patient(choice: &Choice, apart: Method<S>) -> Self {
         Self {
@@ -202,7 +202,7 @@ impl<S: Scalar> Straight<S> {
     }
 }
 
-impl<S: Scalar> AnyMethod<S, Dynamic<S>> for Straight<S> {
+impl<S: Scalar> AnyMethod<S, Dynamic<S>> for RecordedMethod<S> {
     fn claims(&self) -> Claims {
         self.claims
     }
@@ -215,14 +215,14 @@ impl<S: Scalar> AnyMethod<S, Dynamic<S>> for Straight<S> {
     ) -> Box<dyn AnyStepper<S, Vec<S>> + 'a> {
         let apart = self.apart.as_ref();
         let apart = apart.map(|method| Forgotten(method.as_ref()).stepper(system, h, newton));
-        let known = system.values.compiled.steps.known(&self.choice);
+        let known = system.values.compiled.steps.cached(&self.choice);
         let known = known.as_ref().map(|step| &step.codes);
         let at_once = apart.is_none() || system.compiles_at_once(known);
-        let mut stepper = StraightStepper {
+        let mut stepper = RecordedStepper {
             system,
             choice: self.choice.clone(),
             step_size: [h],
-            wait: Wait::new(1, at_once || !system.values.machine.compiles()),
+            wait: Countdown::new(1, at_once || !system.values.machine.compiles()),
             whole: None,
             apart,
         };
@@ -236,32 +236,32 @@ impl<S: Scalar> AnyMethod<S, Dynamic<S>> for Straight<S> {
 }
 
 /// A step that is ready to run.
-struct Whole<S> {
+struct CompiledStep<S> {
     step: Arc<Step>,
     ready: Ready<S>,
     results: Vec<S>,
 }
 
-/// The stepper of a [`Straight`] method.
-struct StraightStepper<'a, S: Scalar> {
+/// The stepper of a [`RecordedMethod`].
+struct RecordedStepper<'a, S: Scalar> {
     system: &'a Dynamic<S>,
     choice: Choice,
     step_size: [S; 1],
-    wait: Wait,
-    whole: Option<Whole<S>>,
+    wait: Countdown,
+    whole: Option<CompiledStep<S>>,
     apart: Option<ForgottenStepper<'a, Vec<S>, S>>,
 }
 
-impl<S: Scalar> StraightStepper<'_, S> {
+impl<S: Scalar> RecordedStepper<'_, S> {
     fn compile(&mut self) {
-        let Some(step) = self.system.step_of(&self.choice) else {
+        let Some(step) = self.system.step_program(&self.choice) else {
             return;
         };
         // interpreted, a program is no faster than kernels; it is used only where there is nothing else
         let alone = self.apart.is_none();
         let [h] = self.step_size;
         if let Some(ready) = Ready::new(self.system, &step.codes, h, alone) {
-            self.whole = Some(Whole {
+            self.whole = Some(CompiledStep {
                 ready,
                 results: vec![S::zero(); step.codes[1].stores.len()],
                 step,
@@ -270,7 +270,7 @@ impl<S: Scalar> StraightStepper<'_, S> {
     }
 }
 
-impl<S: Scalar> Whole<S> {
+impl<S: Scalar> CompiledStep<S> {
     /// Runs the step from mu: in which lanes it is good. The state at its end comes first among the results.
     fn run(&mut self, system: &Dynamic<S>, step_size: &[S], mu: &[S]) -> S::Mask {
         let Ready { machine, of_step } = &self.ready;
@@ -298,7 +298,7 @@ impl<S: Scalar> Whole<S> {
     }
 }
 
-impl<S: Scalar> Stepper<S> for StraightStepper<'_, S> {
+impl<S: Scalar> Stepper<S> for RecordedStepper<'_, S> {
     type State = Vec<S>;
 
     fn step<K: FactorSink<Vec<S>>>(
@@ -308,7 +308,7 @@ impl<S: Scalar> Stepper<S> for StraightStepper<'_, S> {
     ) -> Result<StepReport, StepFailure> {
         let (system, choice) = (self.system, &self.choice);
         let length = || {
-            let step = system.step_of(choice);
+            let step = system.step_program(choice);
             step.map_or(0, |step| step.codes[1].instructions.len())
         };
         if self.wait.is_over(length) {

@@ -28,7 +28,7 @@ thread_local! {
 }
 
 /// Does something with the record of this thread.
-pub(super) fn with<T>(use_it: impl FnOnce(&mut Record) -> T) -> T {
+pub(super) fn with_record<T>(use_it: impl FnOnce(&mut Record) -> T) -> T {
     RECORD.with_borrow_mut(use_it)
 }
 
@@ -244,7 +244,7 @@ pub(crate) fn written<T>(run: impl FnOnce() -> Option<T>) -> Option<(T, Written)
 
 impl Written {
     /// The numbers of which it was asked whether they are finite.
-    pub fn asked(&self) -> Vec<Recorded> {
+    pub fn finiteness_tests(&self) -> Vec<Recorded> {
         self.0.asked.iter().copied().map(Recorded).collect()
     }
 

@@ -1,6 +1,6 @@
 //! A scalar whose arithmetic is written down.
 
-use super::record::with;
+use super::record::with_record;
 use crate::code::{Code, Instruction, Number, Register, Source};
 use crate::engine::{Frame, Machine, Targets};
 use lie_core::Elementary;
@@ -15,21 +15,21 @@ pub(crate) struct Recorded(pub(super) Register);
 
 impl Recorded {
     /// The number of a source.
-    pub fn of(source: Source) -> Self {
-        Self(with(|record| record.source(source)))
+    pub fn from_source(source: Source) -> Self {
+        Self(with_record(|record| record.source(source)))
     }
 
     fn number(number: Number) -> Self {
-        Self::of(Source::Number(number))
+        Self::from_source(Source::Number(number))
     }
 
     fn result(instruction: Instruction) -> Self {
-        Self(with(|record| record.push(instruction)))
+        Self(with_record(|record| record.push(instruction)))
     }
 
     /// An answer that depends on the values.
     fn branch<T>(answer: T) -> T {
-        with(|record| record.branched = true);
+        with_record(|record| record.branched = true);
         answer
     }
 }
@@ -44,7 +44,7 @@ impl Machine<Recorded> for Inlined {
         for source in &code.sources {
             registers.push(match source.place() {
                 Some((slice, entry)) => frame.slices()[slice][entry],
-                None => Recorded::of(*source),
+                None => Recorded::from_source(*source),
             });
         }
         for instruction in &code.instructions {
@@ -67,7 +67,7 @@ impl Machine<Recorded> for Inlined {
 /// Whether two numbers are equal depends on their values, unless both are written out.
 impl PartialEq for Recorded {
     fn eq(&self, other: &Self) -> bool {
-        match with(|record| [record.exact(self.0), record.exact(other.0)]) {
+        match with_record(|record| [record.exact(self.0), record.exact(other.0)]) {
             [Some(one), Some(other)] => one == other,
             _ => Self::branch(self.0 == other.0),
         }
@@ -186,7 +186,7 @@ impl Scalar for Recorded {
     }
     /// Taken to be finite; whoever runs the code refuses a step where the number is not.
     fn finite(self) -> bool {
-        with(|record| record.asked.push(self.0));
+        with_record(|record| record.asked.push(self.0));
         true
     }
     fn select(mask: bool, yes: Self, no: Self) -> Self {

@@ -1,9 +1,9 @@
 //! The flows of the pieces of H.
 
 use crate::code::Code;
-use crate::compiled::Making;
+use crate::compiled::CodeBuilder;
 use crate::system::Dynamic;
-use crate::system::family::OfSite;
+use crate::system::family::FamilySite;
 use lie_codegen::derive::{Shape, Update};
 use lie_codegen::plan::{Flow, Found, Function, Plan};
 use lie_core::family::FamilyFlows;
@@ -38,7 +38,7 @@ pub struct Codes {
 }
 
 impl Codes {
-    pub(crate) fn new(plan: &Plan, making: &mut Making) -> Self {
+    pub(crate) fn new(plan: &Plan, making: &mut CodeBuilder) -> Self {
         let splitting = plan.splitting.as_ref();
         let coordinate = splitting.map(|s| s.flows.iter().map(|f| flow(f, making)).collect());
         let found = match &plan.found {
@@ -66,7 +66,7 @@ impl Codes {
     }
 }
 
-fn flow(flow: &Flow, making: &mut Making) -> FlowCode {
+fn flow(flow: &Flow, making: &mut CodeBuilder) -> FlowCode {
     let function = flow.function.as_ref();
     FlowCode {
         coordinate: flow.coordinate,
@@ -78,9 +78,9 @@ fn flow(flow: &Flow, making: &mut Making) -> FlowCode {
 pub(crate) fn updates(
     function: &Function,
     updates: &[Update],
-    making: &mut Making,
+    making: &mut CodeBuilder,
 ) -> (usize, Vec<(usize, Update)>) {
-    let mut code = Code::of_kernel(function, usize::MAX.isqrt());
+    let mut code = Code::from_kernel(function, usize::MAX.isqrt());
     // the results are updates, not the whole vector
     code.clear = [None, None];
     let rows = match &function.shape {
@@ -269,7 +269,7 @@ pub enum AnyFlows<'a, S: Scalar> {
     /// Of a system.
     System(Flows<'a, S>),
     /// Of a family.
-    Family(FamilyFlows<'a, S, OfSite<S>>),
+    Family(FamilyFlows<'a, S, FamilySite<S>>),
 }
 
 macro_rules! any {

@@ -3,7 +3,7 @@
 use crate::compiled::Place;
 use crate::engine::ARGUMENTS;
 use crate::system::Dynamic;
-use crate::system::traits::there;
+use crate::system::traits::require;
 use lie_codegen::plan::Energy;
 use lie_core::family::LateMatrix;
 use lie_runtime::{DiscreteLagrangianPoisson, LagrangianPoisson, Scalar};
@@ -20,7 +20,7 @@ impl<S: Scalar> Dynamic<S> {
         arguments[0] = x;
         let scalars = [h];
         let frame = self.values.frame(arguments, &[], &scalars);
-        self.values.run(there(place), &frame, [vector, matrix]);
+        self.values.run(require(place), &frame, [vector, matrix]);
     }
 }
 
@@ -29,17 +29,17 @@ impl<S: Scalar> LagrangianPoisson<S> for Dynamic<S> {
         let [code, ..] = self.values.kernels().lagrangian;
         let mut value = [S::zero()];
         self.values
-            .call(there(code), [xi, &[]], &mut value, &mut []);
+            .call(require(code), [xi, &[]], &mut value, &mut []);
         value[0]
     }
     fn momentum(&self, xi: &Vec<S>, out: &mut Vec<S>) {
         let [_, code, _] = self.values.kernels().lagrangian;
-        self.values.call(there(code), [xi, &[]], out, &mut []);
+        self.values.call(require(code), [xi, &[]], out, &mut []);
     }
     fn inertia(&self, xi: &Vec<S>, out: &mut LateMatrix<S>) {
         let [.., code] = self.values.kernels().lagrangian;
         self.values
-            .call(there(code), [xi, &[]], &mut [], out.as_mut_slice());
+            .call(require(code), [xi, &[]], &mut [], out.as_mut_slice());
     }
     fn branch(&self) -> Option<Vec<S>> {
         self.branch.clone()

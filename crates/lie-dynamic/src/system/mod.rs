@@ -12,7 +12,7 @@ mod traits;
 use crate::code::Code;
 use crate::compiled::{Compiled, Values};
 use crate::engine::{ARGUMENTS, Engine, Interpreter, Machine};
-use family::{OfSite, sizes};
+use family::{FamilySite, sizes};
 use lie_codegen::plan::{Code as Program, Plan};
 use lie_core::parameter::{ParameterError, all_finite, all_positive};
 use lie_runtime::Scalar;
@@ -31,7 +31,7 @@ pub struct Dynamic<S: Scalar> {
     /// A velocity of the branch of the Legendre transform; none for that which begins at rest.
     pub(crate) branch: Option<Vec<S>>,
     /// The loops over the sites of a family.
-    pub(crate) family: Option<Family<OfSite<S>>>,
+    pub(crate) family: Option<Family<FamilySite<S>>>,
 }
 
 /// A plan whose codes are ready to run, before its parameters have values.
@@ -122,7 +122,7 @@ impl Dynamic<f64> {
         let family = match &values.compiled.plan.family {
             Some(family) => {
                 let sizes = sizes(&family.sizes, &values)?;
-                Some(Family::new(OfSite::new(values.clone()), sizes))
+                Some(Family::new(FamilySite::new(values.clone()), sizes))
             }
             None => None,
         };
@@ -153,7 +153,7 @@ impl Dynamic<f64> {
 
     /// What a program makes of the parameters.
     fn constants_of(&self, program: &Program) -> Vec<f64> {
-        let code = Code::of_program(program);
+        let code = Code::from_program(program);
         let mut values = vec![0.0; code.stores.len()];
         let frame = self.values.frame([&[]; ARGUMENTS], &[], &[]);
         let interpreter = Interpreter::new(Arc::from(vec![code]));
@@ -217,7 +217,7 @@ impl<S: Scalar> Dynamic<S> {
         let branch = branch.map(|values| values.iter().map(|value| constant(*value)).collect());
         let values = self.values.with_scalar(constant, machine);
         let family = self.sizes();
-        let family = family.map(|sizes| Family::new(OfSite::new(values.clone()), sizes));
+        let family = family.map(|sizes| Family::new(FamilySite::new(values.clone()), sizes));
         Dynamic {
             values,
             branch,

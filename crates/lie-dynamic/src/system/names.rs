@@ -6,11 +6,11 @@ use std::hash::Hash;
 use std::sync::{Mutex, OnceLock, PoisonError};
 
 /// One copy of each value that was ever asked for: systems that are made again share it.
-struct Kept<K: 'static, V: 'static>(OnceLock<Mutex<HashMap<K, &'static V>>>)
+struct Interner<K: 'static, V: 'static>(OnceLock<Mutex<HashMap<K, &'static V>>>)
 where
     V: ?Sized;
 
-impl<K: Eq + Hash, V: ?Sized> Kept<K, V> {
+impl<K: Eq + Hash, V: ?Sized> Interner<K, V> {
     fn get(&self, key: K, make: impl FnOnce(&K) -> Box<V>) -> &'static V {
         let map = self.0.get_or_init(Mutex::default);
         let mut map = map.lock().unwrap_or_else(PoisonError::into_inner);
@@ -23,8 +23,8 @@ impl<K: Eq + Hash, V: ?Sized> Kept<K, V> {
     }
 }
 
-static TEXTS: Kept<String, str> = Kept(OnceLock::new());
-static MATRICES: Kept<Vec<Vec<Bits>>, [&'static [Entry]]> = Kept(OnceLock::new());
+static TEXTS: Interner<String, str> = Interner(OnceLock::new());
+static MATRICES: Interner<Vec<Vec<Bits>>, [&'static [Entry]]> = Interner(OnceLock::new());
 
 /// An entry of a matrix: row, column, value and its rest.
 type Bits = (u16, u16, u64, u64);

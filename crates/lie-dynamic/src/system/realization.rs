@@ -1,7 +1,7 @@
 //! A declared realization of the bracket: points, and the map from them to the state.
 
 use crate::code::Code;
-use crate::compiled::Making;
+use crate::compiled::CodeBuilder;
 use crate::system::Dynamic;
 use lie_codegen::plan;
 use lie_core::family::LateMatrix;
@@ -20,7 +20,7 @@ pub struct Codes {
 impl Codes {
     /// # Panics
     /// The plan of the realization lacks one of its kernels.
-    pub(crate) fn new(realization: &plan::Realization, making: &mut Making) -> Self {
+    pub(crate) fn new(realization: &plan::Realization, making: &mut CodeBuilder) -> Self {
         let points = realization.names.len();
         let mut code = |name: &str, of_points: bool| {
             let mut functions = realization.functions.iter();
@@ -28,7 +28,7 @@ impl Codes {
                 panic!("a realization has the kernel `{name}`")
             };
             match of_points {
-                true => making.push(Code::of_kernel(function, points)),
+                true => making.push(Code::from_kernel(function, points)),
                 false => making.kernel(function),
             }
         };
@@ -40,7 +40,7 @@ impl Codes {
             start: realization
                 .start
                 .iter()
-                .map(|value| making.push(Code::of_program(value)))
+                .map(|value| making.push(Code::from_program(value)))
                 .collect(),
         }
     }

@@ -1,7 +1,7 @@
 //! Taylor coefficients by the recurrence of the plan.
 
 use crate::code::Code;
-use crate::compiled::Making;
+use crate::compiled::CodeBuilder;
 use crate::engine::ARGUMENTS;
 use crate::system::Dynamic;
 use lie_codegen::plan;
@@ -21,10 +21,10 @@ pub struct Codes {
 }
 
 impl Codes {
-    pub(crate) fn new(recurrence: &plan::Recurrence, making: &mut Making) -> Self {
+    pub(crate) fn new(recurrence: &plan::Recurrence, making: &mut CodeBuilder) -> Self {
         Self {
-            begin: making.push(Code::of_beginning(&recurrence.begin)),
-            advance: making.push(Code::of_advance(&recurrence.advance)),
+            begin: making.push(Code::from_beginning(&recurrence.begin)),
+            advance: making.push(Code::from_advance(&recurrence.advance)),
             field: recurrence.field.clone(),
             gradient: recurrence.gradient.clone().unwrap_or_default(),
             pairs: recurrence.pairs,

@@ -1,7 +1,7 @@
 //! The structure of a system that methods need: spins, a representation, a motion in closed form.
 
 use crate::code::Code;
-use crate::compiled::Making;
+use crate::compiled::CodeBuilder;
 use crate::system::{Dynamic, names};
 use lie_codegen::plan::{self, Function, Plan};
 use lie_codegen::structure::integrable::Motion;
@@ -74,7 +74,7 @@ impl Codes {
         !self.planes.is_empty()
     }
 
-    pub(crate) fn new(plan: &Plan, making: &mut Making) -> Self {
+    pub(crate) fn new(plan: &Plan, making: &mut CodeBuilder) -> Self {
         let structure = &plan.structure;
         let spins = structure.spins.as_ref();
         let scales = spins
@@ -89,8 +89,8 @@ impl Codes {
         let columns = representation.and_then(|known| known.columns.as_ref());
         let vectors = structure.vectors.as_ref();
         let inertia = structure.inertia.as_ref();
-        let points = |count: usize, function: Option<&Function>, making: &mut Making| {
-            function.map(|function| making.push(Code::of_kernel(function, count)))
+        let points = |count: usize, function: Option<&Function>, making: &mut CodeBuilder| {
+            function.map(|function| making.push(Code::from_kernel(function, count)))
         };
         let size = representation.map_or(0, |known| known.size);
         let of_columns = 2 * size * columns.map_or(0, |known| known.indices.len());
@@ -106,7 +106,7 @@ impl Codes {
                 .unwrap_or_default(),
             scales: scales
                 .iter()
-                .map(|scale| making.push(Code::of_program(scale)))
+                .map(|scale| making.push(Code::from_program(scale)))
                 .collect(),
             matrices: representation.map_or(&[], |known| tables(&known.matrices)),
             dual: representation.map_or(&[], |known| tables(&known.dual)),
@@ -128,7 +128,7 @@ impl Codes {
             vectors: vectors
                 .map(|vectors| vectors.vectors.iter().map(components).collect())
                 .unwrap_or_default(),
-            scale: vectors.map(|vectors| making.push(Code::of_program(&vectors.scale))),
+            scale: vectors.map(|vectors| making.push(Code::from_program(&vectors.scale))),
             planes: inertia
                 .map(|inertia| {
                     inertia
@@ -143,7 +143,7 @@ impl Codes {
                     inertia
                         .moments
                         .iter()
-                        .map(|moment| making.push(Code::of_program(moment)))
+                        .map(|moment| making.push(Code::from_program(moment)))
                         .collect()
                 })
                 .unwrap_or_default(),

@@ -10,7 +10,7 @@ use lie_runtime::{
 };
 
 /// The place of a kernel that every system has.
-pub(crate) fn there(place: Place) -> usize {
+pub(crate) fn require(place: Place) -> usize {
     let Some(place) = place else {
         panic!("the system has no such kernel")
     };
@@ -126,7 +126,7 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
         if let Some(family) = &self.family {
             return family.poisson_matrix(mu, out);
         }
-        let code = there(self.values.kernels().poisson_matrix);
+        let code = require(self.values.kernels().poisson_matrix);
         self.values
             .call(code, [mu, &[]], &mut [], out.as_mut_slice());
     }
@@ -261,9 +261,11 @@ impl<S: Scalar> CayleyPoisson<S> for Dynamic<S> {
     }
     fn triple(&self, x: &Vec<S>, z: &Vec<S>, mu: &Vec<S>, out: &mut Vec<S>) {
         let frame = self.values.frame([x, z, mu, &[]], &[], &[]);
-        self.values
-            .machine
-            .run(there(self.values.kernels().triple), &frame, [out, &mut []]);
+        self.values.machine.run(
+            require(self.values.kernels().triple),
+            &frame,
+            [out, &mut []],
+        );
     }
 }
 

@@ -44,9 +44,9 @@ impl Layout {
 
 /// A code in the making.
 #[derive(Default)]
-struct Making(Code);
+struct CodeBuilder(Code);
 
-impl Making {
+impl CodeBuilder {
     /// A source, which come before all instructions.
     fn source(&mut self, source: Source) -> Register {
         self.0.add_source(source)
@@ -81,7 +81,7 @@ const ONE: Source = Source::Number(Number::Exact(1.0));
 
 impl Table {
     /// The entries of a matrix that are read, which are an argument.
-    fn entries(&self, layout: Layout, making: &mut Making) -> Entries {
+    fn entries(&self, layout: Layout, making: &mut CodeBuilder) -> Entries {
         let places = self.places().into_iter();
         let sources = places.map(|(row, column)| {
             let entry = layout.place(row, column) as u32;
@@ -92,7 +92,7 @@ impl Table {
     }
 
     /// Replaces entries by those of the triangular factors.
-    fn factor_entries(&self, entries: &mut Entries, one: Register, making: &mut Making) {
+    fn factor_entries(&self, entries: &mut Entries, one: Register, making: &mut CodeBuilder) {
         for pivot in self.pivots() {
             let index = pivot.index;
             let inverse = (!self.keeps_one(pivot)).then(|| {
@@ -116,7 +116,7 @@ impl Table {
     }
 
     /// Replaces a right side by the solution.
-    fn solve_entries(&self, entries: &Entries, vector: &mut [Register], making: &mut Making) {
+    fn solve_entries(&self, entries: &Entries, vector: &mut [Register], making: &mut CodeBuilder) {
         for pivot in self.pivots() {
             let value = vector[pivot.index];
             for row in &pivot.below {
@@ -139,7 +139,7 @@ impl Table {
 
     /// What replaces a matrix by its triangular factors: all entries that the elimination reads.
     pub fn factorisation(&self, layout: Layout) -> Code {
-        let mut making = Making::default();
+        let mut making = CodeBuilder::default();
         let mut entries = self.entries(layout, &mut making);
         let one = making.source(ONE);
         self.factor_entries(&mut entries, one, &mut making);
@@ -153,7 +153,7 @@ impl Table {
 
     /// What solves by the factors, the first argument; each part of the right side is one more.
     pub fn solution(&self, layout: Layout) -> Code {
-        let mut making = Making::default();
+        let mut making = CodeBuilder::default();
         let entries = self.entries(layout, &mut making);
         let rows = 0..layout.size * layout.across;
         let right = rows.map(|row| {
@@ -169,7 +169,7 @@ impl Table {
     /// A code that writes a residual and its Jacobian, of so many rows, with what follows: it writes the solution, the
     /// residual behind it, and the triangular factors.
     pub fn update(&self, linearize: &Code, size: usize) -> Code {
-        let mut making = Making(linearize.clone());
+        let mut making = CodeBuilder(linearize.clone());
         let [one, zero] = [1.0, 0.0].map(|x| making.source(Source::Number(Number::Exact(x))));
         let (mut residual, mut entries) = (vec![zero; size], Entries::new());
         for Store {

@@ -4,7 +4,7 @@ mod codes;
 mod table;
 
 use crate::code::Code;
-use crate::compiled::{Making, Values};
+use crate::compiled::{CodeBuilder, Values};
 use crate::engine::ARGUMENTS;
 use codes::Layout;
 use lie_codegen::plan::elimination::Elimination as Pattern;
@@ -34,7 +34,7 @@ struct Codes {
 /// Matrices in square blocks, each of which lies in one piece, row after row.
 pub trait Blocks<S> {
     /// The number of blocks in a row of them.
-    fn across(&self) -> usize;
+    fn block_count(&self) -> usize;
     /// A block.
     fn block(&self, row: usize, column: usize) -> &[S];
     /// A block, to be written.
@@ -42,7 +42,7 @@ pub trait Blocks<S> {
 }
 
 impl<S: Scalar> Blocks<S> for LateMatrix<S> {
-    fn across(&self) -> usize {
+    fn block_count(&self) -> usize {
         1
     }
     fn block(&self, _row: usize, _column: usize) -> &[S] {
@@ -54,7 +54,7 @@ impl<S: Scalar> Blocks<S> for LateMatrix<S> {
 }
 
 impl<S: Scalar, const STAGES: usize> Blocks<S> for StageMatrix<LateMatrix<S>, STAGES> {
-    fn across(&self) -> usize {
+    fn block_count(&self) -> usize {
         STAGES
     }
     fn block(&self, row: usize, column: usize) -> &[S] {
@@ -76,7 +76,7 @@ pub struct Scratch<S> {
 impl<S: Scalar> Scratch<S> {
     /// All blocks of a matrix one behind the other; the matrix itself where it has one.
     fn gathered<'a, M: Blocks<S>>(read: &'a mut Vec<S>, matrix: &'a M) -> &'a [S] {
-        let across = matrix.across();
+        let across = matrix.block_count();
         if across == 1 {
             return matrix.block(0, 0);
         }
@@ -90,7 +90,7 @@ impl<S: Scalar> Scratch<S> {
 
 impl Elimination {
     /// The elimination of a pattern, of a matrix in blocks of so many rows.
-    pub fn new(pattern: &Pattern, size: usize, making: &mut Making) -> Self {
+    pub fn new(pattern: &Pattern, size: usize, making: &mut CodeBuilder) -> Self {
         let table = Table::new(pattern);
         let codes = (pattern.multiplications() <= LONGEST).then(|| {
             let layout = Layout::new(size, pattern.order.len());
@@ -118,7 +118,7 @@ impl Elimination {
     /// The codes, where they fit a matrix.
     fn codes<S: Scalar, M: Blocks<S> + SquareMatrix<S>>(&self, matrix: &M) -> Option<Codes> {
         let codes = self.codes?;
-        let fits = codes.layout.fits(matrix.across(), matrix.dimension());
+        let fits = codes.layout.fits(matrix.block_count(), matrix.dimension());
         fits.then_some(codes)
     }
 
@@ -137,7 +137,7 @@ impl Elimination {
         let from = Scratch::gathered(read, matrix);
         let frame = values.frame([from, &[], &[], &[]], &[], &[]);
         values.run(codes.factor, &frame, [factors, &mut []]);
-        let across = matrix.across();
+        let across = matrix.block_count();
         let blocks = factors.chunks_exact(codes.layout.entries() / (across * across));
         for (place, block) in blocks.enumerate() {
             let into = matrix.block_mut(place / across, place % across);

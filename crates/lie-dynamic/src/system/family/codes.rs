@@ -1,7 +1,7 @@
 //! The codes of a family: those of one site.
 
 use crate::code::Code;
-use crate::compiled::Making;
+use crate::compiled::CodeBuilder;
 use crate::system::flows;
 use lie_codegen::derive::Update;
 use lie_codegen::plan::{Family, FamilyForm, Function};
@@ -58,9 +58,10 @@ fn offset(offset: [i64; 2]) -> [isize; 2] {
 }
 
 impl Codes {
-    pub fn new(family: &Family, making: &mut Making) -> Self {
+    pub fn new(family: &Family, making: &mut CodeBuilder) -> Self {
         let (site, sums) = (family.coordinates.len(), family.sums.len());
-        let mut kernel = |function: &Function, count| making.push(Code::of_kernel(function, count));
+        let mut kernel =
+            |function: &Function, count| making.push(Code::from_kernel(function, count));
         let slopes = family.slopes.iter();
         let slopes = slopes
             .map(|(term, slot, function)| ((*term, *slot), kernel(function, site)))
@@ -102,8 +103,8 @@ impl Codes {
                 let share = piece.share.as_ref();
                 pieces.push(PieceCodes {
                     form: piece.form,
-                    rate: making.push(Code::of_kernel(&piece.rate, 1)),
-                    share: share.map(|share| making.push(Code::of_kernel(share, sums))),
+                    rate: making.push(Code::from_kernel(&piece.rate, 1)),
+                    share: share.map(|share| making.push(Code::from_kernel(share, sums))),
                     turns: match piece.form {
                         FamilyForm::Site(a) | FamilyForm::Collective(a) => turns_of(&[a]),
                         FamilyForm::Product(both) => turns_of(&both),

@@ -40,7 +40,7 @@ const EIGHT: usize = 8;
 
 /// One site of a family, made at run time.
 #[derive(Clone)]
-pub struct OfSite<S: Scalar> {
+pub struct FamilySite<S: Scalar> {
     values: Values<S>,
     /// The same over eight numbers at once; none where the machine has nothing better than the interpreter for them.
     wide: Option<Values<S::Wide>>,
@@ -61,7 +61,7 @@ pub(crate) fn sizes(sizes: &[Size], values: &Values<f64>) -> Result<[usize; 2], 
     }
 }
 
-impl<S: Scalar> OfSite<S> {
+impl<S: Scalar> FamilySite<S> {
     /// A site of a family with these values.
     pub(crate) fn new(values: Values<S>) -> Self {
         let wide = values.machine.wide();
@@ -107,12 +107,12 @@ fn eight<S: Scalar>(from: &[S], place: usize) -> S::Wide {
     S::gather(std::array::from_fn(|lane| from[(place + lane).min(last)]))
 }
 
-impl<S: Scalar> Sites<S> for OfSite<S> {
+impl<S: Scalar> Sites<S> for FamilySite<S> {
     type Site = Few;
     type Around = Few;
     type Sums = Few;
-    type Widened = OfSite<S::Wide>;
-    type Lifted = OfSite<Dual<S>>;
+    type Widened = FamilySite<S::Wide>;
+    type Lifted = FamilySite<Dual<S>>;
 
     fn name(&self) -> &str {
         &self.values.compiled.plan.names.system
@@ -186,13 +186,13 @@ impl<S: Scalar> Sites<S> for OfSite<S> {
     }
 
     fn widen(&self) -> Self::Widened {
-        OfSite::new(
+        FamilySite::new(
             self.values
                 .with_scalar(S::widen, self.values.machine.wide()),
         )
     }
     fn lift(&self) -> Self::Lifted {
-        OfSite::new(self.values.with_scalar(Dual::constant_of, None))
+        FamilySite::new(self.values.with_scalar(Dual::constant_of, None))
     }
 
     fn fields(&self, stretch: &Stretch<'_, S>, weights: &FewOf<S>, out: &mut [S]) {

@@ -1,7 +1,7 @@
 //! The flows of the pieces of a family.
 
 use super::codes::{PieceCodes, Turn};
-use super::{EIGHT, Few, FewOf, OfSite, eight, zeros};
+use super::{EIGHT, FamilySite, Few, FewOf, eight, zeros};
 use crate::compiled::Values;
 use crate::engine::ARGUMENTS;
 use crate::system::flows::update;
@@ -45,7 +45,7 @@ fn flow<S: Scalar>(
     }
 }
 
-impl<S: Scalar> Pieces<S> for OfSite<S> {
+impl<S: Scalar> Pieces<S> for FamilySite<S> {
     fn kinds(&self) -> &[Kind] {
         &self.codes().kinds
     }
