@@ -7,7 +7,7 @@ use quote::{format_ident, quote};
 
 use crate::compile::{compile_declaration, declared_choices};
 use crate::plan::plan;
-use crate::print::{Surface, of_this_version, print, rooted};
+use crate::print::{Surface, name_version, print, rooted};
 use crate::structure::Structure;
 use lie_syntax::ast::Name;
 use lie_syntax::characters::visible;
@@ -153,7 +153,7 @@ fn stub(parsed: &Parsed, name: &Name) -> TokenStream {
     let n = Literal::usize_unsuffixed(parsed.dimension);
     let vector = quote! { ::lie_runtime::__private::SVector<S, #n> };
     let traits = stub_of_traits(&system, &n, &vector);
-    of_this_version(quote! {
+    name_version(quote! {
         #[allow(non_snake_case)]
         #[derive(Clone, Debug, PartialEq)]
         #visibility struct #ident<S = f64> { #(pub #parameters: S,)* #[doc(hidden)] pub _scalar: ::core::marker::PhantomData<S> }

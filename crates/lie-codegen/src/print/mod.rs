@@ -37,7 +37,7 @@ use crate::plan::{Item, Plan};
 pub fn print(plan: &Plan, surface: &Surface) -> TokenStream {
     let printer = Printer { plan, surface };
     if let Some(family) = &plan.family {
-        let items = of_this_version(printer.family(family));
+        let items = name_version(printer.family(family));
         return rooted(items, &surface.runtime);
     }
     let parameters = printer.parameters();
@@ -51,7 +51,7 @@ pub fn print(plan: &Plan, surface: &Surface) -> TokenStream {
     let generic = printer.generic();
     let splitting = printer.splitting();
     let found = printer.found_splitting();
-    let items = of_this_version(quote! {
+    let items = name_version(quote! {
         #parameters #system #traits #lagrangian #other_scalars #structure #realization #items #generic #splitting #found
     });
     rooted(items, &surface.runtime)
@@ -62,10 +62,10 @@ pub fn print(plan: &Plan, surface: &Surface) -> TokenStream {
 const PRIVATE: &str = "__private_0_1";
 
 /// The tokens with `__private` under its full name.
-pub(crate) fn of_this_version(tokens: TokenStream) -> TokenStream {
+pub(crate) fn name_version(tokens: TokenStream) -> TokenStream {
     let trees = tokens.into_iter().map(|tree| match tree {
         TokenTree::Group(group) => {
-            let mut renamed = Group::new(group.delimiter(), of_this_version(group.stream()));
+            let mut renamed = Group::new(group.delimiter(), name_version(group.stream()));
             renamed.set_span(group.span());
             TokenTree::Group(renamed)
         }

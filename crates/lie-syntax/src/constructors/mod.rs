@@ -1,7 +1,7 @@
 //! Lie algebras by name: families with a size, and what is made of them by sums, powers, semidirect products,
 //! tangent algebras, central extensions and a change of basis.
 //!
-//! A [`NamedAlgebra`] algebra has names, structure constants and, where there is one of moderate size, a faithful
+//! A [`NamedAlgebra`] has names, structure constants and, where there is one of moderate size, a faithful
 //! representation. [`NamedAlgebra::declared`] writes it into the syntax tree, so that every check sees brackets and matrices as
 //! if they had been written.
 

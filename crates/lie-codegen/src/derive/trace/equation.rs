@@ -2,7 +2,7 @@
 
 use lie_core::{Equation, SquareMatrix};
 
-use super::apart::Apart;
+use super::explicit_unknowns::ExplicitUnknowns;
 use super::sym::{Session, Sym, run_session, with_session};
 use super::system::{Square, SymbolicSystem};
 use crate::derive::{Argument, Block, Derived, Kernel, Source, Tangents, Tape, leaner_jacobian};
@@ -228,7 +228,7 @@ pub fn kernels(
     let mut lists = [&tape, &slopes].map(|tape| tape.definitions().to_vec());
     // what is given from outside depends on all unknowns, and a state at the end that is not traced as well
     let alone = end.is_some() && given.symbols.is_empty();
-    let apart = alone.then(|| Apart::find(source, &lists[0], &residual, &rows));
+    let apart = alone.then(|| ExplicitUnknowns::find(source, &lists[0], &residual, &rows));
     let completed = apart.flatten().map(|apart| {
         let zero = source.graph.integer(0);
         let iterated = |i: usize| !apart.holds(i);

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::apart::{Formulas, List, symbols};
+use super::explicit_unknowns::{Formulas, List, symbols};
 use crate::derive::Source;
 use lie_symbolic::symbolic::{ExprId, Symbol};
 

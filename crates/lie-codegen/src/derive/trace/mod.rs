@@ -5,8 +5,8 @@
 //! marks what it compares as given from outside. The Jacobian is found by differentiation, or is that which the
 //! equation states.
 
-mod apart;
 mod equation;
+mod explicit_unknowns;
 mod linear;
 mod sym;
 mod system;

@@ -40,7 +40,7 @@ impl Candidate {
 
 /// H without multiples of quadratic Casimirs, where that leaves less to split; of a Casimir of a subalgebra the multiple
 /// is added as one of its symbol.
-pub(super) fn without(
+pub(super) fn subtract_casimirs(
     model: &Model,
     commuting: &Commuting<'_>,
     graph: &mut Graph,

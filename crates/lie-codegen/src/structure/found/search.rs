@@ -52,8 +52,13 @@ impl Search<'_> {
             for casimirs in [&own, &inner] {
                 for value in reached.clone() {
                     let known = (value, &casimirs[..]);
-                    let less =
-                        casimirs::without(self.model, &self.commuting, graph, known, self.work);
+                    let less = casimirs::subtract_casimirs(
+                        self.model,
+                        &self.commuting,
+                        graph,
+                        known,
+                        self.work,
+                    );
                     reached.extend(less);
                 }
             }

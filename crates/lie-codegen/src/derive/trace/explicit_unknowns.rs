@@ -21,7 +21,7 @@ pub(super) type Formulas = BTreeMap<usize, ExprId>;
 
 /// The formulas of the unknowns that are found outside the iteration.
 #[derive(Debug)]
-pub(super) struct Apart {
+pub(super) struct ExplicitUnknowns {
     unknown: Vec<Symbol>,
     /// In the state.
     first: Formulas,
@@ -31,7 +31,7 @@ pub(super) struct Apart {
     head: List,
 }
 
-impl Apart {
+impl ExplicitUnknowns {
     /// Finds them, from a residual with its definitions and the Jacobian; `None` where there are none, or nothing else.
     pub fn find(
         source: &mut Source,
