@@ -81,7 +81,7 @@ fn read(path: &Path) -> Result<Source, Failure> {
             });
             let message = Message::new(Kind::Schema, "the file is not UTF-8 from here on");
             message
-                .at(crate::message::Place::Text(source, at..at))
+                .at_place(crate::message::Place::Text(source, at..at))
                 .help("save it as UTF-8")
                 .into()
         })

@@ -205,7 +205,7 @@ mod tests {
             text: text.to_owned(),
         });
         let message = Message::new(Kind::Syntax, "wrong")
-            .at(Place::Text(source, range))
+            .at_place(Place::Text(source, range))
             .help("mend it");
         render(&Renderer::plain(), &message)
     }
@@ -271,13 +271,13 @@ mod tests {
             value,
         };
         let message = Message::new(Kind::Option, "zero")
-            .at(place(None))
+            .at_place(place(None))
             .help("try 0.01");
         assert_eq!(
             render(&Renderer::plain(), &message),
             "error[option]: zero\n --> command line: --step\nhelp: try 0.01\n"
         );
-        let message = message.at(place(Some(("1/one".to_owned(), 2..5))));
+        let message = message.at_place(place(Some(("1/one".to_owned(), 2..5))));
         let text = render(&Renderer::plain(), &message);
         assert!(
             text.starts_with("error[option]: zero\n --> command line: --step\n"),

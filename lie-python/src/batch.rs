@@ -1,6 +1,6 @@
 //! Many trajectories.
 
-use crate::asked;
+use crate::arguments;
 use crate::declaration::Declaration;
 use crate::progress::Progress;
 use crate::talk::{Outcome, converse};
@@ -61,7 +61,7 @@ pub fn ensemble<'py>(
     (request, threads): (&Request, usize),
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Saved<'py>> {
-    let plan = asked::checked(py, declaration, request, plan)?;
+    let plan = arguments::checked(py, declaration, request, plan)?;
     if matches!(plan.pace.0, Pace::Tolerance(_)) && request.every.is_some() {
         let text =
             "with a tolerance each member has a step of its own: give at=[…] in place of every";
@@ -80,7 +80,7 @@ pub fn ensemble<'py>(
         threads,
     };
     let mut members = Vec::new();
-    let progress = Progress::of("members", progress);
+    let progress = Progress::new("members", progress);
     let outcome = py.detach(|| converse(&work, ensemble, progress, |found| members = found))?;
     match outcome {
         Outcome {

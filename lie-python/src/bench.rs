@@ -47,7 +47,7 @@ pub struct Results {
 }
 
 impl Results {
-    fn take(&mut self, found: Found) {
+    fn record(&mut self, found: Found) {
         match found {
             Found::Reference(found) => {
                 self.reference = Some((found.error, found.difference));
@@ -91,12 +91,12 @@ impl Results {
 }
 
 /// What is asked for: seconds for a run, the sense of errors, the surface of section.
-pub type Asked = (f64, String, Option<(usize, f64)>);
+pub type ComparisonOptions = (f64, String, Option<(usize, f64)>);
 
 /// Compares methods until a time.
 pub struct Comparison {
     pub until: f64,
-    pub options: Asked,
+    pub options: ComparisonOptions,
 }
 
 impl Comparison {
@@ -125,7 +125,7 @@ impl Measurement for Comparison {
     type Options = Options;
     type Found = Found;
     type Results = Results;
-    type Made = Results;
+    type Output = Results;
 
     fn usual(model: &Structure) -> Vec<Choice> {
         lie_in_process::list::fewer(model)
@@ -149,8 +149,8 @@ impl Measurement for Comparison {
         Ok((options, results))
     }
 
-    fn take(results: &mut Results, found: Found) {
-        results.take(found);
+    fn record(results: &mut Results, found: Found) {
+        results.record(found);
     }
 
     fn end(&self, results: Results, _: &Structure, _: &[String], whole: bool) -> Results {

@@ -104,7 +104,7 @@ impl Declaration {
         static NEXT: AtomicU64 = AtomicU64::new(0);
         let facts = py.detach(|| match compile_spec(&text) {
             Ok(model) => Ok(Facts::of(&model)),
-            Err(diagnostics) => Err(Mistakes::of(&text, &diagnostics)),
+            Err(diagnostics) => Err(Mistakes::new(&text, &diagnostics)),
         });
         Ok(Self {
             id: NEXT.fetch_add(1, Ordering::Relaxed),
@@ -160,7 +160,7 @@ impl Declaration {
     ) -> PyResult<R> {
         let done = py.detach(|| match compile_spec_in(&self.text, None, effort) {
             Ok(model) => Ok(work(&model)),
-            Err(diagnostics) => Err(Mistakes::of(&self.text, &diagnostics)),
+            Err(diagnostics) => Err(Mistakes::new(&self.text, &diagnostics)),
         });
         done.map_err(|mistakes| mistakes.raise(py))
     }
@@ -216,7 +216,7 @@ impl Declaration {
     }
 
     /// The places of the coordinates of a system that users give.
-    pub fn shown(&self, system: &Dynamic<f64>) -> Vec<usize> {
+    pub fn shown_coordinates(&self, system: &Dynamic<f64>) -> Vec<usize> {
         match self.facts.family {
             true => (0..system.dimension()).collect(),
             false => self.facts.shown.clone(),

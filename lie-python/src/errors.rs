@@ -26,8 +26,10 @@ pub struct Mistakes {
 }
 
 impl Mistakes {
-    pub fn of(text: &str, diagnostics: &[Diagnostic]) -> Self {
-        let shown = diagnostics.iter().map(|diagnostic| shown(text, diagnostic));
+    pub fn new(text: &str, diagnostics: &[Diagnostic]) -> Self {
+        let shown = diagnostics
+            .iter()
+            .map(|diagnostic| describe(text, diagnostic));
         let first = diagnostics.first();
         Self {
             message: shown.collect::<Vec<_>>().join("\n"),
@@ -55,7 +57,7 @@ fn place(text: &str, diagnostic: &Diagnostic) -> Option<(usize, usize)> {
 }
 
 /// A mistake or a warning with its line and its remedy.
-pub fn shown(text: &str, diagnostic: &Diagnostic) -> String {
+pub fn describe(text: &str, diagnostic: &Diagnostic) -> String {
     let message = format!("{}: {}", diagnostic.kind.as_str(), diagnostic.message);
     let start = match diagnostic.origin {
         Some(Origin::Text { start, .. }) => Some(start),
@@ -74,7 +76,7 @@ fn with_place(mut message: String, text: &str, start: Option<usize>, help: Optio
         }
     }
     if let Some(help) = help {
-        message.push_str(&format!("\n  help: {}", Front::Call.told(help)));
+        message.push_str(&format!("\n  help: {}", Front::Call.reword(help)));
     }
     message
 }

@@ -1,6 +1,6 @@
 //! The core of the Python package: declarations compiled, run and evaluated without the interpreter's lock.
 
-mod asked;
+mod arguments;
 mod batch;
 mod bench;
 mod declaration;
@@ -142,8 +142,8 @@ impl Core {
         seed: u64,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<verify::Facts> {
-        let request = asked::request(&self.0, asked)?;
-        let step = asked::checked(py, &self.0, &request, |spec, request| {
+        let request = arguments::request(&self.0, asked)?;
+        let step = arguments::checked(py, &self.0, &request, |spec, request| {
             request::step_of_facts(spec, request).map_err(|message| vec![message])
         })?;
         let subject = talk::Subject::new(py, &self.0, &methods, &request, progress)?;
@@ -156,11 +156,11 @@ impl Core {
         py: Python<'_>,
         methods: Vec<String>,
         asked: &Bound<'_, PyDict>,
-        options: bench::Asked,
+        options: bench::ComparisonOptions,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<bench::Results> {
-        let request = asked::request(&self.0, asked)?;
-        let until = asked::checked(py, &self.0, &request, |spec, request| {
+        let request = arguments::request(&self.0, asked)?;
+        let until = arguments::checked(py, &self.0, &request, |spec, request| {
             request::span(spec, request).map_err(|message| vec![message])
         })?;
         let subject = talk::Subject::new(py, &self.0, &methods, &request, progress)?;
@@ -176,7 +176,7 @@ impl Core {
         steps: u64,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<stress::Limits> {
-        let request = asked::request(&self.0, asked)?;
+        let request = arguments::request(&self.0, asked)?;
         let subject = talk::Subject::new(py, &self.0, &methods, &request, progress)?;
         subject.measure(py, &stress::Stress(steps))
     }
@@ -209,7 +209,7 @@ impl Core {
         asked: &Bound<'py, PyDict>,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<(trajectory::Rows<'py>, Bound<'py, PyDict>)> {
-        let request = asked::request(&self.0, asked)?;
+        let request = arguments::request(&self.0, asked)?;
         trajectory::run(py, &self.0, &request, progress)
     }
 
@@ -222,7 +222,13 @@ impl Core {
         states: PyReadonlyArray2<'py, f64>,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let system = self.0.system(py, &parameters)?;
-        evaluate::evaluate(py, kernel, &system, &self.0.shown(&system), &states)
+        evaluate::evaluate(
+            py,
+            kernel,
+            &system,
+            &self.0.shown_coordinates(&system),
+            &states,
+        )
     }
 
     /// Many trajectories: the times, the states of members by rows, and why some ended early: member, time, reason.
@@ -235,7 +241,7 @@ impl Core {
         threads: usize,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<batch::Saved<'py>> {
-        let asked = (&asked::request(&self.0, asked)?, threads);
+        let asked = (&arguments::request(&self.0, asked)?, threads);
         batch::ensemble(py, &self.0, &parameters, &starts, asked, progress)
     }
 }

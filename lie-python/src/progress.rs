@@ -18,7 +18,7 @@ pub struct Progress {
 
 impl Progress {
     /// Of something that is counted.
-    pub fn of(what: &str, callable: Option<Py<PyAny>>) -> Self {
+    pub fn new(what: &str, callable: Option<Py<PyAny>>) -> Self {
         Self {
             callable,
             told: Instant::now(),

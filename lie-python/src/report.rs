@@ -1,7 +1,7 @@
 //! What `lie check` and `lie methods` say, as JSON.
 
 use crate::declaration::Declaration;
-use crate::errors::shown;
+use crate::errors::describe;
 use lie_codegen::methods::{CATALOGUE, applicability};
 use lie_codegen::structure::Effort;
 use lie_codegen::structure::Structure;
@@ -22,7 +22,7 @@ pub fn methods(model: &Structure) -> String {
     let supported = Dynamic::supports(&lie_codegen::plan::plan(model, &[]));
     let rows = CATALOGUE.iter().map(|method| {
         let mut row = catalogue::json(method);
-        row["keeps"] = catalogue::kept(method).into();
+        row["keeps"] = catalogue::preserved(method).into();
         row["reason"] = reason(method.id).into();
         row["here"] = supported.into();
         row
@@ -58,10 +58,10 @@ pub fn check(py: Python<'_>, declaration: &Declaration, deep: bool) -> PyResult<
         false => Effort::Report,
     };
     declaration.with_effort(py, effort, |model| {
-        let mut found = Report::on(model).json(model);
+        let mut found = Report::new(model).json(model);
         let warnings = model.warnings.iter();
         let warnings: Vec<String> = warnings
-            .map(|warning| shown(&declaration.text, warning))
+            .map(|warning| describe(&declaration.text, warning))
             .collect();
         found["warnings"] = json!(warnings);
         found.to_string()

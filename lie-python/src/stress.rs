@@ -107,7 +107,7 @@ impl Measurement for Stress {
     type Options = Options;
     type Found = Found;
     type Results = Results;
-    type Made = Limits;
+    type Output = Limits;
 
     fn usual(model: &Structure) -> Vec<Choice> {
         lie_in_process::list::fewer(model)
@@ -117,8 +117,8 @@ impl Measurement for Stress {
         Ok((Options { steps: self.0 }, Results::default()))
     }
 
-    fn take(results: &mut Results, found: Found) {
-        results.take(found);
+    fn record(results: &mut Results, found: Found) {
+        results.record(found);
     }
 
     fn end(

@@ -1,6 +1,6 @@
 //! Questions to work in this process, and those of the measurements.
 
-use crate::asked;
+use crate::arguments;
 use crate::declaration::Declaration;
 use crate::errors::{method_error, refused};
 use crate::progress::Progress;
@@ -34,7 +34,7 @@ pub trait Measurement: Sync {
     /// What was found so far.
     type Results;
     /// What Python gets.
-    type Made: Send;
+    type Output: Send;
 
     /// The methods where none is named.
     fn usual(model: &Structure) -> Vec<Choice>;
@@ -42,7 +42,7 @@ pub trait Measurement: Sync {
     /// What is asked for, and the results before there are any.
     fn begin(&self, spec: &Spec, start: &Start) -> PyResult<(Self::Options, Self::Results)>;
 
-    fn take(results: &mut Self::Results, found: Self::Found);
+    fn record(results: &mut Self::Results, found: Self::Found);
 
     /// The results of methods in order, of all or up to an interruption.
     fn end(
@@ -51,7 +51,7 @@ pub trait Measurement: Sync {
         model: &Structure,
         labels: &[String],
         whole: bool,
-    ) -> Self::Made;
+    ) -> Self::Output;
 }
 
 /// What is measured, from where on, and who hears how far it is.
@@ -72,7 +72,7 @@ impl<'a> Subject<'a> {
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Self> {
         Ok(Self {
-            start: asked::checked(py, declaration, request, asked::start)?,
+            start: arguments::checked(py, declaration, request, arguments::start)?,
             declaration,
             methods,
             progress,
@@ -80,7 +80,7 @@ impl<'a> Subject<'a> {
     }
 
     /// Has it measured, without the interpreter's lock.
-    pub fn measure<M: Measurement>(self, py: Python<'_>, measurement: &M) -> PyResult<M::Made>
+    pub fn measure<M: Measurement>(self, py: Python<'_>, measurement: &M) -> PyResult<M::Output>
     where
         lie_measure::Request<M::Options>: Question<Found = M::Found>,
     {
@@ -94,7 +94,7 @@ impl<'a> Subject<'a> {
             let model = &spec.model;
             let choices = choices(model, methods, M::usual)
                 .map_err(|message| Python::attach(|py| refused(py, &[message])))?;
-            let limit = Limit::of(M::PURPOSE);
+            let limit = Limit::for_purpose(M::PURPOSE);
             let exceeded = limit.and_then(|limit| limit.exceeded(model, start.initial.len()));
             if let Some((text, help)) = exceeded {
                 return Err(PyValueError::new_err(format!("{text}\n  help: {help}")));
@@ -113,8 +113,8 @@ impl<'a> Subject<'a> {
                 start,
                 options,
             };
-            let take = |found| M::take(&mut results, found);
-            let outcome = converse(&work, request, Progress::of("", progress), take)?;
+            let take = |found| M::record(&mut results, found);
+            let outcome = converse(&work, request, Progress::new("", progress), take)?;
             let whole = outcome.whole(model)?;
             Ok(measurement.end(results, model, &labels, whole))
         })

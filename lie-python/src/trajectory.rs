@@ -1,6 +1,6 @@
 //! One trajectory.
 
-use crate::asked;
+use crate::arguments;
 use crate::declaration::Declaration;
 use crate::progress::Progress;
 use crate::talk::{Outcome, converse};
@@ -38,7 +38,7 @@ struct Heard {
 }
 
 impl Heard {
-    fn take(&mut self, found: Found) {
+    fn record(&mut self, found: Found) {
         match found {
             Found::Chosen(chosen) => self.step = Some(chosen.step),
             Found::Assessed { error, missed } => self.missed = missed.then_some(error),
@@ -71,12 +71,12 @@ pub fn run<'py>(
     request: &Request,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<(Rows<'py>, Bound<'py, PyDict>)> {
-    let (plan, run) = asked::checked(py, declaration, request, asked::run)?;
+    let (plan, run) = arguments::checked(py, declaration, request, arguments::run)?;
     let work = declaration.work(py, &plan.method, plan.chart)?;
     let (dimension, casimirs) = (run.start.initial.len(), declaration.facts.casimirs.len());
     let mut heard = Heard::default();
-    let progress = Progress::of("steps", progress);
-    let outcome = py.detach(|| converse(&work, run, progress, |found| heard.take(found)))?;
+    let progress = Progress::new("steps", progress);
+    let outcome = py.detach(|| converse(&work, run, progress, |found| heard.record(found)))?;
     let Outcome { end, interrupted } = outcome;
     if let Some(error) = interrupted {
         return Err(error);

@@ -58,7 +58,7 @@ impl Measurement for Verification {
     type Options = Options;
     type Found = Found;
     type Results = Results;
-    type Made = Facts;
+    type Output = Facts;
 
     /// Every method that applies, at its default options.
     fn usual(model: &Structure) -> Vec<Choice> {
@@ -74,13 +74,13 @@ impl Measurement for Verification {
         let parameters = model.parameters.iter();
         let value = |p: &Parameter| *start.parameters.get(&p.name).unwrap_or(&p.default_value);
         let parameters: Vec<f64> = parameters.map(value).collect();
-        let evidence = Evidence::of_spec(text, model, &parameters);
+        let evidence = Evidence::from_spec(text, model, &parameters);
         let options = options(model, self.step, self.seed);
-        Ok((options, Results::before(evidence)))
+        Ok((options, Results::new(evidence)))
     }
 
-    fn take(results: &mut Results, found: Found) {
-        results.take(found);
+    fn record(results: &mut Results, found: Found) {
+        results.record(found);
     }
 
     fn end(&self, results: Results, _: &Structure, _: &[String], whole: bool) -> Facts {

@@ -72,7 +72,7 @@ causes! {
 
 impl Cause {
     /// The cause, from what stands on stderr.
-    pub fn of(output: &Output) -> Self {
+    pub fn from_output(output: &Output) -> Self {
         let text = String::from_utf8_lossy(&output.stderr);
         let known = |(_, signs): &&(Self, &[&str])| signs.iter().any(|sign| text.contains(sign));
         match SIGNS.iter().find(known) {
@@ -116,7 +116,7 @@ pub fn failed(output: &Output, cache: &Path, folder: &Path) -> Failure {
     if shown.is_empty() {
         shown = output.status.to_string();
     }
-    let help = Cause::of(output).help(cache, &folder.join("Cargo.toml"));
+    let help = Cause::from_output(output).help(cache, &folder.join("Cargo.toml"));
     Failure::surroundings(
         Message::new(Kind::Toolchain, format!("cargo failed:\n{shown}")).help(help),
     )
@@ -141,7 +141,7 @@ mod tests {
             let output = output(stderr, 101 << 8);
             let failure = failed(&output, Path::new("/cache"), Path::new("/cache/programs/k"));
             let help = failure.messages[0].help.clone();
-            (Cause::of(&output), help.unwrap_or_default())
+            (Cause::from_output(&output), help.unwrap_or_default())
         };
         for (stderr, cause, help) in [
             (
@@ -210,6 +210,6 @@ mod tests {
                 "{advice}"
             );
         }
-        assert_eq!(Cause::of(&output("", 9)), Cause::Killed);
+        assert_eq!(Cause::from_output(&output("", 9)), Cause::Killed);
     }
 }

@@ -17,7 +17,7 @@ impl Key {
 
     /// Adds one ingredient; its length is hashed too, so that ingredients cannot run together.
     #[must_use]
-    pub fn with(self, ingredient: &str) -> Self {
+    pub fn update(self, ingredient: &str) -> Self {
         self.bytes(ingredient.as_bytes())
             .bytes(&(ingredient.len() as u64).to_le_bytes())
     }
@@ -59,8 +59,8 @@ mod tests {
 
     #[test]
     fn ingredients_do_not_run_together() {
-        let joined = Key::new().with("ab").with("c").hex();
-        assert_ne!(joined, Key::new().with("a").with("bc").hex());
-        assert_ne!(joined, Key::new().with("abc").hex());
+        let joined = Key::new().update("ab").update("c").hex();
+        assert_ne!(joined, Key::new().update("a").update("bc").hex());
+        assert_ne!(joined, Key::new().update("abc").hex());
     }
 }

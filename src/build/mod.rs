@@ -12,7 +12,7 @@
 mod cache;
 mod cause;
 mod entry;
-mod here;
+mod in_process;
 mod key;
 mod limit;
 mod processor;
@@ -32,7 +32,7 @@ use crate::message::{Failure, Message};
 pub use cache::{failure as cache_failure, place as cache_place};
 use cause::Cause;
 use entry::Entry;
-pub use here::here;
+pub use in_process::in_process_worker;
 use key::Key;
 pub use lie_in_process::declared;
 pub use limit::{limit as cache_limit, programs as cache_programs, size as cache_size};
@@ -103,14 +103,14 @@ pub fn program(request: &Request<'_>, interrupt: &Interrupt) -> Result<PathBuf, 
     let template = Template::of(request.purpose);
     let modules = template.modules.iter();
     let key = modules
-        .fold(Key::new().with(request.source), |key, (_, text)| {
-            key.with(text)
+        .fold(Key::new().update(request.source), |key, (_, text)| {
+            key.update(text)
         })
-        .with(&toolchain.identity)
-        .with(&runtime::identity())
-        .with(template.manifest)
-        .with(template.lock)
-        .with(request.processor.name())
+        .update(&toolchain.identity)
+        .update(&runtime::identity())
+        .update(template.manifest)
+        .update(template.lock)
+        .update(request.processor.name())
         .hex();
     let entry = Entry::new(&cache, &key);
     if entry.is_whole(request.source) {
@@ -220,7 +220,7 @@ fn build(
         }
     };
     let mut output = cargo(true)?;
-    if !output.status.success() && Cause::of(&output).is_for_want_of_packages() {
+    if !output.status.success() && Cause::from_output(&output).is_for_want_of_packages() {
         say("Packages are missing from cargo's cache; trying again with the network…");
         output = cargo(false)?;
     }

@@ -19,7 +19,7 @@ impl Processor {
     ///
     /// # Errors
     /// `option`: fused multiply-add is not among the instructions that every processor has.
-    pub fn of(cpu: Cpu, fma: bool) -> Result<Self, Message> {
+    pub fn from_options(cpu: Cpu, fma: bool) -> Result<Self, Message> {
         match (cpu, fma) {
             (Cpu::Portable, false) => Ok(Self::Portable),
             (Cpu::Native, false) => Ok(Self::Native),

@@ -21,7 +21,7 @@ const MANIFEST: &str = "standalone.toml";
 /// Identifies the sources: their version for people, their content for certainty.
 pub fn identity() -> String {
     let key = files().into_iter().fold(Key::new(), |key, (path, text)| {
-        key.with(&path.to_string_lossy()).with(text)
+        key.update(&path.to_string_lossy()).update(text)
     });
     format!("{}-{}", env!("CARGO_PKG_VERSION"), key.hex())
 }

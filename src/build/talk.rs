@@ -42,14 +42,14 @@ pub enum Outcome {
 }
 
 /// Takes what is found.
-pub type Take<'a, R> = dyn FnMut(R) -> io::Result<()> + 'a;
+pub type Sink<'a, R> = dyn FnMut(R) -> io::Result<()> + 'a;
 
 /// What does the work.
 pub enum Worker {
     /// A built program.
     Program(PathBuf),
     /// A thread of this program.
-    Here(Arc<Work>),
+    InProcess(Arc<Work>),
 }
 
 impl Worker {
@@ -61,7 +61,7 @@ impl Worker {
         &self,
         question: Q,
         interrupt: &Interrupt,
-        found: &mut Take<'_, Q::Found>,
+        found: &mut Sink<'_, Q::Found>,
         progress: &mut dyn FnMut(&Progress),
     ) -> io::Result<Outcome>
     where
@@ -71,7 +71,7 @@ impl Worker {
             Self::Program(program) => {
                 talk(Command::new(program), &question, interrupt, found, progress)
             }
-            Self::Here(work) => {
+            Self::InProcess(work) => {
                 interrupt.expect();
                 let mut listener = Ears {
                     found,
@@ -88,7 +88,7 @@ impl Worker {
     pub fn engine(&self) -> &'static str {
         match self {
             Self::Program(_) => "a program built by cargo",
-            Self::Here(_) => {
+            Self::InProcess(_) => {
                 "machine code made by this command; --compile measures what cargo builds"
             }
         }
@@ -98,7 +98,7 @@ impl Worker {
     pub fn broken(&self, how: &str) -> Failure {
         match self {
             Self::Program(program) => super::broken(program, how),
-            Self::Here(_) => Failure::surroundings(fault(how)),
+            Self::InProcess(_) => Failure::surroundings(fault(how)),
         }
     }
 
@@ -106,7 +106,7 @@ impl Worker {
     pub fn not_started(&self, error: &io::Error) -> Failure {
         match self {
             Self::Program(program) => super::not_started(program, error),
-            Self::Here(_) => Failure::surroundings(fault(&error.to_string())),
+            Self::InProcess(_) => Failure::surroundings(fault(&error.to_string())),
         }
     }
 }
@@ -121,7 +121,7 @@ fn fault(how: &str) -> crate::message::Message {
 
 /// Hears a thread.
 struct Ears<'a, 'f, R> {
-    found: &'a mut Take<'f, R>,
+    found: &'a mut Sink<'f, R>,
     progress: &'a mut dyn FnMut(&Progress),
     interrupt: &'a Interrupt,
 }
@@ -162,7 +162,7 @@ fn talk<R: Wire>(
     mut command: Command,
     request: &impl Serialize,
     interrupt: &Interrupt,
-    found: &mut Take<'_, R>,
+    found: &mut Sink<'_, R>,
     progress: &mut dyn FnMut(&Progress),
 ) -> io::Result<Outcome> {
     let mut line = serde_json::to_vec(request)?;
@@ -212,7 +212,7 @@ enum Deaf {
 
 fn hear_child<R: Wire>(
     child: &mut Child,
-    found: &mut Take<'_, R>,
+    found: &mut Sink<'_, R>,
     progress: &mut dyn FnMut(&Progress),
 ) -> Result<Option<End>, Deaf> {
     match child.stdout.take() {
@@ -224,7 +224,7 @@ fn hear_child<R: Wire>(
 /// Hands on what is said; answers the last message, if there was one.
 fn hear<R: Wire>(
     output: impl Read,
-    found: &mut Take<'_, R>,
+    found: &mut Sink<'_, R>,
     progress: &mut dyn FnMut(&Progress),
 ) -> Result<Option<End>, Deaf> {
     let mut stdout = BufReader::with_capacity(1 << 16, output);

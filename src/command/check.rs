@@ -44,7 +44,7 @@ pub fn run(arguments: &args::Check) -> Result<u8, Failure> {
                     failure.messages.extend(found);
                     continue;
                 }
-                let report = Words(Report::on(&spec.model));
+                let report = Words(Report::new(&spec.model));
                 if arguments.json {
                     reports.push(report.0.json(&spec.model));
                 } else {

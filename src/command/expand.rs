@@ -30,7 +30,7 @@ pub fn run(arguments: &args::Expand) -> Result<u8, Failure> {
         }
     }
     for id in &arguments.method {
-        match method::all(id, &spec.model, Front::Command) {
+        match method::expand(id, &spec.model, Front::Command) {
             Ok(found) => {
                 for choice in found {
                     if !choices.contains(&choice) {

@@ -56,7 +56,7 @@ fn table() -> String {
                     "implicit"
                 }
             ),
-            catalogue::kept(method),
+            catalogue::preserved(method),
             format!("{need} [{number}]"),
         ]);
     }

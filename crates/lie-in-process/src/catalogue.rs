@@ -4,7 +4,7 @@ use lie_codegen::methods::{Method, Preserves};
 use serde_json::{Value, json};
 
 /// What a method keeps, without what follows from it.
-pub fn kept(method: &Method) -> String {
+pub fn preserved(method: &Method) -> String {
     let Preserves {
         energy,
         casimirs,

@@ -54,21 +54,21 @@ const KERNELS: [&str; 13] = [
 
 impl Evidence {
     /// Nothing yet, of the system of a spec for values of its parameters.
-    pub fn of_spec(text: &str, model: &Structure, parameters: &[f64]) -> Self {
+    pub fn from_spec(text: &str, model: &Structure, parameters: &[f64]) -> Self {
         // what a spec of a family declares is one site, and is not interpreted
         if model.family.is_some() {
             return Self {
                 judged: false,
                 wanted: &[],
-                ..Self::before(None, false)
+                ..Self::with_judge(None, false)
             };
         }
         let judge = Judge::of_spec(text, model, parameters);
-        Self::before(judge, model.is_lie_poisson())
+        Self::with_judge(judge, model.is_lie_poisson())
     }
 
     /// The same of a judge, of a system with an algebra or without.
-    fn before(judge: Option<Judge>, has_algebra: bool) -> Self {
+    fn with_judge(judge: Option<Judge>, has_algebra: bool) -> Self {
         Self {
             judge,
             judged: true,

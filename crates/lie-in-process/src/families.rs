@@ -30,7 +30,7 @@ pub const STRESSED: Limit = Limit {
 
 impl Limit {
     /// That of a measurement; none of a run.
-    pub fn of(purpose: Purpose) -> Option<Self> {
+    pub fn for_purpose(purpose: Purpose) -> Option<Self> {
         match purpose {
             Purpose::Verify => Some(VERIFIED),
             Purpose::Bench => Some(BENCHED),

@@ -6,7 +6,7 @@ use lie_codegen::structure::Structure;
 
 /// Every method that applies to a system, with every option that applies. Of the compositions, which are
 /// as many as schemes times bases: every scheme of one base, and the lowest order of the other bases.
-pub fn all(model: &Structure) -> Vec<Choice> {
+pub fn applicable(model: &Structure) -> Vec<Choice> {
     let (composing, plain): (Vec<&Method>, Vec<&Method>) = CATALOGUE
         .iter()
         .partition(|method| method.id.starts_with("compose"));
@@ -61,7 +61,7 @@ pub fn fewer(model: &Structure) -> Vec<Choice> {
         let found = options.iter().find(|(name, _)| *name == "composition");
         found.map(|(_, value)| *value)
     };
-    let mut all = all(model);
+    let mut all = applicable(model);
     all.retain(|choice| {
         Choice::from_id(&choice.id()).is_ok_and(|default| scheme(&default) == scheme(choice))
     });

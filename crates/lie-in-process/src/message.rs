@@ -117,7 +117,7 @@ impl Message {
 
     /// Puts the message somewhere else.
     #[must_use]
-    pub fn at(mut self, place: Place) -> Self {
+    pub fn at_place(mut self, place: Place) -> Self {
         self.place = place;
         self
     }
@@ -131,7 +131,7 @@ impl Message {
 
     /// Says what is at fault.
     #[must_use]
-    pub fn of(mut self, fault: Fault) -> Self {
+    pub fn with_fault(mut self, fault: Fault) -> Self {
         self.fault = fault;
         self
     }

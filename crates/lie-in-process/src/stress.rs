@@ -26,7 +26,7 @@ impl Default for Results {
 
 impl Results {
     /// Takes what was found; answers the long run of a method, and what is lost.
-    pub fn take(&mut self, found: Found) -> Option<String> {
+    pub fn record(&mut self, found: Found) -> Option<String> {
         match found {
             Found::Ground { step } => self.step = step,
             Found::Growth(growth) => self.growths.push(growth),
@@ -44,14 +44,14 @@ impl Results {
     }
 
     /// The experiments that came to this.
-    pub fn of(&self, outcome: Outcome) -> Vec<&Cell> {
+    pub fn with_outcome(&self, outcome: Outcome) -> Vec<&Cell> {
         let of_outcome = self.cells.iter().filter(|cell| cell.outcome == outcome);
         of_outcome.collect()
     }
 
     /// What is lost, in words.
     pub fn losses(&self) -> Vec<String> {
-        let lost = self.of(Outcome::Lost).into_iter().map(cell_text);
+        let lost = self.with_outcome(Outcome::Lost).into_iter().map(cell_text);
         let growing = self.growths.iter().filter(|growth| is_lost(growth));
         lost.chain(growing.map(growth_text)).collect()
     }

@@ -85,7 +85,7 @@ pub struct Results {
 
 impl Results {
     /// Nothing yet.
-    pub fn before(evidence: Evidence) -> Self {
+    pub fn new(evidence: Evidence) -> Self {
         Self {
             ground: None,
             rows: Vec::new(),
@@ -94,7 +94,7 @@ impl Results {
     }
 
     /// Takes what was found; answers how a method did once all of it is known.
-    pub fn take(&mut self, found: Found) -> Option<String> {
+    pub fn record(&mut self, found: Found) -> Option<String> {
         match found {
             Found::Ground(ground) => self.ground = Some(ground),
             Found::Kernel(kernel) => self.evidence.kernel(kernel),

@@ -49,7 +49,7 @@ fn found(model: &Structure) -> Vec<Found> {
 /// What speaks against these kernels, before the declaration of a spec.
 fn failures(text: &str, found: &[Found]) -> Vec<String> {
     let model = compile_spec(text).unwrap();
-    let mut evidence = Evidence::of_spec(text, &model, &values(&model));
+    let mut evidence = Evidence::from_spec(text, &model, &values(&model));
     for found in found.iter().cloned() {
         match found {
             Found::Kernel(kernel) => evidence.kernel(kernel),
@@ -128,7 +128,7 @@ fn a_kernel_that_is_wrong_missing_or_blind_is_named() {
 fn kernels_of_a_family_are_not_compared() {
     let text = text("tests/data/families/heisenberg_chain");
     let model = compile_spec(&text).unwrap();
-    let evidence = Evidence::of_spec(&text, &model, &values(&model));
+    let evidence = Evidence::from_spec(&text, &model, &values(&model));
     assert!(evidence.failures().is_empty() && evidence.kernels().is_none());
     assert!(evidence.summary().contains("not compared"));
 }

@@ -69,7 +69,7 @@ fn alone(members: &Members<'_>) -> Vec<Member> {
 /// What is different between members in lanes and alone, by method; the control differs in the last digits of one member's start.
 fn different(name: &str, save: Save, newton: NewtonOptions) -> (usize, Vec<String>) {
     let model = model(name);
-    let choices = list::all(&model);
+    let choices = list::applicable(&model);
     let declared = Declared::new(plan(&model, &choices), &Jit);
     let starts = starts(&declared);
     let (mut compared, mut different) = (0, Vec::new());

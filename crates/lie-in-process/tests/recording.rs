@@ -20,7 +20,7 @@ impl Both {
     fn new(name: &str) -> Self {
         let path = format!("{}/../../specs/{name}", env!("CARGO_MANIFEST_DIR"));
         let model = compile_spec(&std::fs::read_to_string(path).unwrap()).unwrap();
-        let choices = list::all(&model);
+        let choices = list::applicable(&model);
         let plan = plan(&model, &choices);
         Self {
             choices,

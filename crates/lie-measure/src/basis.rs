@@ -28,7 +28,7 @@ pub(crate) struct Basis {
 
 impl Basis {
     /// The basis of the span of `vectors`.
-    pub(crate) fn of_span(vectors: &[Vec<f64>]) -> Self {
+    pub(crate) fn from_span(vectors: &[Vec<f64>]) -> Self {
         let mut rest: Vec<Vec<f64>> = vectors.to_vec();
         let unit = |k: usize| (0..vectors.len()).map(|i| f64::from(i == k)).collect();
         let mut made: Vec<Vec<f64>> = (0..vectors.len()).map(unit).collect();
@@ -131,7 +131,7 @@ mod tests {
             vec![2.0, 4.0, 0.0],
             vec![0.0, 1.0, 0.0],
         ];
-        let basis = Basis::of_span(&vectors);
+        let basis = Basis::from_span(&vectors);
         assert_eq!(basis.rank(), 2);
         let x = basis.solve(&[3.0, 5.0, 7.0], 3);
         let sum: Vec<f64> = (0..3)
@@ -141,7 +141,7 @@ mod tests {
         let complement = basis.complement(3);
         assert_eq!(complement.len(), 1);
         assert!((complement[0][2].abs() - 1.0).abs() < 1e-15);
-        assert_eq!(Basis::of_span(&[]).complement(2).len(), 2);
-        assert_eq!(Basis::of_span(&[vec![0.0; 4]]).rank(), 0);
+        assert_eq!(Basis::from_span(&[]).complement(2).len(), 2);
+        assert_eq!(Basis::from_span(&[vec![0.0; 4]]).rank(), 0);
     }
 }

@@ -85,7 +85,7 @@ pub fn integrals<P: Poisson<f64>>(
         return Vec::new();
     }
     let fresh = sample(16);
-    let found = Basis::of_span(&rows).complement(unknowns);
+    let found = Basis::from_span(&rows).complement(unknowns);
     found
         .into_iter()
         .map(|coefficients| {

@@ -69,7 +69,7 @@ fn descend<P: LiePoisson<f64>>(system: &P, mut point: P::State, end: &P::State) 
         let gap: Vec<f64> = pairs(end, &point).map(|(a, b)| a - b).collect();
         let before = norm(&gap);
         let solution =
-            Basis::of_span(&poisson_columns(system, &point)).solve(&gap, system.dimension());
+            Basis::from_span(&poisson_columns(system, &point)).solve(&gap, system.dimension());
         xi.as_mut_slice().copy_from_slice(&solution);
         let factor = 1.0 / action(system, &xi).max(1.0);
         xi.as_mut_slice()

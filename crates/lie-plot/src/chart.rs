@@ -12,7 +12,7 @@
 //! assert!(picture.to_svg().contains("rk4"));
 //! ```
 
-use super::svg::{FAINT, INK, Place, Svg, thinned, width_of};
+use super::svg::{FAINT, INK, Place, Svg, text_width, thinned};
 use super::ticks::Axis as Ticks;
 
 const PANEL: Place = (300.0, 260.0);
@@ -55,7 +55,7 @@ pub(super) fn paint(number: usize) -> &'static str {
 }
 
 /// The number of the colour of one of so many, and whether it is named.
-pub(super) fn one_of(place: usize, many: usize) -> (usize, bool) {
+pub(super) fn shade_and_naming(place: usize, many: usize) -> (usize, bool) {
     if many <= COLOURS.len() {
         return (place, true);
     }
@@ -236,7 +236,7 @@ impl Chart {
         }
         let widths = names
             .iter()
-            .map(|series| width_of(&series.name, 12.0, false) + SAMPLE + 20.0);
+            .map(|series| text_width(&series.name, 12.0, false) + SAMPLE + 20.0);
         let stride = widths.fold(190.0, f64::max);
         let columns = ((width - 24.0) / stride).floor().max(1.0) as usize;
         for (place, series) in names.iter().enumerate() {

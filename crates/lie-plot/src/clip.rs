@@ -3,7 +3,7 @@
 use super::svg::Place;
 
 /// The least and the largest coordinates of places.
-pub(crate) fn around(places: impl Iterator<Item = Place>) -> Option<(Place, Place)> {
+pub(crate) fn bounding_box(places: impl Iterator<Item = Place>) -> Option<(Place, Place)> {
     places.fold(None, |bounds, (x, y)| {
         let ((a, b), (c, d)) = bounds.unwrap_or(((x, y), (x, y)));
         Some(((a.min(x), b.min(y)), (c.max(x), d.max(y))))

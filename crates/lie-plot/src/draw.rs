@@ -1,7 +1,7 @@
 //! Puts the picture together: panels above one another, legends beside them.
 
-use super::chart::{one_of, paint};
-use super::svg::{FAINT, INK, Svg, width_of};
+use super::chart::{paint, shade_and_naming};
+use super::svg::{FAINT, INK, Svg, text_width};
 use super::ticks::{Axis, power_of_ten};
 use super::{Curve, Plot, reference};
 
@@ -81,7 +81,7 @@ pub fn svg(plot: &Plot) -> String {
         panels.push(element(plot));
     }
     panels.push(errors(plot));
-    let wide = |text: &str| width_of(text, SMALL, false);
+    let wide = |text: &str| text_width(text, SMALL, false);
     let labels = panels.iter().flat_map(|panel| &panel.lines);
     let widest = labels.map(|line| wide(&line.label)).fold(0.0, f64::max);
     let legend = (widest + SAMPLE + 8.0).clamp(90.0, WIDEST);
@@ -232,7 +232,7 @@ impl Panel {
         if self.lines.len() <= NAMED {
             return ((self.colour)(index), true);
         }
-        let (shade, named) = one_of(index, self.lines.len());
+        let (shade, named) = shade_and_naming(index, self.lines.len());
         let name = paint(shade);
         (Colour { name, opacity: 0.8 }, named)
     }
@@ -343,7 +343,7 @@ fn draw_legend(svg: &mut Svg, panel: &Panel, (x, top): (f64, f64), height: f64) 
 
 /// A text that is as wide as that at most, cut off with dots where need be.
 fn shortened(text: &str, width: f64, size: f64) -> String {
-    let most = (width / width_of("m", size, false)) as usize;
+    let most = (width / text_width("m", size, false)) as usize;
     match text.char_indices().nth(most) {
         None => text.to_owned(),
         Some(_) => text.chars().take(most - 1).chain(['…']).collect(),

@@ -22,7 +22,7 @@
 mod front;
 mod look;
 
-use super::svg::{FAINT, INK, Place, Svg, width_of};
+use super::svg::{FAINT, INK, Place, Svg, text_width};
 use front::{fastest, front};
 use look::{Look, looks};
 
@@ -109,7 +109,7 @@ impl Panel<'_> {
     fn legend(&self) -> (usize, f64) {
         let rows = self.curves.len().div_ceil(2);
         // any name may be bold
-        let entry = |curve: &&Curve| SAMPLE + width_of(&curve.name, 11.0, true) + 10.0;
+        let entry = |curve: &&Curve| SAMPLE + text_width(&curve.name, 11.0, true) + 10.0;
         let widest = |curves: &[&Curve]| curves.iter().map(entry).fold(0.0, f64::max);
         let (first, second) = self.curves.split_at(rows);
         let column = widest(first).max(COLUMN);

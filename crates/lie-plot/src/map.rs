@@ -11,7 +11,7 @@
 //! assert!(map.to_svg().contains("rk4"));
 //! ```
 
-use super::svg::{INK, Svg, width_of};
+use super::svg::{INK, Svg, text_width};
 
 const CELL: f64 = 17.0;
 const ROW: f64 = 17.0;
@@ -125,7 +125,7 @@ impl Map {
         let (sine, cosine) = RISE.to_radians().sin_cos();
         let columns = self.columns.iter().zip(places);
         columns.fold((0.0, 0.0), |(right, rise), (column, x)| {
-            let length = width_of(&column.group, HEAD, true);
+            let length = text_width(&column.group, HEAD, true);
             let end = x + 6.0 + cosine * length;
             (f64::max(right, end), f64::max(rise, sine * length))
         })
@@ -153,7 +153,7 @@ fn legend(svg: &mut Svg, y: f64) {
         (Outcome::Growing, "energy error that grows"),
     ] {
         svg.text((x, y + 11.5), 11.5, &ink, text);
-        x += width_of(text, 11.5, false) + 8.0;
+        x += text_width(text, 11.5, false) + 8.0;
         for step in 0..=16 {
             let at = x + 10.0 * f64::from(step);
             let fill = format!("fill=\"{}\"", colour(kind(f64::from(step) - 16.0)));
@@ -175,6 +175,6 @@ fn legend(svg: &mut Svg, y: f64) {
         let fill = format!("fill=\"{}\" stroke=\"#ccc\"", colour(outcome));
         svg.rectangle((x, y), (14.0, 14.0), &fill, "");
         svg.text((x + 20.0, y + 11.5), 11.5, &ink, text);
-        x += 44.0 + width_of(text, 11.5, false);
+        x += 44.0 + text_width(text, 11.5, false);
     }
 }

@@ -1,6 +1,6 @@
 //! Phase portraits and sections: one coordinate against another.
 
-use super::chart::{Axis, Chart, Panel, Series, Stroke, one_of};
+use super::chart::{Axis, Chart, Panel, Series, Stroke, shade_and_naming};
 use super::surface::Surface;
 use super::svg::Place;
 use super::trace::Trace;
@@ -143,7 +143,7 @@ impl Phase {
         }
         let many = self.runs.len();
         for (place, run) in self.runs.iter().enumerate() {
-            let (colour, named) = one_of(place, many);
+            let (colour, named) = shade_and_naming(place, many);
             let name = if named && many > 1 { &run.name } else { "" };
             if !run.dots.is_empty() {
                 series.push(Series {

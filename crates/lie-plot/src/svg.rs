@@ -171,7 +171,7 @@ pub fn thinned(places: &[Place], distance: f64) -> Vec<Place> {
 }
 
 /// How wide a text is at most, about, in a common sans-serif font; bold ones are wider.
-pub fn width_of(text: &str, size: f64, bold: bool) -> f64 {
+pub fn text_width(text: &str, size: f64, bold: bool) -> f64 {
     let letter = if bold { 0.70 } else { 0.62 };
     letter * size * text.chars().count() as f64
 }
@@ -184,7 +184,7 @@ fn wrapped(text: &str, width: f64, size: f64) -> Vec<String> {
         let longer = format!("{line} {word}");
         if line.is_empty() {
             word.clone_into(line);
-        } else if width_of(&longer, size, false) <= width {
+        } else if text_width(&longer, size, false) <= width {
             *line = longer;
         } else {
             lines.push(word.to_owned());

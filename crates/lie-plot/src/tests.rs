@@ -128,7 +128,7 @@ fn texts(svg: &str, size: &str) -> Vec<(f64, f64, String)> {
 /// Whether texts of one line run into the sample before the next, so many pixels wide, or out of the picture.
 fn collide(texts: &[(f64, f64, String)], size: f64, sample: f64, width: f64) -> bool {
     texts.iter().any(|(x, y, text)| {
-        let end = x + svg::width_of(text, size, false);
+        let end = x + svg::text_width(text, size, false);
         end > width
             || texts
                 .iter()
@@ -169,7 +169,7 @@ fn heads_of_a_map_are_inside_and_its_colours_explained() {
             .parse()
             .expect("a number")
     };
-    let (width, length) = (number(" width=\""), svg::width_of(groups[1], 12.5, true));
+    let (width, length) = (number(" width=\""), svg::text_width(groups[1], 12.5, true));
     let heads = texts(&svg, "12.5");
     let (x, y, _) = heads
         .iter()
@@ -231,7 +231,7 @@ fn labels_of_an_axis_do_not_reach_its_title() {
         let labels = labels.filter(|(x, _, text)| *x < 250.0 && text.parse::<f64>().is_ok());
         for (x, _, text) in labels {
             assert!(
-                x - svg::width_of(&text, 15.0, false) > title,
+                x - svg::text_width(&text, 15.0, false) > title,
                 "{text} {scale}"
             );
         }

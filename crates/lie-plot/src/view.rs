@@ -1,7 +1,7 @@
 //! Pictures of space: what a curve on a coadjoint orbit or on the sphere of directions looks like from outside.
 
 use super::chart::paint;
-use super::clip::{around, clipped};
+use super::clip::{bounding_box, clipped};
 use super::contours::contours;
 use super::surface::{Field, Point, dot};
 use super::svg::{FAINT, INK, Place, Svg, thinned};
@@ -245,7 +245,7 @@ impl View {
             .flat_map(|(_, curve)| [&curve.front, &curve.back]);
         let corners = traces.filter_map(Trace::bounds);
         let corners = corners.flat_map(|(low, high)| [low, high]);
-        self.frame = around(shadow.chain(corners)).map(|((a, b), (c, d))| {
+        self.frame = bounding_box(shadow.chain(corners)).map(|((a, b), (c, d))| {
             let margin = LEEWAY * (c - a).max(d - b);
             ((a - margin, b - margin), (c + margin, d + margin))
         });
@@ -290,7 +290,7 @@ impl View {
             .frame
             .unwrap_or(((f64::MIN, f64::MIN), (f64::MAX, f64::MAX)));
         let kept = |(x, y): Place| (x.clamp(low.0, high.0), y.clamp(low.1, high.1));
-        let bounds = around(corners.chain(lines).map(kept));
+        let bounds = bounding_box(corners.chain(lines).map(kept));
         let ((left, bottom), (right, top)) = bounds.unwrap_or(((-1.0, -1.0), (1.0, 1.0)));
         let size = (right - left).max(top - bottom);
         let size = if size > 0.0 { 1.06 * size } else { 1.0 };

@@ -4,13 +4,13 @@ use crate::protocol::{Message, Wire};
 use std::io::{self, BufRead, ErrorKind, Read as _};
 
 /// Takes a message.
-pub type Take<'a, R> = dyn FnMut(Message<R>) -> io::Result<()> + 'a;
+pub type Sink<'a, R> = dyn FnMut(Message<R>) -> io::Result<()> + 'a;
 
 /// Hands on every message until the output of the program ends; a line that a killed program did not finish is dropped.
 ///
 /// # Errors
 /// The output cannot be read, a line is no message, or `take` does not go on.
-pub fn listen<R: Wire>(output: &mut dyn BufRead, take: &mut Take<'_, R>) -> io::Result<()> {
+pub fn listen<R: Wire>(output: &mut dyn BufRead, take: &mut Sink<'_, R>) -> io::Result<()> {
     let mut line = Vec::new();
     loop {
         line.clear();

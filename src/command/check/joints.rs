@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use lie_in_process::report::joints::{Methods, across};
+use lie_in_process::report::joints::{Methods, orders_across};
 use lie_symbolic::prove::joints::{Joint, reached};
 
 /// The joints by lines, and what methods lose.
@@ -20,7 +20,7 @@ pub(super) fn write(joints: &[Joint], methods: &Methods, text: &mut String) -> s
             "    no order is known of a method whose steps cross a joint that was not decided"
         );
     };
-    let lose = across(joints, methods).filter(|(_, order, _)| *order > most);
+    let lose = orders_across(joints, methods).filter(|(_, order, _)| *order > most);
     let lose: Vec<String> = lose
         .map(|(id, order, _)| format!("{id} ({order})"))
         .collect();

@@ -4,7 +4,7 @@ mod picture;
 mod table;
 
 use lie_codegen::program::{Purpose, confirming};
-use lie_in_process::request::{Given, Request, span};
+use lie_in_process::request::{OptionValue, Request, span};
 use lie_in_process::words::{counted, short};
 use lie_in_process::{list, table::text as aligned};
 use lie_measure::bench::{ClockKind, Found, Measure, Options, Plane, Point, Reference};
@@ -33,7 +33,7 @@ struct Results {
 
 impl Results {
     /// Takes what is found; answers how a method did in its runs, before their times are measured again.
-    fn take(&mut self, found: Found) -> Option<String> {
+    fn record(&mut self, found: Found) -> Option<String> {
         match found {
             Found::Reference(reference) => self.reference = Some(reference),
             Found::Section { plane, passages } => self.section = Some((plane, passages)),
@@ -99,7 +99,7 @@ pub fn run(arguments: &args::Bench) -> Result<u8, Failure> {
         measure,
     };
     let ended = bed.measure(flags, &program, options, &interrupt, &mut |found| {
-        results.take(found)
+        results.record(found)
     })?;
     if let Ended::Refused(what, why) = &ended {
         files::write(out, None, None)?;
@@ -109,7 +109,7 @@ pub fn run(arguments: &args::Bench) -> Result<u8, Failure> {
     let points = &results.points;
     let picture = || picture::draw(&bed, &options, points, results.reference);
     let wanted = !points.is_empty();
-    let quiet = Quiet::of(points, results.clock);
+    let quiet = Quiet::new(points, results.clock);
     // a file that cannot be written does not take the table with it, nor the other way round
     let printed = print(&report(&bed, &options, &results, &quiet, program.engine()));
     let table = || csv(points, measure);
@@ -148,7 +148,7 @@ fn refused(system: &str, what: Obstacle, why: &str) -> Failure {
 
 fn positive(flag: &'static str, text: Option<&String>) -> Result<Option<f64>, Failure> {
     let Some(text) = text else { return Ok(None) };
-    let given = Given::flag(flag, text);
+    let given = OptionValue::flag(flag, text);
     let value = given.number()?;
     if value > 0.0 {
         return Ok(Some(value));
@@ -292,21 +292,21 @@ mod tests {
             point("rk4", 0.05, 6e-5, 6e-6),
             point("midpoint", 0.1, 2e-3, 5e-6),
         ] {
-            assert_eq!(results.take(Found::Point(found)), None);
+            assert_eq!(results.record(Found::Point(found)), None);
         }
         let method = "rk4".to_owned();
         assert_eq!(
-            results.take(Found::Climbed { method }).as_deref(),
+            results.record(Found::Climbed { method }).as_deref(),
             Some("rk4: 2 runs, errors 1.0e-3 to 6.0e-5 in 6.00 microseconds per unit of time")
         );
         assert_eq!(
-            results.take(Found::Point(point("rk4", 0.1, 1e-3, 2e-6))),
+            results.record(Found::Point(point("rk4", 0.1, 1e-3, 2e-6))),
             None
         );
         let times: Vec<f64> = results.points.iter().map(|p| p.seconds).collect();
         assert_eq!(times, [2e-6, 6e-6, 5e-6]);
         let method = "midpoint --none".to_owned();
-        let line = results.take(Found::Climbed { method });
+        let line = results.record(Found::Climbed { method });
         assert_eq!(
             line.as_deref(),
             Some("midpoint --none: no run came to its end")

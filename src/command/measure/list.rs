@@ -2,7 +2,7 @@
 
 use lie_codegen::methods::Choice;
 use lie_codegen::structure::Structure;
-use lie_in_process::request::{Front, Given, method};
+use lie_in_process::request::{Front, OptionValue, method};
 
 use crate::message::Message;
 
@@ -11,12 +11,12 @@ use crate::message::Message;
 /// # Errors
 /// Every mistake, at its place in the list.
 pub fn parse(text: &str, model: &Structure) -> Result<Vec<Choice>, Vec<Message>> {
-    let whole = Given::flag("--methods", text);
+    let whole = OptionValue::flag("--methods", text);
     let mut choices: Vec<Choice> = Vec::new();
     let mut mistakes = Vec::new();
     for given in whole.split() {
         let place = given.wrong("").place;
-        match method::all(&given.text, model, Front::Command) {
+        match method::expand(&given.text, model, Front::Command) {
             Ok(chosen) => {
                 for choice in chosen {
                     if !choices.contains(&choice) {
@@ -24,7 +24,7 @@ pub fn parse(text: &str, model: &Structure) -> Result<Vec<Choice>, Vec<Message>>
                     }
                 }
             }
-            Err(message) => mistakes.push(message.at(place)),
+            Err(message) => mistakes.push(message.at_place(place)),
         }
     }
     if mistakes.is_empty() {

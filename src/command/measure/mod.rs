@@ -102,7 +102,7 @@ fn measurable(
         let message = Message::option("--compile", text);
         return Err(message.help(help).into());
     }
-    let limit = Limit::of(purpose);
+    let limit = Limit::for_purpose(purpose);
     let exceeded = limit.and_then(|limit| limit.exceeded(&spec.model, point.initial.len()));
     let Some((text, help)) = exceeded else {
         return Ok(());
@@ -120,7 +120,7 @@ impl Bed {
         let model = &self.spec.model;
         let names = model.parameters.iter().map(|p| p.name.clone());
         let parameters = names.zip(self.point.parameters.iter().copied()).collect();
-        Layout::of(model, None, &parameters)
+        Layout::new(model, None, &parameters)
     }
 
     /// What measures these methods: this program, or one that is built.
@@ -134,14 +134,14 @@ impl Bed {
         interrupt: &Interrupt,
     ) -> Result<Worker, Failure> {
         if !flags.is_compiled()
-            && let Some(worker) = build::here(&self.spec.model, &self.choices, purpose)
+            && let Some(worker) = build::in_process_worker(&self.spec.model, &self.choices, purpose)
         {
             return Ok(worker);
         }
         let request = Request {
             name: &self.spec.model.name,
             source: &program(&self.spec.model, &self.choices, purpose),
-            processor: Processor::of(flags.cpu.unwrap_or_default(), flags.fma)?,
+            processor: Processor::from_options(flags.cpu.unwrap_or_default(), flags.fma)?,
             quiet: flags.quiet,
             purpose,
         };
@@ -169,7 +169,7 @@ impl Bed {
             start: self.point.clone().named(&self.spec),
             options,
         };
-        let bar = Bar::of_stages(!flags.quiet);
+        let bar = Bar::for_stages(!flags.quiet);
         let outcome = worker.talk(
             request,
             interrupt,

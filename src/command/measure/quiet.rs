@@ -43,7 +43,7 @@ pub fn percent(part: f64) -> String {
 
 impl Quiet {
     /// From all points, by the clock of the program.
-    pub fn of(points: &[Point], clock: ClockKind) -> Self {
+    pub fn new(points: &[Point], clock: ClockKind) -> Self {
         let elsewhere = points.iter().map(|p| (1.0 - p.median / p.wall).max(0.0));
         Self {
             processor: clock == ClockKind::Processor,
@@ -114,7 +114,7 @@ mod tests {
 
     #[test]
     fn what_is_said_of_a_quiet_and_of_a_busy_machine() {
-        let of = |points: &[Point]| Quiet::of(points, ClockKind::Processor);
+        let of = |points: &[Point]| Quiet::new(points, ClockKind::Processor);
         let calm = [point(1.0, 1.02, 1.03), point(2.0, 2.1, 2.1)];
         assert_eq!(of(&calm).warning(), None);
         assert!(of(&calm).text().contains("of the processor"));
@@ -126,7 +126,7 @@ mod tests {
         let warning = of(&unsteady).warning().expect("a warning");
         assert!(warning.contains("40 % above the least") && !warning.contains("had the processor"));
         // without a clock of the processor, wall time alone
-        let wall = Quiet::of(&unsteady, ClockKind::Wall);
+        let wall = Quiet::new(&unsteady, ClockKind::Wall);
         assert!(wall.text().contains("wall time") && wall.warning().is_some());
     }
 }

@@ -1,6 +1,6 @@
 //! The sense in which `lie bench` measures errors: from the flags, and in words.
 
-use lie_in_process::request::Given;
+use lie_in_process::request::OptionValue;
 use lie_measure::bench::{Measure, Plane};
 use lie_syntax::front::names::normalised;
 use lie_syntax::suggest::did_you_mean;
@@ -71,7 +71,7 @@ pub fn measure(arguments: &args::Bench, bed: &Bed) -> Result<Measure, Failure> {
 fn surface(text: &str, bed: &Bed) -> Result<Plane, Message> {
     let layout = bed.layout();
     let names = || layout.coordinates().iter().map(String::as_str);
-    let given = Given::flag("--section", text);
+    let given = OptionValue::flag("--section", text);
     let Some(equals) = text.find('=') else {
         let example = names().next().unwrap_or("x").to_owned();
         let message = given.wrong(format!("`{text}` is not NAME=VALUE"));

@@ -2,7 +2,7 @@
 
 use lie_codegen::program::Purpose;
 use lie_in_process::list;
-use lie_in_process::request::Given;
+use lie_in_process::request::OptionValue;
 use lie_in_process::stress::{self, Results, cell_text, methods};
 use lie_in_process::table;
 use lie_in_process::words::{counted, short};
@@ -51,7 +51,7 @@ fn outcome(cell: &Cell) -> map::Outcome {
 pub fn run(arguments: &args::Stress) -> Result<u8, Failure> {
     let flags = &arguments.measured;
     let help = "give the number of steps of the long run, such as 1000000";
-    let steps = Given::flag("--steps", &arguments.steps).count();
+    let steps = OptionValue::flag("--steps", &arguments.steps).count();
     let steps = steps.map_err(|message| message.help(help))?;
     let bed = bed(flags, Purpose::Stress, |spec| list::fewer(&spec.model))?;
     let out = files::open("--out", arguments.out.as_deref(), &flags.spec)?;
@@ -61,7 +61,7 @@ pub fn run(arguments: &args::Stress) -> Result<u8, Failure> {
     let mut results = Results::default();
     let options = Options { steps };
     let ended = bed.measure(flags, &program, options, &interrupt, &mut |found| {
-        results.take(found)
+        results.record(found)
     })?;
     if let Ended::Refused(_, why) = &ended {
         files::write(out, None, None)?;
@@ -173,7 +173,7 @@ fn report(bed: &Bed, results: &Results, steps: u64) -> String {
             model.casimirs.len()
         ));
     }
-    let stopped = results.of(Outcome::Stopped);
+    let stopped = results.with_outcome(Outcome::Stopped);
     if !stopped.is_empty() {
         text.push_str(&format!("\n{} stopped with a message:\n", stopped.len()));
         for cell in stopped {

@@ -38,7 +38,7 @@ const SINGLE: [&str; 7] = [
 /// Invalid input, or surroundings that fail.
 pub fn run(arguments: &args::Verify) -> Result<u8, Failure> {
     let flags = &arguments.measured;
-    let bed = bed(flags, Purpose::Verify, |spec| list::all(&spec.model))?;
+    let bed = bed(flags, Purpose::Verify, |spec| list::applicable(&spec.model))?;
     let request = Request {
         step: arguments.step.clone(),
         ..Request::default()
@@ -49,9 +49,9 @@ pub fn run(arguments: &args::Verify) -> Result<u8, Failure> {
     let model = &bed.spec.model;
     let options = options(model, step, arguments.seed.into());
     let (text, parameters) = (&bed.spec.source.text, &bed.point.parameters);
-    let mut results = Results::before(Evidence::of_spec(text, model, parameters));
+    let mut results = Results::new(Evidence::from_spec(text, model, parameters));
     let ended = bed.measure(flags, &program, options, &interrupt, &mut |found| {
-        results.take(found)
+        results.record(found)
     })?;
     if let Ended::Refused(what, why) = &ended {
         let what = match what {

@@ -48,7 +48,7 @@ pub(super) fn command_line(flags: &args::Report, out: &Path) -> String {
 }
 
 /// What a command said.
-pub(super) struct Said {
+pub(super) struct CommandOutput {
     pub(super) code: u8,
     pub(super) out: String,
     pub(super) error: String,
@@ -63,7 +63,7 @@ impl Report<'_> {
         &mut self,
         words: &[String],
         files: &[(&str, &str)],
-    ) -> Result<Option<(String, Said)>, Failure> {
+    ) -> Result<Option<(String, CommandOutput)>, Failure> {
         let called = self.attempt(words, files)?;
         if let Some((_, said)) = &called
             && said.code == INVALID
@@ -82,7 +82,7 @@ impl Report<'_> {
         &mut self,
         words: &[String],
         files: &[(&str, &str)],
-    ) -> Result<Option<(String, Said)>, Failure> {
+    ) -> Result<Option<(String, CommandOutput)>, Failure> {
         if self.interrupt.seen().is_some() {
             return Ok(None);
         }
@@ -112,7 +112,7 @@ impl Report<'_> {
             .status
             .code()
             .and_then(|code| u8::try_from(code).ok());
-        let said = Said {
+        let said = CommandOutput {
             code: code.unwrap_or(SURROUNDINGS),
             out: text(&output.stdout),
             error: text(&output.stderr),

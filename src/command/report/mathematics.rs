@@ -11,7 +11,7 @@ use super::mathml::{formula, identifier};
 const MOST: usize = 24;
 
 /// Formulas under their titles.
-pub fn of(model: &Structure) -> Vec<(&'static str, Vec<String>)> {
+pub fn formulas(model: &Structure) -> Vec<(&'static str, Vec<String>)> {
     let names = names(model);
     let mut all = Vec::new();
     let brackets = brackets(model, &names);

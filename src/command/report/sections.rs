@@ -4,7 +4,7 @@ use lie_codegen::structure::Structure;
 use lie_in_process::request::{Front, method};
 use lie_poisson::plot::surface::Point;
 
-use super::call::Said;
+use super::call::CommandOutput;
 use super::{Report, mathematics, scene};
 use crate::build;
 use crate::command::run::picture::choice::no_orbit;
@@ -31,7 +31,7 @@ impl Report<'_> {
         };
         self.page.section("The system");
         let model = &self.spec.model;
-        for (title, formulas) in mathematics::of(model) {
+        for (title, formulas) in mathematics::formulas(model) {
             self.page.text(title);
             self.page.formulas(&formulas);
         }
@@ -71,7 +71,7 @@ impl Report<'_> {
     }
 
     /// What a run said, and whether it stopped early.
-    fn ended(&mut self, said: &Said) {
+    fn ended(&mut self, said: &CommandOutput) {
         match said.code {
             0 => self.page.preformatted(&said.error),
             code => {

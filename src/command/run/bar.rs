@@ -32,7 +32,7 @@ impl Bar {
     }
 
     /// A bar that counts parts of the work and names the one that it is at; without a terminal, lines.
-    pub fn of_stages(wanted: bool) -> Self {
+    pub fn for_stages(wanted: bool) -> Self {
         Self::of(wanted, "{bar:30} {percent}%, {elapsed}: {wide_msg}")
     }
 

@@ -22,10 +22,14 @@ pub struct Layout {
 
 impl Layout {
     /// The columns of a run.
-    pub fn of(model: &Structure, chart: Option<Chart>, parameters: &BTreeMap<String, f64>) -> Self {
+    pub fn new(
+        model: &Structure,
+        chart: Option<Chart>,
+        parameters: &BTreeMap<String, f64>,
+    ) -> Self {
         match &model.family {
             Some(family) => Self::of_family(model, family, parameters),
-            None => Self::new(model, chart),
+            None => Self::of_system(model, chart),
         }
     }
 
@@ -35,7 +39,7 @@ impl Layout {
     }
 
     /// The columns of a system, with those of a group element.
-    fn new(model: &Structure, chart: Option<Chart>) -> Self {
+    fn of_system(model: &Structure, chart: Option<Chart>) -> Self {
         let states = model.shown_coordinates();
         let coordinates = states.iter().map(|&i| model.coordinates[i].text.clone());
         let casimirs = model.casimirs.iter().map(|casimir| casimir.name.clone());

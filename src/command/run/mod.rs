@@ -39,7 +39,7 @@ pub fn run(flags: &args::Run) -> Result<u8, Failure> {
         let help = "run them one after the other; `lie check` takes several";
         return Err(Message::option("SPEC", text).help(help).into());
     };
-    Processor::of(flags.cpu.unwrap_or_default(), flags.fma)?;
+    Processor::from_options(flags.cpu.unwrap_or_default(), flags.fma)?;
     let spec = compiler::load(path)?;
     let several = several(&spec, &flags.request).map_err(Failure::invalid)?;
     let layout = layout(&spec, &several)?;
@@ -67,14 +67,14 @@ pub fn run(flags: &args::Run) -> Result<u8, Failure> {
         workers: &workers,
         interrupt: &interrupt,
     }
-    .all(Rows::new(outputs.rows, format, header), picture)
+    .run_all(Rows::new(outputs.rows, format, header), picture)
 }
 
 /// The columns, which all runs have in common.
 fn layout(spec: &Spec, several: &Several) -> Result<Layout, Failure> {
     let of = |member: &Member| {
         let chart = several.plans[member.plan].chart;
-        Layout::of(&spec.model, chart, &member.start.parameters)
+        Layout::new(&spec.model, chart, &member.start.parameters)
     };
     let first = of(&several.members[0]);
     let members = match spec.model.family {
@@ -99,13 +99,13 @@ fn workers(
     flags: &args::Run,
     interrupt: &Interrupt,
 ) -> Result<Vec<Arc<Worker>>, Failure> {
-    let processor = Processor::of(flags.cpu.unwrap_or_default(), flags.fma)?;
+    let processor = Processor::from_options(flags.cpu.unwrap_or_default(), flags.fma)?;
     let chart = plans.first().and_then(|plan| plan.chart);
     let purpose = chart.map_or(Purpose::Run, Purpose::OnGroup);
     let compiled = flags.compile || flags.fma || flags.cpu.is_some();
     let here = plans.iter().map(|plan| {
         let methods = std::slice::from_ref(&plan.method);
-        (!compiled).then(|| build::here(&spec.model, methods, purpose))?
+        (!compiled).then(|| build::in_process_worker(&spec.model, methods, purpose))?
     });
     let here: Vec<Option<Arc<Worker>>> = here.map(|worker| worker.map(Arc::new)).collect();
     let rest = plans.iter().zip(&here).filter(|(_, here)| here.is_none());

@@ -120,7 +120,7 @@ impl<'a, 'p> Reception<'a, 'p> {
     ///
     /// # Errors
     /// `InvalidData` for rows that are not those of the system; what the destination says.
-    pub fn take(&mut self, found: Found) -> io::Result<()> {
+    pub fn record(&mut self, found: Found) -> io::Result<()> {
         match found {
             Found::Chosen(chosen) => {
                 self.received.step = chosen.step;

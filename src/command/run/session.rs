@@ -39,7 +39,7 @@ impl Session<'_> {
     ///
     /// # Errors
     /// As of `lie run`.
-    pub fn all(
+    pub fn run_all(
         &self,
         mut rows: Rows,
         mut picture: Option<(Picture<'_>, Form, Destination)>,
@@ -122,7 +122,7 @@ impl Session<'_> {
             parameters: member.parameters.clone(),
             step: f64::NAN,
         };
-        let layout = Layout::of(&self.spec.model, plan.chart, &member.start.parameters);
+        let layout = Layout::new(&self.spec.model, plan.chart, &member.start.parameters);
         if let Some(picture) = &mut picture {
             picture.begin(&self.short_name(number, member), plan, &member.start);
         }
@@ -137,7 +137,7 @@ impl Session<'_> {
         let outcome = worker.talk(
             request,
             self.interrupt,
-            &mut |found| reception.take(found),
+            &mut |found| reception.record(found),
             &mut |progress| bar.show(before * progress.all + progress.done, all * progress.all),
         );
         let outcome = match outcome {
@@ -187,7 +187,7 @@ impl Session<'_> {
     ) {
         let plan = &self.several.plans[member.plan];
         let (work, drift) = (&received.work, &received.drift);
-        tally.take(member.plan, number, received);
+        tally.record(member.plan, number, received);
         if self.several.labels.is_none() {
             for note in of_tolerance(received) {
                 eprintln!("{}", folded(&note));

@@ -75,7 +75,7 @@ impl Tally {
     }
 
     /// Takes a run that reached its end.
-    pub fn take(&mut self, method: usize, run: usize, received: &Received) {
+    pub fn record(&mut self, method: usize, run: usize, received: &Received) {
         self.at_round_off += u64::from(received.at_round_off);
         self.divided += u64::from(received.divided.is_some());
         self.missed += u64::from(received.missed());

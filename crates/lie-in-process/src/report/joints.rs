@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 pub type Methods = [(&'static str, Option<String>)];
 
 /// The methods that apply, with their orders and those that they have across the joints.
-pub fn across<'a>(
+pub fn orders_across<'a>(
     joints: &'a [Joint],
     methods: &'a Methods,
 ) -> impl Iterator<Item = (&'static str, u32, Option<u32>)> + 'a {
@@ -38,6 +38,6 @@ pub(super) fn orders(joints: &[Joint], methods: &Methods) -> Value {
     if joints.is_empty() {
         return Value::Null;
     }
-    let orders = across(joints, methods).map(|(id, _, order)| (id.to_owned(), order.into()));
+    let orders = orders_across(joints, methods).map(|(id, _, order)| (id.to_owned(), order.into()));
     Value::Object(orders.collect())
 }

@@ -24,7 +24,7 @@ pub struct Report {
 
 impl Report {
     /// The methods, and what their code costs.
-    pub fn on(model: &Structure) -> Self {
+    pub fn new(model: &Structure) -> Self {
         let plan = lie_codegen::plan::plan(model, &compile::declared_choices(model));
         let operations = plan
             .counts()
@@ -34,7 +34,7 @@ impl Report {
         Self {
             operations,
             methods: applicability(model),
-            splitting: splitting::of(model),
+            splitting: splitting::find(model),
         }
     }
 

@@ -18,7 +18,7 @@ pub struct Splitting {
 ///
 /// # Errors
 /// Why there are none.
-pub(super) fn of(model: &Structure) -> Result<Splitting, String> {
+pub(super) fn find(model: &Structure) -> Result<Splitting, String> {
     if let Some(found) = &model.family_pieces {
         let found = found.as_ref().map_err(String::clone)?;
         let terms = Terms {

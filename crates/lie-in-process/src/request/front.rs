@@ -41,7 +41,7 @@ impl Front {
     }
 
     /// An option with a value: `--step 0.1` between backticks, `h=0.1`, `converge="state"`; the method alone.
-    pub fn with(self, name: &str, value: &str) -> String {
+    pub fn assignment(self, name: &str, value: &str) -> String {
         let option = self.option(name);
         let number = value.starts_with(|c: char| c.is_ascii_digit() || "-[".contains(c));
         match self {
@@ -61,7 +61,7 @@ impl Front {
     }
 
     /// What the compiler says to users of the command, in words for these.
-    pub fn told(self, text: &str) -> String {
+    pub fn reword(self, text: &str) -> String {
         match self {
             Self::Command => text.to_owned(),
             Self::Call => text

@@ -14,7 +14,7 @@ const SPANS: (f64, f64) = (20.0, 10.0);
 /// There is nothing to integrate.
 pub fn span(spec: &Spec, request: &Request) -> Result<f64, Message> {
     let planner = Planner::new(spec, request);
-    let Some(given) = planner.asked("until") else {
+    let Some(given) = planner.requested("until") else {
         let declared = planner.in_spec("until");
         let declared = declared.iter().find_map(|given| constant(&given.text).ok());
         let (longest, usual) = SPANS;
@@ -22,7 +22,7 @@ pub fn span(spec: &Spec, request: &Request) -> Result<f64, Message> {
     };
     let value = given.number()?;
     if value == 0.0 {
-        let example = request.front.with("until", "10");
+        let example = request.front.assignment("until", "10");
         let message = given.wrong("there is nothing to integrate until t = 0");
         return Err(message.help(format!("give an end such as {example}")));
     }
@@ -34,12 +34,12 @@ pub fn span(spec: &Spec, request: &Request) -> Result<f64, Message> {
 /// # Errors
 /// It measures nothing.
 pub fn step_of_facts(spec: &Spec, request: &Request) -> Result<Option<f64>, Message> {
-    let Some(given) = Planner::new(spec, request).asked("step") else {
+    let Some(given) = Planner::new(spec, request).requested("step") else {
         return Ok(None);
     };
     let value = given.number()?;
     if value == 0.0 {
-        let example = request.front.with("step", "0.1");
+        let example = request.front.assignment("step", "0.1");
         let message = given.wrong("a step of zero measures nothing");
         return Err(message.help(format!("leave it out, or give a step such as {example}")));
     }

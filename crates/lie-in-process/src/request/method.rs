@@ -28,7 +28,7 @@ pub fn labelled(text: &str, front: Front) -> Result<Choice, Message> {
         return Err(message.help("name one, such as `lie-midpoint`, or leave it out"));
     }
     Choice::from_label(text.trim()).map_err(|unusable| {
-        let help = front.told(&unusable.help);
+        let help = front.reword(&unusable.help);
         Message::new(Kind::Method, unusable.message).help(help)
     })
 }
@@ -38,7 +38,7 @@ pub fn labelled(text: &str, front: Front) -> Result<Choice, Message> {
 ///
 /// # Errors
 /// As of [`labelled`] and [`applies`].
-pub fn all(text: &str, model: &Structure, front: Front) -> Result<Vec<Choice>, Message> {
+pub fn expand(text: &str, model: &Structure, front: Front) -> Result<Vec<Choice>, Message> {
     let choice = labelled(text, front)?;
     let all = match text.contains("--") {
         true => Vec::new(),

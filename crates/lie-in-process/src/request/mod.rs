@@ -6,10 +6,10 @@
 //! `solver`, `times` or `plan`; a call from Python has it as an argument of the same name.
 
 mod front;
-mod given;
 mod measured;
 pub mod method;
 mod npy;
+mod option_value;
 mod plan;
 mod runs;
 mod several;
@@ -25,8 +25,8 @@ use std::path::PathBuf;
 use serde::{Deserialize, Serialize};
 
 pub use front::Front;
-pub use given::{Given, constant};
 pub use measured::{span, step_of_facts};
+pub use option_value::{OptionValue, constant};
 pub use plan::{Plan, Point, plan, start};
 pub use runs::{Labels, Member, Several};
 pub use several::several;
@@ -174,9 +174,9 @@ mod tests {
     #[test]
     fn options_are_spelt_as_they_are_written() {
         let (command, call) = (Front::Command, Front::Call);
-        assert_eq!(command.with("step", "0.1"), "`--step 0.1`");
-        assert_eq!(call.with("step", "0.1"), "h=0.1");
-        assert_eq!(call.with("converge", "state"), "converge=\"state\"");
+        assert_eq!(command.assignment("step", "0.1"), "`--step 0.1`");
+        assert_eq!(call.assignment("step", "0.1"), "h=0.1");
+        assert_eq!(call.assignment("converge", "state"), "converge=\"state\"");
         assert_eq!(call.option("newton-tolerance"), "newton_tolerance");
         for name in ["step", "until", "initial", "newton-tolerance", "at"] {
             assert_eq!(Front::canonical(&call.option(name)), name);

@@ -7,7 +7,7 @@ use lie_program::protocol::{Run, Start, Times, Tolerances};
 use lie_runtime::driver::Pace;
 use lie_runtime::newton::NewtonOptions;
 
-use super::{Given, Request, method};
+use super::{OptionValue, Request, method};
 use crate::message::{Fault, Message};
 use crate::spec::Spec;
 
@@ -179,7 +179,7 @@ impl<'a> Planner<'a> {
     }
 
     /// What the spec's `run` says under a name.
-    pub(super) fn in_spec(&self, name: &str) -> Vec<Given> {
+    pub(super) fn in_spec(&self, name: &str) -> Vec<OptionValue> {
         let options = self
             .spec
             .model
@@ -188,31 +188,31 @@ impl<'a> Planner<'a> {
             .filter(|option| option.name.text == name);
         let values = options.flat_map(|option| &option.values);
         values
-            .map(|(text, origin)| Given::spec(&self.spec.source, text, *origin))
+            .map(|(text, origin)| OptionValue::spec(&self.spec.source, text, *origin))
             .collect()
     }
 
     /// An option of the request.
-    pub(super) fn asked(&self, name: &str) -> Option<Given> {
+    pub(super) fn requested(&self, name: &str) -> Option<OptionValue> {
         let value = self.request.get(name)?;
-        Some(Given::value(&self.request.front.option(name), value))
+        Some(OptionValue::value(&self.request.front.option(name), value))
     }
 
     /// An option: of the request, else of the spec.
-    pub(super) fn given(&self, name: &str) -> Option<Given> {
-        self.asked(name)
+    pub(super) fn option(&self, name: &str) -> Option<OptionValue> {
+        self.requested(name)
             .or_else(|| self.in_spec(name).into_iter().next())
     }
 
     /// An option of the method or its solver. What the spec says of these belongs to the method of the spec.
-    pub(super) fn of_method(&self, name: &str) -> Option<Given> {
+    pub(super) fn method_option(&self, name: &str) -> Option<OptionValue> {
         let own = self.request.method.is_empty() && !self.picks();
-        self.asked(name)
+        self.requested(name)
             .or_else(|| self.in_spec(name).into_iter().next().filter(|_| own))
     }
 
     /// A mistake at an option as a whole.
-    pub(super) fn at(&self, name: &str, text: impl Into<String>) -> Message {
+    pub(super) fn option_mistake(&self, name: &str, text: impl Into<String>) -> Message {
         Message::option(&self.request.front.option(name), text)
     }
 
@@ -227,11 +227,11 @@ impl<'a> Planner<'a> {
     }
 
     /// The method as it is given, or the usual one.
-    fn label(&self) -> Given {
+    fn label(&self) -> OptionValue {
         let picks = self.picks();
         let option = self.request.front.option("method");
         if let Some(label) = self.request.method.first() {
-            return Given::flag(&option, label);
+            return OptionValue::flag(&option, label);
         }
         if let (Some(given), false) = (self.in_spec("method").into_iter().next(), picks) {
             return given;
@@ -245,23 +245,24 @@ impl<'a> Planner<'a> {
         } else {
             METHODS[usize::from(!model.is_lie_poisson())]
         };
-        Given::flag(&option, usual)
+        OptionValue::flag(&option, usual)
     }
 
     fn method(&mut self) -> Option<Choice> {
         let front = self.request.front;
         let id = self.label();
         let place = id.wrong("").place;
-        let found = method::labelled(&id.text, front).map_err(|message| message.at(place.clone()));
+        let found =
+            method::labelled(&id.text, front).map_err(|message| message.at_place(place.clone()));
         let mut choice = self.keep(found)?;
         for name in method::OPTIONS {
             if id.text.contains(&format!("--{name}")) {
-                if let Some(given) = self.asked(name) {
+                if let Some(given) = self.requested(name) {
                     self.twice(name, &given, &id.text);
                 }
                 continue;
             }
-            let Some(given) = self.of_method(name) else {
+            let Some(given) = self.method_option(name) else {
                 continue;
             };
             match choice.clone().with_option(name, &given.text) {
@@ -278,11 +279,11 @@ impl<'a> Planner<'a> {
             }
         }
         let applies = method::applies(choice, &self.spec.model);
-        self.keep(applies.map_err(|message| message.at(place)))
+        self.keep(applies.map_err(|message| message.at_place(place)))
     }
 
     fn chart(&mut self) -> Option<Chart> {
-        let given = self.given("group")?;
+        let given = self.option("group")?;
         let chart = match given.text.trim() {
             "matrix" => Chart::Matrix,
             "quaternion" => Chart::Quaternion,
@@ -305,13 +306,13 @@ impl<'a> Planner<'a> {
     pub(super) fn foreign(&mut self, name: &str, message: Message) {
         self.foreign.push(Foreign {
             name: name.to_owned(),
-            message: message.of(Fault::Method),
+            message: message.with_fault(Fault::Method),
             own: false,
         });
     }
 
     /// An option of which the method has another value behind its id.
-    fn twice(&mut self, name: &str, given: &Given, label: &str) {
+    fn twice(&mut self, name: &str, given: &OptionValue, label: &str) {
         let text = format!("no method takes this flag: `{}` has its own", label.trim());
         let help = format!("leave out `--{name}`, or what stands behind the method");
         self.foreign.push(Foreign {

@@ -5,7 +5,7 @@ use lie_syntax::diagnostic::Kind;
 
 use super::plan::{Foreign, Planned, Planner, planned};
 use super::states::{States, states};
-use super::{Front, Given, Labels, Member, Parameter, Plan, Point, Request, Several, Value};
+use super::{Front, Labels, Member, OptionValue, Parameter, Plan, Point, Request, Several, Value};
 use crate::message::Message;
 use crate::spec::Spec;
 
@@ -201,7 +201,8 @@ fn sweeps(request: &Request) -> Result<(Vec<Sweep>, Vec<Parameter>), Vec<Message
             fixed.push(parameter.clone());
             continue;
         };
-        let given = Given::flag(&front.option("param"), text).part(name.len() + 1..text.len());
+        let given =
+            OptionValue::flag(&front.option("param"), text).part(name.len() + 1..text.len());
         match values(front, &given, range) {
             Ok(values) => {
                 runs = runs.saturating_mul(values.len());
@@ -221,7 +222,7 @@ fn sweeps(request: &Request) -> Result<(Vec<Sweep>, Vec<Parameter>), Vec<Message
 }
 
 /// The values of `FROM:TO:COUNT`, at equal distances, both ends among them.
-fn values(front: Front, given: &Given, range: &str) -> Result<Vec<f64>, Message> {
+fn values(front: Front, given: &OptionValue, range: &str) -> Result<Vec<f64>, Message> {
     let mut parts = Vec::new();
     let mut from = 0;
     for part in range.split(':') {
@@ -238,7 +239,7 @@ fn values(front: Front, given: &Given, range: &str) -> Result<Vec<f64>, Message>
     let help = format!("give the number of values, at least 1, such as {example}");
     let count = count.count().map_err(|message| message.help(help))? as usize;
     if count > MOST {
-        return Err(too_many(front, count).at(given.wrong("").place));
+        return Err(too_many(front, count).at_place(given.wrong("").place));
     }
     if count == 1 && from != to {
         let message = given.wrong("one value cannot be both ends");

@@ -14,7 +14,7 @@ use crate::words::counted;
 impl Planner<'_> {
     /// The initial state of a family: the values of `--initial`, the first coordinates of all sites, then the second and
     /// so on, or what the spec says.
-    pub(super) fn of_family(&mut self, family: &Family, parameters: &[f64]) -> Option<Vec<f64>> {
+    pub(super) fn family_state(&mut self, family: &Family, parameters: &[f64]) -> Option<Vec<f64>> {
         let n = self.spec.model.dimension();
         let Some([rows, columns]) = family.sites(parameters) else {
             let text = "the number of sites is a whole number from 1 to 2147483648";
@@ -25,7 +25,7 @@ impl Planner<'_> {
             return None;
         };
         let sites = rows * columns;
-        let Some(given) = self.asked("initial") else {
+        let Some(given) = self.requested("initial") else {
             return match &family.start {
                 Some(Start::UnitSpheres(seed)) => Some(unit_spheres(sites, n, *seed)),
                 Some(Start::File(path)) => self.file(&path.text, path.origin, [rows, columns]),
@@ -35,7 +35,9 @@ impl Planner<'_> {
                         "write `\"initial\": {{\"random\": \"unit-sphere\", \"seed\": 1}}` or `{{\"npy\": \"chain.npy\"}}`, or give the values by `{}`",
                         self.request.front.option("initial")
                     );
-                    let message = self.at("initial", text).of(Fault::Arguments);
+                    let message = self
+                        .option_mistake("initial", text)
+                        .with_fault(Fault::Arguments);
                     self.mistakes.push(message.help(help));
                     None
                 }
@@ -70,7 +72,7 @@ impl Planner<'_> {
         let path = folder.join(name);
         let mut refuse = |kind, text: String, help: &str| {
             let text = format!("{}: {text}", path.display());
-            let message = Message::new(kind, text).at(place.clone());
+            let message = Message::new(kind, text).at_place(place.clone());
             self.mistakes.push(message.help(help));
             None
         };

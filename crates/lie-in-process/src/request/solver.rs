@@ -6,7 +6,7 @@ use lie_runtime::driver::Pace;
 use lie_runtime::newton::{Convergence, NewtonOptions};
 
 use super::plan::Planner;
-use super::{Given, method};
+use super::{OptionValue, method};
 use crate::message::Message;
 
 /// The relative tolerance of methods by series, unless another is given.
@@ -32,13 +32,16 @@ impl Planner<'_> {
             ),
             ("atol", "dopri5", &mut tolerances.atol),
         ] {
-            let Some(given) = self.of_method(name) else {
+            let Some(given) = self.method_option(name) else {
                 continue;
             };
             if !method::takes(choice, name) {
                 let (id, name) = (choice.id(), front.named(name));
                 let text = format!("`{name}` is not an option of {id}: {owners} alone have it");
-                let help = format!("take {}, or leave it out", front.with("method", "dopri5"));
+                let help = format!(
+                    "take {}, or leave it out",
+                    front.assignment("method", "dopri5")
+                );
                 self.foreign(&name, given.wrong(text).help(help));
                 continue;
             }
@@ -69,7 +72,7 @@ impl Planner<'_> {
             "max-iterations",
             "converge",
         ] {
-            let Some(given) = self.of_method(name) else {
+            let Some(given) = self.method_option(name) else {
                 continue;
             };
             let id = choice.id();
@@ -87,7 +90,7 @@ impl Planner<'_> {
                 None
             };
             if let Some((text, what, example)) = instead {
-                let example = front.with("method", example);
+                let example = front.assignment("method", example);
                 let help = format!("leave it out, or take {what} such as {example}");
                 self.foreign(name, given.wrong(text).help(help));
                 continue;
@@ -105,12 +108,12 @@ impl Planner<'_> {
         options
     }
 
-    fn convergence(&self, given: &Given, pace: Option<Pace>) -> Result<Convergence, Message> {
+    fn convergence(&self, given: &OptionValue, pace: Option<Pace>) -> Result<Convergence, Message> {
         match given.text.trim() {
             "tolerance" if matches!(pace, Some(Pace::Step(_))) => {
                 let message =
                     given.wrong("the run has no tolerance to which anything could converge");
-                let example = self.request.front.with("tol", "1e-6");
+                let example = self.request.front.assignment("tol", "1e-6");
                 Err(message.help(format!(
                     "give {example} in place of the step, or write `state`"
                 )))
@@ -126,7 +129,7 @@ impl Planner<'_> {
     }
 }
 
-fn iteration(given: &Given) -> Result<NewtonOptions, Message> {
+fn iteration(given: &OptionValue) -> Result<NewtonOptions, Message> {
     match given.text.trim() {
         "automatic" => Ok(NewtonOptions::default()),
         "newton" => Ok(NewtonOptions::newton()),
@@ -139,7 +142,7 @@ fn iteration(given: &Given) -> Result<NewtonOptions, Message> {
     }
 }
 
-fn tolerance(given: &Given) -> Result<f64, Message> {
+fn tolerance(given: &OptionValue) -> Result<f64, Message> {
     let value = given.number()?;
     if value < 0.0 {
         let message = given.wrong("a tolerance cannot be negative");
@@ -148,7 +151,7 @@ fn tolerance(given: &Given) -> Result<f64, Message> {
     Ok(value)
 }
 
-fn count(given: &Given) -> Result<u32, Message> {
+fn count(given: &OptionValue) -> Result<u32, Message> {
     let help = "give a number of iterations such as 50";
     let value = given.count().map_err(|message| message.help(help))?;
     u32::try_from(value).map_err(|_| {

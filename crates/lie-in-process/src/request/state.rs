@@ -7,7 +7,7 @@ use lie_syntax::suggest::did_you_mean;
 
 use super::plan::{Planner, Point};
 use super::states::{States, without_commas};
-use super::{Front, Given, Parameter};
+use super::{Front, OptionValue, Parameter};
 use crate::message::{Fault, Message, Place};
 use crate::words::counted;
 
@@ -58,7 +58,7 @@ impl Planner<'_> {
         let Some(state) = state else {
             let given = counted(values.len() as u64, "value");
             let text = format!("{given} for a state of {wanted}");
-            let message = Message::new(Kind::StateLength, text).at(place.clone());
+            let message = Message::new(Kind::StateLength, text).at_place(place.clone());
             let names = self.shown().join(", ");
             self.mistakes
                 .push(message.help(format!("give the values of {names}")));
@@ -70,7 +70,7 @@ impl Planner<'_> {
         let fault = domain::fault(model, &state, parameters);
         if let Some(fault) = fault {
             let text = format!("{} at this initial state", fault.message);
-            let message = Message::new(Kind::Domain, text).at(place.clone());
+            let message = Message::new(Kind::Domain, text).at_place(place.clone());
             let help = "start at a state where it is defined, or change the parameters";
             self.mistakes.push(message.help(help));
             return None;
@@ -139,7 +139,7 @@ impl Planner<'_> {
     }
 
     /// The name and the value of a parameter.
-    fn parameter(&mut self, parameter: &Parameter) -> Option<(Given, Given)> {
+    fn parameter(&mut self, parameter: &Parameter) -> Option<(OptionValue, OptionValue)> {
         let front = self.request.front;
         let option = front.option("param");
         match parameter {
@@ -148,10 +148,13 @@ impl Planner<'_> {
                     Front::Command => &option,
                     Front::Call => name,
                 };
-                Some((Given::flag(place, name), Given::value(place, value)))
+                Some((
+                    OptionValue::flag(place, name),
+                    OptionValue::value(place, value),
+                ))
             }
             Parameter::Written(text) => {
-                let given = Given::flag(&option, text);
+                let given = OptionValue::flag(&option, text);
                 let Some(equals) = text.find('=') else {
                     let message = given.wrong(format!("`{text}` is not NAME=VALUE"));
                     let help = format!("write it like {}", front.parameter("I1", "2"));
@@ -166,10 +169,10 @@ impl Planner<'_> {
     fn initial(&mut self, parameters: &[f64]) -> Option<Vec<f64>> {
         let model = &self.spec.model;
         if let Some(family) = &model.family {
-            return self.of_family(family, parameters);
+            return self.family_state(family, parameters);
         }
         let dimension = model.shown_coordinates().len();
-        let values = if let Some(given) = self.asked("initial") {
+        let values = if let Some(given) = self.requested("initial") {
             let parts = given.split();
             if model.complete_state(&vec![0.0; parts.len()]).is_none() {
                 let text = match parts.as_slice() {
@@ -199,7 +202,9 @@ impl Planner<'_> {
             values
         } else {
             let text = format!("the spec of {} has no `initial`", model.name);
-            let message = self.at("initial", text).of(Fault::Arguments);
+            let message = self
+                .option_mistake("initial", text)
+                .with_fault(Fault::Arguments);
             self.mistakes.push(message.help(self.example()));
             return None;
         };
@@ -222,7 +227,7 @@ impl Planner<'_> {
             Front::Command => zeros.join(","),
             Front::Call => format!("[{}]", zeros.join(", ")),
         };
-        let example = front.with("initial", &example);
+        let example = front.assignment("initial", &example);
         format!("give the values of {}, such as {example}", names.join(", "))
     }
 
@@ -239,7 +244,7 @@ impl Planner<'_> {
         };
         let text = format!("{} at the initial state", fault.message);
         let help = "start at a state where it is defined, or change the parameters";
-        let mut message = self.at(flag, text).help(help);
+        let mut message = self.option_mistake(flag, text).help(help);
         message.kind = Kind::Domain;
         self.mistakes.push(message);
         false

@@ -110,7 +110,7 @@ fn lines(spec: &Spec, text: String, path: &Path) -> Result<States, Message> {
                     counted(values.len() as u64, "value"),
                     counted(order.len() as u64, "name")
                 );
-                let message = Message::new(Kind::StateLength, text).at(place);
+                let message = Message::new(Kind::StateLength, text).at_place(place);
                 return Err(message.help("give each line a value for each name"));
             }
             values = order.iter().map(|&k| values[k]).collect();
@@ -129,7 +129,7 @@ fn permutation(fields: &[&str], names: &[&str], place: &Place) -> Result<Vec<usi
         .ok_or_else(|| {
             if matches!(fields, [line] if without_commas(line)) {
                 let text = "no commas stand between these numbers".to_owned();
-                let message = Message::new(Kind::Option, text).at(place.clone());
+                let message = Message::new(Kind::Option, text).at_place(place.clone());
                 return message.help("write a state in each line, such as `0.1,0.2,0.3`");
             }
             let odd = fields.iter().find(|field| !names.contains(field));
@@ -137,7 +137,7 @@ fn permutation(fields: &[&str], names: &[&str], place: &Place) -> Result<Vec<usi
                 Some(odd) => format!("`{odd}` is not the name of a coordinate"),
                 None => "these are not the names of the coordinates".to_owned(),
             };
-            let message = Message::new(Kind::Option, text).at(place.clone());
+            let message = Message::new(Kind::Option, text).at_place(place.clone());
             message.help(format!("write `{}`, in any order", names.join(",")))
         })
 }
@@ -155,7 +155,7 @@ fn numbers(fields: &[&str], place: &Place) -> Result<Vec<f64>, Message> {
         let value = constant(field).ok();
         value.filter(|value| value.is_finite()).ok_or_else(|| {
             let text = format!("`{field}` is not a finite number");
-            let message = Message::new(Kind::Option, text).at(place.clone());
+            let message = Message::new(Kind::Option, text).at_place(place.clone());
             message.help("give numbers such as 0.01 or 1/7, with commas between them")
         })
     };

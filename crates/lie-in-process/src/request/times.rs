@@ -1,6 +1,6 @@
 //! The step, and the times at which rows are wanted.
 
-use super::Given;
+use super::OptionValue;
 use super::plan::Planner;
 use crate::message::Fault;
 use lie_codegen::methods::Choice;
@@ -20,11 +20,11 @@ impl Planner<'_> {
     }
 
     /// The step, or the tolerance from which it is chosen.
-    pub(super) fn pace(&mut self) -> Option<(Pace, Given)> {
+    pub(super) fn pace(&mut self) -> Option<(Pace, OptionValue)> {
         if !self.wants_tolerance() {
             return self.step().map(|(step, given)| (Pace::Step(step), given));
         }
-        let given = self.given("tol")?;
+        let given = self.option("tol")?;
         let both = match self.request.tol {
             Some(_) => self.request.step.is_some(),
             None => !self.in_spec("step").is_empty(),
@@ -32,13 +32,14 @@ impl Planner<'_> {
         if both {
             let message = given.wrong("a tolerance and a step are both given");
             let help = "a tolerance chooses the step: leave one of them out";
-            self.mistakes.push(message.help(help).of(Fault::Arguments));
+            self.mistakes
+                .push(message.help(help).with_fault(Fault::Arguments));
             return None;
         }
         let tolerance = self.keep(given.number())?;
         if !(LEAST_TOLERANCE..1.0).contains(&tolerance) {
             let message = given.wrong("a tolerance lies between 2e-15, which is round-off, and 1");
-            let example = self.request.front.with("tol", "1e-6");
+            let example = self.request.front.assignment("tol", "1e-6");
             let help = format!("give the relative error that the end may have, such as {example}");
             self.mistakes.push(message.help(help));
             return None;
@@ -47,7 +48,7 @@ impl Planner<'_> {
     }
 
     /// dopri5 has tolerances of its own, and no constant step to choose.
-    pub(super) fn takes_tolerance(&mut self, method: &Choice, given: &Given) {
+    pub(super) fn takes_tolerance(&mut self, method: &Choice, given: &OptionValue) {
         if *method == Choice::Dopri5 {
             let option = |name| self.request.front.option(name);
             let text = format!("{} chooses its own steps", method.id());
@@ -58,17 +59,17 @@ impl Planner<'_> {
                 option("step")
             );
             let message = given.wrong(text).help(help);
-            self.mistakes.push(message.of(Fault::Method));
+            self.mistakes.push(message.with_fault(Fault::Method));
         }
     }
 
-    fn step(&mut self) -> Option<(f64, Given)> {
+    fn step(&mut self) -> Option<(f64, OptionValue)> {
         let front = self.request.front;
-        let usual = |text: &str| Given::flag(&front.option("step"), text);
-        let given = self.given("step");
+        let usual = |text: &str| OptionValue::flag(&front.option("step"), text);
+        let given = self.option("step");
         let fallback = given.is_none();
         let given = given.unwrap_or_else(|| usual(STEP));
-        let example = front.with("step", "0.1");
+        let example = front.assignment("step", "0.1");
         let help = format!("give a step such as {example}; negative to go backwards");
         let step = given.number().map_err(|message| match given.is_number() {
             true => message.help(&help),
@@ -81,7 +82,7 @@ impl Planner<'_> {
             return None;
         }
         // Without a step of the user's, the direction is that of the end.
-        let backwards = |end: &Given| end.number().is_ok_and(|end| end < 0.0);
+        let backwards = |end: &OptionValue| end.number().is_ok_and(|end| end < 0.0);
         if fallback && self.ends().iter().any(backwards) {
             return Some((-step, usual(&format!("-{STEP}"))));
         }
@@ -96,27 +97,27 @@ impl Planner<'_> {
     }
 
     /// The final time, or the times asked for.
-    fn ends(&self) -> Vec<Given> {
+    fn ends(&self) -> Vec<OptionValue> {
         if self.at_times() {
             return self
-                .asked("at")
+                .requested("at")
                 .map_or_else(|| self.in_spec("at"), |at| at.split());
         }
         // where other rows than those at the times of the spec are asked for, the last of them is still the end
-        let far = |end: &Given| end.number().map_or(0.0, f64::abs);
+        let far = |end: &OptionValue| end.number().map_or(0.0, f64::abs);
         let last = self.in_spec("at").into_iter();
         let last = last.max_by(|a, b| far(a).total_cmp(&far(b)));
-        let usual = || Given::flag(&self.request.front.option("until"), UNTIL);
-        vec![self.given("until").or(last).unwrap_or_else(usual)]
+        let usual = || OptionValue::flag(&self.request.front.option("until"), UNTIL);
+        vec![self.option("until").or(last).unwrap_or_else(usual)]
     }
 
-    pub(super) fn times(&mut self, pace: Option<&(Pace, Given)>) -> Option<Times> {
+    pub(super) fn times(&mut self, pace: Option<&(Pace, OptionValue)>) -> Option<Times> {
         self.exclusive()?;
         let ends = self.ends();
         if ends.is_empty() {
-            let example = self.request.front.with("at", "[0, 1, 2]");
+            let example = self.request.front.assignment("at", "[0, 1, 2]");
             let option = self.request.front.option("at");
-            let message = self.at("at", format!("`{option}` is empty"));
+            let message = self.option_mistake("at", format!("`{option}` is empty"));
             let help = format!("give it times, such as {example}");
             self.mistakes.push(message.help(help));
             return None;
@@ -139,7 +140,7 @@ impl Planner<'_> {
             values.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
             return Some(Times::At(values));
         }
-        let every = match self.given("every") {
+        let every = match self.option("every") {
             Some(given) => self.keep(given.count())?,
             None => 1,
         };
@@ -159,8 +160,8 @@ impl Planner<'_> {
                 let help = format!(
                     "there is one row for each time asked for, and the last one is the end: leave out `{other}`"
                 );
-                let message = self.at("at", excludes(&other)).help(help);
-                self.mistakes.push(message.of(Fault::Arguments));
+                let message = self.option_mistake("at", excludes(&other)).help(help);
+                self.mistakes.push(message.with_fault(Fault::Arguments));
                 return None;
             }
         }
@@ -179,13 +180,13 @@ impl Planner<'_> {
     }
 
     /// Whether steps of this size get there.
-    fn compatible(&mut self, step: f64, given: &Given, end: f64, end_given: &Given) {
+    fn compatible(&mut self, step: f64, given: &OptionValue, end: f64, end_given: &OptionValue) {
         let (step_text, end_text) = (given.text.trim(), end_given.text.trim());
         if end != 0.0 && (end > 0.0) != (step > 0.0) {
             let text =
                 format!("steps of {step_text} lead away from t = {end_text}: their signs differ");
             let turned = format!("{:?}", -step);
-            let example = self.request.front.with("step", &turned);
+            let example = self.request.front.assignment("step", &turned);
             let help = format!(
                 "give {example}; backwards in time, both the step and the end are negative"
             );

@@ -196,7 +196,7 @@ fn open_orbit<P: Lift<f64>>(system: &P, ground: &Ground<P>) -> bool {
         system.poisson_matrix(mu, &mut matrix);
         let column = |j| (0..system.dimension()).map(|i| matrix.get(i, j)).collect();
         let columns: Vec<Vec<f64>> = (0..system.dimension()).map(column).collect();
-        Basis::of_span(&columns).rank() == system.dimension()
+        Basis::from_span(&columns).rank() == system.dimension()
     })
 }
 

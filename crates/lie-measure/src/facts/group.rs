@@ -184,7 +184,7 @@ fn defect<P: MatrixGroup<f64>>(system: &P, element: &[f64], mu: &[f64], start: &
         .filter(|&k| !group.matrices[k].is_empty())
         .collect();
     let basis: Vec<Vec<f64>> = moving.iter().map(|&k| dense(k)).collect();
-    let span = Basis::of_span(&basis);
+    let span = Basis::from_span(&basis);
     if span.rank() < basis.len() {
         return f64::NAN;
     }
@@ -217,7 +217,7 @@ fn inverse(matrix: &[f64], size: usize) -> Option<Vec<f64>> {
     let columns: Vec<Vec<f64>> = (0..size)
         .map(|c| (0..size).map(|r| matrix[r * size + c]).collect())
         .collect();
-    let span = Basis::of_span(&columns);
+    let span = Basis::from_span(&columns);
     if span.rank() < size {
         return None;
     }

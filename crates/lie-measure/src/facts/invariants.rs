@@ -253,5 +253,5 @@ pub(super) fn integrals_are_missing<P: Lift<f64>>(system: &P, ground: &Ground<P>
             gradients.push(gradient.as_slice().to_vec());
         }
     }
-    ground.quadratic.is_empty() && Basis::of_span(&gradients).rank() > 0
+    ground.quadratic.is_empty() && Basis::from_span(&gradients).rank() > 0
 }

@@ -95,7 +95,7 @@ fn what_is_fastest_is_bold_with_and_without_a_reference() {
             assert!(all.contains(text), "{all}");
         }
         let wide =
-            |(x, _, text): &(f64, f64, String)| x + svg::width_of(text, 14.0, false) > 1160.0;
+            |(x, _, text): &(f64, f64, String)| x + svg::text_width(text, 14.0, false) > 1160.0;
         assert!(head.len() > 2 && !head.iter().any(wide), "{head:?}");
         // and the rest is below it
         let down = svg

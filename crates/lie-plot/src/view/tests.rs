@@ -16,7 +16,7 @@ fn a_curve_that_diverges_leaves_the_surface_as_large_as_it_is() {
         let mut view = View::new("", "", axes, vec![curve]);
         let energy = |p: &Point| (p[2], [0.0, 0.0, 1.0]);
         assert!(view.orbit(&square, Some(&energy), "sphere"));
-        let outline = around(view.outline.all().copied()).unwrap();
+        let outline = bounding_box(view.outline.all().copied()).unwrap();
         (view.to_svg(), outline.1.0 - outline.0.0, view.note)
     };
     for growth in [1.0, 1.1, 10.0] {
@@ -34,7 +34,7 @@ fn a_curve_that_diverges_leaves_the_surface_as_large_as_it_is() {
                 })
             })
             .collect();
-        let ((a, b), (c, d)) = around(places.into_iter()).unwrap();
+        let ((a, b), (c, d)) = bounding_box(places.into_iter()).unwrap();
         assert!(
             a >= LEFT && c <= LEFT + SIDE && b >= HEAD && d <= HEAD + SIDE,
             "{growth}"

@@ -2,7 +2,7 @@
 
 use lie_codegen::structure::Structure;
 use lie_codegen::structure::group;
-use lie_in_process::request::{Given, Several};
+use lie_in_process::request::{OptionValue, Several};
 use lie_in_process::words::counted;
 use lie_syntax::suggest::did_you_mean;
 
@@ -60,7 +60,7 @@ pub fn kind(
             false => Ok(None),
         };
     };
-    let given = Given::flag(FLAG, text);
+    let given = OptionValue::flag(FLAG, text);
     if flags.plot.is_none() {
         let message = given.wrong("there is no file for the picture");
         return Err(message.help(format!(
@@ -116,7 +116,7 @@ fn few(kind: Kind, several: &Several) -> Result<Kind, Message> {
     Err(Message::option("--plot", text).help(help))
 }
 
-fn orbit(spec: &Spec, given: &Given) -> Result<Kind, Message> {
+fn orbit(spec: &Spec, given: &OptionValue) -> Result<Kind, Message> {
     match no_orbit(&spec.model) {
         Some(why) => Err(given.wrong(why).help(elsewhere(&spec.model))),
         None => Ok(Kind::Orbit),
@@ -169,7 +169,7 @@ pub fn no_orbit(model: &Structure) -> Option<String> {
     None
 }
 
-fn attitude(spec: &Spec, several: &Several, given: &Given) -> Result<Kind, Message> {
+fn attitude(spec: &Spec, several: &Several, given: &OptionValue) -> Result<Kind, Message> {
     let followed = several.plans.iter().all(|plan| plan.chart.is_some());
     let name = &spec.model.name;
     let wrong = match group::group(&spec.model) {
@@ -190,7 +190,7 @@ fn attitude(spec: &Spec, several: &Several, given: &Given) -> Result<Kind, Messa
     }
 }
 
-fn coordinate(layout: &Layout, given: &Given) -> Result<usize, Message> {
+fn coordinate(layout: &Layout, given: &OptionValue) -> Result<usize, Message> {
     let names = layout.coordinates();
     let name = given.text.trim();
     names.iter().position(|known| known == name).ok_or_else(|| {
@@ -206,7 +206,11 @@ fn coordinate(layout: &Layout, given: &Given) -> Result<usize, Message> {
     })
 }
 
-fn axes(layout: &Layout, rest: Option<&Given>, given: &Given) -> Result<[usize; 2], Message> {
+fn axes(
+    layout: &Layout,
+    rest: Option<&OptionValue>,
+    given: &OptionValue,
+) -> Result<[usize; 2], Message> {
     if layout.states < 2 {
         return Err(given
             .wrong("there is one coordinate alone")
@@ -229,8 +233,8 @@ fn axes(layout: &Layout, rest: Option<&Given>, given: &Given) -> Result<[usize; 
 fn section(
     spec: &Spec,
     layout: &Layout,
-    rest: Option<&Given>,
-    given: &Given,
+    rest: Option<&OptionValue>,
+    given: &OptionValue,
 ) -> Result<Kind, Message> {
     let n = spec.model.dimension();
     if n < 3 || layout.states != n || build::declared(&spec.model).is_none() {

@@ -9,7 +9,11 @@ use super::talk::Worker;
 use lie_in_process::clock;
 
 /// What serves requests for methods on a system in this program; none where a program has to be built.
-pub fn here(model: &Structure, choices: &[Choice], purpose: Purpose) -> Option<Worker> {
+pub fn in_process_worker(
+    model: &Structure,
+    choices: &[Choice],
+    purpose: Purpose,
+) -> Option<Worker> {
     let work = Work::new(model, choices, purpose, clock::processor);
-    work.map(|work| Worker::Here(work.into()))
+    work.map(|work| Worker::InProcess(work.into()))
 }

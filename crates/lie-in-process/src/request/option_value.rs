@@ -13,7 +13,7 @@ const MOST: f64 = 9_007_199_254_740_992.0;
 
 /// The value of one option, and where it was given.
 #[derive(Clone, Debug)]
-pub struct Given {
+pub struct OptionValue {
     /// The value as text; empty of a list.
     pub text: String,
     /// What it is where that is no text.
@@ -41,7 +41,7 @@ pub fn constant(text: &str) -> Result<f64, Diagnostic> {
     })
 }
 
-impl Given {
+impl OptionValue {
     /// The text of an option, as its name is written.
     pub fn flag(name: &str, text: &str) -> Self {
         Self {
@@ -81,7 +81,7 @@ impl Given {
 
     /// A mistake in this value.
     pub fn wrong(&self, text: impl Into<String>) -> Message {
-        Message::new(Kind::Option, text).at(self.at(0..self.text.len()))
+        Message::new(Kind::Option, text).at_place(self.at(0..self.text.len()))
     }
 
     fn at(&self, range: Range<usize>) -> Place {
@@ -143,13 +143,14 @@ impl Given {
             Some(Origin::Text { start, end }) => start..end,
             _ => 0..self.text.len(),
         };
-        let mut message = Message::new(diagnostic.kind, diagnostic.message).at(self.at(range));
+        let mut message =
+            Message::new(diagnostic.kind, diagnostic.message).at_place(self.at(range));
         message.help = diagnostic.help;
         message
     }
 
     /// The values of a list, or the parts between commas outside parentheses.
-    pub fn split(&self) -> Vec<Given> {
+    pub fn split(&self) -> Vec<OptionValue> {
         if let (Some(Value::List(values)), At::Argument(whole, _)) = (&self.value, &self.place) {
             return values
                 .iter()
@@ -174,12 +175,12 @@ impl Given {
     }
 
     /// A part of the value.
-    pub fn part(&self, range: Range<usize>) -> Given {
+    pub fn part(&self, range: Range<usize>) -> OptionValue {
         let place = match &self.place {
             At::Argument(whole, offset) => At::Argument(Arc::clone(whole), offset + range.start),
             At::Spec(..) => self.place.clone(),
         };
-        Given {
+        OptionValue {
             text: self.text[range].to_owned(),
             value: None,
             place,

@@ -12,18 +12,18 @@ use pyo3::types::PyDict;
 
 /// A value of an argument.
 #[derive(FromPyObject)]
-enum Given {
+enum Argument {
     Number(f64),
     Text(String),
-    List(Vec<Given>),
+    List(Vec<Argument>),
 }
 
-impl From<Given> for Value {
-    fn from(given: Given) -> Self {
+impl From<Argument> for Value {
+    fn from(given: Argument) -> Self {
         match given {
-            Given::Number(number) => Self::Number(number),
-            Given::Text(text) => Self::Text(text),
-            Given::List(values) => Self::List(values.into_iter().map(Self::from).collect()),
+            Argument::Number(number) => Self::Number(number),
+            Argument::Text(text) => Self::Text(text),
+            Argument::List(values) => Self::List(values.into_iter().map(Self::from).collect()),
         }
     }
 }
@@ -46,7 +46,11 @@ pub fn request(declaration: &Declaration, asked: &Bound<'_, PyDict>) -> PyResult
                 let set = |(name, value)| Parameter::Set(name, Value::Number(value));
                 request.param = values.map(set).collect();
             }
-            _ if !request.set(&Front::canonical(&name), value.extract::<Given>()?.into()) => {
+            _ if !request.set(
+                &Front::canonical(&name),
+                value.extract::<Argument>()?.into(),
+            ) =>
+            {
                 return Err(PyTypeError::new_err(format!("no argument `{name}`")));
             }
             _ => {}
