@@ -241,59 +241,37 @@ fn dependencies(manifest: &str) -> Vec<String> {
 
 #[test]
 fn no_arrow_between_crates_points_back() {
-    assert_eq!(dependencies("crates/lie-core/Cargo.toml"), [""; 0]);
-    assert_eq!(dependencies("crates/lie-codegen/Cargo.toml"), ["lie-core"]);
-    assert_eq!(dependencies("lie-macros/Cargo.toml"), ["lie-codegen"]);
-    assert_eq!(
-        dependencies("lie-runtime/Cargo.toml"),
-        ["lie-core", "lie-macros"]
-    );
-    assert_eq!(dependencies("crates/lie-dense/Cargo.toml"), ["lie-runtime"]);
-    assert_eq!(
-        dependencies("crates/lie-program/Cargo.toml"),
-        ["lie-runtime"]
-    );
-    assert_eq!(
-        dependencies("crates/lie-measure/Cargo.toml"),
-        ["lie-program", "lie-runtime"]
-    );
-    assert_eq!(
-        dependencies("crates/lie-dynamic/Cargo.toml"),
-        ["lie-codegen", "lie-core", "lie-runtime"]
-    );
-    assert_eq!(
-        dependencies("crates/lie-jit/Cargo.toml"),
-        ["lie-codegen", "lie-dynamic", "lie-runtime"]
-    );
-    assert_eq!(
-        dependencies("crates/lie-wasm/Cargo.toml"),
-        ["lie-dynamic", "lie-runtime"]
-    );
-    assert_eq!(
-        dependencies("crates/lie-in-process/Cargo.toml"),
-        [
-            "lie-codegen",
-            "lie-dynamic",
-            "lie-jit",
-            "lie-measure",
-            "lie-program",
-            "lie-runtime"
-        ]
-    );
-    assert_eq!(
-        dependencies("Cargo.toml"),
-        [
-            "lie-codegen",
-            "lie-core",
-            "lie-dynamic",
-            "lie-in-process",
-            "lie-measure",
-            "lie-plot",
-            "lie-program",
-            "lie-runtime"
-        ]
-    );
-    assert_eq!(dependencies("crates/lie-plot/Cargo.toml"), [""; 0]);
+    for (package, needs) in [
+        ("crates/lie-core", ""),
+        ("crates/lie-symbolic", "lie-core"),
+        ("crates/lie-syntax", "lie-core lie-symbolic"),
+        ("crates/lie-codegen", "lie-core lie-symbolic lie-syntax"),
+        ("lie-macros", "lie-codegen"),
+        ("lie-runtime", "lie-core lie-macros"),
+        ("crates/lie-dense", "lie-runtime"),
+        ("crates/lie-program", "lie-runtime"),
+        ("crates/lie-measure", "lie-program lie-runtime"),
+        (
+            "crates/lie-dynamic",
+            "lie-codegen lie-core lie-runtime lie-symbolic",
+        ),
+        ("crates/lie-tangents", "lie-codegen lie-dynamic lie-runtime"),
+        ("crates/lie-jit", "lie-codegen lie-dynamic lie-runtime"),
+        ("crates/lie-wasm", "lie-dynamic lie-runtime"),
+        (
+            "crates/lie-in-process",
+            "lie-codegen lie-dynamic lie-jit lie-measure lie-program lie-runtime lie-symbolic lie-syntax lie-tangents",
+        ),
+        (
+            ".",
+            "lie-codegen lie-core lie-dynamic lie-in-process lie-measure lie-plot lie-program lie-runtime lie-symbolic \
+             lie-syntax",
+        ),
+        ("crates/lie-plot", ""),
+    ] {
+        let found = dependencies(&format!("{package}/Cargo.toml"));
+        assert_eq!(found.join(" "), needs, "{package}");
+    }
 }
 
 #[test]

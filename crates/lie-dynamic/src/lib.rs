@@ -45,8 +45,8 @@ pub use engine::{
 };
 pub use lie_runtime::methods::Tolerances;
 pub use methods::{
-    Method, at_defaults, at_defaults_dual, is_compiled_for_lanes, method, method_dual,
-    method_in_lanes,
+    Method, at_defaults, at_defaults_over, is_compiled_for_lanes, method, method_in_lanes,
+    method_over,
 };
 pub use recording::PATIENCE;
 pub use system::{Declared, Dynamic};

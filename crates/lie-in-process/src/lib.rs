@@ -30,7 +30,7 @@ use lie_codegen::model::Size;
 use lie_codegen::plan::plan;
 use lie_codegen::program::{Chart, Purpose, beside, compared, confirming};
 use lie_codegen::structure::Structure;
-use lie_dynamic::{Declared, Dynamic, at_defaults, at_defaults_dual, method, method_dual};
+use lie_dynamic::{Declared, Dynamic, at_defaults, method};
 use lie_jit::Jit;
 use lie_measure::verify::Kind;
 use lie_measure::{Bench, Request, Stress, Verify, bench, stress as limits, verify as claims};
@@ -204,10 +204,10 @@ impl Work {
                 Kind::Plain
             };
             program = program.any_method(&label, kind, move |tolerances| match series {
-                true => (at_defaults(&choice), at_defaults_dual(&choice)),
+                true => (at_defaults(&choice), lie_tangents::at_defaults(&choice)),
                 false => (
                     method(&choice, *tolerances),
-                    method_dual(&choice, *tolerances),
+                    lie_tangents::method(&choice, *tolerances),
                 ),
             });
         }

@@ -6,10 +6,10 @@ use crate::recording::RecordedMethod;
 use crate::system::Dynamic;
 use lie_codegen::methods::{Choice, Gradient, Lift, Pieces, Retraction, Scheme, Tensor};
 use lie_codegen::structure::lifts::Smallest;
+use lie_runtime::Scalar;
 use lie_runtime::diagnostics::{AnyMethod, AnyStepper, Claims, Forgotten, ForgottenStepper};
 use lie_runtime::methods::{self as m, Facts, Preserves, Tolerances};
 use lie_runtime::newton::NewtonOptions;
-use lie_runtime::{Dual, Scalar};
 
 /// A method whose type is forgotten.
 pub type Method<S = f64> = Box<dyn AnyMethod<S, Dynamic<S>>>;
@@ -70,13 +70,8 @@ pub fn at_defaults(choice: &Choice) -> Method {
     }
 }
 
-/// The same over dual numbers.
-pub fn at_defaults_dual(choice: &Choice) -> Method<Dual<f64>> {
-    at_defaults_over(choice)
-}
-
-/// The same over any scalar.
-fn at_defaults_over<S: Scalar>(choice: &Choice) -> Method<S> {
+/// The same over any scalar, see [`method_over`].
+pub fn at_defaults_over<S: Scalar>(choice: &Choice) -> Method<S> {
     match choice {
         Choice::Taylor => Box::new(m::Taylor::default()),
         Choice::LieTaylor => Box::new(m::LieTaylor::default()),
@@ -94,13 +89,8 @@ pub fn method(choice: &Choice, tolerances: Tolerances) -> Method {
     }
 }
 
-/// The same over dual numbers, for tangents of steps.
-pub fn method_dual(choice: &Choice, tolerances: Tolerances) -> Method<Dual<f64>> {
-    method_over(choice, tolerances)
-}
-
-/// The same over any scalar.
-pub(crate) fn method_over<S: Scalar>(choice: &Choice, tolerances: Tolerances) -> Method<S> {
+/// The same over any scalar. All methods are compiled anew where it is called: over dual numbers that is in `lie-tangents`.
+pub fn method_over<S: Scalar>(choice: &Choice, tolerances: Tolerances) -> Method<S> {
     if let Some(method) = explicit(choice).or_else(|| by_system(choice)) {
         return method;
     }

@@ -1,0 +1,25 @@
+//! The methods of the catalogue over dual numbers: a step of one is a step with its tangent.
+//!
+//! `lie verify` and `lie stress` ask for them; runs do not. Nothing is written here that [`lie_dynamic`] does not have for every
+//! scalar: the crate is the place where all methods are compiled for this one, beside those over numbers and with less
+//! optimisation.
+
+#![forbid(unsafe_code)]
+#![warn(missing_docs)]
+
+use lie_codegen::methods::Choice;
+use lie_dynamic::{Method, Tolerances};
+use lie_runtime::Dual;
+
+/// A method over dual numbers.
+pub type Tangent = Method<Dual<f64>>;
+
+/// The method of a choice. Whether it applies to a system is for the catalogue to say.
+pub fn method(choice: &Choice, tolerances: Tolerances) -> Tangent {
+    lie_dynamic::method_over(choice, tolerances)
+}
+
+/// The same with its own defaults: series at the tolerance at which they are exact on every grid.
+pub fn at_defaults(choice: &Choice) -> Tangent {
+    lie_dynamic::at_defaults_over(choice)
+}
