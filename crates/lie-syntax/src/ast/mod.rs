@@ -5,6 +5,7 @@
 //! families of systems need both, so they are in the tree from the start.
 
 pub mod names;
+mod parts;
 mod runtime;
 
 use crate::diagnostic::Origin;

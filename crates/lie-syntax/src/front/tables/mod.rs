@@ -199,7 +199,7 @@ impl Tables {
         let (Some(table), [argument]) = (self.of(&function.text), arguments.as_slice()) else {
             return false;
         };
-        let nodes = (vectors::nodes(argument) + 6) * table.size();
+        let nodes = (argument.parts().count() + 6) * table.size();
         if nodes > *left {
             return false;
         }

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::scalars::{minus, multiply, number, plus, root, square, times};
 use super::shapes::{self, Operand, mistake, no_scalar, text};
-use super::{Value, Vectors, arity, children, nodes, too_large};
+use super::{Value, Vectors, arity, too_large};
 use crate::ast::{Expr, ExprKind, Index};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 
@@ -32,7 +32,7 @@ fn concerns(expression: &Expr, vectors: &Vectors) -> bool {
         if found {
             return true;
         }
-        pending.extend(children(part));
+        pending.extend(part.operands());
     }
     false
 }
@@ -101,7 +101,7 @@ impl Expansion<'_> {
     }
 
     fn spend(&self, entries: &mut dyn Iterator<Item = &Expr>, origin: Origin) -> Result<()> {
-        let count = entries.map(nodes).sum();
+        let count = entries.map(|entry| entry.parts().count()).sum();
         match self.vectors.spend(count) {
             true => Ok(()),
             false => Err(too_large(origin).into()),

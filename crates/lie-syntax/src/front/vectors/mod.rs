@@ -185,34 +185,9 @@ fn unknown(entry: &Expr, vector: &Name, names: &Names, report: &mut Report) {
                         .help("entries are coordinates, parameters, abbreviations and numbers"),
                 );
             }
-            _ => pending.extend(children(part)),
+            _ => pending.extend(part.operands()),
         }
     }
-}
-
-/// The operands of an expression.
-fn children(expression: &Expr) -> Vec<&Expr> {
-    match &expression.kind {
-        ExprKind::Number(_) | ExprKind::Name { .. } => Vec::new(),
-        ExprKind::Negative(a) => vec![a],
-        ExprKind::Power(a, b) => vec![a, b],
-        ExprKind::Sum(operands) | ExprKind::Product(operands) => {
-            operands.iter().map(|(_, operand)| operand).collect()
-        }
-        ExprKind::Call { arguments, .. } => arguments.iter().collect(),
-        ExprKind::IndexedSum { from, to, body, .. } => vec![from, to, body],
-    }
-}
-
-/// The number of nodes of an expression.
-pub(super) fn nodes(expression: &Expr) -> usize {
-    let mut pending = vec![expression];
-    let mut count = 0;
-    while let Some(part) = pending.pop() {
-        count += 1;
-        pending.extend(children(part));
-    }
-    count
 }
 
 /// The answer to an expansion without end.
