@@ -6,7 +6,6 @@
 use crate::algebra::quadratic::{Closure, Form, closure};
 use crate::model::{CANONICAL, Descent};
 use lie_symbolic::exact::{Budget, Rational};
-use lie_symbolic::prove::ranks;
 use lie_symbolic::prove::sample::Samples;
 use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 
@@ -59,7 +58,7 @@ fn form(
     points: usize,
     value: &dyn Fn(Symbol) -> Option<Rational>,
 ) -> Option<Form> {
-    let exact = |roots: &[ExprId]| ranks::exact(graph, roots, value);
+    let exact = |roots: &[ExprId]| graph.evaluate_exactly(roots, value);
     let seconds = exact(&component.seconds)?;
     let slopes = exact(&component.slopes)?;
     let at_point = exact(&[component.value])?.pop()?;

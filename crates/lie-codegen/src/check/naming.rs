@@ -60,7 +60,7 @@ pub fn independent(
     report: &mut Report,
 ) -> Vec<Casimir> {
     let functions: Vec<ExprId> = candidates.iter().map(|c| c.expr).collect();
-    let standings = independence::check(graph, &functions, declaration.dimension());
+    let standings = independence::standings(graph, &functions, declaration.dimension());
     let mut free = free_names(declaration);
     let mut kept = Vec::new();
     for (((candidate, standing), degree), declared) in candidates

@@ -190,7 +190,7 @@ fn complete(model: &Model, field: &Field, work: u64, graph: &mut Graph) -> (Vec<
     // what is found is independent among itself
     let standings = match declared.as_slice() {
         [] => vec![Standing::Independent; all.len()],
-        _ => independence::check(writer.graph, &all, model.dimension()),
+        _ => independence::standings(writer.graph, &all, model.dimension()),
     };
     let standings = standings.into_iter().skip(declared.len());
     let mut names = (1..).map(|i| format!("C{i}")).filter(|name| {

@@ -105,7 +105,7 @@ pub fn find(model: &Model, casimirs: &[Casimir], work: u64) -> Result<Motions, &
         for function in candidates {
             let expr = expression(&mut graph, &function, field.len());
             known.push(expr);
-            let standings = independence::check(&graph, &known, field.len());
+            let standings = independence::standings(&graph, &known, field.len());
             if standings.last() == Some(&Standing::Independent) {
                 motions.found.push(Motion { function, degree });
             } else {

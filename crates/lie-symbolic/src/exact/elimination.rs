@@ -63,10 +63,35 @@ pub fn rows<T: Field>(rows: impl IntoIterator<Item = Vec<T>>) -> Vec<Row> {
     found
 }
 
+/// What the rows of one of several matrices add, of the first with the most new rows; none is looked at behind one with
+/// as many as there can be. The entries stand row by row.
+pub fn most_new<T: Field>(
+    matrices: impl Iterator<Item = Vec<T>>,
+    columns: usize,
+    bound: usize,
+) -> Option<Vec<Row>> {
+    let mut best: Option<Vec<Row>> = None;
+    for entries in matrices {
+        let found = rows(entries.chunks(columns).map(<[T]>::to_vec));
+        let count = new_rows(&found);
+        if best.as_ref().is_none_or(|best| new_rows(best) < count) {
+            best = Some(found);
+        }
+        if count >= bound {
+            break;
+        }
+    }
+    best
+}
+
+/// How many rows are new.
+pub fn new_rows(rows: &[Row]) -> usize {
+    rows.iter().filter(|row| **row == Row::New).count()
+}
+
 /// The number of rows that are new.
 pub fn rank<T: Field>(all: impl IntoIterator<Item = Vec<T>>) -> usize {
-    let found = rows(all);
-    found.iter().filter(|row| **row == Row::New).count()
+    new_rows(&rows(all))
 }
 
 impl Field for Residue {

@@ -20,7 +20,7 @@ pub enum Standing {
 
 /// Sorts out the functions that depend on earlier ones: their columns in the output and their
 /// projections would say nothing new, and would make Jacobians singular.
-pub fn check(graph: &Graph, functions: &[ExprId], dimension: usize) -> Vec<Standing> {
+pub fn standings(graph: &Graph, functions: &[ExprId], dimension: usize) -> Vec<Standing> {
     let mut scratch = graph.clone();
     let gradients: Vec<Vec<ExprId>> = functions
         .iter()
@@ -31,29 +31,27 @@ pub fn check(graph: &Graph, functions: &[ExprId], dimension: usize) -> Vec<Stand
         })
         .collect();
     let all: Vec<&Vec<ExprId>> = gradients.iter().collect();
-    let rows = ranks::standings(&scratch, &all).unwrap_or_else(|| apart(&scratch, &all));
+    let at_a_point = |rows: &[&Vec<ExprId>]| ranks::row_standings(&scratch, rows);
+    let rows = at_a_point(&all).unwrap_or_else(|| {
+        // No point is in the domain of all: each function with those before it that share a point with it.
+        let mut kept: Vec<&Vec<ExprId>> = Vec::new();
+        let apart = gradients.iter().map(|gradient| {
+            kept.push(gradient);
+            let last = |rows: &[&Vec<ExprId>]| at_a_point(rows)?.pop();
+            let together = (kept.len() <= MOST_APART).then(|| last(&kept)).flatten();
+            // Where nothing can be evaluated, nothing speaks against a function.
+            let row = together.or_else(|| last(&[gradient])).unwrap_or(Row::New);
+            if row != Row::New {
+                kept.pop();
+            }
+            row
+        });
+        apart.collect()
+    });
     let standings = rows.into_iter().map(|row| match row {
         Row::New => Standing::Independent,
         Row::Dependent => Standing::Dependent,
         Row::Zero => Standing::Constant,
     });
     standings.collect()
-}
-
-/// Where no point is in the domain of all: each function with those before it that share a point with it.
-/// Where nothing can be evaluated, nothing speaks against a function.
-fn apart(graph: &Graph, gradients: &[&Vec<ExprId>]) -> Vec<Row> {
-    let mut kept: Vec<&Vec<ExprId>> = Vec::new();
-    let mut found = Vec::new();
-    for gradient in gradients {
-        kept.push(gradient);
-        let last = |rows: &[&Vec<ExprId>]| ranks::standings(graph, rows)?.pop();
-        let together = (kept.len() <= MOST_APART).then(|| last(&kept)).flatten();
-        let row = together.or_else(|| last(&[gradient])).unwrap_or(Row::New);
-        if row != Row::New {
-            kept.pop();
-        }
-        found.push(row);
-    }
-    found
 }

@@ -7,6 +7,7 @@ pub mod branches;
 pub mod confirmation;
 pub mod contradiction;
 pub mod degree;
+pub mod digits;
 pub mod independence;
 pub mod joints;
 pub mod normal;

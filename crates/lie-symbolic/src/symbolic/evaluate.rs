@@ -1,8 +1,12 @@
-//! Evaluation in double precision: the oracle that generated code is tested against.
+//! Evaluation: in double precision, the oracle that generated code is tested against, and exactly.
 
 use rustc_hash::FxHashMap as HashMap;
 
 use super::graph::{ExprId, Graph, Node, Symbol};
+use crate::exact::Rational;
+
+/// Longer numbers count as undefined.
+const MAX_BITS: u64 = 1 << 16;
 
 impl Graph {
     /// The value of an expression.
@@ -18,6 +22,47 @@ impl Graph {
             values.insert(id, result);
         }
         roots.iter().map(|root| values[root]).collect()
+    }
+
+    /// The values of several expressions, `None` where they are not rational or too long.
+    pub fn evaluate_exactly(
+        &self,
+        roots: &[ExprId],
+        value: &dyn Fn(Symbol) -> Option<Rational>,
+    ) -> Option<Vec<Rational>> {
+        let mut values: HashMap<ExprId, Rational> = HashMap::default();
+        for id in self.dependencies(roots) {
+            let value = match self.node(id) {
+                Node::Number(value) => value.clone(),
+                Node::Symbol(symbol) => value(*symbol)?,
+                Node::Sum { constant, terms } => {
+                    terms.iter().fold(constant.clone(), |sum, (term, c)| {
+                        &sum + &(c * &values[term])
+                    })
+                }
+                Node::Written(terms) => terms
+                    .iter()
+                    .fold(Rational::ZERO, |sum, (term, c)| &sum + &(c * &values[term])),
+                Node::Product(factors) => {
+                    let mut product = Rational::ONE;
+                    for (base, exponent) in factors {
+                        let exponent = i32::try_from(exponent.to_integer()?).ok()?;
+                        let base = &values[base];
+                        if base.bits().saturating_mul(exponent.unsigned_abs().into()) > MAX_BITS {
+                            return None;
+                        }
+                        product = &product * &base.pow(exponent)?;
+                    }
+                    product
+                }
+                Node::Pi | Node::Call(..) => return None,
+            };
+            if value.bits() > MAX_BITS {
+                return None;
+            }
+            values.insert(id, value);
+        }
+        Some(roots.iter().map(|root| values[root].clone()).collect())
     }
 
     /// The value of one node, those of its children being known.
