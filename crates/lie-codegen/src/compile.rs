@@ -5,7 +5,7 @@ use std::path::Path;
 
 use proc_macro2::TokenStream;
 
-use crate::check::{check, constant_of, contradicted};
+use crate::check::{check, constant_value, contradicted};
 use crate::methods::{Choice, declared, refusal};
 use crate::plan::{Own, plan, plan_with};
 use crate::print::{Surface, format, print};
@@ -25,15 +25,13 @@ pub fn analysed(
         let found = structure(model, effort);
         declared::check(&found, &mut own);
         smoothness::check(&found, &mut own);
-        contradicted(declaration.name.origin, &mut own);
+        own.extend(contradicted(declaration.name.origin));
         found
     });
     let failed = own.has_errors();
     let diagnostics = own.into_diagnostics();
     let warnings = diagnostics.iter().filter(|d| d.warning).cloned().collect();
-    for diagnostic in diagnostics {
-        report.push(diagnostic);
-    }
+    report.extend(diagnostics);
     let found = found.filter(|_| !failed)?;
     Some(Structure { warnings, ..found })
 }
@@ -143,7 +141,7 @@ pub fn with_options(structure: &Structure, choices: &[Choice]) -> Vec<Choice> {
 pub fn constant(text: &str) -> Result<f64, Vec<Diagnostic>> {
     let mut report = Report::new();
     let expr = parse_constant_text(text, 0, &mut report);
-    let value = expr.and_then(|expr| constant_of(&expr, &mut report));
+    let value = expr.and_then(|expr| report.accept(constant_value(&expr)));
     report.gate()?;
     value.ok_or_else(|| report.into_diagnostics())
 }

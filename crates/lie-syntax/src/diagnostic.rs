@@ -263,10 +263,9 @@ impl Report {
         }
     }
 
-    /// Whether an error with this message was reported.
-    pub fn says(&self, message: &str) -> bool {
-        let mut errors = self.diagnostics.iter().filter(|d| !d.warning);
-        errors.any(|diagnostic| diagnostic.message == message)
+    /// The value that a check found, or `None` and its mistakes in the report.
+    pub fn accept<T>(&mut self, found: Result<T, Vec<Diagnostic>>) -> Option<T> {
+        found.map_err(|mistakes| self.extend(mistakes)).ok()
     }
 
     /// Whether any error (not only warnings) was reported.
@@ -296,6 +295,12 @@ impl Report {
     /// Drops what was reported; the reason says to the reader of the call why nobody has to hear it.
     pub fn ignore(mut self, _reason: &'static str) {
         self.asked = true;
+    }
+}
+
+impl Extend<Diagnostic> for Report {
+    fn extend<T: IntoIterator<Item = Diagnostic>>(&mut self, diagnostics: T) {
+        diagnostics.into_iter().for_each(|d| self.push(d));
     }
 }
 

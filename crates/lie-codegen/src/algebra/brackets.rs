@@ -3,9 +3,10 @@
 use std::collections::BTreeMap;
 
 use super::StructureConstants;
+use super::antisymmetry::{self, BASIS};
 use lie_symbolic::exact::{Budget, Exhausted, Fraction};
 use lie_syntax::ast::Bracket;
-use lie_syntax::diagnostic::{Diagnostic, Kind, Report};
+use lie_syntax::diagnostic::{Diagnostic, Kind};
 use lie_syntax::linear::{Scope, bracket_value};
 
 type Form = Vec<(usize, Fraction)>;
@@ -18,25 +19,27 @@ fn negative(form: &Form) -> Form {
 ///
 /// Antisymmetry is implied, so `[b, a]` may be left out; where it is given it must be `-[a, b]`,
 /// because one of the two is a slip. The same pair twice is allowed if both say the same.
-pub fn check(
+///
+/// # Errors
+/// Every mistake in them.
+pub fn structure_constants(
     brackets: &[Bracket],
     scope: &Scope<'_>,
     budget: &Budget,
-    report: &mut Report,
-) -> Option<StructureConstants<Fraction>> {
+) -> Result<StructureConstants<Fraction>, Vec<Diagnostic>> {
     let mut known: BTreeMap<(usize, usize), (Form, &Bracket)> = BTreeMap::new();
-    let mut complete = true;
+    let mut mistakes = Vec::new();
     for bracket in brackets {
-        let ends = ends(bracket, scope, report);
-        let value = bracket_value(&bracket.value, scope, budget, report);
+        let ends = ends(bracket, scope, &mut mistakes);
+        let value = bracket_value(&bracket.value, scope, budget);
+        let value = value.map_err(|found| mistakes.extend(found)).ok();
         let (Some((a, b)), Some(value)) = (ends, value) else {
-            complete = false;
             continue;
         };
         if a == b {
             if !value.is_empty() {
-                report.push(with_itself(bracket, &value, scope));
-                complete = false;
+                let value = scope.display(&value);
+                mistakes.push(antisymmetry::with_itself(bracket, BASIS, &value));
             }
             continue;
         }
@@ -52,69 +55,49 @@ pub fn check(
         match same(first, &form, budget) {
             Ok(true) => {}
             Ok(false) => {
-                let upper = scope.basis_index(&earlier.left.text) == Some(pair.0);
-                let said = if upper {
-                    first.clone()
+                let shown = [first, &negative(first)].map(|form| scope.display(form));
+                let [upper, lower] = shown.each_ref().map(String::as_str);
+                let values = if a < b {
+                    [upper, lower]
                 } else {
-                    negative(first)
+                    [lower, upper]
                 };
-                report.push(contradiction(bracket, (earlier, &said), scope));
-                complete = false;
+                mistakes.push(antisymmetry::contradiction(bracket, earlier, BASIS, values));
             }
             Err(Exhausted) => {
                 let message = "the brackets are too large to be compared exactly";
                 let limit = Diagnostic::new(Kind::Limit, bracket.origin, message);
-                report.push(limit.help("simplify their coefficients"));
-                return None;
+                mistakes.push(limit.help("simplify their coefficients"));
+                return Err(mistakes);
             }
         }
+    }
+    if !mistakes.is_empty() {
+        return Err(mistakes);
     }
     let entries = known
         .into_iter()
         .flat_map(|((i, j), (form, _))| form.into_iter().map(move |(k, v)| (i, j, k, v)));
-    complete.then(|| StructureConstants::new(scope.basis().len(), entries.collect()))
+    Ok(StructureConstants::new(
+        scope.basis().len(),
+        entries.collect(),
+    ))
 }
 
 /// The two basis elements.
-fn ends(bracket: &Bracket, scope: &Scope<'_>, report: &mut Report) -> Option<(usize, usize)> {
+fn ends(
+    bracket: &Bracket,
+    scope: &Scope<'_>,
+    mistakes: &mut Vec<Diagnostic>,
+) -> Option<(usize, usize)> {
     let [a, b] = [&bracket.left, &bracket.right].map(|name| {
         let index = scope.basis_index(&name.text);
         if index.is_none() {
-            report.push(scope.unknown_basis(Kind::UnknownSymbol, name));
+            mistakes.push(scope.unknown_basis(Kind::UnknownSymbol, name));
         }
         index
     });
     a.zip(b)
-}
-
-/// `[a, a]` that is not zero.
-fn with_itself(bracket: &Bracket, value: &Form, scope: &Scope<'_>) -> Diagnostic {
-    let message = format!(
-        "[{0}, {0}] = {1}, but an antisymmetric bracket makes it zero",
-        bracket.left.text,
-        scope.display(value)
-    );
-    Diagnostic::new(Kind::Antisymmetry, bracket.origin, message).help("remove this bracket")
-}
-
-/// A bracket that an earlier one, with its value, contradicts.
-fn contradiction(
-    bracket: &Bracket,
-    (earlier, said): (&Bracket, &Form),
-    scope: &Scope<'_>,
-) -> Diagnostic {
-    let shown = |bracket: &Bracket| format!("[{}, {}]", bracket.left.text, bracket.right.text);
-    let (here, before) = (shown(bracket), shown(earlier));
-    let value = scope.display(said);
-    if earlier.left.text == bracket.left.text {
-        let message = format!("{here} was already given another value: {before} = {value}");
-        return Diagnostic::new(Kind::DuplicateBracket, bracket.origin, message)
-            .help("keep one of the two");
-    }
-    let message = format!("{here} disagrees with {before} = {value}: a bracket is antisymmetric");
-    let right = scope.display(&negative(said));
-    Diagnostic::new(Kind::Antisymmetry, bracket.origin, message)
-        .help(format!("write {here} = {right}, or leave it out"))
 }
 
 fn same(a: &Form, b: &Form, budget: &Budget) -> Result<bool, Exhausted> {

@@ -10,7 +10,7 @@ use super::StructureConstants;
 use super::ring::Ring;
 use lie_symbolic::exact::{Budget, Exhausted, Fraction, Rational};
 use lie_syntax::ast::Algebra;
-use lie_syntax::diagnostic::{Diagnostic, Kind, Report};
+use lie_syntax::diagnostic::{Diagnostic, Kind};
 use lie_syntax::linear::Scope;
 
 /// Longer common denominators cost more than they save.
@@ -27,28 +27,22 @@ pub struct Failure {
     pub count: usize,
 }
 
-/// Reports the first triple for which the Jacobi identity fails. A bracket that violates it has no
+/// The first triple for which the Jacobi identity fails. A bracket that violates it has no
 /// coadjoint orbits: the flow would not conserve anything that it is generated to conserve.
-pub fn check(
+pub fn violation(
     algebra: &Algebra,
     constants: &StructureConstants<Fraction>,
     scope: &Scope<'_>,
     budget: &Budget,
-    report: &mut Report,
-) -> bool {
+) -> Option<Diagnostic> {
     match first_failure(constants, budget) {
-        Ok(None) => true,
-        Ok(Some(failure)) => {
-            report.push(diagnostic(algebra, scope, &failure));
-            false
-        }
+        Ok(failure) => Some(diagnostic(algebra, scope, &failure?)),
         Err(Exhausted) => {
-            report.push(Diagnostic::new(
-                Kind::Limit,
-                algebra.origin,
-                "the algebra is too large for the exact check of the Jacobi identity",
-            ).help("choose a basis with fewer nonzero structure constants, or simpler coefficients"));
-            false
+            let message = "the algebra is too large for the exact check of the Jacobi identity";
+            let limit = Diagnostic::new(Kind::Limit, algebra.origin, message);
+            Some(limit.help(
+                "choose a basis with fewer nonzero structure constants, or simpler coefficients",
+            ))
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Lie algebras over the rationals (or rational functions of exact parameters): lowering of
 //! brackets, the identities that they must satisfy, matrix representations, ranks.
 
+pub mod antisymmetry;
 pub mod brackets;
 mod constants;
 mod envelope;

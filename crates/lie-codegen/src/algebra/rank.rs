@@ -13,7 +13,7 @@ const POINTS: usize = 2;
 
 /// The generic rank. `bound` is a known upper bound, such as the dimension minus the number of
 /// independent Casimirs; the rank is even, so an odd bound is lowered by one.
-pub fn generic(constants: &StructureConstants<Fraction>, bound: usize) -> usize {
+pub fn generic_rank(constants: &StructureConstants<Fraction>, bound: usize) -> usize {
     let bound = bound & !1;
     let mut best = 0;
     let mut state = 0x9e37_79b9_7f4a_7c15u64;
@@ -62,7 +62,7 @@ fn modulo_prime(
 }
 
 /// The rank at a point and at values of the parameters; `None` where a constant has a pole there.
-pub fn at(
+pub fn rank_at(
     constants: &StructureConstants<Fraction>,
     mu: &[Rational],
     parameters: &[Rational],

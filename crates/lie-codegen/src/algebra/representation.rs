@@ -6,7 +6,7 @@ use super::{StructureConstants, envelope, triple};
 use lie_symbolic::exact::span::{NoSpan, Span};
 use lie_symbolic::exact::{Budget, Exhausted, Fraction, Rational};
 use lie_syntax::ast::{Algebra, Expr, Matrix};
-use lie_syntax::diagnostic::{Diagnostic, Kind, Report};
+use lie_syntax::diagnostic::{Diagnostic, Kind};
 use lie_syntax::linear::{Scope, rational};
 
 /// Entries of all matrices together that are still looked at.
@@ -45,16 +45,19 @@ pub struct Matrices<'a> {
 }
 
 /// Reads the declared matrices: one square matrix of rationals for each basis element, of one size.
-pub fn read<'a>(
+///
+/// # Errors
+/// Every mistake in them.
+pub fn declared_matrices<'a>(
     algebra: &'a Algebra,
     scope: &Scope<'_>,
     budget: &Budget,
-    report: &mut Report,
-) -> Option<Matrices<'a>> {
-    let (slots, mut complete) = slots(algebra, scope, report);
-    let dimension = algebra.matrices.first()?.rows.len();
+) -> Result<Matrices<'a>, Vec<Diagnostic>> {
+    let mut mistakes = Vec::new();
+    let slots = slots(algebra, scope, &mut mistakes);
+    let dimension = algebra.matrices.first().map_or(0, |m| m.rows.len());
     if dimension * dimension * algebra.matrices.len() > MAX_ENTRIES {
-        report.push(
+        mistakes.push(
             Diagnostic::new(
                 Kind::Limit,
                 algebra.matrices[0].origin,
@@ -62,16 +65,15 @@ pub fn read<'a>(
             )
             .help("choose a smaller representation"),
         );
-        return None;
+        return Err(mistakes);
     }
     let mut entries = Vec::new();
     for matrix in &algebra.matrices {
-        let rows = rows(matrix, dimension, budget, report);
-        complete &= rows.is_some();
+        let rows = rows(matrix, dimension, budget, &mut mistakes);
         entries.push((scope.basis_index(&matrix.name.text), rows));
     }
-    if !complete {
-        return None;
+    if !mistakes.is_empty() {
+        return Err(mistakes);
     }
     entries.sort_by_key(|(index, _)| *index);
     let sparse = entries
@@ -79,29 +81,27 @@ pub fn read<'a>(
         .filter_map(|(_, rows)| rows)
         .map(|rows| SparseMatrix::from_rows(&rows))
         .collect();
-    Some(Matrices {
+    Ok(Matrices {
         declared: slots.into_iter().flatten().collect(),
         sparse,
         dimension,
     })
 }
 
-/// The matrix of each basis element, and whether every one has one.
+/// The matrix of each basis element; that one has none is reported.
 fn slots<'a>(
     algebra: &'a Algebra,
     scope: &Scope<'_>,
-    report: &mut Report,
-) -> (Vec<Option<&'a Matrix>>, bool) {
+    mistakes: &mut Vec<Diagnostic>,
+) -> Vec<Option<&'a Matrix>> {
     let mut slots: Vec<Option<&Matrix>> = vec![None; scope.basis().len()];
-    let mut complete = true;
     for matrix in &algebra.matrices {
         match scope.basis_index(&matrix.name.text) {
             None => {
-                report.push(scope.unknown_basis(Kind::Basis, &matrix.name));
-                complete = false;
+                mistakes.push(scope.unknown_basis(Kind::Basis, &matrix.name));
             }
             Some(index) if slots[index].is_some() => {
-                report.push(
+                mistakes.push(
                     Diagnostic::new(
                         Kind::Basis,
                         matrix.name.origin,
@@ -109,7 +109,6 @@ fn slots<'a>(
                     )
                     .help("keep one of the two"),
                 );
-                complete = false;
             }
             Some(index) => slots[index] = Some(matrix),
         }
@@ -120,9 +119,9 @@ fn slots<'a>(
         .filter(|(m, _)| m.is_none())
         .map(|(_, name)| name)
         .collect();
-    if let Some(first) = missing.first().filter(|_| complete) {
+    if let Some(first) = missing.first().filter(|_| mistakes.is_empty()) {
         let names: Vec<&str> = missing.iter().map(|name| name.text.as_str()).collect();
-        report.push(
+        mistakes.push(
             Diagnostic::new(
                 Kind::Representation,
                 first.origin,
@@ -130,9 +129,8 @@ fn slots<'a>(
             )
             .help("a representation has one matrix for every basis element"),
         );
-        complete = false;
     }
-    (slots, complete)
+    slots
 }
 
 /// The entries of a square matrix; all mistakes in them are reported.
@@ -140,7 +138,7 @@ fn rows(
     matrix: &Matrix,
     dimension: usize,
     budget: &Budget,
-    report: &mut Report,
+    mistakes: &mut Vec<Diagnostic>,
 ) -> Option<Vec<Vec<Rational>>> {
     let square = matrix.rows.len() == dimension
         && matrix.rows.iter().all(|row| row.len() == dimension)
@@ -150,13 +148,14 @@ fn rows(
             "the matrix of `{}` is not square, or not of the size of the others",
             matrix.name.text
         );
-        report.push(
+        mistakes.push(
             Diagnostic::new(Kind::Representation, matrix.origin, message)
                 .help("all matrices of a representation are square and of one size"),
         );
     }
     let row = |row: &Vec<Expr>| {
-        let entries = row.iter().map(|entry| rational(entry, budget, report));
+        let entries = row.iter().map(|entry| rational(entry, budget));
+        let entries = entries.map(|entry| entry.map_err(|found| mistakes.extend(found)).ok());
         entries.collect::<Vec<_>>()
     };
     let rows: Vec<Vec<Option<Rational>>> = matrix.rows.iter().map(row).collect();
@@ -170,51 +169,37 @@ impl Matrices<'_> {
         self.sparse.iter().map(SparseMatrix::flat).collect()
     }
 
-    fn limit(&self, report: &mut Report) {
+    fn limit(&self) -> Diagnostic {
         let message = "the matrices are too large for the exact check";
-        report.push(
-            Diagnostic::new(Kind::Limit, self.declared[0].origin, message)
-                .help("choose a smaller representation"),
-        );
+        Diagnostic::new(Kind::Limit, self.declared[0].origin, message)
+            .help("choose a smaller representation")
     }
 
-    /// The structure constants of the matrices themselves: they must be independent, and their
-    /// span must be closed under the commutator, or there is no algebra to compute.
+    /// The structure constants of the matrices themselves.
+    ///
+    /// # Errors
+    /// Dependent matrices and a span that is not closed under the commutator: there is no algebra to compute.
     pub fn constants(
         &self,
         scope: &Scope<'_>,
         budget: &Budget,
-        report: &mut Report,
-    ) -> Option<StructureConstants<Fraction>> {
-        let span = match Span::new(&self.flat(), budget) {
-            Ok(span) => span,
-            Err(NoSpan::Exhausted) => {
-                self.limit(report);
-                return None;
-            }
-            Err(NoSpan::Dependent(relation)) => {
-                report.push(self.dependent(relation, scope));
-                return None;
-            }
-        };
+    ) -> Result<StructureConstants<Fraction>, Diagnostic> {
+        let span = Span::new(&self.flat(), budget).map_err(|none| match none {
+            NoSpan::Exhausted => self.limit(),
+            NoSpan::Dependent(relation) => self.dependent(relation, scope),
+        })?;
         let mut entries = Vec::new();
         for i in 0..self.sparse.len() {
             for j in i + 1..self.sparse.len() {
                 let commutator = SparseMatrix::commutator(&self.sparse[i], &self.sparse[j], budget);
                 let coordinates = commutator.and_then(|c| span.coordinates(&c.flat(), budget));
-                let Ok(coordinates) = coordinates else {
-                    self.limit(report);
-                    return None;
-                };
-                let Some(coordinates) = coordinates else {
-                    report.push(self.outside(i, j, scope));
-                    return None;
-                };
+                let coordinates = coordinates.map_err(|Exhausted| self.limit())?;
+                let coordinates = coordinates.ok_or_else(|| self.outside(i, j, scope))?;
                 let entry = |(k, value)| (i, j, k, Fraction::from(value));
                 entries.extend(nonzero(coordinates).map(entry));
             }
         }
-        Some(StructureConstants::new(self.sparse.len(), entries))
+        Ok(StructureConstants::new(self.sparse.len(), entries))
     }
 
     /// A linear relation between the matrices.
@@ -241,39 +226,34 @@ impl Matrices<'_> {
             .help("the matrices must span a Lie algebra; add the missing basis elements")
     }
 
-    /// Checks the matrices against the brackets, and finds their triple product.
+    /// Checks the matrices against the brackets, and finds their triple product, with a warning where that takes too long.
     ///
-    /// A representation that is none would make every method that uses it leave the orbit.
-    pub fn check(
+    /// # Errors
+    /// A representation that is none: every method that uses it would leave the orbit.
+    pub fn representation(
         &self,
         constants: &StructureConstants<Fraction>,
         scope: &Scope<'_>,
         budget: &Budget,
-        report: &mut Report,
-    ) -> Option<Representation> {
+        warnings: &mut Vec<Diagnostic>,
+    ) -> Result<Representation, Diagnostic> {
         for i in 0..self.sparse.len() {
             for j in i + 1..self.sparse.len() {
-                match self.first_wrong_entry(i, j, constants, budget) {
-                    Ok(None) => {}
-                    Ok(Some(wrong)) => {
-                        report.push(self.not_represented((i, j), wrong, constants, scope));
-                        return None;
-                    }
-                    Err(Exhausted) => {
-                        self.limit(report);
-                        return None;
-                    }
+                let wrong = self.first_wrong_entry(i, j, constants, budget);
+                if let Some(wrong) = wrong.map_err(|Exhausted| self.limit())? {
+                    return Err(self.not_represented((i, j), wrong, constants, scope));
                 }
             }
         }
         let (triple, dual) = self.closures(budget).unwrap_or_else(|Exhausted| {
             let message = "the matrices are too large to decide how their span is closed under triple products; \
                            the Cayley retraction, collective and isospectral methods are not available";
-            report.push(Diagnostic::new(Kind::Limit, self.declared[0].origin, message).help("choose a smaller representation").warning());
+            let warning = Diagnostic::new(Kind::Limit, self.declared[0].origin, message);
+            warnings.push(warning.help("choose a smaller representation").warning());
             (None, None)
         });
         let matrices = self.sparse.iter().map(SparseMatrix::rows).collect();
-        Some(Representation {
+        Ok(Representation {
             dimension: self.dimension,
             matrices,
             triple,

@@ -146,7 +146,10 @@ fn generic_ranks() {
         (known::AFF1, 2),
         (known::E2, 2),
     ] {
-        assert_eq!(rank::generic(&known::constants(algebra), algebra.0), rank);
+        assert_eq!(
+            rank::generic_rank(&known::constants(algebra), algebra.0),
+            rank
+        );
     }
     for (matrices, rank) in [
         (known::so(4), 4),
@@ -155,15 +158,15 @@ fn generic_ranks() {
         (known::sp(2), 8),
     ] {
         assert_eq!(
-            rank::generic(&known::from_matrices(&matrices), matrices.len()),
+            rank::generic_rank(&known::from_matrices(&matrices), matrices.len()),
             rank
         );
     }
     let abelian = StructureConstants::new(4, Vec::new());
-    assert_eq!(rank::generic(&abelian, 4), 0);
+    assert_eq!(rank::generic_rank(&abelian, 4), 0);
     let so3 = known::constants(known::SO3);
     assert_eq!(
-        rank::at(
+        rank::rank_at(
             &so3,
             &[Rational::ZERO, Rational::ZERO, Rational::ZERO],
             &[],
@@ -244,7 +247,7 @@ fn a_change_of_basis_changes_nothing() {
         let constants = known::from_matrices(&mixed);
         assert!(constants.entries().len() > 2 * known::from_matrices(&matrices).entries().len());
         assert!(failure(&constants).is_none());
-        assert_eq!(rank::generic(&constants, mixed.len()), rank);
+        assert_eq!(rank::generic_rank(&constants, mixed.len()), rank);
         assert_eq!(closed(&mixed), was_closed);
         // One wrong coefficient, however slightly wrong, violates the identity.
         let tiny = Rational::from(10).pow(-18).unwrap();

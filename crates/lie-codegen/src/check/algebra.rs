@@ -5,7 +5,7 @@ use crate::model;
 use lie_symbolic::exact::{Budget, Fraction};
 use lie_symbolic::symbolic::Graph;
 use lie_syntax::ast::{self, Declaration, Invariance};
-use lie_syntax::diagnostic::Report;
+use lie_syntax::diagnostic::Diagnostic;
 use lie_syntax::linear::{Scope, WORK};
 
 /// A Lie algebra in which nothing is wrong.
@@ -18,7 +18,7 @@ pub struct Algebra {
 
 impl Algebra {
     /// The algebra of the system, with its constants in the arena: of a right-invariant declaration the opposite one.
-    pub fn of_system(self, declaration: &Declaration, graph: &mut Graph) -> model::Algebra {
+    pub fn into_system(self, declaration: &Declaration, graph: &mut Graph) -> model::Algebra {
         let turned = match declaration.invariance {
             Invariance::Left => self,
             Invariance::Right => self.opposite(),
@@ -57,35 +57,39 @@ impl Algebra {
 
 /// Checks everything that does not depend on the functions, so that a slip in the Hamiltonian
 /// does not hide one in a bracket.
-pub fn check(
+pub fn lie_algebra(
     declaration: &Declaration,
     algebra: &ast::Algebra,
-    report: &mut Report,
+    mistakes: &mut Vec<Diagnostic>,
 ) -> Option<Algebra> {
     let scope = Scope::new(declaration);
     let budget = Budget::new(WORK);
-    let with_matrices = !algebra.matrices.is_empty();
-    let matrices = if with_matrices {
-        representation::read(algebra, &scope, &budget, report)
-    } else {
-        None
-    };
+    let matrices = (!algebra.matrices.is_empty()).then(|| {
+        let matrices = representation::declared_matrices(algebra, &scope, &budget);
+        matrices.map_err(|found| mistakes.extend(found)).ok()
+    });
     let constants = match (&algebra.brackets, &matrices) {
         (Some(declared), _) => {
-            let constants = brackets::check(declared, &scope, &budget, report)?;
-            if !jacobi::check(algebra, &constants, &scope, &budget, report) {
+            let constants = brackets::structure_constants(declared, &scope, &budget);
+            let constants = constants.map_err(|found| mistakes.extend(found)).ok()?;
+            if let Some(violation) = jacobi::violation(algebra, &constants, &scope, &budget) {
+                mistakes.push(violation);
                 return None;
             }
             constants
         }
         // Commutators of matrices satisfy the Jacobi identity.
-        (None, Some(matrices)) => matrices.constants(&scope, &budget, report)?,
-        (None, None) if with_matrices => return None,
+        (None, Some(matrices)) => {
+            let constants = matrices.as_ref()?.constants(&scope, &budget);
+            constants.map_err(|mistake| mistakes.push(mistake)).ok()?
+        }
         (None, None) => StructureConstants::new(algebra.basis.len(), Vec::new()),
     };
     let representation = match matrices {
-        Some(matrices) => Some(matrices.check(&constants, &scope, &budget, report)?),
-        None if with_matrices => return None,
+        Some(matrices) => {
+            let found = matrices?.representation(&constants, &scope, &budget, mistakes);
+            Some(found.map_err(|mistake| mistakes.push(mistake)).ok()?)
+        }
         None => None,
     };
     Some(Algebra {

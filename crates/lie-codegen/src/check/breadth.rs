@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::model::PoissonMatrix;
 use lie_symbolic::symbolic::{ExprId, Graph, Node, Symbol};
-use lie_syntax::diagnostic::{Diagnostic, Kind, Origin, Report};
+use lie_syntax::diagnostic::{Diagnostic, Kind, Origin};
 
 /// The most entries above the diagonal that may differ from zero. That of gl(16), n = 256, has 4,000, and
 /// neither the search for common terms nor the compiler behind it gets through many more.
@@ -17,50 +17,40 @@ const MOST_TERMS: usize = 12_000;
 /// A set of coordinates, 64 in a word.
 type Set = Vec<u64>;
 
-/// Checks that neither matrix is too full; whether they are not.
-pub fn check(
+/// Which of the two matrices is too full.
+pub fn fill(
     graph: &Graph,
-    poisson: (&PoissonMatrix, Origin),
-    hamiltonian: (ExprId, Origin),
-    report: &mut Report,
-) -> bool {
-    let (matrix, place) = poisson;
-    let brackets = matrix.entries.len();
-    if brackets > MOST_ENTRIES {
-        let message = format!(
-            "{brackets} pairs of coordinates have a bracket that is not zero, more than the limit of {MOST_ENTRIES}"
-        );
-        report.push(Diagnostic::new(Kind::Limit, place, message).help(
-            "kernels are straight-line code; choose a basis in which more brackets vanish, or a smaller system",
-        ));
-        return false;
-    }
+    (matrix, place): (&PoissonMatrix, Origin),
+    (energy, origin): (ExprId, Origin),
+) -> Option<Diagnostic> {
     let terms = |id: &ExprId| match graph.node(*id) {
         Node::Sum { terms, .. } => terms.len(),
         _ => 1,
     };
+    let brackets = matrix.entries.len();
     let terms: usize = matrix.entries.iter().map(|(.., value)| terms(value)).sum();
+    let refused = |origin, what: String, limit: usize, choice: &str| {
+        let message = format!("{what}, more than the limit of {limit}");
+        let help = format!("kernels are straight-line code; choose {choice}, or a smaller system");
+        Some(Diagnostic::new(Kind::Limit, origin, message).help(help))
+    };
+    if brackets > MOST_ENTRIES {
+        let what = format!("{brackets} pairs of coordinates have a bracket that is not zero");
+        let choice = "a basis in which more brackets vanish";
+        return refused(place, what, MOST_ENTRIES, choice);
+    }
     if terms > MOST_TERMS {
-        let message = format!(
-            "the brackets have {terms} terms together, more than the limit of {MOST_TERMS}"
-        );
-        report.push(Diagnostic::new(Kind::Limit, place, message).help(
-            "kernels are straight-line code; choose a basis in which the brackets are shorter, or a smaller system",
-        ));
-        return false;
+        let what = format!("the brackets have {terms} terms together");
+        let choice = "a basis in which the brackets are shorter";
+        return refused(place, what, MOST_TERMS, choice);
     }
-    let (energy, place) = hamiltonian;
     let mixed = mixed_pairs(graph, energy, matrix.dimension);
+    let what = format!("the Hamiltonian mixes {mixed} pairs of coordinates");
+    let choice = "coordinates in which more mixed terms vanish";
     if mixed > MOST_ENTRIES {
-        let message = format!(
-            "the Hamiltonian mixes {mixed} pairs of coordinates, more than the limit of {MOST_ENTRIES}"
-        );
-        report.push(Diagnostic::new(Kind::Limit, place, message).help(
-            "kernels are straight-line code; choose coordinates in which more mixed terms vanish, or a smaller system",
-        ));
-        return false;
+        return refused(origin, what, MOST_ENTRIES, choice);
     }
-    true
+    None
 }
 
 /// An upper bound of the nonzero entries of the Hessian above the diagonal: pairs of coordinates that occur

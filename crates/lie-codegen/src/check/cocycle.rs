@@ -1,113 +1,35 @@
 //! Constants that are added to a Lie–Poisson bracket: a 2-cocycle of the algebra.
 
-use super::poisson::{Entry, symbol_name};
+use super::poisson::Entry;
 use crate::algebra::StructureConstants;
-use crate::model::Parameter;
 use lie_symbolic::exact::Budget;
-use lie_symbolic::prove::normal::NormalForm;
-use lie_symbolic::prove::proof::{Proof, examine};
+use lie_symbolic::prove::proof::{Proof, Prover};
 use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
-use lie_syntax::ast::{Declaration, Expr, ExprKind, Structure};
-use lie_syntax::diagnostic::{Diagnostic, Kind, Origin, Report};
+use lie_syntax::ast::Declaration;
+use lie_syntax::diagnostic::{Diagnostic, Kind};
 
 /// Work allowed for the identity.
 const WORK: u64 = 5_000_000;
 
-/// Reports constants that use parameters which are not exact: the identity must hold for what the
-/// brackets of the algebra may depend on, and these are exact.
-pub fn parameters(declaration: &Declaration, report: &mut Report) {
-    let Structure::Lie { cocycle, .. } = &declaration.structure else {
-        return;
-    };
-    let inexact = |name: &str| {
-        let mut parameters = declaration.parameters.iter();
-        parameters.any(|p| p.name.text == name && !p.exact)
-    };
-    for bracket in cocycle {
-        for (name, origin) in names(&bracket.value) {
-            if inexact(name) {
-                report.push(not_exact(name, origin));
-            }
-        }
-    }
-}
-
-fn not_exact(name: &str, origin: Origin) -> Diagnostic {
-    let message = format!("the parameter `{name}` is not exact, so a cocycle cannot use it");
-    let help =
-        format!("declare it exact: `exact {name} = …;` in the macro, `\"exact\": true` in a spec");
-    Diagnostic::new(Kind::UnknownSymbol, origin, message).help(help)
-}
-
-/// Reports constants that reach such parameters through abbreviations, and those that are not finite for
-/// the default parameters.
-pub fn values(entries: &[Entry], graph: &Graph, parameters: &[Parameter], report: &mut Report) {
-    for entry in entries {
-        let used = graph.symbols(entry.value);
-        let inexact = used.into_iter().find_map(|symbol| match symbol {
-            Symbol::Parameter(p) => parameters.get(p).filter(|p| p.exact.is_none()),
-            _ => None,
-        });
-        if let Some(parameter) = inexact {
-            report.push(not_exact(&parameter.name, entry.origin));
-            continue;
-        }
-        let value = |symbol| match symbol {
-            Symbol::Parameter(p) => parameters[p].default_value,
-            _ => f64::NAN,
-        };
-        if !graph.evaluate(entry.value, &value).is_finite() {
-            let message = "this constant is not finite for the default parameters";
-            report.push(
-                Diagnostic::new(Kind::Number, entry.origin, message).help("choose another default"),
-            );
-        }
-    }
-}
-
-/// The names in an expression, in the order of the text.
-fn names(expression: &Expr) -> Vec<(&str, Origin)> {
-    let mut pending = vec![expression];
-    let mut names = Vec::new();
-    while let Some(part) = pending.pop() {
-        match &part.kind {
-            ExprKind::Name { name, .. } => names.push((name.as_str(), part.origin)),
-            ExprKind::Number(_) => {}
-            ExprKind::Negative(a) => pending.push(a),
-            ExprKind::Power(a, b) => pending.extend([&**b, &**a]),
-            ExprKind::Sum(operands) | ExprKind::Product(operands) => {
-                pending.extend(operands.iter().rev().map(|(_, operand)| operand));
-            }
-            ExprKind::Call { arguments, .. } => pending.extend(arguments.iter().rev()),
-            ExprKind::IndexedSum { from, to, body, .. } => {
-                pending.extend([&**body, &**to, &**from]);
-            }
-        }
-    }
-    names
-}
-
-/// Reports the first three basis elements for which the cocycle identity
+/// The first three basis elements for which the cocycle identity
 /// `S([a, b], c) + S([b, c], a) + S([c, a], b) = 0` fails, with `S(e_i, e_j)` the constant that is added to
 /// `{x_i, x_j}`: only then is the sum a Poisson bracket, the Lie–Poisson bracket of a central extension.
-pub fn check(
+pub fn cocycle_identity(
     declaration: &Declaration,
     entries: &[Entry],
     constants: &StructureConstants<ExprId>,
     scratch: &mut Graph,
-    report: &mut Report,
-) {
+    name: &dyn Fn(Symbol) -> String,
+) -> Option<Diagnostic> {
     let cocycle = matrix(entries, constants.dimension(), scratch);
     let brackets = brackets(constants, scratch);
     let sums = sums(&cocycle, &brackets, scratch);
-    let scratch = &*scratch;
     let budget = Budget::new(WORK);
-    let mut normal = NormalForm::new(scratch, &budget);
-    let name = |symbol: Symbol| symbol_name(declaration, symbol);
+    let mut prover = Prover::new(scratch, &budget, &[], name);
     for (triple, sum) in &sums {
         let [a, b, c] = triple.map(|index| declaration.basis()[index].text.as_str());
         let sums = format!("S([{a}, {b}], {c}) + S([{b}, {c}], {a}) + S([{c}, {a}], {b})");
-        let message = match examine(&mut normal, scratch, *sum, &name) {
+        let message = match prover.examine(*sum) {
             Proof::Zero => continue,
             Proof::Nonzero(shown) => {
                 format!("the cocycle identity fails for ({a}, {b}, {c}): {sums} = {shown}")
@@ -121,13 +43,11 @@ pub fn check(
             .filter(|entry| is_part(entry, triple, &brackets));
         let found = involved.next().or(entries.first());
         let place = found.map_or(declaration.place(), |entry| entry.origin);
-        report.push(
-            Diagnostic::new(Kind::Cocycle, place, message).help(
-                "correct the constants; S(a, b) is what is added to the bracket of the coordinates of a and b",
-            ),
-        );
-        return;
+        return Some(Diagnostic::new(Kind::Cocycle, place, message).help(
+            "correct the constants; S(a, b) is what is added to the bracket of the coordinates of a and b",
+        ));
     }
+    None
 }
 
 /// `S(e_i, e_j)` for all i, j.

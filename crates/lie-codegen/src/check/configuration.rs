@@ -16,18 +16,21 @@ use crate::model::configuration::{Configuration, TIME, TIME_MOMENTUM, UNIT};
 use larger::Builder;
 use lie_symbolic::exact::Rational;
 use lie_syntax::ast::{Algebra, Bracket, Declaration, Expr, ExprKind, Invariance, Name, Structure};
-use lie_syntax::diagnostic::{Diagnostic, Kind, Origin, Report, plural};
+use lie_syntax::diagnostic::{Diagnostic, Kind, Origin, plural};
 use lie_syntax::limits::MAX_DIMENSION;
 
 /// The configuration of a declaration; `None` where it has neither a group element nor the time.
-pub fn of(declaration: &Declaration, report: &mut Report) -> Option<Configuration> {
+pub fn configuration(
+    declaration: &Declaration,
+    mistakes: &mut Vec<Diagnostic>,
+) -> Option<Configuration> {
     let group = declaration.group.as_ref().and_then(|name| {
         let size = declaration
             .algebra()
             .and_then(|algebra| algebra.matrices.first())
             .map(|m| m.rows.len());
         if size.is_none() {
-            report.push(
+            mistakes.push(
                 Diagnostic::new(
                     Kind::Representation,
                     name.origin,
@@ -51,28 +54,17 @@ pub fn of(declaration: &Declaration, report: &mut Report) -> Option<Configuratio
 
 fn uses_time(declaration: &Declaration) -> bool {
     let lets = declaration.lets.iter().map(|(_, value)| value);
-    let mut open: Vec<&Expr> = lets.chain([declaration.energy.expression()]).collect();
-    while let Some(expr) = open.pop() {
-        match &expr.kind {
-            ExprKind::Name { name, index: None } if name == TIME => return true,
-            ExprKind::Number(_) | ExprKind::Name { .. } => {}
-            ExprKind::Negative(inner) => open.push(inner),
-            ExprKind::Sum(terms) | ExprKind::Product(terms) => {
-                open.extend(terms.iter().map(|(_, term)| term));
-            }
-            ExprKind::Power(base, exponent) => open.extend([&**base, &**exponent]),
-            ExprKind::Call { arguments, .. } => open.extend(arguments),
-            ExprKind::IndexedSum { from, to, body, .. } => open.extend([&**from, &**to, &**body]),
-        }
-    }
-    false
+    let mut parts = lets
+        .chain([declaration.energy.expression()])
+        .flat_map(Expr::parts);
+    parts.any(|part| matches!(&part.kind, ExprKind::Name { name, index: None } if name == TIME))
 }
 
 /// The declaration with all coordinates, basis elements, brackets and matrices.
 pub fn extended(
     declaration: &Declaration,
     configuration: &Configuration,
-    report: &mut Report,
+    mistakes: &mut Vec<Diagnostic>,
 ) -> Declaration {
     let group = declaration.group.as_ref();
     let origin = group.map_or(declaration.energy.expression().origin, |name| name.origin);
@@ -80,9 +72,21 @@ pub fn extended(
         configuration,
         origin,
     };
-    clashes(declaration, &configuration.entries(), origin, report);
+    mistakes.extend(clashes(declaration, &configuration.entries(), origin));
     let mut whole = declaration.clone();
     added.names(&mut whole.state);
+    if let Some(initial) = &declaration.initial {
+        let complete = configuration.complete(initial, |value| added.number(value));
+        if complete.is_none() {
+            mistakes.push(incomplete(declaration, configuration, initial, origin));
+        }
+        // of a wrong number of values each is still looked at
+        whole.initial = complete.or_else(|| {
+            let mut padded = initial.clone();
+            padded.resize(whole.state.len(), added.number(0));
+            Some(padded)
+        });
+    }
     match &mut whole.structure {
         Structure::Lie { algebra, .. } => added.elements(algebra, declaration.invariance),
         // the pair is canonical by itself; the central coordinate is there for the order of the others
@@ -92,18 +96,6 @@ pub fn extended(
             value: added.number(1),
             origin,
         }),
-    }
-    if let Some(initial) = &declaration.initial {
-        let complete = configuration.complete(initial, |value| added.number(value));
-        if complete.is_none() {
-            report.push(incomplete(declaration, configuration, initial, origin));
-        }
-        // of a wrong number of values each is still looked at
-        whole.initial = complete.or_else(|| {
-            let mut padded = initial.clone();
-            padded.resize(whole.state.len(), added.number(0));
-            Some(padded)
-        });
     }
     whole
 }
@@ -191,38 +183,33 @@ fn incomplete(
     Diagnostic::new(Kind::StateLength, place, message).help(help)
 }
 
-/// Reports names of the user that the entries of the group element take.
-pub fn clashes(declaration: &Declaration, entries: &[String], origin: Origin, report: &mut Report) {
+/// Names of the user that the entries of the group element take, and entries that are too many.
+pub fn clashes(
+    declaration: &Declaration,
+    entries: &[String],
+    origin: Origin,
+) -> impl Iterator<Item = Diagnostic> {
     let own = declaration.state.iter().chain(declaration.basis());
     let others = declaration.parameters.iter().map(|p| &p.name);
     let lets = declaration.lets.iter().map(|(name, _)| name);
     let velocity = declaration.energy.velocity();
     let casimirs = declaration.casimirs.iter().filter_map(|c| c.name.as_ref());
-    let taken = own
+    let names = own
         .chain(others)
         .chain(lets)
         .chain(velocity)
         .chain(casimirs);
-    for name in taken.filter(|name| entries.contains(&name.text)) {
-        report.push(
-            Diagnostic::new(
-                Kind::DuplicateName,
-                name.origin,
-                format!("`{}` is an entry of the group element", name.text),
-            )
-            .help("choose another name, here or for the group element"),
-        );
-    }
+    let taken = names.filter(|name| entries.contains(&name.text));
+    let taken = taken.map(|name| {
+        let message = format!("`{}` is an entry of the group element", name.text);
+        Diagnostic::new(Kind::DuplicateName, name.origin, message)
+            .help("choose another name, here or for the group element")
+    });
     let size = entries.len();
     let letters = |c: char| c == '_' || unicode_ident::is_xid_continue(c);
-    if entries.iter().any(|entry| !entry.chars().all(letters)) || size > MAX_DIMENSION {
-        report.push(
-            Diagnostic::new(
-                Kind::Limit,
-                origin,
-                format!("the group element has {size} entries, too many coordinates"),
-            )
-            .help("choose a smaller representation"),
-        );
-    }
+    let many = entries.iter().any(|entry| !entry.chars().all(letters)) || size > MAX_DIMENSION;
+    taken.chain(many.then(|| {
+        let message = format!("the group element has {size} entries, too many coordinates");
+        Diagnostic::new(Kind::Limit, origin, message).help("choose a smaller representation")
+    }))
 }

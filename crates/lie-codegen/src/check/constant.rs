@@ -4,16 +4,20 @@ use super::environment::{Allowed, Environment};
 use super::lower::Lowering;
 use lie_symbolic::symbolic::Graph;
 use lie_syntax::ast::Expr;
-use lie_syntax::diagnostic::Report;
+use lie_syntax::diagnostic::Diagnostic;
 
-/// The value of an expression without names, in double precision; it need not be finite there. `None` if anything was
-/// reported.
-pub fn constant_of(expr: &Expr, report: &mut Report) -> Option<f64> {
+/// The value of an expression without names, in double precision; it need not be finite there.
+///
+/// # Errors
+/// Every mistake in it.
+pub fn constant_value(expr: &Expr) -> Result<f64, Vec<Diagnostic>> {
     let mut graph = Graph::new();
     let environment = Environment::default();
-    let mut lowering = Lowering::new(&mut graph, &environment, report, Allowed::Constants);
-    let value = lowering.lower(expr)?;
-    Some(graph.evaluate(value, &|_| f64::NAN))
+    let mut mistakes = Vec::new();
+    let value =
+        Lowering::new(&mut graph, &environment, &mut mistakes, Allowed::Constants).lower(expr);
+    let value = value.ok_or(mistakes)?;
+    Ok(graph.evaluate(value, &|_| f64::NAN))
 }
 
 #[cfg(test)]

@@ -4,19 +4,21 @@ use super::algebra::Algebra;
 use crate::model::Parameter;
 use lie_symbolic::exact::Rational;
 use lie_syntax::ast::Declaration;
-use lie_syntax::diagnostic::{Diagnostic, Kind, Report};
+use lie_syntax::diagnostic::{Diagnostic, Kind};
 
 /// Work that exact evaluation may cost, in products of words.
 const WORK: u64 = 300_000_000;
 
 /// The defaults by parameter (zero for those that are not exact). The constants must be finite
 /// there, because the exact rank at the initial state needs their values.
-pub fn check(
+///
+/// # Errors
+/// Constants that are not finite, or too large to be evaluated.
+pub fn exact_defaults(
     declaration: &Declaration,
     algebra: Option<&Algebra>,
     parameters: &[Parameter],
-    report: &mut Report,
-) -> Option<Vec<Rational>> {
+) -> Result<Vec<Rational>, Diagnostic> {
     let defaults: Vec<Rational> = parameters
         .iter()
         .map(|p| p.exact.clone().unwrap_or(Rational::ZERO))
@@ -36,28 +38,15 @@ pub fn check(
         sum.saturating_add(e.3.evaluation_work(bits))
     });
     if work > WORK {
-        report.push(
-            Diagnostic::new(
-                Kind::Limit,
-                place,
-                "the structure constants are too large to be evaluated exactly",
-            )
-            .help("simplify the brackets, or choose a default with fewer digits"),
-        );
-        return None;
+        let message = "the structure constants are too large to be evaluated exactly";
+        return Err(Diagnostic::new(Kind::Limit, place, message)
+            .help("simplify the brackets, or choose a default with fewer digits"));
     }
     let value = |p: usize| defaults[p].clone();
     if let Some((i, j, ..)) = entries.iter().find(|e| e.3.evaluate(&value).is_none()) {
         let [a, b] = [*i, *j].map(|index| &declaration.basis()[index].text);
-        report.push(
-            Diagnostic::new(
-                Kind::Number,
-                place,
-                format!("[{a}, {b}] is divided by zero for the default parameters"),
-            )
-            .help("choose another default"),
-        );
-        return None;
+        let message = format!("[{a}, {b}] is divided by zero for the default parameters");
+        return Err(Diagnostic::new(Kind::Number, place, message).help("choose another default"));
     }
-    Some(defaults)
+    Ok(defaults)
 }

@@ -23,7 +23,7 @@ pub(super) struct Component {
 }
 
 /// Whether Gauss methods descend, for components that are functions of so many canonical coordinates.
-pub(super) fn of(graph: &Graph, components: &[Component], points: usize) -> Descent {
+pub(super) fn descent(graph: &Graph, components: &[Component], points: usize) -> Descent {
     let mut found = 0;
     let mut commuting = false;
     for sample in Samples::new().take(TRIES) {

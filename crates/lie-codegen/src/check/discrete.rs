@@ -3,11 +3,11 @@
 //! A discrete Lagrangian is consistent with `l(xi) = lim l_d(h xi)/h`, h to 0: the coefficient of h in the series of
 //! `l_d(h xi)`. Those of lower powers must not depend on xi; a constant in l_d moves nothing.
 
-use super::series::{Series, in_step};
+use super::series::in_step;
 use lie_symbolic::exact::Budget;
 use lie_symbolic::prove::normal::{NormalForm, Verdict};
 use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
-use lie_syntax::diagnostic::{Diagnostic, Kind, Origin, Report};
+use lie_syntax::diagnostic::{Diagnostic, Kind, Origin};
 
 /// Work allowed for the decisions of the normal form.
 const WORK: u64 = 2_000_000;
@@ -15,27 +15,22 @@ const WORK: u64 = 2_000_000;
 /// The reduced Lagrangian of a discrete one in the same number of variables.
 ///
 /// # Errors
-/// `legendre`, reported, where it is consistent with none.
-pub fn lagrangian(
+/// `legendre` where it is consistent with none.
+pub fn reduced(
     graph: &mut Graph,
     discrete: ExprId,
     count: usize,
     origin: Origin,
-    report: &mut Report,
-) -> Option<ExprId> {
-    let limit = in_step(graph, discrete).and_then(|series| limit(graph, &series, count));
-    if limit.is_none() {
-        report.push(
-            Diagnostic::new(
-                Kind::Legendre,
-                origin,
-                "the discrete Lagrangian is not consistent with any Lagrangian: `l_d(h xi)/h` has no limit as the step \
-                 size h goes to 0, or none was found",
-            )
-            .help("an action of one step is about `h*l(x/h)`, such as `x^2/(2*h)`"),
-        );
-    }
-    limit
+) -> Result<ExprId, Diagnostic> {
+    limit(graph, discrete, count).ok_or_else(|| {
+        Diagnostic::new(
+            Kind::Legendre,
+            origin,
+            "the discrete Lagrangian is not consistent with any Lagrangian: `l_d(h xi)/h` has no limit as the step \
+             size h goes to 0, or none was found",
+        )
+        .help("an action of one step is about `h*l(x/h)`, such as `x^2/(2*h)`")
+    })
 }
 
 /// The mistake of a discrete Lagrangian where there is no group alone to step on.
@@ -48,7 +43,8 @@ pub fn elsewhere(origin: Origin) -> Diagnostic {
     .help("declare a `hamiltonian` or a `lagrangian`")
 }
 
-fn limit(graph: &mut Graph, series: &Series, count: usize) -> Option<ExprId> {
+fn limit(graph: &mut Graph, discrete: ExprId, count: usize) -> Option<ExprId> {
+    let series = in_step(graph, discrete)?;
     let limit = series.coefficient(graph, 1)?;
     let mut divergent = Vec::new();
     for power in series.start()..1 {

@@ -4,7 +4,7 @@ use super::velocity::velocity;
 use crate::model::{Bracket, Energy, Model};
 use lie_symbolic::exact::Rational;
 use lie_symbolic::symbolic::{ExprId, Graph, Node, Symbol};
-use lie_syntax::diagnostic::{Diagnostic, Kind, Origin, Report};
+use lie_syntax::diagnostic::{Diagnostic, Kind, Origin};
 
 /// A group element within this of the group is one, written with few digits.
 const OFF_THE_GROUP: f64 = 1e-4;
@@ -18,33 +18,27 @@ pub struct Fault {
     pub message: String,
 }
 
-/// Reports what is not finite at the initial state, at the entry that is involved.
-pub fn check(model: &Model, origin: Option<Origin>, report: &mut Report) {
+/// What is not finite at the initial state, at the entry that is involved.
+pub fn initial_domain(model: &Model, origin: Option<Origin>) -> Option<Diagnostic> {
     let parameters = model.defaults();
-    let Some(mu) = model.initial_values(&parameters) else {
-        return;
+    let fault = fault(model, &model.initial_values(&parameters)?, &parameters)?;
+    let origins = &model.initial_origins;
+    let entry = fault.coordinate.and_then(|i| origins.get(i));
+    let group = model
+        .configuration
+        .as_ref()
+        .is_some_and(|c| c.group.is_some());
+    let help = match model.bracket {
+        _ if group => "begin at an element of the group, inside the domain of the Hamiltonian",
+        Bracket::General(_) => {
+            "begin inside the domain of the brackets, of the Hamiltonian and of the Casimirs"
+        }
+        _ => "begin inside the domain of the Hamiltonian and of the Casimirs",
     };
-    if let Some(fault) = fault(model, &mu, &parameters) {
-        let entry = fault
-            .coordinate
-            .and_then(|i| model.initial_origins.get(i).copied());
-        let mut diagnostic = Diagnostic::placeless(
-            Kind::Domain,
-            format!("{} at the initial state", fault.message),
-        );
-        diagnostic.origin = entry.or(origin).or(model.initial_origins.first().copied());
-        let group = model
-            .configuration
-            .as_ref()
-            .is_some_and(|c| c.group.is_some());
-        report.push(diagnostic.help(match model.bracket {
-            _ if group => "begin at an element of the group, inside the domain of the Hamiltonian",
-            Bracket::General(_) => {
-                "begin inside the domain of the brackets, of the Hamiltonian and of the Casimirs"
-            }
-            _ => "begin inside the domain of the Hamiltonian and of the Casimirs",
-        }));
-    }
+    let message = format!("{} at the initial state", fault.message);
+    let place = entry.copied().or(origin).or(origins.first().copied());
+    let place = place.unwrap_or(model.name_origin);
+    Some(Diagnostic::new(Kind::Domain, place, message).help(help))
 }
 
 /// The first thing that is not finite at a state: a coordinate, the Hamiltonian, a component of
@@ -60,7 +54,7 @@ pub fn fault(model: &Model, mu: &[f64], parameters: &[f64]) -> Option<Fault> {
     if let Some(fault) = outside_the_group(model, mu) {
         return Some(fault);
     }
-    let mut scratch = model.graph.clone();
+    let mut scratch: Graph = model.graph.clone();
     let xi = match &model.energy {
         Energy::Legendre(lagrangian, _) => {
             match velocity(&mut scratch, lagrangian.value, mu, parameters) {

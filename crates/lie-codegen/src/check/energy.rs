@@ -1,12 +1,12 @@
 //! The Hamiltonian of a declaration: as it stands, or that of a Lagrangian.
 
 use super::legendre::{self, Lagrangian, Transform};
-use super::{discrete, size};
+use super::{derivatives, discrete};
 use crate::model::configuration::Configuration;
 use crate::model::{self, Discrete, Parameter};
 use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 use lie_syntax::ast::{Declaration, Energy, Name};
-use lie_syntax::diagnostic::{Origin, Report};
+use lie_syntax::diagnostic::{Diagnostic, Origin};
 
 /// What the equations of motion come from.
 pub struct Motion<'a> {
@@ -33,21 +33,20 @@ impl Motion<'_> {
     /// The energy for the lowered function of the declaration.
     ///
     /// # Errors
-    /// A Lagrangian without a Hamiltonian, reported.
+    /// A Lagrangian without a Hamiltonian.
     pub fn energy(
         &self,
         graph: &mut Graph,
         function: ExprId,
-        report: &mut Report,
-    ) -> Option<model::Energy<Declared>> {
+    ) -> Result<model::Energy<Declared>, Diagnostic> {
         let energy = match &self.declaration.energy {
             Energy::Hamiltonian(_) => model::Energy::Expression(function),
             Energy::Lagrangian { velocity, value }
             | Energy::DiscreteLagrangian { velocity, value } => {
-                self.of_lagrangian(graph, function, (velocity, value.origin), report)?
+                self.lagrangian(graph, function, (velocity, value.origin))?
             }
         };
-        Some(energy.with(|energy| Declared {
+        Ok(energy.with(|energy| Declared {
             value: match self.configuration {
                 Some(configuration) if configuration.time => {
                     let momentum = graph.symbol(Symbol::Coordinate(configuration.momenta - 1));
@@ -59,24 +58,18 @@ impl Motion<'_> {
         }))
     }
 
-    fn of_lagrangian(
+    fn lagrangian(
         &self,
         graph: &mut Graph,
         function: ExprId,
         (velocity, origin): (&[Name], Origin),
-        report: &mut Report,
-    ) -> Option<model::Energy<ExprId>> {
+    ) -> Result<model::Energy<ExprId>, Diagnostic> {
         let count = velocity.len();
-        if !size::lagrangian(graph, function, count, origin, report) {
-            return None;
-        }
+        derivatives::momenta(graph, function, count, origin)?;
         let discrete = self.declaration.energy.has_step().then_some(function);
-        if discrete.is_some() && !self.on_algebra {
-            report.push(discrete::elsewhere(origin));
-            return None;
-        }
         let value = match discrete {
-            Some(discrete) => discrete::lagrangian(graph, discrete, count, origin, report)?,
+            Some(_) if !self.on_algebra => return Err(discrete::elsewhere(origin)),
+            Some(discrete) => discrete::reduced(graph, discrete, count, origin)?,
             None => function,
         };
         let lagrangian = Lagrangian {
@@ -87,14 +80,14 @@ impl Motion<'_> {
             configuration: self.configuration,
             on_algebra: self.on_algebra,
         };
-        let transform = legendre::hamiltonian(graph, &lagrangian, report)?;
+        let transform = legendre::hamiltonian(graph, &lagrangian)?;
         let in_entries = self.declaration.group.is_some();
         let lagrangian = model::Lagrangian {
             value,
             velocity: velocity.to_vec(),
             discrete: discrete.map(|value| Discrete { value, in_entries }),
         };
-        Some(match transform {
+        Ok(match transform {
             Transform::InVelocity(function) => model::Energy::Legendre(lagrangian, function),
             Transform::Exact(hamiltonian) if self.on_algebra => {
                 model::Energy::Lagrangian(lagrangian, hamiltonian)

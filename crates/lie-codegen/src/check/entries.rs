@@ -6,7 +6,7 @@
 use super::configuration;
 use lie_symbolic::exact::Rational;
 use lie_syntax::ast::{Declaration, Expr, ExprKind, Invariance, Name};
-use lie_syntax::diagnostic::{Diagnostic, Kind, Origin, Report};
+use lie_syntax::diagnostic::{Diagnostic, Kind, Origin};
 
 /// The largest matrix whose inverse is written out.
 const MAX_SIZE: usize = 4;
@@ -16,12 +16,15 @@ const MAX_SIZE: usize = 4;
 /// # Errors
 /// A group element without matrices, of many rows or of a right-invariant system, and names that its entries take,
 /// are reported.
-pub fn written_out(declaration: &Declaration, report: &mut Report) -> Option<Declaration> {
+pub fn written_out(
+    declaration: &Declaration,
+    mistakes: &mut Vec<Diagnostic>,
+) -> Option<Declaration> {
     let origin = declaration.group.as_ref()?.origin;
-    let configuration = configuration::of(declaration, report)?;
+    let configuration = configuration::configuration(declaration, mistakes)?;
     let size = configuration.group.as_ref()?.1;
     let mut fails = |message: String, help: &str| {
-        report.push(Diagnostic::new(Kind::Limit, origin, message).help(help));
+        mistakes.push(Diagnostic::new(Kind::Limit, origin, message).help(help));
     };
     if size > MAX_SIZE {
         fails(
@@ -38,7 +41,7 @@ pub fn written_out(declaration: &Declaration, report: &mut Report) -> Option<Dec
         return None;
     }
     let entries = configuration.entries();
-    configuration::clashes(declaration, &entries, origin, report);
+    mistakes.extend(configuration::clashes(declaration, &entries, origin));
     let values = Build { origin }.cayley(declaration, size);
     let lets = entries.into_iter().zip(values).map(|(text, value)| {
         let name = Name { text, origin };

@@ -5,52 +5,50 @@ use std::collections::BTreeSet;
 
 use crate::model::{Bracket, Model};
 use lie_symbolic::symbolic::Symbol;
-use lie_syntax::ast::{Declaration, Expr, ExprKind, Size, Structure};
-use lie_syntax::diagnostic::{Diagnostic, Kind, Report};
+use lie_syntax::ast::{Declaration, Expr, ExprKind, Name, Size, Structure};
+use lie_syntax::diagnostic::{Diagnostic, Kind};
 
-/// Warns of parameters and abbreviations that no expression mentions, of brackets that are all
+/// Warnings of parameters and abbreviations that no expression mentions, of brackets that are all
 /// zero and of a Hamiltonian that is constant.
-pub fn check(declaration: &Declaration, model: &Model, report: &mut Report) {
-    unused(declaration, report);
-    motionless(declaration, model, report);
+pub fn without_effect(declaration: &Declaration, model: &Model) -> Vec<Diagnostic> {
+    let mut warnings = unused(declaration);
+    if model.family.is_none() {
+        warnings.extend(motionless(declaration, model));
+    }
+    warnings
 }
 
-/// Warns of parameters and abbreviations that no expression mentions.
-pub fn unused(declaration: &Declaration, report: &mut Report) {
+fn unused(declaration: &Declaration) -> Vec<Diagnostic> {
     let mut mentioned = mentioned(declaration);
     for size in declaration.family.iter().flat_map(|family| &family.sizes) {
         if let Size::Parameter(name) = size {
             mentioned.insert(&name.text);
         }
     }
-    let parameters = declaration
-        .parameters
-        .iter()
-        .map(|p| (&p.name, "parameter"));
+    let parameters = declaration.parameters.iter();
+    let parameters = parameters.map(|p| (&p.name, "parameter"));
     let lets = declaration.lets.iter();
     let lets = lets.map(|(name, _)| (name, "abbreviation"));
-    for (name, what) in parameters.chain(lets) {
-        if !mentioned.contains(name.text.as_str()) {
-            let message = format!("the {what} `{}` is not used", name.text);
-            let warning = Diagnostic::new(Kind::Unused, name.origin, message);
-            report.push(
-                warning
-                    .help("remove it, or use it in an expression")
-                    .warning(),
-            );
-        }
-    }
+    let all = parameters.chain(lets);
+    let unused = all.filter(|(name, _)| !mentioned.contains(name.text.as_str()));
+    let warning = |(name, what): (&Name, &str)| {
+        let message = format!("the {what} `{}` is not used", name.text);
+        Diagnostic::new(Kind::Unused, name.origin, message)
+            .help("remove it, or use it in an expression")
+            .warning()
+    };
+    unused.map(warning).collect()
 }
 
 /// A sum of brackets that are zero, or a constant H: every state is at rest.
-fn motionless(declaration: &Declaration, model: &Model, report: &mut Report) {
+fn motionless(declaration: &Declaration, model: &Model) -> impl Iterator<Item = Diagnostic> {
     let no_bracket = match &model.bracket {
         Bracket::Lie(algebra) => algebra.constants.entries().is_empty(),
         Bracket::General(matrix) => matrix.entries.is_empty(),
         Bracket::Extended(..) => false,
     };
     // A single coordinate has no bracket but with itself, and whoever declares it knows.
-    if no_bracket && declaration.dimension() > 1 {
+    let at_rest = (no_bracket && declaration.dimension() > 1).then(|| {
         let message = "all brackets are zero: no state moves, whatever the Hamiltonian is";
         let help = match declaration.structure {
             Structure::Lie { .. } => {
@@ -60,17 +58,21 @@ fn motionless(declaration: &Declaration, model: &Model, report: &mut Report) {
                 "declare the brackets that are not zero, such as \"{q, p} = 1\"; one that is left out is zero"
             }
         };
-        let warning = Diagnostic::new(Kind::Motionless, declaration.place(), message);
-        report.push(warning.help(help).warning());
-    }
+        Diagnostic::new(Kind::Motionless, declaration.place(), message)
+            .help(help)
+            .warning()
+    });
     let moves = |symbol: &Symbol| matches!(symbol, Symbol::Coordinate(_));
     let energy = model.energy.expression().map(|h| h.energy);
-    if energy.is_some_and(|energy| !model.graph.symbols(energy).iter().any(moves)) {
+    let constant = energy.filter(|energy| !model.graph.symbols(*energy).iter().any(moves));
+    let constant = constant.map(|_| {
         let place = declaration.energy.expression().origin;
         let message = "the Hamiltonian does not depend on the state: no state moves";
-        let warning = Diagnostic::new(Kind::Motionless, place, message);
-        report.push(warning.help("write it in the names of the state").warning());
-    }
+        Diagnostic::new(Kind::Motionless, place, message)
+            .help("write it in the names of the state")
+            .warning()
+    });
+    at_rest.into_iter().chain(constant)
 }
 
 /// Every name in every expression.
@@ -93,23 +95,10 @@ fn mentioned(declaration: &Declaration) -> BTreeSet<&str> {
         pending.extend(realization.start.iter().flatten());
     }
     pending.extend(declaration.initial.iter().flatten());
-    let mut names = BTreeSet::new();
-    while let Some(expression) = pending.pop() {
-        match &expression.kind {
-            ExprKind::Number(_) => {}
-            ExprKind::Name { name, .. } => {
-                names.insert(name.as_str());
-            }
-            ExprKind::Negative(a) => pending.push(a),
-            ExprKind::Power(a, b) => pending.extend([&**a, &**b]),
-            ExprKind::Sum(operands) | ExprKind::Product(operands) => {
-                pending.extend(operands.iter().map(|(_, operand)| operand));
-            }
-            ExprKind::Call { arguments, .. } => pending.extend(arguments),
-            ExprKind::IndexedSum { from, to, body, .. } => {
-                pending.extend([&**from, &**to, &**body])
-            }
-        }
-    }
-    names
+    let names = pending.into_iter().flat_map(Expr::parts);
+    let names = names.filter_map(|part| match &part.kind {
+        ExprKind::Name { name, .. } => Some(name.as_str()),
+        _ => None,
+    });
+    names.collect()
 }

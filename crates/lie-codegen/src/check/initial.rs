@@ -4,21 +4,21 @@ use super::environment::{Allowed, Environment};
 use super::lower::Lowering;
 use lie_symbolic::symbolic::{ExprId, Graph};
 use lie_syntax::ast::Declaration;
-use lie_syntax::diagnostic::{Diagnostic, Kind, Report, plural};
+use lie_syntax::diagnostic::{Diagnostic, Kind, plural};
 
 /// Lowers the initial state; `Some(None)` where none is declared.
-pub fn check(
+pub fn initial_state(
     declaration: &Declaration,
     graph: &mut Graph,
     environment: &Environment<'_>,
-    report: &mut Report,
+    mistakes: &mut Vec<Diagnostic>,
 ) -> Option<Option<Vec<ExprId>>> {
     let Some(entries) = &declaration.initial else {
         return Some(None);
     };
     let lowered: Vec<Option<ExprId>> = entries
         .iter()
-        .map(|entry| Lowering::new(graph, environment, report, Allowed::Parameters).lower(entry))
+        .map(|entry| Lowering::new(graph, environment, mistakes, Allowed::Parameters).lower(entry))
         .collect();
     let (count, dimension) = (entries.len(), declaration.dimension());
     if count != dimension {
@@ -26,16 +26,12 @@ pub fn check(
             .initial_origin
             .or(entries.last().map(|e| e.origin))
             .unwrap_or(declaration.place());
-        report.push(
-            Diagnostic::new(
-                Kind::StateLength,
-                place,
-                format!(
-                    "the initial state has {count} {}, but the dimension is {dimension}",
-                    plural(count, "value")
-                ),
-            )
-            .help("write one value for every coordinate, in their order"),
+        let values = plural(count, "value");
+        let message =
+            format!("the initial state has {count} {values}, but the dimension is {dimension}");
+        mistakes.push(
+            Diagnostic::new(Kind::StateLength, place, message)
+                .help("write one value for every coordinate, in their order"),
         );
         return None;
     }

@@ -14,7 +14,7 @@ use crate::model::Parameter;
 use crate::model::configuration::Configuration;
 use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 use lie_syntax::ast::Name;
-use lie_syntax::diagnostic::{Diagnostic, Kind, Origin, Report};
+use lie_syntax::diagnostic::{Diagnostic, Kind, Origin};
 use quadratic::Quadratic;
 
 /// A lowered Lagrangian; the components of the velocity are [`Symbol::Input`].
@@ -53,52 +53,35 @@ pub enum Transform {
 /// The Legendre transform.
 ///
 /// # Errors
-/// `legendre`, reported, for a Lagrangian that is singular or has no value at rest.
+/// `legendre` for a Lagrangian that is singular or has no value at rest.
 pub fn hamiltonian(
     graph: &mut Graph,
     lagrangian: &Lagrangian<'_>,
-    report: &mut Report,
-) -> Option<Transform> {
-    let (mut form, quadratic) = match Quadratic::of(graph, lagrangian) {
-        Ok(form) => form,
-        Err(diagnostic) => {
-            report.push(*diagnostic);
-            return None;
+) -> Result<Transform, Diagnostic> {
+    let (mut form, quadratic) = Quadratic::new(graph, lagrangian)?;
+    if quadratic {
+        let mut terms = Vec::new();
+        while !form.rest.is_empty() {
+            let pivot = form.pivot(graph);
+            let pivot = pivot.ok_or_else(|| form.singular(lagrangian))?;
+            terms.push(form.eliminate(graph, &pivot));
         }
-    };
-    if !quadratic {
-        if !lagrangian.on_algebra {
-            report.push(not_quadratic(lagrangian));
-            return None;
-        }
-        if let Some(rank) = form.rank_at_rest(graph) {
-            report.push(singular_at_rest(lagrangian, rank));
-            return None;
-        }
-        return Some(Transform::InVelocity(in_velocity(graph, lagrangian)));
+        terms.push(graph.neg(form.constant));
+        return Ok(Transform::Exact(graph.sum(&terms)));
     }
-    let mut terms = Vec::new();
-    while !form.rest.is_empty() {
-        let Some(pivot) = form.pivot(graph) else {
-            report.push(form.singular(lagrangian));
-            return None;
-        };
-        terms.push(form.eliminate(graph, &pivot));
+    if !lagrangian.on_algebra {
+        return Err(not_quadratic(lagrangian));
     }
-    let constant = graph.neg(form.constant);
-    terms.push(constant);
-    Some(Transform::Exact(graph.sum(&terms)))
-}
-
-/// `<mu, xi> - l(xi)`
-fn in_velocity(graph: &mut Graph, lagrangian: &Lagrangian<'_>) -> ExprId {
+    if let Some(rank) = form.rank_at_rest(graph) {
+        return Err(singular_at_rest(lagrangian, rank));
+    }
     let mut terms = vec![graph.neg(lagrangian.value)];
     for i in 0..lagrangian.velocity.len() {
         let mu = graph.symbol(Symbol::Coordinate(i));
         let xi = graph.symbol(Symbol::Input(i));
         terms.push(graph.mul(mu, xi));
     }
-    graph.sum(&terms)
+    Ok(Transform::InVelocity(graph.sum(&terms)))
 }
 
 fn not_at_rest(lagrangian: &Lagrangian<'_>) -> Diagnostic {

@@ -4,17 +4,17 @@ use super::environment::{Allowed, Environment};
 use super::lower::Lowering;
 use lie_symbolic::symbolic::Graph;
 use lie_syntax::ast::Declaration;
-use lie_syntax::diagnostic::Report;
+use lie_syntax::diagnostic::Diagnostic;
 
 /// Lowers the abbreviations in their order and binds their names.
-pub fn check<'a>(
+pub fn abbreviations<'a>(
     declaration: &'a Declaration,
     graph: &mut Graph,
     environment: &mut Environment<'a>,
-    report: &mut Report,
+    mistakes: &mut Vec<Diagnostic>,
 ) {
     for (name, value) in &declaration.lets {
-        let value = Lowering::new(graph, environment, report, Allowed::Everything).lower(value);
+        let value = Lowering::new(graph, environment, mistakes, Allowed::Everything).lower(value);
         environment.bind(&name.text, value);
     }
 }

@@ -9,7 +9,7 @@ use super::environment::{Allowed, Binding, Environment};
 use lie_symbolic::exact::Rational;
 use lie_symbolic::symbolic::{Elementary, ExprId, Function, Graph, Node};
 use lie_syntax::ast::{Expr, Name};
-use lie_syntax::diagnostic::{Kind, Origin, Report, plural};
+use lie_syntax::diagnostic::{Diagnostic, Kind, Origin, plural};
 use lie_syntax::linear::walk::{Lower, MAX_EXPONENT, Operand, Operands};
 
 /// The longest exact constant, numerator and denominator together.
@@ -49,7 +49,7 @@ pub struct Lowering<'a, 'b> {
     /// The names.
     pub environment: &'b Environment<'a>,
     /// Where mistakes go.
-    pub report: &'b mut Report,
+    pub mistakes: &'b mut Vec<Diagnostic>,
     /// Which names may stand.
     pub allowed: Allowed,
     /// Signs of irrational constants, `Some(None)` where they are not decided, `None` for what is no constant.
@@ -61,13 +61,13 @@ impl<'a, 'b> Lowering<'a, 'b> {
     pub fn new(
         graph: &'b mut Graph,
         environment: &'b Environment<'a>,
-        report: &'b mut Report,
+        mistakes: &'b mut Vec<Diagnostic>,
         allowed: Allowed,
     ) -> Self {
         Self {
             graph,
             environment,
-            report,
+            mistakes,
             allowed,
             constants: HashMap::new(),
         }
@@ -79,6 +79,12 @@ impl<'a, 'b> Lowering<'a, 'b> {
         let lowered = self.walk(expr)?;
         self.graph.remember_written(lowered.normal, lowered.written);
         Some(lowered.normal)
+    }
+
+    /// Whether it was said already that the expressions are too large.
+    fn is_said(&self) -> bool {
+        let mut mistakes = self.mistakes.iter().rev();
+        mistakes.any(|mistake| mistake.message == TOO_LARGE)
     }
 
     fn permitted(&self, id: ExprId) -> bool {
@@ -173,8 +179,8 @@ impl<'a, 'b> Lowering<'a, 'b> {
 impl Lower for Lowering<'_, '_> {
     type Value = Lowered;
 
-    fn report(&mut self) -> &mut Report {
-        self.report
+    fn mistakes(&mut self) -> &mut Vec<Diagnostic> {
+        self.mistakes
     }
 
     fn number(&mut self, value: &Rational) -> Lowered {
@@ -197,7 +203,7 @@ impl Lower for Lowering<'_, '_> {
             }),
             _ => {
                 let diagnostic = self.environment.unknown(name, origin, self.allowed);
-                self.report.push(diagnostic);
+                self.mistakes.push(diagnostic);
                 None
             }
         }
@@ -339,14 +345,14 @@ impl Lower for Lowering<'_, '_> {
 
     // beyond the limit there is nothing to be found: it is said once
     fn gives_up(&mut self) -> bool {
-        self.graph.size() > MAX_SIZE && self.report.says(TOO_LARGE)
+        self.graph.size() > MAX_SIZE && self.is_said()
     }
 
     // the limits hold for every intermediate result
     fn bounded(&mut self, value: Lowered, origin: Origin) -> Option<Lowered> {
         let id = value.normal;
         if self.graph.size() > MAX_SIZE {
-            if self.report.says(TOO_LARGE) {
+            if self.is_said() {
                 return None;
             }
             return self.fail(

@@ -1,16 +1,14 @@
-//! The Poisson matrix of a system: its entries and its ranks.
+//! The Poisson matrix of a system.
 
 use std::collections::BTreeMap;
 
 use super::poisson;
 use crate::algebra::StructureConstants;
-use crate::model::{Model, PoissonMatrix};
-use lie_symbolic::exact::Rational;
-use lie_symbolic::prove::ranks;
+use crate::model::PoissonMatrix;
 use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 
 /// The entries: `-C_ij^k x_k` of an algebra, and what is declared. Nothing is known of their degree.
-pub fn of(
+pub fn poisson_matrix(
     graph: &mut Graph,
     dimension: usize,
     constants: Option<&StructureConstants<ExprId>>,
@@ -35,39 +33,4 @@ pub fn of(
         entries,
         degree: None,
     }
-}
-
-/// The rank at generic points, exactly where the entries are rational functions, in double precision elsewhere.
-/// `bound` is a known upper bound; `None` where no point is in the domain.
-pub fn generic_rank(scratch: &mut Graph, poisson: &PoissonMatrix, bound: usize) -> Option<usize> {
-    let rows = poisson.rows(scratch);
-    let rows: Vec<&Vec<ExprId>> = rows.iter().collect();
-    ranks::generic(scratch, &rows, bound)
-}
-
-/// The rank at the initial state, rounded to double precision; in the same way.
-pub fn initial_rank(
-    model: &Model,
-    poisson: &PoissonMatrix,
-    scratch: &mut Graph,
-    mu: &[f64],
-) -> Option<usize> {
-    let rows = poisson.rows(scratch);
-    let rows: Vec<&Vec<ExprId>> = rows.iter().collect();
-    let exact = |symbol| match symbol {
-        Symbol::Coordinate(i) => Rational::from_f64(mu[i]),
-        Symbol::Parameter(p) => {
-            let parameter = &model.parameters[p];
-            let number = model.graph.as_number(parameter.default).cloned();
-            number.or_else(|| Rational::from_f64(parameter.default_value))
-        }
-        _ => None,
-    };
-    let number = |symbol| match symbol {
-        Symbol::Coordinate(i) => mu[i],
-        Symbol::Parameter(p) => model.parameters[p].default_value,
-        _ => f64::NAN,
-    };
-    ranks::at_rationals(scratch, &rows, &exact, model.dimension())
-        .or_else(|| ranks::at_numbers(scratch, &rows, &number))
 }

@@ -1,38 +1,48 @@
 //! The checks: from the syntax tree to a model in which nothing is wrong.
 //!
-//! One module per check. The stages are: names, sizes, the algebra and the lowering of all
-//! expressions (their mistakes are reported together), then what needs a sound model: the
-//! identities of other brackets, Casimirs and the domain.
+//! One module per check, which gives its mistakes back as values. The stages are: names and sizes, the coordinates, the
+//! expressions (their mistakes are found together), the system that they make, its identities, the model and its domain.
 
 mod algebra;
+mod assembled;
 mod breadth;
 mod casimirs;
 mod cocycle;
 mod configuration;
 mod constant;
+mod contradicted;
+mod coordinates;
 mod defaults;
+mod derivatives;
 mod descent;
 mod discrete;
 pub mod domain;
 mod energy;
 mod entries;
 mod environment;
+mod exactness;
 mod family;
+mod identities;
 mod idle;
 mod initial;
+mod jacobi;
 mod legendre;
 mod lets;
 mod lower;
+mod lowered;
 mod matrix;
 mod names;
 mod naming;
 mod opaque;
 mod parameters;
 mod poisson;
+mod poisson_map;
+mod rank;
 mod realization;
 mod series;
 mod sign;
 mod size;
+mod symbols;
 mod system;
 mod velocity;
 
@@ -42,52 +52,55 @@ mod tests;
 use crate::model::Model;
 use lie_symbolic::prove::contradiction;
 use lie_syntax::ast::Declaration;
-use lie_syntax::diagnostic::{Diagnostic, Kind, Origin, Report};
+use lie_syntax::diagnostic::{Diagnostic, Report};
 
-pub use constant::constant_of;
+pub use constant::constant_value;
+pub use contradicted::contradicted;
 
-/// Checks a declaration; `None` if there are mistakes. Those and warnings go to the report, which is empty.
+/// Checks a declaration; `None` if there are mistakes. Those and warnings go to the report.
 pub fn check(declaration: &Declaration, report: &mut Report) -> Option<Model> {
     contradiction::clear();
-    let model = stages(declaration, report);
-    contradicted(declaration.name.origin, report);
-    let model = model?;
-    match &model.family {
-        Some(_) => idle::unused(declaration, report),
-        None => idle::check(declaration, &model, report),
+    let mut mistakes = Vec::new();
+    let model = stages(declaration, &mut mistakes);
+    mistakes.extend(contradicted(declaration.name.origin));
+    if let Some(model) = &model {
+        mistakes.extend(idle::without_effect(declaration, model));
     }
-    (!report.has_errors()).then_some(model)
+    report.extend(mistakes);
+    model.filter(|_| !report.has_errors())
 }
 
-/// Reports a verdict that numbers refute.
-pub fn contradicted(origin: Origin, report: &mut Report) {
-    let Some(text) = contradiction::take() else {
-        return;
-    };
-    let message = format!(
-        "the compiler contradicts itself: values at a point refute what it has proven about `{text}`"
-    );
-    let help = "this is a bug in the compiler, not in the declaration; please report it with the declaration";
-    report.push(Diagnostic::new(Kind::Limit, origin, message).help(help));
-}
-
-fn stages(declaration: &Declaration, report: &mut Report) -> Option<Model> {
-    if let Some(family) = &declaration.family {
-        return family::check(declaration, family, report);
+fn stages(declaration: &Declaration, mistakes: &mut Vec<Diagnostic>) -> Option<Model> {
+    let family = declaration.family.as_ref();
+    if let Some(family) = family {
+        mistakes.extend(family::limits::impossible(declaration, family));
     }
-    names::check(declaration, report);
-    if !size::check(declaration, report) {
+    mistakes.extend(names::name_spaces(declaration));
+    if family.is_some() && !mistakes.is_empty() {
         return None;
     }
-    if declaration.energy.has_step() && declaration.group.is_some() {
-        let written_out = entries::written_out(declaration, report)?;
-        return system::check(&written_out, None, report);
+    if let Some(mistake) = size::dimension(declaration) {
+        mistakes.push(mistake);
+        return None;
     }
-    match configuration::of(declaration, report) {
-        Some(configuration) => {
-            let whole = configuration::extended(declaration, &configuration, report);
-            system::check(&whole, Some(&configuration), report)
+    mistakes.extend(size::lengths(declaration));
+    let whole = coordinates::whole(declaration, mistakes)?;
+    let name = |symbol| symbols::symbol_name(&whole.declaration, symbol);
+    let lowered = lowered::lowered(&whole, &name, mistakes)?;
+    let mut system = system::system(&whole, lowered, mistakes)?;
+    let proven = identities::identities(&whole, &mut system, &name, mistakes)?;
+    let model = assembled::assembled(&whole, system, proven);
+    mistakes.extend(domain::initial_domain(
+        &model,
+        whole.declaration.initial_origin,
+    ));
+    if mistakes.iter().any(|mistake| !mistake.warning) {
+        return None;
+    }
+    match family.zip(whole.sums) {
+        Some((family, sums)) => {
+            family::coupled::coupled(declaration, family, &sums, model, mistakes)
         }
-        None => system::check(declaration, None, report),
+        None => Some(model),
     }
 }

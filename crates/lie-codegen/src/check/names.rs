@@ -4,18 +4,19 @@ use std::collections::HashMap;
 
 use lie_syntax::ast::names::{is_keyword, is_reserved};
 use lie_syntax::ast::{Declaration, Name, Realization};
-use lie_syntax::diagnostic::{Diagnostic, Kind, Report};
+use lie_syntax::diagnostic::{Diagnostic, Kind};
 
 /// Types that generated code names without a path: a system of that name would hide them.
 const TYPES: &[&str] = &[
     "S", "bool", "char", "f32", "f64", "i8", "i16", "i32", "i64", "i128", "isize", "str", "u8",
     "u16", "u32", "u64", "u128", "usize",
 ];
-/// Reports every bad name.
+/// Every bad name.
 ///
 /// Basis and state are separate name spaces, because elements of the algebra and coordinates of
 /// its dual never stand in one expression. Parameters and abbreviations can stand beside both.
-pub fn check(declaration: &Declaration, report: &mut Report) {
+pub fn name_spaces(declaration: &Declaration) -> Vec<Diagnostic> {
+    let mut mistakes = Vec::new();
     let basis = declaration.basis();
     let state = &declaration.state;
     let velocity = declaration.energy.velocity();
@@ -33,59 +34,75 @@ pub fn check(declaration: &Declaration, report: &mut Report) {
         .chain(lets.clone())
         .chain(casimirs.clone())
     {
-        permitted(name, report);
+        mistakes.extend(forbidden(name));
     }
     if declaration.energy.has_step() {
-        steps(declaration, report);
+        mistakes.extend(steps(declaration));
     }
     if TYPES.contains(&declaration.name.text.as_str()) {
-        report.push(of_a_type(&declaration.name));
+        mistakes.push(of_a_type(&declaration.name));
     }
     let mut algebra: HashMap<&str, &str> = HashMap::new();
     let mut dual: HashMap<&str, &str> = HashMap::new();
     for name in basis {
-        declare(&mut [&mut algebra], name, "basis element", report);
+        declare(&mut [&mut algebra], name, "basis element", &mut mistakes);
     }
     for name in state {
-        declare(&mut [&mut dual], name, "coordinate", report);
+        declare(&mut [&mut dual], name, "coordinate", &mut mistakes);
     }
     for name in velocity {
-        declare(&mut [&mut dual], name, "component of the velocity", report);
+        declare(
+            &mut [&mut dual],
+            name,
+            "component of the velocity",
+            &mut mistakes,
+        );
     }
     for name in declaration.realization.iter().flat_map(Realization::names) {
-        declare(&mut [&mut dual], name, "canonical coordinate", report);
+        declare(
+            &mut [&mut dual],
+            name,
+            "canonical coordinate",
+            &mut mistakes,
+        );
     }
     // A Casimir is a column beside the coordinates, but no expression refers to it.
     let mut columns = dual.clone();
     for name in parameters {
-        declare(&mut [&mut algebra, &mut dual], name, "parameter", report);
+        declare(
+            &mut [&mut algebra, &mut dual],
+            name,
+            "parameter",
+            &mut mistakes,
+        );
     }
     for name in lets {
-        declare(&mut [&mut algebra, &mut dual], name, "abbreviation", report);
+        declare(
+            &mut [&mut algebra, &mut dual],
+            name,
+            "abbreviation",
+            &mut mistakes,
+        );
     }
     for name in casimirs {
-        declare(&mut [&mut columns], name, "Casimir", report);
+        declare(&mut [&mut columns], name, "Casimir", &mut mistakes);
     }
+    mistakes
 }
 
-/// Reports what is called as the step size, which a discrete Lagrangian contains.
-fn steps(declaration: &Declaration, report: &mut Report) {
+/// What is called as the step size, which a discrete Lagrangian contains.
+fn steps(declaration: &Declaration) -> impl Iterator<Item = Diagnostic> {
     let lets = declaration.lets.iter().map(|(name, _)| name);
     let parameters = declaration.parameters.iter().map(|p| &p.name);
     let names = declaration.energy.velocity().iter();
-    for name in names
+    let names = names
         .chain(&declaration.state)
         .chain(parameters)
-        .chain(lets)
-    {
-        if name.text == "h" {
-            let message = "`h` is the step size in a discrete Lagrangian";
-            report.push(
-                Diagnostic::new(Kind::ReservedName, name.origin, message)
-                    .help("choose another name"),
-            );
-        }
-    }
+        .chain(lets);
+    names.filter(|name| name.text == "h").map(|name| {
+        let message = "`h` is the step size in a discrete Lagrangian";
+        Diagnostic::new(Kind::ReservedName, name.origin, message).help("choose another name")
+    })
 }
 
 fn of_a_type(name: &Name) -> Diagnostic {
@@ -101,7 +118,7 @@ fn declare<'a>(
     spaces: &mut [&mut HashMap<&'a str, &'static str>],
     name: &'a Name,
     what: &'static str,
-    report: &mut Report,
+    mistakes: &mut Vec<Diagnostic>,
 ) {
     if let Some(other) = spaces
         .iter()
@@ -117,7 +134,7 @@ fn declare<'a>(
         } else {
             "choose another name; letters with marks are compared in Unicode's normalisation form C, as Rust does"
         };
-        report.push(Diagnostic::new(Kind::DuplicateName, name.origin, message).help(help));
+        mistakes.push(Diagnostic::new(Kind::DuplicateName, name.origin, message).help(help));
         return;
     }
     for space in spaces {
@@ -125,27 +142,23 @@ fn declare<'a>(
     }
 }
 
-fn permitted(name: &Name, report: &mut Report) {
+/// The mistake of a name that nothing may have.
+fn forbidden(name: &Name) -> Option<Diagnostic> {
     let text = name.text.as_str();
     let mut letters = text.chars();
     let first = letters
         .next()
         .is_some_and(|c| c == '_' || unicode_ident::is_xid_start(c));
     if !first || !letters.all(unicode_ident::is_xid_continue) {
-        report.push(
-            Diagnostic::new(
-                Kind::Syntax,
-                name.origin,
-                format!("`{}` is not an identifier", text.escape_debug()),
-            )
-            .help("a name begins with a letter and consists of letters, digits and `_`"),
+        let message = format!("`{}` is not an identifier", text.escape_debug());
+        return Some(
+            Diagnostic::new(Kind::Syntax, name.origin, message)
+                .help("a name begins with a letter and consists of letters, digits and `_`"),
         );
-        return;
     }
-    if !is_reserved(text) {
-        return;
-    }
-    let why = if is_keyword(text) {
+    let why = if !is_reserved(text) {
+        return None;
+    } else if is_keyword(text) {
         "a keyword of Rust"
     } else if text.starts_with('_') {
         "kept for generated code, as is every name that begins with `_`"
@@ -154,12 +167,6 @@ fn permitted(name: &Name, report: &mut Report) {
     } else {
         "a word of the language"
     };
-    report.push(
-        Diagnostic::new(
-            Kind::ReservedName,
-            name.origin,
-            format!("`{text}` is {why}"),
-        )
-        .help("choose another name"),
-    );
+    let message = format!("`{text}` is {why}");
+    Some(Diagnostic::new(Kind::ReservedName, name.origin, message).help("choose another name"))
 }

@@ -3,35 +3,33 @@
 use super::poisson::Entry;
 use lie_symbolic::symbolic::{ExprId, Graph};
 use lie_syntax::ast::{Declaration, Energy};
-use lie_syntax::diagnostic::{Diagnostic, Kind, Report};
+use lie_syntax::diagnostic::{Diagnostic, Kind};
 
-/// Reports functions of Rust in brackets, whose Jacobi identity and rank need more than a symbol, and in Lagrangians, whose
+/// Functions of Rust in brackets, whose Jacobi identity and rank need more than a symbol, and in Lagrangians, whose
 /// Legendre transform does.
-pub fn check(
+pub fn own_functions(
     declaration: &Declaration,
     graph: &Graph,
     brackets: Option<&[Entry]>,
     energy: Option<ExprId>,
-    report: &mut Report,
-) {
-    let mut refuse = |id: ExprId, kind, origin, what: &str, help: &str| {
-        if let Some(own) = graph.own_functions(id).first() {
-            let name = &own.declared().name;
-            let message = format!("`{name}` is a function of Rust, which {what}");
-            report.push(Diagnostic::new(kind, origin, message).help(help));
-        }
+) -> impl Iterator<Item = Diagnostic> {
+    let refused = |id: ExprId, kind, origin, what: &str, help: &str| {
+        let own = graph.own_functions(id).into_iter().next()?;
+        let name = &own.declared().name;
+        let message = format!("`{name}` is a function of Rust, which {what}");
+        Some(Diagnostic::new(kind, origin, message).help(help))
     };
-    for entry in brackets.into_iter().flatten() {
+    let brackets = brackets.into_iter().flatten().filter_map(move |entry| {
         let help = "write a formula, or give a table";
         let what = "cannot stand in a bracket";
-        refuse(entry.value, Kind::Jacobi, declaration.place(), what, help);
-    }
-    if let Some(energy) = energy
-        && !matches!(declaration.energy, Energy::Hamiltonian(_))
-    {
+        refused(entry.value, Kind::Jacobi, declaration.place(), what, help)
+    });
+    let lagrangian = energy.filter(|_| !matches!(declaration.energy, Energy::Hamiltonian(_)));
+    let lagrangian = lagrangian.and_then(|energy| {
         let origin = declaration.energy.expression().origin;
         let help = "declare the Hamiltonian, or write a formula in place of the function";
         let what = "the Legendre transform cannot look into";
-        refuse(energy, Kind::Legendre, origin, what, help);
-    }
+        refused(energy, Kind::Legendre, origin, what, help)
+    });
+    brackets.chain(lagrangian)
 }

@@ -1,24 +1,19 @@
-//! Brackets of coordinates: from `{x, y} = value` to the entries of the Poisson matrix, and the Jacobi
-//! identity of these.
+//! Brackets of coordinates: from `{x, y} = value` to the entries of the Poisson matrix.
 
 use std::collections::BTreeMap;
 
 use super::environment::{Allowed, Environment};
 use super::lower::Lowering;
-use crate::model::CANONICAL;
+use crate::algebra::antisymmetry::{self, COORDINATES};
 use lie_symbolic::exact::Budget;
 use lie_symbolic::prove::normal::{NormalForm, Verdict};
-use lie_symbolic::prove::proof::{Proof, examine};
-use lie_symbolic::prove::residues;
 use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 use lie_syntax::ast::{Bracket, Declaration, Name, Structure};
-use lie_syntax::diagnostic::{Diagnostic, Kind, Origin, Report};
+use lie_syntax::diagnostic::{Diagnostic, Kind, Origin};
 use lie_syntax::suggest::{listed, misspelt};
 
-/// Work allowed for the Jacobi identity of one system.
+/// Work allowed to compare two values.
 const WORK: u64 = 5_000_000;
-/// Work allowed to show a sum that is not zero.
-const SHOWN: u64 = 100_000;
 
 /// A bracket `{x_i, x_j} = value` with `i < j`.
 #[derive(Clone, Debug)]
@@ -37,11 +32,12 @@ pub struct Entry {
 ///
 /// Antisymmetry is implied, so `{y, x}` may be left out; where it is given it must be `-{x, y}`,
 /// because one of the two is a slip. The same pair twice is allowed if both say the same.
-pub fn check(
+pub fn coordinate_brackets(
     declaration: &Declaration,
     graph: &mut Graph,
     environment: &Environment<'_>,
-    report: &mut Report,
+    name: &dyn Fn(Symbol) -> String,
+    mistakes: &mut Vec<Diagnostic>,
 ) -> Option<Vec<Entry>> {
     let (brackets, allowed) = match &declaration.structure {
         Structure::Lie { cocycle, .. } => (cocycle, Allowed::Parameters),
@@ -60,18 +56,19 @@ pub fn check(
         let ends = [&bracket.left, &bracket.right].map(|name| {
             let index = position(name);
             if index.is_none() {
-                report.push(unknown(declaration, name));
+                mistakes.push(unknown(declaration, name));
             }
             index
         });
-        let value = Lowering::new(graph, environment, report, allowed).lower(&bracket.value);
+        let value = Lowering::new(graph, environment, mistakes, allowed).lower(&bracket.value);
         let ([Some(a), Some(b)], Some(value)) = (ends, value) else {
             complete = false;
             continue;
         };
         if a == b {
             if !is_zero(graph, value) {
-                report.push(of_itself(declaration, graph, bracket, value));
+                let value = graph.display(value, name);
+                mistakes.push(antisymmetry::with_itself(bracket, COORDINATES, &value));
                 complete = false;
             }
             continue;
@@ -84,13 +81,16 @@ pub fn check(
         };
         let difference = graph.sub(above, first);
         if !is_zero(graph, difference) {
-            report.push(disagreement(
-                declaration,
-                graph,
-                bracket,
-                earlier,
-                (a < b, first),
-            ));
+            let negative = graph.neg(first);
+            let shown = [first, negative].map(|value| graph.display(value, name));
+            let [upper, lower] = shown.each_ref().map(String::as_str);
+            let values = if a < b {
+                [upper, lower]
+            } else {
+                [lower, upper]
+            };
+            let wrong = antisymmetry::contradiction(bracket, earlier, COORDINATES, values);
+            mistakes.push(wrong);
             complete = false;
         }
     }
@@ -132,203 +132,4 @@ fn is_zero(graph: &Graph, value: ExprId) -> bool {
             NormalForm::new(graph, &budget).verdict(value),
             Verdict::Zero
         )
-}
-
-fn display(declaration: &Declaration, graph: &Graph, value: ExprId) -> String {
-    graph.display(value, &|symbol| symbol_name(declaration, symbol))
-}
-
-/// The name of a coordinate or of a parameter.
-pub fn symbol_name(declaration: &Declaration, symbol: Symbol) -> String {
-    match symbol {
-        Symbol::Coordinate(i) => declaration.state[i].text.clone(),
-        Symbol::Parameter(p) => declaration.parameters[p].name.text.clone(),
-        Symbol::Input(i) => {
-            let mut names = declaration.realization.iter().flat_map(|r| r.names());
-            let name = i.checked_sub(CANONICAL).and_then(|k| names.nth(k));
-            name.map_or_else(String::new, |name| name.text.clone())
-        }
-        _ => String::new(),
-    }
-}
-
-fn of_itself(
-    declaration: &Declaration,
-    graph: &Graph,
-    bracket: &Bracket,
-    value: ExprId,
-) -> Diagnostic {
-    let name = &bracket.left.text;
-    let shown = display(declaration, graph, value);
-    let message =
-        format!("{{{name}, {name}}} = {shown}, but an antisymmetric bracket makes it zero");
-    Diagnostic::new(Kind::Antisymmetry, bracket.origin, message).help("remove this bracket")
-}
-
-/// A pair for the second time, with another value; `known` is that of the ascending pair.
-fn disagreement(
-    declaration: &Declaration,
-    graph: &mut Graph,
-    bracket: &Bracket,
-    earlier: &Bracket,
-    (ascending, known): (bool, ExprId),
-) -> Diagnostic {
-    let (left, right) = (&bracket.left.text, &bracket.right.text);
-    let flipped = earlier.left.text != *left;
-    let negative = graph.neg(known);
-    let own = if ascending { known } else { negative };
-    let own = display(declaration, graph, own);
-    if flipped {
-        let theirs = if ascending { negative } else { known };
-        let theirs = display(declaration, graph, theirs);
-        let message = format!(
-            "{{{left}, {right}}} disagrees with {{{right}, {left}}} = {theirs}: a bracket is antisymmetric"
-        );
-        let help = format!("write {{{left}, {right}}} = {own}, or leave it out");
-        return Diagnostic::new(Kind::Antisymmetry, bracket.origin, message).help(help);
-    }
-    let message =
-        format!("{{{left}, {right}}} was already given another value: {{{left}, {right}}} = {own}");
-    Diagnostic::new(Kind::DuplicateBracket, bracket.origin, message).help("keep one of the two")
-}
-
-/// Reports the first three coordinates for which the Jacobi identity
-/// `{x_i, {x_j, x_k}} + {x_j, {x_k, x_i}} + {x_k, {x_i, x_j}} = 0`, that is
-/// `sum_l (Pi_il d_l Pi_jk + Pi_jl d_l Pi_ki + Pi_kl d_l Pi_ij) = 0`, fails or cannot be proven.
-///
-/// A bracket that violates it is none of a Poisson manifold: there are no leaves, and no map keeps it.
-pub fn jacobi(
-    declaration: &Declaration,
-    entries: &[Entry],
-    scratch: &mut Graph,
-    report: &mut Report,
-) {
-    let sums = jacobiator(declaration.state.len(), entries, scratch);
-    let scratch = &*scratch;
-    let budget = Budget::new(WORK);
-    let domain: Vec<ExprId> = entries.iter().map(|entry| entry.value).collect();
-    let mut normal = NormalForm::with_domain(scratch, &budget, &domain);
-    let mut first: Option<(Diagnostic, usize)> = None;
-    for (triple, sum) in &sums {
-        let name = |symbol| symbol_name(declaration, symbol);
-        let (what, shown) = match proof(&mut normal, scratch, *sum, first.is_some(), &name) {
-            Proof::Zero => continue,
-            Proof::Nonzero(shown) => ("fails", shown),
-            Proof::Unproven { text, values } => {
-                let shown = text.unwrap_or_else(|| "a long expression".into());
-                ("is unproven", format!("{shown} is zero, {values}"))
-            }
-        };
-        if let Some((_, others)) = &mut first {
-            *others += usize::from(what == "fails");
-            continue;
-        }
-        let [a, b, c] = triple.map(|index| declaration.state[index].text.as_str());
-        let sum = format!("{{{a}, {{{b}, {c}}}}} + {{{b}, {{{c}, {a}}}}} + {{{c}, {{{a}, {b}}}}}");
-        let unproven = what != "fails";
-        let message = if unproven {
-            format!(
-                "the Jacobi identity is unproven for ({a}, {b}, {c}): it could not be shown that {sum} = {shown}"
-            )
-        } else {
-            format!("the Jacobi identity fails for ({a}, {b}, {c}): {sum} = {shown}")
-        };
-        let help = if unproven {
-            "write the brackets in a simpler form, with fewer different functions and roots"
-        } else {
-            "check the sign and the value of the brackets of these three coordinates and of those in them; a bracket that is left out is zero"
-        };
-        let diagnostic = Diagnostic::new(Kind::Jacobi, place(entries, *triple), message);
-        first = Some((diagnostic.help(help), 0));
-        if unproven {
-            break;
-        }
-    }
-    if let Some((mut diagnostic, others)) = first {
-        match others {
-            0 => {}
-            1 => diagnostic
-                .message
-                .push_str("; it fails for one other triple too"),
-            others => diagnostic
-                .message
-                .push_str(&format!("; it fails for {others} other triples too")),
-        }
-        report.push(diagnostic);
-    }
-}
-
-/// Examines a sum of the identity. One that does not vanish modulo a prime fails for sure: to show it, little
-/// work is done, and none where it is not shown.
-fn proof(
-    normal: &mut NormalForm<'_>,
-    graph: &Graph,
-    sum: ExprId,
-    hidden: bool,
-    name: &dyn Fn(Symbol) -> String,
-) -> Proof {
-    if !residues::is_nonzero(graph, sum) {
-        return examine(normal, graph, sum, name);
-    }
-    if hidden {
-        return Proof::Nonzero(String::new());
-    }
-    let budget = Budget::new(SHOWN);
-    match examine(&mut NormalForm::new(graph, &budget), graph, sum, name) {
-        Proof::Nonzero(shown) => Proof::Nonzero(shown),
-        _ => Proof::Nonzero("a long expression, not zero".into()),
-    }
-}
-
-/// The sums of the identity that are not trivially zero.
-fn jacobiator(dimension: usize, entries: &[Entry], graph: &mut Graph) -> Vec<([usize; 3], ExprId)> {
-    let zero = graph.integer(0);
-    let mut matrix = vec![vec![zero; dimension]; dimension];
-    for entry in entries {
-        matrix[entry.row][entry.column] = entry.value;
-        matrix[entry.column][entry.row] = graph.neg(entry.value);
-    }
-    // d_l Pi_jk, only where Pi_jk varies
-    let mut slopes: BTreeMap<(usize, usize), Vec<(usize, ExprId)>> = BTreeMap::new();
-    for entry in entries {
-        for symbol in graph.symbols(entry.value) {
-            if let Symbol::Coordinate(l) = symbol {
-                let slope = graph.derivative(entry.value, symbol);
-                let negative = graph.neg(slope);
-                let (row, column) = (entry.row, entry.column);
-                slopes.entry((row, column)).or_default().push((l, slope));
-                slopes.entry((column, row)).or_default().push((l, negative));
-            }
-        }
-    }
-    let mut sums = Vec::new();
-    for i in 0..dimension {
-        for j in i + 1..dimension {
-            for k in j + 1..dimension {
-                let mut terms = Vec::new();
-                for (a, b, c) in [(i, j, k), (j, k, i), (k, i, j)] {
-                    for (l, slope) in slopes.get(&(b, c)).into_iter().flatten() {
-                        let term = graph.mul(matrix[a][*l], *slope);
-                        if !graph.is_zero(term) {
-                            terms.push(term);
-                        }
-                    }
-                }
-                let sum = graph.sum(&terms);
-                if !graph.is_zero(sum) {
-                    sums.push(([i, j, k], sum));
-                }
-            }
-        }
-    }
-    sums
-}
-
-/// The first bracket between two of the three coordinates.
-fn place(entries: &[Entry], triple: [usize; 3]) -> Origin {
-    let between = |entry: &&Entry| triple.contains(&entry.row) && triple.contains(&entry.column);
-    let found = entries.iter().find(between).or(entries.first());
-    found.map_or(Origin::from_span(proc_macro2::Span::call_site()), |entry| {
-        entry.origin
-    })
 }

@@ -203,7 +203,7 @@ pub fn in_step(graph: &mut Graph, expression: ExprId) -> Option<Series> {
             Node::Product(factors) => {
                 let mut product: Option<Series> = None;
                 for (base, exponent) in &factors {
-                    let factor = known.get(base)?.clone().pow(graph, exponent)?;
+                    let factor = Series::pow(known.get(base)?.clone(), graph, exponent)?;
                     product = Some(match product {
                         Some(product) => Series::mul(graph, &product, &factor),
                         None => factor,
@@ -212,7 +212,7 @@ pub fn in_step(graph: &mut Graph, expression: ExprId) -> Option<Series> {
                 product?
             }
             Node::Call(function, arguments) => match &*arguments {
-                [argument] => known.get(argument)?.clone().apply(graph, function)?,
+                [argument] => Series::apply(known.get(argument)?, graph, function)?,
                 _ => return None,
             },
         };

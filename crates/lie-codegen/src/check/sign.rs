@@ -2,12 +2,12 @@
 //! message must not blame the Casimir alone.
 
 use super::casimirs::{self, Candidate};
-use super::matrix;
 use crate::algebra::{StructureConstants, jacobi};
+use crate::model::PoissonMatrix;
 use lie_symbolic::exact::{Budget, Fraction};
 use lie_symbolic::symbolic::{Graph, Symbol};
 use lie_syntax::ast::Declaration;
-use lie_syntax::diagnostic::{Diagnostic, Kind, Report};
+use lie_syntax::diagnostic::Diagnostic;
 use lie_syntax::linear::WORK;
 
 /// Brackets whose signs are tried; each trial is a check of the algebra and of its Casimirs.
@@ -18,6 +18,7 @@ const MOST_TRIED: usize = 16;
 pub fn explain(
     declaration: &Declaration,
     constants: &StructureConstants<Fraction>,
+    poisson: &PoissonMatrix,
     candidates: &[Candidate],
     graph: &mut Graph,
     diagnostics: &mut [Diagnostic],
@@ -31,18 +32,27 @@ pub fn explain(
     if pairs.len() > MOST_TRIED {
         return;
     }
-    let trials = pairs.into_iter();
-    let found: Vec<_> = trials
-        .filter(|pair| holds(&flipped(constants, *pair), candidates, graph))
-        .collect();
+    let nameless = |_: Symbol| String::new();
+    let mut holds = |pair: &(usize, usize)| {
+        let identity = jacobi::first_failure(&flipped(constants, *pair), &Budget::new(WORK));
+        let mut poisson = poisson.clone();
+        for (i, j, value) in &mut poisson.entries {
+            if (*i, *j) == *pair {
+                *value = graph.neg(*value);
+            }
+        }
+        let mut all = candidates.iter();
+        matches!(identity, Ok(None))
+            && all.all(|c| casimirs::refutation(c, graph, &poisson, &nameless).is_none())
+    };
+    let found: Vec<_> = pairs.into_iter().filter(|pair| holds(pair)).collect();
     let [(i, j)] = found.as_slice() else { return };
     let basis = declaration.basis();
     let help = format!(
         "with the other sign of [{}, {}] the Jacobi identity and every declared Casimir hold: is that bracket right?",
         basis[*i].text, basis[*j].text
     );
-    let false_ones = diagnostics.iter_mut().filter(|d| d.kind == Kind::Casimir);
-    for diagnostic in false_ones.filter(|d| !d.warning) {
+    for diagnostic in diagnostics {
         diagnostic.help = Some(help.clone());
     }
 }
@@ -57,27 +67,4 @@ fn flipped(
         (*i, *j, *k, value)
     });
     StructureConstants::new(constants.dimension(), entries.collect())
-}
-
-/// Whether the constants satisfy the Jacobi identity and all candidates are Casimirs.
-fn holds(
-    constants: &StructureConstants<Fraction>,
-    candidates: &[Candidate],
-    graph: &mut Graph,
-) -> bool {
-    if !matches!(
-        jacobi::first_failure(constants, &Budget::new(WORK)),
-        Ok(None)
-    ) {
-        return false;
-    }
-    let symbolic = constants.map(|value| graph.rational_function(value));
-    let poisson = matrix::of(graph, symbolic.dimension(), Some(&symbolic), &[]);
-    let mut unheard = Report::new();
-    let nameless = |_: Symbol| String::new();
-    let all = candidates.iter().all(|candidate| {
-        casimirs::check(candidate, graph, &poisson, &nameless, &mut unheard).is_some()
-    });
-    unheard.ignore("these brackets are a guess of ours, not what was declared");
-    all
 }

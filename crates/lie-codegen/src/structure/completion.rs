@@ -71,7 +71,7 @@ impl Field {
     /// How many independent Casimirs there are, without the unit.
     fn count(&self) -> usize {
         let n = self.constants.dimension();
-        n - rank::generic(&self.constants, n) - usize::from(self.with_unit)
+        n - rank::generic_rank(&self.constants, n) - usize::from(self.with_unit)
     }
 }
 

@@ -2,10 +2,14 @@
 
 use super::confirmation::Finding;
 use super::normal::{NormalForm, Verdict};
+use super::residues;
+use crate::exact::Budget;
 use crate::symbolic::{ExprId, Graph, Symbol};
 
 /// Longer expressions are not printed in full.
 const LONGEST: usize = 300;
+/// Work allowed to show a sum that is not zero.
+const SHOWN: u64 = 100_000;
 
 /// What is known of a sum that should be zero.
 pub enum Proof {
@@ -22,31 +26,70 @@ pub enum Proof {
     },
 }
 
-/// Examines a sum.
-pub fn examine(
-    normal: &mut NormalForm<'_>,
-    graph: &Graph,
-    sum: ExprId,
-    name: &dyn Fn(Symbol) -> String,
-) -> Proof {
-    let text = |text: String| (text.chars().count() <= LONGEST).then_some(text);
-    let shown = match normal.verdict(sum) {
-        Verdict::Zero => return Proof::Zero,
-        Verdict::Nonzero(value) => normal.display(&value, name),
-        Verdict::Undecided | Verdict::Contradicted => {
-            let values = match normal.finding(sum) {
-                Finding::Zero => "although it is at sample points",
-                Finding::Unknown => "and no point was found at which it is defined",
-                Finding::Nonzero => {
-                    let shown = text(graph.display(sum, name));
-                    return Proof::Nonzero(shown.unwrap_or_else(long));
-                }
-            };
-            let text = text(graph.display(sum, name));
-            return Proof::Unproven { text, values };
+/// Proofs that sums vanish.
+pub struct Prover<'a> {
+    graph: &'a Graph,
+    normal: NormalForm<'a>,
+    name: &'a dyn Fn(Symbol) -> String,
+}
+
+impl<'a> Prover<'a> {
+    /// Proofs wherever the functions of `domain` are real and defined, with the names of symbols.
+    pub fn new(
+        graph: &'a Graph,
+        budget: &'a Budget,
+        domain: &[ExprId],
+        name: &'a dyn Fn(Symbol) -> String,
+    ) -> Self {
+        Self {
+            graph,
+            normal: NormalForm::with_domain(graph, budget, domain),
+            name,
         }
-    };
-    Proof::Nonzero(text(shown).unwrap_or_else(long))
+    }
+
+    /// Examines a sum.
+    pub fn examine(&mut self, sum: ExprId) -> Proof {
+        let text = |text: String| (text.chars().count() <= LONGEST).then_some(text);
+        let shown = match self.normal.verdict(sum) {
+            Verdict::Zero => return Proof::Zero,
+            Verdict::Nonzero(value) => self.normal.display(&value, self.name),
+            Verdict::Undecided | Verdict::Contradicted => {
+                let shown = text(self.graph.display(sum, self.name));
+                let values = match self.normal.finding(sum) {
+                    Finding::Zero => "although it is at sample points",
+                    Finding::Unknown => "and no point was found at which it is defined",
+                    Finding::Nonzero => return Proof::Nonzero(shown.unwrap_or_else(long)),
+                };
+                return Proof::Unproven {
+                    text: shown,
+                    values,
+                };
+            }
+        };
+        Proof::Nonzero(text(shown).unwrap_or_else(long))
+    }
+
+    /// Examines a sum that fails for sure where it does not vanish modulo a prime: to show it, little work is done
+    /// then, and none where it is hidden.
+    pub fn refute(&mut self, sum: ExprId, hidden: bool) -> Proof {
+        if !residues::is_nonzero(self.graph, sum) {
+            return self.examine(sum);
+        }
+        if hidden {
+            return Proof::Nonzero(String::new());
+        }
+        let budget = Budget::new(SHOWN);
+        match Prover::new(self.graph, &budget, &[], self.name).examine(sum) {
+            Proof::Nonzero(shown) => Proof::Nonzero(shown),
+            _ => Proof::Nonzero(long()),
+        }
+    }
+
+    /// Whether a sum is shown to vanish.
+    pub fn vanishes(&mut self, sum: ExprId) -> bool {
+        matches!(self.normal.verdict(sum), Verdict::Zero)
+    }
 }
 
 fn long() -> String {

@@ -284,7 +284,8 @@ impl<'a> Parser<'a, '_> {
             }
             _ => {
                 let value = item::constant(tokens, self.report)?;
-                let value = rational(&value, &Budget::new(WORK), self.report)?;
+                let value = rational(&value, &Budget::new(WORK));
+                let value = self.report.accept(value)?;
                 Some(Argument::Number(value))
             }
         }

@@ -7,7 +7,7 @@ pub mod walk;
 use std::collections::BTreeMap;
 
 use crate::ast::{Expr, ExprKind, Name};
-use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
+use crate::diagnostic::{Diagnostic, Kind, Origin};
 use crate::suggest::listed;
 use lie_symbolic::exact::{Budget, Exhausted, Fraction, Rational};
 use lie_symbolic::symbolic::Function;
@@ -41,64 +41,70 @@ impl From<Fraction> for Form {
     }
 }
 
-/// Lowers one expression, reporting every mistake in it.
+/// Lowers one expression, and finds every mistake in it.
 struct Lowering<'a, 'b> {
     /// `None` for constants, which know no names.
     scope: Option<&'b Scope<'a>>,
-    report: &'b mut Report,
+    mistakes: Vec<Diagnostic>,
     budget: &'b Budget,
 }
 
+fn lowered(
+    value: &Expr,
+    scope: Option<&Scope<'_>>,
+    budget: &Budget,
+) -> Result<Form, Vec<Diagnostic>> {
+    let mut lowering = Lowering {
+        scope,
+        mistakes: Vec::new(),
+        budget,
+    };
+    lowering.walk(value).ok_or(lowering.mistakes)
+}
+
 /// The right side of a bracket: the nonzero coefficients by basis index.
+///
+/// # Errors
+/// Every mistake in it.
 pub fn bracket_value(
     value: &Expr,
     scope: &Scope<'_>,
     budget: &Budget,
-    report: &mut Report,
-) -> Option<Vec<(usize, Fraction)>> {
-    let form = Lowering {
-        scope: Some(scope),
-        report,
-        budget,
-    }
-    .walk(value)?;
-    if !form.constant.is_zero() {
+) -> Result<Vec<(usize, Fraction)>, Vec<Diagnostic>> {
+    let form = lowered(value, Some(scope), budget)?;
+    let wrong = if !form.constant.is_zero() {
         let constant = form.constant.display(&|p| scope.parameter(p));
-        report.push(
-            Diagnostic::new(
-                Kind::Syntax,
-                constant_term(value, scope, budget).unwrap_or(value.origin),
-                format!("the right side of a bracket is linear in the basis, but it has the constant term {constant}"),
-            )
-            .help("write a linear combination of basis names, or 0"),
+        let place = constant_term(value, scope, budget).unwrap_or(value.origin);
+        let message = format!(
+            "the right side of a bracket is linear in the basis, but it has the constant term {constant}"
         );
-        return None;
-    }
-    if form.linear.values().any(|c| degree(c) > MAX_EXPONENT) {
+        Diagnostic::new(Kind::Syntax, place, message)
+            .help("write a linear combination of basis names, or 0")
+    } else if form.linear.values().any(|c| degree(c) > MAX_EXPONENT) {
         let message = format!("a coefficient has a degree above {MAX_EXPONENT} in the parameters");
-        report
-            .push(Diagnostic::new(Kind::Limit, value.origin, message).help("simplify the bracket"));
-        return None;
-    }
-    Some(
-        form.linear
-            .into_iter()
-            .filter(|(_, c)| !c.is_zero())
-            .collect(),
-    )
+        Diagnostic::new(Kind::Limit, value.origin, message).help("simplify the bracket")
+    } else {
+        let terms = form.linear.into_iter();
+        return Ok(terms.filter(|(_, c)| !c.is_zero()).collect());
+    };
+    Err(vec![wrong])
 }
 
 /// A linear combination with rational coefficients: those that are not zero, by basis index.
+///
+/// # Errors
+/// Every mistake in it.
 pub fn rational_form(
     value: &Expr,
     scope: &Scope<'_>,
     budget: &Budget,
-    report: &mut Report,
-) -> Option<BTreeMap<usize, Rational>> {
-    let terms = bracket_value(value, scope, budget, report)?.into_iter();
+) -> Result<BTreeMap<usize, Rational>, Vec<Diagnostic>> {
+    let terms = bracket_value(value, scope, budget)?.into_iter();
+    let rational = |(k, value): (usize, Fraction)| Some((k, value.as_constant()?));
     terms
-        .map(|(k, value)| Some((k, value.as_constant()?)))
-        .collect()
+        .map(rational)
+        .collect::<Option<_>>()
+        .ok_or_else(Vec::new)
 }
 
 /// The largest total degree in numerator and denominator.
@@ -114,32 +120,20 @@ fn constant_term(value: &Expr, scope: &Scope<'_>, budget: &Budget) -> Option<Ori
     let ExprKind::Sum(terms) = &value.kind else {
         return None;
     };
-    let mut report = Report::new();
-    let mut lower = |term| {
-        Lowering {
-            scope: Some(scope),
-            report: &mut report,
-            budget,
-        }
-        .walk(term)
-    };
+    let constant = |term| lowered(term, Some(scope), budget).map(|form| form.constant);
     let found = terms
         .iter()
-        .find(|(_, term)| lower(term).is_some_and(|form| !form.constant.is_zero()));
-    report.ignore("the terms were lowered before, as parts of the value");
+        .find(|(_, term)| constant(term).is_ok_and(|c| !c.is_zero()));
     found.map(|(_, term)| term.origin)
 }
 
-/// The value of an exact rational constant; anything else is reported.
-pub fn rational(value: &Expr, budget: &Budget, report: &mut Report) -> Option<Rational> {
-    Lowering {
-        scope: None,
-        report,
-        budget,
-    }
-    .walk(value)?
-    .constant
-    .as_constant()
+/// The value of an exact rational constant.
+///
+/// # Errors
+/// Every mistake in it, and anything that is no such constant.
+pub fn rational(value: &Expr, budget: &Budget) -> Result<Rational, Vec<Diagnostic>> {
+    let form = lowered(value, None, budget)?;
+    form.constant.as_constant().ok_or_else(Vec::new)
 }
 
 impl Lowering<'_, '_> {
@@ -170,9 +164,7 @@ impl Lowering<'_, '_> {
             Some(_) => "write a linear combination of basis names, such as 2*e1 - k^2*e2",
             None => "write an integer, a fraction such as 1/2, or a decimal number",
         };
-        self.report
-            .push(Diagnostic::new(kind, origin, format!("{what}: {rule}")).help(help));
-        None
+        self.fail(kind, origin, format!("{what}: {rule}"), help)
     }
 
     fn scale(&mut self, form: &Form, factor: &Fraction, origin: Origin) -> Option<Form> {
@@ -189,8 +181,8 @@ impl Lowering<'_, '_> {
 impl Lower for Lowering<'_, '_> {
     type Value = Form;
 
-    fn report(&mut self) -> &mut Report {
-        self.report
+    fn mistakes(&mut self) -> &mut Vec<Diagnostic> {
+        &mut self.mistakes
     }
 
     fn number(&mut self, value: &Rational) -> Form {
@@ -288,11 +280,9 @@ impl Lower for Lowering<'_, '_> {
             return self.irrational(origin, &format!("`{name}` is not rational"));
         }
         let Some(scope) = self.scope else {
-            self.report.push(
-                Diagnostic::new(Kind::Number, origin, format!("`{name}` is not a number"))
-                    .help("write an exact rational constant, such as 1/2"),
-            );
-            return None;
+            let message = format!("`{name}` is not a number");
+            let help = "write an exact rational constant, such as 1/2";
+            return self.fail(Kind::Number, origin, message, help);
         };
         let wrong = match scope.meaning(name) {
             Some(Meaning::Basis(k)) => {
@@ -305,7 +295,7 @@ impl Lower for Lowering<'_, '_> {
             Some(Meaning::Exact(parameter)) => return Some(Fraction::variable(parameter).into()),
             other => not_in_brackets(name, origin, other, scope),
         };
-        self.report.push(wrong);
+        self.mistakes.push(wrong);
         None
     }
 }

@@ -2,7 +2,7 @@
 //! all mistakes of an expression are reported together.
 
 use crate::ast::{Expr, ExprKind, Name};
-use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
+use crate::diagnostic::{Diagnostic, Kind, Origin};
 use crate::suggest::did_you_mean;
 use lie_symbolic::exact::Rational;
 use lie_symbolic::symbolic::Function;
@@ -36,13 +36,13 @@ impl<T> Operand<T> {
 /// The operands of a sum, a product or a function.
 pub type Operands<T> = Vec<Operand<Option<T>>>;
 
-/// What the operations of the syntax tree become. `None` always means that something was reported.
+/// What the operations of the syntax tree become. `None` always means that there is a mistake.
 pub trait Lower: Sized {
     /// What an expression becomes.
     type Value;
 
     /// Where mistakes go.
-    fn report(&mut self) -> &mut Report;
+    fn mistakes(&mut self) -> &mut Vec<Diagnostic>;
     /// A number.
     fn number(&mut self, value: &Rational) -> Self::Value;
     /// A name without an index.
@@ -92,7 +92,7 @@ pub trait Lower: Sized {
         help: &str,
     ) -> Option<T> {
         let diagnostic = Diagnostic::new(kind, origin, message).help(help);
-        self.report().push(diagnostic);
+        self.mistakes().push(diagnostic);
         None
     }
 

@@ -2,13 +2,13 @@
 
 use lie_symbolic::exact::Rational;
 use lie_syntax::ast::{Expr, ExprKind, Size};
-use lie_syntax::diagnostic::{Diagnostic, Kind, Report};
+use lie_syntax::diagnostic::{Diagnostic, Kind};
 
 /// The first site and the number of sites behind the last one; none where a sum goes over all.
 pub type Span = Option<(usize, usize)>;
 
 /// Where a sum goes, of so many sites.
-pub fn span(from: &Expr, to: &Expr, size: &Size, report: &mut Report) -> Option<Span> {
+pub fn span(from: &Expr, to: &Expr, size: &Size, mistakes: &mut Vec<Diagnostic>) -> Option<Span> {
     let all = match size {
         Size::Number(count, _) => count.to_string(),
         Size::Parameter(name) => name.text.clone(),
@@ -16,7 +16,7 @@ pub fn span(from: &Expr, to: &Expr, size: &Size, report: &mut Report) -> Option<
     let mut wrong = |expr: &Expr| {
         let message = "a sum goes from a number to the number of sites or less";
         let help = format!("write `0..{all}`, which is periodic, or bounds such as `1..{all}-1`");
-        report.push(Diagnostic::new(Kind::Syntax, expr.origin, message).help(help));
+        mistakes.push(Diagnostic::new(Kind::Syntax, expr.origin, message).help(help));
     };
     let Some(first) = number(from) else {
         wrong(from);

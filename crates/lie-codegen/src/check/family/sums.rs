@@ -4,16 +4,16 @@ use std::collections::BTreeSet;
 
 use super::bounds::{self, Span};
 use lie_syntax::ast::{Declaration, Expr, ExprKind, Family, Index, Name};
-use lie_syntax::diagnostic::{Diagnostic, Kind, Origin, Report};
+use lie_syntax::diagnostic::{Diagnostic, Kind, Origin};
 
 /// A sum as it was written.
 pub struct Collected {
     /// The distances of all sites that a summand or the motion of a site depends on.
     pub slots: Vec<[i64; 2]>,
+    /// The names of all coordinates, slot after slot.
+    pub names: Vec<String>,
     /// The sums.
     pub sums: Vec<Sum>,
-    /// The indices of the family.
-    indices: Vec<String>,
 }
 
 /// One sum.
@@ -49,18 +49,6 @@ fn named(name: &str, indices: &[String], [down, right]: [i64; 2]) -> String {
 }
 
 impl Collected {
-    /// The names of all coordinates, slot after slot.
-    pub fn names(&self, declaration: &Declaration) -> Vec<String> {
-        let state = &declaration.state;
-        let of = |slot: &[i64; 2]| -> Vec<String> {
-            let names = state.iter();
-            names
-                .map(|name| named(&name.text, &self.indices, *slot))
-                .collect()
-        };
-        self.slots.iter().flat_map(of).collect()
-    }
-
     /// The slot of a distance.
     pub fn slot(&self, distance: [i64; 2]) -> usize {
         let found = self.slots.iter().position(|slot| *slot == distance);
@@ -94,7 +82,7 @@ struct Reading<'a> {
 
 impl<'a> Sums<'a> {
     /// None yet.
-    pub fn of(declaration: &'a Declaration, family: &'a Family) -> Self {
+    pub fn new(declaration: &'a Declaration, family: &'a Family) -> Self {
         Self {
             declaration,
             family,
@@ -116,16 +104,21 @@ impl<'a> Sums<'a> {
                 slots.extend(others.map(|other| [other[0] - one[0], other[1] - one[1]]));
             }
         }
+        let (state, indices) = (&self.declaration.state, self.indices());
+        let names = slots
+            .iter()
+            .flat_map(|slot| state.iter().map(|name| named(&name.text, &indices, *slot)))
+            .collect();
         Collected {
             slots: slots.into_iter().collect(),
-            indices: self.indices(),
+            names,
             sums: self.found,
         }
     }
 
     /// An expression outside of sums, with a name for each of them.
-    pub fn outside(&mut self, expr: &Expr, report: &mut Report) -> Option<Expr> {
-        let name = |sums: &mut Self, expr: &Expr, report: &mut Report| match &expr.kind {
+    pub fn outside(&mut self, expr: &Expr, mistakes: &mut Vec<Diagnostic>) -> Option<Expr> {
+        let name = |sums: &mut Self, expr: &Expr, mistakes: &mut Vec<Diagnostic>| match &expr.kind {
             ExprKind::Name {
                 name,
                 index: Some(_),
@@ -133,17 +126,17 @@ impl<'a> Sums<'a> {
                 let message = format!("`{name}` has an index and stands in no sum");
                 let help =
                     "a Hamiltonian of a family is a function of sums such as `sum(i in 0..N: …)`";
-                report.push(Diagnostic::new(Kind::Syntax, expr.origin, message).help(help));
+                mistakes.push(Diagnostic::new(Kind::Syntax, expr.origin, message).help(help));
                 None
             }
             ExprKind::Name { name, .. } if sums.is_coordinate(name) => {
-                report.push(sums.without_index(name, expr.origin));
+                mistakes.push(sums.without_index(name, expr.origin));
                 None
             }
-            ExprKind::IndexedSum { .. } => sums.sum(expr, report),
+            ExprKind::IndexedSum { .. } => sums.sum(expr, mistakes),
             _ => Some(expr.clone()),
         };
-        mapped(expr, &mut |expr| name(self, expr, report))
+        mapped(expr, &mut |expr| name(self, expr, mistakes))
     }
 
     fn is_coordinate(&self, name: &str) -> bool {
@@ -157,7 +150,7 @@ impl<'a> Sums<'a> {
     }
 
     /// A sum becomes a name.
-    fn sum(&mut self, expr: &Expr, report: &mut Report) -> Option<Expr> {
+    fn sum(&mut self, expr: &Expr, mistakes: &mut Vec<Diagnostic>) -> Option<Expr> {
         let mut reading = Reading {
             variables: Vec::new(),
             spans: Vec::new(),
@@ -174,27 +167,27 @@ impl<'a> Sums<'a> {
             else {
                 let message = "the sum goes over rows alone, and the sites have two indices";
                 let help = "write `sum(i in 0..N, j in 0..M: …)`";
-                report.push(Diagnostic::new(Kind::Syntax, expr.origin, message).help(help));
+                mistakes.push(Diagnostic::new(Kind::Syntax, expr.origin, message).help(help));
                 return None;
             };
-            self.fresh(index, report)?;
-            reading.spans.push(bounds::span(from, to, size, report)?);
+            self.fresh(index, mistakes)?;
+            reading.spans.push(bounds::span(from, to, size, mistakes)?);
             reading.variables.push(index);
             body = inner;
         }
         let body = mapped(body, &mut |part| match &part.kind {
             ExprKind::IndexedSum { .. } => {
-                report.push(within(part.origin));
+                mistakes.push(within(part.origin));
                 None
             }
             ExprKind::Name { name, index: None } if self.is_coordinate(name) => {
-                report.push(self.without_index(name, part.origin));
+                mistakes.push(self.without_index(name, part.origin));
                 None
             }
             ExprKind::Name {
                 name,
                 index: Some(index),
-            } => self.coordinate(name, index, part.origin, &mut reading, report),
+            } => self.coordinate(name, index, part.origin, &mut reading, mistakes),
             _ => Some(part.clone()),
         })?;
         let span = |axis: usize| {
@@ -216,7 +209,7 @@ impl<'a> Sums<'a> {
     }
 
     /// Reports the index of a sum that is another name too.
-    fn fresh(&self, index: &Name, report: &mut Report) -> Option<()> {
+    fn fresh(&self, index: &Name, mistakes: &mut Vec<Diagnostic>) -> Option<()> {
         let declaration = self.declaration;
         let parameters = declaration.parameters.iter().map(|p| &p.name);
         let lets = declaration.lets.iter().map(|(name, _)| name);
@@ -224,7 +217,7 @@ impl<'a> Sums<'a> {
         if taken.any(|name| name.text == index.text) {
             let message = format!("the index `{}` is the name of something else", index.text);
             let help = "give the index another name, such as `i`";
-            report.push(Diagnostic::new(Kind::DuplicateName, index.origin, message).help(help));
+            mistakes.push(Diagnostic::new(Kind::DuplicateName, index.origin, message).help(help));
             return None;
         }
         Some(())
@@ -237,10 +230,10 @@ impl<'a> Sums<'a> {
         index: &Index,
         origin: Origin,
         reading: &mut Reading<'_>,
-        report: &mut Report,
+        mistakes: &mut Vec<Diagnostic>,
     ) -> Option<Expr> {
         let mut fail = |kind, message: String, help: String| {
-            report.push(Diagnostic::new(kind, origin, message).help(help));
+            mistakes.push(Diagnostic::new(kind, origin, message).help(help));
             None
         };
         if !self.is_coordinate(name) {
@@ -292,12 +285,12 @@ impl<'a> Sums<'a> {
 }
 
 /// A Casimir of a site, written with or without the index of the family.
-pub fn on_site(expr: &Expr, family: &Family, report: &mut Report) -> Option<Expr> {
+pub fn on_site(expr: &Expr, family: &Family, mistakes: &mut Vec<Diagnostic>) -> Option<Expr> {
     mapped(expr, &mut |part| match &part.kind {
         ExprKind::IndexedSum { .. } => {
             let message = "a Casimir of a family is one of a site";
             let help = "write it without the sum, such as `x[i]^2 + y[i]^2 + z[i]^2`";
-            report.push(Diagnostic::new(Kind::Syntax, part.origin, message).help(help));
+            mistakes.push(Diagnostic::new(Kind::Syntax, part.origin, message).help(help));
             None
         }
         ExprKind::Name {
@@ -313,7 +306,7 @@ pub fn on_site(expr: &Expr, family: &Family, report: &mut Report) -> Option<Expr
                 let message = "a Casimir of a family is one of a site";
                 let names: Vec<&str> = family.indices.iter().map(|i| i.text.as_str()).collect();
                 let help = format!("write `{name}[{}]`", names.join(", "));
-                report.push(Diagnostic::new(Kind::Syntax, part.origin, message).help(help));
+                mistakes.push(Diagnostic::new(Kind::Syntax, part.origin, message).help(help));
                 return None;
             }
             Some(Expr {

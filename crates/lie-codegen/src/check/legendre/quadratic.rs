@@ -57,10 +57,10 @@ fn is_constant(graph: &mut Graph, hessian: &[Vec<ExprId>]) -> bool {
 
 impl Quadratic {
     /// The terms up to second order at rest, and whether there are no others.
-    pub(super) fn of(
+    pub(super) fn new(
         graph: &mut Graph,
         lagrangian: &Lagrangian<'_>,
-    ) -> Result<(Self, bool), Box<Diagnostic>> {
+    ) -> Result<(Self, bool), Diagnostic> {
         let count = lagrangian.velocity.len();
         let zero = graph.integer(0);
         let at_rest = |symbol| matches!(symbol, Symbol::Input(_)).then_some(zero);
@@ -105,7 +105,7 @@ impl Quadratic {
             })
         };
         if !all.map(finite).all(f64::is_finite) {
-            return Err(Box::new(not_at_rest(lagrangian)));
+            return Err(not_at_rest(lagrangian));
         }
         form.size = entries
             .map(|&entry| form.value(graph, entry).abs())

@@ -138,7 +138,7 @@ fn of_ideal(
     [polynomial, rational]: &[Budget; 2],
 ) -> Found {
     let n = constants.dimension();
-    let wanted = n - rank::generic(constants, n) - usize::from(with_unit);
+    let wanted = n - rank::generic_rank(constants, n) - usize::from(with_unit);
     let mut found = Found {
         casimirs: Vec::new(),
         complete: true,

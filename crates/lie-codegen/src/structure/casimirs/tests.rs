@@ -6,7 +6,7 @@ use crate::algebra::rank;
 
 fn search(constants: &StructureConstants<Fraction>, work: u64) -> Found {
     let n = constants.dimension();
-    find(constants, n - rank::generic(constants, n), false, work)
+    find(constants, n - rank::generic_rank(constants, n), false, work)
 }
 
 fn degrees(found: &Found) -> Vec<u32> {

@@ -187,7 +187,7 @@ fn quadratic_casimirs(algebra: &Algebra, elements: &[usize]) -> Vec<Polynomial> 
         .filter_map(|(i, j, k, value)| Some((place(i)?, place(j)?, place(k)?, value.clone())))
         .collect();
     let constants = StructureConstants::new(m, entries);
-    let wanted = m - rank::generic(&constants, m);
+    let wanted = m - rank::generic_rank(&constants, m);
     let found = casimirs::find(&constants, wanted, false, WORK);
     let quadratic = found
         .casimirs

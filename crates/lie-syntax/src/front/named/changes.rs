@@ -219,7 +219,7 @@ impl Changes<'_> {
             let (name, value) = item::definition(&line.tokens, what, line.place, report)?;
             let example = ("its value", "e1 + 2*e2");
             let value = item::formula(value, example, name.origin, &known, report)?;
-            rows.push(rational_form(&value, &scope, &budget, report)?);
+            rows.push(report.accept(rational_form(&value, &scope, &budget))?);
             new.push(name);
         }
         let plain = lines
@@ -269,7 +269,8 @@ fn added(
     let [Some(i), Some(j)] = ends else {
         return None;
     };
-    let mut terms = rational_form(&bracket.value, new, &Budget::new(WORK), report)?;
+    let terms = rational_form(&bracket.value, new, &Budget::new(WORK));
+    let mut terms = report.accept(terms)?;
     if i > j {
         terms.values_mut().for_each(|value| *value = -&*value);
     }
@@ -307,7 +308,7 @@ fn sparse(matrix: &Matrix, report: &mut Report) -> Option<Entries> {
     let mut entries = Entries::new();
     for (r, row) in matrix.rows.iter().enumerate() {
         for (c, entry) in row.iter().enumerate() {
-            let value = rational(entry, &budget, report)?;
+            let value = report.accept(rational(entry, &budget))?;
             if !value.is_zero() {
                 entries.insert((r, c), value);
             }

@@ -1,0 +1,41 @@
+//! What a family of systems cannot have.
+
+use lie_syntax::ast::{Declaration, Energy, Family, Structure};
+use lie_syntax::diagnostic::{Diagnostic, Kind};
+
+/// What a family cannot have.
+pub fn impossible(declaration: &Declaration, family: &Family) -> Vec<Diagnostic> {
+    let mut mistakes = Vec::new();
+    let mut refuse = |place, message: &str, help: &str| {
+        mistakes.push(Diagnostic::new(Kind::Schema, place, message).help(help));
+    };
+    match &declaration.structure {
+        Structure::Lie { cocycle, .. } if cocycle.is_empty() => {}
+        Structure::Lie { .. } | Structure::General { .. } => refuse(
+            declaration.place(),
+            "a family consists of copies of a Lie algebra, without other brackets",
+            "write `algebra` alone, such as `so(3)^N`",
+        ),
+    }
+    if !matches!(declaration.energy, Energy::Hamiltonian(_)) {
+        let place = declaration.energy.expression().origin;
+        let help = "write `hamiltonian`, a function of sums such as `sum(i in 0..N: x[i]*x[i+1])`";
+        refuse(place, "a family is given by its Hamiltonian", help);
+    }
+    if let Some(name) = &declaration.group {
+        let message = "the group element of a family is not followed";
+        refuse(name.origin, message, "remove `group`");
+    }
+    if let Some(realization) = &declaration.realization {
+        let message = "a family takes no realization";
+        refuse(realization.origin, message, "remove `realization`");
+    }
+    if family.sizes.len() != family.indices.len() {
+        let (sizes, indices) = (family.sizes.len(), family.indices.len());
+        let message = format!("{indices} in the names of the state, and {sizes} in the algebra");
+        let message = format!("the numbers of indices differ: {message}");
+        let help = "write `so(3)^N` with `x[i]`, or `so(3)^(N, M)` with `x[i, j]`";
+        refuse(declaration.place(), &message, help);
+    }
+    mistakes
+}

@@ -1,0 +1,98 @@
+//! What must hold identically: the Jacobi or cocycle identity of the brackets, the Casimirs, and the realization.
+
+use std::collections::HashSet;
+
+use super::coordinates::Whole;
+use super::system::System;
+use super::{casimirs, cocycle, jacobi, naming, poisson_map, sign};
+use crate::model::{Bracket, Casimir, PoissonMatrix};
+use lie_symbolic::symbolic::Symbol;
+use lie_syntax::diagnostic::Diagnostic;
+
+/// What is proven of a system.
+pub struct Proven {
+    /// The bracket.
+    pub bracket: Bracket,
+    /// The independent Casimirs.
+    pub casimirs: Vec<Casimir>,
+    /// The names that the declaration uses.
+    pub taken: HashSet<String>,
+}
+
+/// Proves the identities; `None` if a Casimir is none.
+pub fn identities(
+    whole: &Whole<'_>,
+    system: &mut System,
+    name: &dyn Fn(Symbol) -> String,
+    mistakes: &mut Vec<Diagnostic>,
+) -> Option<Proven> {
+    let declaration = &*whole.declaration;
+    let on_algebra = whole.configuration.is_none() && system.lowered.brackets.is_empty();
+    let matrix = &system.matrix;
+    let brackets = &system.lowered.brackets;
+    let scratch = &mut system.scratch;
+    let bracket = match system.algebra.clone() {
+        Some(algebra) if brackets.is_empty() => Bracket::Lie(algebra),
+        Some(algebra) => {
+            let constants = &algebra.constants;
+            let identity =
+                cocycle::cocycle_identity(declaration, brackets, constants, scratch, name);
+            mistakes.extend(identity);
+            let degree = Some(1);
+            Bracket::Extended(
+                algebra,
+                PoissonMatrix {
+                    degree,
+                    ..matrix.clone()
+                },
+            )
+        }
+        None => {
+            mistakes.extend(jacobi::jacobi_identity(
+                declaration,
+                brackets,
+                scratch,
+                name,
+            ));
+            Bracket::General(matrix.clone())
+        }
+    };
+    let taken = casimirs::taken(declaration);
+    let free = || casimirs::free_names(&taken);
+    let candidates = casimirs::candidates(declaration, &system.lowered.casimirs, free());
+    let violations = candidates.iter();
+    let violations = violations.filter_map(|c| casimirs::refutation(c, scratch, matrix, name));
+    let mut violations: Vec<Diagnostic> = violations.collect();
+    if let Some(algebra) = system.algebra.as_ref().filter(|_| on_algebra)
+        && !violations.is_empty()
+    {
+        sign::explain(
+            declaration,
+            &algebra.exact,
+            matrix,
+            &candidates,
+            scratch,
+            &mut violations,
+        );
+    }
+    let proven = violations.is_empty();
+    mistakes.extend(violations);
+    if let Some(realization) = &mut system.lowered.realization {
+        mistakes.extend(poisson_map::poisson_map(realization, matrix, scratch, name));
+    }
+    if !proven {
+        return None;
+    }
+    let casimirs = naming::independent(
+        declaration,
+        &system.lowered.graph,
+        candidates,
+        free(),
+        mistakes,
+    );
+    Some(Proven {
+        bracket,
+        casimirs,
+        taken,
+    })
+}

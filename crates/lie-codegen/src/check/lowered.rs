@@ -1,0 +1,99 @@
+//! All expressions of a declaration in one arena.
+
+use super::algebra::{self, Algebra};
+use super::coordinates::Whole;
+use super::environment::{Allowed, Environment};
+use super::lower::Lowering;
+use super::poisson::{self, Entry};
+use super::{defaults, exactness, initial, lets, opaque, parameters, realization};
+use crate::model::{Parameter, Realization};
+use lie_symbolic::exact::Rational;
+use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
+use lie_syntax::ast;
+use lie_syntax::diagnostic::Diagnostic;
+
+/// The expressions of a declaration, none of which is wrong by itself.
+pub struct Lowered {
+    /// The arena.
+    pub graph: Graph,
+    /// The algebra as it was declared, until it is that of the system.
+    pub algebra: Option<Algebra>,
+    /// The parameters.
+    pub parameters: Vec<Parameter>,
+    /// Their exact values, zero for those that are not exact.
+    pub defaults: Vec<Rational>,
+    /// The brackets of coordinates.
+    pub brackets: Vec<Entry>,
+    /// The Hamiltonian or the Lagrangian.
+    pub energy: ExprId,
+    /// The Casimirs.
+    pub casimirs: Vec<ExprId>,
+    /// The realization.
+    pub realization: Option<Realization>,
+    /// The initial state.
+    pub initial: Option<Vec<ExprId>>,
+}
+
+/// Lowers everything, so that the mistakes of all expressions are found together.
+pub fn lowered(
+    whole: &Whole<'_>,
+    name: &dyn Fn(Symbol) -> String,
+    mistakes: &mut Vec<Diagnostic>,
+) -> Option<Lowered> {
+    let (declaration, configuration) = (&*whole.declaration, whole.configuration.as_ref());
+    let algebra = match declaration.algebra() {
+        Some(algebra) => algebra::lie_algebra(declaration, algebra, mistakes).map(Some),
+        None => Some(None),
+    };
+    mistakes.extend(exactness::exactness(declaration));
+    let mut graph = Graph::new();
+    let mut environment = Environment::new(declaration);
+    let parameters =
+        parameters::parameter_defaults(declaration, &mut graph, &environment, mistakes);
+    lets::abbreviations(declaration, &mut graph, &mut environment, mistakes);
+    let brackets =
+        poisson::coordinate_brackets(declaration, &mut graph, &environment, name, mistakes);
+    let mut lower =
+        |expr, allowed| Lowering::new(&mut graph, &environment, mistakes, allowed).lower(expr);
+    let energy = lower(
+        declaration.energy.expression(),
+        match declaration.energy {
+            ast::Energy::Hamiltonian(_) => Allowed::State,
+            ast::Energy::Lagrangian { .. } | ast::Energy::DiscreteLagrangian { .. } => {
+                Allowed::Velocity(configuration.map_or(usize::MAX, |c| c.momenta))
+            }
+        },
+    );
+    let casimirs = declaration.casimirs.iter();
+    let casimirs: Vec<_> = casimirs.map(|c| lower(&c.value, Allowed::State)).collect();
+    let realization = realization::lowered_map(
+        declaration,
+        configuration,
+        &mut graph,
+        &environment,
+        mistakes,
+    );
+    let initial = initial::initial_state(declaration, &mut graph, &environment, mistakes);
+    mistakes.extend(opaque::own_functions(
+        declaration,
+        &graph,
+        brackets.as_deref(),
+        energy,
+    ));
+    if mistakes.iter().any(|mistake| !mistake.warning) {
+        return None;
+    }
+    let (algebra, parameters) = (algebra?, parameters?);
+    let defaults = defaults::exact_defaults(declaration, algebra.as_ref(), &parameters);
+    Some(Lowered {
+        graph,
+        defaults: defaults.map_err(|mistake| mistakes.push(mistake)).ok()?,
+        algebra,
+        parameters,
+        brackets: brackets?,
+        energy: energy?,
+        casimirs: casimirs.into_iter().collect::<Option<_>>()?,
+        realization: realization?,
+        initial: initial?,
+    })
+}
