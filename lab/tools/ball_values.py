@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Values of the elementary functions to 90 digits, by mpmath, for the tests of ball arithmetic.
 
-Writes crates/lie-codegen/src/exact/ball/values.txt: function, argument (or y and x of atan2), value. The arguments are
+Writes crates/lie-symbolic/src/exact/ball/values.txt: function, argument (or y and x of atan2), value. The arguments are
 dyadic rationals, so that they are the same numbers everywhere: small, moderate and large ones, of both signs, and
 ones next to the ends of intervals and to zeros.
 """
@@ -46,5 +46,5 @@ for name, function in FUNCTIONS.items():
         value = function(*(mpf(n) / mpf(2) ** k for n, k in arguments))
         texts = " ".join(f"{n}/{2 ** k}" for n, k in arguments)
         lines.append(f"{name} {texts} = {mp.nstr(value, 90, strip_zeros=False, min_fixed=-10**9, max_fixed=10**9)}")
-target = pathlib.Path(__file__).parents[2] / "crates/lie-codegen/src/exact/ball/values.txt"
+target = pathlib.Path(__file__).parents[2] / "crates/lie-symbolic/src/exact/ball/values.txt"
 target.write_text("\n".join(lines) + "\n")

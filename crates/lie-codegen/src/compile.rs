@@ -5,7 +5,7 @@ use std::path::Path;
 
 use proc_macro2::TokenStream;
 
-use crate::check::{check, constant_value, contradicted};
+use crate::check::{check, constant_value, refuted_verdict};
 use crate::methods::{Choice, declared, refusal};
 use crate::plan::{Own, plan, plan_with};
 use crate::print::{Surface, format, print};
@@ -25,7 +25,7 @@ pub fn analysed(
         let found = structure(model, effort);
         declared::check(&found, &mut own);
         smoothness::check(&found, &mut own);
-        own.extend(contradicted(declaration.name.origin));
+        own.extend(refuted_verdict(declaration.name.origin));
         found
     });
     let failed = own.has_errors();

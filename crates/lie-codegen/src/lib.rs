@@ -1,9 +1,11 @@
 //! The compiler of lie-poisson: declarations in, checked systems and Rust out.
 //!
 //! ```text
-//! macro tokens, JSON spec -> front -> ast -> check -> model -> plan (derive, schedule) -> print
+//! macro tokens, JSON spec -> declaration -> check -> model -> structure -> plan (derive, schedule) -> print
+//!                            lie_syntax                                          lie_symbolic
 //! ```
 //!
+//! Declarations are read by [`lie_syntax`]; expressions, proofs and schedules are those of [`lie_symbolic`].
 //! [`compile`] drives the stages and is the module to read first. A spec from end to end:
 //!
 //! ```

@@ -1,8 +1,8 @@
 //! The methods of the catalogue over dual numbers: a step of one is a step with its tangent.
 //!
 //! `lie verify` and `lie stress` ask for them; runs do not. Nothing is written here that [`lie_dynamic`] does not have for every
-//! scalar: the crate is the place where all methods are compiled for this one, beside those over numbers and with less
-//! optimisation.
+//! scalar. All methods are compiled here for dual numbers, so that cargo does it beside [`lie_dynamic`], which has those over
+//! numbers, and not after it.
 
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]

@@ -78,7 +78,7 @@ impl<V> Default for Motions<V> {
 }
 
 impl<V> Motions<V> {
-    /// Of steps whose motion is asked for.
+    /// Records the motion of the steps to which it is given.
     pub const fn new() -> Self {
         Self {
             shown: Vec::new(),
@@ -86,7 +86,7 @@ impl<V> Motions<V> {
         }
     }
 
-    /// Of steps whose motion nobody asks for.
+    /// Records nothing, and says so.
     const fn unasked() -> Self {
         Self {
             shown: Vec::new(),

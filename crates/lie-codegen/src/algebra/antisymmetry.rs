@@ -22,7 +22,8 @@ pub fn with_itself(bracket: &Bracket, signs: Signs, value: &str) -> Diagnostic {
     Diagnostic::new(Kind::Antisymmetry, bracket.origin, message).help("remove this bracket")
 }
 
-/// A bracket that an earlier one contradicts, by which it has one value in its own order, another one turned around.
+/// A bracket that an earlier one contradicts. `own` is the value that the earlier one gives in the order in which it was written,
+/// `turned` the value in the other order.
 pub fn contradiction(
     bracket: &Bracket,
     earlier: &Bracket,

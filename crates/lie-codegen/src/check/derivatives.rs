@@ -28,7 +28,7 @@ pub fn kernels(
 /// Whether momentum and inertia of a Lagrangian are of reasonable size.
 ///
 /// # Errors
-/// A Lagrangian of which they are not.
+/// They are too large.
 pub fn momenta(
     graph: &Graph,
     value: ExprId,

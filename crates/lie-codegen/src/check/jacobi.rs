@@ -16,7 +16,7 @@ const WORK: u64 = 5_000_000;
 /// `{x_i, {x_j, x_k}} + {x_j, {x_k, x_i}} + {x_k, {x_i, x_j}} = 0`, that is
 /// `sum_l (Pi_il d_l Pi_jk + Pi_jl d_l Pi_ki + Pi_kl d_l Pi_ij) = 0`, fails or cannot be proven.
 ///
-/// A bracket that violates it is none of a Poisson manifold: there are no leaves, and no map keeps it.
+/// A bracket that violates it is not a Poisson bracket: it has no symplectic leaves, and no map preserves it.
 pub fn jacobi_identity(
     declaration: &Declaration,
     entries: &[Entry],

@@ -1,16 +1,15 @@
 //! The checks: from the syntax tree to a model in which nothing is wrong.
 //!
-//! One module per check, which gives its mistakes back as values. The stages are: names and sizes, the coordinates, the
+//! One module per check, which returns its mistakes or adds them to the list of its stage. The stages are: names and sizes, the coordinates, the
 //! expressions (their mistakes are found together), the system that they make, its identities, the model and its domain.
 
 mod algebra;
-mod assembled;
+mod assembly;
 mod breadth;
 mod casimirs;
 mod cocycle;
 mod configuration;
 mod constant;
-mod contradicted;
 mod coordinates;
 mod defaults;
 mod derivatives;
@@ -21,6 +20,7 @@ mod energy;
 mod entries;
 mod environment;
 mod exactness;
+mod expressions;
 mod family;
 mod identities;
 mod idle;
@@ -29,7 +29,6 @@ mod jacobi;
 mod legendre;
 mod lets;
 mod lower;
-mod lowered;
 mod matrix;
 mod names;
 mod naming;
@@ -39,6 +38,7 @@ mod poisson;
 mod poisson_map;
 mod rank;
 mod realization;
+mod refuted_verdict;
 mod series;
 mod sign;
 mod size;
@@ -55,14 +55,14 @@ use lie_syntax::ast::Declaration;
 use lie_syntax::diagnostic::{Diagnostic, Report};
 
 pub use constant::constant_value;
-pub use contradicted::contradicted;
+pub use refuted_verdict::refuted_verdict;
 
 /// Checks a declaration; `None` if there are mistakes. Those and warnings go to the report.
 pub fn check(declaration: &Declaration, report: &mut Report) -> Option<Model> {
     contradiction::clear();
     let mut mistakes = Vec::new();
     let model = stages(declaration, &mut mistakes);
-    mistakes.extend(contradicted(declaration.name.origin));
+    mistakes.extend(refuted_verdict(declaration.name.origin));
     if let Some(model) = &model {
         mistakes.extend(idle::without_effect(declaration, model));
     }
@@ -70,10 +70,15 @@ pub fn check(declaration: &Declaration, report: &mut Report) -> Option<Model> {
     model.filter(|_| !report.has_errors())
 }
 
+/// Whether there are more than warnings.
+fn has_errors(mistakes: &[Diagnostic]) -> bool {
+    mistakes.iter().any(|mistake| !mistake.warning)
+}
+
 fn stages(declaration: &Declaration, mistakes: &mut Vec<Diagnostic>) -> Option<Model> {
     let family = declaration.family.as_ref();
     if let Some(family) = family {
-        mistakes.extend(family::limits::impossible(declaration, family));
+        mistakes.extend(family::limits::violations(declaration, family));
     }
     mistakes.extend(names::name_spaces(declaration));
     if family.is_some() && !mistakes.is_empty() {
@@ -86,20 +91,20 @@ fn stages(declaration: &Declaration, mistakes: &mut Vec<Diagnostic>) -> Option<M
     mistakes.extend(size::lengths(declaration));
     let whole = coordinates::whole(declaration, mistakes)?;
     let name = |symbol| symbols::symbol_name(&whole.declaration, symbol);
-    let lowered = lowered::lowered(&whole, &name, mistakes)?;
+    let lowered = expressions::lower(&whole, &name, mistakes)?;
     let mut system = system::system(&whole, lowered, mistakes)?;
     let proven = identities::identities(&whole, &mut system, &name, mistakes)?;
-    let model = assembled::assembled(&whole, system, proven);
+    let model = assembly::assemble(&whole, system, proven);
     mistakes.extend(domain::initial_domain(
         &model,
         whole.declaration.initial_origin,
     ));
-    if mistakes.iter().any(|mistake| !mistake.warning) {
+    if has_errors(mistakes) {
         return None;
     }
     match family.zip(whole.sums) {
         Some((family, sums)) => {
-            family::coupled::coupled(declaration, family, &sums, model, mistakes)
+            family::coupling::couple(declaration, family, &sums, model, mistakes)
         }
         None => Some(model),
     }

@@ -6,8 +6,8 @@ use lie_symbolic::exact::Rational;
 use lie_symbolic::prove::ranks;
 use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 
-/// Finds both ranks. That of an algebra is exact; that of another bracket is where its entries are rational functions, and
-/// found in double precision elsewhere. The initial state is rounded to double precision.
+/// Finds both ranks. Those of a Lie algebra are exact. Those of another bracket are exact where its entries are rational functions;
+/// elsewhere they are found numerically. The initial state is rounded to double precision.
 pub fn ranks(
     model: &mut Model,
     matrix: &PoissonMatrix,

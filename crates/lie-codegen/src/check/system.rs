@@ -2,7 +2,7 @@
 
 use super::coordinates::Whole;
 use super::energy::{Declared, Motion};
-use super::lowered::Lowered;
+use super::expressions::Lowered;
 use super::{breadth, derivatives, exactness, matrix};
 use crate::model::{Algebra, Energy, PoissonMatrix};
 use lie_symbolic::symbolic::Graph;
@@ -64,14 +64,14 @@ pub fn system(
         breadth::fill(&scratch, (&matrix, place), hamiltonian)
             .or_else(|| derivatives::kernels(&scratch, &matrix, hamiltonian, casimirs)),
     );
-    mistakes
-        .iter()
-        .all(|mistake| mistake.warning)
-        .then_some(System {
-            lowered,
-            scratch,
-            algebra,
-            matrix,
-            energy,
-        })
+    if super::has_errors(mistakes) {
+        return None;
+    }
+    Some(System {
+        lowered,
+        scratch,
+        algebra,
+        matrix,
+        energy,
+    })
 }

@@ -34,7 +34,7 @@ pub enum Carrier {
     Closed,
     /// Those with a representation that is closed up to matrices that commute with it.
     Matrices,
-    /// Those of them that are not closed.
+    /// Those with such a representation that is not closed.
     Reductive,
     /// Sums of so(3).
     Spins,
@@ -188,3 +188,37 @@ macro_rules! list {
     };
 }
 lie_core::for_each_method!(list! {});
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::*;
+
+    /// A second row of the same choice or key would never be found.
+    #[test]
+    fn each_row_is_found_by_its_choice_and_each_equation_by_its_key() {
+        let mut keys = BTreeSet::new();
+        for row in Row::all() {
+            let found = Row::find(&row.choice);
+            assert!(std::ptr::eq(found, row), "{:?}", row.choice);
+            for statement in &row.equations {
+                assert!(keys.insert(statement.key), "{} twice", statement.key);
+            }
+        }
+        assert!(keys.len() > 30, "{keys:?}");
+    }
+
+    /// What options make of a method is a row with its id.
+    #[test]
+    fn each_variant_of_a_method_is_in_the_list() {
+        let mut variants = 0;
+        for row in Row::all() {
+            for choice in row.choice.variants() {
+                assert_eq!(Row::find(&choice).id, row.id, "{choice:?}");
+                variants += 1;
+            }
+        }
+        assert!(variants > 150, "{variants}");
+    }
+}

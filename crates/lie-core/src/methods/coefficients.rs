@@ -22,7 +22,7 @@
 use crate::scalar::Scalar;
 
 /// Every scheme: its name as an option, and its coefficients by order. The first of those that a method may have is its
-/// default. `sweeps` are of splittings alone; those that say so are for two pieces of which one is small.
+/// default. `Sweeps` are of splittings alone; `near` marks those for two pieces of which one is small.
 macro_rules! schemes {
     ($(
         $(#[$doc:meta])*

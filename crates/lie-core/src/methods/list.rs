@@ -1,14 +1,14 @@
 //! The one list of methods: which type, which generic equation and which options belong to an id.
 //!
-//! Everybody who must know every method expands it: [`generic_equations!`](crate::generic_equations), the compiler for its
-//! catalogue and for the text of generated code, the systems that are made at run time. So a method that is missing
-//! somewhere does not compile.
+//! It is expanded by [`generic_equations!`](crate::generic_equations), by the compiler for its catalogue and for the text of
+//! generated code, and by the systems that are made at run time, so that none of them can forget a method.
 
 /// Gives the list of methods to a macro: `for_each_method!(callback! { … })` becomes
 /// `callback! { { … } choices { … } rows }`.
 ///
 /// First come the variants of an enum, a method with its options, then the ids in the order of the catalogue: title, what a
-/// system must have, reference, and a row for each combination of options that is a type of its own, the default first:
+/// system must have, reference, and a row for each combination of options that is a type of its own, the default first. The
+/// names of what is needed and of references are constants of the compiler's catalogue (`methods/table.rs`).
 ///
 /// ```text
 /// [choice] [type] [value] { what is particular [key carrier equation] }

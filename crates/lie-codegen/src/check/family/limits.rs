@@ -4,7 +4,7 @@ use lie_syntax::ast::{Declaration, Energy, Family, Structure};
 use lie_syntax::diagnostic::{Diagnostic, Kind};
 
 /// What a family cannot have.
-pub fn impossible(declaration: &Declaration, family: &Family) -> Vec<Diagnostic> {
+pub fn violations(declaration: &Declaration, family: &Family) -> Vec<Diagnostic> {
     let mut mistakes = Vec::new();
     let mut refuse = |place, message: &str, help: &str| {
         mistakes.push(Diagnostic::new(Kind::Schema, place, message).help(help));

@@ -2,7 +2,7 @@
 //! function of sums over the sites, whose summands depend on a site and on neighbours at fixed distances.
 
 mod bounds;
-pub mod coupled;
+pub mod coupling;
 pub mod limits;
 pub mod sites;
 mod sums;

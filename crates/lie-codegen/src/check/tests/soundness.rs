@@ -197,7 +197,7 @@ fn a_contradiction_is_a_mistake_of_the_compiler() {
     use lie_syntax::diagnostic::Kind;
     let model = declared("x^2 + y^2");
     contradiction::keep(&model.graph, model.hamiltonian());
-    let found = contradicted(model.name_origin).unwrap();
+    let found = refuted_verdict(model.name_origin).unwrap();
     assert_eq!(found.kind, Kind::Limit);
     assert!(found.message.contains("contradicts itself") && found.help.is_some());
     // it is told once, and does not outlive the check in which it was found

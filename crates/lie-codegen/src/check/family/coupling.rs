@@ -3,6 +3,7 @@
 use super::sites::SiteSums;
 use super::sums;
 use crate::check::environment::{Allowed, Environment};
+use crate::check::has_errors;
 use crate::check::lets;
 use crate::check::lower::Lowering;
 use crate::model::{Family, Model, SiteSum, Size};
@@ -12,7 +13,7 @@ use lie_syntax::ast::{self, Declaration, Name};
 use lie_syntax::diagnostic::{Diagnostic, Kind};
 
 /// Makes the model of a site that of the family; `None` if there are mistakes.
-pub fn coupled(
+pub fn couple(
     declaration: &Declaration,
     family: &ast::Family,
     acting: &SiteSums,
@@ -33,10 +34,7 @@ pub fn coupled(
     model.family = Some(summed(declaration, &mut model, acting, known, mistakes)?);
     model.methods.clone_from(&declaration.methods);
     model.run.clone_from(&declaration.run);
-    mistakes
-        .iter()
-        .all(|mistake| mistake.warning)
-        .then_some(model)
+    (!has_errors(mistakes)).then_some(model)
 }
 
 /// The sizes, which parameters or numbers give.

@@ -9,7 +9,7 @@ use crate::model::{Bracket, Hamiltonian, Model};
 use lie_symbolic::prove::degree;
 
 /// The model.
-pub fn assembled(whole: &Whole<'_>, system: System, proven: Proven) -> Model {
+pub fn assemble(whole: &Whole<'_>, system: System, proven: Proven) -> Model {
     let declaration = &*whole.declaration;
     let Proven {
         mut bracket,

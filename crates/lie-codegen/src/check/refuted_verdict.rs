@@ -4,7 +4,7 @@ use lie_symbolic::prove::contradiction;
 use lie_syntax::diagnostic::{Diagnostic, Kind, Origin};
 
 /// A verdict that numbers refute.
-pub fn contradicted(origin: Origin) -> Option<Diagnostic> {
+pub fn refuted_verdict(origin: Origin) -> Option<Diagnostic> {
     let text = contradiction::take()?;
     let message = format!(
         "the compiler contradicts itself: values at a point refute what it has proven about `{text}`"

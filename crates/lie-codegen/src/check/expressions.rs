@@ -35,7 +35,7 @@ pub struct Lowered {
 }
 
 /// Lowers everything, so that the mistakes of all expressions are found together.
-pub fn lowered(
+pub fn lower(
     whole: &Whole<'_>,
     name: &dyn Fn(Symbol) -> String,
     mistakes: &mut Vec<Diagnostic>,
@@ -80,7 +80,7 @@ pub fn lowered(
         brackets.as_deref(),
         energy,
     ));
-    if mistakes.iter().any(|mistake| !mistake.warning) {
+    if super::has_errors(mistakes) {
         return None;
     }
     let (algebra, parameters) = (algebra?, parameters?);
