@@ -265,14 +265,20 @@ fn only_program(cache: &Path) -> PathBuf {
     only.path()
 }
 
+/// In one cache, whose packages are built once.
 #[test]
-fn a_damaged_cache_heals_itself() {
+fn a_cache_heals_itself_and_has_a_limit() {
     let folder = folder();
-    let path = spec(folder.path(), |_| ());
     let cache = folder.path().join("cache");
-    let call = || run(&path, &[("LIE_CACHE_DIR", &cache)]);
+    heals_itself(folder.path(), &cache);
+    has_a_limit(folder.path(), &cache);
+}
+
+fn heals_itself(folder: &Path, cache: &Path) {
+    let path = spec(folder, |_| ());
+    let call = || run(&path, &[("LIE_CACHE_DIR", cache)]);
     let whole = call().ok();
-    let program = only_program(&cache).join("program");
+    let program = only_program(cache).join("program");
     let damage = |path: &Path, change: &dyn Fn(&mut Vec<u8>)| {
         let mut bytes = std::fs::read(path).expect("it is there");
         change(&mut bytes);
@@ -303,14 +309,11 @@ fn a_damaged_cache_heals_itself() {
 
 /// Beyond the limit of the cache everything goes but the program just built; a limit that is no number is refused before
 /// anything is built.
-#[test]
-fn the_cache_has_a_limit() {
-    let folder = folder();
-    let path = spec(folder.path(), |_| ());
-    let cache = folder.path().join("cache");
-    let cargo = script(folder.path(), "exit 1");
+fn has_a_limit(folder: &Path, cache: &Path) {
+    let path = spec(folder, |spec| spec["name"] = "Last".into());
+    let cargo = script(folder, "exit 1");
     let wrong = [
-        ("LIE_CACHE_DIR", cache.as_path()),
+        ("LIE_CACHE_DIR", cache),
         ("LIE_CACHE_MB", Path::new("2 GB")),
         ("CARGO", &cargo),
     ];
@@ -321,13 +324,11 @@ fn the_cache_has_a_limit() {
         "{}",
         refused.stderr
     );
-    let small = [
-        ("LIE_CACHE_DIR", cache.as_path()),
-        ("LIE_CACHE_MB", Path::new("1")),
-    ];
+    let small = [("LIE_CACHE_DIR", cache), ("LIE_CACHE_MB", Path::new("1"))];
     let built = run(&path, &small).ok();
     assert!(built.stderr.contains("Building"), "{}", built.stderr);
     assert!(!cache.join("target").exists(), "the packages went");
+    only_program(cache);
     let again = run(&path, &[small[0], ("CARGO", cargo.as_path())]).ok();
     assert_eq!(again.stdout, built.stdout, "the program stayed");
 }
