@@ -1,19 +1,17 @@
 //! Which equation each implicit method of the list has over systems made at run time: the generic one, as the plan has it.
 //! The parts that a plan may replace stand beside: fused equations, eliminations, generating functions and discrete gradients.
 
-mod either;
 mod generating;
 mod gradient;
 mod planned;
 
 use crate::recording::{Recorded, write};
 use crate::system::Dynamic;
-use either::Either;
 use lie_codegen::methods::{Choice, Gradient, Lift, Retraction, Tensor};
 use lie_codegen::plan::Solver;
 use lie_core::generic;
 use lie_runtime::methods as m;
-use lie_runtime::{Implicit, Scalar};
+use lie_runtime::{Equation, Implicit, Scalar};
 use planned::Planned;
 
 /// How something of the equation of a method is written down.
@@ -57,10 +55,10 @@ macro_rules! equations {
     (@row $choice:tt $type:tt [$three:ident Body $first:ident] [$many:ident BodyOfMany $second:ident]) => {
         equations!(
             @impl $choice $type self h,
-            Either<generic::$first<'a, S, Self>, generic::$second<'a, S, Self>>,
+            generic::$first<'a, S, Self>,
             match self.values.compiled.structure.is_body_of_many() {
-                false => Either::First(generic::$first::new(self, h)),
-                true => Either::Second(generic::$second::new(self, h)),
+                false => Box::new(generic::$first::new(self, h)),
+                true => Box::new(generic::$second::new(self, h)),
             }
         );
     };
@@ -72,14 +70,14 @@ macro_rules! equations {
     (@row [$($choice:tt)+] $type:tt [$key:ident $carrier:ident CohenHairerStep $stages:literal]) => {
         equations!(
             @impl [$($choice)+] $type self h,
-            Either<generic::CohenHairerStep<'a, S, Self, $stages>, generic::Gauss<'a, S, Self, $stages>>,
+            generic::CohenHairerStep<'a, S, Self, $stages>,
             match self.values.compiled.solvers.get(&Choice::$($choice)+) {
                 Some(Solver::Generic(partner) | Solver::Eliminated(partner, _))
                     if partner.choice() == Some(&Choice::Gauss($stages)) =>
                 {
-                    Either::Second(generic::Gauss::new(self, h))
+                    Box::new(<generic::Gauss<'_, S, Self, $stages>>::new(self, h))
                 }
-                _ => Either::First(generic::CohenHairerStep::new(self, h)),
+                _ => Box::new(<generic::CohenHairerStep<'_, S, Self, $stages>>::new(self, h)),
             }
         );
     };
@@ -88,7 +86,9 @@ macro_rules! equations {
         equations!(
             @impl $choice $type self h,
             generic::OrbitEnergyStep<'a, S, Self, gradient::Planned<S, generic::$gradient<S, Self>>>,
-            generic::OrbitEnergyStep::new(self, h)
+            Box::new(generic::OrbitEnergyStep::<
+                '_, S, Self, gradient::Planned<S, generic::$gradient<S, Self>>,
+            >::new(self, h))
         );
     };
     (@row $choice:tt $type:tt [$key:ident $carrier:ident $equation:ident along $function:ident]) => {
@@ -100,7 +100,7 @@ macro_rules! equations {
             {
                 let function = generic::$function::new(self, h);
                 let function = generating::Planned::new(self, stringify!($function), h, function);
-                generic::$equation::with_function(self, function, h)
+                Box::new(generic::$equation::with_function(self, function, h))
             }
         );
     };
@@ -111,7 +111,9 @@ macro_rules! equations {
         equations!(
             @impl $choice $type self h,
             generic::$equation<'a, S, Self $(, $stages)? $(, generic::$gradient<S, Self>)?>,
-            <generic::$equation<S, Self $(, $stages)? $(, generic::$gradient<S, Self>)?>>::new(self, h)
+            Box::new(
+                <generic::$equation<S, Self $(, $stages)? $(, generic::$gradient<S, Self>)?>>::new(self, h)
+            )
         );
     };
     (
@@ -119,7 +121,12 @@ macro_rules! equations {
         $equation:ty, $value:expr
     ) => {
         impl<S: Scalar> Implicit<S, m::$name $(<$(m::$argument),+>)?> for Dynamic<S> {
-            type Equation<'a> = Planned<'a, S, $equation> where Self: 'a;
+            type Equation<'a>
+                = Planned<
+                    'a, S, <$equation as Equation<S>>::Unknown, <$equation as Equation<S>>::Matrix,
+                >
+            where
+                Self: 'a;
             fn equation<'a>(
                 &'a $self,
                 _method: &m::$name $(<$(m::$argument),+>)?,

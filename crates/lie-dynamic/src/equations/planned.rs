@@ -7,7 +7,7 @@ use crate::recording;
 use crate::system::Dynamic;
 use lie_codegen::methods::Choice;
 use lie_codegen::plan::{Chart, Ending, Fused, Guess, Item, Solver};
-use lie_core::{equation::newton_update, generic};
+use lie_core::{SquareMatrix, equation::newton_update, generic};
 use lie_runtime::methods::Retraction;
 use lie_runtime::{Equation, Mask as _, Poisson, Scalar, Unknown};
 use std::cell::RefCell;
@@ -24,11 +24,14 @@ struct Running<'a, S> {
     both: Vec<S>,
 }
 
+/// A generic equation whose type is forgotten: what surrounds it is compiled for its unknown alone.
+pub type Generic<'a, S, U, M> = Box<dyn Equation<S, State = Vec<S>, Unknown = U, Matrix = M> + 'a>;
+
 /// The equation of the step of a method as the plan has it; the generic one where it has nothing.
-pub struct Planned<'a, S: Scalar, G> {
+pub struct Planned<'a, S: Scalar, U, M> {
     system: &'a Dynamic<S>,
     h: S,
-    generic: G,
+    generic: Generic<'a, S, U, M>,
     fused: Option<Running<'a, S>>,
     elimination: Option<&'a Elimination>,
     scratch: RefCell<Scratch<S>>,
@@ -36,13 +39,18 @@ pub struct Planned<'a, S: Scalar, G> {
     programs: Option<recording::Running<S>>,
 }
 
-impl<'a, S: Scalar, G> Planned<'a, S, G> {
+impl<'a, S, U, M> Planned<'a, S, U, M>
+where
+    S: Scalar,
+    U: Unknown<S>,
+    M: SquareMatrix<S>,
+{
     /// The equation of a step of size h, `generic` being the generic one of the same step.
     pub(crate) fn new(
         system: &'a Dynamic<S>,
         choice: &Choice,
         h: S,
-        generic: G,
+        generic: Generic<'a, S, U, M>,
         write: recording::Write,
     ) -> Self {
         let solver = system.values.compiled.solvers.get(choice);
@@ -84,6 +92,22 @@ impl<'a, S: Scalar, G> Planned<'a, S, G> {
             scratch: RefCell::default(),
             programs,
         }
+    }
+
+    /// The generic equation at the state of the fused one, and the unknown with what the iteration left out.
+    fn partner(&mut self, unknown: &U) -> (&mut Generic<'a, S, U, M>, Option<U>) {
+        let Some(fused) = &self.fused else {
+            return (&mut self.generic, None);
+        };
+        self.generic.set_base(&fused.base);
+        let completed = fused.codes.completed.as_ref().map(|call| {
+            let mut all = unknown.clone();
+            let targets = [all.part_mut(0), &mut []];
+            let at = (self.h, unknown.part(0));
+            fused.run(self.system, call, at, targets);
+            all
+        });
+        (&mut self.generic, completed)
     }
 }
 
@@ -128,37 +152,15 @@ impl<S: Scalar> Running<'_, S> {
     }
 }
 
-impl<S, G> Planned<'_, S, G>
+impl<S, U, M> Equation<S> for Planned<'_, S, U, M>
 where
     S: Scalar,
-    G: Equation<S, State = Vec<S>>,
-{
-    /// The generic equation at the state of the fused one, and the unknown with what the iteration left out.
-    fn partner(&mut self, unknown: &G::Unknown) -> (&mut G, Option<G::Unknown>) {
-        let Some(fused) = &self.fused else {
-            return (&mut self.generic, None);
-        };
-        self.generic.set_base(&fused.base);
-        let completed = fused.codes.completed.as_ref().map(|call| {
-            let mut all = unknown.clone();
-            let targets = [all.part_mut(0), &mut []];
-            let at = (self.h, unknown.part(0));
-            fused.run(self.system, call, at, targets);
-            all
-        });
-        (&mut self.generic, completed)
-    }
-}
-
-impl<S, G> Equation<S> for Planned<'_, S, G>
-where
-    S: Scalar,
-    G: Equation<S, State = Vec<S>>,
-    G::Matrix: Blocks<S>,
+    U: Unknown<S>,
+    M: SquareMatrix<S> + Blocks<S>,
 {
     type State = Vec<S>;
-    type Unknown = G::Unknown;
-    type Matrix = G::Matrix;
+    type Unknown = U;
+    type Matrix = M;
 
     fn zero_unknown(&self) -> Self::Unknown {
         self.generic.zero_unknown()
