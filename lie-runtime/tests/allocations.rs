@@ -1,6 +1,6 @@
 //! A step allocates nothing.
 
-mod systems;
+use crate::systems;
 
 use lie_runtime::methods::{FactorSink, Method, Retraction, Stepper};
 use lie_runtime::newton::NewtonOptions;

@@ -1,6 +1,6 @@
 //! Lagrangians that are not convex: several velocities with one momentum.
 
-mod systems;
+use crate::systems;
 
 use lie_runtime::lagrangian::legendre;
 use lie_runtime::prelude::*;

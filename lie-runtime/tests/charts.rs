@@ -1,6 +1,6 @@
 //! Steps beyond a pole of the Cayley map, or of the rational function that a Gauss method is.
 
-mod systems;
+use crate::systems;
 
 use lie_runtime::methods::{
     Collective2, Compose4, Generating2, Generating4, Isospectral2, Isospectral4, Isospectral6,

@@ -1,6 +1,6 @@
 //! The explicit methods of coadjoint form: orders, what they keep, factors, lanes, failures.
 
-mod systems;
+use crate::systems;
 
 use lie_runtime::diagnostics::{order_of_convergence, poisson_defect};
 use lie_runtime::generic::coadjoint_action;

@@ -2,7 +2,7 @@
 //! systems written by hand: single steps against values computed with 60 digits by other code,
 //! Jacobians against dual numbers, lanes, the domain of the discrete rigid body.
 
-mod systems;
+use crate::systems;
 
 use lie_runtime::methods::{
     Collective2, Collective4, Collective6, Isospectral2, Isospectral4, Isospectral6, MoserVeselov,

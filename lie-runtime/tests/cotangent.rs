@@ -1,6 +1,6 @@
 //! The method on T*G, with the heavy top by hand: its equation in the group, order, symmetry, structure, factors.
 
-mod systems;
+use crate::systems;
 
 use lie_runtime::diagnostics::{order_of_convergence, poisson_defect};
 use lie_runtime::generic::{EulerArnoldHalf, Half, coadjoint_action};

@@ -1,6 +1,6 @@
 //! The driver: times, saved states, failures, observers.
 
-mod systems;
+use crate::systems;
 
 use core::ops::ControlFlow;
 use lie_runtime::driver::OptionError;

@@ -1,7 +1,7 @@
 //! Families: their kernels and loops against a direct sum that is written out, and against H differentiated by dual
 //! numbers, which shares nothing with them.
 
-mod sites;
+use crate::sites;
 
 use lie_runtime::driver::Save;
 use lie_runtime::family::{Family, Sites, unit_spheres};
@@ -9,12 +9,12 @@ use lie_runtime::methods::Method;
 use lie_runtime::prelude::*;
 use sites::{by_component, end, largest_difference};
 
-lie_poisson! { pub spec = "../tests/data/families/heisenberg_chain.json"; }
-lie_poisson! { pub spec = "../tests/data/families/open_chain.json"; }
-lie_poisson! { pub spec = "../tests/data/families/mean_field.json"; }
-lie_poisson! { pub spec = "../tests/data/families/lattice.json"; }
-lie_poisson! { pub spec = "../tests/data/families/su3_ring.json"; }
-lie_poisson! { pub spec = "../tests/data/families/mean_field_pieces.json"; }
+lie_poisson! { pub spec = "../../tests/data/families/heisenberg_chain.json"; }
+lie_poisson! { pub spec = "../../tests/data/families/open_chain.json"; }
+lie_poisson! { pub spec = "../../tests/data/families/mean_field.json"; }
+lie_poisson! { pub spec = "../../tests/data/families/lattice.json"; }
+lie_poisson! { pub spec = "../../tests/data/families/su3_ring.json"; }
+lie_poisson! { pub spec = "../../tests/data/families/mean_field_pieces.json"; }
 
 lie_poisson! {
     /// Classical spins on a ring, without a spec.

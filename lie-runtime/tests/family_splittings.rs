@@ -1,6 +1,6 @@
 //! Splittings of families: their order and what they keep, and the flows of their pieces.
 
-mod sites;
+use crate::sites;
 
 use lie_runtime::family::{Family, Pieces, unit_spheres};
 use lie_runtime::methods::Method;
@@ -8,10 +8,10 @@ use lie_runtime::prelude::*;
 use lie_runtime::{FoundPoisson, PieceFlows};
 use sites::{by_component, end, largest_difference};
 
-lie_poisson! { pub spec = "../tests/data/families/heisenberg_chain.json"; }
-lie_poisson! { pub spec = "../tests/data/families/lattice.json"; }
-lie_poisson! { pub spec = "../tests/data/families/xxz_chain.json"; }
-lie_poisson! { pub spec = "../tests/data/families/mean_field_pieces.json"; }
+lie_poisson! { pub spec = "../../tests/data/families/heisenberg_chain.json"; }
+lie_poisson! { pub spec = "../../tests/data/families/lattice.json"; }
+lie_poisson! { pub spec = "../../tests/data/families/xxz_chain.json"; }
+lie_poisson! { pub spec = "../../tests/data/families/mean_field_pieces.json"; }
 
 lie_poisson! {
     /// Spins on a lattice with all bonds in one sum, and bonds along a diagonal.

@@ -1,7 +1,7 @@
 //! Generating-function methods on systems written by hand: order by slope, structure by the tangent
 //! map, and controls whose function is wrong in one coefficient.
 
-mod systems;
+use crate::systems;
 
 use lie_runtime::diagnostics::{order_of_convergence, poisson_defect};
 use lie_runtime::generic::{self, ExpRetraction, SecondKind};

@@ -1,6 +1,6 @@
 //! Kernels written by hand against the generic forms, and the generic forms against the algebra.
 
-mod systems;
+use crate::systems;
 
 use lie_runtime::methods::{FactorSink, Method, Retraction, Stepper};
 use lie_runtime::newton::NewtonOptions;

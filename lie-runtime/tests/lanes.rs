@@ -1,6 +1,6 @@
 //! Eight lanes have the digits of eight scalar runs.
 
-mod systems;
+use crate::systems;
 
 use lie_runtime::methods::{Method, StepFailure, StepReport, Stepper};
 use lie_runtime::newton::{FailureReason, NewtonOptions};

@@ -1,6 +1,6 @@
 //! The order of each method, as a slope, and what its constants say.
 
-mod systems;
+use crate::systems;
 
 use lie_runtime::diagnostics::order_of_convergence;
 use lie_runtime::methods::{Facts, Method};

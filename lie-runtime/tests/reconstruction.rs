@@ -1,6 +1,6 @@
 //! The group element beside a run: the spatial momentum, the two charts, rows off the grid.
 
-mod systems;
+use crate::systems;
 
 use lie_runtime::driver::{Chart, Reconstruction};
 use lie_runtime::prelude::*;

@@ -1,6 +1,6 @@
 //! The solver: how much work a step takes, that its variants agree, and how it fails.
 
-mod systems;
+use crate::systems;
 
 use lie_runtime::methods::{Method, StepReport, Stepper};
 use lie_runtime::newton::{FailureReason, NewtonOptions};

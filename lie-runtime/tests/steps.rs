@@ -1,6 +1,6 @@
 //! Single steps against values computed with 60 digits by other code.
 
-mod systems;
+use crate::systems;
 
 use lie_runtime::prelude::*;
 use systems::heavy_top::{HeavyTop, START};

@@ -1,6 +1,6 @@
 //! Whether steps of h and -h undo each other.
 
-mod systems;
+use crate::systems;
 
 use lie_runtime::diagnostics::symmetry_defect;
 use lie_runtime::methods::{LieMidpoint, Rk4};

@@ -4,7 +4,7 @@
 //! `x' = f + h^2 f'f'f/12 + O(h^4)`, and with `f' = J H''` the tensor `J - h^2 J H'' J H'' J/12`, at the
 //! midpoint, removes that term: order 4, and the tensor is antisymmetric.
 
-mod systems;
+use crate::systems;
 
 use lie_runtime::diagnostics::{order_of_convergence, reference};
 use lie_runtime::methods::{

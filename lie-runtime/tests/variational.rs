@@ -1,7 +1,7 @@
 //! Variational integrators: agreement with the Hamiltonian form step by step, an independent oracle, orders by
 //! slope, structure by the tangent map, and controls that must fail.
 
-mod systems;
+use crate::systems;
 
 use lie_runtime::diagnostics::{order_of_convergence, poisson_defect};
 use lie_runtime::generic::{self, GalerkinStep};
@@ -364,7 +364,6 @@ fn discrete_legendre_maps() {
     check(QuarticBody.equation(&Variational2::cayley(), 0.3), Cayley);
 }
 
-#[cfg(feature = "lanes")]
 #[test]
 fn lanes_make_the_steps_of_scalar_runs() {
     fn check<M: Method<f64, QuarticBody> + Method<F64x4, QuarticBody> + Copy>(method: M) {
