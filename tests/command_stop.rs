@@ -307,8 +307,8 @@ fn an_interrupted_verification_says_so_in_json() {
     assert_eq!(value["interrupted"], true);
 }
 
-/// Below this step a run of the rigid body to t = 100 takes seconds.
-const SHORT: f64 = 1e-5;
+/// Below this step a run of the rigid body to t = 100 takes a second.
+const SHORT: f64 = 4e-5;
 
 /// The step of the run that a benchmark has said last to be at.
 fn latest_step(shown: &str) -> Option<f64> {
@@ -317,7 +317,7 @@ fn latest_step(shown: &str) -> Option<f64> {
     rest[..end].parse().ok()
 }
 
-/// Each run of the ladder takes twice as long as the one before, up to days: the signal meets one of seconds, after which
+/// Each run of the ladder takes twice as long as the one before, up to days: the signal meets one of a second, after which
 /// there are none.
 #[test]
 fn one_long_run_of_a_benchmark_is_cut_short_and_those_before_it_are_kept() {

@@ -33,6 +33,7 @@ fn per_site(program: &Path, system: &str, method: &str, sites: u32) -> (f64, f64
 }
 
 #[test]
+#[ignore = "minutes: .ci/nightly runs it"]
 fn a_family_takes_as_many_instructions_as_the_ring_by_hand() {
     let Some(program) = program() else { return };
     for (method, most) in [("rk4", 1.1), ("gauss16", 1.15), ("splitting6", 1.25)] {
@@ -50,6 +51,7 @@ fn a_family_takes_as_many_instructions_as_the_ring_by_hand() {
 }
 
 #[test]
+#[ignore = "minutes: .ci/nightly runs it"]
 fn a_site_takes_as_many_instructions_whatever_their_number_is() {
     let Some(program) = program() else { return };
     for (system, method, [few, many]) in [

@@ -58,6 +58,7 @@ fn per_step(program: &Path, system: &str, method: &str) -> f64 {
 }
 
 #[test]
+#[ignore = "minutes: .ci/nightly runs it"]
 fn steps_take_as_many_instructions_as_they_did() {
     let Some(program) = program() else { return };
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/instructions_per_step.txt");
@@ -97,6 +98,7 @@ fn steps_take_as_many_instructions_as_they_did() {
 }
 
 #[test]
+#[ignore = "minutes: .ci/nightly runs it"]
 fn generated_code_takes_as_many_instructions_as_plain_code() {
     let Some(program) = program() else { return };
     let compare = |kernel: &str, tolerance: f64| {
