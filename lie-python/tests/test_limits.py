@@ -21,6 +21,8 @@ BODY: dict[str, Any] = {
     "initial": ["4/5", "1/10", "3/5"],
 }
 ROOT = pathlib.Path(__file__).parents[2]
+# Methods whose claims take seconds to measure.
+LONG_TO_VERIFY = ("gauss4", "gauss6", "collective4", "isospectral4", "gauss16", "lie-midpoint", "rkmk4", "dopri5")
 Call = tuple[int, int, str]
 
 
@@ -105,9 +107,12 @@ def test_ctrl_c_keeps_what_was_tried() -> None:
             os.kill(os.getpid(), signal.SIGINT)
 
     with pytest.raises(lp.Interrupted) as caught:
-        body.verify("rk4", "gauss4", progress=at_second)
+        # the answer is on its way while the next methods are measured: enough of them for any machine
+        body.verify("rk4", *LONG_TO_VERIFY, progress=at_second)
     partial = caught.value.partial
-    assert not partial.passed and {fact.method for fact in partial.facts} == {"rk4"}
+    assert not partial.passed
+    found = [fact.method for fact in partial.facts]
+    assert "rk4" in found and LONG_TO_VERIFY[-1] not in found
     assert not partial.failures
 
 
