@@ -451,13 +451,17 @@ where
         if step > 0 {
             stages.go_on();
         }
-        let (base, slopes) = stages.base_and_slopes();
+        let (base, increments) = stages.base_and_increments();
         let base: Vec<f64> = base
             .as_slice()
             .iter()
             .map(|y| f64::scatter(*y)[0])
             .collect();
-        let start: Vec<[f64; 8]> = slopes.as_slice().iter().map(|s| f64::scatter(*s)).collect();
+        let start: Vec<[f64; 8]> = increments
+            .as_slice()
+            .iter()
+            .map(|d| f64::scatter(*d))
+            .collect();
         let solved = stages.iterate(|at, slopes| {
             <L as LinearLift<W, P::Widened>>::flow(&wide, &wide_labels, at.points, slopes);
         });
@@ -475,8 +479,7 @@ where
                 let zero = <L as LinearLift<X, D::Widened>>::zero_point(&wide_dual);
                 let step = Dual::constant_of(h);
                 let mut stages = StageParallel::<Dual<f64>, _, 8>::new(step, zero, &exactly);
-                stages
-                    .set_increments_where(true, |stage, k| Dual::constant_of(h * start[k][stage]));
+                stages.set_increments_where(true, |stage, k| Dual::constant_of(start[k][stage]));
                 let mut end: Vec<Dual<f64>> = base
                     .iter()
                     .enumerate()
@@ -511,8 +514,8 @@ where
             }
         }
         stages.advance();
-        let (base, slopes) = stages.base_and_slopes();
-        <L as LinearLift<W, P::Widened>>::settle(&wide, base, slopes);
+        let (base, increments) = stages.base_and_increments();
+        <L as LinearLift<W, P::Widened>>::settle(&wide, base, increments);
     }
     worst
 }

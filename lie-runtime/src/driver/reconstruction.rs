@@ -21,7 +21,7 @@
 
 use super::group_matrix::{GroupMatrix, exponential, rational};
 use super::observer::{Motion, Observer, Progress};
-use crate::generic::{gauss_entry, gauss_weight, quaternion_product as product};
+use crate::generic::{gauss_ratio, gauss_weight, quaternion_product as product};
 use crate::methods::{Retraction, RungeKutta};
 use crate::scalar::{Scalar, largest};
 use crate::state::State;
@@ -146,7 +146,14 @@ impl<S: Scalar, V: State<S>> Reconstruction<S, V> {
                 if stage.index == 0 {
                     self.velocities.clear();
                 }
-                self.velocities.push(xi.clone());
+                let mut velocity = xi.clone();
+                if method == RungeKutta::Gauss {
+                    let weight = gauss_weight::<S>(stage.count, stage.index);
+                    for entry in velocity.as_mut_slice() {
+                        *entry *= weight;
+                    }
+                }
+                self.velocities.push(velocity);
                 if self.velocities.len() == stage.count {
                     let factor = self.collocate(system, method);
                     self.advance(&system.group(), &factor);
@@ -296,6 +303,7 @@ where
     sum
 }
 
+/// The matrix and the weights; of a Gauss method those for velocities times their weights.
 fn coefficients<S: Scalar>(method: RungeKutta, count: usize) -> (Vec<Vec<S>>, Vec<S>) {
     let number = |&(numerator, denominator): &(f64, f64)| S::ratio(numerator, denominator);
     match method {
@@ -309,9 +317,8 @@ fn coefficients<S: Scalar>(method: RungeKutta, count: usize) -> (Vec<Vec<S>>, Ve
             (a, weights.iter().map(number).collect())
         }
         RungeKutta::Gauss => {
-            let row = |i| (0..count).map(|j| gauss_entry(count, i, j)).collect();
-            let a = (0..count).map(row).collect();
-            (a, (0..count).map(|i| gauss_weight(count, i)).collect())
+            let row = |i| (0..count).map(|j| gauss_ratio(count, i, j)).collect();
+            ((0..count).map(row).collect(), vec![S::one(); count])
         }
     }
 }

@@ -117,7 +117,7 @@ pub(super) fn set_units<S: Scalar, M: SquareMatrix<S>, const STAGES: usize>(
     }
 }
 
-/// Solves `K X = A`, each weight times the unit matrix, by the factors of K; block (j, i) of the result
+/// Solves `K X = A` for the ratios of a tableau, each times the unit matrix, by the factors of K; block (j, i) of the result
 /// stands in row i and column j.
 pub(super) fn solve_weights<S: Scalar, M: SquareMatrix<S>, const STAGES: usize>(
     tableau: &Tableau<S, STAGES>,
@@ -125,7 +125,7 @@ pub(super) fn solve_weights<S: Scalar, M: SquareMatrix<S>, const STAGES: usize>(
     out: &mut StageMatrix<M, STAGES>,
 ) {
     for (j, column) in out.0.iter_mut().enumerate() {
-        set_units(core::array::from_fn(|i| tableau.a[i][j]), column);
+        set_units(core::array::from_fn(|i| tableau.ratios[i][j]), column);
         solve(factors, column);
     }
 }

@@ -12,17 +12,19 @@ use crate::state::{Stages, State};
 /// The method of Cohen and Hairer for any Poisson system.
 ///
 /// Unknown: the increments `D_i` of the stages. With the Gauss nodes c and weights b, the Lagrange
-/// polynomials `l_i` on the nodes and `L_i(t) = int_0^t l_i`, the solution is
-/// `u(t) = mu + sum_i L_i(t) D_i`. Equation: `r_i = D_i - h Pi(Y_i) g_i` with `Y_i = u(c_i)` and the means
+/// polynomials `l_i` on the nodes and `L_i(t) = int_0^t l_i/b_i`, the solution is
+/// `u(t) = mu + sum_i L_i(t) D_i`. Equation: `r_i = D_i - h b_i Pi(Y_i) g_i` with `Y_i = u(c_i)` and the means
 /// of the gradient `g_i = (1/b_i) int_0^1 l_i(t) grad H(u(t)) dt`, by quadrature over q. New state:
-/// `mu + sum_i b_i D_i`. Jacobian:
-/// `dr_i/dD_j = delta_ij - h a_ij d/dY[Pi(Y_i) g_i] - h Pi(Y_i) sum_q w_q l_i(t_q) L_j(t_q)/b_i H''(u(t_q))`.
-/// Start: `D_i = h f(mu + c_i h f(mu))`.
+/// `mu + sum_i D_i`. Jacobian, with the ratios `mu_ij = a_ij/b_j`:
+/// `dr_i/dD_j = delta_ij - h b_i (mu_ij d/dY[Pi(Y_i) g_i] + Pi(Y_i) sum_q w_q l_i(t_q)/b_i L_j(t_q) H''(u(t_q)))`.
+/// Start: `D_i = h b_i f(mu + c_i h f(mu))`.
 #[derive(Debug)]
 pub struct CohenHairerStep<'a, S: Scalar, P: Poisson<S>, const STAGES: usize> {
     system: &'a P,
     step: S,
     tableau: Tableau<S, STAGES>,
+    /// `h b_i`
+    weights: [S; STAGES],
     rule: Quadrature<S>,
     /// `w_q l_i(t_q)/b_i`
     means: [[S; STAGES]; MAX_NODES],
@@ -54,12 +56,13 @@ impl<'a, S: Scalar, P: Poisson<S>, const STAGES: usize> CohenHairerStep<'a, S, P
                 for (&b, &c) in tableau.b.iter().zip(&tableau.c) {
                     sum += b * lagrange(&tableau.c, i, t * c);
                 }
-                curve[node][i] = t * sum;
+                curve[node][i] = t * sum / tableau.b[i];
             }
         }
         Self {
             system,
             step: h,
+            weights: tableau.b.map(|b| h * b),
             tableau,
             rule,
             means,
@@ -108,14 +111,14 @@ impl<'a, S: Scalar, P: Poisson<S>, const STAGES: usize> CohenHairerStep<'a, S, P
         }
     }
 
-    /// `r_i = D_i - h Pi(Y_i) g_i`; leaves `Y_i` in the point and `Pi(Y_i)` in the matrix.
+    /// `r_i = D_i - h b_i Pi(Y_i) g_i`; leaves `Y_i` in the point and `Pi(Y_i)` in the matrix.
     fn write_residual(
         &mut self,
         stage: usize,
         unknown: &Stages<P::State, STAGES>,
         residual: &mut P::State,
     ) {
-        self.set_point(&{ self.tableau.a[stage] }, unknown);
+        self.set_point(&{ self.tableau.ratios[stage] }, unknown);
         let matrix = &mut self.poisson_matrix;
         self.system.poisson_matrix(&self.point, matrix);
         multiply(matrix, &self.gradients[stage], &mut self.field);
@@ -124,7 +127,7 @@ impl<'a, S: Scalar, P: Poisson<S>, const STAGES: usize> CohenHairerStep<'a, S, P
             .iter()
             .zip(self.field.as_slice());
         for (out, (&increment, &field)) in residual.as_mut_slice().iter_mut().zip(pairs) {
-            *out = increment - self.step * field;
+            *out = increment - self.weights[stage] * field;
         }
     }
 }
@@ -159,7 +162,7 @@ impl<S: Scalar, P: Poisson<S>, const STAGES: usize> Equation<S>
                 .axpy(self.tableau.c[stage] * self.step, &unknown.0[STAGES - 1]);
             self.system.vector_field(&self.point, &mut self.field);
             unknown.0[stage].fill(S::zero());
-            unknown.0[stage].axpy(self.step, &self.field);
+            unknown.0[stage].axpy(self.weights[stage], &self.field);
         }
     }
 
@@ -217,8 +220,9 @@ impl<S: Scalar, P: Poisson<S>, const STAGES: usize> Equation<S>
                     for (row, &entry) in self.field.as_slice().iter().enumerate() {
                         let unit = stage == other && row == column;
                         let identity = if unit { S::one() } else { S::zero() };
-                        let slope = self.tableau.a[stage][other] * self.hessian.get(row, column);
-                        block.set(row, column, identity - self.step * (slope + entry));
+                        let ratio = self.tableau.ratios[stage][other];
+                        let slope = ratio * self.hessian.get(row, column) + entry;
+                        block.set(row, column, identity - self.weights[stage] * slope);
                     }
                 }
             }
@@ -241,9 +245,8 @@ impl<S: Scalar, P: Poisson<S>, const STAGES: usize> Equation<S>
             let here = self.field.as_slice().iter().zip(self.point.as_slice());
             let coordinates = here.enumerate().map(|(k, (&gradient, &at))| {
                 let mut velocity = S::zero();
-                let bases = means.iter().zip(&self.tableau.b);
-                for ((&mean, &b), increment) in bases.zip(&unknown.0) {
-                    velocity += mean * b / weight * increment.as_slice()[k];
+                for (&mean, increment) in means.iter().zip(&unknown.0) {
+                    velocity += mean / weight * increment.as_slice()[k];
                 }
                 (gradient, at, velocity)
             });
@@ -260,7 +263,7 @@ impl<S: Scalar, P: Poisson<S>, const STAGES: usize> Equation<S>
     }
 
     fn result(&mut self, unknown: &Self::Unknown, mu: &mut P::State) {
-        self.set_point(&{ self.tableau.b }, unknown);
+        self.set_point(&[S::one(); STAGES], unknown);
         mu.copy_from(&self.point);
     }
 }

@@ -14,12 +14,12 @@ use crate::structure::{Entry, MatrixPoisson, Representation, Spectrum};
 /// With `B_j = -rho(x_j)` and any W of the momentum `tr(W rho(e_k)) = mu_k`:
 ///
 /// ```math
-/// Q_i = 1 + \sum_j a_{ij} B_j Q_j, \qquad T_i = 1 - \sum_j a_{ij} T_j B_j, \qquad
+/// Q_i = 1 + \sum_j \mu_{ij} B_j Q_j, \qquad T_i = 1 - \sum_j \mu_{ij} T_j B_j, \qquad
 /// M_i[k] = \mathrm{tr}(Q_i W T_i\, \rho(e_k))
 /// ```
 ///
 /// Both are linear systems of s d equations, solved in a fixed order. With `G = (1 - A B)^-1 A` and
-/// `F = (1 + A B^T)^-1 A` (A the matrix of the tableau, B block diagonal) the derivatives are
+/// `F = (1 + A B^T)^-1 A` (A the matrix of the ratios `mu_ij = a_ij/b_j`, B block diagonal) the derivatives are
 ///
 /// ```math
 /// \frac{\partial M_i[k]}{\partial x_j[c]} =
@@ -75,7 +75,7 @@ impl<S: Scalar, M: SquareMatrix<S>, const STAGES: usize> MatrixStages<S, M, STAG
         let size = self.momentum.dimension();
         for (i, row) in self.factors.0.iter_mut().enumerate() {
             for (j, block) in row.iter_mut().enumerate() {
-                let weight = self.tableau.a[i][j];
+                let weight = self.tableau.ratios[i][j];
                 let motion = &self.motion[j];
                 for r in 0..size {
                     for c in 0..size {
@@ -154,7 +154,7 @@ impl<S: Scalar, M: SquareMatrix<S>, const STAGES: usize> MatrixStages<S, M, STAG
         for transposed in [false, true] {
             for i in 0..STAGES {
                 for j in 0..STAGES {
-                    let (weight, motion) = (self.tableau.a[i][j], &self.motion[j]);
+                    let (weight, motion) = (self.tableau.ratios[i][j], &self.motion[j]);
                     for r in 0..size {
                         for c in 0..size {
                             let entry = if transposed {
@@ -246,7 +246,7 @@ where
         }
         let sizes = self.motion.each_ref().map(|motion| size(motion));
         let mut bound = S::zero();
-        for row in &self.tableau.a {
+        for row in &self.tableau.ratios {
             let mut sum = S::zero();
             for (&weight, &size) in row.iter().zip(&sizes) {
                 sum += weight.abs() * size;

@@ -17,9 +17,9 @@ use crate::state::State;
 const BLOCK: usize = 8;
 const MAX_BLOCKS: usize = MAX_NODES / BLOCK;
 
-/// `g_i = (1/b_i) int_0^1 l_i(t) grad H(u(t)) dt` along the polynomial `u(t) = mu + h sum_j L_j(t) F_j` of a step of
-/// Gauss collocation with slopes F, by quadrature with nodes in blocks of eight; `l_i` is the Lagrange polynomial of
-/// stage i and `L_i` its integral from 0.
+/// `g_i = (1/b_i) int_0^1 l_i(t) grad H(u(t)) dt` along the polynomial `u(t) = mu + sum_j L_j(t) D_j` of a step of
+/// Gauss collocation with increments D, by quadrature with nodes in blocks of eight; `l_i` is the Lagrange polynomial of
+/// stage i and `L_i` its integral from 0, divided by `b_i`.
 #[derive(Clone, Debug)]
 pub struct MeanGradients<S: Scalar, V, M, const STAGES: usize> {
     /// `None` for a quadratic H: the mean is the gradient at the stage.
@@ -34,7 +34,7 @@ pub struct MeanGradients<S: Scalar, V, M, const STAGES: usize> {
 /// Eight nodes `t_q` of a rule with weights `w_q`, as diagonals of matrices.
 #[derive(Clone, Copy, Debug)]
 struct Block<S: Scalar> {
-    /// `h L_j(t_q)`
+    /// `L_j(t_q)`
     curve: [S::Wide; BLOCK],
     /// `w_q l_i(t_q)/b_i`
     means: [S::Wide; BLOCK],
@@ -46,8 +46,8 @@ where
     V: State<S::Wide>,
     M: SquareMatrix<S::Wide>,
 {
-    /// For steps of size h of a system, of which `wide` is the form over eight numbers.
-    pub fn new<P, W>(system: &P, wide: &W, h: S) -> Self
+    /// For a system, of which `wide` is the form over eight numbers.
+    pub fn new<P, W>(system: &P, wide: &W) -> Self
     where
         P: Poisson<S>,
         W: Poisson<S::Wide, State = V, Jacobian = M>,
@@ -58,7 +58,7 @@ where
             .is_some_and(|degree| degree <= 2);
         let zero = wide.zero_state();
         Self {
-            blocks: (!quadratic).then(|| from_fn(|index| Block::new::<STAGES>(&rule, index, h))),
+            blocks: (!quadratic).then(|| from_fn(|index| Block::new::<STAGES>(&rule, index))),
             count: rule.len().div_ceil(BLOCK),
             point: zero.clone(),
             gradient: zero.clone(),
@@ -80,9 +80,9 @@ where
         self.means.fill(S::Wide::zero());
         for block in &blocks[..self.count] {
             let entries = self.point.as_mut_slice().iter_mut();
-            let lines = at.base.as_slice().iter().zip(at.slopes.as_slice());
-            for (point, (y, slopes)) in entries.zip(lines) {
-                *point = product_from::<S, BLOCK>(*y, &block.curve, *slopes);
+            let lines = at.base.as_slice().iter().zip(at.increments.as_slice());
+            for (point, (y, increments)) in entries.zip(lines) {
+                *point = product_from::<S, BLOCK>(*y, &block.curve, *increments);
             }
             wide.gradient(&self.point, &mut self.gradient);
             let means = self.means.as_mut_slice().iter_mut();
@@ -111,7 +111,7 @@ where
 
 impl<S: Scalar> Block<S> {
     /// The nodes of a rule from `8 index` on; a node that is not there counts nothing.
-    fn new<const STAGES: usize>(rule: &Quadrature<S>, index: usize, h: S) -> Self {
+    fn new<const STAGES: usize>(rule: &Quadrature<S>, index: usize) -> Self {
         let tableau = gauss_tableau::<S, STAGES>();
         let node = |place: usize| {
             let node = BLOCK * index + place;
@@ -127,7 +127,7 @@ impl<S: Scalar> Block<S> {
             let sum = pairs.fold(S::zero(), |sum, (&b, &c)| {
                 sum + b * lagrange(&tableau.c, j, t * c)
             });
-            h * t * sum
+            t * sum / tableau.b[j]
         };
         let mean = |i: usize, place: usize| {
             let Some((offset, weight)) = node(place) else {

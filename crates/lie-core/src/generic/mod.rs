@@ -133,5 +133,5 @@ pub use spinors::{flow_of_spinors, flow_over_spins, spinors_of, spins_of};
 pub use stage_momenta::{MatrixMomenta, QuaternionMomenta, StageMap, StageMomenta};
 pub use stage_parallel::{Iterated, StageParallel};
 pub use stage_work::At;
-pub use tableau::{MOST_STAGES, Tableau, gauss_ahead, gauss_entry, gauss_tableau, gauss_weight};
+pub use tableau::{MOST_STAGES, Tableau, gauss_ahead, gauss_ratio, gauss_tableau, gauss_weight};
 pub use tensor::{MeanTensor, MidpointTensor, PoissonTensor, TensorFacts};

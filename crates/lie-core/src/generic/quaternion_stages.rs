@@ -55,11 +55,11 @@ fn inverse<S: Scalar>(a: Quaternion<S>) -> Quaternion<S> {
 /// the stages are those of the factor on the left,
 ///
 /// ```math
-/// Q_i = 1 + \sum_j a_{ij} B_j Q_j, \qquad M_i = Q_i\, \mu\, \overline{Q_i}
+/// Q_i = 1 + \sum_j \mu_{ij} B_j Q_j, \qquad M_i = Q_i\, \mu\, \overline{Q_i}
 /// ```
 ///
-/// a linear system of s quaternions, which has a solution for every step. With
-/// `G = (1 - A B)^-1 A` and the units `i_c`,
+/// a linear system of s quaternions with the ratios `mu_ij = a_ij/b_j`, which has a solution for every step. With their
+/// matrix A, `G = (1 - A B)^-1 A` and the units `i_c`,
 /// `dM_i/dx_j[c] = -c Vec(G_ij i_c Q_j mu conj(Q_i))`.
 #[derive(Clone, Debug)]
 pub struct QuaternionStages<S, const STAGES: usize> {
@@ -77,7 +77,7 @@ impl<S: Scalar, const STAGES: usize> QuaternionStages<S, STAGES> {
         let mut matrix = [[zero(); STAGES]; STAGES];
         for (i, row) in matrix.iter_mut().enumerate() {
             for (j, entry) in row.iter_mut().enumerate() {
-                let weight = half * self.tableau.a[i][j];
+                let weight = half * self.tableau.ratios[i][j];
                 let identity = if i == j { S::one() } else { S::zero() };
                 let x = x.0[j].as_slice();
                 *entry = [
@@ -89,7 +89,7 @@ impl<S: Scalar, const STAGES: usize> QuaternionStages<S, STAGES> {
             }
         }
         self.position = [real(S::one()); STAGES];
-        self.forward = self.tableau.a.map(|row| row.map(real));
+        self.forward = self.tableau.ratios.map(|row| row.map(real));
         for k in 0..STAGES {
             let pivot = inverse(matrix[k][k]);
             for entry in matrix[k].iter_mut().skip(k + 1) {
@@ -199,11 +199,11 @@ where
         for (index, spin) in system.spins().iter().enumerate() {
             let scale = system.scale(index);
             self.solve(scale, spin, x);
-            // Q = 1 + sum_i b_i B_i Q_i turns the momentum, its conjugate the group element
+            // Q = 1 + sum_i B_i Q_i turns the momentum, its conjugate the group element
             let mut end = real(S::one());
             let minus = -scale * S::ratio(1.0, 2.0);
-            for ((stage, &weight), x) in self.position.iter().zip(&self.tableau.b).zip(&x.0) {
-                let motion = at(spin, x.as_slice()).map(|entry| minus * weight * entry);
+            for (stage, x) in self.position.iter().zip(&x.0) {
+                let motion = at(spin, x.as_slice()).map(|entry| minus * entry);
                 let moved = product(motion, *stage);
                 end = core::array::from_fn(|k| end[k] + moved[k]);
             }

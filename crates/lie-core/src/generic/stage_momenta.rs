@@ -14,7 +14,7 @@ use crate::state::{Stages, State};
 use crate::structure::MatrixPoisson;
 
 /// The momenta `M_i` of the stages of a Gauss method on a space over g*, on which elements of the algebra
-/// act linearly, as functions of the elements `x_j = h grad H(m_j)` along which the stages move.
+/// act linearly, as functions of the elements `x_j = h b_j grad H(m_j)` along which the stages move.
 pub trait StageMap<S: Scalar, P: LiePoisson<S>, const STAGES: usize> {
     /// Whether [`StageMap::within_chart`] is true for all x.
     fn everywhere(system: &P) -> bool;
@@ -57,14 +57,16 @@ pub trait StageMap<S: Scalar, P: LiePoisson<S>, const STAGES: usize> {
 /// Gauss methods on a space over g*, reduced to g*.
 ///
 /// Unknown: the momenta `m_i` of the stages. Equation: `r_i = m_i - M_i(x_1, ..., x_s)`,
-/// `x_j = h grad H(m_j)`, with the [`StageMap`] M. Jacobian: `delta_ij - (dM_i/dx_j) h H''(m_j)`.
-/// New state: `mu + sum_i b_i ad*_(x_i) m_i`. Start: `m_i = mu + c_i h f(mu + (c_i/2) h f(mu))`, with one
+/// `x_j = h b_j grad H(m_j)`, with the [`StageMap`] M. Jacobian: `delta_ij - (dM_i/dx_j) h b_j H''(m_j)`.
+/// New state: `mu + sum_i ad*_(x_i) m_i`. Start: `m_i = mu + c_i h f(mu + (c_i/2) h f(mu))`, with one
 /// stage `mu + (h/2) f(mu)`.
 #[derive(Debug)]
 pub struct StageMomenta<'a, S: Scalar, P: LiePoisson<S>, M, const STAGES: usize> {
     system: &'a P,
     step: S,
     tableau: Tableau<S, STAGES>,
+    /// `h b_i`
+    weights: [S; STAGES],
     map: M,
     base: P::State,
     point: P::State,
@@ -92,12 +94,13 @@ where
     /// The equation of a step of size h.
     pub fn new(system: &'a P, h: S) -> Self {
         let zero = system.zero_state();
-        let tableau = gauss_tableau();
+        let tableau = gauss_tableau::<S, STAGES>();
         let stages = || Stages(core::array::from_fn(|_| zero.clone()));
         Self {
             system,
             step: h,
             map: M::new(system, &tableau),
+            weights: tableau.b.map(|b| h * b),
             tableau,
             base: zero.clone(),
             point: zero.clone(),
@@ -111,13 +114,10 @@ where
         }
     }
 
-    /// Sets `x_i = h grad H(m_i)`.
+    /// Sets `x_i = h b_i grad H(m_i)`.
     fn set_directions(&mut self, unknown: &Stages<P::State, STAGES>) {
-        for (x, momentum) in self.x.0.iter_mut().zip(&unknown.0) {
-            self.system.gradient(momentum, x);
-            for entry in x.as_mut_slice() {
-                *entry *= self.step;
-            }
+        for ((x, momentum), &weight) in self.x.0.iter_mut().zip(&unknown.0).zip(&self.weights) {
+            direction(self.system, weight, momentum, x);
         }
     }
 
@@ -207,7 +207,8 @@ where
                         block.set(row, column, if identity { S::one() } else { S::zero() });
                     }
                     for through in 0..self.system.dimension() {
-                        let curvature = self.step * self.hessian.get(through, column);
+                        let curvature =
+                            self.weights[column_stage] * self.hessian.get(through, column);
                         if curvature == S::zero() {
                             continue;
                         }
@@ -244,13 +245,13 @@ where
     }
 
     fn result(&mut self, unknown: &Self::Unknown, mu: &mut P::State) {
-        // ad*_(x_i) m_i = h f(m_i)
+        // ad*_(x_i) m_i = h b_i f(m_i)
         self.point.fill(S::zero());
-        for (momentum, &weight) in unknown.0.iter().zip(&self.tableau.b) {
+        for (momentum, &weight) in unknown.0.iter().zip(&self.weights) {
             self.system.vector_field(momentum, &mut self.field);
             self.point.axpy(weight, &self.field);
         }
         mu.copy_from(&self.base);
-        mu.axpy(self.step, &self.point);
+        mu.axpy(S::one(), &self.point);
     }
 }

@@ -1,13 +1,15 @@
 //! Gauss collocation with its stages side by side in one number, by fixed-point iteration.
 
 mod map;
+#[cfg(test)]
+mod tests;
 
 use core::array::from_fn;
 
 use super::diagonals::{diagonals, product, total};
 use super::stage_ending::{Ending, are_below, most};
 use super::stage_work::{At, Work};
-use super::tableau::{gauss_ahead, gauss_entry, gauss_weight};
+use super::tableau::{gauss_ahead, gauss_ratio, gauss_weight};
 use crate::newton::{Convergence, NewtonOptions};
 use crate::scalar::{Mask, Scalar, largest};
 use crate::state::{Stages, State};
@@ -23,20 +25,21 @@ const APPROACH: u32 = 12;
 
 /// The stages of a step of Gauss collocation for `y' = f(y)`, all in one number of type [`Scalar::Wide`].
 ///
-/// With the slopes `F_i = f(Y_i)` the iteration is `F_i <- f(y + h sum_j a_ij F_j)`: one evaluation of the field on
-/// all stages and one product with the tableau. It starts from the polynomial of the step before, continued; without
+/// With the increments `D_i = h b_i f(Y_i)` the iteration is `D_i <- h b_i f(y + sum_j (a_ij/b_j) D_j)`: one evaluation of the
+/// field on all stages and one product with the ratios of the tableau, for which rounding leaves every quadratic invariant
+/// ([`gauss_ratio`]). It starts from the polynomial of the step before, continued; without
 /// one, from `f(y)`. It converges linearly, by a factor proportional to h. How many iterations a step takes changes
 /// little from step to step, so most of them are made without a look at the changes.
 #[derive(Clone, Debug)]
 pub struct StageParallel<S: Scalar, V, const STAGES: usize> {
-    /// h A.
-    tableau: [S::Wide; 8],
+    /// `a_ij/b_j`
+    ratios: [S::Wide; 8],
     /// The matrix that continues the polynomial of a step.
     ahead: [S::Wide; 8],
-    /// `h b_i` in place i.
+    /// `h b_i` in place i, 0 in the places without a stage.
     weights: S::Wide,
-    /// 1 in the place of each stage, 0 in the others.
-    inside: S::Wide,
+    /// `1/|h b_i|` in place i, 0 in the places without a stage, which do not count.
+    per_weight: S::Wide,
     step: S,
     /// `1/|h|`
     per_step: S,
@@ -66,22 +69,25 @@ pub struct Iterated<S: Scalar> {
 impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAGES> {
     /// Steps of size h; `zero` is any vector of the right size.
     pub fn new(h: S, zero: V, options: &NewtonOptions) -> Self {
-        Self {
-            tableau: diagonals(STAGES, STAGES, |i, j| h * gauss_entry::<S>(STAGES, i, j)),
-            ahead: diagonals(STAGES, STAGES, |i, j| gauss_ahead::<S>(STAGES, i, j)),
-            weights: S::gather(from_fn(|i| {
+        let stages = |entry: &dyn Fn(S) -> S| {
+            S::gather(from_fn(|i| {
                 if i < STAGES {
-                    h * gauss_weight::<S>(STAGES, i)
+                    entry(h * gauss_weight::<S>(STAGES, i))
                 } else {
                     S::zero()
                 }
-            })),
-            inside: S::gather(from_fn(|i| if i < STAGES { S::one() } else { S::zero() })),
+            }))
+        };
+        Self {
+            ratios: diagonals(STAGES, STAGES, |i, j| gauss_ratio::<S>(STAGES, i, j)),
+            ahead: diagonals(STAGES, STAGES, |i, j| gauss_ahead::<S>(STAGES, i, j)),
+            weights: stages(&|weight| weight),
+            per_weight: stages(&|weight| S::one() / weight.abs()),
             step: h,
             per_step: S::one() / h.abs(),
             base: zero.clone(),
             work: Work {
-                slopes: zero.clone(),
+                increments: zero.clone(),
                 points: zero.clone(),
                 next: zero,
             },
@@ -95,9 +101,12 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
     /// Starts from a base, with a slope that is the same at all stages, in the lanes of a mask.
     pub fn start(&mut self, mask: S::Mask, base: &[S], slope: &[S]) {
         self.set_base(mask, base);
-        for (slopes, &entry) in self.work.slopes.as_mut_slice().iter_mut().zip(slope) {
-            let old = S::scatter(*slopes);
-            *slopes = S::gather(old.map(|old| S::select(mask, entry, old)));
+        let weights = S::scatter(self.weights);
+        let increments = self.work.increments.as_mut_slice().iter_mut();
+        for (increments, &slope) in increments.zip(slope) {
+            let old = S::scatter(*increments);
+            let entry = |i: usize| S::select(mask, weights[i] * slope, old[i]);
+            *increments = S::gather(from_fn(entry));
         }
         self.forget(mask);
     }
@@ -115,13 +124,14 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
     pub fn approach(&mut self, mask: S::Mask, mut field: impl FnMut(At<'_, V>, &mut V)) {
         let half = S::ratio(1.0, 2.0);
         for _ in 0..APPROACH {
+            let table = (&self.ratios, self.weights);
             self.work
-                .evaluate::<S, STAGES>(&self.tableau, &self.base, &mut field);
-            let slopes = self.work.slopes.as_mut_slice().iter_mut();
-            for (slope, &next) in slopes.zip(self.work.next.as_slice()) {
-                let (old, new) = (S::scatter(*slope), S::scatter(next));
+                .evaluate::<S, STAGES>(table, &self.base, &mut field);
+            let increments = self.work.increments.as_mut_slice().iter_mut();
+            for (increment, &next) in increments.zip(self.work.next.as_slice()) {
+                let (old, new) = (S::scatter(*increment), S::scatter(next));
                 let middle = |i: usize| half * (old[i] + new[i]);
-                *slope = S::gather(from_fn(|i| S::select(mask, middle(i), old[i])));
+                *increment = S::gather(from_fn(|i| S::select(mask, middle(i), old[i])));
             }
         }
     }
@@ -129,8 +139,8 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
     /// Starts from the polynomial of the last step.
     #[inline(always)]
     pub fn go_on(&mut self) {
-        for slopes in self.work.slopes.as_mut_slice() {
-            *slopes = product::<S, STAGES>(&self.ahead, *slopes);
+        for increments in self.work.increments.as_mut_slice() {
+            *increments = product::<S, STAGES>(&self.ahead, *increments);
         }
     }
 
@@ -207,7 +217,7 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
         (quiet as u32).min(self.options.max_iterations)
     }
 
-    /// Iterates once; the changes. The lanes that have ended keep their slopes.
+    /// Iterates once; the changes of the slopes. The lanes that have ended keep their increments.
     #[inline(always)]
     fn look(
         &self,
@@ -215,22 +225,16 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
         ended: S::Mask,
         field: &mut impl FnMut(At<'_, V>, &mut V),
     ) -> S::Wide {
-        work.evaluate::<S, STAGES>(&self.tableau, &self.base, field);
-        let change = work.replace::<S>(ended);
-        // places without a stage do not count
-        if STAGES < 8 {
-            change * self.inside
-        } else {
-            change
-        }
+        work.evaluate::<S, STAGES>((&self.ratios, self.weights), &self.base, field);
+        work.replace::<S>(ended) * self.per_weight
     }
 
     /// Iterates so many times without a look at the changes.
     #[inline(always)]
     fn blind(&self, work: &mut Work<V>, count: u32, field: &mut impl FnMut(At<'_, V>, &mut V)) {
         for _ in 0..count {
-            work.evaluate::<S, STAGES>(&self.tableau, &self.base, field);
-            work.slopes.copy_from(&work.next);
+            work.evaluate::<S, STAGES>((&self.ratios, self.weights), &self.base, field);
+            work.increments.copy_from(&work.next);
         }
     }
 
@@ -259,22 +263,18 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
     fn size(&self) -> S {
         let bases = self.base.as_slice().iter();
         let bases = bases.fold(S::Wide::zero(), |sum, y| sum + y.magnitude());
-        let slopes = self.work.slopes.as_slice().iter();
-        let slopes = slopes.fold(S::Wide::zero(), |sum, f| sum + f.magnitude());
+        let increments = self.work.increments.as_slice().iter();
+        let increments = increments.fold(S::Wide::zero(), |sum, d| sum + d.magnitude());
         let [base, ..] = S::scatter(bases);
-        (base * self.per_step).max(most::<S>(slopes))
+        (base * self.per_step).max(most::<S>(increments * self.per_weight))
     }
 
     /// Moves the base to the end of the step.
     #[inline(always)]
     pub fn advance(&mut self) {
-        for (y, slopes) in self
-            .base
-            .as_mut_slice()
-            .iter_mut()
-            .zip(self.work.slopes.as_slice())
-        {
-            *y += total::<S>(self.weights * *slopes);
+        let increments = self.work.increments.as_slice();
+        for (y, increments) in self.base.as_mut_slice().iter_mut().zip(increments) {
+            *y += total::<S>(*increments);
         }
     }
 
@@ -287,41 +287,41 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
         }
     }
 
-    /// The base and the slopes of the last step, to be changed together.
+    /// The base and the increments of the last step, to be changed together.
     #[inline(always)]
-    pub fn base_and_slopes(&mut self) -> (&mut V, &mut V) {
-        (&mut self.base, &mut self.work.slopes)
+    pub fn base_and_increments(&mut self) -> (&mut V, &mut V) {
+        (&mut self.base, &mut self.work.increments)
     }
 
-    /// The stages of a step with the slopes of the last one from a base, which is set.
+    /// The stages of a step with the increments of the last one from a base, which is set.
     pub fn stages(&mut self, base: &[S]) -> At<'_, V> {
         self.set_base(S::Mask::splat(true), base);
-        self.work.set_points::<S, STAGES>(&self.tableau, &self.base);
+        self.work.set_points::<S, STAGES>(&self.ratios, &self.base);
         At {
             base: &self.base,
-            slopes: &self.work.slopes,
+            increments: &self.work.increments,
             points: &self.work.points,
         }
     }
 
-    /// The increments `h F_i` of the stages.
+    /// The increments `D_i` of the stages.
     pub fn increments<U: State<S>>(&self, out: &mut Stages<U, STAGES>) {
-        for (k, &slopes) in self.work.slopes.as_slice().iter().enumerate() {
-            let entries = S::scatter(slopes);
+        for (k, &increments) in self.work.increments.as_slice().iter().enumerate() {
+            let entries = S::scatter(increments);
             for (out, &entry) in out.0.iter_mut().zip(&entries) {
-                out.as_mut_slice()[k] = self.step * entry;
+                out.as_mut_slice()[k] = entry;
             }
         }
     }
 
-    /// Replaces the slopes by given increments `h F_i` divided by h, in the lanes of a mask.
+    /// Replaces the increments by given ones, in the lanes of a mask.
     pub fn set_increments_where(&mut self, mask: S::Mask, increment: impl Fn(usize, usize) -> S) {
-        for (k, slopes) in self.work.slopes.as_mut_slice().iter_mut().enumerate() {
-            let mut entries = S::scatter(*slopes);
+        for (k, increments) in self.work.increments.as_mut_slice().iter_mut().enumerate() {
+            let mut entries = S::scatter(*increments);
             for (i, entry) in entries.iter_mut().enumerate().take(STAGES) {
-                *entry = S::select(mask, increment(i, k) / self.step, *entry);
+                *entry = S::select(mask, increment(i, k), *entry);
             }
-            *slopes = S::gather(entries);
+            *increments = S::gather(entries);
         }
     }
 }

@@ -9,19 +9,20 @@ use crate::state::State;
 /// What an iteration writes.
 #[derive(Clone, Debug)]
 pub(super) struct Work<V> {
-    pub(super) slopes: V,
+    /// `h b_i` times the field, at the stages.
+    pub(super) increments: V,
     pub(super) points: V,
     pub(super) next: V,
 }
 
-/// The stages of a step: its base, which is the same in all places, the slopes, and the points of the stages.
+/// The stages of a step: its base, which is the same in all places, the increments, and the points of the stages.
 #[derive(Debug)]
 pub struct At<'a, V> {
     /// y
     pub base: &'a V,
-    /// `F_i`
-    pub slopes: &'a V,
-    /// `Y_i = y + h sum_j a_ij F_j`
+    /// `D_i`
+    pub increments: &'a V,
+    /// `Y_i = y + sum_j (a_ij/b_j) D_j`
     pub points: &'a V,
 }
 
@@ -33,60 +34,63 @@ impl<V> Work<V> {
         V: State<S::Wide>,
     {
         Self {
-            slopes: self.slopes.take(),
+            increments: self.increments.take(),
             points: self.points.take(),
             next: self.next.take(),
         }
     }
 
-    /// The points `y + h A F`.
+    /// The points of the stages.
     #[inline(always)]
     pub(super) fn set_points<S: Scalar, const STAGES: usize>(
         &mut self,
-        tableau: &[S::Wide; 8],
+        ratios: &[S::Wide; 8],
         base: &V,
     ) where
         V: State<S::Wide>,
     {
         let entries = self.points.as_mut_slice().iter_mut().zip(base.as_slice());
-        for ((point, y), slopes) in entries.zip(self.slopes.as_slice()) {
-            *point = product_from::<S, STAGES>(*y, tableau, *slopes);
+        for ((point, y), increments) in entries.zip(self.increments.as_slice()) {
+            *point = product_from::<S, STAGES>(*y, ratios, *increments);
         }
     }
 
-    /// Evaluates the field at the points of the stages.
+    /// The next increments: `h b_i`, the weights, times the field at the points of the stages.
     #[inline(always)]
     pub(super) fn evaluate<S: Scalar, const STAGES: usize>(
         &mut self,
-        tableau: &[S::Wide; 8],
+        (ratios, weights): (&[S::Wide; 8], S::Wide),
         base: &V,
         field: &mut impl FnMut(At<'_, V>, &mut V),
     ) where
         V: State<S::Wide>,
     {
-        self.set_points::<S, STAGES>(tableau, base);
+        self.set_points::<S, STAGES>(ratios, base);
         let at = At {
             base,
-            slopes: &self.slopes,
+            increments: &self.increments,
             points: &self.points,
         };
         field(at, &mut self.next);
+        for next in self.next.as_mut_slice() {
+            *next *= weights;
+        }
     }
 
-    /// Takes over the next slopes but in the lanes that have ended; the sum of all changes at each stage.
+    /// Takes over the next increments but in the lanes that have ended; the sum of all changes at each stage.
     #[inline(always)]
     pub(super) fn replace<S: Scalar>(&mut self, ended: S::Mask) -> S::Wide
     where
         V: State<S::Wide>,
     {
         let mut change = S::Wide::zero();
-        let slopes = self.slopes.as_mut_slice().iter_mut();
-        for (slope, &next) in slopes.zip(self.next.as_slice()) {
-            change += (next - *slope).magnitude();
-            *slope = if S::LANES == 1 {
+        let increments = self.increments.as_mut_slice().iter_mut();
+        for (increment, &next) in increments.zip(self.next.as_slice()) {
+            change += (next - *increment).magnitude();
+            *increment = if S::LANES == 1 {
                 next
             } else {
-                let (old, new) = (S::scatter(*slope), S::scatter(next));
+                let (old, new) = (S::scatter(*increment), S::scatter(next));
                 S::gather(from_fn(|i| S::select(ended, old[i], new[i])))
             };
         }

@@ -16,7 +16,7 @@
 //! The integrals are exact for a polynomial H of known degree; otherwise they are Gauss quadrature with
 //! 10 nodes or 2s, whichever is more, and a step that those do not resolve is refused
 //! ([`FailureReason::Unresolved`](crate::newton::FailureReason::Unresolved)). The unknowns are
-//! the increments `$h\, \dot u(c_i)$`, whose round-off is relative to h f and not to mu.
+//! the increments `$h\, b_i\, \dot u(c_i)$`, whose round-off is relative to h f and not to mu.
 //!
 //! From four stages on, all stages are evaluated together, in the lanes of one register, by fixed-point iteration from
 //! the continued polynomial of the last step (see [`StageParallel`](crate::generic::StageParallel)), and so are the nodes of
@@ -128,7 +128,7 @@ impl<'a, S: Scalar, P: Widen<S> + 'a, const STAGES: usize> Slopes<'a, S, P, STAG
     fn new(system: &'a P, wide: &P::Widened, h: S) -> Self {
         let equation = CohenHairerStep::new(system, h);
         Self {
-            means: MeanGradients::new(system, wide, h),
+            means: MeanGradients::new(system, wide),
             increments: equation.zero_unknown(),
             equation,
         }

@@ -6,11 +6,11 @@
 //!
 //! with the nodes of Gauss and Legendre: order 2s with s stages, symmetric, keeps every quadratic
 //! invariant of the equation, and is a Poisson map where the Poisson matrix is constant. The unknowns are the increments
-//! `D_i = h f(Y_i)`, or from four stages on the slopes `f(Y_i)`, whose round-off is
-//! relative to h f and not to mu.
+//! `D_i = h b_i f(Y_i)`, whose round-off is relative to h f and not to mu, with coefficients for which rounding leaves
+//! every quadratic invariant ([`generic::gauss_ratio`](crate::generic::gauss_ratio)).
 //!
 //! From four stages on, all stages are evaluated together, in the lanes of one register, and the iteration is
-//! `F_i <- f(mu + h sum_j a_ij F_j)` from the continued polynomial of the last step (see [`StageParallel`]). A step on which it
+//! `D_i <- h b_i f(mu + sum_j (a_ij/b_j) D_j)` from the continued polynomial of the last step (see [`StageParallel`]). A step on which it
 //! does not contract is solved by Newton's iteration like those of [`Gauss4`] and [`Gauss6`].
 //!
 //! Needs: the vector field and its Jacobian; any [`Poisson`] system, and [`Widen`] from four stages on.

@@ -117,8 +117,8 @@ where
     /// Moves the point over the state at which a step has ended.
     #[inline(always)]
     fn settle(&mut self) {
-        let (point, slopes) = self.stages.base_and_slopes();
-        <L as LinearLift<S::Wide, P::Widened>>::settle(&self.wide, point, slopes);
+        let (point, increments) = self.stages.base_and_increments();
+        <L as LinearLift<S::Wide, P::Widened>>::settle(&self.wide, point, increments);
     }
 
     /// The lanes whose point has become large.
@@ -178,7 +178,7 @@ where
             self.stages.base_into(self.point.as_mut_slice());
         }
         self.stages.advance();
-        let (point, _) = self.stages.base_and_slopes();
+        let (point, _) = self.stages.base_and_increments();
         L::project(wide, labels, point, &mut self.momenta);
         let entries = self.next.as_mut_slice().iter_mut();
         for (next, wide) in entries.zip(self.momenta.as_slice()) {

@@ -70,13 +70,13 @@ where
         let mut xi = self.system.zero_state();
         let mut second = self.system.zero_point_matrix();
         let mut bound = [S::zero(); STAGES];
-        for (j, row) in tableau.a.iter().enumerate() {
+        for (j, row) in tableau.ratios.iter().enumerate() {
             self.next.copy_from(base);
-            for (&weight, increment) in row.iter().zip(&self.unknown.0) {
-                self.next.axpy(weight, increment);
+            for (&ratio, increment) in row.iter().zip(&self.unknown.0) {
+                self.next.axpy(ratio, increment);
             }
             self.system.momentum_map(&self.next, &mut self.end);
-            direction(self.system, self.step, &self.end, &mut xi);
+            direction(self.system, self.step * tableau.b[j], &self.end, &mut xi);
             self.system.curvature(&self.next, &xi, &mut second);
             let mut size = S::zero();
             for r in 0..self.system.point_dimension() {
@@ -89,14 +89,14 @@ where
                         second.get(r - half, c)
                     };
                     sum += entry.abs();
-                    for (i, weights) in tableau.a.iter().enumerate() {
-                        self.motion.0[i][j].set(r, c, weights[j] * entry);
+                    for (i, ratios) in tableau.ratios.iter().enumerate() {
+                        self.motion.0[i][j].set(r, c, ratios[j] * entry);
                     }
                 }
                 size = size.max(sum);
             }
-            for (bound, weights) in bound.iter_mut().zip(&tableau.a) {
-                *bound += weights[j].abs() * size;
+            for (bound, ratios) in bound.iter_mut().zip(&tableau.ratios) {
+                *bound += ratios[j].abs() * size;
             }
         }
         let largest = bound.iter().fold(S::zero(), |most, &bound| most.max(bound));
@@ -116,10 +116,10 @@ where
     ) {
         let tableau = gauss_tableau::<S, STAGES>();
         let mut xi = self.system.zero_state();
-        for (index, row) in tableau.a.iter().enumerate() {
+        for (index, row) in tableau.ratios.iter().enumerate() {
             self.next.copy_from(base);
-            for (&weight, increment) in row.iter().zip(&self.unknown.0) {
-                self.next.axpy(weight, increment);
+            for (&ratio, increment) in row.iter().zip(&self.unknown.0) {
+                self.next.axpy(ratio, increment);
             }
             self.system.momentum_map(&self.next, &mut self.end);
             direction(self.system, self.step, &self.end, &mut xi);
