@@ -53,7 +53,7 @@ impl Question for Ensemble {
             tolerances: self.plan.tolerances,
             parameters: self.parameters,
             starts: self.starts,
-            end: run.end(),
+            span: run.span(),
             options: Options {
                 save: if self.ends { Save::Ends } else { options.save },
                 assess: false,

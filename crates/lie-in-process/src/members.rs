@@ -26,7 +26,7 @@ const LEAST: usize = 6;
 /// So often a group is run again without the members that failed; then all are run alone.
 const TRIES: usize = 2;
 
-/// What is integrated, from time 0 on.
+/// What is integrated.
 pub struct Members<'a> {
     /// The system before its parameters have values.
     pub declared: &'a Declared,
@@ -40,8 +40,8 @@ pub struct Members<'a> {
     pub starts: Vec<Vec<f64>>,
     /// The options of every run; of [`Save::Ends`] the end alone is kept.
     pub options: Options,
-    /// The end of the span.
-    pub end: f64,
+    /// Start and end.
+    pub span: (f64, f64),
 }
 
 /// The rows of a member, as many as it came to.
@@ -178,7 +178,9 @@ impl Members<'_> {
     /// The steps of all members; none where each run chooses its own.
     fn steps(&self) -> f64 {
         match self.options.pace {
-            Pace::Step(step) => (self.end / step).abs() * self.starts.len() as f64,
+            Pace::Step(step) => {
+                ((self.span.1 - self.span.0) / step).abs() * self.starts.len() as f64
+            }
             Pace::Tolerance(_) => 0.0,
         }
     }
@@ -255,7 +257,7 @@ impl Worker<'_> {
             }
             let member = match system {
                 Ok(system) => self.alone(system, &self.members.starts[member]),
-                Err(error) => Member::failing(0.0, error.to_string()),
+                Err(error) => Member::failing(self.members.span.0, error.to_string()),
             };
             self.watch.done(1);
             member
@@ -278,7 +280,7 @@ impl Worker<'_> {
         let problem = Problem {
             system: Dynamic::in_lanes(systems),
             mu0: (0..lengths).map(gather).collect(),
-            span: (0.0, self.members.end),
+            span: self.members.span,
         };
         let options = &self.members.options;
         let mut kept = Kept::new(options, self.watch);
@@ -299,7 +301,7 @@ impl Worker<'_> {
         let problem = Problem {
             system,
             mu0: start.to_vec(),
-            span: (0.0, self.members.end),
+            span: self.members.span,
         };
         let options = &self.members.options;
         let mut kept = Kept::new(options, self.watch);
@@ -320,7 +322,7 @@ impl Worker<'_> {
                 member
             }
             Err(IntegrateError::Option(error @ OptionError::NoStep(_))) => {
-                Member::failing(0.0, error.to_string())
+                Member::failing(self.members.span.0, error.to_string())
             }
             Err(IntegrateError::Option(error)) => {
                 self.watch.stop.store(true, Ordering::Relaxed);

@@ -81,7 +81,7 @@ fn different(name: &str, save: Save, newton: NewtonOptions) -> (usize, Vec<Strin
             parameters: vec![Vec::new()],
             starts: starts.clone(),
             options: Options::new(STEP).save(save.clone()).newton(newton),
-            end: END,
+            span: (0.0, END),
         };
         let expected = alone(&members);
         let found = all(&members);

@@ -165,7 +165,7 @@ impl<P: Poisson<f64>> Program<P> {
         let problem = Problem {
             system,
             mu0: mu,
-            span: (0.0, request.end()),
+            span: request.span(),
         };
         let mut rows = RowWriter::new(&problem.system, session);
         let outcome = run(&request.tolerances, &problem, &request.options(), &mut rows);

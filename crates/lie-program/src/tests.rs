@@ -80,6 +80,7 @@ fn request(method: &str, step: f64, times: Times, initial: &[f64]) -> Run {
             ..Start::default()
         },
         pace: Pace::Step(step),
+        from: 0.0,
         times,
         tolerances: Tolerances::default(),
         newton: NewtonOptions::default(),

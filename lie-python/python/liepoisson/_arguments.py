@@ -18,7 +18,7 @@ Number = Union[float, int, str]
 Progress = Callable[[int, int, str], object]
 
 #: The spelling of the command and of declarations, which is taken too.
-ALSO = {"h": "step", "t": "until", "x0": "initial"}
+ALSO = {"h": "step", "t0": "from", "t": "until", "x0": "initial"}
 #: What people write from habit, and what it is called here.
 SLIPS = {
     "dt": "h",

@@ -24,14 +24,15 @@ def _picture(system: System) -> str:
         if system._core.family or system.initial is None:
             return ""
         options = system._core.run_options()
-        end = _core.constant(options.get("until", [str(UNTIL)])[0])
+        start = _core.constant(options.get("from", ["0"])[0])
+        end = _core.constant(options.get("until", [str(start + UNTIL)])[0])
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # the error at the end of a picture
             if "tol" in options:
                 solution = system.run(t=end)
             else:
                 step = abs(_core.constant(options.get("step", [str(STEP)])[0]))
-                end = max(-_STEPS * step, min(_STEPS * step, end))
+                end = max(start - _STEPS * step, min(start + _STEPS * step, end))
                 solution = system.run(t=end)
     except IntegrationError as stopped:
         solution = stopped.partial

@@ -43,6 +43,7 @@ class System(Declared):
         *,
         h: Number | None = None,
         tol: float | None = None,
+        t0: Number | None = None,
         t: Number | None = None,
         x0: Any = None,
         every: int | None = None,
@@ -58,12 +59,12 @@ class System(Declared):
         parameters: Mapping[str, Number] | None = None,
         **named: Number,
     ) -> Solution:
-        """Integrates from time 0 until ``t``.
+        """Integrates from time ``t0``, by default 0, until ``t``.
 
         ``h`` is the step; ``tol``, in its place, the relative error wanted at the end. ``x0`` is the initial state, a
         sequence or a dictionary; ``every`` saves each so-manyth step, ``at`` saves these times alone. Parameters are given by
         name, or in ``parameters`` where a name is also an argument (``parameters={"h": 2}``). What is left out comes from the
-        declaration; its words ``step``, ``until`` and ``initial`` are taken for ``h``, ``t`` and ``x0`` too. ``rtol`` and ``atol`` are those of dopri5. ``iteration`` ("automatic", "newton", "simplified",
+        declaration; its words ``step``, ``from``, ``until`` and ``initial`` are taken for ``h``, ``t0``, ``t`` and ``x0`` too. ``rtol`` and ``atol`` are those of dopri5. ``iteration`` ("automatic", "newton", "simplified",
         "fixed-point"), ``newton_tolerance`` (in units of round-off), ``max_iterations`` and ``converge`` ("state", "map",
         "tolerance") are for the solver of implicit methods. ``group="matrix"`` or ``"quaternion"`` follows the group element
         from the identity on (``run.group``).
@@ -78,7 +79,7 @@ class System(Declared):
         run that stopped early, :class:`ValueError` and :class:`TypeError` for arguments.
         """
         options = {
-            "method": method, "h": h, "tol": tol, "t": t, "x0": x0, "every": every, "at": at, "group": group,
+            "method": method, "h": h, "tol": tol, "t0": t0, "t": t, "x0": x0, "every": every, "at": at, "group": group,
             "rtol": rtol, "atol": atol, "iteration": iteration, "newton_tolerance": newton_tolerance,
             "max_iterations": max_iterations, "converge": converge,
         }  # fmt: skip
@@ -129,6 +130,7 @@ class System(Declared):
         *,
         h: Number | None = None,
         tol: float | None = None,
+        t0: Number | None = None,
         t: Number | None = None,
         every: int | None = None,
         at: Sequence[float] | None = None,
@@ -160,7 +162,7 @@ class System(Declared):
         ((2, 3, 3), [0.0, 0.5, 1.0])
         """
         own = {
-            "method": method, "h": h, "tol": tol, "t": t, "x0": x0, "every": every, "at": at,
+            "method": method, "h": h, "tol": tol, "t0": t0, "t": t, "x0": x0, "every": every, "at": at,
             "rtol": rtol, "atol": atol, "iteration": iteration, "newton_tolerance": newton_tolerance,
             "max_iterations": max_iterations, "converge": converge,
         }  # fmt: skip

@@ -89,7 +89,7 @@ impl<'a, 'p> Reception<'a, 'p> {
             layout,
             places: Vec::new(),
             width: 0,
-            hidden: !starts_at_zero(&plan.times),
+            hidden: !shows_start(plan),
         };
         if let Pace::Step(_) = plan.pace.0 {
             reception.begin()?;
@@ -109,9 +109,11 @@ impl<'a, 'p> Reception<'a, 'p> {
     /// The times at which rows are asked for: errors are taken against the initial state, also where it is not shown.
     pub fn times(&self, plan: &Plan) -> Times {
         match &plan.times {
-            Times::At(times) if self.hidden => {
-                Times::At(std::iter::once(0.0).chain(times.iter().copied()).collect())
-            }
+            Times::At(times) if self.hidden => Times::At(
+                std::iter::once(plan.from)
+                    .chain(times.iter().copied())
+                    .collect(),
+            ),
             times => times.clone(),
         }
     }
@@ -176,9 +178,9 @@ impl<'a, 'p> Reception<'a, 'p> {
     }
 }
 
-fn starts_at_zero(times: &Times) -> bool {
-    match times {
+fn shows_start(plan: &Plan) -> bool {
+    match &plan.times {
         Times::Until { .. } => true,
-        Times::At(times) => times.first() == Some(&0.0),
+        Times::At(times) => times.first() == Some(&plan.from),
     }
 }

@@ -18,7 +18,10 @@ pub fn span(spec: &Spec, request: &Request) -> Result<f64, Message> {
         let declared = planner.in_spec("until");
         let declared = declared.iter().find_map(|given| constant(&given.text).ok());
         let (longest, usual) = SPANS;
-        return Ok(declared.map_or(usual, |end| end.clamp(-longest, longest)));
+        let from = planner.in_spec("from");
+        let from = from.iter().find_map(|given| constant(&given.text).ok());
+        let span = declared.map(|end| end - from.unwrap_or(0.0));
+        return Ok(span.map_or(usual, |span| span.clamp(-longest, longest)));
     };
     let value = given.number()?;
     if value == 0.0 {

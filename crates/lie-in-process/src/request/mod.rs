@@ -113,6 +113,8 @@ request! {
     quantity step "step" "H" or "h";
     /// Relative error at the end, in place of --step: chooses a constant step, and without --method the method too
     quantity tol "tol" "E";
+    /// Time at the start (default 0); --until and --at are times too, not spans from there
+    quantity from "from" "T0" or "t0";
     /// Final time
     quantity until "until" "T" or "t";
     /// Writes every K-th step (default 1) and the last one

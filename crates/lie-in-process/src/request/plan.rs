@@ -27,6 +27,8 @@ pub struct Plan {
     pub pace: (Pace, String),
     /// Whether the method was taken because of a tolerance.
     pub picked: bool,
+    /// The time at which a run starts.
+    pub from: f64,
     /// When rows are wanted.
     pub times: Times,
     /// How the group element is written, if it is.
@@ -44,6 +46,7 @@ impl Plan {
             method: self.method.label(),
             start,
             pace: self.pace.0,
+            from: self.from,
             times: self.times.clone(),
             tolerances: self.tolerances,
             newton: self.newton,
@@ -54,7 +57,7 @@ impl Plan {
     pub fn end(&self) -> f64 {
         match &self.times {
             Times::Until { end, .. } => *end,
-            Times::At(times) => times.last().copied().unwrap_or(0.0),
+            Times::At(times) => times.last().copied().unwrap_or(self.from),
         }
     }
 }
@@ -96,7 +99,8 @@ pub(super) fn planned(spec: &Spec, request: &Request) -> Planned {
     let mut planner = Planner::new(spec, request);
     let method = planner.method();
     let pace = planner.pace();
-    let times = planner.times(pace.as_ref());
+    let from = planner.from();
+    let times = from.and_then(|from| planner.times(from, pace.as_ref()));
     let solved = method.as_ref();
     if let (Some(method), Some((Pace::Tolerance(_), given))) = (solved, &pace) {
         planner.takes_tolerance(method, given);
@@ -106,11 +110,12 @@ pub(super) fn planned(spec: &Spec, request: &Request) -> Planned {
     let newton = solved.map(|method| planner.newton(method, overall));
     let chart = planner.chart();
     let picked = planner.picks();
-    let plan = match (method, pace, times) {
-        (Some(method), Some((pace, given)), Some(times)) => Some(Plan {
+    let plan = match (method, pace, from.zip(times)) {
+        (Some(method), Some((pace, given)), Some((from, times))) => Some(Plan {
             method,
             pace: (pace, given.text),
             picked,
+            from,
             times,
             chart,
             tolerances: tolerances.unwrap_or_default(),

@@ -8,7 +8,8 @@ use lie_program::protocol::Times;
 use lie_runtime::driver::Pace;
 
 const STEP: &str = "0.01";
-const UNTIL: &str = "10";
+/// The time that a run takes where nobody says it.
+const UNTIL: f64 = 10.0;
 /// Below this a tolerance is round-off.
 const LEAST_TOLERANCE: f64 = 8.0 * f64::EPSILON;
 
@@ -82,11 +83,21 @@ impl Planner<'_> {
             return None;
         }
         // Without a step of the user's, the direction is that of the end.
-        let backwards = |end: &OptionValue| end.number().is_ok_and(|end| end < 0.0);
-        if fallback && self.ends().iter().any(backwards) {
+        let from = self.option("from").map_or(Ok(0.0), |from| from.number());
+        let from = from.unwrap_or(0.0);
+        let backwards = |end: &OptionValue| end.number().is_ok_and(|end| end < from);
+        if fallback && self.ends(from).iter().any(backwards) {
             return Some((-step, usual(&format!("-{STEP}"))));
         }
         Some((step, given))
+    }
+
+    /// The time at the start.
+    pub(super) fn from(&mut self) -> Option<f64> {
+        match self.option("from") {
+            Some(given) => self.keep(given.number()),
+            None => Some(0.0),
+        }
     }
 
     /// Whether rows are wanted at times, which the request or the spec lists.
@@ -97,23 +108,27 @@ impl Planner<'_> {
     }
 
     /// The final time, or the times asked for.
-    fn ends(&self) -> Vec<OptionValue> {
+    fn ends(&self, from: f64) -> Vec<OptionValue> {
         if self.at_times() {
             return self
                 .requested("at")
                 .map_or_else(|| self.in_spec("at"), |at| at.split());
         }
         // where other rows than those at the times of the spec are asked for, the last of them is still the end
-        let far = |end: &OptionValue| end.number().map_or(0.0, f64::abs);
+        let far = |end: &OptionValue| end.number().map_or(0.0, |end| (end - from).abs());
         let last = self.in_spec("at").into_iter();
         let last = last.max_by(|a, b| far(a).total_cmp(&far(b)));
-        let usual = || OptionValue::flag(&self.request.front.option("until"), UNTIL);
+        let usual = || {
+            let end = format!("{:?}", from + UNTIL);
+            OptionValue::flag(&self.request.front.option("until"), &end)
+        };
         vec![self.option("until").or(last).unwrap_or_else(usual)]
     }
 
-    pub(super) fn times(&mut self, pace: Option<&(Pace, OptionValue)>) -> Option<Times> {
+    /// When rows are wanted of a run that starts at a time.
+    pub(super) fn times(&mut self, from: f64, pace: Option<&(Pace, OptionValue)>) -> Option<Times> {
         self.exclusive()?;
-        let ends = self.ends();
+        let ends = self.ends(from);
         if ends.is_empty() {
             let example = self.request.front.assignment("at", "[0, 1, 2]");
             let option = self.request.front.option("at");
@@ -125,19 +140,22 @@ impl Planner<'_> {
         let values: Vec<Option<f64>> = ends.iter().map(|end| self.keep(end.number())).collect();
         let mut values: Vec<f64> = values.into_iter().collect::<Option<_>>()?;
         let mut against = ends.iter().zip(&values);
-        if let Some((end, _)) = against.find(|(_, value)| *value * values[0] < 0.0) {
-            let message = end.wrong("the times asked for lie on both sides of t = 0");
+        let other = |value: f64| (value - from) * (values[0] - from) < 0.0;
+        if let Some((end, _)) = against.find(|(_, value)| other(**value)) {
+            let message = end.wrong(format!(
+                "the times asked for lie on both sides of t = {from}"
+            ));
             let help = "a run goes one way: make two of it";
             self.mistakes.push(message.help(help));
             return None;
         }
         if let Some((Pace::Step(step), given)) = pace {
             for (end, value) in ends.iter().zip(&values) {
-                self.compatible(*step, given, *value, end);
+                self.compatible((*step, given), from, (*value, end));
             }
         }
         if self.at_times() {
-            values.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
+            values.sort_by(|a, b| (a - from).abs().total_cmp(&(b - from).abs()));
             return Some(Times::At(values));
         }
         let every = match self.option("every") {
@@ -180,19 +198,38 @@ impl Planner<'_> {
     }
 
     /// Whether steps of this size get there.
-    fn compatible(&mut self, step: f64, given: &OptionValue, end: f64, end_given: &OptionValue) {
+    fn compatible(
+        &mut self,
+        (step, given): (f64, &OptionValue),
+        from: f64,
+        (end, end_given): (f64, &OptionValue),
+    ) {
+        let span = end - from;
         let (step_text, end_text) = (given.text.trim(), end_given.text.trim());
-        if end != 0.0 && (end > 0.0) != (step > 0.0) {
-            let text =
-                format!("steps of {step_text} lead away from t = {end_text}: their signs differ");
+        if span != 0.0 && (span > 0.0) != (step > 0.0) {
+            let text = match from == 0.0 {
+                true => {
+                    format!(
+                        "steps of {step_text} lead away from t = {end_text}: their signs differ"
+                    )
+                }
+                false => {
+                    format!("steps of {step_text} lead from t = {from} away from t = {end_text}")
+                }
+            };
             let turned = format!("{:?}", -step);
             let example = self.request.front.assignment("step", &turned);
-            let help = format!(
-                "give {example}; backwards in time, both the step and the end are negative"
-            );
+            let help = match from == 0.0 {
+                true => format!(
+                    "give {example}; backwards in time, both the step and the end are negative"
+                ),
+                false => format!(
+                    "give {example}; backwards in time, the step is negative and the end before the start"
+                ),
+            };
             self.mistakes.push(end_given.wrong(text).help(help));
-        } else if end / step > 9e15 {
-            let steps = end / step;
+        } else if span / step > 9e15 {
+            let steps = span / step;
             let text = match steps.is_finite() {
                 true => format!("{steps:.1e} steps are more than can be counted"),
                 false => format!("so many steps of {step_text} cannot be counted"),

@@ -58,6 +58,9 @@ pub struct Run {
     /// The step size, or a tolerance.
     #[serde(with = "words::PaceInWords")]
     pub pace: Pace,
+    /// The time at which it starts.
+    #[serde(with = "number")]
+    pub from: f64,
     /// When rows are wanted.
     pub times: Times,
     /// The tolerances of an adaptive method.
@@ -69,13 +72,15 @@ pub struct Run {
 }
 
 impl Run {
-    /// The end of the run: as asked, or the saved time farthest from 0.
-    pub fn end(&self) -> f64 {
-        let farther = |a: f64, b: f64| if b.abs() > a.abs() { b } else { a };
-        match &self.times {
+    /// Start and end of the run: the end as asked, or the saved time farthest from the start.
+    pub fn span(&self) -> (f64, f64) {
+        let far = |time: f64| (time - self.from).abs();
+        let farther = |a: f64, b: f64| if far(b) > far(a) { b } else { a };
+        let end = match &self.times {
             Times::Until { end, .. } => *end,
-            Times::At(times) => times.iter().copied().fold(0.0, farther),
-        }
+            Times::At(times) => times.iter().copied().fold(self.from, farther),
+        };
+        (self.from, end)
     }
 
     /// The same as the driver takes it.

@@ -8,6 +8,7 @@ fn run(times: Times) -> Run {
             initial: vec![-0.5, 0.1 + 0.2],
         },
         pace: Pace::Step(0.1),
+        from: 0.5,
         times,
         tolerances: Tolerances::both(1e-8),
         newton: NewtonOptions::fixed_point(),
@@ -28,7 +29,7 @@ fn a_request_comes_back_and_has_an_end() {
         let line = serde_json::to_string(&run).expect("text");
         assert_eq!(serde_json::from_str::<Run>(&line).expect("a run"), run);
         assert!(!line.contains('\n'), "one line");
-        assert_eq!((run.end(), run.options().save), (end, save));
+        assert_eq!((run.span(), run.options().save), ((0.5, end), save));
         assert_eq!(run.options().newton, NewtonOptions::fixed_point());
     }
 }

@@ -176,6 +176,8 @@ objects! {
         "step" step: Option<Constant>,
         /// Relative error at the end from which the step is chosen, in place of it.
         "tol" tol: Option<Constant>,
+        /// Time at the start, 0 unless it is given.
+        "from" from: Option<Constant>,
         /// End time.
         "until" until: Option<Constant>,
         /// Every how many steps a row is written.

@@ -86,7 +86,7 @@ impl<'a> Picture<'a> {
         }
         match &mut self.drawn {
             Drawn::Nothing(_) | Drawn::Components(_) => {}
-            Drawn::Compare(compare) => compare.begin(name, (0.0, plan.end())),
+            Drawn::Compare(compare) => compare.begin(name, (plan.from, plan.end())),
             Drawn::Phase(phase, ..) => phase.begin(name),
             Drawn::Section(phase, section) => {
                 phase.begin(name);
@@ -154,7 +154,7 @@ impl<'a> Picture<'a> {
         };
         match kind {
             Kind::Components => {
-                let plot = Plot::new(name, own, self.layout.states, (0.0, plan.end()));
+                let plot = Plot::new(name, own, self.layout.states, (plan.from, plan.end()));
                 Drawn::Components(Box::new(plot.element(element)))
             }
             Kind::Compare => {

@@ -21,7 +21,7 @@ pub fn read(value: Value<'_>, report: &mut Report) -> Vec<RunOption> {
         let key = &*member.key.text;
         let what = format!("`{key}`");
         let values = match key {
-            "step" | "tol" | "until" | "every" | "rtol" | "atol" | "newton-tolerance"
+            "step" | "tol" | "from" | "until" | "every" | "rtol" | "atol" | "newton-tolerance"
             | "max-iterations" => constant(member.value, &what, report).into_iter().collect(),
             "at" => times(member.value, &what, report),
             _ => string(member.value, &what, report)
