@@ -71,13 +71,13 @@ pub mod sources;
 mod test_systems;
 
 pub use lie_core::{
-    CayleyPoisson, ClosedRealization, CollectivePoisson, ColumnPoisson, CotangentPoisson,
+    CayleyPoisson, Clock, ClosedRealization, CollectivePoisson, ColumnPoisson, CotangentPoisson,
     DiscreteLagrangian, DiscreteLagrangianPoisson, Dual, Elementary, Equation, Expand,
     FoundPoisson, GeneratingFunction, GradientRecurrence, GradientSeries, Group, Implicit,
     InertiaPoisson, IntegrablePoisson, LagrangianPoisson, LiePoisson, Lift, Mask, MatrixGroup,
     MatrixPoisson, Motion, ParameterError, ParameterFault, PieceFlows, Poisson, RealizedPoisson,
     Recurrence, Scalar, SeparablePoisson, Series, Spectrum, SpinPoisson, SquareMatrix, StageMatrix,
-    Stages, State, Unknown, VectorPoisson, Widen, closed, elimination, equation, functions,
+    Stages, State, Unknown, VectorPoisson, Widen, clock, closed, elimination, equation, functions,
     generating, generic, generic_equations, lagrangian, matrix, methods, newton, parameter, pieces,
     poisson, recurrence, scalar, state, structure,
 };

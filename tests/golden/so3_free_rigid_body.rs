@@ -538,7 +538,7 @@ for FreeRigidBodySystem<S> {
         Self::Columns::repeat(S::zero())
     }
 
-    fn representation_size(&self) -> usize {
+    fn column_size(&self) -> usize {
         3
     }
 

@@ -1,6 +1,7 @@
 //! Sparse elimination from a static index list, for systems whose elimination would be too long
 //! written out.
 
+use crate::clock::Clock;
 use crate::equation::Equation;
 use crate::matrix::SquareMatrix;
 use crate::methods::Retraction;
@@ -136,6 +137,16 @@ where
     #[inline]
     fn scale(&self, mu: &Self::State) -> S {
         self.equation.scale(mu)
+    }
+
+    #[inline]
+    fn clock(&self) -> Option<Clock> {
+        self.equation.clock()
+    }
+
+    #[inline]
+    fn norm(&self, unknown: &Self::Unknown) -> S {
+        self.equation.norm(unknown)
     }
 
     #[inline]

@@ -1,5 +1,6 @@
 //! Implicit steps as nonlinear equations, and the hook by which a system supplies fused ones.
 
+use crate::clock::{self, Clock};
 use crate::matrix::SquareMatrix;
 use crate::methods::Retraction;
 use crate::newton::dense;
@@ -30,7 +31,17 @@ pub trait Equation<S: Scalar> {
     /// The size against which errors of the unknown are measured, for the base mu; the size of the unknown
     /// itself counts too.
     fn scale(&self, mu: &Self::State) -> S {
-        mu.max_norm()
+        clock::norm(self.clock(), mu)
+    }
+    /// Where unknowns are made of states: their coordinates that carry the time. They count in no norm.
+    #[inline(always)]
+    fn clock(&self) -> Option<Clock> {
+        None
+    }
+    /// The size of an unknown, a residual or an update.
+    #[inline(always)]
+    fn norm(&self, unknown: &Self::Unknown) -> S {
+        clock::norm(self.clock(), unknown)
     }
     /// The unknown with which the iteration starts.
     fn initial_guess(&mut self, unknown: &mut Self::Unknown);
@@ -121,7 +132,7 @@ pub fn newton_update<S: Scalar, E: Equation<S> + ?Sized>(
     factors: &mut E::Matrix,
 ) -> (S, S::Mask) {
     equation.linearize(unknown, update, factors);
-    let residual = update.max_norm();
+    let residual = equation.norm(update);
     let safe = equation.factor(factors);
     equation.solve(factors, update);
     (residual, safe)

@@ -8,6 +8,7 @@
 #![deny(unsafe_code)]
 #![warn(missing_docs)]
 
+pub mod clock;
 pub mod closed;
 pub mod elimination;
 pub mod equation;
@@ -33,6 +34,7 @@ pub mod structure;
 #[cfg(test)]
 mod test_systems;
 
+pub use clock::Clock;
 pub use equation::{Equation, Implicit};
 pub use functions::Elementary;
 pub use generating::GeneratingFunction;

@@ -11,6 +11,7 @@
 //! For so(3), `$\dot\mu = \mu \times \nabla H(\mu)$`.
 #![cfg_attr(doc, doc = include_str!("../docs/katex.html"))]
 
+use crate::clock::{self, Clock};
 use crate::generic;
 use crate::matrix::SquareMatrix;
 use crate::scalar::{Dual, Scalar};
@@ -80,6 +81,15 @@ pub trait Poisson<S: Scalar>: Sized {
     /// carries it along. `None` if there is only one branch, or if the system's own branch still serves.
     fn following(&self, _mu: &Self::State) -> Option<Self> {
         None
+    }
+
+    /// The coordinates that carry the time, where H depends on it.
+    fn clock(&self) -> Option<Clock> {
+        None
+    }
+    /// The size of a state: the largest magnitude of its coordinates but for those that carry the time.
+    fn norm(&self, mu: &Self::State) -> S {
+        clock::norm(self.clock(), mu)
     }
 
     /// The energy H(mu).

@@ -201,8 +201,8 @@ pub trait ColumnPoisson<S: Scalar>: MatrixPoisson<S> {
     type Columns: State<S>;
     /// Columns and rows, all 0.
     fn zero_columns(&self) -> Self::Columns;
-    /// The size of the matrices.
-    fn representation_size(&self) -> usize;
+    /// The size of a column: that of the matrices, without the block of the time.
+    fn column_size(&self) -> usize;
     /// The columns.
     fn columns(&self) -> Columns<'_>;
     /// The canonical flow of `H o J`; see [`flow_over_columns`].

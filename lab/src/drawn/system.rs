@@ -269,7 +269,7 @@ impl<S: Scalar> ColumnPoisson<S> for Drawn {
     fn zero_columns(&self) -> Vec<S> {
         vec![S::zero(); 2 * self.tables.size * self.tables.size]
     }
-    fn representation_size(&self) -> usize {
+    fn column_size(&self) -> usize {
         self.tables.size
     }
     fn columns(&self) -> Columns<'_> {

@@ -7,11 +7,12 @@ use super::options::{Options, Save};
 use super::pace::{Assessed, Chosen, count, settle};
 use super::problem::Problem;
 use super::solve::IntegrateError;
+use crate::clock::holds;
 use crate::methods::Method;
 use crate::newton::NewtonOptions;
 use crate::poisson::Poisson;
 use crate::scalar::{Scalar, largest};
-use crate::state::{State, Unknown};
+use crate::state::State;
 use core::ops::ControlFlow;
 
 /// A second run of more steps is not made.
@@ -82,7 +83,7 @@ fn error_of<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
     let divides = Course::<M>::may_divide::<S, P>(method);
     let newton = settled.newton(step);
     let mut course = Course::new(&grid, method, newton, step).dividing(divides);
-    let start = problem.mu0.clone();
+    let start = problem.start();
     let run = course.run(
         &problem.system,
         start,
@@ -120,10 +121,12 @@ impl<S: Scalar, P: Poisson<S>, M: Method<S, P>> Ended<'_, S, P, M> {
     /// a change of the start by a part of the tolerance has grown to it.
     fn error(&self) -> Option<f64> {
         let (start, end) = self.problem.span;
-        let mut mu = self.problem.mu0.clone();
+        let mut mu = self.problem.start();
         let (steps, left) = if self.method.own_steps() {
-            let by = mu.max_norm() * S::from_f64(CHANGE * self.tolerance);
-            for (k, entry) in mu.as_mut_slice().iter_mut().enumerate() {
+            let by = self.problem.system.norm(&mu) * S::from_f64(CHANGE * self.tolerance);
+            let clock = self.problem.system.clock();
+            let entries = mu.as_mut_slice().iter_mut().enumerate();
+            for (k, entry) in entries.filter(|(k, _)| !holds(clock, *k)) {
                 *entry += by * S::from_f64((1.0 + 1.7 * k as f64).cos());
             }
             (self.steps, 0.0)
@@ -142,9 +145,10 @@ impl<S: Scalar, P: Poisson<S>, M: Method<S, P>> Ended<'_, S, P, M> {
         course
             .run(&self.problem.system, mu, None, &Save::Ends, &mut last)
             .ok()?;
-        let size = self.end.max_norm();
+        let system = &self.problem.system;
+        let size = system.norm(self.end);
         last.0.axpy(S::from_f64(-1.0), self.end);
-        let difference = last.0.max_norm();
+        let difference = system.norm(&last.0);
         if largest(difference) == 0.0 {
             // also of a state that is zero, of which nothing is a part
             return Some(0.0);

@@ -4,6 +4,7 @@ use super::error::StepError;
 use super::grid::{Grid, Place, Rows};
 use super::observer::{MotionSink, Observer, Progress};
 use super::options::Save;
+use super::problem::set_time;
 use super::solve::IntegrateError;
 use super::stats::{Stats, Status};
 use super::trial::Trial;
@@ -139,7 +140,7 @@ impl<'r, M> Course<'r, M> {
                     Place::On(_) => observer.row(system, row.time, mu),
                     Place::After(_, rest) => {
                         between.copy_from(mu);
-                        self.off_grid(system, rest, mu, between, observer)?;
+                        self.off_grid(system, (rest, row.time), mu, between, observer)?;
                         let looked = observer.row(system, row.time, between);
                         observer.return_to_grid();
                         looked
@@ -155,7 +156,10 @@ impl<'r, M> Course<'r, M> {
             let watched = self.done == 0 && guard.as_mut().is_some_and(|guard| guard.begins(mu));
             while self.done < self.parts {
                 match stepper.step(mu, &mut MotionSink::new(observer, system)) {
-                    Ok(report) => self.arrived(system, mu, report)?,
+                    Ok(report) => {
+                        set_time(system, mu, self.next_time());
+                        self.arrived(system, mu, report)?;
+                    }
                     Err(failure) => return self.divided(system, failure, mu),
                 }
                 self.done += 1;
@@ -190,6 +194,16 @@ impl<'r, M> Course<'r, M> {
                 return Ok(Left::Branch(next));
             }
         }
+    }
+
+    /// The time at the end of the part that is being made of a step.
+    fn next_time(&self) -> f64 {
+        let done = self.done + 1;
+        if done == self.parts {
+            return self.grid.time(self.index + 1);
+        }
+        let part = self.step * (f64::from(done) / f64::from(self.parts));
+        self.grid.time(self.index) + part
     }
 
     /// Whether to divide all steps that are left costs less than some that need Jacobians.
@@ -289,7 +303,7 @@ impl<'r, M> Course<'r, M> {
     fn off_grid<S: Scalar, P: Poisson<S>>(
         &mut self,
         system: &P,
-        rest: f64,
+        (rest, end): (f64, f64),
         mu: &P::State,
         between: &mut P::State,
         observer: &mut impl Observer<S, P>,
@@ -301,9 +315,13 @@ impl<'r, M> Course<'r, M> {
         let rest_step = S::from_f64(rest / parts);
         let mut shorter = self.method.stepper(system, rest_step, &self.newton);
         observer.leave_grid();
-        for _ in 0..parts as u32 {
+        for done in 1..=parts as u32 {
             match shorter.step(between, &mut MotionSink::new(observer, system)) {
-                Ok(report) => self.arrived(system, between, report)?,
+                Ok(report) => {
+                    let left = rest * (1.0 - f64::from(done) / parts);
+                    set_time(system, between, end - left);
+                    self.arrived(system, between, report)?;
+                }
                 Err(failure) => return Err(self.stopped(system, failure, rest, mu)),
             }
         }

@@ -2,9 +2,12 @@
 
 use crate::poisson::Poisson;
 use crate::scalar::Scalar;
+use crate::state::State as _;
 use nalgebra::SVector;
 
 /// A system, an initial state and a span of time.
+///
+/// Where the Hamiltonian depends on the time, the time of the initial state is the start of the span, whatever the state says.
 #[derive(Clone, Debug)]
 pub struct Problem<S: Scalar, P: Poisson<S>> {
     /// The system with its parameters.
@@ -61,5 +64,20 @@ impl<S: Scalar, P: Poisson<S>> Problem<S, P> {
             mu0: mu0.into_state(),
             span,
         }
+    }
+
+    /// The initial state, at the time of the start.
+    pub(super) fn start(&self) -> P::State {
+        let mut mu = self.mu0.clone();
+        set_time(&self.system, &mut mu, self.span.0);
+        mu
+    }
+}
+
+/// Sets the time of a state, where the Hamiltonian depends on it.
+#[inline(always)]
+pub(super) fn set_time<S: Scalar, P: Poisson<S>>(system: &P, mu: &mut P::State, time: f64) {
+    if let Some(clock) = system.clock() {
+        mu.as_mut_slice()[clock.time] = S::from_f64(time);
     }
 }

@@ -122,7 +122,7 @@ pub fn integrate<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
         .map_or(options.newton, |settled| settled.newton(step));
     let mut course = Course::new(&grid, &method, newton, step).dividing(divides);
     let guard = settled.and_then(Settled::guard);
-    let (system, mu) = (&problem.system, problem.mu0.clone());
+    let (system, mu) = (&problem.system, problem.start());
     let (_, status) = course.run(system, mu, guard, &options.save, observer)?;
     if let Some(assessed) = &assessed {
         observer.assessed(assessed);

@@ -11,7 +11,7 @@ use crate::methods::{Method, StepFailure, Stepper};
 use crate::newton::{Convergence, Iteration, NewtonOptions};
 use crate::poisson::Poisson;
 use crate::scalar::{Scalar, largest};
-use crate::state::{State, Unknown};
+use crate::state::State;
 
 /// Steps whose estimates decide.
 const ESTIMATES: u32 = 5;
@@ -149,7 +149,7 @@ impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'a, S, P, M> {
         &self,
         span: f64,
     ) -> Result<(f64, Estimates, Gauge<S, P>), IntegrateError> {
-        let mut mu = self.problem.mu0.clone();
+        let mut mu = self.problem.start();
         let mut followed = self.problem.system.following(&mu);
         let system = followed.as_ref().unwrap_or(&self.problem.system);
         let mut gauge = Gauge::new(system, &mu, self.method.order());
@@ -231,9 +231,9 @@ impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'a, S, P, M> {
     /// The mean of the steps that a method chooses itself, from the start on.
     pub(super) fn own_steps(&self, span: f64) -> Result<f64, IntegrateError> {
         let system = &self.problem.system;
-        let mut size = self.first(&self.problem.mu0);
+        let mut size = self.first(&self.problem.start());
         loop {
-            let mut mu = self.problem.mu0.clone();
+            let mut mu = self.problem.start();
             let h = S::from_f64(size * span.signum());
             let mut stepper = self.method.stepper(system, h, &self.newton);
             match stepper.step(&mut mu, &mut ()) {
@@ -251,7 +251,8 @@ impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'a, S, P, M> {
     fn first(&self, mu: &P::State) -> f64 {
         let mut field = self.problem.system.zero_state();
         self.problem.system.vector_field(mu, &mut field);
-        let time = largest(mu.max_norm()) / largest(field.max_norm());
+        let time =
+            largest(self.problem.system.norm(mu)) / largest(self.problem.system.norm(&field));
         let order = f64::from(self.method.order().max(1));
         let part = f64::max(0.15 * order, 2.0) * self.target(0.3 * time).powf(1.0 / order);
         let size = part.min(1.0) * time;
@@ -289,9 +290,9 @@ impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'a, S, P, M> {
         };
         let (mut whole, halves) = (steps(h, 1)?, steps(0.5 * h, 2)?);
         whole.axpy(S::from_f64(-1.0), &halves);
-        let size = mu.max_norm().max(halves.max_norm());
+        let size = system.norm(mu).max(system.norm(&halves));
         let resting = size.less_equal(S::zero());
-        let error = S::select(resting, S::zero(), whole.max_norm() / size);
+        let error = S::select(resting, S::zero(), system.norm(&whole) / size);
         let part = 1.0 - 0.5_f64.powi(self.method.order() as i32);
         Ok(TrialStep {
             error: largest(error.max(S::epsilon())) / part,

@@ -14,7 +14,7 @@ use crate::matrix::SquareMatrix;
 use crate::methods::Method;
 use crate::poisson::Poisson;
 use crate::scalar::{Scalar, largest};
-use crate::state::{State, Unknown};
+use crate::state::State;
 
 /// The Jacobian is looked at up to so many coordinates: beyond, it costs more than a step may.
 const MOST_COORDINATES: usize = 12;
@@ -58,7 +58,7 @@ impl<S: Scalar, P: Poisson<S>> Gauge<S, P> {
     fn speed_and_rate(&mut self, system: &P, mu: &P::State) -> (f64, f64) {
         let Some(jacobian) = &mut self.jacobian else {
             system.vector_field(mu, &mut self.field);
-            let speed = largest(self.field.max_norm() / mu.max_norm());
+            let speed = largest(system.norm(&self.field) / system.norm(mu));
             return (speed, speed);
         };
         system.linearize(mu, &mut self.field, jacobian);
@@ -70,7 +70,7 @@ impl<S: Scalar, P: Poisson<S>> Gauge<S, P> {
                 sum += entry * entry;
             }
         }
-        let speed = largest(self.field.max_norm() / mu.max_norm());
+        let speed = largest(system.norm(&self.field) / system.norm(mu));
         (speed, largest(sum.sqrt()))
     }
 

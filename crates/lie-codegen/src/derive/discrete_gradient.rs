@@ -9,7 +9,8 @@
 //!   `c = sum_(k odd > 1) E D^(k-1) H(m)/(2^(k-1) k!)`, E the derivative along e;
 //! - Itoh and Abe: on each edge the mean value of `dH/dmu_i` in one coordinate, of two paths of edges.
 //!
-//! For a quadratic H all three are `grad H(m)`.
+//! For a quadratic H all three are `grad H(m)`. Where H depends on the time, e has no entry for the momentum of that: the
+//! time moves as it does.
 
 use super::{Argument, Block, Kernel, Source};
 use crate::methods::Gradient;
@@ -120,12 +121,19 @@ impl Source {
         let correction = self.at_point(&[correction], &middle)[0];
         let inverse = self.block(Block::Given)[0];
         let difference = self.block(Block::Difference);
+        let momentum = self.clock().map(|clock| clock.momentum);
         for (i, symbol) in self.symbols(Block::Direction).into_iter().enumerate() {
+            if Some(i) == momentum {
+                continue;
+            }
             definitions.push((symbol, self.graph.mul(inverse, difference[i])));
         }
         definitions.push((self.symbols(Block::Correction)[0], correction));
         let defined = self.block(Block::Correction)[0];
-        let direction = self.block(Block::Direction);
+        let mut direction = self.block(Block::Direction);
+        if let Some(momentum) = momentum {
+            direction[momentum] = self.graph.integer(0);
+        }
         let minus_two = self.graph.integer(-2);
         let directions = self.symbols(Block::Direction);
         for (j, symbol) in self.symbols(Block::Tilt).into_iter().enumerate() {
@@ -148,7 +156,9 @@ impl Source {
                 let bent = self.graph.mul(direction[i], tilt[j]);
                 slopes[i][j] = self.graph.add(slopes[i][j], bent);
             }
-            slopes[i][i] = self.graph.add(slopes[i][i], across);
+            if Some(i) != momentum {
+                slopes[i][i] = self.graph.add(slopes[i][i], across);
+            }
         }
         Closed {
             value,

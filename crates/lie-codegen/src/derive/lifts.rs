@@ -1,11 +1,15 @@
 //! The canonical flows of `H o J` on linear spaces over g*.
 
+use lie_core::Clock;
+use lie_core::clock::holds;
 use lie_core::generic::{flow_over_quaternions, flow_over_spins};
 
 use super::{Argument, Kernel, Source};
-use crate::algebra::Representation;
+use crate::algebra::{Columns, Representation};
 use crate::derive::trace::{Sym, values};
+use crate::model::configuration::TIME_BLOCK;
 use crate::model::{CANONICAL, Energy, Hamiltonian};
+use lie_symbolic::exact::Rational;
 use lie_symbolic::symbolic::{ExprId, Symbol};
 
 /// The symbols of so many entries of a point, from a place on.
@@ -91,20 +95,55 @@ impl Source {
         ))
     }
 
-    /// The flow on `T*V^r`, columns `x_j` and rows `y_j` beside them.
+    /// The columns from which methods on points start, without those of the time.
+    pub fn columns(&self) -> Option<Points> {
+        let representation = self.matrices()?;
+        let mut columns = representation.columns.clone()?;
+        let clock = self.clock();
+        let size = representation.dimension - if clock.is_some() { TIME_BLOCK } else { 0 };
+        let kept: Vec<bool> = columns.indices.iter().map(|index| *index < size).collect();
+        columns.indices.retain(|index| *index < size);
+        for (k, covector) in columns.covectors.iter_mut().enumerate() {
+            let mut kept = kept.iter();
+            covector.retain(|_| kept.next() == Some(&true));
+            for row in covector {
+                row.truncate(size);
+                if holds(clock, k) {
+                    row.fill(Rational::ZERO);
+                }
+            }
+        }
+        Some(Points {
+            columns,
+            size,
+            clock,
+        })
+    }
+
+    /// The flow on `T*V^r`, columns `x_j` and rows `y_j` beside them, and behind them the momentum of the time and the time.
     pub fn column_flow(&mut self) -> Option<Kernel> {
         let representation = self.matrices().cloned()?;
-        let columns = representation.columns.as_ref()?.indices.len();
-        let (size, half) = (representation.dimension, representation.dimension * columns);
-        let symbols = places(0, 2 * half);
+        let points = self.columns()?;
+        let (size, columns) = (points.size, points.columns.indices.len());
+        let half = size * columns;
+        let symbols = places(0, points.count());
         let point: Vec<ExprId> = symbols.iter().map(|s| self.graph.symbol(*s)).collect();
-        let (x, y) = point.split_at(half);
-        let gradient = self.gradient_over(&representation, x, y);
+        let (x, rest) = point.split_at(half);
+        let (y, pair) = rest.split_at(half);
+        let mut momenta = self.momenta_of(&representation, (x, y), size);
+        if let (Some(clock), &[momentum, time]) = (points.clock, pair) {
+            momenta[clock.momentum] = momentum;
+            momenta[clock.time] = time;
+            momenta[clock.time + 1] = self.graph.integer(1);
+        }
+        let gradient = self.gradient_of_h();
+        let gradient = self.at_point(&gradient, &momenta);
         let mut terms: Vec<Vec<ExprId>> = vec![Vec::new(); 2 * half];
-        for (xi, matrix) in gradient.into_iter().zip(&representation.matrices) {
+        let moving = gradient.iter().zip(&representation.matrices).enumerate();
+        for (_, (xi, matrix)) in moving.filter(|(k, _)| !holds(points.clock, *k)) {
             for (a, row) in matrix.iter().enumerate() {
                 for (b, entry) in row.iter().enumerate().filter(|(_, entry)| !entry.is_zero()) {
-                    let value = self.graph.scale(xi, entry);
+                    let value = self.graph.scale(*xi, entry);
                     for j in 0..columns {
                         let moved = self.graph.mul(value, x[size * j + b]);
                         terms[size * j + a].push(self.graph.neg(moved));
@@ -114,7 +153,11 @@ impl Source {
                 }
             }
         }
-        let flow: Vec<ExprId> = terms.iter().map(|terms| self.graph.sum(terms)).collect();
+        let mut flow: Vec<ExprId> = terms.iter().map(|terms| self.graph.sum(terms)).collect();
+        if let Some(clock) = points.clock {
+            flow.push(self.graph.neg(gradient[clock.time]));
+            flow.push(gradient[clock.momentum]);
+        }
         let formula = "`x_j' = -rho(xi) x_j`, `y_j' = y_j rho(xi)`, `xi = grad H(J)`";
         let point = vec![argument("point", &symbols)];
         Some(Kernel::vector(
@@ -126,19 +169,20 @@ impl Source {
         ))
     }
 
-    /// `grad H` at `J_k = sum_j y_j rho_k x_j`.
-    fn gradient_over(
+    /// `J_k = sum_j y_j rho_k x_j`, of columns of a size.
+    fn momenta_of(
         &mut self,
         representation: &Representation,
-        x: &[ExprId],
-        y: &[ExprId],
+        (x, y): (&[ExprId], &[ExprId]),
+        size: usize,
     ) -> Vec<ExprId> {
-        let size = representation.dimension;
+        let clock = self.clock();
         let mut momenta = Vec::new();
-        for matrix in &representation.matrices {
+        for (k, matrix) in representation.matrices.iter().enumerate() {
             let mut terms = Vec::new();
             for (a, row) in matrix.iter().enumerate() {
-                for (b, entry) in row.iter().enumerate().filter(|(_, entry)| !entry.is_zero()) {
+                let entries = row.iter().enumerate();
+                for (b, entry) in entries.filter(|(_, e)| !e.is_zero() && !holds(clock, k)) {
                     for (x, y) in x.chunks(size).zip(y.chunks(size)) {
                         let product = self.graph.mul(y[a], x[b]);
                         terms.push(self.graph.scale(product, entry));
@@ -147,7 +191,22 @@ impl Source {
             }
             momenta.push(self.graph.sum(&terms));
         }
-        let gradient = self.gradient_of_h();
-        self.at_point(&gradient, &momenta)
+        momenta
+    }
+}
+
+/// Points of `T*V^r`.
+pub struct Points {
+    /// The columns from which they start.
+    pub columns: Columns,
+    /// The size of a column.
+    pub size: usize,
+    clock: Option<Clock>,
+}
+
+impl Points {
+    /// The number of coordinates of a point.
+    pub fn count(&self) -> usize {
+        2 * self.size * self.columns.indices.len() + if self.clock.is_some() { 2 } else { 0 }
     }
 }

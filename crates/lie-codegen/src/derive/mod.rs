@@ -27,6 +27,7 @@ pub use generating::{Function, Generating};
 pub(crate) use generating::{Slope, slope, symmetric};
 pub use kernel::{Argument, Kernel, Shape};
 pub(crate) use leaner::{Derived, leaner_jacobian};
+pub use lifts::Points;
 pub use realization::Realization;
 pub use recurrence::{Quantity, Recurrences, recurrences};
 pub(crate) use second_kind::moved;

@@ -13,6 +13,7 @@ use crate::structure::integrable::Motion;
 use crate::structure::separable::Piece;
 use crate::structure::spins::Spin;
 use crate::structure::vectors::Vectors;
+use lie_core::Clock;
 use lie_symbolic::symbolic::{ExprId, Graph};
 
 /// What the Poisson matrix is made of.
@@ -100,6 +101,11 @@ impl Source {
     /// The representation, where it carries collective methods.
     pub fn matrices(&self) -> Option<&Representation> {
         self.representation().filter(|r| r.dual.is_some())
+    }
+
+    /// The coordinates that carry the time, where H depends on it.
+    pub fn clock(&self) -> Option<Clock> {
+        self.structure.configuration.as_ref()?.clock()
     }
 
     /// The coordinate pieces of H, if it is a sum of functions of one coordinate each.

@@ -1,11 +1,15 @@
 //! What the coordinates of a system on T*G, or of one that depends on the time, are.
 
+use lie_core::Clock;
+
 /// The name of the momentum of the time. A user's name does not begin with an underscore.
 pub const TIME_MOMENTUM: &str = "_p";
 /// The name of the central coordinate.
 pub const UNIT: &str = "_one";
 /// The time in expressions.
 pub const TIME: &str = "t";
+/// The size of the block of the time in the matrices of a representation, the last one.
+pub const TIME_BLOCK: usize = 3;
 
 /// How the coordinates of a system on `T*G`, or on `T*(G x R)`, are ordered.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -23,6 +27,14 @@ impl Configuration {
     pub fn is_hidden(&self, coordinate: usize) -> bool {
         let entries = self.group.as_ref().map_or(0, |(_, size)| size * size);
         self.time && (coordinate + 1 == self.momenta || coordinate >= self.momenta + entries)
+    }
+
+    /// The coordinates that carry the time.
+    pub fn clock(&self) -> Option<Clock> {
+        self.time.then(|| Clock {
+            momentum: self.momenta - 1,
+            time: self.dimension() - 2,
+        })
     }
 
     /// The momenta without that of the time.

@@ -4,7 +4,7 @@ use super::constants::Code;
 use super::function::Function;
 use super::planner::Planner;
 use crate::algebra::Columns;
-use crate::derive::Kernel;
+use crate::derive::{Kernel, Points};
 use crate::methods::Lift;
 use crate::structure::inertia::Body;
 use crate::structure::integrable::Motion;
@@ -70,6 +70,10 @@ pub struct Representation {
     pub spectrum: Spectrum,
     /// The columns from which methods on points start.
     pub columns: Option<Columns>,
+    /// The size of a column.
+    pub column: usize,
+    /// The number of coordinates of a point.
+    pub point: usize,
     /// The flow of columns, where a method that is asked for needs it.
     pub flow: Option<Function>,
 }
@@ -163,6 +167,7 @@ impl Planner<'_> {
 
     fn representation(&mut self) -> Option<Representation> {
         let flow = self.flow_on(Lift::Representation);
+        let points = self.source.columns();
         let representation = self.source.matrices()?;
         let dual = representation.dual.as_ref()?;
         let mut all = representation.matrices.iter().chain(dual);
@@ -171,7 +176,9 @@ impl Planner<'_> {
             matrices: representation.matrices.clone(),
             dual: dual.clone(),
             skew: all.all(|matrix| is_skew(matrix)),
-            columns: representation.columns.clone(),
+            column: points.as_ref().map_or(0, |points| points.size),
+            point: points.as_ref().map_or(0, Points::count),
+            columns: points.map(|points| points.columns),
             flow,
             spectrum: match spectrum::spectrum(&representation.matrices) {
                 spectrum::Spectrum::Imaginary => Spectrum::Imaginary,

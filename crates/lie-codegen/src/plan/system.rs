@@ -4,6 +4,7 @@ use super::function::Function;
 use super::planner::Planner;
 use crate::derive::{Kernel, Shape};
 use crate::methods::Choice;
+use lie_core::Clock;
 
 /// What a system says of itself, and its kernels by trait.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -12,6 +13,8 @@ pub struct System {
     pub hamiltonian_degree: Option<u32>,
     /// The largest total degree of an entry of the Poisson matrix that is not linear, if all are polynomials.
     pub poisson_degree: Option<u32>,
+    /// Where the time is among the coordinates, if H depends on it.
+    pub clock: Option<Clock>,
     /// The Casimirs.
     pub casimirs: Vec<Casimir>,
     /// What the energy is.
@@ -115,6 +118,7 @@ impl Planner<'_> {
                 .bracket
                 .matrix()
                 .and_then(|matrix| matrix.degree),
+            clock: self.source.clock(),
             casimirs,
             energy: match self.source.energy.expression() {
                 Some(_) => Energy::Expression,

@@ -146,7 +146,15 @@ impl Printer<'_> {
         let motion = self.motion(fused);
         let chart = fused.chart.map(|chart| self.within_chart(fused, chart));
         let cost = fused.costs().map(jacobian_cost);
-        quote! { #kernels #ending #guess #left_out #elimination #cost #motion #chart }
+        let clock = self.plan.system.clock.map(|_| {
+            quote! {
+                #[inline]
+                fn clock(&self) -> ::core::option::Option<::lie_runtime::Clock> {
+                    ::lie_runtime::Poisson::clock(self.system)
+                }
+            }
+        });
+        quote! { #clock #kernels #ending #guess #left_out #elimination #cost #motion #chart }
     }
 
     /// A kernel as a method of the equation.
@@ -199,7 +207,7 @@ impl Printer<'_> {
         move |name: &str| match name {
             "mu" => quote! { self.base },
             "inverse" => {
-                quote! { ::lie_runtime::generic::inverse_length(&self.base, #unknown) }
+                quote! { ::lie_runtime::generic::inverse_length(self.system, &self.base, #unknown) }
             }
             "ratios" => {
                 quote! { ::lie_runtime::generic::sphere_ratios::<S, _, #ratios>(self.system, &self.base, #unknown) }

@@ -49,7 +49,9 @@ impl Printer<'_> {
         let docs = self.docs(function);
         let place = |name: &str| match name {
             "mu" => quote! { self.start },
-            "inverse" => quote! { ::lie_runtime::generic::inverse_length(&self.start, _end) },
+            "inverse" => {
+                quote! { ::lie_runtime::generic::inverse_length(_system, &self.start, _end) }
+            }
             _ => quote! { _end },
         };
         let body = self.body(

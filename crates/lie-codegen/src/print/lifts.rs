@@ -14,8 +14,7 @@ impl Printer<'_> {
         let representation = self.plan.structure.representation.as_ref()?;
         let columns = representation.columns.as_ref()?;
         let system = self.system_name();
-        let size = representation.size;
-        let count = 2 * size * columns.indices.len();
+        let (size, count) = (representation.column, representation.point);
         let flow = representation.flow.as_ref();
         let flow = flow.map(|f| self.flow_on(f, &quote! { Self::Columns }, count));
         let indices = columns.indices.iter().map(|k| index(*k));
@@ -30,7 +29,7 @@ impl Printer<'_> {
                     Self::Columns::repeat(S::zero())
                 }
 
-                fn representation_size(&self) -> usize {
+                fn column_size(&self) -> usize {
                     #size
                 }
 

@@ -128,6 +128,17 @@ impl Printer<'_> {
         let of_h = degree("hamiltonian_degree", plan.hamiltonian_degree);
         let of_matrix = degree("poisson_degree", plan.poisson_degree);
         let casimirs = self.facts_of_casimirs();
+        let clock = plan.clock.map(|clock| {
+            let [momentum, time] = [clock.momentum, clock.time].map(index);
+            quote! {
+                fn clock(&self) -> ::core::option::Option<::lie_runtime::Clock> {
+                    ::core::option::Option::Some(::lie_runtime::Clock {
+                        momentum: #momentum,
+                        time: #time,
+                    })
+                }
+            }
+        });
         quote! {
             fn dimension(&self) -> usize {
                 #n
@@ -141,6 +152,7 @@ impl Printer<'_> {
                 [#(#coordinates),*][index]
             }
 
+            #clock
             #casimirs
             #of_h
             #of_matrix

@@ -1,6 +1,8 @@
-//! Points of `T*V^r` over a matrix representation V.
+//! Points of `T*V^r` over a matrix representation V. Beside them are the momentum of the time and the time, where H
+//! depends on it: their part of the algebra has no columns, since these would grow with the time.
 
 use super::lifts::LinearLift;
+use crate::clock::{Clock, holds};
 use crate::methods::Representation;
 use crate::scalar::Scalar;
 use crate::state::State;
@@ -13,10 +15,18 @@ pub fn momentum_of_columns<S: Scalar, P: ColumnPoisson<S>>(
     point: &P::Columns,
     out: &mut P::State,
 ) {
-    let size = system.representation_size();
-    let (columns, rows) = halves(point.as_slice());
-    let matrices = system.representation().matrices;
-    for (out, matrix) in out.as_mut_slice().iter_mut().zip(matrices) {
+    let size = system.column_size();
+    let clock = system.clock();
+    let (columns, rows, pair) = parts(clock, point.as_slice());
+    if let (Some(clock), &[momentum, time]) = (clock, pair) {
+        let out = out.as_mut_slice();
+        out[clock.momentum] = momentum;
+        out[clock.time] = time;
+        out[clock.time + 1] = S::one();
+    }
+    let matrices = system.representation().matrices.iter().enumerate();
+    let counted = out.as_mut_slice().iter_mut().zip(matrices);
+    for (out, (_, matrix)) in counted.filter(|(_, (k, _))| !holds(clock, *k)) {
         let mut sum = S::zero();
         for entry in *matrix {
             let (a, b) = entry.place();
@@ -37,13 +47,20 @@ pub fn flow_of_columns<S: Scalar, P: ColumnPoisson<S>>(
     xi: &P::State,
     out: &mut P::Columns,
 ) {
-    let size = system.representation_size();
+    let size = system.column_size();
     out.fill(S::zero());
-    let (columns, rows) = halves(point.as_slice());
+    let clock = system.clock();
+    let (columns, rows, _) = parts(clock, point.as_slice());
     let middle = columns.len();
-    let (out_columns, out_rows) = out.as_mut_slice().split_at_mut(middle);
-    let matrices = system.representation().matrices;
-    for (&xi, matrix) in xi.as_slice().iter().zip(matrices) {
+    let (out_columns, rest) = out.as_mut_slice().split_at_mut(middle);
+    let (out_rows, pair) = rest.split_at_mut(middle);
+    if let (Some(clock), [momentum, time]) = (clock, pair) {
+        *momentum = -xi.as_slice()[clock.time];
+        *time = xi.as_slice()[clock.momentum];
+    }
+    let matrices = system.representation().matrices.iter().enumerate();
+    let counted = xi.as_slice().iter().zip(matrices);
+    for (&xi, (_, matrix)) in counted.filter(|(_, (k, _))| !holds(clock, *k)) {
         for entry in *matrix {
             let (a, b) = entry.place();
             let value = entry.value::<S>() * xi;
@@ -78,11 +95,15 @@ pub fn columns_of<S: Scalar, P: ColumnPoisson<S>>(
     mu: &P::State,
     point: &mut P::Columns,
 ) {
-    let (size, table) = (system.representation_size(), system.columns());
+    let (size, table) = (system.column_size(), system.columns());
     point.fill(S::zero());
-    let (columns, rows) = point
-        .as_mut_slice()
-        .split_at_mut(size * table.indices.len());
+    let half = size * table.indices.len();
+    let (columns, rest) = point.as_mut_slice().split_at_mut(half);
+    let (rows, pair) = rest.split_at_mut(half);
+    if let (Some(clock), [momentum, time]) = (system.clock(), pair) {
+        *momentum = mu.as_slice()[clock.momentum];
+        *time = mu.as_slice()[clock.time];
+    }
     for (column, &index) in columns.chunks_exact_mut(size).zip(table.indices) {
         column[usize::from(index)] = S::one();
     }
@@ -94,10 +115,12 @@ pub fn columns_of<S: Scalar, P: ColumnPoisson<S>>(
     }
 }
 
-/// The columns and the rows, one after the other.
+/// The columns and the rows, one after the other, and behind them what carries the time.
 #[inline(always)]
-fn halves<S>(point: &[S]) -> (&[S], &[S]) {
-    point.split_at(point.len() / 2)
+fn parts<S>(clock: Option<Clock>, point: &[S]) -> (&[S], &[S], &[S]) {
+    let (point, pair) = point.split_at(point.len() - if clock.is_some() { 2 } else { 0 });
+    let (columns, rows) = point.split_at(point.len() / 2);
+    (columns, rows, pair)
 }
 
 /// Over a group that is not compact, points become large.
@@ -112,6 +135,14 @@ impl<S: Scalar, P: ColumnPoisson<S>> LinearLift<S, P> for Representation {
 
     fn zero_labels(_system: &P) -> [S; 0] {
         []
+    }
+
+    fn clock(system: &P) -> Option<Clock> {
+        let count = system.zero_columns().as_slice().len();
+        system.clock().map(|_| Clock {
+            momentum: count - 2,
+            time: count - 1,
+        })
     }
 
     #[inline]

@@ -2,6 +2,7 @@
 
 use super::dexp_slope::DexpSlope;
 use super::series::coadjoint_action_in;
+use crate::clock::{Clock, holds};
 use crate::equation::Equation;
 use crate::matrix::SquareMatrix;
 use crate::scalar::Scalar;
@@ -267,7 +268,8 @@ impl<S: Scalar, P: CotangentPoisson<S>> Equation<S> for EulerArnoldHalf<'_, S, P
     fn set_base(&mut self, mu: &P::State) {
         self.base.copy_from(mu);
         let mut size = S::zero();
-        for &momentum in &mu.as_slice()[..self.system.momenta()] {
+        let momenta = mu.as_slice()[..self.system.momenta()].iter().enumerate();
+        for (_, momentum) in momenta.filter(|(i, _)| !holds(self.system.clock(), *i)) {
             size = size.max(momentum.magnitude());
         }
         self.size = S::select(S::zero().less(size), size, S::one());
@@ -275,6 +277,11 @@ impl<S: Scalar, P: CotangentPoisson<S>> Equation<S> for EulerArnoldHalf<'_, S, P
 
     fn scale(&self, _mu: &P::State) -> S {
         self.size
+    }
+
+    #[inline]
+    fn clock(&self) -> Option<Clock> {
+        self.system.clock()
     }
 
     fn initial_guess(&mut self, unknown: &mut P::Momentum) {

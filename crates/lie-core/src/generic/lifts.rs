@@ -1,5 +1,6 @@
 //! Spaces over g* on which Gauss methods are solved point by point.
 
+use crate::clock::Clock;
 use crate::methods::Smallest;
 use crate::poisson::LiePoisson;
 use crate::scalar::Scalar;
@@ -22,6 +23,10 @@ pub trait LinearLift<S: Scalar, P: LiePoisson<S>> {
     fn zero_point(system: &P) -> Self::Point;
     /// Labels, all 0.
     fn zero_labels(system: &P) -> Self::Labels;
+    /// Where the time and its momentum are among the coordinates of a point, which carry them as they are.
+    fn clock(_system: &P) -> Option<Clock> {
+        None
+    }
     /// A point over a state, with its labels.
     fn lift(system: &P, mu: &P::State, labels: &mut Self::Labels, point: &mut Self::Point);
     /// The state `J(z)` under a point.
@@ -44,6 +49,10 @@ impl<S: Scalar, P: CollectivePoisson<S>> LinearLift<S, P> for Smallest {
 
     fn zero_labels(system: &P) -> Self::Labels {
         P::Lift::zero_labels(system)
+    }
+
+    fn clock(system: &P) -> Option<Clock> {
+        P::Lift::clock(system)
     }
 
     #[inline]

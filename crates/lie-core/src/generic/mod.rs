@@ -16,6 +16,10 @@ macro_rules! unknown_of_a_state {
         fn zero_matrix(&self) -> P::Jacobian {
             self.system.zero_jacobian()
         }
+        #[inline(always)]
+        fn clock(&self) -> Option<$crate::Clock> {
+            self.system.clock()
+        }
     };
 }
 pub(crate) use unknown_of_a_state;
@@ -34,6 +38,10 @@ macro_rules! unknown_of_stages {
             $crate::StageMatrix(core::array::from_fn(|_| {
                 core::array::from_fn(|_| self.system.zero_jacobian())
             }))
+        }
+        #[inline(always)]
+        fn clock(&self) -> Option<$crate::Clock> {
+            self.system.clock()
         }
     };
 }

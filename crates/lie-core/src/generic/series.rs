@@ -64,7 +64,7 @@ fn sum<S: Scalar, P: LiePoisson<S>>(
     scratch.term.copy_from(mu);
     scratch.sum.fill(S::zero());
     keep(0, &scratch.term);
-    let mut peak = mu.max_norm();
+    let mut peak = system.norm(mu);
     let unchanging = S::epsilon() * S::ratio(1.0, 8.0) * peak;
     let mut last = S::zero();
     let mut active = S::Mask::splat(true);
@@ -82,7 +82,7 @@ fn sum<S: Scalar, P: LiePoisson<S>>(
             *sum = S::select(active, *sum + *term, *sum);
         }
         keep(index, &scratch.term);
-        let size = scratch.term.max_norm();
+        let size = system.norm(&scratch.term);
         last = S::select(active, S::from_f64(index as f64), last);
         peak = S::select(active, peak.max(size), peak);
         let small = size.less_equal(unchanging);
@@ -96,7 +96,7 @@ fn sum<S: Scalar, P: LiePoisson<S>>(
     for (sum, &mu) in scratch.sum.as_mut_slice().iter_mut().zip(mu.as_slice()) {
         *sum += mu;
     }
-    let norm = scratch.sum.max_norm();
+    let norm = system.norm(&scratch.sum);
     let accurate = !active & peak.less_equal(S::from_f64(MAX_LOSS) * norm);
     Outcome {
         settled: accurate | !norm.finite(),

@@ -10,6 +10,7 @@ use super::diagonals::{diagonals, product, total};
 use super::stage_ending::{Ending, are_below, most};
 use super::stage_work::{At, Work};
 use super::tableau::{gauss_ahead, gauss_ratio, gauss_weight};
+use crate::clock::{Clock, holds};
 use crate::newton::{Convergence, NewtonOptions};
 use crate::scalar::{Mask, Scalar, largest};
 use crate::state::{Stages, State};
@@ -46,6 +47,8 @@ pub struct StageParallel<S: Scalar, V, const STAGES: usize> {
     /// y, the same in all places.
     base: V,
     work: Work<V>,
+    /// The entries that carry the time, where there are any.
+    clock: Option<Clock>,
     options: NewtonOptions,
     /// How many iterations of a step need no look, in each lane.
     quiet: S,
@@ -91,10 +94,25 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
                 points: zero.clone(),
                 next: zero,
             },
+            clock: None,
             options: *options,
             quiet: S::zero(),
             rate: S::ratio(UNKNOWN.0, UNKNOWN.1),
             taken: S::zero(),
+        }
+    }
+
+    /// With entries that carry the time.
+    pub(crate) fn with_clock(mut self, clock: Option<Clock>) -> Self {
+        self.clock = clock;
+        self
+    }
+
+    /// Sets the time of the base.
+    #[inline(always)]
+    pub(crate) fn set_time(&mut self, time: S) {
+        if let Some(clock) = self.clock {
+            self.base.as_mut_slice()[clock.time] = time.widen();
         }
     }
 
@@ -226,6 +244,9 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
         field: &mut impl FnMut(At<'_, V>, &mut V),
     ) -> S::Wide {
         work.evaluate::<S, STAGES>((&self.ratios, self.weights), &self.base, field);
+        if let Some(clock) = self.clock {
+            work.replace_entries::<S>(&[clock.momentum, clock.time], ended);
+        }
         work.replace::<S>(ended) * self.per_weight
     }
 
@@ -261,10 +282,13 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
     /// The size of the slopes against which changes are measured: that of the base over h, or of the slopes themselves.
     #[inline(always)]
     fn size(&self) -> S {
-        let bases = self.base.as_slice().iter();
-        let bases = bases.fold(S::Wide::zero(), |sum, y| sum + y.magnitude());
-        let increments = self.work.increments.as_slice().iter();
-        let increments = increments.fold(S::Wide::zero(), |sum, d| sum + d.magnitude());
+        let sum = |entries: &[S::Wide]| {
+            let counted = entries.iter().enumerate();
+            let counted = counted.filter(|(i, _)| !holds(self.clock, *i));
+            counted.fold(S::Wide::zero(), |sum, (_, y)| sum + y.magnitude())
+        };
+        let bases = sum(self.base.as_slice());
+        let increments = sum(self.work.increments.as_slice());
         let [base, ..] = S::scatter(bases);
         (base * self.per_step).max(most::<S>(increments * self.per_weight))
     }

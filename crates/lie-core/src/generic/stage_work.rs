@@ -77,6 +77,21 @@ impl<V> Work<V> {
         }
     }
 
+    /// Takes over the next increments of some entries, which then do not count as changes.
+    #[inline(always)]
+    pub(super) fn replace_entries<S: Scalar>(&mut self, entries: &[usize], ended: S::Mask)
+    where
+        V: State<S::Wide>,
+    {
+        for &entry in entries {
+            let increment = &mut self.increments.as_mut_slice()[entry];
+            let next = &mut self.next.as_mut_slice()[entry];
+            let (old, new) = (S::scatter(*increment), S::scatter(*next));
+            *increment = S::gather(from_fn(|i| S::select(ended, old[i], new[i])));
+            *next = *increment;
+        }
+    }
+
     /// Takes over the next increments but in the lanes that have ended; the sum of all changes at each stage.
     #[inline(always)]
     pub(super) fn replace<S: Scalar>(&mut self, ended: S::Mask) -> S::Wide

@@ -4,6 +4,7 @@
 //! methods", Experimental Mathematics 14 (2005) 99–117,
 //! [doi:10.1080/10586458.2005.10128904](https://doi.org/10.1080/10586458.2005.10128904).
 
+use crate::clock::{Clock, holds};
 use crate::recurrence::MOST_ORDERS;
 use crate::scalar::{Scalar, largest};
 use crate::state::State;
@@ -80,10 +81,14 @@ impl Pace {
 
     /// [`Pace::reach`] in every lane.
     #[inline(always)]
-    pub(super) fn reach_of_lanes<S: Scalar, V: State<S>>(&self, rows: &Rows<V>) -> S {
+    pub(super) fn reach_of_lanes<S: Scalar, V: State<S>>(
+        &self,
+        rows: &Rows<V>,
+        clock: Option<Clock>,
+    ) -> S {
         let mut reach = S::zero();
         for lane in 0..S::LANES {
-            let length = self.reach(rows, lane);
+            let length = self.reach(rows, lane, clock);
             reach = reach.with_lane(lane, S::Lane::from_f64(length));
         }
         reach
@@ -93,7 +98,12 @@ impl Pace {
     ///
     /// The radius of convergence is estimated by `(|mu_0|/|mu_k|)^(1/k)` for the last two orders, in the maximum norm
     /// over the coordinates that still have coefficients there.
-    pub(super) fn reach<S: Scalar, V: State<S>>(&self, rows: &Rows<V>, lane: usize) -> f64 {
+    pub(super) fn reach<S: Scalar, V: State<S>>(
+        &self,
+        rows: &Rows<V>,
+        lane: usize,
+        clock: Option<Clock>,
+    ) -> f64 {
         let Some(part) = self.part else {
             return f64::INFINITY;
         };
@@ -103,7 +113,7 @@ impl Pace {
         // series in powers of a power of t have no coefficients at some orders
         while order >= 1 {
             let (mut last, mut before, mut scale) = (0.0, 0.0, 0.0);
-            for i in 0..count {
+            for i in (0..count).filter(|i| !holds(clock, *i)) {
                 let (a, b) = (entry(order, i), entry(order - 1, i));
                 if !(a + b).is_finite() {
                     return f64::NAN;
@@ -114,7 +124,8 @@ impl Pace {
                 (last, before) = (f64::max(last, a), f64::max(before, b));
             }
             if scale <= 0.0 {
-                let first = (0..count).fold(0.0, |first: f64, i| first.max(entry(1, i)));
+                let counted = (0..count).filter(|i| !holds(clock, *i));
+                let first = counted.fold(0.0, |first: f64, i| first.max(entry(1, i)));
                 let ratio = if last > 0.0 && order > 1 {
                     match before > 0.0 {
                         true => before / last,
@@ -248,7 +259,7 @@ mod tests {
             |k| [3_f64.powi(-(k as i32)), if k < 2 { 1e9 } else { 0.0 }],
             pace.order,
         );
-        let reach = pace.reach::<f64, _>(&geometric, 0);
+        let reach = pace.reach::<f64, _>(&geometric, 0, None);
         let last = (reach / 3.0).powi(pace.order as i32);
         assert!((0.3e-12..0.5e-12).contains(&last), "{last:e}");
         let mut out = [0.0; 2];
@@ -259,14 +270,14 @@ mod tests {
             |k| [if k % 3 == 0 { 1.0 } else { 0.0 }, 0.0],
             pace.order + 1,
         );
-        assert!((pace.reach::<f64, _>(&lacunary, 0) - reach / 3.0).abs() < 1e-2);
+        assert!((pace.reach::<f64, _>(&lacunary, 0, None) - reach / 3.0).abs() < 1e-2);
         let resting = rows(|k| [if k == 0 { 1.0 } else { 0.0 }; 2], pace.order);
-        assert_eq!(pace.reach::<f64, _>(&resting, 0), f64::INFINITY);
+        assert_eq!(pace.reach::<f64, _>(&resting, 0, None), f64::INFINITY);
         let broken = rows(
             |k| [if k == pace.order { f64::NAN } else { 1.0 }, 0.0],
             pace.order,
         );
-        assert!(pace.reach::<f64, _>(&broken, 0).is_nan());
+        assert!(pace.reach::<f64, _>(&broken, 0, None).is_nan());
     }
 
     #[test]

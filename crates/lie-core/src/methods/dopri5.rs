@@ -21,6 +21,7 @@ use super::explicit::direction;
 use super::facts::{Facts, Preserves};
 use super::implicit::clear;
 use super::stepper::{FactorSink, Method, RungeKutta, Stage, StepFailure, StepReport, Stepper};
+use crate::clock::holds;
 use crate::newton::{FailureReason, NewtonOptions};
 use crate::poisson::Poisson;
 use crate::scalar::{Mask, Scalar};
@@ -138,14 +139,17 @@ impl<S: Scalar, P: Poisson<S>> Dopri5Stepper<'_, S, P> {
     /// Size of a vector in units of the tolerances: the root of the mean square.
     fn measure(&self, vector: impl Fn(usize) -> S, other: Option<&P::State>) -> S {
         let mut sum = S::zero();
-        for (index, &entry) in self.current.as_slice().iter().enumerate() {
+        let clock = self.system.clock();
+        let entries = self.current.as_slice().iter().enumerate();
+        for (index, &entry) in entries.filter(|(i, _)| !holds(clock, *i)) {
             let size = other.map_or(entry.abs(), |other| {
                 entry.abs().max(other.as_slice()[index].abs())
             });
             let ratio = vector(index) / (self.atol + self.rtol * size);
             sum += ratio * ratio;
         }
-        (sum / S::from_f64(self.system.dimension() as f64)).sqrt()
+        let count = self.system.dimension() - if clock.is_some() { 3 } else { 0 };
+        (sum / S::from_f64(count as f64)).sqrt()
     }
 
     /// The size of the first step, from the sizes of mu, f and the change of f along a trial step.

@@ -16,7 +16,7 @@
 #![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
 
 use super::facts::{Facts, Preserves};
-use super::stage_parallel::equal_lanes;
+use super::implicit::equal_lanes;
 use super::stepper::{
     FactorSink, Method, Retraction, RungeKutta, Stage, StepFailure, StepReport, Stepper, not_finite,
 };
@@ -115,7 +115,7 @@ impl<'a, S: Scalar, P: IntegrablePoisson<S>> ExactStepper<'a, S, P> {
 
     /// Moves the bodies.
     fn move_bodies(&mut self, mu: &P::State) {
-        let follows = self.follows & equal_lanes(&self.end, mu);
+        let follows = self.follows & equal_lanes(self.system.clock(), &self.end, mu);
         for index in 0..self.system.bodies().len() {
             let body = self.system.bodies()[index];
             let axes = self.axes_of(&body);

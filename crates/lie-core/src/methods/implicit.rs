@@ -1,6 +1,7 @@
 //! The stepper of every method whose step is one nonlinear equation.
 
 use super::stepper::{FactorSink, RungeKutta, Stage, StepFailure, StepReport, Stepper};
+use crate::clock::{Clock, holds};
 use crate::equation::Equation;
 use crate::newton::{
     Failure, FailureReason, Newton, NewtonOptions, NewtonReport, Predictor, Start,
@@ -52,7 +53,7 @@ impl<S: Scalar, E: Equation<S>> ImplicitStepper<S, E> {
     fn advance(&mut self, mu: &mut E::State) -> Result<StepReport, StepFailure> {
         self.equation.set_base(mu);
         let attempts = self.newton.attempts();
-        let follows = equal(mu.as_slice(), self.last.as_slice());
+        let follows = equal_lanes(self.equation.clock(), mu, &self.last);
         let predicted = self.predictor.ready(follows) & attempts.predictable();
         if predicted.all() {
             self.unknown.assign_where(predicted, self.predictor.next());
@@ -104,7 +105,9 @@ impl<S: Scalar, E: Equation<S>> ImplicitStepper<S, E> {
         }
         self.last.copy_from(&self.next);
         if !predicted.all() {
-            self.predictor.examine(&self.unknown, scale, predicted);
+            let clock = self.equation.clock();
+            self.predictor
+                .examine(&self.unknown, scale, predicted, clock);
         }
         self.predictor.record(&self.unknown);
         if !predictable.all() {
@@ -195,15 +198,22 @@ impl<S: Scalar, E: Equation<S>> Stepper<S> for ImplicitStepper<S, E> {
     }
 }
 
-/// The lanes in which two states are equal.
+/// The lanes in which two states are equal but for the time, which a driver sets after each step.
 #[inline(always)]
-fn equal<S: Scalar>(one: &[S], other: &[S]) -> S::Mask {
-    if S::LANES == 1 {
+pub(super) fn equal_lanes<S: Scalar, V: State<S>>(
+    clock: Option<Clock>,
+    one: &V,
+    other: &V,
+) -> S::Mask {
+    let (one, other) = (one.as_slice(), other.as_slice());
+    if S::LANES == 1 && clock.is_none() {
         return S::Mask::splat(one == other);
     }
     let mut equal = S::Mask::splat(true);
-    for (&one, &other) in one.iter().zip(other) {
-        equal = equal & one.less_equal(other) & other.less_equal(one);
+    for (i, (&one, &other)) in one.iter().zip(other).enumerate() {
+        if !holds(clock, i) {
+            equal = equal & one.less_equal(other) & other.less_equal(one);
+        }
     }
     equal
 }

@@ -28,6 +28,7 @@ use super::facts::{Facts, Preserves};
 use super::implicit::clear;
 use super::series_stepper::{Development, SeriesStepper};
 use super::stepper::{FactorSink, Method, Retraction};
+use crate::clock::Clock;
 use crate::generic::{Scratch, coadjoint_action_in};
 use crate::newton::NewtonOptions;
 use crate::poisson::{LiePoisson, Poisson, Widen};
@@ -214,6 +215,10 @@ where
 {
     type State = P::State;
 
+    fn clock(&self) -> Option<Clock> {
+        self.system.clock()
+    }
+
     fn develop(&mut self, mu: &P::State, lanes: S::Mask) -> S {
         let all = lanes.all();
         copy_lanes(&mut self.rows[0], mu, lanes, all);
@@ -238,9 +243,10 @@ where
                     .advance(k + 1, carry, &self.coefficient, &mut self.field);
             }
         }
+        let clock = self.clock();
         let (of_state, of_increment) = (
-            self.pace.reach_of_lanes::<S, _>(&self.rows),
-            self.pace.reach_of_lanes::<S, _>(&self.increments),
+            self.pace.reach_of_lanes::<S, _>(&self.rows, clock),
+            self.pace.reach_of_lanes::<S, _>(&self.increments, clock),
         );
         // not a number if either is not
         S::select(

@@ -1,7 +1,9 @@
 //! The stepper of collective methods whose stages are evaluated together.
 
-use super::stage_parallel::{equal_lanes, push_velocities};
+use super::implicit::equal_lanes;
+use super::stage_parallel::push_velocities;
 use super::stepper::{FactorSink, StepFailure, StepReport, Stepper};
+use crate::clock;
 use crate::generic::{LinearLift, StageParallel};
 use crate::newton::{FailureReason, NewtonOptions};
 use crate::poisson::{LiePoisson, Poisson, Widen};
@@ -74,7 +76,8 @@ where
         let newton = newton.for_a_poisson_map();
         let point = <L as LinearLift<S, P>>::zero_point(system);
         Self {
-            stages: StageParallel::new(h, L::zero_point(&wide), &newton),
+            stages: StageParallel::new(h, L::zero_point(&wide), &newton)
+                .with_clock(<L as LinearLift<S, P>>::clock(system)),
             point,
             labels: <L as LinearLift<S, P>>::zero_labels(system),
             wide_labels: L::zero_labels(&wide),
@@ -103,7 +106,8 @@ where
             *wide = label.widen();
         }
         if <L as LinearLift<S, P>>::GROWS {
-            self.size = S::select(fresh, point.max_norm(), self.size);
+            let clock = <L as LinearLift<S, P>>::clock(system);
+            self.size = S::select(fresh, clock::norm(clock, &point), self.size);
         }
         <L as LinearLift<S, P>>::flow(system, &self.labels, &self.point, &mut point);
         self.stages
@@ -126,10 +130,8 @@ where
     fn grown(&mut self) -> S::Mask {
         if <L as LinearLift<S, P>>::GROWS {
             self.stages.base_into(self.point.as_mut_slice());
-            !self
-                .point
-                .max_norm()
-                .less_equal(self.size * S::from_f64(GROWTH))
+            let clock = <L as LinearLift<S, P>>::clock(self.system);
+            !clock::norm(clock, &self.point).less_equal(self.size * S::from_f64(GROWTH))
         } else {
             S::Mask::splat(false)
         }
@@ -163,7 +165,11 @@ where
         mu: &mut P::State,
         sink: &mut K,
     ) -> Result<StepReport, StepFailure> {
-        let follows = self.follows & equal_lanes(&self.end, mu);
+        let clock = self.system.clock();
+        let follows = self.follows & equal_lanes(clock, &self.end, mu);
+        if let Some(clock) = clock {
+            self.stages.set_time(mu.as_slice()[clock.time]);
+        }
         if follows.any() {
             self.stages.go_on();
         }

@@ -1,7 +1,8 @@
 //! The stepper of methods by series: as many series as a step of the grid takes, and no more than it needs.
 
-use super::stage_parallel::equal_lanes;
+use super::implicit::equal_lanes;
 use super::stepper::{FactorSink, StepFailure, StepReport, Stepper};
+use crate::clock::Clock;
 use crate::newton::FailureReason;
 use crate::scalar::{Mask, Scalar};
 use crate::state::{State, Unknown};
@@ -16,6 +17,8 @@ pub trait Development<S: Scalar> {
     /// The state of the system.
     type State: State<S>;
 
+    /// The coordinates that carry the time.
+    fn clock(&self) -> Option<Clock>;
     /// Develops the solution from a state in some lanes; the others keep theirs. Returns how far it is used in each
     /// lane, not a number where a coefficient is not finite.
     fn develop(&mut self, mu: &Self::State, lanes: S::Mask) -> S;
@@ -98,7 +101,7 @@ impl<S: Scalar, D: Development<S>> Stepper<S> for SeriesStepper<S, D> {
         mu: &mut D::State,
         sink: &mut K,
     ) -> Result<StepReport, StepFailure> {
-        let follows = equal_lanes(&self.current, mu);
+        let follows = equal_lanes(self.development.clock(), &self.current, mu);
         self.reach = S::select(follows, self.reach, S::zero());
         self.current.copy_from(mu);
         let mut report = StepReport::default();

@@ -1,6 +1,6 @@
 //! The stepper of Gauss methods whose stages are evaluated together.
 
-use super::implicit::{ImplicitStepper, clear};
+use super::implicit::{ImplicitStepper, clear, equal_lanes};
 use super::stepper::{FactorSink, RungeKutta, Stage, StepFailure, StepReport, Stepper};
 use crate::equation::Equation;
 use crate::generic::{At, Gauss, StageParallel};
@@ -110,7 +110,7 @@ where
             system,
             wide,
             step: h,
-            stages: StageParallel::new(h, zero.clone(), newton),
+            stages: StageParallel::new(h, zero.clone(), newton).with_clock(system.clock()),
             newton: *newton,
             end: system.zero_state(),
             follows: S::Mask::splat(false),
@@ -190,7 +190,11 @@ where
         mu: &mut P::State,
         sink: &mut K,
     ) -> Result<StepReport, StepFailure> {
-        let follows = self.follows & equal_lanes(&self.end, mu);
+        let clock = self.system.clock();
+        let follows = self.follows & equal_lanes(clock, &self.end, mu);
+        if let Some(clock) = clock {
+            self.stages.set_time(mu.as_slice()[clock.time]);
+        }
         if follows.any() {
             self.stages.go_on();
         }
@@ -254,15 +258,6 @@ where
         self.follows = good;
         failure.map_or(Ok(report), |failure| Err(StepFailure { report, ..failure }))
     }
-}
-
-/// The lanes in which two states are equal.
-#[inline(always)]
-pub(super) fn equal_lanes<S: Scalar, V: State<S>>(one: &V, other: &V) -> S::Mask {
-    let pairs = one.as_slice().iter().zip(other.as_slice());
-    pairs.fold(S::Mask::splat(true), |equal, (&x, &y)| {
-        equal & x.less_equal(y) & y.less_equal(x)
-    })
 }
 
 /// Gives away h times the gradients at the stages, one stage after the other; `xi` is any state of the right size.

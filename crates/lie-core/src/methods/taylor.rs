@@ -27,6 +27,7 @@ use super::facts::{Facts, Preserves};
 use super::implicit::clear;
 use super::series_stepper::{Development, SeriesStepper};
 use super::stepper::{FactorSink, Method, RungeKutta, Stage};
+use crate::clock::Clock;
 use crate::generic::gauss_tableau;
 use crate::newton::NewtonOptions;
 use crate::recurrence::{MOST_ORDERS, Recurrence, Series};
@@ -93,6 +94,11 @@ impl<S: Scalar, P: Series<S>> Development<S> for TaylorDevelopment<'_, S, P> {
     type State = P::State;
 
     #[inline(always)]
+    fn clock(&self) -> Option<Clock> {
+        self.system.clock()
+    }
+
+    #[inline(always)]
     fn develop(&mut self, mu: &P::State, lanes: S::Mask) -> S {
         let all = lanes.all();
         // taken out, so that they are in registers
@@ -110,7 +116,7 @@ impl<S: Scalar, P: Series<S>> Development<S> for TaylorDevelopment<'_, S, P> {
         multiply(&field, self.inverses[last], &mut coefficient);
         copy_lanes(&mut self.rows[last], &coefficient, lanes, all);
         self.scratch = Some((field, coefficient));
-        self.pace.reach_of_lanes(&self.rows)
+        self.pace.reach_of_lanes(&self.rows, self.clock())
     }
 
     #[inline(always)]

@@ -65,7 +65,7 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
     where
         E: Equation<S, Unknown = U, Matrix = M>,
     {
-        let first = self.workspace.update.max_norm();
+        let first = equation.norm(&self.workspace.update);
         let far = is_far(first, scale) & lanes & !solved;
         self.far = self.far | far;
         let mut before = sizes.relative(&self.workspace.update, unknown);
@@ -81,13 +81,13 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
                 break;
             }
             equation.residual(unknown, update);
-            residual = S::select(active, update.max_norm(), residual);
+            residual = S::select(active, equation.norm(update), residual);
             equation.solve(factors, update);
             unknown.subtract_where(active, update);
             count.add(active);
             let step = sizes.relative(update, unknown);
-            let size = S::largest_magnitude(&[scale, unknown.max_norm()]);
-            let settled = is_round_off(update.max_norm(), size);
+            let size = S::largest_magnitude(&[scale, equation.norm(unknown)]);
+            let settled = is_round_off(equation.norm(update), size);
             let converged = ends(step, before, settled, self.options.tolerance);
             solved = solved | converged & active;
             let fast = step.less(before * S::from_f64(CHORD_RATE));

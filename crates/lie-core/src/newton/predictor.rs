@@ -1,5 +1,6 @@
 //! Where the iteration of a step starts: the unknowns of the steps before it, extrapolated.
 
+use crate::clock::{Clock, holds};
 use crate::scalar::{Mask, Scalar};
 use crate::state::Unknown;
 
@@ -88,15 +89,19 @@ impl<S: Scalar, U: Unknown<S>> Predictor<S, U> {
     /// Forgets everything in the lanes, not among those of a mask, in which the prediction that was not used was far from
     /// the unknown of a step.
     #[cold]
-    pub(crate) fn examine(&mut self, unknown: &U, scale: S, used: S::Mask) {
+    pub(crate) fn examine(&mut self, unknown: &U, scale: S, used: S::Mask, clock: Option<Clock>) {
         let due = S::from_f64(VALUES as f64).less_equal(self.age) & !used;
         if !due.any() {
             return;
         }
         let mut distance = S::zero();
         for part in 0..unknown.parts() {
-            let pairs = unknown.part(part).iter().zip(self.next.part(part));
-            for (&unknown, &next) in pairs {
+            let pairs = unknown
+                .part(part)
+                .iter()
+                .zip(self.next.part(part))
+                .enumerate();
+            for (_, (&unknown, &next)) in pairs.filter(|(i, _)| !holds(clock, *i)) {
                 distance = S::largest_magnitude(&[distance, unknown - next]);
             }
         }
@@ -192,7 +197,7 @@ mod tests {
                 first.get_or_insert(k);
                 worst = f64::max(worst, (predictor.next()[0] - value[0]).abs());
             } else {
-                predictor.examine(&value, 1.0, ready);
+                predictor.examine(&value, 1.0, ready, None);
             }
             predictor.record(&value);
         }
@@ -224,7 +229,7 @@ mod tests {
         let mut predictor = Predictor::new(&[0.0]);
         let mut ready = |follows: bool| {
             let ready = predictor.ready(follows);
-            predictor.examine(&[1.0], 1.0, ready);
+            predictor.examine(&[1.0], 1.0, ready, None);
             predictor.record(&[1.0]);
             ready
         };

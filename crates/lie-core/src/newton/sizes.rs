@@ -1,5 +1,6 @@
 //! By what the error of each entry of an unknown is measured.
 
+use crate::clock::{Clock, holds};
 use crate::scalar::{Mask, Scalar};
 use crate::state::Unknown;
 
@@ -12,6 +13,8 @@ use crate::state::Unknown;
 pub(super) struct Sizes<'a, U> {
     /// The unknown of the step before; without it, the size of an entry is its magnitude.
     pub(super) before: Option<&'a U>,
+    /// The entries that carry the time, which do not count.
+    pub(super) clock: Option<Clock>,
 }
 
 impl<U> Clone for Sizes<'_, U> {
@@ -41,7 +44,8 @@ impl<U> Sizes<'_, U> {
         let start = self.before.unwrap_or(unknown);
         let mut largest = S::zero();
         for part in 0..unknown.parts() {
-            for (&unknown, &before) in unknown.part(part).iter().zip(start.part(part)) {
+            let entries = unknown.part(part).iter().zip(start.part(part)).enumerate();
+            for (_, (&unknown, &before)) in entries.filter(|(i, _)| !holds(self.clock, *i)) {
                 largest = S::largest_magnitude(&[largest, Self::of(unknown, before)]);
             }
         }
@@ -58,7 +62,9 @@ impl<U> Sizes<'_, U> {
         let mut within = S::Mask::splat(true);
         for part in 0..unknown.parts() {
             let sizes = unknown.part(part).iter().zip(start.part(part));
-            for (&update, (&unknown, &before)) in update.part(part).iter().zip(sizes) {
+            let entries = update.part(part).iter().zip(sizes).enumerate();
+            let counted = entries.filter(|(i, _)| !holds(self.clock, *i));
+            for (_, (&update, (&unknown, &before))) in counted {
                 let rest = Self::of(unknown, before) - factor * update.magnitude();
                 within = within & S::zero().less_equal(rest);
             }
@@ -76,7 +82,9 @@ impl<U> Sizes<'_, U> {
         let mut largest = S::zero();
         for part in 0..unknown.parts() {
             let sizes = unknown.part(part).iter().zip(start.part(part));
-            for (&update, (&unknown, &before)) in update.part(part).iter().zip(sizes) {
+            let entries = update.part(part).iter().zip(sizes).enumerate();
+            let counted = entries.filter(|(i, _)| !holds(self.clock, *i));
+            for (_, (&update, (&unknown, &before))) in counted {
                 let update = update.magnitude();
                 let rests = update.less_equal(S::zero());
                 let ratio = S::select(rests, S::zero(), update / Self::of(unknown, before));
@@ -96,6 +104,7 @@ mod tests {
         let (before, unknown) = ([1.1, 1.1e-12], [1.0, 1e-12]);
         let sizes = Sizes {
             before: Some(&before),
+            clock: None,
         };
         // nearly their own sizes, whatever the scale
         let relative = |update: [f64; 2]| sizes.relative(&update, &unknown);
@@ -114,10 +123,14 @@ mod tests {
         let (before, unknown) = ([1.0, 0.01], [1.0, 1e-9]);
         let sizes = Sizes {
             before: Some(&before),
+            clock: None,
         };
         assert!(sizes.relative(&[0.0, 1e-12], &unknown) < 2e-11);
         // the control: without the step before it is nearly 0
-        let alone = Sizes { before: None };
+        let alone = Sizes {
+            before: None,
+            clock: None,
+        };
         assert!(alone.relative(&[0.0, 1e-12], &unknown) > 1e-4);
     }
 
@@ -126,6 +139,7 @@ mod tests {
         let unknown = [1.0, 0.0];
         let sizes = Sizes {
             before: Some(&unknown),
+            clock: None,
         };
         assert_eq!(sizes.relative(&[1e-12, 0.0], &unknown), 1e-12);
         assert!(sizes.small_lanes(&[1e-12, 0.0], &unknown, 1e11_f64));

@@ -140,6 +140,7 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
         let mut predicted = start.predicted;
         let sizes = Sizes {
             before: start.before,
+            clock: equation.clock(),
         };
         // the last steps before predictions show how Newton's method converges
         let fixed = attempts.fixed & (attempts.predicted | !(predicted | start.shows));
@@ -236,12 +237,12 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
         while active.any() {
             let update = &mut self.workspace.update;
             equation.residual(unknown, update);
-            let step = update.max_norm();
+            let step = equation.norm(update);
             residual = S::select(active, step, S::zero());
             unknown.subtract_where(active, update);
             let index = count.add(active);
             if index % REVIEW == 1 {
-                size = S::largest_magnitude(&[scale, unknown.max_norm()]);
+                size = S::largest_magnitude(&[scale, equation.norm(unknown)]);
                 if index == 1 {
                     self.far = is_far(step, scale) & lanes & predicted;
                     active = active & !self.far;
@@ -303,7 +304,7 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
             }
             unknown.subtract_where(active, &self.workspace.update);
             if index % REVIEW == 0 {
-                size = S::largest_magnitude(&[scale, unknown.max_norm()]);
+                size = S::largest_magnitude(&[scale, equation.norm(unknown)]);
             }
             match index {
                 0 => first = outcome.update,

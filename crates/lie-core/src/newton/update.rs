@@ -60,7 +60,7 @@ pub(super) fn compute<S: Scalar, E: Equation<S>>(
         outcome.factorizations += 1;
     } else {
         equation.residual(unknown, update);
-        outcome.residual = update.max_norm();
+        outcome.residual = equation.norm(update);
         if iteration != Iteration::Simplified {
             outcome.update = outcome.residual;
             return outcome;
@@ -74,7 +74,7 @@ pub(super) fn compute<S: Scalar, E: Equation<S>>(
             outcome.factorizations += 1;
         }
     }
-    outcome.update = workspace.update.max_norm();
+    outcome.update = equation.norm(&workspace.update);
     outcome
 }
 

@@ -53,7 +53,7 @@ fn coded<S: Scalar>(
     let Some(place) = functions.iter().position(|function| function.name == name) else {
         unreachable!("a closed form has both kernels")
     };
-    let inverse = generic::inverse_length(start, end);
+    let inverse = generic::inverse_length(system, start, end);
     let mut places: [&[S]; ARGUMENTS] = Default::default();
     for (place, argument) in places.iter_mut().zip(&functions[place].arguments) {
         *place = match argument.name {

@@ -9,7 +9,7 @@ use lie_codegen::methods::Choice;
 use lie_codegen::plan::{Chart, Ending, Fused, Guess, Item, Solver};
 use lie_core::{SquareMatrix, equation::newton_update, generic};
 use lie_runtime::methods::Retraction;
-use lie_runtime::{Equation, Mask as _, Poisson, Scalar, Unknown};
+use lie_runtime::{Clock, Equation, Mask as _, Poisson, Scalar, Unknown};
 use std::cell::RefCell;
 
 /// A fused equation at work.
@@ -134,7 +134,7 @@ impl<S: Scalar> Running<'_, S> {
         targets: [&mut [S]; 2],
     ) {
         let inverse = match call.arguments.contains(&CallArgument::Inverse) {
-            true => generic::inverse_length(&self.base, &unknown.to_vec()),
+            true => generic::inverse_length(system, &self.base, &unknown.to_vec()),
             false => [S::zero()],
         };
         let mut places: [&[S]; ARGUMENTS] = [&[]; ARGUMENTS];
@@ -184,8 +184,15 @@ where
 
     fn scale(&self, mu: &Vec<S>) -> S {
         match &self.fused {
-            Some(_) => mu.max_norm(),
+            Some(_) => self.system.norm(mu),
             None => self.generic.scale(mu),
+        }
+    }
+
+    fn clock(&self) -> Option<Clock> {
+        match &self.fused {
+            Some(_) => self.system.clock(),
+            None => self.generic.clock(),
         }
     }
 

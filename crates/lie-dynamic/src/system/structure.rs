@@ -23,6 +23,8 @@ pub struct Codes {
     dual: &'static [&'static [Entry]],
     skew: bool,
     size: usize,
+    column: usize,
+    point: usize,
     bounds: Option<Vec<f64>>,
     imaginary: bool,
     motion: Option<Motion>,
@@ -92,8 +94,7 @@ impl Codes {
         let points = |count: usize, function: Option<&Function>, making: &mut CodeBuilder| {
             function.map(|function| making.push(Code::from_kernel(function, count)))
         };
-        let size = representation.map_or(0, |known| known.size);
-        let of_columns = 2 * size * columns.map_or(0, |known| known.indices.len());
+        let of_columns = representation.map_or(0, |known| known.point);
         let flow = spins.and_then(|spins| spins.flow.as_ref());
         let spinor_flow = points(4 * scales.len(), flow, making);
         let flow = representation.and_then(|known| known.flow.as_ref());
@@ -112,6 +113,8 @@ impl Codes {
             dual: representation.map_or(&[], |known| tables(&known.dual)),
             skew: representation.is_some_and(|known| known.skew),
             size: representation.map_or(0, |known| known.size),
+            column: representation.map_or(0, |known| known.column),
+            point: of_columns,
             bounds: match spectrum {
                 Some(plan::Spectrum::Bounded(weights)) => {
                     Some(weights.iter().map(Rational::to_f64).collect())
@@ -236,11 +239,10 @@ impl<S: Scalar> ColumnPoisson<S> for Dynamic<S> {
     type Columns = Vec<S>;
 
     fn zero_columns(&self) -> Vec<S> {
-        let structure = &self.values.compiled.structure;
-        vec![S::zero(); 2 * structure.size * structure.indices.len()]
+        vec![S::zero(); self.values.compiled.structure.point]
     }
-    fn representation_size(&self) -> usize {
-        self.values.compiled.structure.size
+    fn column_size(&self) -> usize {
+        self.values.compiled.structure.column
     }
     fn columns(&self) -> Columns<'_> {
         Columns {

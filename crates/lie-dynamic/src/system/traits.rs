@@ -3,7 +3,7 @@
 use crate::compiled::Place;
 use crate::system::Dynamic;
 use lie_core::family::LateMatrix;
-use lie_core::{generic, lagrangian::legendre};
+use lie_core::{Clock, generic, lagrangian::legendre};
 use lie_runtime::scalar::Truncated;
 use lie_runtime::{
     CayleyPoisson, Dual, Expand, LiePoisson, Lift, Poisson, Scalar, Spectrum, Widen,
@@ -63,6 +63,9 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
     }
     fn poisson_degree(&self) -> Option<u32> {
         self.values.compiled.plan.system.poisson_degree
+    }
+    fn clock(&self) -> Option<Clock> {
+        self.values.compiled.plan.system.clock
     }
     fn following(&self, mu: &Vec<S>) -> Option<Self> {
         if !self.is_by_legendre() {

@@ -1,6 +1,6 @@
 //! Brackets and matrices of the larger algebra.
 
-use crate::model::configuration::{Configuration, TIME, TIME_MOMENTUM, UNIT, entry};
+use crate::model::configuration::{Configuration, TIME, TIME_BLOCK, TIME_MOMENTUM, UNIT, entry};
 use lie_symbolic::exact::Rational;
 use lie_syntax::ast::{Algebra, Bracket, Expr, ExprKind, Invariance, Matrix, Name};
 use lie_syntax::diagnostic::Origin;
@@ -93,7 +93,7 @@ impl Builder<'_> {
             Some(_) => 2 * size,
             None => size,
         };
-        let whole = blocks + 3 * usize::from(self.configuration.time);
+        let whole = blocks + TIME_BLOCK * usize::from(self.configuration.time);
         let left = self.invariance == Invariance::Left;
         let mut matrices: Vec<Matrix> = declared
             .iter()

@@ -169,6 +169,7 @@ impl Planner<'_> {
             system: System {
                 hamiltonian_degree: family.degree,
                 poisson_degree: None,
+                clock: None,
                 casimirs: Vec::new(),
                 energy: Energy::Expression,
                 derivatives: false,

@@ -2,6 +2,7 @@
 
 use super::DiscreteGradient;
 use super::resolution::{Mean, Rule, difference_serves, largest};
+use crate::clock::holds;
 use crate::matrix::SquareMatrix;
 use crate::poisson::Poisson;
 use crate::scalar::{Mask, Scalar};
@@ -10,7 +11,8 @@ use crate::state::State;
 /// The gradient at the midpoint `m = (x + y)/2`, corrected along `d = y - x`:
 ///
 /// `g(x, y) = grad H(m) + a d`, `a = (H(y) - H(x) - <grad H(m), d>)/<d, d>`, and `grad H(m)` where d
-/// is round-off of the state. Derivative in y:
+/// is round-off of the state. Where H depends on the time, d has no entry for the momentum of that, so that
+/// the time moves as it does. Derivative in y:
 /// `H''(m)/2 + a 1 + d (x) [(grad H(y) - grad H(m) - H''(m) d/2) - 2 a d]/<d, d>`.
 ///
 /// The numerator of a is `int_0^1 <grad H(x + s d) - grad H(m), d> ds`; which of the two forms is taken
@@ -35,14 +37,20 @@ impl<S: Scalar, P: Poisson<S>> GonzalezGradient<S, P> {
     fn correction(&mut self, system: &P, end: &P::State, out: &mut P::State) -> S {
         let half = S::ratio(1.0, 2.0);
         let (x, y) = (self.start.as_slice(), end.as_slice());
-        let size = largest(x.iter().chain(y).copied());
-        let length = largest(x.iter().zip(y).map(|(&x, &y)| y - x));
+        let size = self.size(system, end);
+        let momentum = system.clock().map(|clock| clock.momentum);
+        let moved = x.iter().zip(y).enumerate();
+        let moved = moved.filter(|(i, _)| Some(*i) != momentum);
+        let length = largest(moved.map(|(_, (&x, &y))| y - x));
         let flat = length.less_equal(S::epsilon() * size);
         self.length = S::select(flat, S::zero(), length);
         let inverse = S::one() / S::select(flat, S::one(), length);
         for index in 0..system.dimension() {
             self.middle.as_mut_slice()[index] = half * (x[index] + y[index]);
             self.direction.as_mut_slice()[index] = (y[index] - x[index]) * inverse;
+        }
+        if let Some(momentum) = momentum {
+            self.direction.as_mut_slice()[momentum] = S::zero();
         }
         system.gradient(&self.middle, out);
         let numerator = if self.rule.exact {
@@ -52,6 +60,15 @@ impl<S: Scalar, P: Poisson<S>> GonzalezGradient<S, P> {
         };
         let square = self.square(flat);
         S::select(flat, S::zero(), numerator / square)
+    }
+
+    /// The largest coordinate of both states.
+    fn size(&self, system: &P, end: &P::State) -> S {
+        let clock = system.clock();
+        let both = [self.start.as_slice(), end.as_slice()];
+        let entries = both.into_iter().flat_map(|state| state.iter().enumerate());
+        let counted = entries.filter(|(i, _)| !holds(clock, *i));
+        largest(counted.map(|(_, &entry)| entry))
     }
 
     /// The square of the direction, between 1 and n; 1 where the step is flat.
@@ -84,9 +101,11 @@ impl<S: Scalar, P: Poisson<S>> GonzalezGradient<S, P> {
 
     /// The same by whichever form keeps its digits, where H is no polynomial of known degree.
     fn numerator(&mut self, system: &P, end: &P::State, at_middle: &P::State, inverse: S) -> S {
-        let after = system.hamiltonian(end);
+        let after = system.energy(end);
         let (mut along, mut terms, mut size) = (S::zero(), S::zero(), S::zero());
-        for (index, &entry) in at_middle.as_slice().iter().enumerate() {
+        let momentum = system.clock().map(|clock| clock.momentum);
+        let entries = at_middle.as_slice().iter().enumerate();
+        for (index, &entry) in entries.filter(|(i, _)| Some(*i) != momentum) {
             along += entry * self.direction.as_slice()[index];
             terms += (entry * self.middle.as_slice()[index]).abs();
             size = size.max(entry.abs());
@@ -122,7 +141,7 @@ impl<S: Scalar, P: Poisson<S>> DiscreteGradient<S, P> for GonzalezGradient<S, P>
     fn set_start(&mut self, system: &P, start: &P::State) {
         self.start.copy_from(start);
         if !self.rule.exact {
-            self.energy = system.hamiltonian(start);
+            self.energy = system.energy(start);
         }
     }
 
@@ -144,13 +163,13 @@ impl<S: Scalar, P: Poisson<S>> DiscreteGradient<S, P> for GonzalezGradient<S, P>
         system.hessian(&self.middle, &mut self.hessian);
         // what the correction adds to the derivative is of the order of d; where that is below the
         // root of epsilon, so is its round-off, and neither counts
-        let (x, y) = (self.start.as_slice(), end.as_slice());
-        let size = largest(x.iter().chain(y).copied());
+        let size = self.size(system, end);
         let near = self.length.less_equal(S::epsilon().sqrt() * size);
         let inverse = S::one() / S::select(near, S::one(), self.length);
         let inverse = S::select(near, S::zero(), inverse);
         let square = self.square(near);
         let slope = correction * inverse;
+        let momentum = system.clock().map(|clock| clock.momentum);
         for row in 0..system.dimension() {
             let mut bent = self.gradient.as_slice()[row] - out.as_slice()[row];
             for column in 0..system.dimension() {
@@ -165,7 +184,7 @@ impl<S: Scalar, P: Poisson<S>> DiscreteGradient<S, P> for GonzalezGradient<S, P>
             for column in 0..system.dimension() {
                 let mut entry = half * self.hessian.get(row, column);
                 entry += along * self.point.as_slice()[column];
-                if row == column {
+                if row == column && momentum != Some(row) {
                     entry += slope;
                 }
                 derivative.set(row, column, entry);

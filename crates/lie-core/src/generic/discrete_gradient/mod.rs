@@ -38,11 +38,17 @@ pub trait DiscreteGradient<S: Scalar, P: Poisson<S>> {
 }
 
 /// `1/|d|` with `d = end - start`, and 0 where d is 0: what a fused discrete gradient multiplies by
-/// terms that vanish faster. Squares stay within the range of the scalar.
-pub fn inverse_length<S: Scalar, V: State<S>>(start: &V, end: &V) -> [S; 1] {
+/// terms that vanish faster. Squares stay within the range of the scalar. The momentum of the time does not count.
+pub fn inverse_length<S: Scalar, P: Poisson<S>>(
+    system: &P,
+    start: &P::State,
+    end: &P::State,
+) -> [S; 1] {
+    let momentum = system.clock().map(|clock| clock.momentum);
     let difference = || {
-        let pairs = end.as_slice().iter().zip(start.as_slice());
-        pairs.map(|(&end, &start)| end - start)
+        let pairs = end.as_slice().iter().zip(start.as_slice()).enumerate();
+        let counted = pairs.filter(move |(i, _)| Some(*i) != momentum);
+        counted.map(|(_, (&end, &start))| end - start)
     };
     let size = resolution::largest(difference());
     let flat = size.less_equal(S::zero());
