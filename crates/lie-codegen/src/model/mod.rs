@@ -1,5 +1,6 @@
 //! The checked model: everything that derivation and emission need, with no mistake left in it.
 
+mod bracket;
 mod casimir;
 pub mod configuration;
 mod family;
@@ -7,12 +8,12 @@ mod realization;
 
 use std::collections::HashSet;
 
-use crate::algebra::{Representation, StructureConstants};
-use lie_symbolic::exact::{Fraction, Rational};
+use lie_symbolic::exact::Rational;
 use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 use lie_syntax::ast::{Invariance, Name, RunOption};
 use lie_syntax::diagnostic::Origin;
 
+pub use bracket::{Algebra, Bracket, PoissonMatrix};
 pub use casimir::{Casimir, CasimirKind};
 pub use configuration::Configuration;
 pub use family::{Family, SiteSum, Size, Start};
@@ -114,77 +115,6 @@ pub struct Discrete {
     pub value: ExprId,
     /// Whether it was written in the entries of the group element, and so in Cayley coordinates.
     pub in_entries: bool,
-}
-
-/// What the bracket of a system is.
-#[derive(Clone, Debug)]
-pub enum Bracket {
-    /// The Lie–Poisson bracket of an algebra: `{mu_i, mu_j} = -C_ij^k mu_k`.
-    Lie(Algebra),
-    /// The same with a constant term, a cocycle of the algebra; the matrix is that of the sum.
-    Extended(Algebra, PoissonMatrix),
-    /// A Poisson matrix that was given entry by entry.
-    General(PoissonMatrix),
-}
-
-impl Bracket {
-    /// The algebra.
-    pub fn algebra(&self) -> Option<&Algebra> {
-        match self {
-            Bracket::Lie(algebra) | Bracket::Extended(algebra, _) => Some(algebra),
-            Bracket::General(_) => None,
-        }
-    }
-
-    /// The matrices of the algebra.
-    pub fn representation(&self) -> Option<&Representation> {
-        self.algebra()?.representation.as_ref()
-    }
-
-    /// The Poisson matrix, where structure constants do not say it all.
-    pub fn matrix(&self) -> Option<&PoissonMatrix> {
-        match self {
-            Bracket::Lie(_) => None,
-            Bracket::Extended(_, matrix) | Bracket::General(matrix) => Some(matrix),
-        }
-    }
-}
-
-/// A Lie algebra. Of a right-invariant declaration it is the opposite one, so that every model is left-invariant.
-#[derive(Clone, Debug)]
-pub struct Algebra {
-    /// Names of the basis.
-    pub basis: Vec<Name>,
-    /// Structure constants as rational functions of the parameters (variable `p` is parameter `p`).
-    pub exact: StructureConstants<Fraction>,
-    /// The same in the arena.
-    pub constants: StructureConstants<ExprId>,
-    /// The matrix representation.
-    pub representation: Option<Representation>,
-}
-
-/// The Poisson matrix `Pi_ij = {x_i, x_j}`.
-#[derive(Clone, Debug)]
-pub struct PoissonMatrix {
-    /// Number of coordinates n.
-    pub dimension: usize,
-    /// The entries `(i, j, Pi_ij)` above the diagonal, `i < j`, ascending, those that are not zero.
-    pub entries: Vec<(usize, usize, ExprId)>,
-    /// The largest total degree of an entry in the coordinates, where all are polynomials in them.
-    pub degree: Option<u32>,
-}
-
-impl PoissonMatrix {
-    /// All rows.
-    pub fn rows(&self, graph: &mut Graph) -> Vec<Vec<ExprId>> {
-        let zero = graph.integer(0);
-        let mut rows = vec![vec![zero; self.dimension]; self.dimension];
-        for (i, j, value) in &self.entries {
-            rows[*i][*j] = *value;
-            rows[*j][*i] = graph.neg(*value);
-        }
-        rows
-    }
 }
 
 /// A checked system.

@@ -3,6 +3,7 @@
 pub mod algebra;
 pub mod casimirs;
 mod completion;
+pub mod directions;
 pub mod exponential;
 pub mod family;
 pub mod found;
@@ -77,6 +78,8 @@ pub struct Structure {
     pub splitting: Arc<found::Searched>,
     /// The pieces of the H of a family, or why there are none; none of other systems.
     pub family_pieces: Option<Result<Arc<family::Pieces>, String>>,
+    /// Which pairs of coordinates are canonical, and which triples turn.
+    pub directions: Arc<directions::Directions>,
     /// Where branches of H meet.
     pub joints: Vec<Joint>,
     /// Constants of the motion, or why none are looked for; none where the effort is that for a declaration.
@@ -116,6 +119,7 @@ pub fn structure(mut model: Model, effort: Effort) -> Structure {
         found.map(Arc::new)
     });
     let motion = integrable::motion(&model, few);
+    let directions = Arc::new(directions::directions(&model));
     let joints = smoothness::joints(&model);
     let algebra = algebra::report(
         &model,
@@ -159,6 +163,7 @@ pub fn structure(mut model: Model, effort: Effort) -> Structure {
         pieces,
         splitting: Arc::new(splitting),
         family_pieces,
+        directions,
         joints,
         motions,
     }

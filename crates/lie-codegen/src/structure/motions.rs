@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, HashMap};
 use super::casimirs::solve::{
     Field as _, Functions, PRIMES, Prime, Sparse, cleared, drawn, kernel,
 };
-use crate::model::{Bracket, Casimir, Model};
+use crate::model::{Casimir, Model};
 use lie_symbolic::exact::{Budget, Exhausted, Fraction, Monomial, Polynomial, Rational};
 use lie_symbolic::prove::independence::{self, Standing};
 use lie_symbolic::symbolic::{ExprId, Graph, Node, Symbol};
@@ -128,19 +128,7 @@ fn field(model: &Model, graph: &mut Graph) -> Vec<ExprId> {
     let slopes: Vec<ExprId> = (0..n)
         .map(|i| graph.derivative(model.hamiltonian(), Symbol::Coordinate(i)))
         .collect();
-    let entries = match &model.bracket {
-        Bracket::Lie(algebra) => {
-            let constants = algebra.constants.entries().iter();
-            let entry = |(i, j, k, value): &(usize, usize, usize, ExprId)| {
-                // {mu_i, mu_j} = -C_ij^k mu_k
-                let mu = graph.symbol(Symbol::Coordinate(*k));
-                let value = graph.mul(*value, mu);
-                (*i, *j, graph.neg(value))
-            };
-            constants.map(entry).collect()
-        }
-        Bracket::Extended(_, matrix) | Bracket::General(matrix) => matrix.entries.clone(),
-    };
+    let entries = model.bracket.entries(graph);
     let mut terms: Vec<Vec<ExprId>> = vec![Vec::new(); n];
     for (i, j, value) in entries {
         terms[i].push(graph.mul(value, slopes[j]));

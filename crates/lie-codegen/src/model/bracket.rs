@@ -1,0 +1,99 @@
+//! Brackets: Lie algebras and Poisson matrices.
+
+use crate::algebra::{Representation, StructureConstants};
+use lie_symbolic::exact::Fraction;
+use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
+use lie_syntax::ast::Name;
+
+/// What the bracket of a system is.
+#[derive(Clone, Debug)]
+pub enum Bracket {
+    /// The Lie–Poisson bracket of an algebra: `{mu_i, mu_j} = -C_ij^k mu_k`.
+    Lie(Algebra),
+    /// The same with a constant term, a cocycle of the algebra; the matrix is that of the sum.
+    Extended(Algebra, PoissonMatrix),
+    /// A Poisson matrix that was given entry by entry.
+    General(PoissonMatrix),
+}
+
+impl Bracket {
+    /// The algebra.
+    pub fn algebra(&self) -> Option<&Algebra> {
+        match self {
+            Bracket::Lie(algebra) | Bracket::Extended(algebra, _) => Some(algebra),
+            Bracket::General(_) => None,
+        }
+    }
+
+    /// The matrices of the algebra.
+    pub fn representation(&self) -> Option<&Representation> {
+        self.algebra()?.representation.as_ref()
+    }
+
+    /// The Poisson matrix, where structure constants do not say it all.
+    pub fn matrix(&self) -> Option<&PoissonMatrix> {
+        match self {
+            Bracket::Lie(_) => None,
+            Bracket::Extended(_, matrix) | Bracket::General(matrix) => Some(matrix),
+        }
+    }
+
+    /// The entries `(i, j, {x_i, x_j})` above the diagonal, `i < j`, ascending, those that are not zero.
+    pub fn entries(&self, graph: &mut Graph) -> Vec<(usize, usize, ExprId)> {
+        let algebra = match self {
+            Bracket::Lie(algebra) => algebra,
+            Bracket::Extended(_, matrix) | Bracket::General(matrix) => {
+                return matrix.entries.clone();
+            }
+        };
+        let constants = algebra.constants.entries();
+        let pairs = constants.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1));
+        let entry = |pair: &[(usize, usize, usize, ExprId)]| {
+            let mut sum = Vec::new();
+            for (.., k, value) in pair {
+                let mu = graph.symbol(Symbol::Coordinate(*k));
+                let term = graph.mul(*value, mu);
+                sum.push(graph.neg(term));
+            }
+            (pair[0].0, pair[0].1, graph.sum(&sum))
+        };
+        pairs.map(entry).collect()
+    }
+}
+
+/// A Lie algebra. Of a right-invariant declaration it is the opposite one, so that every model is left-invariant.
+#[derive(Clone, Debug)]
+pub struct Algebra {
+    /// Names of the basis.
+    pub basis: Vec<Name>,
+    /// Structure constants as rational functions of the parameters (variable `p` is parameter `p`).
+    pub exact: StructureConstants<Fraction>,
+    /// The same in the arena.
+    pub constants: StructureConstants<ExprId>,
+    /// The matrix representation.
+    pub representation: Option<Representation>,
+}
+
+/// The Poisson matrix `Pi_ij = {x_i, x_j}`.
+#[derive(Clone, Debug)]
+pub struct PoissonMatrix {
+    /// Number of coordinates n.
+    pub dimension: usize,
+    /// The entries `(i, j, Pi_ij)` above the diagonal, `i < j`, ascending, those that are not zero.
+    pub entries: Vec<(usize, usize, ExprId)>,
+    /// The largest total degree of an entry in the coordinates, where all are polynomials in them.
+    pub degree: Option<u32>,
+}
+
+impl PoissonMatrix {
+    /// All rows.
+    pub fn rows(&self, graph: &mut Graph) -> Vec<Vec<ExprId>> {
+        let zero = graph.integer(0);
+        let mut rows = vec![vec![zero; self.dimension]; self.dimension];
+        for (i, j, value) in &self.entries {
+            rows[*i][*j] = *value;
+            rows[*j][*i] = graph.neg(*value);
+        }
+        rows
+    }
+}
