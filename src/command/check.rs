@@ -3,6 +3,7 @@
 mod casimirs;
 mod joints;
 mod motions;
+mod signs;
 mod splitting;
 mod structure;
 
@@ -12,7 +13,8 @@ use std::path::Path;
 use lie_codegen::methods::{Choice, refusal};
 use lie_codegen::structure::{Effort, Structure};
 use lie_in_process::report::{Report, sites};
-use lie_in_process::request::{Request, several};
+use lie_in_process::request::{self, Request, several};
+use lie_program::protocol::Start;
 use serde_json::Value;
 
 use super::{args, print};
@@ -48,7 +50,7 @@ pub fn run(arguments: &args::Check) -> Result<u8, Failure> {
                 if arguments.json {
                     reports.push(report.0.json(&spec.model));
                 } else {
-                    print(&report.text(&spec.model, path))?;
+                    print(&report.text(&spec, path))?;
                 }
             }
             Err(found) => {
@@ -86,20 +88,35 @@ fn defaults_of_run(spec: &Spec) -> Result<(), Vec<Message>> {
     several(spec, &Request::default()).map(|_| ())
 }
 
+/// The initial state of a spec, if it has one, where it says which way the time goes.
+fn start(spec: &Spec) -> Option<Start> {
+    if spec.model.directions.pairs.is_empty() {
+        return None;
+    }
+    let start = request::start(spec, &Request::default()).ok();
+    start.map(|start| start.named(spec))
+}
+
 /// A report in words.
 struct Words(Report);
 
 impl Words {
-    fn text(&self, model: &Structure, path: &Path) -> String {
-        let mut text = format!("{} ({})\n", model.name, path.display());
+    fn text(&self, spec: &Spec, path: &Path) -> String {
+        let mut text = format!("{} ({})\n", spec.model.name, path.display());
         // Writing to a string does not fail.
-        let _ = self.write(model, &mut text);
+        let _ = self.write(&spec.model, start(spec).as_ref(), &mut text);
         text.push('\n');
         text
     }
 
-    fn write(&self, model: &Structure, text: &mut String) -> std::fmt::Result {
+    fn write(
+        &self,
+        model: &Structure,
+        start: Option<&Start>,
+        text: &mut String,
+    ) -> std::fmt::Result {
         write_system(model, text)?;
+        signs::write(model, start, text)?;
         motions::write(model, text)?;
         splitting::write(model, &self.0.splitting, text)?;
         self.write_operations(text)?;

@@ -5,6 +5,8 @@ use std::io::Write as _;
 use std::path::PathBuf;
 
 use lie_codegen::compile::compile_spec;
+use lie_codegen::structure::Structure;
+use lie_codegen::structure::directions::Form;
 use lie_in_process::words::counted;
 use lie_syntax::diagnostic::Diagnostic;
 
@@ -31,8 +33,10 @@ pub fn run(arguments: &args::New) -> Result<u8, Failure> {
         return Err(Message::option("NAME", text).help(help).into());
     }
     let name = type_name(&arguments.name)?;
-    let coordinates = coordinates(&name, algebra)?;
-    let text = spec(&name, algebra, &coordinates);
+    let model = draft(&name, algebra)?;
+    let coordinates: Vec<String> = model.coordinates.iter().map(|c| c.text.clone()).collect();
+    let units = units(&model);
+    let text = spec(&name, algebra, &coordinates, &units);
     let path = PathBuf::from(format!("{}.json", arguments.name.trim_end_matches(".json")));
     let file = OpenOptions::new().write(true).create_new(true).open(&path);
     let written = file.and_then(|mut file| file.write_all(text.as_bytes()));
@@ -50,8 +54,9 @@ pub fn run(arguments: &args::New) -> Result<u8, Failure> {
     let path = path.display().to_string();
     let picture = format!("{}.svg", arguments.name.trim_end_matches(".json"));
     print(&format!(
-        "{path}: {} of {algebra}, with a kinetic energy\nnext: lie run {} --plot {}\n",
+        "{path}: {} of {algebra}, with a kinetic energy{}\nnext: lie run {} --plot {}\n",
         counted(coordinates.len() as u64, "coordinate"),
+        why(&units),
         shell::word(&path),
         shell::word(&picture)
     ))?;
@@ -79,19 +84,61 @@ fn type_name(file: &str) -> Result<String, Failure> {
     Err(message.help("take a name such as `spinning_top`").into())
 }
 
-/// The standard names of the coordinates of an algebra.
-fn coordinates(name: &str, algebra: &str) -> Result<Vec<String>, Failure> {
+/// The system with the standard names of the coordinates of an algebra, at rest.
+fn draft(name: &str, algebra: &str) -> Result<Structure, Failure> {
     let draft = serde_json::json!({
         "format": 1, "name": name, "algebra": algebra, "hamiltonian": "0",
     });
-    match compile_spec(&draft.to_string()) {
-        Ok(model) => Ok(model
-            .coordinates
-            .iter()
-            .map(|name| name.text.clone())
-            .collect()),
-        Err(mistakes) => Err(refused(algebra, mistakes.into_iter().next())),
+    let found = compile_spec(&draft.to_string());
+    found.map_err(|mistakes| refused(algebra, mistakes.into_iter().next()))
+}
+
+/// A coordinate that is the bracket of canonical pairs.
+struct Unit {
+    place: usize,
+    name: String,
+    /// Where it starts.
+    value: &'static str,
+    /// `{q, p} = -z`
+    bracket: String,
+}
+
+/// The coordinates on which the direction of time in canonical pairs depends, with the sign that makes it run forwards.
+fn units(model: &Structure) -> Vec<Unit> {
+    let mut units: Vec<Unit> = Vec::new();
+    let name = |k: usize| &model.coordinates[k].text;
+    for pair in &model.directions.pairs {
+        let Form::Multiple(place, negative) = model.directions.form(pair) else {
+            continue;
+        };
+        if units.iter().all(|unit| unit.place != place) {
+            let [q, p] = [pair.position, pair.momentum].map(name);
+            units.push(Unit {
+                place,
+                name: name(place).clone(),
+                value: if negative { "-1" } else { "1" },
+                bracket: format!("{{{q}, {p}}} = {}", model.directions.display(pair, model)),
+            });
+        }
     }
+    units
+}
+
+/// Why it starts from these units.
+fn why(units: &[Unit]) -> String {
+    let [first, rest @ ..] = units else {
+        return String::new();
+    };
+    let more = if rest.is_empty() { "" } else { ", and so on" };
+    let Unit {
+        name,
+        value,
+        bracket,
+        ..
+    } = first;
+    format!(
+        "; it starts from {name} = {value}{more}, since {bracket}: so mechanics runs forwards in time"
+    )
 }
 
 /// Why the name of an algebra is none.
@@ -107,7 +154,7 @@ fn refused(algebra: &str, mistake: Option<Diagnostic>) -> Failure {
 }
 
 /// A free body: the kinetic energy with different moments, begun off its axes.
-fn spec(name: &str, algebra: &str, coordinates: &[String]) -> String {
+fn spec(name: &str, algebra: &str, coordinates: &[String], units: &[Unit]) -> String {
     let few = coordinates.len() <= MOST_PARAMETERS;
     let (mut parameters, mut terms) = (Vec::new(), Vec::new());
     for (place, coordinate) in (0_u32..).zip(coordinates) {
@@ -125,16 +172,24 @@ fn spec(name: &str, algebra: &str, coordinates: &[String]) -> String {
             terms.push(format!("{factor}{coordinate}^2/{below}"));
         }
     }
-    let initial = (0_u32..).zip(coordinates).map(|(place, _)| {
-        let sign = if place % 2 == 0 { "" } else { "-" };
-        format!(r#""{sign}{}""#, fraction(5 - place % 4, 10))
-    });
+    let initial = (0_u32..)
+        .zip(0..coordinates.len())
+        .map(|(place, coordinate)| {
+            if let Some(unit) = units.iter().find(|unit| unit.place == coordinate) {
+                return format!("{:?}", unit.value);
+            }
+            let sign = if place % 2 == 0 { "" } else { "-" };
+            format!(r#""{sign}{}""#, fraction(5 - place % 4, 10))
+        });
     let initial: Vec<String> = initial.collect();
     let state: Vec<String> = coordinates.iter().map(|name| format!("{name:?}")).collect();
     let mut lines = vec![
         r#""format": 1"#.to_owned(),
         format!(r#""name": "{name}""#),
-        format!(r#""description": "A free body on the dual of {algebra}""#),
+        format!(
+            r#""description": "A free body on the dual of {algebra}{}""#,
+            why(units)
+        ),
         format!(r#""algebra": "{algebra}""#),
         format!(r#""state": [{}]"#, state.join(", ")),
     ];

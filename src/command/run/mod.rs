@@ -13,10 +13,12 @@ use std::sync::Arc;
 
 use lie_codegen::methods::Choice;
 use lie_codegen::program::{Purpose, program};
+use lie_in_process::report::signs;
 use lie_in_process::request::{Member, Plan, Several, several};
 use lie_syntax::diagnostic::Kind;
 
 use super::args;
+use super::fold::folded;
 use crate::build::talk::Worker;
 use crate::build::{self, Processor, Request};
 use crate::compiler::{self, Spec};
@@ -47,6 +49,11 @@ pub fn run(flags: &args::Run) -> Result<u8, Failure> {
     let kind = picture::kind(&spec, flags, &several, &layout)?;
     if !flags.quiet {
         render::print(&spec.warnings());
+        // each method starts from the same states
+        let first = several.members.iter().filter(|member| member.plan == 0);
+        if let Some(note) = signs::note(&spec.model, first.map(|member| &member.start)) {
+            eprintln!("{}", folded(&format!("note: {note}")));
+        }
     }
     let outputs = Outputs::open(flags)?;
     let interrupt = Interrupt::install();

@@ -2,6 +2,7 @@
 
 pub mod joints;
 pub mod motions;
+pub mod signs;
 pub mod splitting;
 mod structure;
 
@@ -77,6 +78,8 @@ impl Report {
             "dimension": sites * model.dimension(),
             "generic_rank": sites * model.generic_rank,
             "initial_rank": model.initial_rank,
+            "brackets": signs::brackets(model),
+            "canonical": signs::canonical(model),
             "casimirs": casimirs,
             "independent_casimirs": sites * (model.dimension() - model.generic_rank),
             "constants_of_motion": motions::json(model),
