@@ -4,10 +4,12 @@ use crate::arguments;
 use crate::declaration::Declaration;
 use crate::progress::Progress;
 use crate::talk::{Outcome, converse};
+use lie_codegen::structure::Structure;
 use lie_in_process::ensemble::Ensemble;
 use lie_in_process::members::Member;
+use lie_in_process::report::signs;
 use lie_in_process::request::{Request, plan};
-use lie_program::protocol::{End, Obstacle};
+use lie_program::protocol::{End, Obstacle, Start};
 use lie_runtime::driver::Pace;
 use numpy::{
     IntoPyArray, PyArray1, PyArray3, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods as _,
@@ -45,11 +47,12 @@ fn collected(width: usize, members: Vec<Member>) -> Found {
     }
 }
 
-/// The times, the states of members by rows, and why some ended early.
+/// The times, the states of members by rows, why some ended early, and what is to be noted of their starts.
 pub type Saved<'py> = (
     Bound<'py, PyArray1<f64>>,
     Bound<'py, PyArray3<f64>>,
     Vec<Failed>,
+    Option<String>,
 );
 
 /// Many trajectories, from the rows of an array.
@@ -79,6 +82,7 @@ pub fn ensemble<'py>(
         starts: rows(starts),
         threads,
     };
+    let note = declaration.with_model(py, |model| note(model, &ensemble));
     let mut members = Vec::new();
     let progress = Progress::new("members", progress);
     let outcome = py.detach(|| converse(&work, ensemble, progress, |found| members = found))?;
@@ -107,5 +111,17 @@ pub fn ensemble<'py>(
     let found = collected(starts.shape()[1], members);
     let shape = [starts.shape()[0], found.times.len(), starts.shape()[1]];
     let states = found.states.into_pyarray(py).reshape(shape)?;
-    Ok((found.times.into_pyarray(py), states, found.failures))
+    Ok((found.times.into_pyarray(py), states, found.failures, note))
+}
+
+/// What is to be noted of the starts.
+fn note(model: &Structure, ensemble: &Ensemble) -> Option<String> {
+    let names = model.parameters.iter().map(|parameter| &parameter.name);
+    // a row for each member, or one for all
+    let rows = ensemble.parameters.iter().cycle().zip(&ensemble.starts);
+    let starts = rows.map(|(values, state)| Start {
+        parameters: names.clone().cloned().zip(values.iter().copied()).collect(),
+        initial: state.clone(),
+    });
+    signs::note(model, starts.collect::<Vec<_>>().iter())
 }

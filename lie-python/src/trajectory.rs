@@ -5,6 +5,7 @@ use crate::declaration::Declaration;
 use crate::progress::Progress;
 use crate::talk::{Outcome, converse};
 use lie_codegen::program::Chart;
+use lie_in_process::report::signs;
 use lie_in_process::request::Request;
 use lie_program::protocol::{Columns, End, Found, Obstacle};
 use lie_runtime::driver::Pace;
@@ -73,6 +74,7 @@ pub fn run<'py>(
 ) -> PyResult<(Rows<'py>, Bound<'py, PyDict>)> {
     let (plan, run) = arguments::checked(py, declaration, request, arguments::run)?;
     let work = declaration.work(py, &plan.method, plan.chart)?;
+    let note = declaration.with_model(py, |model| signs::note(model, std::iter::once(&run.start)));
     let (dimension, casimirs) = (run.start.initial.len(), declaration.facts.casimirs.len());
     let mut heard = Heard::default();
     let progress = Progress::new("steps", progress);
@@ -107,6 +109,7 @@ pub fn run<'py>(
     found.set_item("method", plan.method.label())?;
     found.set_item("step", heard.step.unwrap_or(given))?;
     found.set_item("steps", heard.steps)?;
+    found.set_item("note", note)?;
     if let Some(error) = heard.missed {
         found.set_item("missed", error)?;
         found.set_item("tolerance", given)?;

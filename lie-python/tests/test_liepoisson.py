@@ -412,6 +412,27 @@ def test_a_missed_tolerance_is_said() -> None:
         top.run("rk4", tol=1e-3, t=400, every=1000)
 
 
+def test_mechanics_that_runs_backwards_is_said() -> None:
+    pendulum = lp.System(algebra="heisenberg(1)", hamiltonian="p^2/2 - cos(q)")
+    grid = {"h": 0.1, "t": 3}
+    note = r"{q, p} = -z is -1.0 at the initial state.*start from z < 0"
+    with pytest.warns(UserWarning, match=note) as said:
+        pendulum.run("gauss16", x0=[0.3, 1, 1], **grid)
+    assert len(said) == 1
+    starts = [[0.3, 1, 1], [0.3, 1, -1], [0.2, 1, 2]]
+    with pytest.warns(UserWarning, match="{q, p} = -z is negative in 2 of 3 runs"):
+        pendulum.ensemble(starts, "gauss4", **grid)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        run = pendulum.run("gauss16", x0=[0.3, 1, -1], **grid)
+        pendulum.ensemble(starts[1:2], "gauss4", **grid)
+    assert run["q"][-1] == pytest.approx(0.1089473932480415, abs=1e-12)
+    report = pendulum.check()
+    assert report.brackets == ["{q, p} = -z"]
+    assert [pair["forwards"] for pair in report.canonical] == ["z < 0"]
+    assert "mechanics runs forwards: z < 0" in repr(report)
+
+
 def test_a_file_is_loaded_by_load() -> None:
     with pytest.raises(TypeError, match=r"load\('top.json'\)"):
         lp.System("top.json")

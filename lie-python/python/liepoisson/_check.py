@@ -37,7 +37,8 @@ class Check:
     series, of centre and radical. ``killing``: the signature of the Killing form. The last four are ``None`` where there is
     no Lie algebra. ``constants_of_motion``: a list of :class:`Motion`, ``None`` where none were looked for. ``splitting``: the
     pieces of H with exact flows, each a list of terms, ``None`` where there are none. ``splitting_cost``: multiplications of a
-    step. ``operations``: additions, multiplications, divisions and calls of each kernel. ``methods``: by id, ``None`` or why
+    step. ``brackets``: the Poisson brackets of the state, as ``poisson`` takes them. ``canonical``: of each pair of position and
+    momentum its bracket, where mechanics runs ``forwards`` by it, and which way it does at the initial state. ``operations``: additions, multiplications, divisions and calls of each kernel. ``methods``: by id, ``None`` or why
     it does not apply. ``joints``: where branches of H meet. ``orders``: of methods across them, ``None`` without joints.
     ``warnings``: what is legal and looks wrong. ``json``: all of it as plain data.
     """
@@ -60,6 +61,8 @@ class Check:
         )
         self.splitting: list[list[str]] | None = found["splitting"]
         self.splitting_cost: dict[str, Any] | None = found["splitting_cost"]
+        self.brackets: list[str] = found["brackets"]
+        self.canonical: list[dict[str, Any]] = found["canonical"]
         self.operations: dict[str, dict[str, int]] = found["operations"]
         self.methods: dict[str, str | None] = found["methods"]
         self.joints: list[dict[str, Any]] = found["joints"]
@@ -80,6 +83,9 @@ class Check:
             lines.append((f"Casimir {casimir.name}", f"{casimir.expression} ({casimir.kind})"))
         if len(self.casimirs) < self.independent_casimirs:
             lines.append(("Casimirs", f"{len(self.casimirs)} of {self.independent_casimirs} known"))
+        for pair in self.canonical:
+            bracket = f"{{{pair['position']}, {pair['momentum']}}} = {pair['bracket']}"
+            lines.append((bracket, f"mechanics runs forwards: {pair['forwards']}"))
         for motion in self.constants_of_motion or []:
             lines.append(("constant of the motion", motion.expression))
         if self.splitting is not None:

@@ -73,7 +73,8 @@ class System(Declared):
         ``progress(steps, total, "steps")``; an exception that it raises ends the work. Nothing is printed otherwise, and a run of less than
         a tenth of a second may not call it.
 
-        Warnings: :class:`UserWarning` where the error at the end may be much larger than ``tol``.
+        Warnings: :class:`UserWarning` where the error at the end may be much larger than ``tol``, and where mechanics in a
+        canonical pair runs backwards in time, because of the sign of its bracket at the initial state.
 
         Errors: :class:`MethodError` for a method that does not apply, :class:`IntegrationError` with ``partial`` for a
         run that stopped early, :class:`ValueError` and :class:`TypeError` for arguments.
@@ -105,6 +106,8 @@ class System(Declared):
             elements = np.asarray(found["group"]).reshape(len(t_rows), -1)
             size = round(elements.shape[1] ** 0.5)
             solution.group = elements if found["quaternion"] else elements.reshape(-1, size, size)
+        if found["note"] is not None:
+            warnings.warn(found["note"], stacklevel=2)
         if "missed" in found:
             error = found["missed"]
             text = (
@@ -173,7 +176,10 @@ class System(Declared):
         table = table_of(self, parameters, len(starts))
         asked = self._asked(own, None, {})
         count = (os.cpu_count() or 1) if threads is None else whole(threads, "threads", 1)
-        rows, states, failures = self._core.ensemble(table, starts, asked, count, heard(progress))
+        found = self._core.ensemble(table, starts, asked, count, heard(progress))
+        rows, states, failures, note = found
+        if note is not None:
+            warnings.warn(note, stacklevel=2)
         states = self._visible(states)
         if every is None and at is None:
             # where none came to its end there is no row
