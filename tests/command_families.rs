@@ -335,3 +335,42 @@ fn a_file_that_is_no_state_is_refused_where_the_spec_names_it() {
     let run = lie(&format!("check {chain}")).error("schema", &format!("{chain}:9:"));
     assert!(run.stderr.contains("unknown key `seed`"), "{}", run.stderr);
 }
+
+/// A bond of a site with itself is no piece of a splitting: other methods take it.
+#[test]
+fn a_short_ring_says_what_runs_it() {
+    let folder = folder();
+    let path = folder.path().join("ring.json");
+    let text = std::fs::read_to_string(CHAIN).expect("the chain");
+    let mut spec: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    let mut run = |hamiltonian: Option<&str>, flags: &str| {
+        if let Some(hamiltonian) = hamiltonian {
+            spec["hamiltonian"] = hamiltonian.into();
+        }
+        std::fs::write(&path, spec.to_string()).expect("the spec");
+        lie(&format!(
+            "run {} --step 0.1 --until 0.2 {flags}",
+            path.display()
+        ))
+    };
+    for method in ["splitting4", "compose4(splitting2)"] {
+        let refused = run(None, &format!("--param N=1 --method {method}"));
+        let refused = refused.error("method", "command line: --method");
+        assert!(
+            refused.stderr.contains("on a ring of 1 site the bond"),
+            "{}",
+            refused.stderr
+        );
+        assert!(
+            refused.stderr.contains("use `--method gauss8`"),
+            "{}",
+            refused.stderr
+        );
+    }
+    run(None, "--param N=1 --method gauss8").ok();
+    run(None, "--param N=3 --method splitting4").ok();
+    let next = Some("sum(i in 0..N: x[i]*y[i+2])");
+    run(next, "--param N=2 --method splitting4").error("method", "command line: --method");
+    run(next, "--param N=2 --method gauss8").ok();
+    run(next, "--param N=3 --method splitting4").ok();
+}

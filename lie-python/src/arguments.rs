@@ -77,10 +77,12 @@ pub fn start(spec: &Spec, request: &Request) -> Result<Start, Vec<Message>> {
 
 /// How it runs, with the mistakes of both.
 pub fn run(spec: &Spec, request: &Request) -> Result<(Plan, Run), Vec<Message>> {
-    match (request::plan(spec, request), start(spec, request)) {
+    match (request::plan(spec, request), request::start(spec, request)) {
         (Ok(plan), Ok(start)) => {
-            let run = plan.run(start);
-            Ok((plan, run))
+            let (method, values) = (&plan.method, &start.parameters);
+            let bound = request::bound_to_itself(&spec.model, method, values, request.front);
+            let run = plan.run(start.named(spec));
+            bound.map_or(Ok((plan, run)), |message| Err(vec![message]))
         }
         (plan, start) => {
             let mistakes = start.err().into_iter().chain(plan.err());

@@ -37,7 +37,13 @@ mod tests {
         let heads = TEXT.lines().filter(|line| line.starts_with('[')).count();
         // two lines of explanation before the first table
         assert_eq!(rows + empty + heads + 2, TEXT.lines().count());
-        for name in ["words of other tools", "functions", "signs", "letters"] {
+        for name in [
+            "words of other tools",
+            "functions",
+            "no such keys",
+            "signs",
+            "letters",
+        ] {
             assert!(table(name).next().is_some(), "{name}");
         }
     }

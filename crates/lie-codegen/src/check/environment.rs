@@ -47,6 +47,8 @@ pub enum Allowed {
 #[derive(Debug, Default)]
 pub struct Environment<'a> {
     bindings: HashMap<&'a str, Binding>,
+    /// The coordinates of the basis elements.
+    duals: HashMap<&'a str, &'a str>,
     functions: &'a [OwnFunction],
 }
 
@@ -115,8 +117,12 @@ impl<'a> Environment<'a> {
         for name in declaration.basis() {
             bindings.entry(name.text.as_str()).or_insert(Binding::Basis);
         }
+        let duals = declaration.basis().iter().zip(&declaration.state);
         Self {
             bindings,
+            duals: duals
+                .map(|(e, x)| (e.text.as_str(), x.text.as_str()))
+                .collect(),
             functions: &declaration.functions,
         }
     }
@@ -146,6 +152,19 @@ impl<'a> Environment<'a> {
             (Kind::ReservedName, on_time())
         } else {
             let declared = self.get(name).and_then(|b| misplaced(name, b, allowed));
+            let declared = declared.map(|(message, help)| match self.duals.get(name) {
+                Some(dual)
+                    if self.get(name) == Some(Binding::Basis) && allowed == Allowed::State =>
+                {
+                    (
+                        message,
+                        format!(
+                            "{help}, `{dual}`; a parameter needs a name that no basis element has"
+                        ),
+                    )
+                }
+                _ => (message, help),
+            });
             let mistake = declared.unwrap_or_else(|| self.undeclared(name, allowed));
             (Kind::UnknownSymbol, mistake)
         };
@@ -171,7 +190,10 @@ impl<'a> Environment<'a> {
             return (message, format!("write `{latin}`"));
         }
         let bindings = self.bindings.iter();
-        let candidates = bindings.filter(|(_, b)| usable(b)).map(|(n, _)| *n);
+        // sums of a family stand under names that nobody can write
+        let written = |name: &str| !name.contains(' ');
+        let candidates = bindings.filter(|(n, b)| usable(b) && written(n));
+        let candidates = candidates.map(|(n, _)| *n);
         let mut candidates: Vec<&str> = candidates.collect();
         candidates.sort_unstable();
         candidates.push("pi");
@@ -207,6 +229,7 @@ impl<'a> Environment<'a> {
         for (name, binding) in &self.bindings {
             if let Binding::Symbol(symbol @ Symbol::Coordinate(_)) = binding
                 && allowed.permits(*symbol)
+                && !name.contains(' ')
             {
                 names.push((*symbol, name));
             }

@@ -11,6 +11,9 @@ const TYPES: &[&str] = &[
     "S", "bool", "char", "f32", "f64", "i8", "i16", "i32", "i64", "i128", "isize", "str", "u8",
     "u16", "u32", "u64", "u128", "usize",
 ];
+/// So many elements of a basis are listed.
+const MOST_LISTED: usize = 8;
+
 /// Every bad name.
 ///
 /// Basis and state are separate name spaces, because elements of the algebra and coordinates of
@@ -68,6 +71,7 @@ pub fn name_spaces(declaration: &Declaration) -> Vec<Diagnostic> {
     }
     // A Casimir is a column beside the coordinates, but no expression refers to it.
     let mut columns = dual.clone();
+    let others = parameters.clone().chain(lets.clone());
     for name in parameters {
         declare(
             &mut [&mut algebra, &mut dual],
@@ -87,7 +91,41 @@ pub fn name_spaces(declaration: &Declaration) -> Vec<Diagnostic> {
     for name in casimirs {
         declare(&mut [&mut columns], name, "Casimir", &mut mistakes);
     }
+    // the basis of an algebra by its name stands where that name does: nobody wrote its elements
+    if let [first, second, ..] = basis
+        && first.origin == second.origin
+    {
+        let of_basis = |name: &&Name| basis.iter().any(|element| element.text == name.text);
+        for name in others.filter(of_basis) {
+            let of_name = |mistake: &&mut Diagnostic| mistake.origin == Some(name.origin);
+            let found = mistakes.iter_mut().find(of_name);
+            if let Some(mistake) = found.filter(|m| m.kind == Kind::DuplicateName) {
+                explain(mistake, name, basis);
+            }
+        }
+    }
     mistakes
+}
+
+/// Says where a name comes from that an algebra by its name brings along.
+fn explain(mistake: &mut Diagnostic, name: &Name, basis: &[Name]) {
+    let elements: Vec<&str> = basis
+        .iter()
+        .take(MOST_LISTED)
+        .map(|e| e.text.as_str())
+        .collect();
+    let more = if basis.len() > MOST_LISTED {
+        ", …"
+    } else {
+        ""
+    };
+    let elements = elements.join(", ");
+    mistake.message +=
+        &format!(": the algebra, which is given by its name, has the basis {elements}{more}");
+    mistake.help = Some(format!(
+        "choose another name, such as `{}_`; or name the basis, as in {{\"named\": \"se(3)\", \"basis\": [\"L1\", …]}}",
+        name.text
+    ));
 }
 
 /// What is called as the step size, which a discrete Lagrangian contains.

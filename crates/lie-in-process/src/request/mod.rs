@@ -30,6 +30,7 @@ pub use option_value::{OptionValue, constant};
 pub use plan::{Plan, Point, plan, start};
 pub use runs::{Labels, Member, Several};
 pub use several::several;
+pub use sites::bound_to_itself;
 pub use value::{Parameter, Value};
 
 /// The options with one value each, words or quantities: field, name as in the spec, what the value is called on the

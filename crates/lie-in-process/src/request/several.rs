@@ -4,6 +4,7 @@ use lie_program::protocol::Start;
 use lie_syntax::diagnostic::Kind;
 
 use super::plan::{Foreign, Planned, Planner, planned};
+use super::sites::bound_to_itself;
 use super::states::{States, states};
 use super::{Front, Labels, Member, OptionValue, Parameter, Plan, Point, Request, Several, Value};
 use crate::message::Message;
@@ -55,6 +56,13 @@ pub fn several(spec: &Spec, request: &Request) -> Result<Several, Vec<Message>> 
     };
     if plans.len() * points.len() > MOST {
         return Err(vec![too_many(request.front, plans.len() * points.len())]);
+    }
+    let bound = |plan: &Plan| {
+        let mut points = points.iter().map(|(_, point)| &point.parameters);
+        points.find_map(|values| bound_to_itself(&spec.model, &plan.method, values, request.front))
+    };
+    if let Some(message) = plans.iter().find_map(bound) {
+        return Err(vec![message]);
     }
     let starts: Vec<(Vec<f64>, Start)> = points
         .into_iter()

@@ -2,10 +2,13 @@
 
 use std::path::Path;
 
+use lie_codegen::methods::Choice;
 use lie_codegen::model::{Family, Start};
+use lie_codegen::structure::Structure;
 use lie_runtime::family::unit_spheres;
 use lie_syntax::diagnostic::{Kind, Origin};
 
+use super::Front;
 use super::npy::{self, Array};
 use super::plan::Planner;
 use crate::message::{Fault, Message, Place};
@@ -108,6 +111,36 @@ impl Planner<'_> {
         }
         Some(state)
     }
+}
+
+/// Why a splitting of a family does not run where these are the parameters: its pieces turn two sites by each other, which
+/// are one on a short ring.
+pub fn bound_to_itself(
+    model: &Structure,
+    choice: &Choice,
+    parameters: &[f64],
+    front: Front,
+) -> Option<Message> {
+    let splits = matches!(choice.solved(), Choice::Splitting(..));
+    let family = model.family.as_ref().filter(|_| splits)?;
+    let [rows, columns] = family.sites(parameters)?.map(|size| size as i64);
+    let pieces = &model.family_pieces.as_ref()?.as_ref().ok()?.pieces;
+    let piece = pieces.iter().find(|piece| {
+        let [down, right] = piece.offset;
+        [down, right] != [0, 0] && down % rows == 0 && right % columns == 0
+    })?;
+    let sites = match rows {
+        1 => counted(columns as u64, "site"),
+        _ => format!("{rows} x {columns} sites"),
+    };
+    let text = format!(
+        "on a ring of {sites} the bond `{}` joins a site to itself, and has no piece of a splitting",
+        piece.describe(model)
+    );
+    let other = front.assignment("method", "gauss8");
+    let help = format!("use {other}, which needs no pieces, or take another number of sites");
+    let message = Message::new(Kind::Method, text).at_option(&front.option("method"));
+    Some(message.help(help))
 }
 
 /// The state of a family in an array: a row for each site, or one-dimensional in the order of the state.

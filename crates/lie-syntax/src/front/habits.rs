@@ -37,6 +37,11 @@ pub fn without(name: &str) -> Option<&'static str> {
     hints::lookup_word("no such functions", name)
 }
 
+/// Why a declaration has no such key, and what to write.
+pub fn key(name: &str) -> Option<&'static str> {
+    hints::lookup_word("no such keys", &name.to_lowercase())
+}
+
 /// Why there is no such sign.
 pub fn sign(c: char) -> Option<&'static str> {
     hints::lookup_character("no such signs", c)

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use super::habits;
 use super::json::{Member, Type, Value};
 use super::text::Source;
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
@@ -37,10 +38,16 @@ impl<'a> Object<'a> {
             } else if keys.contains(&key) {
                 members.push(member);
             } else {
-                let near = meant(key, keys.iter().copied());
-                let help = match near {
-                    Some(near) => format!("did you mean `{near}`?"),
-                    None => format!("the keys of {what} are {}", keys.join(", ")),
+                // other objects have keys of their own
+                let foreign = habits::key(key).filter(|_| keys.contains(&"hamiltonian"));
+                let near = match foreign {
+                    Some(_) => None,
+                    None => meant(key, keys.iter().copied()),
+                };
+                let help = match (foreign, near) {
+                    (Some(why), _) => why.to_owned(),
+                    (None, Some(near)) => format!("did you mean `{near}`?"),
+                    (None, None) => format!("the keys of {what} are {}", keys.join(", ")),
                 };
                 error(
                     format!("unknown key `{}` in {what}", key.escape_debug()),

@@ -6,6 +6,13 @@ use super::bounds::{self, Span};
 use lie_syntax::ast::{Declaration, Expr, ExprKind, Family, Index, Name};
 use lie_syntax::diagnostic::{Diagnostic, Kind, Origin};
 
+/// What to do where sites differ.
+const WRITTEN_OUT: &str = "for a few sites write the copies out: an algebra such as `so(3)^16` and no index in the state, so that the \
+                           coordinates are x1, y1, z1, x2, …, and each term has a coefficient of its own";
+
+/// Names for the index of a sum.
+const INDICES: [&str; 6] = ["i", "j", "k", "l", "m", "site"];
+
 /// A sum as it was written.
 pub struct Collected {
     /// The distances of all sites that a summand or the motion of a site depends on.
@@ -184,6 +191,16 @@ impl<'a> Sums<'a> {
                 mistakes.push(self.without_index(name, part.origin));
                 None
             }
+            ExprKind::Name { name, index: None }
+                if reading.variables.iter().any(|v| v.text == *name) =>
+            {
+                let message = format!(
+                    "`{name}` is the index of the sum and no number: the coefficients of a family are the same at all sites"
+                );
+                let mistake = Diagnostic::new(Kind::UnknownSymbol, part.origin, message);
+                mistakes.push(mistake.help(WRITTEN_OUT));
+                None
+            }
             ExprKind::Name {
                 name,
                 index: Some(index),
@@ -213,10 +230,15 @@ impl<'a> Sums<'a> {
         let declaration = self.declaration;
         let parameters = declaration.parameters.iter().map(|p| &p.name);
         let lets = declaration.lets.iter().map(|(name, _)| name);
-        let mut taken = declaration.state.iter().chain(parameters).chain(lets);
-        if taken.any(|name| name.text == index.text) {
+        let taken = declaration.state.iter().chain(parameters).chain(lets);
+        if taken.clone().any(|name| name.text == index.text) {
             let message = format!("the index `{}` is the name of something else", index.text);
-            let help = "give the index another name, such as `i`";
+            let is_taken = |free: &&str| taken.clone().any(|name| name.text == **free);
+            let mut names = INDICES.into_iter().filter(|free| !is_taken(free));
+            let free = names.next().unwrap_or("site");
+            let help = format!(
+                "give the index another name, such as `{free}`; it counts sites, and no coefficient depends on it"
+            );
             mistakes.push(Diagnostic::new(Kind::DuplicateName, index.origin, message).help(help));
             return None;
         }
@@ -238,9 +260,10 @@ impl<'a> Sums<'a> {
         };
         if !self.is_coordinate(name) {
             let message = format!("`{name}` has an index and is no coordinate");
-            let help =
-                "only the names of the state have indices; a parameter is the same for all sites";
-            return fail(Kind::UnknownSymbol, message, help.into());
+            let help = format!(
+                "only the names of the state have indices; a parameter is the same for all sites: {WRITTEN_OUT}"
+            );
+            return fail(Kind::UnknownSymbol, message, help);
         }
         let indices: Vec<&Index> =
             std::iter::successors(Some(index), |i| i.second.as_deref()).collect();

@@ -17,6 +17,7 @@ mod own_functions;
 mod poisson;
 mod random;
 mod realization;
+mod remedies;
 mod soundness;
 mod tables;
 

@@ -131,7 +131,7 @@ fn names_say_what_is_a_position() {
 #[test]
 fn vectors_that_turn() {
     let turns = |keys: Value| -> Vec<([usize; 3], i64)> {
-        let found = system(&keys).directions.turns;
+        let found = system(&keys).directions.turns.clone();
         let turns = found.into_iter();
         turns
             .map(|turn| (turn.coordinates, turn.scale.to_integer().unwrap()))
@@ -142,8 +142,8 @@ fn vectors_that_turn() {
     assert_eq!(of("so(3)^2"), [([0, 1, 2], -1), ([3, 4, 5], -1)]);
     assert_eq!(of("se(3)"), [([0, 1, 2], -1)]);
     assert_eq!(of("so(3) + heisenberg(1)"), [([0, 1, 2], -1)]);
-    assert_eq!(of("so(4)"), []);
-    assert_eq!(of("sl(2)"), []);
+    assert!(of("so(4)").is_empty());
+    assert!(of("sl(2)").is_empty());
     let right = json!({ "algebra": "so(3)", "invariance": "right" });
     assert_eq!(turns(right), [([0, 1, 2], 1)]);
     let spin = json!({ "state": ["x", "y", "z"], "poisson": ["{x, y} = 2*z", "{y, z} = 2*x", "{z, x} = 2*y"] });

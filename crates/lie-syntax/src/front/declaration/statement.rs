@@ -2,6 +2,7 @@
 
 use super::entry::{Entry, docs, inside, split};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
+use crate::front::habits;
 use crate::front::reader::Line;
 use crate::front::token::{Cursor, Delimiter, Token, TokenKind, render};
 use crate::suggest::meant;
@@ -231,7 +232,8 @@ fn fits(cursor: &Cursor<'_>, keyword: &str) -> bool {
 fn unknown(token: &Token, next: Option<&Token>) -> Diagnostic {
     let text = render(std::slice::from_ref(token));
     let words = || KEYWORDS.iter().map(|(word, _)| *word);
-    let help = match meant(&text, words()) {
+    let foreign = habits::key(&text).map(str::to_owned);
+    let help = foreign.unwrap_or_else(|| match meant(&text, words()) {
         Some(near) => format!("did you mean `{near}`?"),
         None if token.kind == TokenKind::Open(Delimiter::Bracket) || text == "basis" => {
             "brackets and `basis` stand inside `algebra { … }`".into()
@@ -243,7 +245,7 @@ fn unknown(token: &Token, next: Option<&Token>) -> Diagnostic {
             "statements begin with {}",
             words().collect::<Vec<_>>().join(", ")
         ),
-    };
+    });
     Diagnostic::new(
         Kind::Syntax,
         token.origin,

@@ -25,9 +25,25 @@ impl Parser<'_, '_> {
                 "write `tangent(A)` with an algebra A",
             );
         };
+        let text = render(algebra);
         let algebra = direct_sum(self.deeper(algebra, place)?);
-        let fits = self.fits(2 * algebra.dimension(), place);
-        fits.then(|| tangent(algebra))
+        if !self.fits(2 * algebra.dimension(), place) {
+            return None;
+        }
+        let tangent = tangent(algebra);
+        let mut names: Vec<&String> = tangent.basis.iter().collect();
+        names.sort_unstable();
+        if let Some(twice) = names.windows(2).find(|pair| pair[0] == pair[1]) {
+            let message = format!(
+                "two elements of `tangent({text})` would be called `{}`: a `d` stands before the names of an algebra that has such names already",
+                twice[0]
+            );
+            let help = format!(
+                "write `semidirect({text}, adjoint)`, the same algebra with P1, P2, … and p1, p2, … for what is added"
+            );
+            return self.fail(Kind::DuplicateName, place, message, &help);
+        }
+        Some(tangent)
     }
 
     /// `semidirect(A, R^n, …)`

@@ -20,6 +20,11 @@ pub fn read(value: Value<'_>, report: &mut Report) -> Parameters {
         let name = item::name(&member.key.tokens(), member.key.extent(), report);
         let what = format!("the parameter `{}`", member.key.text.escape_debug());
         parameters.names.extend(name.clone());
+        if let Some(list) = list(member.value) {
+            let message = format!("{what} is one number, not a list");
+            report.push(Diagnostic::new(Kind::Schema, list.head(), message).help(LIST));
+            continue;
+        }
         let parameter = if member.value.kind() == Type::Object {
             described(member.value, &what, name, report)
         } else {
@@ -36,6 +41,27 @@ pub fn read(value: Value<'_>, report: &mut Report) -> Parameters {
         parameters.whole.extend(parameter);
     }
     parameters
+}
+
+/// What to do in place of a list of values.
+const LIST: &str = "declare a parameter for each entry, such as `B1`, `B2`, `B3`; those of a family are the same at all sites: \
+                    for a few sites write the copies out, `\"algebra\": \"so(3)^3\"` without an index in the state, so that the \
+                    coordinates are x1, y1, z1, x2, …";
+
+/// The list that somebody gives as the value of a parameter, alone or in an object.
+fn list(value: Value<'_>) -> Option<Value<'_>> {
+    let mut ignored = Report::new();
+    let inner = match value.kind() {
+        Type::Object => value.members(&mut ignored).into_iter().find_map(|member| {
+            let key = &*member.key.text;
+            ["values", "value", "default"]
+                .contains(&key)
+                .then_some(member.value)
+        }),
+        _ => Some(value),
+    };
+    ignored.ignore("the object is read again");
+    inner.filter(|value| value.kind() == Type::Array)
 }
 
 fn described(

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::scalars::{minus, multiply, number, plus, root, square, times};
-use super::shapes::{self, Operand, mistake, no_scalar, text};
+use super::shapes::{self, Operand, each, form, mistake, no_quotient, no_scalar, text};
 use super::{Value, Vectors, arity, too_large};
 use crate::ast::{Expr, ExprKind, Index};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
@@ -76,7 +76,15 @@ impl Expansion<'_> {
                 return Ok(each(value, |entry| minus(entry, origin)));
             }
             ExprKind::Power(a, b) => {
-                ExprKind::Power(Box::new(self.scalar(a)?), Box::new(self.scalar(b)?))
+                let base = match self.value(a)? {
+                    Value::Scalar(base) => base,
+                    value @ Value::Matrix(_) if matches!(b.kind, ExprKind::Negative(_)) => {
+                        let whole = Operand::new(expression);
+                        return Err(no_quotient(&whole, &Operand::new(a), &value).into());
+                    }
+                    value => return Err(no_scalar(&Operand::new(a), &value).into()),
+                };
+                ExprKind::Power(Box::new(base), Box::new(self.scalar(b)?))
             }
             ExprKind::Sum(terms) => return self.sum(expression, terms),
             ExprKind::Product(factors) => return self.product(expression, factors),
@@ -194,9 +202,8 @@ impl Expansion<'_> {
                 value => {
                     let operand = Operand::new(factor);
                     if *divides {
-                        let help = "divide by a scalar, such as norm(v)";
-                        let shapes = [(&operand, &value)];
-                        return Err(mistake(&Operand::new(whole), shapes, help).into());
+                        let whole = Operand::new(whole);
+                        return Err(no_quotient(&whole, &operand, &value).into());
                     }
                     if tensors.is_empty() {
                         before = scalars.len();
@@ -374,26 +381,5 @@ fn indexed(entry: &mut Expr, index: &Index, sites: &BTreeSet<String>) -> bool {
         }
         ExprKind::Call { arguments, .. } => all(&mut arguments.iter_mut()),
         ExprKind::IndexedSum { body, .. } => all(&mut [&mut **body].into_iter()),
-    }
-}
-
-/// Rows and columns; no columns of a vector, neither of a scalar.
-fn form(value: &Value) -> (usize, usize) {
-    match value {
-        Value::Scalar(_) => (0, 0),
-        Value::Vector(entries) => (entries.len(), 0),
-        Value::Matrix(rows) => (rows.len(), rows[0].len()),
-    }
-}
-
-fn each(value: Value, mut change: impl FnMut(Expr) -> Expr) -> Value {
-    match value {
-        Value::Scalar(entry) => Value::Scalar(change(entry)),
-        Value::Vector(entries) => Value::Vector(entries.into_iter().map(change).collect()),
-        Value::Matrix(rows) => {
-            let rows = rows.into_iter();
-            let rows = rows.map(|row| row.into_iter().map(&mut change).collect());
-            Value::Matrix(rows.collect())
-        }
     }
 }

@@ -4,6 +4,7 @@ use super::Value;
 use crate::ast::{Expr, ExprKind, Index};
 use crate::characters::excerpt;
 use crate::diagnostic::{Diagnostic, Kind, LONGEST_QUOTE, Origin};
+use crate::front::habits;
 
 /// What stands between a text and its shape, taken before the expression is expanded.
 pub struct Operand {
@@ -114,5 +115,36 @@ fn operand(expression: &Expr) -> String {
         ExprKind::Name { .. } | ExprKind::Call { .. } => text,
         ExprKind::Number(_) if !text.contains(['/', '-']) => text,
         _ => format!("({text})"),
+    }
+}
+
+/// A vector or a matrix by which something is divided, or a matrix in a negative power.
+pub fn no_quotient(whole: &Operand, operand: &Operand, value: &Value) -> Diagnostic {
+    let help = match value {
+        Value::Matrix(_) => habits::without("inv").unwrap_or_default(),
+        _ => "divide by a scalar, such as norm(v)",
+    };
+    mistake(whole, [(operand, value)], help)
+}
+
+/// Rows and columns; no columns of a vector, neither of a scalar.
+pub fn form(value: &Value) -> (usize, usize) {
+    match value {
+        Value::Scalar(_) => (0, 0),
+        Value::Vector(entries) => (entries.len(), 0),
+        Value::Matrix(rows) => (rows.len(), rows[0].len()),
+    }
+}
+
+/// The same with each entry changed.
+pub fn each(value: Value, mut change: impl FnMut(Expr) -> Expr) -> Value {
+    match value {
+        Value::Scalar(entry) => Value::Scalar(change(entry)),
+        Value::Vector(entries) => Value::Vector(entries.into_iter().map(change).collect()),
+        Value::Matrix(rows) => {
+            let rows = rows.into_iter();
+            let rows = rows.map(|row| row.into_iter().map(&mut change).collect());
+            Value::Matrix(rows.collect())
+        }
     }
 }
