@@ -16,6 +16,16 @@ use crate::message::{Message, Place};
 /// minified file is cut away before anything measures it.
 const WINDOW: usize = 2000;
 
+/// Says something on stderr, in a line of its own.
+pub fn say(text: &str) {
+    say_all(&format!("{}\n", text.trim_end_matches('\n')));
+}
+
+/// Says whole lines on stderr, or nothing. Nobody is left to hear that stderr is closed.
+pub fn say_all(lines: &str) {
+    let _ = std::io::stderr().lock().write_all(lines.as_bytes());
+}
+
 /// Prints messages to stderr, in colour on a terminal.
 pub fn print(messages: &[Message]) {
     let renderer = renderer();
@@ -27,8 +37,7 @@ pub fn print(messages: &[Message]) {
     if let Some(rest) = not_shown(messages.len()) {
         text.push_str(&format!("note: {rest}\n"));
     }
-    // Nobody is left to hear that stderr is closed.
-    let _ = std::io::stderr().lock().write_all(text.as_bytes());
+    say_all(&text);
 }
 
 fn renderer() -> Renderer {
@@ -51,7 +60,7 @@ pub fn stopped(text: &str, remedy: &str) {
         text.push_str(&renderer.render(&[Group::with_title(help)]));
     }
     text.push('\n');
-    let _ = std::io::stderr().lock().write_all(text.as_bytes());
+    say_all(&text);
 }
 
 /// One message as text that ends with a newline.

@@ -29,6 +29,7 @@ use lie_syntax::diagnostic::Kind;
 
 use crate::interrupt::Interrupt;
 use crate::message::{Failure, Message};
+use crate::render;
 pub use cache::{failure as cache_failure, place as cache_place};
 use cause::Cause;
 use entry::Entry;
@@ -166,7 +167,7 @@ fn lock(cache: &Path, quiet: bool) -> Result<File, Failure> {
         Ok(()) => Ok(file),
         Err(TryLockError::WouldBlock) => {
             if !quiet {
-                eprintln!("Waiting for another `lie` that is building…");
+                render::say("Waiting for another `lie` that is building…");
             }
             file.lock().map_err(failure)?;
             Ok(file)
@@ -202,7 +203,7 @@ fn build(
 
     let say = |text: &str| {
         if !request.quiet {
-            eprintln!("{text}");
+            render::say(text);
         }
     };
     let start = Instant::now();

@@ -200,7 +200,7 @@ impl Bed {
 /// A signal in words.
 pub fn interrupted(flags: &Measured, code: u8) -> u8 {
     if !flags.quiet {
-        eprintln!("Interrupted; what was measured so far is shown.");
+        render::say("Interrupted; what was measured so far is shown.");
     }
     code
 }

@@ -20,6 +20,7 @@ use crate::command::fold::folded;
 use crate::command::{args, print};
 use crate::interrupt::Interrupt;
 use crate::message::{Failure, Message};
+use crate::render;
 
 /// The facts that are measured at the step itself: an order takes many steps, the iteration others of its own.
 const SINGLE: [&str; 7] = [
@@ -75,7 +76,7 @@ pub fn run(arguments: &args::Verify) -> Result<u8, Failure> {
     }
     let failures = results.failures();
     for failure in &failures {
-        eprintln!("failed: {failure}");
+        render::say(&format!("failed: {failure}"));
     }
     Ok(u8::from(!failures.is_empty()))
 }

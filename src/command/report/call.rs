@@ -9,6 +9,7 @@ use lie_syntax::diagnostic::Kind;
 use super::Report;
 use crate::command::{args, shell};
 use crate::message::{Failure, INVALID, Message, SURROUNDINGS};
+use crate::render;
 
 /// The options of a run that were given.
 fn of_run(flags: &args::Report) -> Vec<String> {
@@ -68,7 +69,7 @@ impl Report<'_> {
         if let Some((_, said)) = &called
             && said.code == INVALID
         {
-            eprint!("{}", said.error);
+            render::say(&said.error);
             return Err(Failure {
                 messages: Vec::new(),
                 code: INVALID,

@@ -6,6 +6,8 @@ use std::time::{Duration, Instant};
 
 use indicatif::{HumanCount, ProgressBar, ProgressState, ProgressStyle};
 
+use crate::render;
+
 /// A run of this length shows how far it is.
 const LONG: Duration = Duration::from_millis(700);
 /// The bar moves also where no news come.
@@ -80,10 +82,10 @@ impl Bar {
         if last.elapsed() > RARE {
             *last = Instant::now();
             let seconds = self.start.elapsed().as_secs();
-            eprintln!(
-                "{:.0} % done after {seconds} s; next: {what}",
-                100.0 * done as f64 / all.max(1) as f64
-            );
+            let percent = 100.0 * done as f64 / all.max(1) as f64;
+            render::say(&format!(
+                "{percent:.0} % done after {seconds} s; next: {what}"
+            ));
         }
     }
 
