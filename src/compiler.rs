@@ -8,12 +8,13 @@ pub use lie_in_process::spec::Spec;
 use lie_syntax::diagnostic::Kind;
 use lie_syntax::front::file;
 
+use crate::command::files::Inputs;
 use crate::message::{Failure, Message, Source};
 
 /// Reads and checks a spec.
 ///
 /// # Errors
-/// `io` if the file cannot be read (exit 1), else every mistake in it (exit 2).
+/// `io` if the file cannot be read (exit 1), else every mistake in it (exit 2); `option` where standard output goes to it.
 pub fn load(path: &Path) -> Result<Spec, Failure> {
     load_with(path, Effort::Declaration)
 }
@@ -26,7 +27,11 @@ pub fn load_with(path: &Path, effort: Effort) -> Result<Spec, Failure> {
     let source = Arc::new(read(path)?);
     let folder = path.parent();
     match lie_codegen::compile::compile_spec_in(&source.text, folder, effort) {
-        Ok(model) => Ok(Spec { source, model }),
+        Ok(model) => {
+            let spec = Spec { source, model };
+            Inputs::of_spec(path, &spec).spare_from_stdout()?;
+            Ok(spec)
+        }
         Err(diagnostics) => {
             let all = diagnostics.into_iter();
             Err(Failure::invalid(

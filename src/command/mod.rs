@@ -4,6 +4,7 @@ pub mod args;
 mod cache;
 mod check;
 mod expand;
+pub mod files;
 mod fold;
 mod measure;
 mod methods;

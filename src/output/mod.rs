@@ -2,6 +2,7 @@
 
 mod destination;
 mod form;
+mod identity;
 mod npy;
 
 use std::collections::VecDeque;
@@ -10,6 +11,7 @@ use std::io;
 pub use destination::Destination;
 use form::{Csv, Form, Json};
 pub use form::{Header, Run};
+pub use identity::Identity;
 use npy::Npy;
 
 use crate::command::args::Format;

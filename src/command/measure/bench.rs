@@ -14,10 +14,12 @@ use lie_syntax::diagnostic::Kind;
 use self::table::{cells, lines, micro};
 use super::quiet::Quiet;
 use super::{Bed, Ended, bed, files, interrupted, sense};
+use crate::command::files::Inputs;
 use crate::command::fold::folded;
 use crate::command::{args, print};
 use crate::interrupt::Interrupt;
 use crate::message::{Failure, Message, SURROUNDINGS};
+use crate::render;
 
 /// What the program has found.
 #[derive(Default)]
@@ -88,8 +90,9 @@ pub fn run(arguments: &args::Bench) -> Result<u8, Failure> {
     };
     let until = span(&bed.spec, &request)?;
     let measure = sense::measure(arguments, &bed)?;
-    let out = files::open("--out", arguments.out.as_deref(), &flags.spec)?;
-    let plot = files::open("--plot", arguments.plot.as_deref(), &flags.spec)?;
+    let inputs = Inputs::of_spec(&flags.spec, &bed.spec);
+    let files = (arguments.out.as_deref(), arguments.plot.as_deref());
+    let [out, plot] = files::open(files.0, files.1, &inputs)?;
     let interrupt = Interrupt::install();
     let program = bed.program(flags, Purpose::Bench, &interrupt)?;
     let mut results = Results::default();
@@ -113,11 +116,11 @@ pub fn run(arguments: &args::Bench) -> Result<u8, Failure> {
     // a file that cannot be written does not take the table with it, nor the other way round
     let printed = print(&report(&bed, &options, &results, &quiet, program.engine()));
     let table = || csv(points, measure);
-    let written = files::write(out, arguments.out.as_deref(), wanted.then(table));
-    files::write(plot, arguments.plot.as_deref(), wanted.then(picture))?;
+    let written = files::write(out, files.0, wanted.then(table));
+    files::write(plot, files.1, wanted.then(picture))?;
     written.and(printed)?;
     if let (Some(warning), false) = (quiet.warning(), flags.quiet) {
-        eprintln!("warning: {warning}");
+        render::say(&format!("warning: {warning}"));
     }
     if let Ended::Interrupted(code) = ended {
         return Ok(interrupted(flags, code));

@@ -11,10 +11,12 @@ use lie_poisson::plot::map::{self, Cell as Square, Column, Map};
 use lie_syntax::diagnostic::Kind;
 
 use super::{Bed, Ended, bed, files, interrupted};
+use crate::command::files::Inputs;
 use crate::command::fold::folded;
 use crate::command::{args, print};
 use crate::interrupt::Interrupt;
 use crate::message::{Failure, Message};
+use crate::render;
 
 /// What is said of an experiment.
 fn title(experiment: Experiment) -> &'static str {
@@ -54,8 +56,9 @@ pub fn run(arguments: &args::Stress) -> Result<u8, Failure> {
     let steps = OptionValue::flag("--steps", &arguments.steps).count();
     let steps = steps.map_err(|message| message.help(help))?;
     let bed = bed(flags, Purpose::Stress, |spec| list::fewer(&spec.model))?;
-    let out = files::open("--out", arguments.out.as_deref(), &flags.spec)?;
-    let plot = files::open("--plot", arguments.plot.as_deref(), &flags.spec)?;
+    let inputs = Inputs::of_spec(&flags.spec, &bed.spec);
+    let files = (arguments.out.as_deref(), arguments.plot.as_deref());
+    let [out, plot] = files::open(files.0, files.1, &inputs)?;
     let interrupt = Interrupt::install();
     let program = bed.program(flags, Purpose::Stress, &interrupt)?;
     let mut results = Results::default();
@@ -82,15 +85,15 @@ pub fn run(arguments: &args::Stress) -> Result<u8, Failure> {
     let picture = || picture(&bed, &results.cells, results.step);
     // a file that cannot be written does not take the table with it, nor the other way round
     let printed = print(&report(&bed, &results, steps));
-    let written = files::write(out, arguments.out.as_deref(), wanted.then(table));
-    files::write(plot, arguments.plot.as_deref(), wanted.then(picture))?;
+    let written = files::write(out, files.0, wanted.then(table));
+    files::write(plot, files.1, wanted.then(picture))?;
     written.and(printed)?;
     if let Ended::Interrupted(code) = ended {
         return Ok(interrupted(flags, code));
     }
     let losses = results.losses();
     for loss in &losses {
-        eprintln!("lost: {loss}");
+        render::say(&format!("lost: {loss}"));
     }
     Ok(u8::from(!losses.is_empty()))
 }

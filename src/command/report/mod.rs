@@ -14,11 +14,11 @@ use std::path::{Path, PathBuf};
 use lie_in_process::request::{self, Parameter, Point, Request, Value};
 
 use super::args;
-use super::run::outputs;
+use super::files::{Inputs, unwritable};
 use crate::compiler::{self, Spec};
 use crate::interrupt::Interrupt;
 use crate::message::{Failure, Message};
-use crate::output::Destination;
+use crate::render;
 use call::command_line;
 use page::Page;
 
@@ -36,9 +36,9 @@ pub fn run(flags: &args::Report) -> Result<u8, Failure> {
     };
     let start = request::start(&spec, &start).map_err(Failure::invalid)?;
     let out = out(flags)?;
-    let file = Destination::file(&out).map_err(|error| outputs::unwritable(&out, &error))?;
-    let folder =
-        tempfile::tempdir().map_err(|error| outputs::unwritable(&std::env::temp_dir(), &error))?;
+    let inputs = Inputs::of_spec(&flags.spec, &spec);
+    let file = inputs.open("--out", &out)?;
+    let folder = tempfile::tempdir().map_err(|error| unwritable(&std::env::temp_dir(), &error))?;
     let mut report = Report {
         flags,
         spec: &spec,
@@ -57,9 +57,10 @@ pub fn run(flags: &args::Report) -> Result<u8, Failure> {
     );
     let page = report.page.finish(&spec.model.name, &lead);
     file.replace(page.as_bytes())
-        .map_err(|error| outputs::unwritable(&out, &error))?;
+        .map_err(|error| unwritable(&out, &error))?;
     if !flags.quiet {
-        eprintln!("{}: {:.1} kB", out.display(), page.len() as f64 / 1e3);
+        let size = page.len() as f64 / 1e3;
+        render::say(&format!("{}: {size:.1} kB", out.display()));
     }
     Ok(code)
 }

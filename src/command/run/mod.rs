@@ -18,6 +18,7 @@ use lie_in_process::request::{Member, Plan, Several, several};
 use lie_syntax::diagnostic::Kind;
 
 use super::args;
+use super::files::Inputs;
 use super::fold::folded;
 use crate::build::talk::Worker;
 use crate::build::{self, Processor, Request};
@@ -45,7 +46,7 @@ pub fn run(flags: &args::Run) -> Result<u8, Failure> {
     let spec = compiler::load(path)?;
     let several = several(&spec, &flags.request).map_err(Failure::invalid)?;
     let layout = layout(&spec, &several)?;
-    let format = outputs::format(flags, path)?;
+    let format = outputs::format(flags)?;
     let kind = picture::kind(&spec, flags, &several, &layout)?;
     if !flags.quiet {
         render::print(&spec.warnings());
@@ -55,7 +56,9 @@ pub fn run(flags: &args::Run) -> Result<u8, Failure> {
             eprintln!("{}", folded(&format!("note: {note}")));
         }
     }
-    let outputs = Outputs::open(flags)?;
+    let states = flags.request.initial_file.as_deref();
+    let inputs = Inputs::of_spec(path, &spec).with("--initial-file", states);
+    let outputs = Outputs::open(flags, &inputs)?;
     let interrupt = Interrupt::install();
     let workers = workers(&spec, &several.plans, flags, &interrupt)?;
     let header = Header {

@@ -7,29 +7,15 @@ use clap::ValueEnum as _;
 
 use super::picture::Form;
 use crate::command::args::{self, Format};
+use crate::command::files::Inputs;
 use crate::message::{Failure, Message};
 use crate::output::Destination;
 
-/// The form of the output, and whether the files make sense.
+/// The form of the output, and whether the names of files make sense.
 ///
 /// # Errors
-/// `option` for files that would overwrite one another, an extension of another form, and npy on a terminal.
-pub fn format(flags: &args::Run, spec: &Path) -> Result<Format, Failure> {
-    let same = |a: &Path, b: &Path| {
-        a == b || matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
-    };
-    for (flag, path) in [("--out", &flags.out), ("--plot", &flags.plot)] {
-        if path.as_deref().is_some_and(|path| same(path, spec)) {
-            let message = Message::option(flag, "this is the spec, which would be overwritten");
-            return Err(message.help("give another file").into());
-        }
-    }
-    if let (Some(out), Some(plot)) = (&flags.out, &flags.plot)
-        && same(out, plot)
-    {
-        let message = Message::option("--plot", "rows and picture cannot go to the same file");
-        return Err(message.help("give another file").into());
-    }
+/// `option` for an extension of another form, and npy on a terminal.
+pub fn format(flags: &args::Run) -> Result<Format, Failure> {
     if let Some(plot) = &flags.plot {
         super::picture::form("--plot", plot)?;
     }
@@ -64,7 +50,7 @@ fn by_name(path: &Path) -> Result<Format, Failure> {
     });
     named.ok_or_else(|| {
         let text = format!("rows cannot be written in the form `.{}`", extension.display());
-        let help = "name the file .csv, .json or .npy, or say which of them it holds, such as `--format csv`";
+        let help = "name the file .csv, .json, .jsonl or .npy, or say which of them it holds, such as `--format csv`";
         Message::option("--out", text).help(help).into()
     })
 }
@@ -73,7 +59,8 @@ fn by_name(path: &Path) -> Result<Format, Failure> {
 ///
 /// # Errors
 /// `option` for a name of another form.
-pub fn table(flag: &str, path: &Path) -> Result<(), Failure> {
+pub fn table(flag: &str, path: Option<&Path>) -> Result<(), Failure> {
+    let Some(path) = path else { return Ok(()) };
     match path.extension() {
         Some(extension) if !extension.eq_ignore_ascii_case("csv") => {
             let text = format!(
@@ -108,8 +95,7 @@ pub fn picture(flag: &str, path: Option<&Path>) -> Result<(), Failure> {
     }
 }
 
-/// Opened before anything runs, so that a long run does not end in front of a closed door. Where none runs, everything
-/// is left as it was.
+/// Opened before anything runs. Where nothing runs, everything is left as it was.
 pub struct Outputs {
     /// Takes the rows.
     pub rows: Destination,
@@ -121,19 +107,19 @@ impl Outputs {
     /// Opens what the flags name.
     ///
     /// # Errors
-    /// `io`, with exit code 1.
-    pub fn open(flags: &args::Run) -> Result<Self, Failure> {
-        let form = super::picture::form;
-        let open = |path: &Path| Destination::file(path).map_err(|error| unwritable(path, &error));
-        let rows = match &flags.out {
-            Some(path) => open(path)?,
-            None => Destination::stdout(),
-        };
-        let plot = match flags.plot.as_deref() {
-            Some(path) => Some((form("--plot", path)?, open(path)?)),
-            None => None,
-        };
-        Ok(Self { rows, plot })
+    /// `option` for an input, with exit code 2; `io`, with exit code 1.
+    pub fn open(flags: &args::Run, inputs: &Inputs) -> Result<Self, Failure> {
+        let (out, plot) = (flags.out.as_deref(), flags.plot.as_deref());
+        if out.is_none() {
+            inputs.spare_from_stdout()?;
+        }
+        let form = plot.map(|plot| super::picture::form("--plot", plot));
+        let form = form.transpose()?;
+        let [rows, plot] = inputs.open_both(out, plot)?;
+        Ok(Self {
+            rows: rows.unwrap_or_else(Destination::stdout),
+            plot: form.zip(plot),
+        })
     }
 }
 
@@ -155,10 +141,4 @@ pub fn writing_failed(path: Option<&Path>, error: &io::Error) -> Failure {
         ),
     };
     Failure::surroundings(Message::io(path, format!("writing failed: {error}")).help(help))
-}
-
-/// A file that does not take anything.
-pub fn unwritable(path: &Path, error: &io::Error) -> Failure {
-    let message = Message::io(path, format!("cannot be written: {error}"));
-    Failure::surroundings(message.help("give a file in a folder that exists and can be written"))
 }

@@ -18,6 +18,7 @@ use super::tally::{MOST_LINES, Tally};
 use super::{impossible, outputs};
 use crate::build::talk::{Outcome, Worker};
 use crate::command::args;
+use crate::command::files::unwritable;
 use crate::command::fold::folded;
 use crate::compiler::Spec;
 use crate::interrupt::Interrupt;
@@ -84,7 +85,7 @@ impl Session<'_> {
             if let Some(path) = &self.flags.plot {
                 destination
                     .replace(&written)
-                    .map_err(|error| outputs::unwritable(path, &error))?;
+                    .map_err(|error| unwritable(path, &error))?;
             }
             if let Some(note) = note.filter(|_| !self.flags.quiet) {
                 eprintln!("warning: {note}");

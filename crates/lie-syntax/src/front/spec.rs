@@ -1,6 +1,7 @@
 //! The spec file: JSON to the syntax tree.
 
 mod algebra;
+mod files;
 mod parameters;
 mod realization;
 mod run;
@@ -10,6 +11,7 @@ mod vectors;
 
 use std::path::Path;
 
+pub use files::files;
 use quote::quote;
 
 use super::json::{self, Type, Value};

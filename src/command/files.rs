@@ -1,0 +1,105 @@
+//! The files of a command: what it reads, and what it may write to.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use lie_syntax::front::spec::files;
+
+use crate::compiler::Spec;
+use crate::message::{Failure, Message};
+use crate::output::{Destination, Identity};
+
+/// What was read: what it is, and which file.
+#[derive(Default)]
+pub struct Inputs(Vec<(String, Identity)>);
+
+impl Inputs {
+    /// A spec, by the path where it was read, and the files that it names.
+    pub fn of_spec(path: &Path, spec: &Spec) -> Self {
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let named = files(&spec.source.text).into_iter();
+        let named =
+            named.map(|file| (format!("`{file}`, which the spec reads"), folder.join(file)));
+        let mut inputs = Self::default();
+        inputs.add("the spec".to_owned(), path);
+        named.for_each(|(what, path): (String, PathBuf)| inputs.add(what, &path));
+        inputs
+    }
+
+    /// The same with the file of an option.
+    #[must_use]
+    pub fn with(mut self, option: &str, path: Option<&Path>) -> Self {
+        if let Some(path) = path {
+            self.add(format!("the file of `{option}`"), path);
+        }
+        self
+    }
+
+    fn add(&mut self, what: String, path: &Path) {
+        self.0.extend(Identity::at(path).map(|file| (what, file)));
+    }
+
+    /// Opens a file to write to before anything is computed, so that long work does not end in front of a closed door.
+    ///
+    /// # Errors
+    /// `option`, with exit code 2, if it is one of them; `io`, with exit code 1.
+    pub fn open(&self, option: &str, path: &Path) -> Result<Destination, Failure> {
+        self.refuse(option, Identity::at(path), "give another file")?;
+        Destination::file(path).map_err(|error| unwritable(path, &error))
+    }
+
+    /// Opens the files of `--out` and `--plot`, which are two.
+    ///
+    /// # Errors
+    /// As of [`Self::open`].
+    pub fn open_both(
+        &self,
+        out: Option<&Path>,
+        plot: Option<&Path>,
+    ) -> Result<[Option<Destination>; 2], Failure> {
+        // whatever is refused, nothing has been made
+        for (option, path) in [("--out", out), ("--plot", plot)] {
+            let file = path.and_then(Identity::at);
+            self.refuse(option, file, "give another file")?;
+        }
+        let open =
+            |option, path: Option<&Path>| path.map(|path| self.open(option, path)).transpose();
+        let opened = [open("--out", out)?, open("--plot", plot)?];
+        if let (Some(out), Some(plot)) = (out, plot) {
+            let file = Identity::at(out);
+            if out == plot || file.is_some() && file == Identity::at(plot) {
+                let message =
+                    Message::option("--plot", "rows and picture cannot go to the same file");
+                return Err(message.help("give another file").into());
+            }
+        }
+        Ok(opened)
+    }
+
+    /// Refuses to write to one of them by standard output.
+    ///
+    /// # Errors
+    /// `option`, with exit code 2.
+    pub fn spare_from_stdout(&self) -> Result<(), Failure> {
+        let help = "send the output to another file";
+        self.refuse("standard output", Identity::of_stdout(), help)
+    }
+
+    fn refuse(&self, option: &str, file: Option<Identity>, help: &str) -> Result<(), Failure> {
+        let Some((what, _)) = self
+            .0
+            .iter()
+            .find(|(_, input)| Some(input) == file.as_ref())
+        else {
+            return Ok(());
+        };
+        let text = format!("this is {what}, and would be overwritten");
+        Err(Message::option(option, text).help(help).into())
+    }
+}
+
+/// A file that does not take anything.
+pub fn unwritable(path: &Path, error: &io::Error) -> Failure {
+    let message = Message::io(path, format!("cannot be written: {error}"));
+    Failure::surroundings(message.help("give a file in a folder that exists and can be written"))
+}

@@ -1,0 +1,155 @@
+//! Nothing is lost: files that are read stay, and what fails does not take the rest with it.
+#![cfg(unix)]
+
+mod common;
+
+use std::fs;
+use std::os::unix::fs::symlink;
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+use common::{Run, command, folder, lie};
+
+/// A body with a table, in a folder.
+fn prepared(folder: &Path) {
+    let spec = r#"{
+        "format": 1, "name": "Body", "algebra": "so(3)", "state": ["x", "y", "z"],
+        "functions": { "drag": { "table": "drag.csv" } },
+        "hamiltonian": "x^2/2 + y^2/3 + z^2/4 + drag(x)", "initial": [0.3, 0.4, 0.5],
+        "run": { "method": "rk4", "step": 0.1, "until": 1 }
+    }"#;
+    fs::write(folder.join("body.json"), spec).unwrap();
+    fs::write(folder.join("drag.csv"), "-9,0.1\n-2,0.2\n0,0\n2,0.5\n9,1\n").unwrap();
+    fs::write(folder.join("states.csv"), "0.1,0.2,0.3\n0.3,0.2,0.1\n").unwrap();
+}
+
+/// A call of `lie` within a folder.
+fn within(folder: &Path, call: &str) -> Run {
+    let mut command = command(call.split_whitespace());
+    command.current_dir(folder).output().unwrap().into()
+}
+
+/// The same by a script of the shell, with `lie` as `"$0"`.
+fn shell(folder: &Path, script: &str) -> Run {
+    let mut shell = Command::new("bash");
+    let shell = shell.args(["-c", script, env!("CARGO_BIN_EXE_lie")]);
+    let shell = shell.env("LIE_CACHE_DIR", common::cache());
+    shell.current_dir(folder).output().unwrap().into()
+}
+
+/// All files with their texts.
+fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
+    let entries = fs::read_dir(folder).unwrap().map(Result::unwrap);
+    let mut all: Vec<_> = entries
+        .filter(|entry| entry.path().is_file())
+        .map(|entry| {
+            let name = entry.file_name().into_string().unwrap();
+            (name, fs::read(entry.path()).unwrap())
+        })
+        .collect();
+    all.sort();
+    all
+}
+
+#[test]
+fn no_output_is_an_input() {
+    let folder = folder();
+    let here = folder.path();
+    prepared(here);
+    fs::create_dir(here.join("sub")).unwrap();
+    for (input, name) in [
+        ("body.json", "spec"),
+        ("drag.csv", "table"),
+        ("states.csv", "states"),
+    ] {
+        for end in ["csv", "svg", "html", "npy"] {
+            symlink(input, here.join(format!("soft_{name}.{end}"))).unwrap();
+            fs::hard_link(here.join(input), here.join(format!("hard_{name}.{end}"))).unwrap();
+        }
+    }
+    let before = files(here);
+    let run = "run body.json --quiet --initial-file states.csv";
+    let mut calls: Vec<(String, &str)> = ["spec", "table", "states"]
+        .iter()
+        .flat_map(|name| ["soft", "hard"].map(|kind| format!("{kind}_{name}")))
+        .flat_map(|link| {
+            [
+                (format!("{run} --out {link}.csv"), "--out"),
+                (format!("{run} --format csv --out {link}.npy"), "--out"),
+                (format!("{run} --plot {link}.svg"), "--plot"),
+                (format!("{run} --out new.csv --plot {link}.svg"), "--plot"),
+            ]
+        })
+        .collect();
+    for link in ["soft_spec", "hard_spec", "soft_table", "hard_table"] {
+        calls.extend([
+            (format!("report body.json --out {link}.html"), "--out"),
+            (format!("bench body.json --quiet --out {link}.csv"), "--out"),
+            (
+                format!("bench body.json --quiet --plot {link}.svg"),
+                "--plot",
+            ),
+            (
+                format!("stress body.json --quiet --out {link}.csv"),
+                "--out",
+            ),
+            (
+                format!("stress body.json --quiet --plot {link}.svg"),
+                "--plot",
+            ),
+        ]);
+    }
+    let spec = here.join("body.json");
+    calls.extend([
+        (
+            "run body.json --format json --out sub/../body.json".to_owned(),
+            "--out",
+        ),
+        (
+            format!("run body.json --format json --out {}", spec.display()),
+            "--out",
+        ),
+        ("run ./sub/../body.json --out drag.csv".to_owned(), "--out"),
+        (
+            "run hard_spec.npy --format csv --out body.json".to_owned(),
+            "--out",
+        ),
+        ("report soft_spec.html".to_owned(), "--out"),
+    ]);
+    for (call, option) in &calls {
+        let refused = within(here, call).error("option", &format!("command line: {option}"));
+        assert!(refused.stdout.is_empty(), "{call}");
+        assert!(refused.stderr.contains("would be overwritten"), "{call}");
+        assert!(files(here) == before, "{call} has touched a file");
+    }
+    for script in [
+        r#""$0" run body.json >> drag.csv"#,
+        r#""$0" expand body.json >> body.json"#,
+        r#""$0" check body.json 1<> hard_table.csv"#,
+        r#""$0" run body.json --initial-file states.csv >> states.csv"#,
+        r#""$0" run /dev/stdin --format json --out body.json < body.json"#,
+    ] {
+        let code = shell(here, script).code;
+        assert_eq!(code, Some(2), "{script}");
+        assert!(files(here) == before, "{script} has touched a file");
+    }
+    // rows and picture are two files, also where none of them is there yet
+    symlink("rows.csv", here.join("rows.svg")).unwrap();
+    within(here, "run body.json --out rows.csv --plot rows.svg")
+        .error("option", "command line: --plot");
+    assert!(files(here) == before);
+    // the control: other files are written, a copy of the table among them
+    fs::copy(here.join("drag.csv"), here.join("copy.csv")).unwrap();
+    within(here, &format!("{run} --out copy.csv --plot new.svg")).ok();
+    assert!(
+        fs::read_to_string(here.join("copy.csv"))
+            .unwrap()
+            .starts_with("run,t,x,y,z")
+    );
+    within(
+        here,
+        "run body.json --quiet --out /dev/null --plot /dev/null --picture phase",
+    )
+    .code
+    .unwrap();
+}
