@@ -153,3 +153,51 @@ fn no_output_is_an_input() {
     .code
     .unwrap();
 }
+
+/// Fails unless each line is an object with all columns.
+#[track_caller]
+fn objects(text: &str) {
+    for line in text.lines() {
+        let row: serde_json::Value = serde_json::from_str(line).expect(line);
+        assert!(
+            ["t", "x", "y", "z", "energy"]
+                .iter()
+                .all(|name| row[name].is_number()),
+            "{line}"
+        );
+    }
+}
+
+#[test]
+fn lines_of_json_survive_a_kill() {
+    let folder = folder();
+    let here = folder.path();
+    prepared(here);
+    for _ in 0..5 {
+        let mut command =
+            command("run body.json --step 0.001 --until 1e9 --out rows.jsonl".split(' '));
+        let mut child = command
+            .current_dir(here)
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        while fs::metadata(here.join("rows.jsonl")).map_or(0, |file| file.len()) < 50_000 {
+            std::thread::yield_now();
+        }
+        child.kill().unwrap();
+        child.wait().unwrap();
+        let text = fs::read_to_string(here.join("rows.jsonl")).unwrap();
+        let whole = text.rfind('\n').map_or(0, |end| end + 1);
+        assert!(
+            whole == text.len() || text.len().is_multiple_of(4096),
+            "a row is cut"
+        );
+        objects(&text[..whole]);
+        fs::remove_file(here.join("rows.jsonl")).unwrap();
+    }
+    let help = lie("run --help").ok().stdout;
+    assert!(
+        help.contains("jsonl") && help.contains("whatever ends the command"),
+        "{help}"
+    );
+}

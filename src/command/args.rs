@@ -233,8 +233,11 @@ pub struct Run {
 pub enum Format {
     /// A header line, then one line per row
     Csv,
-    /// One object with columns and rows
+    /// One object with columns and rows, which is whole when the command has ended by itself
     Json,
+    /// One object a line for each row, which can be read whatever ends the command
+    #[value(alias = "ndjson")]
+    Jsonl,
     /// A numpy array of float64, one row per time
     Npy,
 }

@@ -165,6 +165,48 @@ impl Form for Json {
     }
 }
 
+/// One object a line for each row, by the names of the columns; whatever ends the run, whole lines can be read.
+#[derive(Default)]
+pub struct JsonLines {
+    /// What stands before each number of a row.
+    keys: Vec<String>,
+    /// What tells the run apart, with a comma behind it.
+    prefix: Vec<u8>,
+}
+
+impl Form for JsonLines {
+    fn begin(&mut self, header: &Header, _out: &mut Vec<u8>) {
+        let key = |name: &String| format!("{}:", Json::text(name));
+        self.keys = header.columns.iter().map(key).collect();
+    }
+
+    fn open(&mut self, header: &Header, run: &Run, _out: &mut Vec<u8>) {
+        self.prefix.clear();
+        let Some(labels) = &header.labels else { return };
+        let _ = write!(self.prefix, "{}:{},", Json::text(&labels.run), run.number);
+        if let Some(method) = &labels.method {
+            let (key, label) = (Json::text(method), Json::text(&run.method));
+            let _ = write!(self.prefix, "{key}:{label},");
+        }
+        for (name, value) in labels.parameters.iter().zip(&run.parameters) {
+            let _ = write!(self.prefix, "{}:", Json::text(name));
+            json_number(*value, &mut self.prefix);
+            self.prefix.push(b',');
+        }
+    }
+
+    fn row(&mut self, row: &[f64], out: &mut Vec<u8>) {
+        out.push(b'{');
+        out.extend_from_slice(&self.prefix);
+        for (index, (key, value)) in self.keys.iter().zip(row).enumerate() {
+            out.extend_from_slice(if index > 0 { b"," } else { b"" });
+            out.extend_from_slice(key.as_bytes());
+            json_number(*value, out);
+        }
+        out.extend_from_slice(b"}\n");
+    }
+}
+
 /// Numbers between commas.
 fn numbers(row: &[f64], json: bool, out: &mut Vec<u8>) {
     for (index, value) in row.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Writes rows as they come, in constant memory: csv, json, npy; to a file or to stdout.
+//! Writes rows as they come, in constant memory: csv, json, jsonl, npy; to a file or to stdout.
 
 mod destination;
 mod form;
@@ -9,7 +9,7 @@ use std::collections::VecDeque;
 use std::io;
 
 pub use destination::Destination;
-use form::{Csv, Form, Json};
+use form::{Csv, Form, Json, JsonLines};
 pub use form::{Header, Run};
 pub use identity::Identity;
 use npy::Npy;
@@ -48,6 +48,7 @@ impl Rows {
         let form: Box<dyn Form> = match format {
             Format::Csv => Box::new(Csv::default()),
             Format::Json => Box::new(Json::default()),
+            Format::Jsonl => Box::new(JsonLines::default()),
             Format::Npy => Box::new(Npy::new(&header)),
         };
         Self {

@@ -90,6 +90,23 @@ fn json_is_json() {
 }
 
 #[test]
+fn lines_of_json_are_objects_by_the_names_of_columns() {
+    let text = text(Format::Jsonl);
+    let lines = text.lines().map(serde_json::from_str::<serde_json::Value>);
+    let lines: Vec<serde_json::Value> = lines.map(Result::unwrap).collect();
+    assert_eq!(lines.len(), 3);
+    assert_eq!(lines[0]["x"], 0.1 + 0.2);
+    assert_eq!(lines[0].as_object().unwrap().len(), 3);
+    assert!(lines[1]["x"].is_null() && lines[1]["t"] == 0.1);
+    assert_eq!(lines[2]["energy"], 5e-324);
+    assert_eq!(
+        written(Format::Jsonl, false),
+        text.as_bytes(),
+        "nothing stands behind"
+    );
+}
+
+#[test]
 fn npy_counts_its_rows_also_when_it_is_not_finished() {
     for finish in [true, false] {
         let bytes = written(Format::Npy, finish);
