@@ -154,6 +154,118 @@ fn no_output_is_an_input() {
     .unwrap();
 }
 
+#[test]
+fn what_is_refused_later_leaves_files_as_they_were() {
+    let folder = folder();
+    let here = folder.path();
+    prepared(here);
+    for name in ["rows.csv", "rows.svg"] {
+        fs::write(here.join(name), "precious").unwrap();
+    }
+    // how many steps a tolerance takes is found before the first row
+    let call =
+        "run body.json --method gauss16 --tol 1e-14 --until 1e300 --out rows.csv --plot rows.svg";
+    within(here, call).error("option", "command line: --tol");
+    for name in ["rows.csv", "rows.svg"] {
+        assert_eq!(fs::read_to_string(here.join(name)).unwrap(), "precious");
+    }
+}
+
+/// Whether a picture has all that a whole run shows.
+fn whole(picture: &str) -> bool {
+    picture.trim_end().ends_with("</svg>") && picture.contains("rk4")
+}
+
+#[test]
+fn a_reader_that_goes_away_does_not_take_the_picture_with_it() {
+    let folder = folder();
+    let here = folder.path();
+    prepared(here);
+    let run = "run body.json --step 0.001 --until 60 --quiet";
+    within(here, &format!("{run} --out rows.csv --plot whole.svg")).ok();
+    let picture = fs::read_to_string(here.join("whole.svg")).unwrap();
+    for (number, rest) in [
+        "| head -1",
+        "--format npy | head -c 1",
+        "--format jsonl | head -1",
+        "2>&1 | head -1",
+    ]
+    .iter()
+    .enumerate()
+    {
+        let quiet = if rest.starts_with("2>") {
+            run.trim_end_matches(" --quiet")
+        } else {
+            run
+        };
+        let script = format!(r#""$0" {quiet} --plot {number}.svg {rest}; exit ${{PIPESTATUS[0]}}"#);
+        let ended = shell(here, &script);
+        assert_eq!(ended.code, Some(0), "{script}: {}", ended.stderr);
+        let drawn = fs::read_to_string(here.join(format!("{number}.svg"))).unwrap();
+        assert!(drawn == picture, "{script}");
+    }
+    // nobody waits for a picture: the run ends with its reader
+    let months = r#"timeout 20 "$0" run body.json --step 0.001 --until 1e9 | head -1; exit ${PIPESTATUS[0]}"#;
+    assert_eq!(shell(here, months).code, Some(0));
+}
+
+#[test]
+fn stderr_that_is_closed_or_full_stops_nothing() {
+    let folder = folder();
+    let here = folder.path();
+    prepared(here);
+    for stderr in ["2>/dev/full", "2>&-", "2> >(true)"] {
+        let script = format!(r#"sleep 0.1; "$0" run body.json --out rows.csv {stderr}"#);
+        assert_eq!(shell(here, &script).code, Some(0), "{stderr}");
+        assert_eq!(
+            fs::read_to_string(here.join("rows.csv"))
+                .unwrap()
+                .lines()
+                .count(),
+            12
+        );
+    }
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_full_disk_keeps_rows_and_picture_and_says_so() {
+    let folder = folder();
+    let here = folder.path();
+    prepared(here);
+    let run = "run body.json --step 0.01 --until 1000 --quiet";
+    for form in ["csv", "json", "jsonl", "npy"] {
+        // 40 blocks of 1024 bytes
+        let script = format!(r#"ulimit -f 40; "$0" {run} --out rows.{form} --plot {form}.svg"#);
+        let ended = shell(here, &script);
+        assert_eq!(ended.code, Some(1), "{form}: {}", ended.stderr);
+        ended.says("io", &format!("rows.{form}"));
+        let bytes = fs::read(here.join(format!("rows.{form}"))).unwrap();
+        assert!(bytes.len() > 38_000, "{form}: {} bytes", bytes.len());
+        let text = String::from_utf8_lossy(&bytes);
+        match form {
+            "json" => drop(serde_json::from_str::<serde_json::Value>(&text).unwrap()),
+            "jsonl" => objects(&text),
+            _ => {}
+        }
+        assert!(whole(
+            &fs::read_to_string(here.join(format!("{form}.svg"))).unwrap()
+        ));
+    }
+    // the picture does not fit, and the rows do
+    let script = format!(r#"ulimit -f 2; "$0" {run} --every 9000 --out few.csv --plot large.svg"#);
+    let ended = shell(here, &script);
+    assert_eq!(ended.code, Some(1), "{}", ended.stderr);
+    assert_eq!(
+        fs::read_to_string(here.join("few.csv"))
+            .unwrap()
+            .lines()
+            .count(),
+        14
+    );
+    assert!(!here.join("large.svg").exists(), "a part of a picture");
+}
+
 /// Fails unless each line is an object with all columns.
 #[track_caller]
 fn objects(text: &str) {

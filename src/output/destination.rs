@@ -16,6 +16,16 @@ pub struct Destination {
     /// Bytes of what was sent whole, and bytes that arrived.
     good: u64,
     arrived: u64,
+    /// What becomes of a reader that goes away, which is an error unless the rest is dropped.
+    reader: Reader,
+}
+
+/// A reader at the other end of a pipe.
+#[derive(Clone, Copy, PartialEq)]
+enum Reader {
+    Needed,
+    Welcome,
+    Gone,
 }
 
 enum To {
@@ -35,6 +45,7 @@ impl Destination {
             spool: None,
             good: 0,
             arrived: 0,
+            reader: Reader::Needed,
         }
     }
 
@@ -59,6 +70,7 @@ impl Destination {
             spool: None,
             good: 0,
             arrived: 0,
+            reader: Reader::Needed,
         })
     }
 
@@ -100,7 +112,27 @@ impl Destination {
         }
     }
 
+    /// Where a reader goes away, what is left for it is dropped, until the end.
+    pub(super) fn outlives_readers(&mut self) {
+        self.reader = Reader::Welcome;
+    }
+
     pub(super) fn send(&mut self, bytes: &[u8]) -> io::Result<()> {
+        if self.reader == Reader::Gone {
+            return Ok(());
+        }
+        match self.write(bytes) {
+            Err(error)
+                if error.kind() == io::ErrorKind::BrokenPipe && self.reader == Reader::Welcome =>
+            {
+                self.reader = Reader::Gone;
+                Ok(())
+            }
+            sent => sent,
+        }
+    }
+
+    fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
         let Some(file) = self.file_behind() else {
             let mut stdout = io::stdout().lock();
             stdout.write_all(bytes).and_then(|()| stdout.flush())?;
@@ -163,17 +195,28 @@ impl Destination {
     /// Writes all of a file at once.
     ///
     /// # Errors
-    /// The destination cannot be written.
+    /// The destination cannot be written; a part of the file does not stay.
     pub fn replace(mut self, bytes: &[u8]) -> io::Result<()> {
         self.begin(false)?;
-        self.send(bytes)
+        let sent = self.send(bytes);
+        if sent.is_err() {
+            self.cut(0);
+        }
+        sent
     }
 
     /// Hands on what the spool has taken.
     pub(super) fn finish(&mut self) -> io::Result<()> {
-        let Some(mut spool) = self.spool.take() else {
-            return Ok(());
-        };
+        if let Some(spool) = self.spool.take() {
+            self.hand_on(spool)?;
+        }
+        match self.reader {
+            Reader::Gone => Err(io::ErrorKind::BrokenPipe.into()),
+            Reader::Needed | Reader::Welcome => Ok(()),
+        }
+    }
+
+    fn hand_on(&mut self, mut spool: File) -> io::Result<()> {
         spool.seek(SeekFrom::Start(0))?;
         let mut chunk = vec![0; 1 << 16];
         loop {

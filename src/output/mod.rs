@@ -31,6 +31,8 @@ pub struct Rows {
     header: Header,
     /// Whether the destination was emptied, and what stands before all rows is on its way.
     begun: bool,
+    /// Whether a failure has ended it.
+    settled: bool,
     buffer: Vec<u8>,
     /// Rows in the buffer, and rows that have arrived.
     waiting: u64,
@@ -56,11 +58,24 @@ impl Rows {
             form,
             header,
             begun: false,
+            settled: false,
             buffer: Vec::new(),
             waiting: 0,
             arrived: 0,
             ends: VecDeque::new(),
         }
+    }
+
+    /// Whether anything was written.
+    pub fn have_begun(&self) -> bool {
+        self.begun
+    }
+
+    /// Where a reader has gone away, the rest is dropped, and the end tells.
+    #[must_use]
+    pub fn outliving_readers(mut self) -> Self {
+        self.destination.outlives_readers();
+        self
     }
 
     fn begin(&mut self) -> io::Result<()> {
@@ -137,6 +152,7 @@ impl Rows {
 
     /// Ends what a failure has cut short: the count, what stands behind the rows, and the spool.
     fn settle(&mut self) -> io::Result<()> {
+        self.settled = true;
         self.buffer.clear();
         // Of what was sent last, the first rows may have arrived.
         let (good, arrived) = (self.destination.length(), self.destination.arrived());
@@ -159,11 +175,14 @@ impl Rows {
         self.destination.finish()
     }
 
-    /// Writes what stands behind all rows.
+    /// Writes what stands behind all rows, unless a failure has done so.
     ///
     /// # Errors
     /// The destination cannot be written; the rows are kept.
     pub fn finish(mut self) -> io::Result<()> {
+        if self.settled {
+            return Ok(());
+        }
         self.begin()?;
         self.form.end(&mut self.buffer);
         let finished = self

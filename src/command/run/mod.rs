@@ -70,6 +70,12 @@ pub fn run(flags: &args::Run) -> Result<u8, Failure> {
         let picture = Picture::new(&spec, layout, kind, &several);
         (picture, form, destination)
     });
+    let rows = Rows::new(outputs.rows, format, header);
+    let rows = match picture {
+        // it is wanted also where `| head` has seen enough of the rows
+        Some(_) => rows.outliving_readers(),
+        None => rows,
+    };
     Session {
         spec: &spec,
         several: &several,
@@ -77,7 +83,7 @@ pub fn run(flags: &args::Run) -> Result<u8, Failure> {
         workers: &workers,
         interrupt: &interrupt,
     }
-    .run_all(Rows::new(outputs.rows, format, header), picture)
+    .run_all(rows, picture)
 }
 
 /// The columns, which all runs have in common.

@@ -17,7 +17,7 @@ pub struct Reception<'a, 'p> {
     rows: &'a mut Rows,
     /// Where one is wanted.
     picture: Option<&'a mut Picture<'p>>,
-    /// What the output needs to begin, until the step is known.
+    /// What the output needs to begin, until there are rows: of a run that is refused, nothing is written.
     waiting: Option<Run>,
     received: Received,
     layout: Layout,
@@ -52,29 +52,25 @@ impl Received {
 }
 
 impl<'a, 'p> Reception<'a, 'p> {
-    /// Writes what stands before the rows of a run.
-    ///
-    /// # Errors
-    /// The destination cannot be written.
-    pub fn start(
+    /// Before the rows of a run.
+    pub fn new(
         spec: &Spec,
         plan: &Plan,
         layout: Layout,
-        mut run: Run,
+        run: Run,
         rows: &'a mut Rows,
         picture: Option<&'a mut Picture<'p>>,
-    ) -> io::Result<Self> {
+    ) -> Self {
         let model = &spec.model;
         let step = match plan.pace.0 {
             Pace::Step(step) => step,
             Pace::Tolerance(_) => f64::NAN,
         };
-        run.step = step;
         let mut drift = Drift::new(&layout.columns[layout.invariants.clone()]);
         for casimir in model.casimirs.iter().filter(|c| c.multivalued) {
             drift.leave_out(&casimir.name);
         }
-        let mut reception = Self {
+        Self {
             rows,
             waiting: Some(run),
             picture,
@@ -90,14 +86,10 @@ impl<'a, 'p> Reception<'a, 'p> {
             places: Vec::new(),
             width: 0,
             hidden: !shows_start(plan),
-        };
-        if let Pace::Step(_) = plan.pace.0 {
-            reception.begin()?;
         }
-        Ok(reception)
     }
 
-    /// The output, begun with the step as it is known now.
+    /// The output, begun with the step, which is known now.
     fn begin(&mut self) -> io::Result<&mut Rows> {
         if let Some(mut run) = self.waiting.take() {
             run.step = self.received.step;
@@ -127,7 +119,6 @@ impl<'a, 'p> Reception<'a, 'p> {
             Found::Chosen(chosen) => {
                 self.received.step = chosen.step;
                 self.received.at_round_off = chosen.at_round_off;
-                self.begin()?;
             }
             Found::Divided { parts, time } => self.received.divided = Some((parts, time)),
             Found::Assessed { error, missed } => self.received.assessed = Some((error, missed)),
@@ -168,12 +159,14 @@ impl<'a, 'p> Reception<'a, 'p> {
         self.begin()?.push(&shown[from..])
     }
 
-    /// Writes what stands behind the rows: how the run ended.
+    /// Writes what stands behind the rows: how the run ended. Of one that ended before its first row nothing is written.
     ///
     /// # Errors
     /// The destination cannot be written.
     pub fn finish(mut self, word: &'static str) -> io::Result<Received> {
-        self.begin()?.close(word)?;
+        if matches!(word, "done" | "stopped") || self.waiting.is_none() {
+            self.begin()?.close(word)?;
+        }
         Ok(self.received)
     }
 }

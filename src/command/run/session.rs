@@ -57,7 +57,13 @@ impl Session<'_> {
         for (number, member) in self.several.members.iter().enumerate() {
             let start = Instant::now();
             let drawn = picture.as_mut().map(|(picture, ..)| picture);
-            let (outcome, received) = self.one(number, member, &mut rows, drawn, &bar)?;
+            let (outcome, received) = match self.one(number, member, &mut rows, drawn, &bar) {
+                Ok(run) => run,
+                Err(failure) => {
+                    ended = Err(failure);
+                    break;
+                }
+            };
             let goes_on = matches!(outcome, Outcome::Done | Outcome::Stopped(_));
             let done = matches!(outcome, Outcome::Done);
             if !self.flags.quiet && done {
@@ -78,23 +84,39 @@ impl Session<'_> {
             }
         }
         bar.clear();
-        rows.finish().map_err(|error| self.lost(error))?;
-        if let Some((picture, form, destination)) = picture {
-            let (svg, note) = picture.finish();
-            let written = form.bytes(&svg)?;
-            if let Some(path) = &self.flags.plot {
-                destination
-                    .replace(&written)
-                    .map_err(|error| unwritable(path, &error))?;
-            }
-            if let Some(note) = note.filter(|_| !self.flags.quiet) {
-                eprintln!("warning: {note}");
-            }
-        }
+        let whole = matches!(ended, Ok(0 | STOPPED));
+        let written = match whole || rows.have_begun() {
+            true => rows.finish().map_err(|error| self.lost(error)),
+            false => Ok(()),
+        };
+        // rows that cannot be written do not take the picture with them
+        let drawn = picture.map_or(Ok(()), |picture| self.draw(picture, whole));
         if !self.flags.quiet {
-            eprint!("{}", folded(&tally.text(clock.elapsed())));
+            render::say_all(&folded(&tally.text(clock.elapsed())));
         }
-        ended
+        [written, drawn].into_iter().fold(ended, also)
+    }
+
+    /// Writes the picture: of runs that did not come to their end, what there is of them; where there is nothing, the file stays
+    /// as it was.
+    fn draw(
+        &self,
+        (picture, form, destination): (Picture<'_>, Form, Destination),
+        whole: bool,
+    ) -> Result<(), Failure> {
+        if !whole && picture.is_empty() {
+            return Ok(());
+        }
+        let (svg, note) = picture.finish();
+        let written = form.bytes(&svg)?;
+        if let Some(path) = &self.flags.plot {
+            let replaced = destination.replace(&written);
+            replaced.map_err(|error| unwritable(path, &error))?;
+        }
+        if let Some(note) = note.filter(|_| !self.flags.quiet) {
+            render::say(&format!("warning: {note}"));
+        }
+        Ok(())
     }
 
     fn lost(&self, error: io::Error) -> Failure {
@@ -127,8 +149,7 @@ impl Session<'_> {
         if let Some(picture) = &mut picture {
             picture.begin(&self.short_name(number, member), plan, &member.start);
         }
-        let mut reception = Reception::start(self.spec, plan, layout, run, rows, picture)
-            .map_err(|error| self.lost(error))?;
+        let mut reception = Reception::new(self.spec, plan, layout, run, rows, picture);
         let request = lie_program::protocol::Run {
             times: reception.times(plan),
             ..plan.run(member.start.clone())
@@ -147,12 +168,7 @@ impl Session<'_> {
             }
             Ok(Outcome::NotTaken(error)) => return Err(self.lost(error)),
             Ok(outcome) => outcome,
-            Err(error) => {
-                reception
-                    .finish("failed")
-                    .map_err(|error| self.lost(error))?;
-                return Err(worker.not_started(&error));
-            }
+            Err(error) => return Err(worker.not_started(&error)),
         };
         let received = reception.finish(word(&outcome));
         Ok((outcome, received.map_err(|error| self.lost(error))?))
@@ -174,7 +190,7 @@ impl Session<'_> {
              energy to round-off; --method chooses another",
             plan.method.id()
         );
-        eprintln!("{}", folded(&text));
+        render::say(&folded(&text));
     }
 
     /// Says what a run has done.
@@ -191,7 +207,7 @@ impl Session<'_> {
         tally.record(member.plan, number, received);
         if self.several.labels.is_none() {
             for note in of_tolerance(received) {
-                eprintln!("{}", folded(&note));
+                render::say(&folded(&note));
             }
             let title = title(self.spec, plan, received.step);
             let whose = match (plan.method.is_adaptive(), plan.pace.0) {
@@ -200,17 +216,17 @@ impl Session<'_> {
                 (true, Pace::Tolerance(_)) => Steps::OwnByTolerance,
             };
             let text = summary::text(&title, work, whose, drift, time);
-            eprint!("{}", folded(&text));
+            render::say(&folded(&text));
         } else if self.several.members.len() <= MOST_LINES {
             let mut title = self.named(number, member);
             if let Some(warning) = missed(received) {
-                eprintln!("{}", folded(&format!("warning: {title}: {warning}")));
+                render::say(&folded(&format!("warning: {title}: {warning}")));
             }
             if let Pace::Tolerance(_) = plan.pace.0 {
                 title.push_str(&format!(", step {:?}", received.step));
             }
             let text = summary::line(&title, work, drift, time);
-            eprint!("{}", folded(&text));
+            render::say(&folded(&text));
         }
     }
 
@@ -259,7 +275,9 @@ impl Session<'_> {
             Outcome::Interrupted(code) => {
                 if !self.flags.quiet {
                     let time = drift.time();
-                    eprintln!("Interrupted at t = {time:?}; the rows so far are written.");
+                    render::say(&format!(
+                        "Interrupted at t = {time:?}; the rows so far are written."
+                    ));
                 }
                 Ok(code)
             }
@@ -281,6 +299,19 @@ impl Session<'_> {
             Outcome::Refused(what, why) => Err(worker.broken(&format!("{what:?}: {why}"))),
             Outcome::Broken(how) => Err(worker.broken(&how)),
             Outcome::NotTaken(error) => Err(worker.broken(&error.to_string())),
+        }
+    }
+}
+
+/// What a command ends with, of which something else has failed too.
+fn also(ended: Result<u8, Failure>, further: Result<(), Failure>) -> Result<u8, Failure> {
+    match (ended, further) {
+        (ended, Ok(())) => ended,
+        (Ok(code), Err(further)) if further.messages.is_empty() && code != 0 => Ok(code),
+        (Ok(_), Err(further)) => Err(further),
+        (Err(mut failure), Err(further)) => {
+            failure.messages.extend(further.messages);
+            Err(failure)
         }
     }
 }

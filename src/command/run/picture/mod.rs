@@ -44,6 +44,8 @@ pub struct Picture<'a> {
     /// The names of runs that stopped early, and when.
     stopped: Vec<(String, f64)>,
     drawn: Drawn,
+    /// Rows that were drawn.
+    rows: u64,
 }
 
 enum Drawn {
@@ -75,6 +77,7 @@ impl<'a> Picture<'a> {
             subtitle: String::new(),
             stopped: Vec::new(),
             drawn: Drawn::Nothing(kind),
+            rows: 0,
         }
     }
 
@@ -96,6 +99,11 @@ impl<'a> Picture<'a> {
                 curves.push(OnSurface::new(name));
             }
         }
+    }
+
+    /// Whether nothing was drawn.
+    pub fn is_empty(&self) -> bool {
+        self.rows == 0
     }
 
     /// Takes note that a run stopped early.
@@ -179,6 +187,7 @@ impl<'a> Picture<'a> {
 
     /// Takes a row of the run.
     pub fn push(&mut self, row: &[f64]) {
+        self.rows += 1;
         match &mut self.drawn {
             Drawn::Nothing(_) => {}
             Drawn::Components(plot) => plot.push(row),
