@@ -313,3 +313,30 @@ fn lines_of_json_survive_a_kill() {
         "{help}"
     );
 }
+
+#[test]
+fn a_driven_system_has_no_error_of_its_energy() {
+    let folder = folder();
+    let path = common::spec(folder.path(), |spec| {
+        spec["hamiltonian"] = "x^2/2 + y^2/4 + z^2/6 + cos(t)*x".into();
+    });
+    let run = lie(&format!("run {} --method gauss4 --until 3", path.display())).ok();
+    let (_, said) = run.stderr.split_once("largest relative error").unwrap();
+    assert!(
+        !said.contains("energy") && said.contains("e-"),
+        "{}",
+        run.stderr
+    );
+    assert!(run.stdout.starts_with("t,x,y,z,energy"));
+    let constant = common::spec(folder.path(), |_| {});
+    let run = lie(&format!(
+        "run {} --method gauss4 --until 3",
+        constant.display()
+    ))
+    .ok();
+    assert!(
+        run.stderr.contains("rows: energy"),
+        "the control: {}",
+        run.stderr
+    );
+}

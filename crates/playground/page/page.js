@@ -29,8 +29,7 @@ function open(keep) {
   const chosen = about.method.split(" ")[0];
   $("method").replaceChildren(...about.methods.map(id => new Option(id, id, false, id === chosen)));
   $("method").value = chosen;
-  const invariants = 1 + about.casimirs.length;
-  state = { rows: [], t: 0, first: null, errors: [], stride: 1, count: 0, q: [1, 0, 0, 0], omega: null, tip: [], names: ["energy", ...about.casimirs].slice(0, invariants), stopped: null };
+  state = { rows: [], t: 0, first: null, errors: [], stride: 1, count: 0, q: [1, 0, 0, 0], omega: null, tip: [], names: about.driven ? about.casimirs : ["energy", ...about.casimirs], stopped: null };
   advance(0);
 }
 
@@ -51,7 +50,7 @@ function show(line, column) {
 function advance(steps) {
   const n = about.coordinates.length, answer = ask({ steps, every: Math.max(1, Math.ceil(steps / 12)) });
   for (const row of answer.rows || []) {
-    const t = row[0], mu = row.slice(1, n + 1), invariants = row.slice(n + 1, n + 1 + state.names.length), omega = row.slice(-n).slice(0, 3);
+    const t = row[0], mu = row.slice(1, n + 1), from = n + 1 + (about.driven ? 1 : 0), invariants = row.slice(from, from + state.names.length), omega = row.slice(-n).slice(0, 3);
     if (about.rotates && state.omega) turn(state.omega.map((w, k) => (w + omega[k]) / 2), t - state.t);
     state.omega = omega; state.t = t;
     state.rows.push([t, ...mu]); if (state.rows.length > 1500) state.rows.splice(0, 300);

@@ -208,6 +208,7 @@ fn about(model: &Structure, system: &Dynamic<f64>, choice: &Choice, engine: &str
         "casimirs": casimirs,
         "rank": model.generic_rank,
         "rotates": rotates(model),
+        "driven": model.configuration.as_ref().is_some_and(|c| c.time),
         "methods": methods,
         "equations": equations,
     })

@@ -49,6 +49,8 @@ class Solution:
         self.step = step
         self.steps = steps
         self._sites: Sites | None = None
+        # whether H depends on the time: the energy is no constant then
+        self._driven = False
         #: The group element at each row, shape (m, s, s) or (m, 4), where it was asked for.
         self.group: Array | None = None
 
@@ -87,14 +89,20 @@ class Solution:
         first = abs(float(values[0]))
         return first if first > 1e-12 * min(scale, scale * scale) else None
 
+    def _invariants(self) -> list[tuple[str, Array]]:
+        """What ought to be constant, by name."""
+        energy = [] if self._driven else [("energy", self.energy)]
+        return [*energy, *self.casimirs.items()]
+
     @property
     def drift(self) -> dict[str, float]:
-        """The largest change of energy and Casimirs over the rows, relative to their first values.
+        """The largest change of energy and Casimirs over the rows, relative to their first values; of the energy only where H
+        does not depend on the time.
 
         Where the first value is 0, or only round-off beside the state, the change itself.
         """
         found = {}
-        for name, values in [("energy", self.energy), *self.casimirs.items()]:
+        for name, values in self._invariants():
             change = float(np.max(np.abs(values - values[0]))) if len(values) else 0.0
             found[name] = change / (self._reference(values) or 1.0)
         return found
@@ -102,15 +110,15 @@ class Solution:
     def __repr__(self) -> str:
         absolute = {
             name: " (absolute)" if self._reference(values) is None else ""
-            for name, values in [("energy", self.energy), *self.casimirs.items()]
+            for name, values in self._invariants()
         }
         drift = ", ".join(
             f"{name} {value:.1e}{absolute[name]}" for name, value in self.drift.items()
         )
         end = f"t = {self.t[-1]:g}" if len(self.t) else "nothing"
+        errors = f"; largest relative error: {drift}" if drift else ""
         return (
-            f"<{self.name}, {self.method}, step {self.step:g}: {len(self.t)} rows to {end}; "
-            f"largest relative error: {drift}>"
+            f"<{self.name}, {self.method}, step {self.step:g}: {len(self.t)} rows to {end}{errors}>"
         )
 
     def plot(self, *, show: bool = False) -> Any:
@@ -122,10 +130,18 @@ class Solution:
         return shown(figure, show)
 
     def _draw(self, figure: Any) -> None:
+        invariants = self._invariants()
+        title = f"{self.name}, {self.method}, step {self.step:g}"
+        if not invariants:
+            axes = figure.subplots()
+            self._draw_components(axes)
+            axes.set_title(title)
+            axes.set_xlabel("t")
+            return
         above, below = figure.subplots(2, 1, sharex=True, height_ratios=[2, 1])
         self._draw_components(above)
-        above.set_title(f"{self.name}, {self.method}, step {self.step:g}")
-        for name, values in [("energy", self.energy), *self.casimirs.items()]:
+        above.set_title(title)
+        for name, values in invariants:
             scale = self._reference(values) or 1.0
             errors = np.maximum(np.abs(values - values[0]) / scale, 1e-17)
             below.semilogy(self.t, errors, label=name, linewidth=1)
@@ -147,7 +163,8 @@ class Solution:
             return page(repr(self))
         drift = [(name, f"{value:.2e}") for name, value in self.drift.items()]
         picture = image(self._draw, (8, 5), f"components and errors of {self.name}")
-        return page(repr(self).strip("<>"), table(["invariant", "largest error"], drift), picture)
+        errors = table(["invariant", "largest error"], drift) if drift else ""
+        return page(repr(self).strip("<>"), errors, picture)
 
 
 class Ensemble:

@@ -62,8 +62,8 @@ class System(Declared):
         """Integrates from time ``t0``, by default 0, until ``t``.
 
         ``h`` is the step; ``tol``, in its place, the relative error wanted at the end. ``x0`` is the initial state, a
-        sequence or a dictionary; ``every`` saves each so-manyth step, ``at`` saves these times alone. Parameters are given by
-        name, or in ``parameters`` where a name is also an argument (``parameters={"h": 2}``). What is left out comes from the
+        sequence or a dictionary; ``every`` saves each so-manyth step, ``at`` saves these times alone, in their
+        order. Parameters are given by name, or in ``parameters`` where a name is also an argument (``parameters={"h": 2}``). What is left out comes from the
         declaration; its words ``step``, ``from``, ``until`` and ``initial`` are taken for ``h``, ``t0``, ``t`` and ``x0`` too. ``rtol`` and ``atol`` are those of dopri5. ``iteration`` ("automatic", "newton", "simplified",
         "fixed-point"), ``newton_tolerance`` (in units of round-off), ``max_iterations`` and ``converge`` ("state", "map",
         "tolerance") are for the solver of implicit methods. ``group="matrix"`` or ``"quaternion"`` follows the group element
@@ -102,6 +102,7 @@ class System(Declared):
             found["steps"],
         )
         solution._sites = Sites(self, values) if family else None
+        solution._driven = self._core.time() is not None
         if "group" in found:
             elements = np.asarray(found["group"]).reshape(len(t_rows), -1)
             size = round(elements.shape[1] ** 0.5)

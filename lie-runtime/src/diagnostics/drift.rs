@@ -57,7 +57,8 @@ impl InvariantDrift {
 /// The drift of energy and Casimirs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drift {
-    /// Of the energy.
+    /// Of the energy: of [`Poisson::hamiltonian`], which is conserved also where H depends on the time and the energy that is
+    /// shown is not.
     pub energy: InvariantDrift,
     /// Of the Casimirs, without those that have several branches ([`Poisson::casimir_is_multivalued`]).
     pub casimirs: Vec<InvariantDrift>,
@@ -104,7 +105,7 @@ impl<S: Scalar> Default for DriftMonitor<S> {
 impl<S: Scalar, P: Poisson<S>> Observer<S, P> for DriftMonitor<S> {
     fn start(&mut self, system: &P, _progress: Progress, mu: &P::State) {
         let count = system.casimir_count();
-        self.energy = system.energy(mu);
+        self.energy = system.hamiltonian(mu);
         self.followed = (0..count)
             .filter(|&place| !system.casimir_is_multivalued(place))
             .collect();
@@ -122,7 +123,7 @@ impl<S: Scalar, P: Poisson<S>> Observer<S, P> for DriftMonitor<S> {
 
     fn step(&mut self, system: &P, progress: Progress, mu: &P::State) -> ControlFlow<()> {
         let Progress { step, steps, .. } = progress;
-        let change = (system.energy(mu) - self.energy).abs();
+        let change = (system.hamiltonian(mu) - self.energy).abs();
         self.drift.energy.record(largest(change), step, steps);
         system.casimirs(mu, &mut self.values);
         for (drift, &place) in self.drift.casimirs.iter_mut().zip(&self.followed) {
