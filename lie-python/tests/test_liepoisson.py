@@ -240,7 +240,7 @@ def test_every_key_of_a_run_in_the_declaration_counts() -> None:
         return lp.System(BODY, initial=START, run=keys).run()
 
     assert len(run(step=0.1, until=2, every=5)) == 5 and len(run(step=0.1, until=2)) == 21
-    assert run(step=0.1, at=[0.5, "1/3"]).t.tolist() == [1 / 3, 0.5]
+    assert run(step=0.1, at=["1/3", 0.5]).t.tolist() == [1 / 3, 0.5]
     chosen = run(tol=1e-6, until=2)
     assert (chosen.method, chosen.drift["energy"] < 1e-12) == ("gauss16", True)
     assert run(method="gauss4", tol=1e-6, until=2).method == "gauss4"

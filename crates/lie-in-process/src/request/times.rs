@@ -1,7 +1,7 @@
 //! The step, and the times at which rows are wanted.
 
-use super::OptionValue;
 use super::plan::Planner;
+use super::{Front, OptionValue};
 use crate::message::Fault;
 use lie_codegen::methods::Choice;
 use lie_program::protocol::Times;
@@ -155,7 +155,17 @@ impl Planner<'_> {
             }
         }
         if self.at_times() {
-            values.sort_by(|a, b| (a - from).abs().total_cmp(&(b - from).abs()));
+            let away = |time: &f64| (time - from).abs();
+            let in_order = values.is_sorted_by(|a, b| away(a) <= away(b));
+            // who calls takes row k for that of time k
+            if self.request.front == Front::Call && self.request.at.is_some() && !in_order {
+                let text = "the times of `at` are not in order, as the rows will be";
+                let help = "give them from the start on, as with at=sorted(…), backwards at=sorted(…, reverse=True)";
+                self.mistakes
+                    .push(self.option_mistake("at", text).help(help));
+                return None;
+            }
+            values.sort_by(|a, b| away(a).total_cmp(&away(b)));
             return Some(Times::At(values));
         }
         let every = match self.option("every") {
