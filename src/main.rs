@@ -37,8 +37,12 @@ fn main() -> ExitCode {
         .spawn(real_main);
     match thread.map(std::thread::JoinHandle::join) {
         Ok(Ok(code)) => ExitCode::from(code),
+        Err(error) => {
+            render::say(&format!("error: there is no memory for a thread: {error}"));
+            ExitCode::from(message::SURROUNDINGS)
+        }
         // The panic hook has said what happened.
-        _ => ExitCode::from(message::SURROUNDINGS),
+        Ok(Err(_)) => ExitCode::from(message::SURROUNDINGS),
     }
 }
 

@@ -1,5 +1,6 @@
 //! How a command fails: what it says on stderr, and its exit code.
 
+use lie_in_process::message::Fault;
 pub use lie_in_process::message::{Message, Place, Source};
 
 /// Exit code: a check failed, or the surroundings did (unwritable file, full disk, no cargo).
@@ -21,11 +22,12 @@ pub struct Failure {
 }
 
 impl Failure {
-    /// The input is invalid.
+    /// The input is invalid, or this machine too small for it.
     pub fn invalid(messages: Vec<Message>) -> Self {
+        let small = messages.iter().any(|one| one.fault == Fault::Memory);
         Self {
             messages,
-            code: INVALID,
+            code: if small { SURROUNDINGS } else { INVALID },
         }
     }
 

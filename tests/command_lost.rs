@@ -171,6 +171,46 @@ fn what_is_refused_later_leaves_files_as_they_were() {
     }
 }
 
+#[test]
+#[cfg(target_os = "linux")]
+fn what_does_not_fit_into_memory_is_refused_beforehand() {
+    let folder = folder();
+    let here = folder.path();
+    prepared(here);
+    let chain = r#"{
+        "format": 1, "name": "Chain", "algebra": "so(3)^N", "state": ["x[i]", "y[i]", "z[i]"],
+        "parameters": { "N": 10, "J": 1 }, "hamiltonian": "J*sum(i in 0..N: z[i]*z[i+1])",
+        "initial": { "random": "unit-sphere", "seed": 1 },
+        "run": { "method": "rk4", "step": 0.1, "until": 0.3 }
+    }"#;
+    fs::write(here.join("chain.json"), chain).unwrap();
+    let limited = |call: &str| shell(here, &format!(r#"ulimit -v 3000000; "$0" {call}"#));
+    limited("run chain.json --param N=1000").ok();
+    for (call, kind, place) in [
+        (
+            "run chain.json --param N=20000000",
+            "limit",
+            "command line: --param",
+        ),
+        (
+            "run chain.json --param N=2000000000",
+            "limit",
+            "command line: --param",
+        ),
+        (
+            "run chain.json --param N=10000 --param J=0:1:100000",
+            "limit",
+            "command line: --param",
+        ),
+        ("run body.json --initial-file /dev/zero", "io", "/dev/zero"),
+    ] {
+        let run = limited(&format!("{call} --out rows.csv")).says(kind, place);
+        assert_eq!(run.code, Some(1), "{call}: {}", run.stderr);
+        assert!(run.stderr.contains("memory"), "{}", run.stderr);
+        assert!(!here.join("rows.csv").exists());
+    }
+}
+
 /// Whether a picture has all that a whole run shows.
 fn whole(picture: &str) -> bool {
     picture.trim_end().ends_with("</svg>") && picture.contains("rk4")

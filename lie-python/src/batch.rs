@@ -2,11 +2,13 @@
 
 use crate::arguments;
 use crate::declaration::Declaration;
+use crate::errors::of_system;
 use crate::progress::Progress;
 use crate::talk::{Outcome, converse};
 use lie_codegen::structure::Structure;
 use lie_in_process::ensemble::Ensemble;
 use lie_in_process::members::Member;
+use lie_in_process::memory::{self, Exceeded};
 use lie_in_process::report::signs;
 use lie_in_process::request::{Request, plan};
 use lie_program::protocol::{End, Obstacle, Start};
@@ -16,6 +18,7 @@ use numpy::{
 };
 use pyo3::exceptions::{PyRuntimeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
+use std::io;
 
 /// A member that ended early: its number, the time, why.
 pub type Failed = (usize, f64, String);
@@ -28,11 +31,12 @@ struct Found {
     failures: Vec<Failed>,
 }
 
-fn collected(width: usize, members: Vec<Member>) -> Found {
+fn collected(width: usize, members: Vec<Member>) -> io::Result<Found> {
     let longest = members.iter().map(|member| &member.times);
     let times = longest.max_by_key(|times| times.len());
     let times = times.cloned().unwrap_or_default();
-    let mut states = Vec::with_capacity(members.len() * times.len() * width);
+    let mut states = Vec::new();
+    memory::reserve(&mut states, members.len() * times.len() * width)?;
     let mut failures = Vec::new();
     for (index, member) in members.into_iter().enumerate() {
         let missing = width * times.len() - member.states.len();
@@ -40,11 +44,11 @@ fn collected(width: usize, members: Vec<Member>) -> Found {
         states.extend(std::iter::repeat_n(f64::NAN, missing));
         failures.extend(member.failed.map(|(time, why)| (index, time, why)));
     }
-    Found {
+    Ok(Found {
         times,
         states,
         failures,
-    }
+    })
 }
 
 /// The times, the states of members by rows, why some ended early, and what is to be noted of their starts.
@@ -85,7 +89,11 @@ pub fn ensemble<'py>(
     let note = declaration.with_model(py, |model| note(model, &ensemble));
     let mut members = Vec::new();
     let progress = Progress::new("members", progress);
-    let outcome = py.detach(|| converse(&work, ensemble, progress, |found| members = found))?;
+    let take = |found: Result<_, Exceeded>| {
+        members = found?;
+        Ok(())
+    };
+    let outcome = py.detach(|| converse(&work, ensemble, progress, take))?;
     match outcome {
         Outcome {
             interrupted: Some(error),
@@ -108,7 +116,7 @@ pub fn ensemble<'py>(
             return Err(PyRuntimeError::new_err(text));
         }
     }
-    let found = collected(starts.shape()[1], members);
+    let found = collected(starts.shape()[1], members).map_err(of_system)?;
     let shape = [starts.shape()[0], found.times.len(), starts.shape()[1]];
     let states = found.states.into_pyarray(py).reshape(shape)?;
     Ok((found.times.into_pyarray(py), states, found.failures, note))

@@ -1,6 +1,7 @@
 //! A checked declaration, and what is compiled of it. The compiler works without the interpreter's lock.
 
 use crate::errors::{Mistakes, method_error};
+use crate::talk::attended;
 use lie_codegen::compile::{compile_spec, compile_spec_in};
 use lie_codegen::methods::Choice;
 use lie_codegen::program::{Chart, Purpose};
@@ -8,26 +9,15 @@ use lie_codegen::structure::Effort;
 use lie_codegen::structure::Structure;
 use lie_dynamic::{Declared, Dynamic};
 use lie_in_process::Work;
+use lie_in_process::memory;
 use lie_in_process::message::Source;
 use lie_in_process::spec::Spec;
 use lie_runtime::Poisson as _;
 use lie_runtime::family::STATISTICS;
-use pyo3::exceptions::PyValueError;
+use pyo3::exceptions::{PyMemoryError, PyValueError};
 use pyo3::prelude::*;
-use std::cell::RefCell;
 use std::collections::HashMap;
-use std::rc::Rc;
-use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
-
-/// Checked models that a thread keeps.
-const KEPT: usize = 8;
-
-thread_local! {
-    /// The models that this thread has asked for last, by the numbers of their declarations: a model is not sent between
-    /// threads.
-    static SPECS: RefCell<Vec<(u64, Rc<Spec>)>> = const { RefCell::new(Vec::new()) };
-}
 
 /// What is asked of a declaration often.
 pub struct Facts {
@@ -89,9 +79,7 @@ type Compiled = (String, Option<Chart>, Arc<Work>);
 
 /// A checked declaration.
 pub struct Declaration {
-    /// Its number, among all.
-    id: u64,
-    pub text: String,
+    spec: Arc<Spec>,
     pub facts: Facts,
     /// What runs a method, by its label and the form of the group element.
     compiled: Mutex<Vec<Compiled>>,
@@ -101,45 +89,38 @@ pub struct Declaration {
 
 impl Declaration {
     pub fn new(py: Python<'_>, text: String) -> PyResult<Self> {
-        static NEXT: AtomicU64 = AtomicU64::new(0);
-        let facts = py.detach(|| match compile_spec(&text) {
-            Ok(model) => Ok(Facts::of(&model)),
+        let checked = attended(py, move || match compile_spec(&text) {
+            Ok(model) => Ok(Spec {
+                source: Arc::new(Source {
+                    path: model.name.clone(),
+                    text,
+                }),
+                model,
+            }),
             Err(diagnostics) => Err(Mistakes::new(&text, &diagnostics)),
         });
+        let spec = checked?.map_err(|mistakes| mistakes.raise(py))?;
         Ok(Self {
-            id: NEXT.fetch_add(1, Ordering::Relaxed),
-            facts: facts.map_err(|mistakes| mistakes.raise(py))?,
+            facts: Facts::of(&spec.model),
+            spec: Arc::new(spec),
             compiled: Mutex::default(),
             plain: OnceLock::new(),
-            text,
         })
+    }
+
+    /// The declaration as it was written.
+    pub fn text(&self) -> &str {
+        &self.spec.source.text
     }
 
     /// The model with its text.
-    fn spec(&self) -> Rc<Spec> {
-        SPECS.with_borrow_mut(|specs| {
-            let known = specs.iter().position(|(id, _)| *id == self.id);
-            let spec = known.map_or_else(|| Rc::new(self.checked()), |known| specs.remove(known).1);
-            specs.insert(0, (self.id, Rc::clone(&spec)));
-            specs.truncate(KEPT);
-            spec
-        })
-    }
-
-    fn checked(&self) -> Spec {
-        let model = compile_spec(&self.text);
-        Spec {
-            source: Arc::new(Source {
-                path: self.facts.system.clone(),
-                text: self.text.clone(),
-            }),
-            model: model.unwrap_or_else(|_| unreachable!("the same text was sound before")),
-        }
+    pub fn spec(&self) -> Arc<Spec> {
+        Arc::clone(&self.spec)
     }
 
     /// Has something done with the model, without the interpreter's lock.
     pub fn with_spec<R: Send>(&self, py: Python<'_>, work: impl FnOnce(&Spec) -> R + Send) -> R {
-        py.detach(|| work(&self.spec()))
+        py.detach(|| work(&self.spec))
     }
 
     /// The same without the text.
@@ -152,17 +133,21 @@ impl Declaration {
     }
 
     /// The same with as much work on what is searched for as is said.
-    pub fn with_effort<R: Send>(
+    pub fn with_effort<R: Send + 'static>(
         &self,
         py: Python<'_>,
         effort: Effort,
-        work: impl FnOnce(&Structure) -> R + Send,
+        work: impl FnOnce(&Structure) -> R + Send + 'static,
     ) -> PyResult<R> {
-        let done = py.detach(|| match compile_spec_in(&self.text, None, effort) {
-            Ok(model) => Ok(work(&model)),
-            Err(diagnostics) => Err(Mistakes::new(&self.text, &diagnostics)),
+        let spec = self.spec();
+        let done = attended(py, move || {
+            let text = &spec.source.text;
+            match compile_spec_in(text, None, effort) {
+                Ok(model) => Ok(work(&model)),
+                Err(diagnostics) => Err(Mistakes::new(text, &diagnostics)),
+            }
         });
-        done.map_err(|mistakes| mistakes.raise(py))
+        done?.map_err(|mistakes| mistakes.raise(py))
     }
 
     /// The parameters with these values, by name.
@@ -187,10 +172,11 @@ impl Declaration {
             return Ok(Arc::clone(work));
         }
         let purpose = chart.map_or(Purpose::Run, Purpose::OnGroup);
-        let work = self.with_model(py, |model| {
-            Work::new(model, std::slice::from_ref(choice), purpose, || None)
+        let (spec, choice) = (self.spec(), choice.clone());
+        let work = attended(py, move || {
+            Work::new(&spec.model, &[choice], purpose, || None)
         });
-        let Some(work) = work else {
+        let Some(work) = work? else {
             self.plain(py)?;
             let text = format!("`{label}` does not run in Python yet");
             let help = "`lie run` has it; or take another method, see System.methods()";
@@ -204,9 +190,10 @@ impl Declaration {
     /// The system without code for any method.
     fn plain(&self, py: Python<'_>) -> PyResult<&Declared> {
         if self.plain.get().is_none() {
-            let declared = self.with_model(py, lie_in_process::declared);
+            let spec = self.spec();
+            let declared = attended(py, move || lie_in_process::declared(&spec.model));
             // another thread may have been first
-            let _ = self.plain.set(declared);
+            let _ = self.plain.set(declared?);
         }
         let declared = self.plain.get().and_then(Option::as_ref);
         declared.ok_or_else(|| {
@@ -225,6 +212,12 @@ impl Declaration {
 
     /// The system of these parameters, without code for any method.
     pub fn system(&self, py: Python<'_>, parameters: &[f64]) -> PyResult<Dynamic<f64>> {
+        let family = self.spec.model.family.as_ref();
+        if let Some([rows, columns]) = family.and_then(|family| family.sites(parameters)) {
+            let coordinates = rows as f64 * columns as f64 * self.facts.names.len() as f64;
+            memory::fits(coordinates * memory::COORDINATE)
+                .map_err(|exceeded| PyMemoryError::new_err(exceeded.to_string()))?;
+        }
         let system = self.plain(py)?.system(parameters);
         system.map_err(|error| PyValueError::new_err(error.to_string()))
     }

@@ -3,8 +3,9 @@
 use lie_in_process::message::{Fault, Message, Place};
 use lie_in_process::request::Front;
 use lie_syntax::diagnostic::{Diagnostic, Origin};
-use pyo3::exceptions::{PyRuntimeError, PyTypeError, PyValueError};
+use pyo3::exceptions::{PyMemoryError, PyRuntimeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
+use std::io;
 
 /// An exception of the package by its name.
 fn raise(py: Python<'_>, name: &str, arguments: impl for<'a> pyo3::call::PyCallArgs<'a>) -> PyErr {
@@ -101,7 +102,19 @@ pub fn refused(py: Python<'_>, messages: &[Message]) -> PyErr {
     match messages.first().map(|message| message.fault) {
         Some(Fault::Method) => raise(py, "MethodError", (text,)),
         Some(Fault::Arguments) => PyTypeError::new_err(text),
+        Some(Fault::Memory) => PyMemoryError::new_err(text),
         _ => PyValueError::new_err(text),
+    }
+}
+
+/// What the system does not give: memory, or something else.
+pub fn of_system(error: io::Error) -> PyErr {
+    match error.kind() {
+        io::ErrorKind::OutOfMemory => {
+            let help = "save fewer rows, with every=… or at=[…], or go on from the last row of a shorter run";
+            PyMemoryError::new_err(format!("{error}\n  help: {help}"))
+        }
+        _ => error.into(),
     }
 }
 

@@ -1,10 +1,13 @@
 //! Kernels at many states.
 
+use crate::errors::of_system;
 use lie_dynamic::Dynamic;
+use lie_in_process::memory;
 use lie_runtime::{Poisson, SquareMatrix};
 use numpy::{IntoPyArray, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use std::io;
 use std::time::{Duration, Instant};
 
 /// Between two looks for Ctrl-C.
@@ -111,7 +114,11 @@ pub fn evaluate<'py>(
     let (states, width) = (states.as_array(), evaluation.width());
     let count = states.nrows();
     let values = py.detach(|| {
-        let mut values = Vec::with_capacity(count * width);
+        let mut values = Vec::new();
+        memory::fits((count * width) as f64 * memory::NUMBER)
+            .map_err(io::Error::from)
+            .and_then(|()| memory::reserve(&mut values, count * width))
+            .map_err(of_system)?;
         let mut looked = Instant::now();
         for (number, row) in states.rows().into_iter().enumerate() {
             if number % STRIDE == 0 && looked.elapsed() > PAUSE {

@@ -37,7 +37,7 @@ impl Core {
 
     #[getter]
     fn text(&self) -> &str {
-        &self.0.text
+        self.0.text()
     }
     #[getter]
     fn name(&self) -> &str {

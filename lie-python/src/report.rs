@@ -57,11 +57,12 @@ pub fn check(py: Python<'_>, declaration: &Declaration, deep: bool) -> PyResult<
         true => Effort::Deep,
         false => Effort::Report,
     };
-    declaration.with_effort(py, effort, |model| {
+    let spec = declaration.spec();
+    declaration.with_effort(py, effort, move |model| {
         let mut found = Report::new(model).json(model);
         let warnings = model.warnings.iter();
         let warnings: Vec<String> = warnings
-            .map(|warning| describe(&declaration.text, warning))
+            .map(|warning| describe(&spec.source.text, warning))
             .collect();
         found["warnings"] = json!(warnings);
         found.to_string()

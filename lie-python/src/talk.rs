@@ -2,7 +2,7 @@
 
 use crate::arguments;
 use crate::declaration::Declaration;
-use crate::errors::{method_error, refused};
+use crate::errors::{method_error, of_system, refused};
 use crate::progress::Progress;
 use lie_codegen::methods::Choice;
 use lie_codegen::program::Purpose;
@@ -18,10 +18,15 @@ use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use std::io;
 use std::sync::Arc;
+use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::time::{Duration, Instant};
 
 /// Between two looks for Ctrl-C.
 const PAUSE: Duration = Duration::from_millis(20);
+/// The stack of a thread that compiles.
+const STACK: usize = 64 << 20;
+/// So long a step may take after Ctrl-C; then its thread is left behind, and ends with the step.
+const GRACE: Duration = Duration::from_secs(1);
 
 /// A kind of measurement: what is asked for, and what becomes of the answers.
 pub trait Measurement: Sync {
@@ -90,30 +95,33 @@ impl<'a> Subject<'a> {
             start,
             progress,
         } = self;
-        declaration.with_spec(py, |spec| {
-            let model = &spec.model;
-            let choices = choices(model, methods, M::usual)
-                .map_err(|message| Python::attach(|py| refused(py, &[message])))?;
-            let limit = Limit::for_purpose(M::PURPOSE);
-            let exceeded = limit.and_then(|limit| limit.exceeded(model, start.initial.len()));
-            if let Some((text, help)) = exceeded {
-                return Err(PyValueError::new_err(format!("{text}\n  help: {help}")));
-            }
-            let (options, mut results) = measurement.begin(spec, &start)?;
-            let work = Work::new(
-                model,
-                &choices,
-                M::PURPOSE,
-                lie_in_process::clock::processor,
-            );
-            let work = Arc::new(work.ok_or_else(|| not_here(M::COMMAND))?);
-            let labels: Vec<String> = choices.iter().map(Choice::label).collect();
+        let spec = declaration.spec();
+        let model = &spec.model;
+        let choices =
+            choices(model, methods, M::usual).map_err(|message| refused(py, &[message]))?;
+        let limit = Limit::for_purpose(M::PURPOSE);
+        let exceeded = limit.and_then(|limit| limit.exceeded(model, start.initial.len()));
+        if let Some((text, help)) = exceeded {
+            return Err(PyValueError::new_err(format!("{text}\n  help: {help}")));
+        }
+        let labels: Vec<String> = choices.iter().map(Choice::label).collect();
+        let declared = Arc::clone(&spec);
+        let work = attended(py, move || {
+            let clock = lie_in_process::clock::processor;
+            Work::new(&declared.model, &choices, M::PURPOSE, clock)
+        });
+        let work = Arc::new(work?.ok_or_else(|| not_here(py, M::COMMAND))?);
+        py.detach(|| {
+            let (options, mut results) = measurement.begin(&spec, &start)?;
             let request = lie_measure::Request {
                 methods: labels.clone(),
                 start,
                 options,
             };
-            let take = |found| M::record(&mut results, found);
+            let take = |found| {
+                M::record(&mut results, found);
+                Ok(())
+            };
             let outcome = converse(&work, request, Progress::new("", progress), take)?;
             let whole = outcome.whole(model)?;
             Ok(measurement.end(results, model, &labels, whole))
@@ -142,10 +150,36 @@ pub fn wanted(model: &Structure, label: &str) -> Result<Choice, Message> {
 }
 
 /// The answer where a measurement would need a built program.
-fn not_here(command: &str) -> PyErr {
+fn not_here(py: Python<'_>, command: &str) -> PyErr {
     let text = "not all of this runs in Python yet: a method or the kind of system";
     let help = format!("`{command}` has it: write the declaration to a file");
-    Python::attach(|py| method_error(py, text, &help))
+    method_error(py, text, &help)
+}
+
+/// Has something done by a thread of its own, without the interpreter's lock, while this one looks for Ctrl-C. That leaves the
+/// thread behind, which ends by itself.
+pub fn attended<R: Send + 'static>(
+    py: Python<'_>,
+    work: impl FnOnce() -> R + Send + 'static,
+) -> PyResult<R> {
+    let (sender, done) = sync_channel(1);
+    let work = move || {
+        // nobody waits for it after Ctrl-C
+        let _ = sender.send(work());
+    };
+    let thread = std::thread::Builder::new().stack_size(STACK).spawn(work)?;
+    py.detach(|| {
+        loop {
+            match done.recv_timeout(PAUSE) {
+                Ok(found) => return Ok(found),
+                Err(RecvTimeoutError::Timeout) => Python::attach(|py| py.check_signals())?,
+                Err(RecvTimeoutError::Disconnected) => {
+                    let panic = thread.join().err();
+                    std::panic::resume_unwind(panic.unwrap_or_else(|| Box::new("a thread ended")));
+                }
+            }
+        }
+    })
 }
 
 /// How a conversation ended.
@@ -218,10 +252,9 @@ impl<T> Ears<T> {
     }
 }
 
-impl<F, T: FnMut(F)> Listener<F> for Ears<T> {
+impl<F, T: FnMut(F) -> io::Result<()>> Listener<F> for Ears<T> {
     fn found(&mut self, found: F) -> io::Result<()> {
-        (self.take)(found);
-        Ok(())
+        (self.take)(found)
     }
 
     fn progress(&mut self, progress: &protocol::Progress) {
@@ -251,7 +284,7 @@ pub fn converse<Q: Question>(
     work: &Arc<Work>,
     question: Q,
     progress: Progress,
-    take: impl FnMut(Q::Found),
+    take: impl FnMut(Q::Found) -> io::Result<()>,
 ) -> PyResult<Outcome> {
     let mut ears = Ears {
         take,
@@ -259,10 +292,10 @@ pub fn converse<Q: Question>(
         looked: Instant::now(),
         interrupted: None,
     };
-    let last = lie_in_process::converse::converse(work, question, None, &mut ears)?;
+    let last = lie_in_process::converse::converse(work, question, Some(GRACE), &mut ears)?;
     let end = match last {
         Last::Said(end) => end,
-        Last::NotTaken(error) => return Err(error.into()),
+        Last::NotTaken(error) => return Err(of_system(error)),
         Last::Left => None,
     };
     let Ears {

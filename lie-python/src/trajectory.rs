@@ -2,17 +2,20 @@
 
 use crate::arguments;
 use crate::declaration::Declaration;
+use crate::errors::of_system;
 use crate::progress::Progress;
 use crate::talk::{Outcome, converse};
 use lie_codegen::program::Chart;
+use lie_in_process::memory;
 use lie_in_process::report::signs;
 use lie_in_process::request::Request;
-use lie_program::protocol::{Columns, End, Found, Obstacle};
+use lie_program::protocol::{Columns, End, Found, Obstacle, Times};
 use lie_runtime::driver::Pace;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use std::io;
 
 /// A run, as Python takes it.
 pub type Rows<'py> = (
@@ -25,6 +28,8 @@ pub type Rows<'py> = (
 /// What is heard of a run.
 #[derive(Default)]
 struct Heard {
+    /// How many rows there will be, once the step is known.
+    rows: Option<f64>,
     columns: Columns,
     times: Vec<f64>,
     states: Vec<f64>,
@@ -39,18 +44,49 @@ struct Heard {
 }
 
 impl Heard {
-    fn record(&mut self, found: Found) {
+    /// Takes what is found.
+    ///
+    /// # Errors
+    /// There is no memory for it.
+    fn record(&mut self, found: Found, times: &Times) -> io::Result<()> {
         match found {
-            Found::Chosen(chosen) => self.step = Some(chosen.step),
+            Found::Chosen(chosen) => {
+                self.step = Some(chosen.step);
+                self.rows = Some(memory::rows(times, chosen.step));
+            }
             Found::Assessed { error, missed } => self.missed = missed.then_some(error),
-            Found::Columns(columns) => self.columns = columns,
-            Found::Rows(rows) => rows
-                .numbers
-                .chunks_exact(rows.width)
-                .for_each(|row| self.row(row)),
+            Found::Columns(columns) => {
+                self.columns = columns;
+                self.reserve(self.rows.unwrap_or(0.0))?;
+            }
+            Found::Rows(rows) => {
+                self.reserve(rows.count as f64)?;
+                let rows = rows.numbers.chunks_exact(rows.width);
+                rows.for_each(|row| self.row(row));
+            }
             Found::Work(work) => self.steps = work.steps,
             Found::Divided { .. } => {}
         }
+        Ok(())
+    }
+
+    /// Makes room for so many more rows.
+    fn reserve(&mut self, rows: f64) -> io::Result<()> {
+        let columns = &self.columns;
+        if rows <= (self.times.capacity() - self.times.len()) as f64 {
+            return Ok(());
+        }
+        memory::fits(rows * columns.width() as f64 * memory::NUMBER)?;
+        for (numbers, width) in [
+            (&mut self.times, 1),
+            (&mut self.states, columns.coordinates.len()),
+            (&mut self.energies, 1),
+            (&mut self.casimirs, columns.casimirs.len()),
+            (&mut self.elements, columns.element),
+        ] {
+            memory::reserve(numbers, (rows as usize).saturating_mul(width))?;
+        }
+        Ok(())
     }
 
     fn row(&mut self, row: &[f64]) {
@@ -77,8 +113,16 @@ pub fn run<'py>(
     let note = declaration.with_model(py, |model| signs::note(model, std::iter::once(&run.start)));
     let (dimension, casimirs) = (run.start.initial.len(), declaration.facts.casimirs.len());
     let mut heard = Heard::default();
+    if let Pace::Step(step) = plan.pace.0 {
+        let rows = memory::rows(&plan.times, step);
+        let width = dimension + casimirs + 2;
+        memory::fits(rows * width as f64 * memory::NUMBER)
+            .map_err(|exceeded| of_system(exceeded.into()))?;
+        heard.rows = Some(rows);
+    }
     let progress = Progress::new("steps", progress);
-    let outcome = py.detach(|| converse(&work, run, progress, |found| heard.record(found)))?;
+    let take = |found| heard.record(found, &plan.times);
+    let outcome = py.detach(|| converse(&work, run, progress, take))?;
     let Outcome { end, interrupted } = outcome;
     if let Some(error) = interrupted {
         return Err(error);

@@ -6,9 +6,10 @@ use std::time::Duration;
 
 use lie_program::protocol::{End, Obstacle};
 use lie_program::session::Session;
-use lie_runtime::driver::{Options, Save};
+use lie_runtime::driver::{Options, Pace, Save};
 
 use crate::members::{LANES, Member, Members, Watch};
+use crate::memory::{self, Exceeded};
 use crate::request::Plan;
 use crate::{Question, Work};
 
@@ -33,6 +34,19 @@ pub struct Ensemble {
     pub threads: usize,
 }
 
+impl Ensemble {
+    /// Bytes of all rows: of each member alone, and of all together.
+    fn size(&self) -> f64 {
+        let rows = match (self.ends, self.plan.pace.0) {
+            (false, Pace::Step(step)) => memory::rows(&self.plan.times, step),
+            (false, Pace::Tolerance(_)) => memory::rows(&self.plan.times, f64::INFINITY),
+            (true, _) => 1.0,
+        };
+        let width = 1.0 + self.starts.first().map_or(0.0, |start| start.len() as f64);
+        2.0 * rows * width * self.starts.len() as f64 * memory::NUMBER
+    }
+}
+
 /// How many of so many members a thread takes at a time: as many as there are lanes, or less where some threads had none.
 fn share(count: usize, threads: usize) -> usize {
     let lanes = count.div_ceil(threads).clamp(1, LANES);
@@ -41,11 +55,16 @@ fn share(count: usize, threads: usize) -> usize {
 }
 
 impl Question for Ensemble {
-    /// All members, in order.
-    type Found = Vec<Member>;
+    /// All members, in order; or that there is not enough memory for their rows.
+    type Found = Result<Vec<Member>, Exceeded>;
 
-    fn put(self, work: &Work, session: &mut Session<'_, Vec<Member>>) -> Result<(), End> {
+    fn put(self, work: &Work, session: &mut Session<'_, Self::Found>) -> Result<(), End> {
         let run = self.plan.run(Default::default());
+        let size = self.size();
+        if let Err(exceeded) = memory::fits(size) {
+            session.found(Err(exceeded));
+            return Ok(());
+        }
         let options = run.options();
         let members = Members {
             declared: work.declared(),
@@ -60,11 +79,15 @@ impl Question for Ensemble {
                 ..options
             },
         };
-        let found = on_threads(&members, self.threads, session)?;
+        let watch = Watch::default();
+        let found = on_threads(&members, self.threads, &watch, session)?;
         if let Some(error) = found.iter().find_map(|member| member.refused.as_ref()) {
             return Err(End::refused(Obstacle::Option, error.to_string()));
         }
-        session.found(found);
+        session.found(match watch.full() {
+            true => Err(Exceeded::by(size)),
+            false => Ok(found),
+        });
         Ok(())
     }
 }
@@ -73,12 +96,13 @@ impl Question for Ensemble {
 fn on_threads(
     members: &Members<'_>,
     threads: usize,
-    session: &mut Session<'_, Vec<Member>>,
+    watch: &Watch,
+    session: &mut Session<'_, Result<Vec<Member>, Exceeded>>,
 ) -> Result<Vec<Member>, End> {
     let count = members.starts.len();
     let threads = threads.clamp(1, count.max(1));
     let share = share(count, threads);
-    let (next, watch) = (AtomicUsize::new(0), Watch::default());
+    let next = AtomicUsize::new(0);
     let work = || {
         let mut done: Vec<(usize, Member)> = Vec::new();
         loop {
@@ -87,7 +111,7 @@ fn on_threads(
                 return done;
             }
             let last = (first + share).min(count);
-            done.extend((first..last).zip(members.run(first..last, &watch)));
+            done.extend((first..last).zip(members.run(first..last, watch)));
         }
     };
     let mut all: Vec<(usize, Member)> = std::thread::scope(|scope| {

@@ -16,6 +16,7 @@ pub mod families;
 pub mod formula;
 pub mod list;
 pub mod members;
+pub mod memory;
 pub mod message;
 pub mod report;
 pub mod request;

@@ -73,11 +73,18 @@ pub struct Watch {
     pub stop: AtomicBool,
     /// So many members are done.
     pub done: AtomicUsize,
+    /// Whether there was no memory for a row, which ends all.
+    full: AtomicBool,
 }
 
 impl Watch {
     fn stopped(&self) -> bool {
         self.stop.load(Ordering::Relaxed)
+    }
+
+    /// Whether there was no memory for a row.
+    pub fn full(&self) -> bool {
+        self.full.load(Ordering::Relaxed)
     }
 
     fn done(&self, members: usize) {
@@ -116,6 +123,12 @@ impl<S: Scalar> Observer<S, Dynamic<S>> for Kept<'_, S> {
         if self.last_alone {
             self.times.clear();
             self.states.clear();
+        }
+        let room = self.times.try_reserve(1);
+        if room.and(self.states.try_reserve(mu.len())).is_err() {
+            self.watch.full.store(true, Ordering::Relaxed);
+            self.watch.stop.store(true, Ordering::Relaxed);
+            return ControlFlow::Break(());
         }
         self.times.push(time);
         self.states.extend_from_slice(mu);

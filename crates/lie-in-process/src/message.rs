@@ -43,6 +43,8 @@ pub enum Fault {
     Arguments,
     /// The method, or an option that it does not have.
     Method,
+    /// Nothing that was asked for: there is too little memory for it.
+    Memory,
 }
 
 /// One mistake or warning.

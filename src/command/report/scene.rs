@@ -7,21 +7,48 @@ use serde_json::{Value, json};
 
 use crate::command::run::picture::{casimir, energy};
 
-/// Points of the trajectory at most.
-const MOST: usize = 4000;
+/// Points of a trajectory that are kept at most, of which at least half are drawn.
+const MOST: usize = 8000;
 /// Values of each coordinate that have lines on a surface without level curves.
 const NET: usize = 7;
 
+/// A trajectory, thinned out as it comes: of any length it takes little memory.
+#[derive(Default)]
+pub struct Curve {
+    points: Vec<Point>,
+    /// Every so-manyth point is kept, from the first one on.
+    every: usize,
+    seen: usize,
+    bounds: Option<(Point, Point)>,
+}
+
+impl Curve {
+    /// Takes the next point.
+    pub fn push(&mut self, point: Point) {
+        let (low, high) = self.bounds.unwrap_or((point, point));
+        let of = |all: Point, of: fn(f64, f64) -> f64| [0, 1, 2].map(|i| of(all[i], point[i]));
+        self.bounds = Some((of(low, f64::min), of(high, f64::max)));
+        self.every = self.every.max(1);
+        if self.seen.is_multiple_of(self.every) {
+            self.points.push(point);
+        }
+        self.seen += 1;
+        if self.points.len() == MOST {
+            let mut place = 0;
+            self.points.retain(|_| {
+                place += 1;
+                place % 2 == 1
+            });
+            self.every *= 2;
+        }
+    }
+}
+
 /// The lines of a scene: of each the coordinates of its points, then the normals of the surface there. None where there is no
 /// surface.
-pub fn scene(system: &Dynamic<f64>, axes: &[String], states: &[Point]) -> Option<Value> {
-    let first = states.first()?;
-    let bounds = |of: fn(f64, f64) -> f64| {
-        states
-            .iter()
-            .fold(*first, |all, point| [0, 1, 2].map(|i| of(all[i], point[i])))
-    };
-    let (low, high) = (bounds(f64::min), bounds(f64::max));
+pub fn scene(system: &Dynamic<f64>, axes: &[String], curve: &Curve) -> Option<Value> {
+    let first = curve.points.first()?;
+    let (low, high) = curve.bounds?;
     let casimir = |point: &Point| casimir(system, point);
     let energy = |point: &Point| energy(system, point);
     let found = contours(&casimir, Some(&energy), first, (low, high))?;
@@ -44,8 +71,6 @@ pub fn scene(system: &Dynamic<f64>, axes: &[String], states: &[Point]) -> Option
             .map(|x| short(*x))
             .collect()
     };
-    let every = states.len().div_ceil(MOST);
-    let curve: Vec<Point> = states.iter().copied().step_by(every).collect();
     let middle = [0, 1, 2].map(|i| short(0.5 * (low[i] + high[i])));
     let mut behind = found.surface.border();
     if found.constant {
@@ -61,11 +86,34 @@ pub fn scene(system: &Dynamic<f64>, axes: &[String], states: &[Point]) -> Option
         "closed": found.closed,
         "constant": found.constant,
         "levels": levels,
-        "curves": [line(&curve)],
+        "curves": [line(&curve.points)],
     }))
 }
 
 /// Five digits, which a picture does not need more of.
 fn short(x: f64) -> f64 {
     format!("{x:.4e}").parse().unwrap_or(x)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_trajectories_keep_their_shape_in_little_memory() {
+        let mut curve = Curve::default();
+        let count = 100_000;
+        for k in 0..count {
+            curve.push([f64::from(k), f64::from(-k), 1.0]);
+        }
+        let end = f64::from(count - 1);
+        assert_eq!(curve.bounds, Some(([0.0, -end, 1.0], [end, 0.0, 1.0])));
+        let steps: Vec<f64> = curve
+            .points
+            .windows(2)
+            .map(|two| two[1][0] - two[0][0])
+            .collect();
+        assert!((MOST / 2..MOST).contains(&curve.points.len()));
+        assert!(steps.iter().all(|step| *step == 16.0), "{}", steps[0]);
+    }
 }

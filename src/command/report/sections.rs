@@ -1,14 +1,18 @@
 //! The sections of the page.
 
+use std::fs::File;
+use std::io::{BufRead as _, BufReader};
+
 use lie_codegen::structure::Structure;
 use lie_in_process::request::{Front, method};
-use lie_poisson::plot::surface::Point;
 
 use super::call::CommandOutput;
-use super::{Report, mathematics, scene};
+use super::scene::{self, Curve};
+use super::{Report, mathematics};
 use crate::build;
 use crate::command::run::picture::choice::no_orbit;
 use crate::message::{Failure, STOPPED};
+use crate::render;
 
 /// Methods that are compared where none are given: those of them that apply.
 const COMPARED: [&str; 7] = [
@@ -83,7 +87,7 @@ impl Report<'_> {
                 };
                 self.page.text(text);
                 self.page.stopped(&said.error);
-                eprint!("{}", said.error);
+                render::say(&said.error);
             }
         }
     }
@@ -140,8 +144,8 @@ impl Report<'_> {
     }
 
     fn scene(&self) -> Option<serde_json::Value> {
-        let text = std::fs::read_to_string(self.folder.join("rows.csv")).ok()?;
-        let mut lines = text.lines();
+        let rows = File::open(self.folder.join("rows.csv")).ok()?;
+        let mut lines = BufReader::new(rows).lines().map_while(Result::ok);
         let names: Vec<String> = lines
             .next()?
             .split(',')
@@ -149,18 +153,19 @@ impl Report<'_> {
             .take(3)
             .map(str::to_owned)
             .collect();
-        let states = lines.map_while(|line| {
-            let mut entries = line
-                .split(',')
-                .skip(1)
-                .map(|entry| entry.parse::<f64>().ok().filter(|x| x.is_finite()));
-            Some([entries.next()??, entries.next()??, entries.next()??])
-        });
-        let states: Vec<Point> = states.collect();
+        let mut curve = Curve::default();
+        for line in lines {
+            let entries = line.split(',').skip(1).take(3);
+            let entries = entries.map(|entry| entry.parse::<f64>().ok().filter(|x| x.is_finite()));
+            let Some(&[x, y, z]) = entries.collect::<Option<Vec<f64>>>().as_deref() else {
+                break;
+            };
+            curve.push([x, y, z]);
+        }
         let system = build::declared(&self.spec.model)?
             .system(&self.start.parameters)
             .ok()?;
-        scene::scene(&system, &names, &states)
+        scene::scene(&system, &names, &curve)
     }
 
     pub(super) fn comparison(&mut self) -> Result<(), Failure> {

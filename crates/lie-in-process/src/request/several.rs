@@ -7,11 +7,16 @@ use super::plan::{Foreign, Planned, Planner, planned};
 use super::sites::bound_to_itself;
 use super::states::{States, states};
 use super::{Front, Labels, Member, OptionValue, Parameter, Plan, Point, Request, Several, Value};
-use crate::message::Message;
+use crate::memory;
+use crate::message::{Fault, Message};
 use crate::spec::Spec;
+use crate::words::counted;
 
 /// The most runs of one command.
 pub(super) const MOST: usize = 1_000_000;
+
+/// Bytes of a run beside its state.
+const RUN: f64 = 500.0;
 
 /// The runs of a request. Finds the mistakes of all options, then answers.
 ///
@@ -158,6 +163,7 @@ fn points(
     sweeps: &[Sweep],
     states: Option<States>,
 ) -> Result<Vec<(Vec<f64>, Point)>, Vec<Message>> {
+    let front = flags.front;
     let count: usize = sweeps.iter().map(|sweep| sweep.values.len()).product();
     let mut points = Vec::new();
     for number in 0..count {
@@ -180,6 +186,16 @@ fn points(
         };
         if !planner.mistakes.is_empty() {
             return Err(planner.mistakes);
+        }
+        if let (0, Some(first)) = (number, found.first()) {
+            let runs = count * found.len() * flags.method.len().max(1);
+            let state = first.initial.len() as f64 * memory::NUMBER;
+            // it is kept once for each method, and its parameters with it
+            memory::fits(runs as f64 * (state + RUN)).map_err(|exceeded| {
+                let message = too_many(front, runs);
+                let text = format!("{}: {exceeded}", counted(runs as u64, "run"));
+                vec![Message { text, ..message }.with_fault(Fault::Memory)]
+            })?;
         }
         points.extend(found.into_iter().map(|point| (values.clone(), point)));
     }

@@ -11,6 +11,7 @@ use lie_syntax::diagnostic::{Kind, Origin};
 use super::Front;
 use super::npy::{self, Array};
 use super::plan::Planner;
+use crate::memory;
 use crate::message::{Fault, Message, Place};
 use crate::words::counted;
 
@@ -28,6 +29,14 @@ impl Planner<'_> {
             return None;
         };
         let sites = rows * columns;
+        if let Err(exceeded) = memory::fits(sites as f64 * n as f64 * memory::COORDINATE) {
+            let text = format!("{}: {exceeded}", counted(sites as u64, "site"));
+            let option = self.request.front.option("param");
+            let message = Message::new(Kind::Limit, text).at_option(&option);
+            let message = message.help("take fewer sites, or a machine with more memory");
+            self.mistakes.push(message.with_fault(Fault::Memory));
+            return None;
+        }
         let Some(given) = self.requested("initial") else {
             return match &family.start {
                 Some(Start::UnitSpheres(seed)) => Some(unit_spheres(sites, n, *seed)),
@@ -79,7 +88,7 @@ impl Planner<'_> {
             self.mistakes.push(message.help(help));
             None
         };
-        let bytes = match std::fs::read(&path) {
+        let bytes = match memory::read(&path) {
             Ok(bytes) => bytes,
             Err(error) => {
                 let help = "the path is relative to the folder of the spec";

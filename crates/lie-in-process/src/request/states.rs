@@ -7,7 +7,8 @@ use lie_syntax::diagnostic::Kind;
 
 use super::several::MOST;
 use super::{constant, npy};
-use crate::message::{Message, Place, Source};
+use crate::memory;
+use crate::message::{Fault, Message, Place, Source};
 use crate::spec::Spec;
 use crate::words::counted;
 
@@ -24,11 +25,15 @@ pub(super) struct States {
 /// What is wrong with the file.
 pub(super) fn states(spec: &Spec, path: &Path) -> Result<States, Message> {
     let unread = |text: String, help: &str| Message::io(path, text).help(help);
-    let bytes = std::fs::read(path).map_err(|error| {
-        unread(
+    let bytes = memory::read(path).map_err(|error| {
+        let message = unread(
             format!("it cannot be read: {error}"),
             "give a file of initial states, CSV or NPY",
-        )
+        );
+        match error.kind() {
+            std::io::ErrorKind::OutOfMemory => message.with_fault(Fault::Memory),
+            _ => message,
+        }
     })?;
     let states = if bytes.starts_with(b"\x93NUMPY") {
         array(&bytes, path)?
