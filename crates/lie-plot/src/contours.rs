@@ -10,6 +10,9 @@ const FINE: usize = 44;
 /// Energies that differ by no more than this part of what they are made of differ by round-off.
 const ROUND_OFF: f64 = 1e-11;
 
+/// Where the range of all energies is so many times that of nine tenths of them, there is a pole.
+const POLE: f64 = 8.0;
+
 /// An orbit in space.
 #[derive(Clone, Debug)]
 pub struct Contours {
@@ -71,19 +74,30 @@ pub fn contours(
             constant,
         });
     }
+    let (low, high) = without_poles(finite().collect(), (low, high));
+    let spacing = (high - low) / (LEVELS + 1) as f64;
     let mut levels = Vec::new();
     for k in 1..=LEVELS {
-        let level = low + (high - low) * k as f64 / (LEVELS + 1) as f64;
+        let level = low + spacing * k as f64;
         for chain in surface.curves(&values, level) {
+            // a pole between two corners looks like a passage through every level, and leads out of the picture
             let on = |point: &Point| {
                 let wanted: [(&Field<'_>, f64); 2] = [(&centred, 0.0), (energy, level)];
                 let found = (0..3).fold(*point, |point, _| onto(&point, &wanted));
-                match casimir(&found).0.is_finite() && energy(&found).0.is_finite() {
-                    true => found,
-                    false => *point,
-                }
+                let here = |at: &Point| {
+                    let way = (0..3)
+                        .map(|i| (at[i] - point[i]).powi(2))
+                        .sum::<f64>()
+                        .sqrt();
+                    let off = (energy(at).0 - level).abs();
+                    casimir(at).0.is_finite() && off <= spacing && way <= size / COARSE as f64
+                };
+                [found, *point].into_iter().find(here)
             };
-            levels.push(chain.iter().map(on).collect());
+            let points: Vec<Option<Point>> = chain.iter().map(on).collect();
+            let pieces = points.split(Option::is_none);
+            let pieces = pieces.filter(|piece| piece.len() > 1);
+            levels.extend(pieces.map(|piece| piece.iter().flatten().copied().collect()));
         }
     }
     Some(Contours {
@@ -92,6 +106,17 @@ pub fn contours(
         levels,
         constant,
     })
+}
+
+/// The range of energies that level curves divide: all of it, unless a pole stretches it far beyond where nearly all energies are.
+fn without_poles(mut energies: Vec<f64>, all: (f64, f64)) -> (f64, f64) {
+    energies.sort_by(f64::total_cmp);
+    let part = |of: usize| energies[(energies.len() - 1) * of / 20];
+    let (low, high) = (part(1), part(19));
+    match all.1 - all.0 > POLE * (high - low) && high > low {
+        true => (low, high),
+        false => all,
+    }
 }
 
 /// The part of a level surface on which a point lies: all of it where it is bounded, else the part around a curve; and which
@@ -249,6 +274,37 @@ mod tests {
         let little = |p: &Point| (0.5 * square(p).0 + 1e-6 * p[2], [p[0], p[1], p[2] + 1e-6]);
         let found = contours(&square, Some(&little), &start, bounds).unwrap();
         assert!(!found.constant && found.levels.len() >= LEVELS);
+    }
+
+    #[test]
+    fn level_curves_near_a_pole_stay_on_the_surface_and_show_the_rest_of_it() {
+        let start = [0.6, 0.0, 0.8];
+        let bounds = ([-0.6, -0.6, 0.8], [0.6, 0.6, 0.8]);
+        // poles along a circle, with both signs, and at two points
+        let circle = |p: &Point| {
+            let d = p[2] - 0.5;
+            (0.5 * p[0] * p[0] + 1.0 / d, [p[0], 0.0, -1.0 / (d * d)])
+        };
+        let points = |p: &Point| {
+            let d = p[0] * p[0] + p[1] * p[1];
+            (
+                p[0] + 1.0 / d,
+                [1.0 - 2.0 * p[0] / (d * d), -2.0 * p[1] / (d * d), 0.0],
+            )
+        };
+        let energies: [&Field<'_>; 2] = [&circle, &points];
+        for energy in energies {
+            let found = contours(&square, Some(energy), &start, bounds).unwrap();
+            let all = || found.levels.iter().flatten();
+            assert!(found.levels.len() >= LEVELS);
+            assert!(all().all(|p| (square(p).0 - 1.0).abs() < 1e-2));
+            let low = all().filter(|p| p[2].abs() < 0.3).count();
+            assert!(10 * low > all().count(), "{low} of {}", all().count());
+            let steps = found.levels.iter().flat_map(|level| level.windows(2));
+            let longest =
+                steps.map(|two| (0..3).map(|i| (two[1][i] - two[0][i]).powi(2)).sum::<f64>());
+            assert!(longest.fold(0.0, f64::max).sqrt() < 0.3);
+        }
     }
 
     /// The Casimir of Lotka and Volterra's equations with three species, up to its sign.
