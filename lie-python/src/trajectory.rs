@@ -8,8 +8,8 @@ use crate::talk::{Outcome, converse};
 use lie_codegen::program::Chart;
 use lie_in_process::memory;
 use lie_in_process::report::signs;
-use lie_in_process::request::Request;
-use lie_program::protocol::{Columns, End, Found, Obstacle, Times};
+use lie_in_process::request::{Plan, Request};
+use lie_program::protocol::{Columns, End, Found, Obstacle};
 use lie_runtime::driver::Pace;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
@@ -48,11 +48,11 @@ impl Heard {
     ///
     /// # Errors
     /// There is no memory for it.
-    fn record(&mut self, found: Found, times: &Times) -> io::Result<()> {
+    fn record(&mut self, found: Found, plan: &Plan) -> io::Result<()> {
         match found {
             Found::Chosen(chosen) => {
                 self.step = Some(chosen.step);
-                self.rows = Some(memory::rows(times, chosen.step));
+                self.rows = Some(memory::rows(&plan.times, plan.from, chosen.step));
             }
             Found::Assessed { error, missed } => self.missed = missed.then_some(error),
             Found::Columns(columns) => {
@@ -114,14 +114,14 @@ pub fn run<'py>(
     let (dimension, casimirs) = (run.start.initial.len(), declaration.facts.casimirs.len());
     let mut heard = Heard::default();
     if let Pace::Step(step) = plan.pace.0 {
-        let rows = memory::rows(&plan.times, step);
+        let rows = memory::rows(&plan.times, plan.from, step);
         let width = dimension + casimirs + 2;
         memory::fits(rows * width as f64 * memory::NUMBER)
             .map_err(|exceeded| of_system(exceeded.into()))?;
         heard.rows = Some(rows);
     }
     let progress = Progress::new("steps", progress);
-    let take = |found| heard.record(found, &plan.times);
+    let take = |found| heard.record(found, &plan);
     let outcome = py.detach(|| converse(&work, run, progress, take))?;
     let Outcome { end, interrupted } = outcome;
     if let Some(error) = interrupted {

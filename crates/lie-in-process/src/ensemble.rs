@@ -37,9 +37,10 @@ pub struct Ensemble {
 impl Ensemble {
     /// Bytes of all rows: of each member alone, and of all together.
     fn size(&self) -> f64 {
-        let rows = match (self.ends, self.plan.pace.0) {
-            (false, Pace::Step(step)) => memory::rows(&self.plan.times, step),
-            (false, Pace::Tolerance(_)) => memory::rows(&self.plan.times, f64::INFINITY),
+        let plan = &self.plan;
+        let rows = match (self.ends, plan.pace.0) {
+            (false, Pace::Step(step)) => memory::rows(&plan.times, plan.from, step),
+            (false, Pace::Tolerance(_)) => memory::rows(&plan.times, plan.from, f64::INFINITY),
             (true, _) => 1.0,
         };
         let width = 1.0 + self.starts.first().map_or(0.0, |start| start.len() as f64);

@@ -16,12 +16,12 @@ pub const NUMBER: f64 = 8.0;
 /// Bytes that a coordinate of a family takes: its value in the states of a step, and its name. Measured: 300 with `rk4`.
 pub const COORDINATE: f64 = 300.0;
 
-/// The rows of a run whose step is known.
-pub fn rows(times: &Times, step: f64) -> f64 {
+/// The rows of a run from a time on whose step is known.
+pub fn rows(times: &Times, from: f64, step: f64) -> f64 {
     match times {
         Times::At(times) => times.len() as f64,
         // the first and the last among them
-        Times::Until { end, every } => (end / step).abs() / *every as f64 + 2.0,
+        Times::Until { end, every } => ((end - from) / step).abs() / *every as f64 + 2.0,
     }
 }
 
@@ -168,10 +168,10 @@ mod tests {
     #[test]
     fn rows_are_counted_beforehand() {
         let until = |end, every| Times::Until { end, every };
-        assert_eq!(rows(&until(10.0, 5), 0.5), 6.0);
-        assert_eq!(rows(&until(-10.0, 1), -0.5), 22.0);
-        assert_eq!(rows(&until(1e300, 1), 1e-300), f64::INFINITY);
-        assert_eq!(rows(&Times::At(vec![1.0, 2.0]), 1e-3), 2.0);
+        assert_eq!(rows(&until(10.0, 5), 5.0, 0.5), 4.0);
+        assert_eq!(rows(&until(-10.0, 1), 0.0, -0.5), 22.0);
+        assert_eq!(rows(&until(1e300, 1), 0.0, 1e-300), f64::INFINITY);
+        assert_eq!(rows(&Times::At(vec![1.0, 2.0]), 0.0, 1e-3), 2.0);
     }
 
     #[test]
