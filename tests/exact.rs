@@ -1,6 +1,8 @@
 //! The exact flow: free rigid bodies against the reference values, near the separatrix and for any symmetric matrix; constant
 //! velocities; what is kept.
 
+#[path = "common/round_off.rs"]
+mod round_off;
 #[path = "common/systems.rs"]
 mod systems;
 #[path = "common/vectors.rs"]
@@ -11,6 +13,7 @@ use lie_runtime::lie_poisson;
 use lie_runtime::methods::{Exact, Facts as _, Gauss16, Method, Stepper};
 use lie_runtime::newton::NewtonOptions;
 use lie_runtime::prelude::*;
+use round_off::change;
 use systems::{Declared, FreeRigidBody, distance};
 use vectors::Reference;
 
@@ -206,4 +209,100 @@ fn what_is_kept() {
     let off = off.max((mu.norm_squared() - length).abs());
     println!("energy and length move by {off:e}");
     assert!(off < 1e-12, "{off:e}");
+}
+
+/// The largest change of `|m|^2` and of the energy, relative to themselves; the control begins anew at every step.
+fn largest_change(moments: [f64; 3], h: f64, steps: usize, anew: bool) -> f64 {
+    let system = moments_of(moments);
+    let start = [0.499_193_886_206_320_2, 1.186_821_513_974_446_7, 0.477];
+    let mut mu = system.zero_state();
+    mu.as_mut_slice().copy_from_slice(&start);
+    let mut stepper = Exact.stepper(&system, h, &NewtonOptions::default());
+    let mut worst: f64 = 0.0;
+    for step in 1..=steps {
+        if anew {
+            stepper = Exact.stepper(&system, h, &NewtonOptions::default());
+        }
+        stepper.step(&mut mu, &mut ()).expect("the step is made");
+        if step % 101 == 0 || step == steps {
+            for weights in [[1.0; 3], moments.map(|moment| 1.0 / moment)] {
+                let size = change(weights, &start, &[0.0; 3]);
+                worst = worst.max((change(weights, mu.as_slice(), &start) / size).abs());
+            }
+        }
+    }
+    worst
+}
+
+fn moments_of([i1, i2, i3]: [f64; 3]) -> systems::so3_free_rigid_body::FreeRigidBodySystem<f64> {
+    systems::so3_free_rigid_body::FreeRigidBody {
+        I1: i1,
+        I2: i2,
+        I3: i3,
+    }
+    .system()
+    .unwrap()
+}
+
+/// On one orbit the rounding of every step is the same; a step that knows where the orbit began does not add it up.
+#[test]
+fn invariants_do_not_drift() {
+    for (moments, h) in [
+        ([1.0, 1.0, 2.0 / 3.0], 0.5),
+        ([2.0, 1.0, 2.0 / 3.0], 0.15),
+        ([1.3, 0.7, 1.1], 7.0),
+    ] {
+        let worst = largest_change(moments, h, 150_000, false);
+        let control = largest_change(moments, h, 30_000, true);
+        println!("{moments:?}: {worst:e}, control {control:e}");
+        assert!(worst < 4e-16, "{moments:?}: {worst:e}");
+        assert!(control > 2e-15, "{moments:?}: {control:e}");
+    }
+}
+
+/// Powers of two in the state, the moments and the time change nothing but exponents.
+#[test]
+fn units_do_not_matter() {
+    let [moments, start, h] = [[2.0, 1.0, 2.0 / 3.0], [0.4, -0.9, 0.7], [0.3; 3]];
+    let run = |state: i32, moment: i32| {
+        let two = |power: i32| 2.0_f64.powi(power);
+        let system = moments_of(moments.map(|i| i * two(moment)));
+        let mut mu = system.zero_state();
+        let scaled = start.map(|entry| entry * two(state));
+        mu.as_mut_slice().copy_from_slice(&scaled);
+        let h = h[0] * two(moment) * two(-state);
+        walk(&system, &Exact, &mut mu, h, 200);
+        let back = mu.as_slice().iter().map(|entry| entry * two(-state));
+        back.collect::<Vec<f64>>()
+    };
+    let expected = run(0, 0);
+    for state in [-500, -300, -200, -150, -20, 1, 20, 100, 200, 300, 500] {
+        assert_eq!(run(state, 0), expected, "2^{state}");
+        assert_eq!(run(0, state), expected, "moments 2^{state}");
+    }
+    assert_eq!(run(-113, -155), expected);
+}
+
+/// At the unstable equilibrium, on the separatrix, and near it where a step passes the other equilibrium.
+#[test]
+fn long_steps_at_the_separatrix() {
+    let system = moments_of([1.0, 0.5, 1.0 / 3.0]);
+    for h in [1e-3, 30.0, 250.0, 1e3, 1e6, 1e100] {
+        for start in [[0.0, 1.0, 0.0], [0.0, -0.7, 0.0], [0.6, 0.5, 0.6]] {
+            let mut mu = system.zero_state();
+            mu.as_mut_slice().copy_from_slice(&start);
+            let mut stepper = Exact.stepper(&system, h, &NewtonOptions::default());
+            stepper.step(&mut mu, &mut ()).expect("the step is made");
+            let length = change([1.0; 3], &start, &[0.0; 3]);
+            let off = change([1.0; 3], mu.as_slice(), &start).abs() / length;
+            assert!(off < 1e-15, "{start:?} {h}: {mu:?}");
+            if start[0] == 0.0 {
+                assert!(distance(mu.as_slice(), &start) < 2e-16, "{h}: {mu:?}");
+            } else if h > 20.0 && h < 1e3 {
+                // the end of the separatrix, at the speed 2 m/sqrt(2)
+                let left = mu.as_slice()[0].hypot(mu.as_slice()[2]);
+                assert!(left < 1e-8, "{start:?} {h}: {mu:?}");
+            }
+        }
+    }
 }

@@ -13,6 +13,7 @@
 //! and 22.21, [doi:10.1017/CBO9780511608759](https://doi.org/10.1017/CBO9780511608759).
 #![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
 
+use super::words::Words;
 use crate::scalar::{Mask, Scalar};
 
 /// Arguments up to this times the frequency are small: five terms of the series have all digits of f64.
@@ -21,6 +22,9 @@ const SMALL: f64 = 1.0 / 32.0;
 const MOST_DOUBLINGS: u32 = 1100;
 
 /// The constants of the motion of a body from a state, and with them its functions of the time.
+///
+/// They are those of the state and the rates divided by powers of two near their largest, so that nothing overflows in
+/// any units; S is that of the time in such units too.
 #[derive(Clone, Copy, Debug)]
 pub struct FreeBody<S> {
     /// `k_1, k_2, k_3`; the second one has the sign that the others do not have.
@@ -29,13 +33,22 @@ pub struct FreeBody<S> {
     b: S,
     /// a - b, which has digits where a and b agree.
     difference: S,
+    /// The powers of two by which states and rates are divided.
+    units: [S; 2],
 }
 
 impl<S: Scalar> FreeBody<S> {
-    /// The body with these rates, in the state y.
-    pub fn new(rates: [S; 3], y: [S; 3]) -> Self {
+    /// The unit in which a state is near 1.
+    pub fn unit(y: [S; 3]) -> S {
+        power_of_two(S::largest_magnitude(&y))
+    }
+
+    /// The body with these rates, in the state y, whose unit is given: that of any state of its orbit.
+    pub fn new(rates: [S; 3], y: [S; 3], unit: S) -> Self {
+        let units = [unit, Self::unit(rates)];
+        let rates = rates.map(|rate| rate / units[1]);
         let [k1, k2, k3] = rates;
-        let [x, y, z] = y.map(|entry| entry * entry);
+        let [x, y, z] = y.map(|entry| entry / units[0]).map(|entry| entry * entry);
         let both = k1 * k3 * y;
         let (first, last) = (-k2 * k1 * z, -k2 * k3 * x);
         Self {
@@ -43,6 +56,7 @@ impl<S: Scalar> FreeBody<S> {
             a: both + first,
             b: both + last,
             difference: first - last,
+            units,
         }
     }
 
@@ -53,7 +67,46 @@ impl<S: Scalar> FreeBody<S> {
             a: self.a.widen(),
             b: self.b.widen(),
             difference: self.difference.widen(),
+            units: self.units.map(S::widen),
         }
+    }
+
+    /// `-k_2 y_1^2 + k_1 y_2^2` and `k_3 y_2^2 - k_2 y_3^2`, which do not change with the time, in units of the body.
+    pub fn constants(&self, y: [S; 3]) -> [Words<S>; 2] {
+        let [k1, k2, k3] = self.rates;
+        let [x, y, z] = y.map(|entry| {
+            let entry = entry / self.units[0];
+            Words::product(entry, entry)
+        });
+        [
+            x.times(-k2).plus(y.times(k1)),
+            y.times(k3).plus(z.times(-k2)),
+        ]
+    }
+
+    /// Moves y along the gradients of both constants to where they are the given ones, by one iteration of Newton's method.
+    pub fn restored(&self, y: [S; 3], given: [Words<S>; 2]) -> [S; 3] {
+        let half = S::ratio(1.0, 2.0);
+        let [p, q] = self.constants(y);
+        let (p, q) = (half * p.minus(given[0]), half * q.minus(given[1]));
+        let [k1, k2, k3] = self.rates;
+        let [x1, x2, x3] = y.map(|entry| entry / self.units[0]);
+        let (first, second) = ([-k2 * x1, k1 * x2], [k3 * x2, -k2 * x3]);
+        // on the axis of the middle moment both gradients point the same way, and the shortest move is enough
+        let more = S::one() + S::epsilon().sqrt();
+        let pp = (first[0] * first[0] + first[1] * first[1]) * more;
+        let qq = (second[0] * second[0] + second[1] * second[1]) * more;
+        let pq = first[1] * second[0];
+        let determinant = pp * qq - pq * pq;
+        let rests = determinant.less_equal(S::zero());
+        let inverse = S::one() / S::select(rests, S::one(), determinant);
+        let inverse = S::select(rests, S::zero(), inverse);
+        let (p, q) = ((p * qq - q * pq) * inverse, (q * pp - p * pq) * inverse);
+        [
+            (x1 - p * first[0]) * self.units[0],
+            (x2 - (p * first[1] + q * second[0])) * self.units[0],
+            (x3 - q * second[1]) * self.units[0],
+        ]
     }
 
     /// S, C and D at a time, to round-off times `1 + t sqrt(max(a, b))`.
@@ -66,7 +119,8 @@ impl<S: Scalar> FreeBody<S> {
         let quarter = S::ratio(1.0, 4.0);
         let half = S::ratio(1.0, 2.0);
         let small = S::ratio(SMALL * SMALL, 1.0);
-        let (mut time, mut size) = (time, self.a.max(self.b) * time * time);
+        let mut time = time * self.units[0] * self.units[1];
+        let mut size = self.a.max(self.b) * time * time;
         let (mut doublings, mut most) = (S::zero(), 0);
         loop {
             let large = small.less(size);
@@ -89,9 +143,12 @@ impl<S: Scalar> FreeBody<S> {
 
     /// S, C, D at a small time.
     fn series(&self, t: S) -> [S; 3] {
-        let (a, b) = (self.a, self.b);
-        let (sum, product) = (a + b, a * b);
         let number = |n: f64| S::ratio(n, 1.0);
+        let largest = self.a.max(self.b);
+        let x = largest * t * t;
+        let divisor = S::select(S::zero().less(largest), largest, S::one());
+        let (a, b) = (self.a / divisor, self.b / divisor);
+        let (sum, product) = (a + b, a * b);
         // symmetric polynomials of a and b: a^2 + 14 a b + b^2, a^3 + 135 a^2 b + …, a^4 + 1228 a^3 b + …
         let square = sum * sum;
         let second = square + number(12.0) * product;
@@ -99,36 +156,43 @@ impl<S: Scalar> FreeBody<S> {
         let fourth = square * square
             + number(1224.0) * square * product
             + number(3024.0) * product * product;
-        let x = t * t;
         let tail = third / number(5040.0) - x * fourth / number(362_880.0);
         let tail = second / number(120.0) - x * tail;
         let s = t - t * x * (sum / number(6.0) - x * tail);
         let under = |rate: S| (S::one() - rate * s * s).sqrt();
-        [s, under(a), under(b)]
+        [s, under(self.a), under(self.b)]
     }
 
     /// S, C, D at twice the time. While C(2t) is near 1, its distance from 1 is what has digits: that grows fourfold.
+    ///
+    /// On the separatrix C and D vanish with time, together. Before their squares underflow nothing changes any more.
     fn doubled(&self, [s, c, d]: [S; 3]) -> [S; 3] {
-        let (cc, dd, ss) = (c * c, d * d, s * s);
-        let both = cc * dd;
-        let apart = self.difference * ss;
+        let (cc, dd, both) = (c * c, d * d, c * d);
+        let apart = self.difference * s * s;
         let inverse = S::one() / (cc + (S::one() - cc) * dd);
         let near = |rest: S, other: S| {
-            let off = (rest + rest) * ss * other * inverse;
+            let off = (rest + rest) * s * s * other * inverse;
             (S::one() - off, off.less(S::ratio(1.0, 2.0)))
         };
         let [(near_c, c_is_near), (near_d, d_is_near)] = [near(self.a, dd), near(self.b, cc)];
-        let s = s * c * d;
-        [
-            (s + s) * inverse,
-            S::select(c_is_near, near_c, (both - apart) * inverse),
-            S::select(d_is_near, near_d, (both + apart) * inverse),
-        ]
+        let product = both * (both * inverse);
+        let apart = apart * inverse;
+        let double = s * both;
+        let doubled = [
+            (double + double) * inverse,
+            S::select(c_is_near, near_c, product - apart),
+            S::select(d_is_near, near_d, product + apart),
+        ];
+        let [_, next_c, next_d] = doubled;
+        let gone = (next_c * next_c + next_d * next_d).less(smallest());
+        let values = [s, c, d];
+        core::array::from_fn(|i| S::select(gone, values[i], doubled[i]))
     }
 
     /// The state that y has become after the time whose functions these are.
-    pub fn moved(&self, [x, y, z]: [S; 3], [s, c, d]: [S; 3]) -> [S; 3] {
+    pub fn moved(&self, y: [S; 3], [s, c, d]: [S; 3]) -> [S; 3] {
         let [k1, k2, k3] = self.rates;
+        let [x, y, z] = y.map(|entry| entry / self.units[0]);
         let turn = k1 * z * s;
         // 1 - k1 k3 y^2 S^2, without its cancellation
         let inverse = S::one() / (c * c - k2 * z * s * turn);
@@ -137,7 +201,30 @@ impl<S: Scalar> FreeBody<S> {
             (y * c * d + k2 * z * x * s) * inverse,
             (z * d + k3 * x * y * s * c) * inverse,
         ]
+        .map(|entry| entry * self.units[0])
     }
+}
+
+/// A sum of squares that has all digits, and an inverse.
+fn smallest<S: Scalar>() -> S {
+    S::from_f64(if S::epsilon().to_f64() < 1e-10 {
+        1e-280
+    } else {
+        1e-30
+    })
+}
+
+/// The power of two at or below a positive number, lane by lane; of zero 1.
+fn power_of_two<S: Scalar>(number: S) -> S {
+    const EXPONENT: u64 = 0x7ff << 52;
+    let mut power = S::one();
+    for lane in 0..S::LANES {
+        let bits = number.lane(lane).to_f64().to_bits() & EXPONENT;
+        if bits != 0 {
+            power = power.with_lane(lane, S::Lane::from_f64(f64::from_bits(bits)));
+        }
+    }
+    power
 }
 
 /// The eigenvectors, as rows of a rotation, and the ascending eigenvalues of a symmetric 3 x 3 matrix, by Jacobi's
@@ -237,6 +324,7 @@ mod tests {
                 a: 1.0,
                 b: m,
                 difference: 1.0 - m,
+                units: [1.0; 2],
             };
             let found = body.functions(u);
             // an error of the argument, and one of the value

@@ -91,6 +91,7 @@ mod stage_parallel;
 mod stage_work;
 mod tableau;
 mod tensor;
+mod words;
 
 pub use crate::methods::equations::*;
 pub use cayley_midpoint::{CayleyMidpoint, CayleyRetraction};
@@ -143,3 +144,4 @@ pub use stage_parallel::{Iterated, StageParallel};
 pub use stage_work::At;
 pub use tableau::{MOST_STAGES, Tableau, gauss_ahead, gauss_ratio, gauss_tableau, gauss_weight};
 pub use tensor::{MeanTensor, MidpointTensor, PoissonTensor, TensorFacts};
+pub use words::Words;

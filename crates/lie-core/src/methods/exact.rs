@@ -20,7 +20,7 @@ use super::implicit::equal_lanes;
 use super::stepper::{
     FactorSink, Method, Retraction, RungeKutta, Stage, StepFailure, StepReport, Stepper, not_finite,
 };
-use crate::generic::{FreeBody, coadjoint_action, gauss_tableau, principal_axes};
+use crate::generic::{FreeBody, Words, coadjoint_action, gauss_tableau, principal_axes};
 use crate::matrix::SquareMatrix as _;
 use crate::newton::NewtonOptions;
 use crate::scalar::{Mask, Scalar};
@@ -66,6 +66,9 @@ pub struct ExactStepper<'a, S: Scalar, P: IntegrablePoisson<S>> {
     rates: P::State,
     /// The state in the axes of each body. It goes from step to step, so that the rounding of the axes does not add up.
     place: P::State,
+    /// The constants of each body where the chain of steps began, in two words, and the unit of its states: they do not
+    /// change by the rounding of steps, which on one orbit is the same in each and would add up.
+    constants: [P::State; 2],
     /// Where the last step ended, in the lanes in which one did.
     end: P::State,
     follows: S::Mask,
@@ -81,6 +84,7 @@ impl<'a, S: Scalar, P: IntegrablePoisson<S>> ExactStepper<'a, S, P> {
             axes: core::array::from_fn(|_| zero.clone()),
             rates: zero.clone(),
             place: zero.clone(),
+            constants: core::array::from_fn(|_| zero.clone()),
             end: zero.clone(),
             follows: S::Mask::splat(false),
             next: zero,
@@ -122,11 +126,36 @@ impl<'a, S: Scalar, P: IntegrablePoisson<S>> ExactStepper<'a, S, P> {
             let fresh = into(&axes, at(mu.as_slice(), &body));
             let [old, rates] = [&self.place, &self.rates].map(|v| at(v.as_slice(), &body));
             let y = core::array::from_fn(|i| S::select(follows, old[i], fresh[i]));
-            let motion = FreeBody::new(rates, y);
+            let (motion, constants) = self.chain(&body, follows, rates, y);
             let moved = motion.moved(y, motion.functions(self.step));
+            let moved = motion.restored(moved, constants);
             put(self.place.as_mut_slice(), &body, moved);
             put(self.next.as_mut_slice(), &body, back(&axes, moved));
         }
+    }
+
+    /// The motion of a body from y, and its constants from the beginning of the chain, which is here in lanes where none
+    /// goes on.
+    fn chain(
+        &mut self,
+        body: &[usize; 3],
+        follows: S::Mask,
+        rates: [S; 3],
+        y: [S; 3],
+    ) -> (FreeBody<S>, [Words<S>; 2]) {
+        let [high, low] = self.constants.each_mut().map(P::State::as_mut_slice);
+        let &[first, second, unit] = body;
+        high[unit] = S::select(follows, high[unit], FreeBody::unit(y));
+        let motion = FreeBody::new(rates, y, high[unit]);
+        for (k, fresh) in [first, second].into_iter().zip(motion.constants(y)) {
+            high[k] = S::select(follows, high[k], fresh.high);
+            low[k] = S::select(follows, low[k], fresh.low);
+        }
+        let kept = [first, second].map(|k| Words {
+            high: high[k],
+            low: low[k],
+        });
+        (motion, kept)
     }
 
     /// Gives away h times the velocities at the nodes of Gauss, from the state before the step.
@@ -139,7 +168,8 @@ impl<'a, S: Scalar, P: IntegrablePoisson<S>> ExactStepper<'a, S, P> {
                 let body = self.system.bodies()[index];
                 let axes = self.axes_of(&body);
                 let y = into(&axes, at(mu.as_slice(), &body));
-                let motion = FreeBody::new(at(self.rates.as_slice(), &body), y);
+                let rates = at(self.rates.as_slice(), &body);
+                let motion = FreeBody::new(rates, y, FreeBody::unit(y));
                 let functions = motion.widen().functions(times);
                 let functions = functions.map(|wide| S::scatter(wide)[node]);
                 put(
