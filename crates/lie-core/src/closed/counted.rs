@@ -5,48 +5,49 @@
 use super::{
     LOWEST, MOST_FUNCTIONS, NEAR, PHI_FAR, PHI_FAR_TERMS, PHI_TERMS, STUMPFF_BESIDE,
     STUMPFF_BESIDE_TERMS, STUMPFF_FAR, STUMPFF_FAR_TERMS, STUMPFF_TERMS, inverse_factorial,
+    inverse_factorial_and, paired,
 };
 use crate::scalar::{Mask, Scalar};
 
 /// As many functions as there are at most; those from the count on mean nothing.
 type All<S> = [S; MOST_FUNCTIONS];
 
-/// Sums of the last functions, as many as the stride, then the recurrence `f_k = 1/k! + x f_(k + stride)` down.
+/// Sums of the last two Stumpff functions with `x = -w`, then the recurrence `S_k = 1/k! + x S_(k + 2)` down.
 #[inline(never)]
-fn downwards<S: Scalar>(stride: usize, count: usize, terms: usize, x: S) -> All<S> {
+fn stumpff_downwards<S: Scalar>(count: usize, terms: usize, x: S) -> All<S> {
     let mut out = [S::zero(); MOST_FUNCTIONS];
-    let mut k = if count > LOWEST + stride {
-        count - 1
-    } else {
-        LOWEST + stride - 1
-    };
-    // f_k and, for a stride of two, f_(k - 1)
-    let mut this = inverse_factorial::<S>(k + stride * (terms - 1));
-    let mut before = inverse_factorial::<S>(k - 1 + stride * (terms - 1));
+    let mut k = count.max(LOWEST + 2) - 1;
+    let [mut this, mut before] = [k, k - 1].map(|k| inverse_factorial::<S>(k + 2 * (terms - 1)));
     for n in (0..terms - 1).rev() {
-        this = this * x + inverse_factorial(k + stride * n);
-        if stride == 2 {
-            before = before * x + inverse_factorial(k - 1 + stride * n);
-        }
+        this = inverse_factorial_and(k + 2 * n, this * x);
+        before = inverse_factorial_and(k - 1 + 2 * n, before * x);
+    }
+    while k > 2 {
+        out[k] = this;
+        (this, before) = (before, inverse_factorial_and(k - 2, x * this));
+        k -= 1;
+    }
+    let [first, second] = paired(x, [before, this], terms == STUMPFF_FAR_TERMS);
+    out[..3].copy_from_slice(&[S::one() + x * second, first, second]);
+    out
+}
+
+/// The sum of the last function, then the recurrence `phi_k = 1/k! + z phi_(k + 1)` down.
+#[inline(never)]
+fn phi_downwards<S: Scalar>(count: usize, terms: usize, z: S) -> All<S> {
+    let mut out = [S::zero(); MOST_FUNCTIONS];
+    let mut k = count.max(LOWEST + 1) - 1;
+    let mut this = inverse_factorial::<S>(k + terms - 1);
+    for n in (0..terms - 1).rev() {
+        this = this * z + inverse_factorial(k + n);
     }
     loop {
-        if k < count {
-            out[k] = this;
-        }
+        out[k] = this;
         if k == 0 {
             return out;
         }
-        this = match stride {
-            1 => inverse_factorial::<S>(k - 1) + x * this,
-            _ => {
-                let below = before;
-                if k >= 2 {
-                    before = inverse_factorial::<S>(k - 2) + x * this;
-                }
-                below
-            }
-        };
         k -= 1;
+        this = inverse_factorial::<S>(k) + z * this;
     }
 }
 
@@ -81,7 +82,7 @@ pub fn stumpff<S: Scalar>(count: usize, w: S) -> All<S> {
         None => beyond(count, w),
     };
     for (bound, terms) in ranges[..=last.unwrap_or(2)].iter().rev() {
-        values = select(within(*bound), downwards(2, count, *terms, -w), values);
+        values = select(within(*bound), stumpff_downwards(count, *terms, -w), values);
     }
     values
 }
@@ -104,12 +105,12 @@ fn beyond<S: Scalar>(count: usize, w: S) -> All<S> {
 #[inline(never)]
 pub fn phi<S: Scalar>(count: usize, z: S) -> All<S> {
     let near = z.abs().less_equal(S::from_f64(NEAR));
-    let values = downwards(1, count, PHI_TERMS, z);
+    let values = phi_downwards(count, PHI_TERMS, z);
     if near.all() {
         return values;
     }
     let summed = z.abs().less_equal(S::from_f64(PHI_FAR));
-    let mut further = downwards(1, count, PHI_FAR_TERMS, z);
+    let mut further = phi_downwards(count, PHI_FAR_TERMS, z);
     if !summed.all() {
         further = select(summed, further, upwards(count, z, &[z.exp()]));
     }

@@ -1,4 +1,5 @@
 use super::*;
+use crate::generic::Words;
 use crate::scalar::Dual;
 
 const VALUES: &str = include_str!("values.txt");
@@ -52,6 +53,63 @@ fn all_digits_for_every_argument() {
         worst("phi", 2, phi::<f64, 2, 3>),
     ];
     assert!(errors.iter().all(|error| *error < 16.0), "{errors:?}");
+}
+
+/// The mean of what lengths and what moves with them change by in a rotation by an angle near one, relative to themselves.
+fn bias(angle: f64, functions: impl Fn(f64) -> [f64; 4]) -> [f64; 2] {
+    const COUNT: u32 = 100_000;
+    let mut sums = [0.0; 2];
+    for k in 0..COUNT {
+        // a sequence that fills an interval evenly
+        let angle = angle * (1.0 + 0.02 * (f64::from(k) * 0.618_033_988_749_894_9).fract());
+        let w = angle * angle;
+        let [first, second, third, fourth] = functions(w);
+        let zero = Words::sum(0.0, 0.0);
+        let length = Words::product(first, first)
+            .plus(Words::product(second, second).times(w))
+            .minus(Words::sum(2.0 * second, 0.0));
+        let slope = Words::sum(third, -second)
+            .times(first)
+            .plus(Words::product(second, second))
+            .plus(
+                Words::product(w, second)
+                    .plus(Words::sum(-1.0, 0.0))
+                    .times(2.0 * fourth),
+            )
+            .plus(
+                Words::product(w, second)
+                    .plus(Words::sum(-1.0, 0.0))
+                    .times(-third),
+            )
+            .minus(zero);
+        sums[0] += w * length / f64::from(COUNT);
+        sums[1] += w * slope / f64::from(COUNT);
+    }
+    sums
+}
+
+#[test]
+fn rotations_keep_lengths_on_average() {
+    // the control: the recurrence with one word
+    let plain = |w: f64| {
+        let sum = |k: usize| {
+            let terms = (0..12).rev();
+            terms.fold(0.0, |sum, n| inverse_factorial::<f64>(k + 2 * n) - w * sum)
+        };
+        let [third, fourth] = [3, 4].map(sum);
+        [1.0 - w * third, 0.5 - w * fourth, third, fourth]
+    };
+    for angle in [0.3, 0.9, 1.4, 1.9] {
+        let [length, slope] = bias(angle, stumpff::<f64, 1, 4>);
+        let control = bias(angle, plain);
+        println!("{angle}: {length:e} {slope:e}, control {control:?}");
+        let most = 5e-19 * f64::max(1.0, angle * angle);
+        assert!(length.abs() < most, "{angle}: {length:e}");
+        assert!(slope.abs() < 4.0 * most, "{angle}: {slope:e}");
+        if angle == 0.9 {
+            assert!(control[0] > 5e-18 && control[1] < -5e-18, "{control:?}");
+        }
+    }
 }
 
 /// Without the series the removable singularities show.

@@ -106,16 +106,17 @@ pub(super) fn curvature<S: Scalar>(first: S, second: S) -> S {
 const CURVATURE_SAFETY: f64 = 16.0;
 const CURVATURE_NOISE: f64 = 16.0;
 
-/// Iterations without a Jacobian that started from a prediction end where every entry has come to rest, not the largest
-/// alone.
+/// Iterations end where every entry has come to rest, not the largest alone: entries may have other units.
 pub(super) struct Settling<S: Scalar> {
+    quadratic: bool,
     ending: S::Mask,
     before: S,
 }
 
 impl<S: Scalar> Settling<S> {
-    pub(super) fn new() -> Self {
+    pub(super) fn new(iteration: Iteration) -> Self {
         Self {
+            quadratic: iteration == Iteration::Newton,
             ending: S::Mask::splat(false),
             before: S::zero(),
         }
@@ -126,19 +127,24 @@ impl<S: Scalar> Settling<S> {
     pub(super) fn observe<U: Unknown<S>>(
         &mut self,
         converged: S::Mask,
-        predicted: S::Mask,
         sizes: Sizes<'_, U>,
         (update, unknown): (&U, &U),
     ) -> S::Mask {
         self.ending = self.ending | converged;
-        if !(self.ending & predicted).any() {
+        if !self.quadratic && !self.ending.any() {
             return self.ending;
         }
         let step = sizes.relative(update, unknown);
+        let rate = step / self.before;
         let small = step.less_equal(S::from_f64(AT_REST) * S::epsilon());
-        let at_rest = !step.less(self.before * S::ratio(1.0, 2.0)) & S::zero().less(self.before);
-        self.before = S::select(self.ending, step, self.before);
-        self.ending & (!predicted | small | at_rest)
+        // Newton's method foresees its next update
+        let foreseen = S::Mask::splat(self.quadratic)
+            & (step * rate * rate).less_equal(S::from_f64(AT_REST) * S::epsilon());
+        let at_rest = !rate.less(S::ratio(1.0, 2.0)) | foreseen;
+        let at_rest = at_rest & S::zero().less(self.before);
+        let follows = self.ending | S::Mask::splat(self.quadratic);
+        self.before = S::select(follows, step, self.before);
+        self.ending & (small | at_rest)
     }
 
     /// The lanes that have converged by their largest entries.

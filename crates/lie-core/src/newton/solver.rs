@@ -229,7 +229,7 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
     {
         let mut convergence = Convergence::new(Iteration::FixedPoint, self.options.tolerance);
         let mut bound = self.fixed.bound();
-        let mut settling = Settling::new();
+        let mut settling = Settling::new(Iteration::FixedPoint);
         let mut active = lanes;
         let mut solved = S::Mask::splat(false);
         let mut residual = S::zero();
@@ -250,7 +250,7 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
             }
             let converged = convergence.observe(step, size) & active;
             let pair = (&self.workspace.update, &*unknown);
-            let converged = settling.observe(converged, predicted, sizes, pair) & active;
+            let converged = settling.observe(converged, sizes, pair) & active;
             solved = solved | converged;
             active = active & !converged;
             if active.any() {
@@ -276,6 +276,7 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
         E: Equation<S, Unknown = U, Matrix = M>,
     {
         let mut convergence = Convergence::new(iteration, self.options.tolerance);
+        let mut settling = Settling::new(iteration);
         let mut active = lanes;
         let mut failed = None;
         let [mut residual, mut first] = [S::zero(); 2];
@@ -311,12 +312,15 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
                 1 if (shows.0 & active).any() => self.show_curvature(first, unknown, active, shows),
                 _ => {}
             }
-            active = active & !convergence.observe(outcome.update, size);
+            let converged = convergence.observe(outcome.update, size) & active;
+            let pair = (&self.workspace.update, &*unknown);
+            active = active & !settling.observe(converged, shows.1, pair);
             if !active.any() {
                 break;
             }
         }
         report.residual = largest(residual);
+        active = active & !settling.ending();
         if active.any() {
             leave(&mut failed, active, convergence.growing());
         }
