@@ -4,6 +4,7 @@
 //! methods", Experimental Mathematics 14 (2005) 99–117,
 //! [doi:10.1080/10586458.2005.10128904](https://doi.org/10.1080/10586458.2005.10128904).
 
+use super::rough_log::{ONE, binary_log, exp2, log2};
 use crate::clock::{Clock, holds};
 use crate::recurrence::MOST_ORDERS;
 use crate::scalar::{Scalar, largest};
@@ -55,8 +56,34 @@ pub(super) type Rows<V> = [V; MOST_ORDERS + 5];
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pace {
     pub(super) order: usize,
-    /// The part of the radius of convergence that is used; none where a series serves one step of the grid whole.
-    part: Option<f64>,
+    /// The part of the radius of convergence that is used, as a logarithm; none where a series serves one step of the grid
+    /// whole.
+    part: Option<i64>,
+    /// The size of what is left out, relative to the state.
+    pub(super) tolerance: f64,
+}
+
+/// The radius of convergence of a series, in its unit of time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Radius {
+    /// There are no terms to estimate it by.
+    Infinite,
+    /// Its [`binary_log`].
+    Log(i64),
+    /// Not all coefficients are finite: how many orders are, and the logarithm that these give.
+    Broken { finite: usize, log: i64 },
+}
+
+impl Radius {
+    /// The smaller one, and one that is not known before all others.
+    pub(super) fn smaller(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::Infinite, _) => other,
+            (_, Self::Infinite) | (Self::Broken { .. }, _) => self,
+            (_, Self::Broken { .. }) => other,
+            (Self::Log(one), Self::Log(two)) => Self::Log(one.min(two)),
+        }
+    }
 }
 
 impl Pace {
@@ -64,94 +91,128 @@ impl Pace {
     /// series is used as far as its term of order p stays below the tolerance.
     pub(super) fn of_tolerance<S: Scalar>(tolerance: f64, ratio: f64) -> Self {
         let tolerance = tolerance.clamp(largest(S::epsilon()), 0.1);
-        let order = 1.0 - ratio * core::f64::consts::LN_2 * log2(tolerance);
+        let log = log2(tolerance);
+        let order = 1.0 - ratio * core::f64::consts::LN_2 * log;
         let order = (order as usize + 1).clamp(2, MOST_ORDERS);
-        let part = exp2((log2(tolerance) - 1.0 / core::f64::consts::LN_2) / order as f64);
+        let part = (log - 1.0 / core::f64::consts::LN_2) / order as f64;
         Self {
             order,
-            part: Some(part),
+            part: Some((part * ONE) as i64),
+            tolerance,
         }
     }
 
     /// Of an order, one series for each step of the grid.
     pub(super) fn of_order(order: usize) -> Self {
         let order = order.clamp(1, MOST_ORDERS);
-        Self { order, part: None }
-    }
-
-    /// [`Pace::reach`] in every lane.
-    #[inline(always)]
-    pub(super) fn reach_of_lanes<S: Scalar, V: State<S>>(
-        &self,
-        rows: &Rows<V>,
-        clock: Option<Clock>,
-    ) -> S {
-        let mut reach = S::zero();
-        for lane in 0..S::LANES {
-            let length = self.reach(rows, lane, clock);
-            reach = reach.with_lane(lane, S::Lane::from_f64(length));
+        Self {
+            order,
+            part: None,
+            tolerance: 0.0,
         }
-        reach
     }
 
-    /// How far the series is used in one lane; not a number where a coefficient is not finite.
+    /// Whether the steps follow from the series.
+    pub(super) fn is_adaptive(&self) -> bool {
+        self.part.is_some()
+    }
+
+    /// How far a series with this radius is used, not a number if a coefficient is not finite.
+    pub(super) fn used(&self, radius: Radius) -> f64 {
+        match (self.part, radius) {
+            (None, _) | (_, Radius::Infinite) => f64::INFINITY,
+            (Some(part), Radius::Log(log)) => exp2(log + part),
+            (_, Radius::Broken { .. }) => f64::NAN,
+        }
+    }
+
+    /// The radius of convergence in one lane, estimated by `(|mu_0|/|mu_k|)^(1/k)` for the last two orders, in the maximum
+    /// norm over the coordinates that still have coefficients there. The step of the grid is the measure where nothing
+    /// else is.
     ///
-    /// The radius of convergence is estimated by `(|mu_0|/|mu_k|)^(1/k)` for the last two orders, in the maximum norm
-    /// over the coordinates that still have coefficients there.
-    pub(super) fn reach<S: Scalar, V: State<S>>(
+    /// Logarithms are integers, so that another unit of time adds to them and changes nothing else.
+    pub(super) fn radius<S: Scalar, V: State<S>>(
         &self,
         rows: &Rows<V>,
         lane: usize,
+        step: f64,
         clock: Option<Clock>,
-    ) -> f64 {
-        let Some(part) = self.part else {
-            return f64::INFINITY;
-        };
-        let entry = |k: usize, i: usize| rows[k].as_slice()[i].lane(lane).to_f64().abs();
-        let count = rows[0].as_slice().len();
-        let mut order = self.order;
-        // series in powers of a power of t have no coefficients at some orders
-        while order >= 1 {
-            let (mut last, mut before, mut scale) = (0.0, 0.0, 0.0);
-            for i in (0..count).filter(|i| !holds(clock, *i)) {
-                let (a, b) = (entry(order, i), entry(order - 1, i));
-                if !(a + b).is_finite() {
-                    return f64::NAN;
-                }
-                if a > 0.0 || (b > 0.0 && order > 1) {
-                    scale = f64::max(scale, entry(0, i));
-                }
-                (last, before) = (f64::max(last, a), f64::max(before, b));
-            }
-            if scale <= 0.0 {
-                let counted = (0..count).filter(|i| !holds(clock, *i));
-                let first = counted.fold(0.0, |first: f64, i| first.max(entry(1, i)));
-                let ratio = if last > 0.0 && order > 1 {
-                    match before > 0.0 {
-                        true => before / last,
-                        // the last one alone is not zero where all of them are round-off
-                        false => exp2(log2(first / last) / (order - 1) as f64),
-                    }
-                } else {
-                    1.0
-                };
-                scale = first * ratio;
-            }
-            let radius = |size: f64, order: usize| match size > 0.0 {
-                true => exp2(log2(scale / size) / order as f64),
-                false => f64::INFINITY,
-            };
-            let mut reach = radius(last, order);
-            if order > 1 {
-                reach = f64::min(reach, radius(before, order - 1));
-            }
-            if reach < f64::INFINITY {
-                return part * reach;
-            }
-            order -= 1;
+    ) -> Radius {
+        if self.part.is_none() {
+            return Radius::Infinite;
         }
-        f64::INFINITY
+        let sizes = |k: usize| {
+            let entries = rows[k].as_slice().iter().enumerate();
+            let counted = entries.filter(move |(i, _)| !holds(clock, *i));
+            counted.map(move |(_, entry)| entry.lane(lane).to_f64().abs())
+        };
+        let is_finite = |k: usize| sizes(k).all(f64::is_finite);
+        let finite = match is_finite(self.order) && is_finite(self.order - 1) {
+            true => self.order + 1,
+            false => (0..self.order)
+                .find(|k| !is_finite(*k))
+                .unwrap_or(self.order),
+        };
+        let mut found = Radius::Infinite;
+        for order in (1..finite).rev() {
+            // series in powers of a power of t have no coefficients at some orders
+            found = radius_by(order, &sizes, step);
+            if found != Radius::Infinite {
+                break;
+            }
+        }
+        // what does not move now may do so later where H depends on the time
+        if let (Radius::Infinite, Some(_), Some(step)) = (found, clock, binary_log(step)) {
+            found = Radius::Log(step);
+        }
+        match found {
+            found if finite > self.order => found,
+            Radius::Log(log) => Radius::Broken { finite, log },
+            _ => Radius::Broken { finite, log: 0 },
+        }
     }
+}
+
+/// The radius by the coefficients of an order and of the one before, infinite if there are none.
+fn radius_by<I: Iterator<Item = f64>>(
+    order: usize,
+    sizes: &impl Fn(usize) -> I,
+    step: f64,
+) -> Radius {
+    let largest_of = |k: usize| binary_log(sizes(k).fold(0.0, f64::max));
+    let (last, before) = (
+        largest_of(order),
+        largest_of(order - 1).filter(|_| order > 1),
+    );
+    let moving = sizes(order)
+        .zip(sizes(order - 1))
+        .map(|(a, b)| a > 0.0 || (b > 0.0 && order > 1));
+    let sizes_of_moving = sizes(0)
+        .zip(moving)
+        .filter_map(|(size, moves)| moves.then_some(size));
+    let scale = binary_log(sizes_of_moving.fold(0.0, f64::max)).or_else(|| {
+        // what moves begins at 0: the first term that it has, as far as the ratio of terms reaches
+        let (begin, first) = (1..=order).find_map(|k| Some((k, largest_of(k)?)))?;
+        let (end, size) = match (last, before) {
+            (Some(last), _) => (order, last),
+            (None, before) => (order - 1, before?),
+        };
+        let ratio = match (last, before) {
+            (Some(last), Some(before)) => before - last,
+            _ if end > begin => (first - size).div_euclid((end - begin) as i64),
+            _ => binary_log(step)?,
+        };
+        Some(first + begin as i64 * ratio)
+    });
+    let Some(scale) = scale else {
+        return Radius::Infinite;
+    };
+    let by = |size: Option<i64>, order: usize| {
+        size.map_or(Radius::Infinite, |size| {
+            Radius::Log((scale - size).div_euclid(order as i64))
+        })
+    };
+    by(last, order).smaller(by(before, order.max(2) - 1))
 }
 
 /// `out = factor * state`
@@ -191,51 +252,9 @@ pub(super) fn sum<S: Scalar, V: State<S>>(rows: &Rows<V>, order: usize, t: S, ou
     }
 }
 
-/// The logarithm to base 2 of a positive number to about three digits, the same on every machine.
-fn log2(x: f64) -> f64 {
-    let bits = x.to_bits();
-    let exponent = (bits >> 52) as f64 - 1023.0;
-    let mantissa = f64::from_bits((bits & ((1 << 52) - 1)) | (1023 << 52));
-    // through 1, sqrt(2) and 2, and a symmetric correction
-    let m = mantissa - 1.0;
-    exponent + m * (1.418_15 + m * (-0.578_51 + m * 0.160_36))
-}
-
-/// The power of 2 to about four digits, the same on every machine; 0 or infinite beyond the range of normal numbers.
-fn exp2(x: f64) -> f64 {
-    if x.is_nan() {
-        return x;
-    }
-    if x >= 1023.0 {
-        return f64::INFINITY;
-    }
-    if x <= -1022.0 {
-        return 0.0;
-    }
-    let below = x as i64 - i64::from(x < 0.0);
-    let f = x - below as f64;
-    let mantissa = 1.0 + f * (0.695_56 + f * (0.226_17 + f * 0.078_27));
-    mantissa * f64::from_bits(((below + 1023) as u64) << 52)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn rough_logarithms_and_powers() {
-        for k in -2000..2000 {
-            let x = f64::from(k) * 0.37;
-            let y = libm::exp2(x);
-            if y.is_normal() {
-                assert!((exp2(x) / y - 1.0).abs() < 1e-3, "{x}");
-                assert!((log2(y) - x).abs() < 5e-3, "{x}: {}", log2(y) - x);
-            }
-        }
-        assert_eq!(exp2(2000.0), f64::INFINITY);
-        assert_eq!(exp2(-2000.0), 0.0);
-        assert!(exp2(f64::NAN).is_nan());
-    }
 
     #[test]
     fn orders_follow_tolerances() {
@@ -251,6 +270,10 @@ mod tests {
         core::array::from_fn(|k| if k <= order { coefficient(k) } else { [0.0; 2] })
     }
 
+    fn reach(pace: &Pace, rows: &Rows<[f64; 2]>) -> f64 {
+        pace.used(pace.radius::<f64, _>(rows, 0, 8.0, None))
+    }
+
     #[test]
     fn the_reach_is_the_part_of_the_radius_that_the_tolerance_allows() {
         let pace = Pace::of_tolerance::<f64>(1e-12, 0.5);
@@ -259,25 +282,62 @@ mod tests {
             |k| [3_f64.powi(-(k as i32)), if k < 2 { 1e9 } else { 0.0 }],
             pace.order,
         );
-        let reach = pace.reach::<f64, _>(&geometric, 0, None);
-        let last = (reach / 3.0).powi(pace.order as i32);
+        let length = reach(&pace, &geometric);
+        let last = (length / 3.0).powi(pace.order as i32);
         assert!((0.3e-12..0.5e-12).contains(&last), "{last:e}");
         let mut out = [0.0; 2];
-        sum(&geometric, pace.order, reach, &mut out);
-        assert!((out[0] * (1.0 - reach / 3.0) - 1.0).abs() < 1e-12);
+        sum(&geometric, pace.order, length, &mut out);
+        assert!((out[0] * (1.0 - length / 3.0) - 1.0).abs() < 1e-12);
         // in powers of t^3 alone
         let lacunary = rows(
             |k| [if k % 3 == 0 { 1.0 } else { 0.0 }, 0.0],
             pace.order + 1,
         );
-        assert!((pace.reach::<f64, _>(&lacunary, 0, None) - reach / 3.0).abs() < 1e-2);
+        assert!((reach(&pace, &lacunary) - length / 3.0).abs() < 1e-2);
         let resting = rows(|k| [if k == 0 { 1.0 } else { 0.0 }; 2], pace.order);
-        assert_eq!(pace.reach::<f64, _>(&resting, 0, None), f64::INFINITY);
+        assert_eq!(reach(&pace, &resting), f64::INFINITY);
         let broken = rows(
             |k| [if k == pace.order { f64::NAN } else { 1.0 }, 0.0],
             pace.order,
         );
-        assert!(pace.reach::<f64, _>(&broken, 0, None).is_nan());
+        assert!(reach(&pace, &broken).is_nan());
+    }
+
+    /// What moves may begin at 0, with any of its terms.
+    #[test]
+    fn another_unit_of_time_is_a_factor_of_the_reach() {
+        let pace = Pace::of_tolerance::<f64>(1e-12, 0.5);
+        for (first, last, lacuna) in [
+            (0, 40, 1),
+            (1, 40, 1),
+            (2, 40, 1),
+            (1, 7, 1),
+            (2, 2, 1),
+            (1, 40, 2),
+        ] {
+            let coefficient = |k: usize, unit: f64| match (first..=last).contains(&k)
+                && (k - first).is_multiple_of(lacuna)
+            {
+                true => 0.3_f64.powi(k as i32) * unit.powi(k as i32),
+                false => 0.0,
+            };
+            let in_unit = |unit: f64| {
+                let rows = rows(|k| [coefficient(k, unit), 0.0], pace.order);
+                pace.used(pace.radius::<f64, _>(&rows, 0, 8.0 / unit, None)) * unit
+            };
+            let expected = in_unit(1.0);
+            assert!(
+                expected > 1e-3 && expected < 10.0,
+                "{first} {last}: {expected}"
+            );
+            for unit in [2.0, 0.125, 1024.0] {
+                assert_eq!(
+                    in_unit(unit).to_bits(),
+                    expected.to_bits(),
+                    "{first} {last} {unit}"
+                );
+            }
+        }
     }
 
     #[test]

@@ -28,6 +28,7 @@ use super::facts::{Facts, Preserves};
 use super::implicit::clear;
 use super::series_stepper::{Development, SeriesStepper};
 use super::stepper::{FactorSink, Method, Retraction};
+use super::time_unit::TimeUnit;
 use crate::clock::Clock;
 use crate::generic::{Scratch, coadjoint_action_in};
 use crate::newton::NewtonOptions;
@@ -126,6 +127,7 @@ where
             field: zero.clone(),
             coefficient: zero.clone(),
             scratch: Scratch::new(&zero),
+            unit: TimeUnit::new(),
         };
         SeriesStepper::new(development, h, zero)
     }
@@ -153,6 +155,7 @@ pub struct LieTaylorDevelopment<'a, S: Scalar, P: GradientSeries<S> + Widen<S> +
     field: P::State,
     coefficient: P::State,
     scratch: Scratch<P::State>,
+    unit: TimeUnit<S>,
 }
 
 impl<S: Scalar, P> LieTaylorDevelopment<'_, S, P>
@@ -189,6 +192,17 @@ where
         }
     }
 
+    /// The increment at a time, in `coefficient`.
+    fn increment(&mut self, time: S) {
+        let time = time * self.unit.inverse;
+        sum(
+            &self.increments,
+            self.pace.order,
+            time,
+            &mut self.coefficient,
+        );
+    }
+
     /// The coefficient k of `xi'`, in `coefficient`.
     fn velocity(&mut self, k: usize) {
         let omega = self.recurrence.gradient();
@@ -219,50 +233,47 @@ where
         self.system.clock()
     }
 
-    fn develop(&mut self, mu: &P::State, lanes: S::Mask) -> S {
-        let all = lanes.all();
-        copy_lanes(&mut self.rows[0], mu, lanes, all);
+    fn develop(&mut self, mu: &P::State, step: S, lanes: S::Mask) -> S {
+        copy_lanes(&mut self.rows[0], mu, lanes, lanes.all());
         let mut carry = self.recurrence.begin(mu, &mut self.field);
-        for k in 0..self.pace.order {
-            self.nest(k);
-            self.velocity(k);
-            let inverse = self.inverses[k + 1];
-            for entry in self.coefficient.as_mut_slice() {
-                *entry *= inverse;
-            }
-            copy_lanes(&mut self.increments[k + 1], &self.coefficient, lanes, all);
-            let wide = self.widened[k + 1].as_mut_slice().iter_mut();
-            for (wide, entry) in wide.zip(self.coefficient.as_slice()) {
-                *wide = entry.widen();
-            }
-            multiply(&self.field, inverse, &mut self.coefficient);
-            copy_lanes(&mut self.rows[k + 1], &self.coefficient, lanes, all);
-            if k + 1 < self.pace.order {
-                carry = self
-                    .recurrence
-                    .advance(k + 1, carry, &self.coefficient, &mut self.field);
-            }
-        }
         let clock = self.clock();
-        let (of_state, of_increment) = (
-            self.pace.reach_of_lanes::<S, _>(&self.rows, clock),
-            self.pace.reach_of_lanes::<S, _>(&self.increments, clock),
-        );
-        // not a number if either is not
-        S::select(
-            of_state.less(of_increment) | !of_state.less_equal(of_state),
-            of_state,
-            of_increment,
-        )
+        self.unit
+            .begin(&self.pace, clock, [mu, &self.field], step, lanes);
+        let mut open = lanes;
+        loop {
+            let all = open.all();
+            for k in 0..self.pace.order {
+                self.nest(k);
+                self.velocity(k);
+                let factor = self.inverses[k + 1] * self.unit.length;
+                for entry in self.coefficient.as_mut_slice() {
+                    *entry *= factor;
+                }
+                copy_lanes(&mut self.increments[k + 1], &self.coefficient, open, all);
+                let wide = self.widened[k + 1].as_mut_slice().iter_mut();
+                for (wide, entry) in wide.zip(self.coefficient.as_slice()) {
+                    *wide = entry.widen();
+                }
+                multiply(&self.field, factor, &mut self.coefficient);
+                copy_lanes(&mut self.rows[k + 1], &self.coefficient, open, all);
+                if k + 1 < self.pace.order {
+                    carry =
+                        self.recurrence
+                            .advance(k + 1, carry, &self.coefficient, &mut self.field);
+                }
+            }
+            let series = [&self.rows, &self.increments];
+            open = self.unit.settle(&self.pace, &series, clock, step, open);
+            if !open.any() {
+                break;
+            }
+            carry = self.recurrence.begin(mu, &mut self.field);
+        }
+        self.unit.reach
     }
 
     fn state(&mut self, time: S, out: &mut P::State) {
-        sum(
-            &self.increments,
-            self.pace.order,
-            time,
-            &mut self.coefficient,
-        );
+        self.increment(time);
         let (xi, mu) = (&self.coefficient, &self.rows[0]);
         coadjoint_action_in(self.system, xi, mu, out, &mut self.scratch);
     }
@@ -276,16 +287,15 @@ where
         sink: &mut K,
     ) {
         let begins = from.less_equal(S::zero()) & S::zero().less_equal(from);
-        let order = self.pace.order;
         if !begins.all() {
-            sum(&self.increments, order, from, &mut self.coefficient);
+            self.increment(from);
             for entry in self.coefficient.as_mut_slice() {
                 *entry = -*entry;
             }
             clear(&mut self.coefficient, !lanes);
             sink.push(Retraction::Exp, &self.coefficient);
         }
-        sum(&self.increments, order, to, &mut self.coefficient);
+        self.increment(to);
         clear(&mut self.coefficient, !lanes);
         sink.push(Retraction::Exp, &self.coefficient);
     }

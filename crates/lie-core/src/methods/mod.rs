@@ -97,6 +97,7 @@ pub mod orbit_energy;
 mod realized;
 pub mod rk4;
 pub mod rkmk;
+mod rough_log;
 mod series_stepper;
 pub mod spherical_midpoint;
 pub mod splitting;
@@ -104,6 +105,7 @@ mod stage_parallel;
 mod stepper;
 pub mod taylor;
 pub mod tensor;
+mod time_unit;
 pub mod variational;
 
 /// Equations that stand in the file of their method: a part of [`generic`](crate::generic).

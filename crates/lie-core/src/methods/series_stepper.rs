@@ -19,9 +19,9 @@ pub trait Development<S: Scalar> {
 
     /// The coordinates that carry the time.
     fn clock(&self) -> Option<Clock>;
-    /// Develops the solution from a state in some lanes; the others keep theirs. Returns how far it is used in each
-    /// lane, not a number where a coefficient is not finite.
-    fn develop(&mut self, mu: &Self::State, lanes: S::Mask) -> S;
+    /// Develops the solution from a state in some lanes, for a step of the grid; the others keep theirs. Returns how far it
+    /// is used in each lane, not a number where a coefficient is not finite.
+    fn develop(&mut self, mu: &Self::State, step: S, lanes: S::Mask) -> S;
     /// The state at a time from where the development began, negative for steps backwards.
     fn state(&mut self, time: S, out: &mut Self::State);
     /// How the group element moves between two such times, in some lanes.
@@ -64,7 +64,8 @@ impl<S: Scalar, D: Development<S>> SeriesStepper<S, D> {
     /// Develops anew in some lanes; false in those where a coefficient is not finite.
     #[inline(always)]
     fn develop(&mut self, lanes: S::Mask) -> S::Mask {
-        let reach = self.development.develop(&self.current, lanes);
+        let step = self.sign * self.length;
+        let reach = self.development.develop(&self.current, step, lanes);
         let known = reach.less_equal(reach);
         self.reach = S::select(lanes & known, reach, self.reach);
         self.place = S::select(lanes & known, S::zero(), self.place);

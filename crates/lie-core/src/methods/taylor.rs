@@ -27,6 +27,7 @@ use super::facts::{Facts, Preserves};
 use super::implicit::clear;
 use super::series_stepper::{Development, SeriesStepper};
 use super::stepper::{FactorSink, Method, RungeKutta, Stage};
+use super::time_unit::TimeUnit;
 use crate::clock::Clock;
 use crate::generic::gauss_tableau;
 use crate::newton::NewtonOptions;
@@ -70,6 +71,7 @@ impl<S: Scalar, P: Series<S>> Method<S, P> for Taylor {
             inverses: core::array::from_fn(|k| S::ratio(1.0, k.max(1) as f64)),
             rows: core::array::from_fn(|_| zero.clone()),
             scratch: Some((zero.clone(), zero.clone())),
+            unit: TimeUnit::new(),
         };
         SeriesStepper::new(development, h, zero)
     }
@@ -88,6 +90,7 @@ pub struct TaylorDevelopment<'a, S: Scalar, P: Series<S> + 'a> {
     rows: Rows<P::State>,
     /// A coefficient of the field, and one of the state.
     scratch: Option<(P::State, P::State)>,
+    unit: TimeUnit<S>,
 }
 
 impl<S: Scalar, P: Series<S>> Development<S> for TaylorDevelopment<'_, S, P> {
@@ -99,29 +102,41 @@ impl<S: Scalar, P: Series<S>> Development<S> for TaylorDevelopment<'_, S, P> {
     }
 
     #[inline(always)]
-    fn develop(&mut self, mu: &P::State, lanes: S::Mask) -> S {
-        let all = lanes.all();
+    fn develop(&mut self, mu: &P::State, step: S, lanes: S::Mask) -> S {
         // taken out, so that they are in registers
         let Some((mut field, mut coefficient)) = self.scratch.take() else {
             return S::zero() / S::zero();
         };
-        copy_lanes(&mut self.rows[0], mu, lanes, all);
+        copy_lanes(&mut self.rows[0], mu, lanes, lanes.all());
         let mut carry = self.recurrence.begin(mu, &mut field);
-        let last = self.pace.order;
-        for k in 1..last {
-            multiply(&field, self.inverses[k], &mut coefficient);
-            carry = self.recurrence.advance(k, carry, &coefficient, &mut field);
-            copy_lanes(&mut self.rows[k], &coefficient, lanes, all);
+        let (last, clock) = (self.pace.order, self.clock());
+        self.unit
+            .begin(&self.pace, clock, [mu, &field], step, lanes);
+        let mut open = lanes;
+        loop {
+            let (unit, all) = (self.unit.length, open.all());
+            for k in 1..last {
+                multiply(&field, self.inverses[k] * unit, &mut coefficient);
+                carry = self.recurrence.advance(k, carry, &coefficient, &mut field);
+                copy_lanes(&mut self.rows[k], &coefficient, open, all);
+            }
+            multiply(&field, self.inverses[last] * unit, &mut coefficient);
+            copy_lanes(&mut self.rows[last], &coefficient, open, all);
+            open = self
+                .unit
+                .settle(&self.pace, &[&self.rows], clock, step, open);
+            if !open.any() {
+                break;
+            }
+            carry = self.recurrence.begin(mu, &mut field);
         }
-        multiply(&field, self.inverses[last], &mut coefficient);
-        copy_lanes(&mut self.rows[last], &coefficient, lanes, all);
         self.scratch = Some((field, coefficient));
-        self.pace.reach_of_lanes(&self.rows, self.clock())
+        self.unit.reach
     }
 
     #[inline(always)]
     fn state(&mut self, time: S, out: &mut P::State) {
-        sum(&self.rows, self.pace.order, time, out);
+        sum(&self.rows, self.pace.order, time * self.unit.inverse, out);
     }
 
     /// By `h grad H` at the nodes of the Gauss method between the two times.
@@ -138,7 +153,8 @@ impl<S: Scalar, P: Series<S>> Development<S> for TaylorDevelopment<'_, S, P> {
         };
         let step = to - from;
         for (index, &node) in tableau.c.iter().enumerate() {
-            sum(&self.rows, self.pace.order, from + node * step, point);
+            let time = (from + node * step) * self.unit.inverse;
+            sum(&self.rows, self.pace.order, time, point);
             direction(self.system, step, point, xi);
             clear(xi, !lanes);
             let count = NODES;

@@ -1,0 +1,126 @@
+//! The unit of time of a series: a power of two near its radius of convergence.
+//!
+//! In this unit no coefficient overflows or vanishes because of its order, whatever the rates of the system are. Powers of two
+//! are exact: the unit changes no digit of the solution.
+
+use super::development::{Pace, Radius, Rows};
+use super::rough_log::{binary_log, power_of_two, rounded};
+use crate::clock::{Clock, norm};
+use crate::scalar::{Mask, Scalar, largest};
+use crate::state::State;
+
+/// More lanes than any scalar has.
+const MOST_LANES: usize = 16;
+/// How far the unit may be from the radius, as a power of two: order 40 then has a factor of 2^160 at most.
+const FARTHEST: i64 = 4;
+/// Units that are tried for one series.
+const TRIALS: u32 = 8;
+
+/// The unit in each lane, and how far the series is used there.
+#[derive(Clone, Debug)]
+pub(super) struct TimeUnit<S: Scalar> {
+    exponents: [Option<i32>; MOST_LANES],
+    /// Orders that were finite in the last trial.
+    finite: [usize; MOST_LANES],
+    trials: u32,
+    /// One unit.
+    pub(super) length: S,
+    /// What a time is multiplied by to be in units.
+    pub(super) inverse: S,
+    /// How far the series is used, as a time; not a number where a coefficient is not finite.
+    pub(super) reach: S,
+}
+
+impl<S: Scalar> TimeUnit<S> {
+    pub(super) fn new() -> Self {
+        const { assert!(S::LANES <= MOST_LANES) };
+        Self {
+            exponents: [None; MOST_LANES],
+            finite: [0; MOST_LANES],
+            trials: 0,
+            length: S::one(),
+            inverse: S::one(),
+            reach: S::zero(),
+        }
+    }
+
+    fn set(&mut self, lane: usize, exponent: i32) {
+        let most = match largest(S::epsilon()) > 1e-10 {
+            true => 100,
+            false => 1000,
+        };
+        let exponent = exponent.clamp(-most, most);
+        self.exponents[lane] = Some(exponent);
+        let power = |exponent| S::Lane::from_f64(power_of_two(exponent));
+        self.length = self.length.with_lane(lane, power(exponent));
+        self.inverse = self.inverse.with_lane(lane, power(-exponent));
+    }
+
+    /// Before a series from a state with this field, for a step of the grid: the unit of the series before, or else a guess.
+    pub(super) fn begin<V: State<S>>(
+        &mut self,
+        pace: &Pace,
+        clock: Option<Clock>,
+        [mu, field]: [&V; 2],
+        step: S,
+        lanes: S::Mask,
+    ) {
+        self.trials = 0;
+        let of_lane = |x: S, lane: usize| binary_log(x.lane(lane).to_f64().abs());
+        for lane in 0..S::LANES {
+            self.finite[lane] = 0;
+            if !lanes.lane(lane) || self.exponents[lane].is_some() {
+                continue;
+            }
+            // what is too large for the unit is found more surely than what is too small
+            let step = of_lane(step, lane).unwrap_or(0);
+            let (state, slope) = (
+                of_lane(norm(clock, mu), lane),
+                of_lane(norm(clock, field), lane),
+            );
+            let guess = match (state, slope) {
+                (Some(state), Some(slope)) if pace.is_adaptive() => rounded(state - slope),
+                _ => rounded(step),
+            };
+            let least = rounded(step) - i64::from(pace.is_adaptive()) * 10;
+            self.set(lane, guess.max(least) as i32);
+        }
+    }
+
+    /// After a series in some lanes: those in which it is wanted once more, in another unit.
+    pub(super) fn settle<V: State<S>>(
+        &mut self,
+        pace: &Pace,
+        series: &[&Rows<V>],
+        clock: Option<Clock>,
+        step: S,
+        lanes: S::Mask,
+    ) -> S::Mask {
+        self.trials += 1;
+        let mut again = 0;
+        for lane in (0..S::LANES).filter(|lane| lanes.lane(*lane)) {
+            let unit = self.exponents[lane].unwrap_or(0);
+            let step = (step * self.inverse).lane(lane).to_f64().abs();
+            let radius = series
+                .iter()
+                .map(|rows| pace.radius(rows, lane, step, clock))
+                .fold(Radius::Infinite, Radius::smaller);
+            let (shift, wanted) = match radius {
+                Radius::Infinite => (0, false),
+                Radius::Log(log) => (rounded(log), rounded(log).abs() > FARTHEST),
+                Radius::Broken { finite, log } => {
+                    let more = finite > self.finite[lane];
+                    self.finite[lane] = finite;
+                    (rounded(log).min(-FARTHEST), more)
+                }
+            };
+            let reach = S::Lane::from_f64(pace.used(radius)) * self.length.lane(lane);
+            self.reach = self.reach.with_lane(lane, reach);
+            if wanted && self.trials < TRIALS {
+                self.set(lane, unit + shift as i32);
+                again |= 1 << lane;
+            }
+        }
+        S::Mask::from_bits(again)
+    }
+}
