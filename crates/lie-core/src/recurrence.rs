@@ -31,6 +31,11 @@ pub trait Recurrence<S: Scalar> {
         coefficient: &Self::State,
         field: &mut Self::State,
     ) -> Self::Carry;
+    /// The coefficients of an order of the conditions that choose branches, each with its first branch where it is negative,
+    /// of the orders since [`Recurrence::begin`].
+    fn conditions(&self, _k: usize) -> &[S] {
+        &[]
+    }
 }
 
 /// The Taylor coefficients of the gradient of H beside those of the field.

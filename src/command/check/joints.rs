@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use lie_in_process::report::joints::{Methods, orders_across};
+use lie_in_process::report::joints::{Methods, ends_at_joints, orders_across};
 use lie_symbolic::prove::joints::{Joint, reached};
 
 /// The joints by lines, and what methods lose.
@@ -14,13 +14,20 @@ pub(super) fn write(joints: &[Joint], methods: &Methods, text: &mut String) -> s
     for joint in joints {
         writeln!(text, "    {}: {}", joint.place, smoothness(joint.jump))?;
     }
+    let series = orders_across(joints, methods).filter(|(id, ..)| ends_at_joints(id));
+    let series: Vec<&str> = series.map(|(id, ..)| id).collect();
+    if !series.is_empty() {
+        let title = "    steps that end at them, and the whole order: ";
+        super::list(text, title, &series)?;
+    }
     let Some(most) = reached(joints, u32::MAX) else {
         return writeln!(
             text,
             "    no order is known of a method whose steps cross a joint that was not decided"
         );
     };
-    let lose = orders_across(joints, methods).filter(|(_, order, _)| *order > most);
+    let lose = orders_across(joints, methods)
+        .filter(|(id, order, _)| *order > most && !ends_at_joints(id));
     let lose: Vec<String> = lose
         .map(|(id, order, _)| format!("{id} ({order})"))
         .collect();

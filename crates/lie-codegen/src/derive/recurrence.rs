@@ -48,10 +48,13 @@ type At = Value<Quantity>;
 /// The programs by which a recurrence goes.
 #[derive(Clone, Debug)]
 pub struct Recurrences {
-    /// Order 0: the results, then the values that are kept.
+    /// Order 0: the results, then the conditions that choose branches, then the values that are kept.
     pub begin: Program,
-    /// Order k from 1 on: the coefficients of the results, then the left and the right series of each pair.
+    /// Order k from 1 on: the coefficients of the results, then those of the conditions, then the left and the right series
+    /// of each pair.
     pub advance: Program<Quantity>,
+    /// The number of conditions.
+    pub conditions: usize,
     /// The number of pairs.
     pub pairs: usize,
     /// The number of kept values.
@@ -84,6 +87,8 @@ struct Lowering {
     advance: Tape<Quantity>,
     kept: Vec<Value>,
     pairs: Vec<(At, At)>,
+    /// The conditions that vary.
+    conditions: Vec<Term>,
     /// Sine and cosine of an argument.
     circular: HashMap<(Value, Curve), (Term, Term)>,
 }
@@ -169,14 +174,17 @@ fn is<P>(value: &Value<P>, number: i64) -> bool {
 impl Lowering {
     fn finish(self, outputs: &[Term]) -> Recurrences {
         let (pairs, kept) = (self.pairs.len(), self.kept.len());
-        let zeros = outputs.iter().map(|term| term.zero.clone());
-        let begin = zeros.chain(self.kept).collect();
-        let rows = outputs.iter().map(Term::row);
+        let conditions = self.conditions.len();
+        let outputs = || outputs.iter().chain(&self.conditions);
+        let zeros: Vec<Value> = outputs().map(|term| term.zero.clone()).collect();
+        let rows: Vec<At> = outputs().map(Term::row).collect();
+        let begin = zeros.into_iter().chain(self.kept).collect();
         let (left, right): (Vec<At>, Vec<At>) = self.pairs.into_iter().unzip();
-        let advance = rows.chain(left).chain(right).collect();
+        let advance = rows.into_iter().chain(left).chain(right).collect();
         Recurrences {
             begin: self.begin.program(begin),
             advance: self.advance.program(advance),
+            conditions,
             pairs,
             kept,
         }

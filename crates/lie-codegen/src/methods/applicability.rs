@@ -59,7 +59,7 @@ pub fn refusal(structure: &Structure, choice: &Choice) -> Option<(String, String
         Choice::Collective(order, Lift::Spec) => realization(model, *order),
         Choice::Collective(order, Lift::Hopf) => spins::refusal(structure, Some(*order)),
         Choice::Exact => integrable::refusal(structure),
-        Choice::Taylor | Choice::LieTaylor => expression(model),
+        Choice::Taylor | Choice::LieTaylor => expression(model).or_else(|| own_joints(structure)),
         Choice::Collective(order, Lift::Quaternion) => vectors::refusal(structure, *order),
         Choice::Collective(order, Lift::Smallest) => lifts::refusal(structure, *order),
         Choice::EulerArnold2 => cotangent(model),
@@ -130,6 +130,18 @@ fn expression(model: &Model) -> Option<(String, String)> {
             "it differentiates an expression of H, and H is a Legendre transform by iteration"
                 .into(),
             "use `gauss16`, or `rkmk6`, which need the velocity alone".into(),
+        )
+    })
+}
+
+/// Why a series does not find the joints of H.
+fn own_joints(structure: &Structure) -> Option<(String, String)> {
+    let model = &structure.model;
+    let own = model.graph.own_functions(model.energy.expression()?.value);
+    (!structure.joints.is_empty() && !own.is_empty()).then(|| {
+        (
+            "its series hold on one branch of H, and with a function of Rust in H it does not see where branches change".into(),
+            "use `gauss4`, or `rk4`, which have the order that `lie check` names at joints".into(),
         )
     })
 }

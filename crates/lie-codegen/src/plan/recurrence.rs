@@ -15,10 +15,12 @@ pub struct Recurrence {
     pub field: Vec<usize>,
     /// Those of the gradient, where it is asked for.
     pub gradient: Option<Vec<usize>>,
-    /// Order 0: the entries, then what is kept for all orders.
+    /// Order 0: the entries, then the conditions that choose branches, then what is kept for all orders.
     pub begin: Code,
-    /// Order k: the entries, then the left and the right series of each pair.
+    /// Order k: the entries, then the conditions, then the left and the right series of each pair.
     pub advance: Program<Quantity<Constant>>,
+    /// The number of conditions.
+    pub conditions: usize,
     /// The number of pairs of series whose products are summed.
     pub pairs: usize,
     /// The number of values that are kept.
@@ -87,6 +89,7 @@ impl Planner<'_> {
             gradient,
             begin,
             advance,
+            conditions: found.conditions,
             pairs: found.pairs,
             kept: found.kept,
         }

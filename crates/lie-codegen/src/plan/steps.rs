@@ -146,10 +146,13 @@ impl Planner<'_> {
             methods.push((Choice::LieTaylor, "lie_taylor"));
         }
         for (choice, key) in methods {
-            if self.is_requested(&choice) && !self.source.has_own_functions() {
+            // over truncated series nobody sees where branches change
+            let joints = !self.structure.joints.is_empty();
+            let own_functions = self.source.has_own_functions();
+            if (joints || self.is_requested(&choice)) && !own_functions {
                 let recurrence = self.recurrence(choice == Choice::LieTaylor);
                 self.items.push(Item::Recurrence(Box::new(recurrence)));
-            } else {
+            } else if !joints {
                 generic.push(key.to_owned());
             }
         }

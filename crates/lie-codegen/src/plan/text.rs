@@ -201,7 +201,11 @@ impl fmt::Display for Recurrence {
             f,
             "    {} sums of products, {} values of order 0 kept",
             self.pairs, self.kept
-        )
+        )?;
+        match self.conditions {
+            0 => Ok(()),
+            count => writeln!(f, "    {count} conditions of branches"),
+        }
     }
 }
 

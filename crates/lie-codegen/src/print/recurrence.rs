@@ -34,6 +34,20 @@ impl Printer<'_> {
         let gradient_value =
             gradient.then(|| quote! { gradient: ::lie_runtime::Poisson::zero_state(system), });
         let methods = self.methods_of_recurrence(recurrence);
+        let branches = recurrence.conditions > 0;
+        let conditions = index(recurrence.conditions);
+        let orders = quote! { ::lie_runtime::recurrence::MOST_ORDERS };
+        let conditions_field =
+            branches.then(|| quote! { conditions: [[S; #conditions]; #orders], });
+        let conditions_value =
+            branches.then(|| quote! { conditions: [[S::zero(); #conditions]; #orders], });
+        let conditions = branches.then(|| {
+            quote! {
+                fn conditions(&self, k: usize) -> &[S] {
+                    &self.conditions[k]
+                }
+            }
+        });
         let hook = self.hook_of_recurrence(&name, gradient);
         quote! {
             #[doc = #doc]
@@ -43,6 +57,7 @@ impl Printer<'_> {
                 system: &'a #system<S>,
                 kept: [S; #kept],
                 sums: ::lie_runtime::recurrence::Sums<S, #pairs, #groups>,
+                #conditions_field
                 #gradient_field
             }
 
@@ -54,6 +69,7 @@ impl Printer<'_> {
                         system,
                         kept: [S::zero(); #kept],
                         sums: ::core::default::Default::default(),
+                        #conditions_value
                         #gradient_value
                     }
                 }
@@ -65,6 +81,8 @@ impl Printer<'_> {
                 type Carry = [S; #pairs];
 
                 #methods
+
+                #conditions
             }
 
             #hook
@@ -108,6 +126,13 @@ impl Printer<'_> {
         let entries_written = recurrence.entries();
         let (zeros, kept) = at_zero.split_at(entries_written);
         let (rows, pairs) = at_order.split_at(entries_written);
+        let (conditions_at_zero, kept) = kept.split_at(recurrence.conditions);
+        let (conditions_at_order, pairs) = pairs.split_at(recurrence.conditions);
+        let branches = recurrence.conditions > 0;
+        let begin_conditions =
+            branches.then(|| quote! { self.conditions[0] = [#(#conditions_at_zero),*]; });
+        let advance_conditions =
+            branches.then(|| quote! { self.conditions[_k] = [#(#conditions_at_order),*]; });
         let (left, right) = pairs.split_at(recurrence.pairs);
         let writes = |values: &[TokenStream]| self.writes_of_recurrence(recurrence, values);
         let (of_begin, of_advance) = (writes(zeros), writes(rows));
@@ -138,6 +163,7 @@ impl Printer<'_> {
                 #unpack_mu
                 #begin
                 #keep
+                #begin_conditions
                 #of_begin
                 self.sums.begin()
             }
@@ -156,6 +182,7 @@ impl Printer<'_> {
                 #order
                 #inverse
                 #advance
+                #advance_conditions
                 #of_advance
                 self.sums.push(_k, [#(#left),*], [#(#right),*])
             }

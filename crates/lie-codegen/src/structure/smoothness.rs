@@ -52,15 +52,15 @@ fn warning(joint: &Joint) -> Option<(String, &'static str)> {
     match joint.jump? {
         0 => Some((
             format!(
-                "the function jumps where {place}: no energy is kept across it, no method has an order there, and `taylor` and `lie-taylor` \
-                 go on as if it were not there"
+                "the function jumps where {place}: no energy is kept across it, and no method has an order there but `taylor` and \
+                 `lie-taylor`, which end their steps there"
             ),
             "make the branches equal where they meet",
         )),
         1 => Some((
             format!(
-                "the gradient jumps where {place}: a method that crosses it has order 1 there, but `taylor` and `lie-taylor`, which go on as if \
-                 it were not there"
+                "the gradient jumps where {place}: a method that crosses it has order 1 there, but `taylor` and `lie-taylor`, which end \
+                 their steps there"
             ),
             "make the derivatives of the branches equal where they meet, or round the corner off: `sqrt(x^2 + a^2)` for `abs(x)`",
         )),

@@ -26,7 +26,8 @@
 use super::development::{Pace, Rows, by_series, copy_lanes, multiply, sum};
 use super::facts::{Facts, Preserves};
 use super::implicit::clear;
-use super::series_stepper::{Development, SeriesStepper};
+use super::joints::Joints;
+use super::series_stepper::{Developed, Development, SeriesStepper};
 use super::stepper::{FactorSink, Method, Retraction};
 use super::time_unit::TimeUnit;
 use crate::clock::Clock;
@@ -128,6 +129,7 @@ where
             coefficient: zero.clone(),
             scratch: Scratch::new(&zero),
             unit: TimeUnit::new(),
+            joints: Joints::new(),
         };
         SeriesStepper::new(development, h, zero)
     }
@@ -156,6 +158,7 @@ pub struct LieTaylorDevelopment<'a, S: Scalar, P: GradientSeries<S> + Widen<S> +
     coefficient: P::State,
     scratch: Scratch<P::State>,
     unit: TimeUnit<S>,
+    joints: Joints,
 }
 
 impl<S: Scalar, P> LieTaylorDevelopment<'_, S, P>
@@ -233,7 +236,7 @@ where
         self.system.clock()
     }
 
-    fn develop(&mut self, mu: &P::State, step: S, lanes: S::Mask) -> S {
+    fn develop(&mut self, mu: &P::State, step: S, [lanes, landed]: [S::Mask; 2]) -> Developed<S> {
         copy_lanes(&mut self.rows[0], mu, lanes, lanes.all());
         let mut carry = self.recurrence.begin(mu, &mut self.field);
         let clock = self.clock();
@@ -269,7 +272,13 @@ where
             }
             carry = self.recurrence.begin(mu, &mut self.field);
         }
-        self.unit.reach
+        self.joints.end(
+            &self.recurrence,
+            &self.pace,
+            &self.unit,
+            step,
+            [lanes, landed],
+        )
     }
 
     fn state(&mut self, time: S, out: &mut P::State) {

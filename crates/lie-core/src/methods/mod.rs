@@ -84,6 +84,7 @@ pub mod gonzalez;
 mod implicit;
 pub mod isospectral;
 pub mod itoh_abe;
+mod joints;
 pub mod lie_euler;
 pub mod lie_midpoint;
 pub mod lie_taylor;
@@ -153,7 +154,7 @@ pub use orbit_energy::OrbitEnergy;
 pub use realized::RealizedStepper;
 pub use rk4::{Rk4, Rk4Stepper};
 pub use rkmk::{Rkmk2, Rkmk3, Rkmk4, Rkmk6, RkmkStepper};
-pub use series_stepper::{Development, SeriesStepper};
+pub use series_stepper::{Developed, Development, SeriesStepper};
 pub use spherical_midpoint::SphericalMidpoint;
 pub use splitting::{
     Coordinate, Found, Splitting, Splitting1, Splitting2, Splitting4, Splitting6, Splitting8,

@@ -12,6 +12,29 @@ const MAX_SERIES: u32 = 1_000_000;
 /// The part of a series that is left, rather than walked in a step of its own.
 const SLIVER: f64 = 0.01;
 
+/// How far a development is used.
+#[derive(Clone, Copy, Debug)]
+pub struct Developed<S: Scalar> {
+    /// A time, not a number where a coefficient is not finite.
+    pub reach: S,
+    /// The lanes in which that is a joint, beyond which another branch of H is taken.
+    pub joint: S::Mask,
+    /// The lanes in which the motion does not leave a joint.
+    pub stuck: S::Mask,
+}
+
+impl<S: Scalar> Developed<S> {
+    /// Not at all.
+    pub(super) fn broken() -> Self {
+        let none = S::Mask::splat(false);
+        Self {
+            reach: S::zero() / S::zero(),
+            joint: none,
+            stuck: none,
+        }
+    }
+}
+
 /// What a method by series computes.
 pub trait Development<S: Scalar> {
     /// The state of the system.
@@ -20,8 +43,9 @@ pub trait Development<S: Scalar> {
     /// The coordinates that carry the time.
     fn clock(&self) -> Option<Clock>;
     /// Develops the solution from a state in some lanes, for a step of the grid; the others keep theirs. Returns how far it
-    /// is used in each lane, not a number where a coefficient is not finite.
-    fn develop(&mut self, mu: &Self::State, step: S, lanes: S::Mask) -> S;
+    /// is used in each lane. The second lanes are those of the first in which the state is at the joint that ended the
+    /// development before.
+    fn develop(&mut self, mu: &Self::State, step: S, lanes: [S::Mask; 2]) -> Developed<S>;
     /// The state at a time from where the development began, negative for steps backwards.
     fn state(&mut self, time: S, out: &mut Self::State);
     /// How the group element moves between two such times, in some lanes.
@@ -44,6 +68,8 @@ pub struct SeriesStepper<S: Scalar, D: Development<S>> {
     /// Where on its development the current state lies, and how far that is used.
     place: S,
     reach: S,
+    /// Where it ends at a joint.
+    joint: S::Mask,
     current: D::State,
     point: D::State,
 }
@@ -56,20 +82,29 @@ impl<S: Scalar, D: Development<S>> SeriesStepper<S, D> {
             sign: S::select(h.less(S::zero()), -S::one(), S::one()),
             place: S::zero(),
             reach: S::zero(),
+            joint: S::Mask::splat(false),
             current: zero.clone(),
             point: zero,
         }
     }
 
-    /// Develops anew in some lanes; false in those where a coefficient is not finite.
+    /// Develops anew in some lanes; returns those where a coefficient is not finite, and those that do not leave a joint.
     #[inline(always)]
-    fn develop(&mut self, lanes: S::Mask) -> S::Mask {
+    fn develop(&mut self, lanes: S::Mask) -> [S::Mask; 2] {
         let step = self.sign * self.length;
-        let reach = self.development.develop(&self.current, step, lanes);
+        let Developed {
+            reach,
+            joint,
+            stuck,
+        } = self
+            .development
+            .develop(&self.current, step, [lanes, lanes & self.joint]);
         let known = reach.less_equal(reach);
-        self.reach = S::select(lanes & known, reach, self.reach);
-        self.place = S::select(lanes & known, S::zero(), self.place);
-        known | !lanes
+        let taken = lanes & known;
+        self.reach = S::select(taken, reach, self.reach);
+        self.place = S::select(taken, S::zero(), self.place);
+        self.joint = (self.joint & !taken) | (joint & taken);
+        [lanes & !known, lanes & known & stuck]
     }
 }
 
@@ -104,6 +139,7 @@ impl<S: Scalar, D: Development<S>> Stepper<S> for SeriesStepper<S, D> {
     ) -> Result<StepReport, StepFailure> {
         let follows = equal_lanes(self.development.clock(), &self.current, mu);
         self.reach = S::select(follows, self.reach, S::zero());
+        self.joint = self.joint & follows;
         self.current.copy_from(mu);
         let mut report = StepReport::default();
         let mut failures = Failures::<S> {
@@ -114,22 +150,26 @@ impl<S: Scalar, D: Development<S>> Stepper<S> for SeriesStepper<S, D> {
         let mut active = S::zero().less(self.length);
         while active.any() {
             let left = self.reach - self.place;
-            let spent = active & left.less_equal(self.reach * S::from_f64(SLIVER));
+            let sliver = S::select(self.joint, S::zero(), self.reach * S::from_f64(SLIVER));
+            let spent = active & left.less_equal(sliver);
             if spent.any() {
-                let known = self.develop(spent);
+                let [broken, stuck] = self.develop(spent);
                 report.evaluations += 1;
                 report.substeps += 1;
-                failures.add(FailureReason::NotFinite, spent & !known, report);
-                active = active & known;
+                failures.add(FailureReason::NotFinite, broken, report);
+                failures.add(FailureReason::OnJoint, stuck, report);
+                active = active & !broken & !stuck;
                 if report.substeps > MAX_SERIES {
                     failures.add(FailureReason::TooManySteps, active, report);
                     break;
                 }
             }
             let (left, remaining) = (self.reach - self.place, self.length - covered);
-            let last = remaining.less_equal(left * S::from_f64(1.0 + SLIVER));
+            let beyond = S::select(self.joint, left, left * S::from_f64(1.0 + SLIVER));
+            let last = remaining.less_equal(beyond);
             let size = S::select(active, S::select(last, remaining, left), S::zero());
-            let too_small = active & !last & size.less_equal(S::epsilon() * self.length);
+            let small = size.less_equal(S::epsilon() * self.length);
+            let too_small = active & !last & small & !self.joint;
             failures.add(FailureReason::StepTooSmall, too_small, report);
             active = active & !too_small;
             let (from, place) = (self.place, self.place + size);

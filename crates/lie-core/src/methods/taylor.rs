@@ -11,6 +11,9 @@
 //! order; here its sums are side by side in registers, and much of the work is the same for every order.) Within each step of the driver's grid it makes as many series as that takes; a series
 //! that reaches further serves the next steps of the grid too.
 //!
+//! A series holds on one branch of `abs`, `min`, `max`, `piecewise` and tables: where the motion comes to another one, the
+//! step ends, and the next begins there.
+//!
 //! Explicit. With the default tolerance a step is exact to round-off; nothing is kept but linear invariants, and at a
 //! loose tolerance energy and Casimirs drift. Lanes choose their steps independently of each other.
 //!
@@ -25,7 +28,8 @@ use super::development::{Pace, Rows, by_series, copy_lanes, multiply, sum};
 use super::explicit::direction;
 use super::facts::{Facts, Preserves};
 use super::implicit::clear;
-use super::series_stepper::{Development, SeriesStepper};
+use super::joints::Joints;
+use super::series_stepper::{Developed, Development, SeriesStepper};
 use super::stepper::{FactorSink, Method, RungeKutta, Stage};
 use super::time_unit::TimeUnit;
 use crate::clock::Clock;
@@ -72,6 +76,7 @@ impl<S: Scalar, P: Series<S>> Method<S, P> for Taylor {
             rows: core::array::from_fn(|_| zero.clone()),
             scratch: Some((zero.clone(), zero.clone())),
             unit: TimeUnit::new(),
+            joints: Joints::new(),
         };
         SeriesStepper::new(development, h, zero)
     }
@@ -91,6 +96,7 @@ pub struct TaylorDevelopment<'a, S: Scalar, P: Series<S> + 'a> {
     /// A coefficient of the field, and one of the state.
     scratch: Option<(P::State, P::State)>,
     unit: TimeUnit<S>,
+    joints: Joints,
 }
 
 impl<S: Scalar, P: Series<S>> Development<S> for TaylorDevelopment<'_, S, P> {
@@ -102,10 +108,10 @@ impl<S: Scalar, P: Series<S>> Development<S> for TaylorDevelopment<'_, S, P> {
     }
 
     #[inline(always)]
-    fn develop(&mut self, mu: &P::State, step: S, lanes: S::Mask) -> S {
+    fn develop(&mut self, mu: &P::State, step: S, [lanes, landed]: [S::Mask; 2]) -> Developed<S> {
         // taken out, so that they are in registers
         let Some((mut field, mut coefficient)) = self.scratch.take() else {
-            return S::zero() / S::zero();
+            return Developed::broken();
         };
         copy_lanes(&mut self.rows[0], mu, lanes, lanes.all());
         let mut carry = self.recurrence.begin(mu, &mut field);
@@ -131,7 +137,13 @@ impl<S: Scalar, P: Series<S>> Development<S> for TaylorDevelopment<'_, S, P> {
             carry = self.recurrence.begin(mu, &mut field);
         }
         self.scratch = Some((field, coefficient));
-        self.unit.reach
+        self.joints.end(
+            &self.recurrence,
+            &self.pace,
+            &self.unit,
+            step,
+            [lanes, landed],
+        )
     }
 
     #[inline(always)]

@@ -10,7 +10,7 @@ use crate::scalar::{Mask, Scalar, largest};
 use crate::state::State;
 
 /// More lanes than any scalar has.
-const MOST_LANES: usize = 16;
+pub(super) const MOST_LANES: usize = 16;
 /// How far the unit may be from the radius, as a power of two: order 40 then has a factor of 2^160 at most.
 const FARTHEST: i64 = 4;
 /// Units that are tried for one series.

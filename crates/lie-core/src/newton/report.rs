@@ -55,6 +55,9 @@ pub enum FailureReason {
     /// An adaptive method needs too many steps for one interval.
     #[error("too many adaptive steps in one interval")]
     TooManySteps,
+    /// The motion comes back to a joint of the branches of H at once, from either side.
+    #[error("the motion does not leave a joint, where branches of the Hamiltonian meet")]
+    OnJoint,
 }
 
 impl FailureReason {
@@ -85,6 +88,9 @@ impl FailureReason {
             }
             Self::StepTooSmall => {
                 "the solution has a singularity or the tolerances are below round-off: loosen rtol and atol or end earlier"
+            }
+            Self::OnJoint => {
+                "make the branches equal where they meet, or round the corner off: `sqrt(x^2 + a^2)` for `abs(x)`"
             }
             Self::TooManySteps => {
                 "loosen rtol and atol, take a smaller grid step, or an implicit method"

@@ -16,6 +16,7 @@ pub struct Codes {
     advance: usize,
     field: Vec<usize>,
     gradient: Vec<usize>,
+    conditions: usize,
     pairs: usize,
     kept: usize,
 }
@@ -27,6 +28,7 @@ impl Codes {
             advance: making.push(Code::from_advance(&recurrence.advance)),
             field: recurrence.field.clone(),
             gradient: recurrence.gradient.clone().unwrap_or_default(),
+            conditions: recurrence.conditions,
             pairs: recurrence.pairs,
             kept: recurrence.kept,
         }
@@ -34,6 +36,11 @@ impl Codes {
 
     fn entries(&self) -> usize {
         self.field.len() + self.gradient.len()
+    }
+
+    /// Where the results begin that are not entries or conditions.
+    fn rest(&self) -> usize {
+        self.entries() + self.conditions
     }
 }
 
@@ -51,24 +58,27 @@ pub struct Coefficients<'a, S: Scalar> {
     /// The sums of the next order without their first and last terms.
     rest: Vec<S>,
     gradient: Vec<S>,
+    /// The conditions that choose branches, order after order.
+    conditions: Vec<S>,
 }
 
 impl<'a, S: Scalar> Coefficients<'a, S> {
     fn new(system: &'a Dynamic<S>, codes: Option<&'a Codes>) -> Self {
         let zeros = |count: usize| vec![S::zero(); count];
-        let (pairs, kept, entries) = codes.map_or((0, 0, 0), |codes| {
-            (codes.pairs, codes.kept, codes.entries())
-        });
+        let (pairs, kept, rest) =
+            codes.map_or((0, 0, 0), |codes| (codes.pairs, codes.kept, codes.rest()));
+        let conditions = codes.map_or(0, |codes| codes.conditions);
         Self {
             system,
             codes,
             power: codes.is_none().then(|| PowerSeries::new(system)),
-            results: zeros(entries + kept.max(2 * pairs)),
+            results: zeros(rest + kept.max(2 * pairs)),
             kept: zeros(kept),
             left: zeros(MOST_ORDERS * pairs),
             right: zeros(MOST_ORDERS * pairs),
             rest: zeros(pairs),
             gradient: system.zero_state(),
+            conditions: zeros(MOST_ORDERS * conditions),
         }
     }
 
@@ -91,13 +101,16 @@ impl<'a, S: Scalar> Coefficients<'a, S> {
         for (place, value) in codes.gradient.iter().zip(others) {
             self.gradient[*place] = *value;
         }
+        let (from, count) = (k.unwrap_or(0) * codes.conditions, codes.conditions);
+        let found = &self.results[codes.entries()..][..count];
+        self.conditions[from..][..count].copy_from_slice(found);
     }
 
     /// Takes the coefficients of order k of all pairs and sums those of the next, as generated code does: the even and the odd
     /// terms in chains of their own.
     fn push(&mut self, k: usize, codes: &Codes) {
         let pairs = codes.pairs;
-        let (left, right) = self.results[codes.entries()..][..2 * pairs].split_at(pairs);
+        let (left, right) = self.results[codes.rest()..][..2 * pairs].split_at(pairs);
         self.left[k * pairs..][..pairs].copy_from_slice(left);
         self.right[k * pairs..][..pairs].copy_from_slice(right);
         for m in 0..pairs {
@@ -136,7 +149,7 @@ impl<S: Scalar> Recurrence<S> for Coefficients<'_, S> {
             return;
         };
         self.run(codes.begin, mu, None, field);
-        let kept = &self.results[codes.entries()..][..codes.kept];
+        let kept = &self.results[codes.rest()..][..codes.kept];
         self.kept.copy_from_slice(kept);
         self.rest.fill(S::zero());
     }
@@ -150,6 +163,11 @@ impl<S: Scalar> Recurrence<S> for Coefficients<'_, S> {
         };
         self.run(codes.advance, coefficient, Some(k), field);
         self.push(k, codes);
+    }
+
+    fn conditions(&self, k: usize) -> &[S] {
+        let count = self.codes.map_or(0, |codes| codes.conditions);
+        &self.conditions[k * count..][..count]
     }
 }
 

@@ -15,8 +15,17 @@ pub fn orders_across<'a>(
     let apply = methods.iter().filter(|(_, reason)| reason.is_none());
     apply.filter_map(|(id, _)| {
         let method = CATALOGUE.iter().find(|method| method.id == *id)?;
-        Some((*id, method.order, reached(joints, method.order)))
+        let across = match ends_at_joints(id) {
+            true => Some(method.order),
+            false => reached(joints, method.order),
+        };
+        Some((*id, method.order, across))
     })
+}
+
+/// Whether a method ends its steps at joints, and keeps its order.
+pub fn ends_at_joints(id: &str) -> bool {
+    matches!(id, "taylor" | "lie-taylor")
 }
 
 /// The joints for programs: `differentiable` is -1 where H jumps, null where it is not decided.

@@ -39,6 +39,10 @@ impl Lowering {
         let [condition, a, b] = arguments else {
             unreachable!("a choice has a condition and two branches")
         };
+        let known = |known: &Term| known.zero == condition.zero;
+        if condition.row.is_some() && !self.conditions.iter().any(known) {
+            self.conditions.push(condition.clone());
+        }
         if a.row.is_none() && b.row.is_none() {
             return Term { zero, row: None };
         }

@@ -1,0 +1,62 @@
+//! Joints by the command: runs by series whose steps end there, and what `lie check` says.
+
+mod common;
+
+use common::{folder, lie, spec};
+
+/// A body whose inertia differs on the two sides of x = 0, and its state at t = 20, from an extrapolation method in 32 digits.
+const ENERGY: &str = "x^2/2 + y^2/3 + z^2/5 + piecewise(x < 0: 3*x^2, x^2/7)";
+const END: [f64; 3] = [
+    0.297_047_742_076_674_66,
+    -0.125_914_571_411_517_4,
+    0.897_723_877_165_692_45,
+];
+
+#[test]
+fn runs_by_series_are_right_across_joints() {
+    let folder = folder();
+    let path = spec(folder.path(), |spec| {
+        spec["parameters"] = serde_json::json!({});
+        spec["hamiltonian"] = ENERGY.into();
+        spec["initial"] = serde_json::json!(["3/10", "1/10", "9/10"]);
+    });
+    let error = |options: &str| {
+        let run = lie(&format!("run {} --quiet {options}", path.display())).ok();
+        let row = run.csv().1[0].clone();
+        let pairs = row[1..4].iter().zip(&END);
+        pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    };
+    for method in ["taylor", "lie-taylor"] {
+        for (pace, allowed) in [
+            ("--tol 1e-9", 1e-8),
+            ("--step 0.01", 1e-12),
+            ("--step 5 --rtol 1e-9", 1e-6),
+        ] {
+            let found = error(&format!("--method {method} {pace} --at 20"));
+            assert!(found < allowed, "{method} {pace}: {found:e}");
+        }
+    }
+    // the control: a method whose steps cross the joint
+    assert!(error("--method rk4 --step 0.1 --at 20") > 1e-5);
+}
+
+#[test]
+fn check_says_that_series_keep_their_order() {
+    let folder = folder();
+    let path = spec(folder.path(), |spec| {
+        spec["parameters"] = serde_json::json!({});
+        spec["hamiltonian"] = ENERGY.into();
+        spec["initial"] = serde_json::json!(["3/10", "1/10", "9/10"]);
+    });
+    let text = lie(&format!("check {}", path.display())).ok().stdout;
+    let line = "steps that end at them, and the whole order: taylor, lie-taylor";
+    assert!(text.contains(line), "{text}");
+    let lost = text
+        .lines()
+        .find(|line| line.contains("order 2 where steps cross them"));
+    assert!(lost.is_some_and(|line| !line.contains("taylor")), "{text}");
+    let json = lie(&format!("check {} --json", path.display())).ok().stdout;
+    let json: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+    let orders = ["taylor", "lie-taylor", "rk4"].map(|id| json["orders"][id].as_u64());
+    assert_eq!(orders, [Some(33), Some(15), Some(2)]);
+}
