@@ -141,3 +141,49 @@ fn the_energy_is_that_of_the_row() {
         }
     }
 }
+
+/// The error at t = 2.05 of a rotation whose rate has a joint at t = 1/3, by steps that do not meet it, forwards or backwards.
+fn across(rate: &str, method: &str, exact: f64, backwards: bool) -> f64 {
+    let folder = common::folder();
+    let path = common::spec(folder.path(), |spec| {
+        spec["algebra"] = serde_json::json!("so(3)");
+        spec["parameters"] = serde_json::json!({ "c": { "default": "1/3" } });
+        spec["hamiltonian"] = serde_json::json!(format!("z*({rate})"));
+        spec["initial"] = serde_json::json!([1, 0, "3/10"]);
+    });
+    let span = match backwards {
+        false => "--step 0.1 --at 2.05",
+        true => "--step -0.1 --from 2.05 --at 0",
+    };
+    let path = path.to_str().expect("a path");
+    let run = lie(&format!("run {path} --method {method} {span} --quiet"));
+    let (_, rows) = run.ok().csv();
+    let [x, y] = [rows[0][1], rows[0][2]];
+    (x - exact.cos())
+        .abs()
+        .max((y.abs() - exact.sin().abs()).abs())
+}
+
+#[test]
+fn a_joint_at_a_known_time_divides_its_step() {
+    let (c, end) = (1.0_f64 / 3.0, 2.05_f64);
+    let kink = end + (c * c + (end - c) * (end - c)) / 2.0;
+    let jump = c + 2.0 * (end - c);
+    for (rate, exact) in [
+        ("1 + abs(t - c)", kink),
+        ("piecewise(t < c: 1, 2)", jump),
+        ("1 + min(1, max(0, 1000000*(t - c)))", jump - 0.5e-6),
+    ] {
+        for method in ["gauss16", "collective8", "cohen-hairer12"] {
+            for backwards in [false, true] {
+                let error = across(rate, method, exact, backwards);
+                assert!(error < 1e-9, "{rate} {method} {backwards}: {error:e}");
+            }
+        }
+        // the stage at the end of a step is on the side of the step
+        assert!(across(rate, "rk4", exact, false) < 1e-3, "{rate}");
+    }
+    // the control: a joint that depends on the state too, although hardly
+    let unknown = across("1 + abs(t - c + 1e-9*x)", "gauss16", kink, false);
+    assert!(unknown > 1e-6, "{unknown:e}");
+}

@@ -87,6 +87,13 @@ pub trait Poisson<S: Scalar>: Sized {
     fn clock(&self) -> Option<Clock> {
         None
     }
+    /// How many functions of the time [`Poisson::joints`] writes.
+    fn joint_count(&self) -> usize {
+        0
+    }
+    /// Functions of the time that are 0 where branches of H meet at times that are known beforehand; `out` has
+    /// [`Poisson::joint_count`] entries. A driver ends a step there and begins another one.
+    fn joints(&self, _mu: &Self::State, _out: &mut [S]) {}
     /// The size of a state: the largest magnitude of its coordinates but for those that carry the time.
     fn norm(&self, mu: &Self::State) -> S {
         clock::norm(self.clock(), mu)

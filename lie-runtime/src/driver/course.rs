@@ -1,7 +1,9 @@
 //! The loop over the grid.
 
+use super::checks::{check_domain, check_start, smaller};
 use super::error::StepError;
 use super::grid::{Grid, Place, Rows};
+use super::joints::{Joints, Piece};
 use super::observer::{MotionSink, Observer, Progress};
 use super::options::Save;
 use super::problem::set_time;
@@ -12,8 +14,8 @@ use super::watch::{Guard, JACOBIAN, SLOW_PARTS, divided};
 use crate::methods::{Method, StepFailure, StepReport, Stepper};
 use crate::newton::{FailureReason, NewtonOptions};
 use crate::poisson::Poisson;
-use crate::scalar::{Mask, Scalar};
-use crate::state::{State, Unknown};
+use crate::scalar::Scalar;
+use crate::state::State;
 use core::iter::Peekable;
 
 /// Why a stepper was left.
@@ -132,15 +134,16 @@ impl<'r, M> Course<'r, M> {
             false => self.newton,
         };
         let mut stepper = self.method.stepper(system, size, &newton);
+        let mut joints = Joints::of(system);
         loop {
             while let Some(row) =
                 rows.next_if(|row| row.place.index() == self.index && self.done == 0)
             {
                 let looked = match row.place {
                     Place::On(_) => observer.row(system, row.time, mu),
-                    Place::After(_, rest) => {
+                    Place::After(..) => {
                         between.copy_from(mu);
-                        self.off_grid(system, (rest, row.time), mu, between, observer)?;
+                        self.off_grid(system, joints.as_mut(), row.time, between, observer)?;
                         let looked = observer.row(system, row.time, between);
                         observer.return_to_grid();
                         looked
@@ -154,6 +157,14 @@ impl<'r, M> Course<'r, M> {
                 return Ok(Left::Over(Status::Finished));
             }
             let watched = self.done == 0 && guard.as_mut().is_some_and(|guard| guard.begins(mu));
+            let pieces = joints.as_mut().filter(|_| self.done == 0).map(|joints| {
+                let times = [self.index, self.index + 1].map(|index| self.grid.time(index));
+                joints.pieces(system, times.into())
+            });
+            if let Some(pieces) = pieces.filter(|pieces| !pieces.is_empty()) {
+                self.in_pieces(system, pieces, mu, observer)?;
+                self.done = self.parts;
+            }
             while self.done < self.parts {
                 match stepper.step(mu, &mut MotionSink::new(observer, system)) {
                     Ok(report) => {
@@ -303,82 +314,51 @@ impl<'r, M> Course<'r, M> {
     fn off_grid<S: Scalar, P: Poisson<S>>(
         &mut self,
         system: &P,
-        (rest, end): (f64, f64),
-        mu: &P::State,
-        between: &mut P::State,
+        joints: Option<&mut Joints<S, P>>,
+        end: f64,
+        mu: &mut P::State,
         observer: &mut impl Observer<S, P>,
     ) -> Result<(), IntegrateError>
     where
         M: Method<S, P>,
     {
-        let parts = (rest / self.step * f64::from(self.parts)).ceil().max(1.0);
-        let rest_step = S::from_f64(rest / parts);
-        let mut shorter = self.method.stepper(system, rest_step, &self.newton);
+        let whole = [(self.grid.time(self.index), end)];
+        let pieces = joints.map_or(&[][..], |joints| joints.pieces(system, whole[0]));
         observer.leave_grid();
-        for done in 1..=parts as u32 {
-            match shorter.step(between, &mut MotionSink::new(observer, system)) {
-                Ok(report) => {
-                    let left = rest * (1.0 - f64::from(done) / parts);
-                    set_time(system, between, end - left);
-                    self.arrived(system, between, report)?;
-                }
-                Err(failure) => return Err(self.stopped(system, failure, rest, mu)),
+        match pieces {
+            [] => self.in_pieces(system, &whole, mu, observer),
+            pieces => self.in_pieces(system, pieces, mu, observer),
+        }
+    }
+
+    /// Goes from piece to piece, each with a stepper of its own.
+    fn in_pieces<S: Scalar, P: Poisson<S>>(
+        &mut self,
+        system: &P,
+        pieces: &[Piece],
+        mu: &mut P::State,
+        observer: &mut impl Observer<S, P>,
+    ) -> Result<(), IntegrateError>
+    where
+        M: Method<S, P>,
+    {
+        for &(from, to) in pieces {
+            let parts = ((to - from) / self.step * f64::from(self.parts))
+                .ceil()
+                .max(1.0);
+            let size = (to - from) / parts;
+            let mut stepper = self.method.stepper(system, S::from_f64(size), &self.newton);
+            set_time(system, mu, from);
+            for done in 1..=parts as u32 {
+                let report = match stepper.step(mu, &mut MotionSink::new(observer, system)) {
+                    Ok(report) => report,
+                    Err(failure) => return Err(self.stopped(system, failure, to - from, mu)),
+                };
+                let left = (to - from) * (1.0 - f64::from(done) / parts);
+                set_time(system, mu, to - left);
+                self.arrived(system, mu, report)?;
             }
         }
         Ok(())
     }
-}
-
-/// Halvings of a step that is too large.
-const HALVINGS: u32 = 30;
-
-/// The largest of the halves, quarters, … of a step that succeeds from a state, if there is one.
-fn smaller<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
-    system: &P,
-    method: &M,
-    newton: &NewtonOptions,
-    h: f64,
-    mu: &P::State,
-) -> Option<f64> {
-    let mut h = h;
-    (0..HALVINGS).find_map(|_| {
-        h *= 0.5;
-        let mut stepper = method.stepper(system, S::from_f64(h), newton);
-        stepper.step(&mut mu.clone(), &mut ()).ok().map(|_| h)
-    })
-}
-
-/// The energy must be finite after a step, where H is no polynomial: a step may jump over a singularity.
-fn check_domain<S: Scalar, P: Poisson<S>>(
-    system: &P,
-    mu: &P::State,
-    report: StepReport,
-) -> Result<(), StepFailure> {
-    if system.hamiltonian_degree().is_some() {
-        return Ok(());
-    }
-    let finite = system.hamiltonian(mu).finite();
-    if finite.all() {
-        return Ok(());
-    }
-    Err(StepFailure {
-        reason: FailureReason::OutsideDomain,
-        lanes: (!finite).bits(),
-        report,
-    })
-}
-
-/// The state, its energy and its velocity must be finite before the first step.
-fn check_start<S: Scalar, P: Poisson<S>>(system: &P, mu: &P::State) -> Result<(), StepFailure> {
-    let mut field = system.zero_state();
-    system.vector_field(mu, &mut field);
-    let finite = mu.finite() & field.finite() & system.hamiltonian(mu).finite();
-    if finite.all() {
-        return Ok(());
-    }
-    Err(StepFailure {
-        reason: FailureReason::NotFinite,
-        lanes: (!finite).bits(),
-        report: StepReport::default(),
-    })
 }

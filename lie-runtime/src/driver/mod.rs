@@ -1,10 +1,12 @@
 //! From a problem to a solution: the loop over the time grid, what is saved, and observers.
 
 mod assess;
+mod checks;
 mod course;
 mod error;
 mod grid;
 mod group_matrix;
+mod joints;
 mod observer;
 mod options;
 pub mod pace;

@@ -2,6 +2,7 @@
 
 use super::{Argument, Bracket, Kernel, Source};
 use crate::model::Hamiltonian;
+use lie_symbolic::prove::joints::joints_in;
 use lie_symbolic::symbolic::{ExprId, Symbol};
 
 pub(super) fn mu(source: &Source) -> Argument {
@@ -29,6 +30,7 @@ pub(super) fn kernels(source: &mut Source, derivatives: bool) -> Vec<Kernel> {
         &matrix,
     );
     kernels.insert(kernels.len().min(3), poisson_matrix);
+    kernels.extend(joints(source, hamiltonian.as_ref()));
     let graph = &source.graph;
     let arguments = || vec![mu(source)];
     if let Some(Hamiltonian { value, energy, .. }) = hamiltonian
@@ -64,6 +66,21 @@ pub(super) fn kernels(source: &mut Source, derivatives: bool) -> Vec<Kernel> {
         ));
     }
     kernels
+}
+
+/// What is 0 where branches of H meet at a time that is known beforehand.
+fn joints(source: &mut Source, hamiltonian: Option<&Hamiltonian>) -> Option<Kernel> {
+    let (clock, hamiltonian) = (source.clock()?, hamiltonian?);
+    let known = |symbol| match symbol {
+        Symbol::Coordinate(place) => place == clock.time,
+        Symbol::Parameter(_) => true,
+        _ => false,
+    };
+    let places = joints_in(&mut source.graph, hamiltonian.value, &known);
+    let formula = "`out_i = g_i(t)`, which is 0 where branches of H meet";
+    let arguments = vec![mu(source)];
+    (!places.is_empty())
+        .then(|| Kernel::vector(&source.graph, "joints", formula, arguments, &places))
 }
 
 /// What comes from an expression of H.

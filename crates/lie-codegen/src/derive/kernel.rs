@@ -94,6 +94,11 @@ impl Kernel {
         }
     }
 
+    /// How many numbers it computes.
+    pub fn outputs(&self) -> usize {
+        self.task.outputs.len()
+    }
+
     /// A kernel that writes a vector.
     pub fn vector(
         graph: &Graph,

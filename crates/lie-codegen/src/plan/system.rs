@@ -15,6 +15,8 @@ pub struct System {
     pub poisson_degree: Option<u32>,
     /// Where the time is among the coordinates, if H depends on it.
     pub clock: Option<Clock>,
+    /// How many functions of the time are 0 where branches of H meet.
+    pub joints: usize,
     /// The Casimirs.
     pub casimirs: Vec<Casimir>,
     /// What the energy is.
@@ -90,12 +92,20 @@ impl Planner<'_> {
             self.source.explicit_kernels()
         };
         let (mut poisson, mut algebra, mut triple) = (Vec::new(), Vec::new(), None);
+        let mut joints = 0;
         let (gradients, others): (Vec<Kernel>, Vec<Kernel>) = kernels
             .into_iter()
             .partition(|kernel| kernel.name == "casimir_gradient");
         for kernel in others {
             match kernel.name {
-                "casimirs" => poisson.push(self.casimirs(kernel)),
+                "casimirs" => {
+                    let count = self.source.casimirs.len();
+                    poisson.push(self.values_in_a_slice(kernel, count));
+                }
+                "joints" => {
+                    joints = kernel.outputs();
+                    poisson.push(self.values_in_a_slice(kernel, joints));
+                }
                 "ad" if without_bracket => {}
                 "ad_star" | "ad_star_matrix" if field_alone => {}
                 "ad" | "ad_star" | "ad_star_matrix" => algebra.push(self.function(&kernel)),
@@ -119,6 +129,7 @@ impl Planner<'_> {
                 .matrix()
                 .and_then(|matrix| matrix.degree),
             clock: self.source.clock(),
+            joints,
             casimirs,
             energy: match self.source.energy.expression() {
                 Some(_) => Energy::Expression,
@@ -156,8 +167,7 @@ impl Planner<'_> {
     }
 
     /// All Casimirs into a slice, which has no entries that would have to be cleared.
-    fn casimirs(&mut self, mut kernel: Kernel) -> Function {
-        let count = self.source.casimirs.len();
+    fn values_in_a_slice(&mut self, mut kernel: Kernel, count: usize) -> Function {
         if let Shape::Vector(indices) = &kernel.shape
             && indices.len() == count
         {

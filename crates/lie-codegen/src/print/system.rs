@@ -16,7 +16,8 @@ impl Printer<'_> {
             .poisson
             .iter()
             .map(|function| match function.name {
-                "casimirs" => self.casimirs(function),
+                "casimirs" => self.into_slice(function, plan.casimirs.len()),
+                "joints" => self.into_slice(function, plan.joints),
                 _ => self.system_method(function, None),
             })
             .collect();
@@ -128,6 +129,14 @@ impl Printer<'_> {
         let of_h = degree("hamiltonian_degree", plan.hamiltonian_degree);
         let of_matrix = degree("poisson_degree", plan.poisson_degree);
         let casimirs = self.facts_of_casimirs();
+        let joints = (plan.joints > 0).then(|| {
+            let count = index(plan.joints);
+            quote! {
+                fn joint_count(&self) -> usize {
+                    #count
+                }
+            }
+        });
         let clock = plan.clock.map(|clock| {
             let [momentum, time] = [clock.momentum, clock.time].map(index);
             quote! {
@@ -153,6 +162,7 @@ impl Printer<'_> {
             }
 
             #clock
+            #joints
             #casimirs
             #of_h
             #of_matrix
@@ -230,16 +240,17 @@ impl Printer<'_> {
         }
     }
 
-    /// All Casimirs into a slice.
-    fn casimirs(&self, function: &Function) -> TokenStream {
+    /// So many values into a slice.
+    fn into_slice(&self, function: &Function, count: usize) -> TokenStream {
         let docs = self.docs(function);
         let body = self.system_body(function, &["out"], None);
         let mu = self.argument_if("mu", function.reads(&function.arguments[0]));
-        let out = self.argument_if("out", !self.plan.system.casimirs.is_empty());
+        let out = self.argument_if("out", count > 0);
+        let name = ident(function.name);
         quote! {
             #docs
             #[inline]
-            fn casimirs(&self, #mu: &Self::State, #out: &mut [S]) {
+            fn #name(&self, #mu: &Self::State, #out: &mut [S]) {
                 #body
             }
         }

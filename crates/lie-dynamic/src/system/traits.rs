@@ -173,6 +173,14 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
             }
         }
     }
+    fn joint_count(&self) -> usize {
+        self.values.compiled.plan.system.joints
+    }
+    fn joints(&self, mu: &Vec<S>, out: &mut [S]) {
+        if let Some(code) = self.values.kernels().joints {
+            self.values.call(code, [mu, &[]], out, &mut []);
+        }
+    }
     fn casimirs(&self, mu: &Vec<S>, out: &mut [S]) {
         if let Some(family) = &self.family {
             return family.casimirs(mu, out);

@@ -49,6 +49,23 @@ pub fn find_joints(graph: &Graph, function: ExprId, name: &dyn Fn(Symbol) -> Str
     joints
 }
 
+/// The functions, each once, on whose zeros branches meet, of those that depend on some symbols alone.
+pub fn joints_in(
+    graph: &mut Graph,
+    function: ExprId,
+    known: &dyn Fn(Symbol) -> bool,
+) -> Vec<ExprId> {
+    let mut places: Vec<ExprId> = Vec::new();
+    for condition in conditions(graph, function) {
+        let (_, place) = oriented(graph, condition);
+        let all_known = graph.symbols(place).into_iter().all(known);
+        if all_known && !places.contains(&place) {
+            places.push(place);
+        }
+    }
+    places
+}
+
 /// What functions of the user are said to have, wherever it is.
 fn in_own_functions(graph: &Graph, function: ExprId) -> Vec<Joint> {
     let mut all: Vec<Joint> = Vec::new();

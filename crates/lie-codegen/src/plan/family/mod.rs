@@ -170,6 +170,7 @@ impl Planner<'_> {
                 hamiltonian_degree: family.degree,
                 poisson_degree: None,
                 clock: None,
+                joints: 0,
                 casimirs: Vec::new(),
                 energy: Energy::Expression,
                 derivatives: false,

@@ -1,0 +1,105 @@
+//! Steps that end where branches of a Hamiltonian meet at a time that is known beforehand.
+//!
+//! Across such a joint no method has more order than the branches have derivatives in common. So the step that contains one
+//! is made in pieces, each by a stepper of its own; the grid stays as it is.
+
+use super::problem::set_time;
+use crate::poisson::Poisson;
+use crate::scalar::{Scalar, largest};
+
+/// A piece ends so many units of round-off before a joint, and the next one begins as many behind it: which branch holds
+/// at the joint itself does not matter.
+const BESIDE: f64 = 4.0;
+/// A joint nearer to an end of a step than this part of it is at the end.
+const SLIVER: f64 = 1e-12;
+/// As many halvings as there are bits.
+const HALVINGS: u32 = 1100;
+
+/// A piece of a step: its start and its end.
+pub(super) type Piece = (f64, f64);
+
+/// The joints of a system.
+pub(super) struct Joints<S: Scalar, P: Poisson<S>> {
+    state: P::State,
+    before: Vec<S>,
+    after: Vec<S>,
+    pieces: Vec<Piece>,
+}
+
+impl<S: Scalar, P: Poisson<S>> Joints<S, P> {
+    /// Those of a system, if there are any.
+    pub(super) fn of(system: &P) -> Option<Self> {
+        let count = system.joint_count();
+        (count > 0).then(|| Self {
+            state: system.zero_state(),
+            before: vec![S::zero(); count],
+            after: vec![S::zero(); count],
+            pieces: Vec::new(),
+        })
+    }
+
+    /// The pieces of a step between two times; none where it has no joint inside.
+    pub(super) fn pieces(&mut self, system: &P, (start, end): Piece) -> &[Piece] {
+        self.pieces.clear();
+        let Self {
+            state,
+            before,
+            after,
+            ..
+        } = self;
+        let mut at = |time: f64, out: &mut [S]| {
+            set_time(system, state, time);
+            system.joints(state, out);
+        };
+        at(start, before);
+        at(end, after);
+        let mut times = Vec::new();
+        for index in 0..before.len() {
+            for lane in 0..S::LANES {
+                let of = |values: &[S]| values[index].lane(lane).to_f64();
+                let (from, to) = (of(before), of(after));
+                if from * to < 0.0 {
+                    let mut scratch = vec![S::zero(); before.len()];
+                    let negative = |time: f64| {
+                        at(time, &mut scratch);
+                        of(&scratch) < 0.0
+                    };
+                    times.push(crossing((start, end), from < 0.0, negative));
+                }
+            }
+        }
+        let least = SLIVER * (end - start).abs();
+        times.retain(|time| (time - start).abs() > least && (time - end).abs() > least);
+        if times.is_empty() {
+            return &self.pieces;
+        }
+        times.sort_by(|a, b| (a - start).abs().total_cmp(&(b - start).abs()));
+        times.dedup_by(|b, a| (*a - *b).abs() <= least);
+        let mut from = start;
+        for time in times {
+            let size = time.abs().max((end - start).abs());
+            let beside = (BESIDE * largest(S::epsilon()) * size).copysign(end - start);
+            self.pieces.push((from, time - beside));
+            from = time + beside;
+        }
+        self.pieces.push((from, end));
+        &self.pieces
+    }
+}
+
+/// Where a function changes its sign between two times: the last number on the side of the start.
+fn crossing((start, end): Piece, side: bool, mut negative: impl FnMut(f64) -> bool) -> f64 {
+    let (mut here, mut there) = (start, end);
+    for _ in 0..HALVINGS {
+        let middle = here + 0.5 * (there - here);
+        if middle == here || middle == there {
+            break;
+        }
+        if negative(middle) == side {
+            here = middle;
+        } else {
+            there = middle;
+        }
+    }
+    here
+}
