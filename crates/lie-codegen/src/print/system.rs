@@ -16,8 +16,8 @@ impl Printer<'_> {
             .poisson
             .iter()
             .map(|function| match function.name {
-                "casimirs" => self.into_slice(function, plan.casimirs.len()),
-                "joints" => self.into_slice(function, plan.joints),
+                "casimirs" => self.vector_function(function, plan.casimirs.len()),
+                "joints" => self.vector_function(function, plan.joints),
                 _ => self.system_method(function, None),
             })
             .collect();
@@ -241,7 +241,7 @@ impl Printer<'_> {
     }
 
     /// So many values into a slice.
-    fn into_slice(&self, function: &Function, count: usize) -> TokenStream {
+    fn vector_function(&self, function: &Function, count: usize) -> TokenStream {
         let docs = self.docs(function);
         let body = self.system_body(function, &["out"], None);
         let mu = self.argument_if("mu", function.reads(&function.arguments[0]));

@@ -287,10 +287,7 @@ fn change(terms: &Terms) -> Change {
             width /= 4.0;
         }
         // not a number where the value does not change
-        if !(step < width) {
-            step = width;
-        }
-        place += step;
+        place += if step < width { step } else { width };
         if place >= 1.0 {
             return Change::None;
         }
