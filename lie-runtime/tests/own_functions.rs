@@ -49,7 +49,7 @@ mod potentials {
 }
 
 macro_rules! body {
-    ($name:ident { $($functions:tt)* } { $($energy:tt)* } $($splitting:ident)?) => {
+    ($name:ident { $($functions:tt)* } { $($energy:tt)* } $($more:tt)*) => {
         lie_poisson! {
             /// so(3) with functions.
             pub system $name;
@@ -59,7 +59,7 @@ macro_rules! body {
             functions { $($functions)* }
             hamiltonian = $($energy)*;
             casimir C = x^2 + y^2 + z^2;
-            methods = [midpoint, gauss4, gauss6, lie-midpoint, taylor, gonzalez, mean-value $(, $splitting)?];
+            methods = [midpoint, gauss4, gauss6, lie-midpoint, gonzalez, mean-value $($more)*];
         }
     };
 }
@@ -68,22 +68,25 @@ body!(
     // Derivatives by dual numbers.
     Automatic { pull(u, v) = potentials::pull; well(r) = crate::well; }
     { x^2/2 + y^2/3 + z^2/5 + well(a*z)/4 + pull(x*y, z)/3 + well(2) }
+    , taylor
 );
 body!(
     // Declared derivatives of one of them.
     Given { pull(u, v) = potentials::pull; well(r) = crate::well, derivatives (well_slope); }
     { x^2/2 + y^2/3 + z^2/5 + well(a*z)/4 + pull(x*y, z)/3 + well(2) }
+    , taylor
 );
 body!(
     // The control: formulas.
     Formula { }
     { x^2/2 + y^2/3 + z^2/5 + (cos(3*a*z) + (a*z)^4/4)/4 + ((x*y)^2*sin(z) + x*y*z)/3 + cos(6) + 4 }
+    , taylor
 );
 body!(
     // A sum of functions of one coordinate.
     Pieces { well(r) = crate::well, derivatives (crate::well_slope); }
     { x^2/2 + y^2/3 + z^2/5 + well(z)/4 }
-    splitting2
+    , taylor, splitting2
 );
 body!(
     // A function of Rust beside a table, neither of which is smooth.
@@ -99,11 +102,13 @@ body!(
         drag = table [(-1.5, 1), (-1, 0.4), (-0.5, 0.1), (0, 0), (0.5, 0.2), (1, 0.5), (1.5, 1.3)], degree 5;
     }
     { x^2/2 + y^2/3 + z^2/5 + drag(x)/9 }
+    , taylor
 );
 body!(
     // A derivative with a wrong sign.
     Wrong { well(r) = crate::well, derivatives (crate::wrong_slope); }
     { x^2/2 + y^2/3 + z^2/5 + well(z)/4 }
+    , taylor
 );
 
 const START: [f64; 3] = [0.6, -0.4, 0.7];
