@@ -45,6 +45,18 @@ fn every_mistake_of_the_command_line_is_an_option_error() {
             "--max-iterations",
         ),
         ("run BODY --newton-tolerance -1", "--newton-tolerance"),
+        (
+            "run BODY --method collective16 --iteration newton",
+            "--iteration",
+        ),
+        (
+            "run BODY --method isospectral8 --newton-tolerance 1",
+            "--newton-tolerance",
+        ),
+        (
+            "run BODY --method gauss16 --converge map --newton-tolerance 1",
+            "--newton-tolerance",
+        ),
         ("run BODY --max-iterations 0", "--max-iterations"),
         ("run BODY --max-iterations 5000000000", "--max-iterations"),
         ("run BODY --method gauss4 --retraction exp", "--retraction"),

@@ -306,6 +306,85 @@ fn a_step_that_does_not_contract_is_solved_by_newton() {
     assert_eq!(near[0].factorizations, 0);
 }
 
+/// Newton's iteration is made where it is asked for, and only there at an ordinary step; the step is the same.
+#[test]
+fn the_iteration_that_is_asked_for_is_made() {
+    fn check<M: Facts + Method<f64, se3_heavy_top::HeavyTopSystem>>(method: M) {
+        let (system, start) = (HeavyTop::declared::<f64>(), HeavyTop::initial::<f64>());
+        let mut usual = start;
+        run(
+            &system,
+            &method,
+            &NewtonOptions::default(),
+            &mut usual,
+            0.3,
+            20,
+        );
+        for options in [NewtonOptions::newton(), NewtonOptions::simplified()] {
+            let mut mu = start;
+            let reports = run(&system, &method, &options, &mut mu, 0.3, 20);
+            for report in reports {
+                assert!(
+                    report.fixed_point == 0 && report.factorizations > 0,
+                    "{}",
+                    M::ID
+                );
+            }
+            let off = relative_distance(mu.as_slice(), usual.as_slice());
+            assert!(off < 1e-13, "{} {:?}: {off:e}", M::ID, options.iteration);
+        }
+    }
+    check(Gauss8);
+    check(Gauss16);
+    check(CohenHairer16::new());
+}
+
+/// Steps at which the fixed point contracts slowly, and those that are left to Newton's iteration, keep both Casimirs.
+#[test]
+fn casimirs_are_kept_at_every_step_that_is_solved() {
+    fn check<M: Facts + Method<f64, se3_heavy_top::HeavyTopSystem>>(method: M) -> usize {
+        let system = HeavyTop::declared::<f64>();
+        let casimirs = |mu: &_| {
+            let mut out = [0.0; 2];
+            system.casimirs(mu, &mut out);
+            out
+        };
+        let mut solved = 0;
+        for k in 1..=14 {
+            let h = 0.2 * f64::from(k);
+            let mut mu = HeavyTop::initial::<f64>();
+            let before = casimirs(&mu);
+            let mut stepper = method.stepper(&system, h, &NewtonOptions::default());
+            let (mut steps, mut size) = (0, 0.0_f64);
+            while steps < 60 && stepper.step(&mut mu, &mut ()).is_ok() {
+                steps += 1;
+                size = size.max(mu.as_slice().iter().map(|x| x * x).sum());
+            }
+            solved += steps;
+            for (now, before) in casimirs(&mu).into_iter().zip(before) {
+                let lost = (now - before).abs() / size;
+                assert!(
+                    lost < 1e-13,
+                    "{}, h = {h}: {lost:e} in {steps} steps",
+                    M::ID
+                );
+            }
+        }
+        println!("{}: {solved} steps of {}", M::ID, 14 * 60);
+        solved
+    }
+    for solved in [
+        check(Gauss8),
+        check(Gauss12),
+        check(Gauss16),
+        check(CohenHairer16::new()),
+        check(Collective16::smallest()),
+        check(Isospectral16::new()),
+    ] {
+        assert!(solved > 200, "{solved}");
+    }
+}
+
 /// A looser tolerance costs fewer iterations, and errs by about as much as it says.
 #[test]
 fn the_tolerance_bounds_the_error_of_a_step() {

@@ -9,7 +9,7 @@ use lie_runtime::methods::{
     Collective4, Collective6, Facts, Hopf, ImplicitStepper, ParallelCollective, Quaternion,
     Representation, StageLift, StepFailure,
 };
-use lie_runtime::newton::FailureReason;
+use lie_runtime::newton::{FailureReason, Iteration};
 use lie_runtime::prelude::*;
 
 lie_poisson! {
@@ -471,6 +471,7 @@ where
                 tolerance: 0.0,
                 max_iterations: solved.iterations,
                 convergence: Convergence::State,
+                iteration: Iteration::FixedPoint,
                 ..*options
             };
             // by columns

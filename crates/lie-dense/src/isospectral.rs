@@ -34,6 +34,8 @@ use lie_runtime::{State, Unknown};
 
 /// Updates up to this many units of round-off that no longer shrink are round-off themselves.
 const STAGNATION: f64 = 256.0;
+/// The ratio from which on two updates do not shrink.
+const STILL: f64 = 15.0 / 16.0;
 
 impl<M: StreamMap> Method<f64, MatrixFlow<M>> for Isospectral2 {
     type Stepper<'a>
@@ -154,15 +156,17 @@ impl<'a, M: StreamMap> IsospectralStepper<'a, M> {
     }
 
     /// Whether the error that is left is below the tolerance, as the rate of the last updates predicts, or the updates have
-    /// come to rest at round-off.
+    /// come to rest at round-off: they shrink no more.
     fn has_converged(&self, update: f64, previous: f64, size: f64) -> bool {
         let round_off = f64::EPSILON * size;
-        let rate = update / previous;
-        if previous.is_infinite() || rate >= 0.5 {
-            let at_rest = !previous.is_infinite() && update <= STAGNATION * round_off;
-            return at_rest || update <= self.options.tolerance * round_off;
+        let goal = self.options.tolerance * round_off;
+        if previous.is_infinite() {
+            return update <= goal;
         }
-        update * rate / (1.0 - rate) <= self.options.tolerance * round_off
+        let rate = update / previous;
+        let left = update * rate / (1.0 - rate);
+        let at_rest = !(rate < STILL) && update <= STAGNATION * round_off;
+        at_rest || (rate < 1.0 && left <= goal) || update <= 0.0
     }
 
     /// `W1 = W + 2 [p, V]`, with what the last sum lacked.

@@ -1,22 +1,20 @@
 //! When an iteration over stages side by side has ended.
 
 use crate::newton::NewtonOptions;
+use crate::newton::rest::{STAGNATION, dropped, left};
 use crate::scalar::{Mask, Scalar};
-
-/// Updates up to this many units of round-off that no longer shrink are round-off themselves.
-pub(super) const STAGNATION: f64 = 256.0;
 
 /// A rate that was seen in another step is not trusted below this.
 const TRUSTED: f64 = 1.0 / 16.0;
 
 /// When an iteration has ended, in changes of the slopes.
 pub(super) struct Ending<S: Scalar> {
+    /// One unit of round-off.
+    pub(super) unit: S,
     /// What may be left.
     goal: S,
     /// A first change up to this leaves that little, by the rate of the step before.
     pub(super) at_once: S,
-    /// Changes up to this are round-off if they no longer shrink.
-    round_off: S,
     /// Changes above this are not looked at.
     pub(super) bound: S,
 }
@@ -29,22 +27,22 @@ impl<S: Scalar> Ending<S> {
         let goal = unit * S::from_f64(options.tolerance);
         let rate = rate.max(S::from_f64(TRUSTED));
         Self {
+            unit,
             goal,
             at_once: goal * ((S::one() - rate) / rate),
-            round_off: unit * S::from_f64(STAGNATION),
             bound: unit * S::from_f64(STAGNATION.max(16.0 * options.tolerance)),
         }
     }
 
-    /// The lanes in which changes shrink, and those in which it has ended: with the ratio r of the last two changes as the
-    /// rate, the last one times `r/(1 - r)` is left.
+    /// The lanes in which so little is left, by the ratio of the last two of three changes, and those in which changes have dropped to
+    /// round-off, after `count` iterations of which the first one changed `first`.
     #[inline(always)]
-    pub(super) fn reached(&self, before: S, change: S) -> (S::Mask, S::Mask) {
-        let shrinks = (change + change).less(before);
-        let left = change * change;
-        let small = left.less_equal(self.goal * (before - change));
-        let settled = change.less_equal(self.round_off);
-        (shrinks, (shrinks & small) | (!shrinks & settled))
+    pub(super) fn reached(&self, first: S, changes: [S; 3], count: u32) -> [S::Mask; 2] {
+        let [_, before, change] = changes;
+        let rate = change / before;
+        let small = rate.less(S::one()) & left(change, rate).less_equal(self.goal);
+        let small = small | change.less_equal(S::zero());
+        [small, dropped(first, changes, self.unit, count)]
     }
 }
 

@@ -1,22 +1,27 @@
 //! Gauss collocation with its stages side by side in one number, by fixed-point iteration.
 
 mod map;
+mod state;
 #[cfg(test)]
 mod tests;
 
 use core::array::from_fn;
 
 use super::diagonals::{diagonals, product, total};
-use super::stage_ending::{Ending, are_below, most};
+use super::stage_ending::most;
 use super::stage_work::{At, Work};
 use super::tableau::{gauss_ahead, gauss_ratio, gauss_weight};
 use crate::clock::{Clock, holds};
-use crate::newton::{Convergence, NewtonOptions};
+use crate::newton::{Convergence, Iteration, NewtonOptions};
 use crate::scalar::{Mask, Scalar, largest};
 use crate::state::{Stages, State};
 
-/// After so many iterations each, updates must have become half as large.
-const REVIEW: u32 = 8;
+/// An iteration whose changes are at rest, but shrank slowly, goes on for so many iterations: in its slowest direction the
+/// error is larger than the changes.
+const BEYOND: f64 = 24.0;
+
+/// For so many steps the first change counts that was seen last.
+const FRESH: f64 = 16.0;
 
 /// Where no rate is known, a change counts as what is left after it.
 const UNKNOWN: (f64, f64) = (1.0, 2.0);
@@ -50,12 +55,17 @@ pub struct StageParallel<S: Scalar, V, const STAGES: usize> {
     /// The entries that carry the time, where there are any.
     clock: Option<Clock>,
     options: NewtonOptions,
+    /// The number of iterations after which a step has failed.
+    most_iterations: u32,
     /// How many iterations of a step need no look, in each lane.
     quiet: S,
     /// The factor by which changes shrank at the end of a step.
     rate: S,
     /// How many iterations the map of the last step took, in each lane.
     taken: S,
+    /// The first change of a step, and for how many steps it has not been looked at.
+    first: S,
+    age: S,
 }
 
 /// How an iteration ended.
@@ -96,9 +106,18 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
             },
             clock: None,
             options: *options,
+            most_iterations: match (options.iteration, options.convergence) {
+                (Iteration::Automatic, Convergence::Map) => {
+                    options.max_iterations.saturating_mul(3)
+                }
+                (Iteration::Automatic, _) => options.max_iterations.saturating_mul(2),
+                _ => options.max_iterations,
+            },
             quiet: S::zero(),
             rate: S::ratio(UNKNOWN.0, UNKNOWN.1),
             taken: S::zero(),
+            first: S::zero(),
+            age: S::from_f64(FRESH),
         }
     }
 
@@ -173,66 +192,13 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
         }
     }
 
-    /// Until the error of the increments is below the tolerance of the options, or updates have shrunk to round-off.
-    #[inline(always)]
-    fn iterate_state(&mut self, mut field: impl FnMut(At<'_, V>, &mut V)) -> Iterated<S> {
-        let ending = Ending::new(self.size(), self.rate, &self.options);
-        // by value, so that it can stay in registers
-        let mut work = self.work.take::<S>();
-        let [mut ended, mut converged] = [S::Mask::splat(false); 2];
-        let (mut iterations, mut mark) = (self.least_quiet(), S::from_f64(f64::MAX));
-        self.blind(&mut work, iterations, &mut field);
-        let mut change = S::Wide::zero();
-        while iterations < self.options.max_iterations && !ended.all() {
-            let before = change;
-            change = self.look(&mut work, ended, &mut field);
-            iterations += 1;
-            let count = S::from_f64(f64::from(iterations));
-            let open = self.quiet.less(count) & !ended;
-            let looks = count - self.quiet;
-            let first = looks.less_equal(S::one());
-            let mut early = first;
-            let bound = S::select(first, ending.at_once, ending.bound);
-            let mut reached = are_below::<S>(change, bound) & open;
-            let doubtful = reached & !first;
-            if doubtful.any() {
-                let (before, size) = (most::<S>(before), most::<S>(change));
-                let (shrinks, enough) = ending.reached(before, size);
-                self.rate = S::select(doubtful & shrinks & enough, size / before, self.rate);
-                reached = reached & (first | enough);
-                early = early | (!shrinks & looks.less_equal(S::ratio(2.0, 1.0)));
-            }
-            if reached.any() {
-                self.expect(reached, early, count);
-                converged = converged | reached;
-                ended = ended | reached;
-            }
-            if iterations.is_multiple_of(REVIEW) {
-                let size = most::<S>(change);
-                ended = ended | (open & !size.less(mark * S::ratio(1.0, 2.0)));
-                mark = S::select(open, size, mark);
-            }
-        }
-        self.work = work;
-        self.end(iterations, change, converged)
-    }
-
-    /// All iterations of the next step but the last two need no look. Where the first look was enough, or the second one saw
-    /// nothing but round-off, it comes earlier.
-    #[inline(always)]
-    fn expect(&mut self, reached: S::Mask, early: S::Mask, count: S) {
-        let [one, two] = [1.0, 2.0].map(|k| S::ratio(k, 1.0));
-        let quiet = S::select(early, self.quiet - one, count - two);
-        self.quiet = S::select(reached, quiet.max(S::zero()), self.quiet);
-    }
-
     /// How many iterations need no look in any lane.
     #[inline(always)]
     fn least_quiet(&self) -> u32 {
         let quiet = (1..S::LANES).fold(self.quiet.lane(0).to_f64(), |least, lane| {
             least.min(self.quiet.lane(lane).to_f64())
         });
-        (quiet as u32).min(self.options.max_iterations)
+        (quiet as u32).min(self.most_iterations)
     }
 
     /// Iterates once; the changes of the slopes. The lanes that have ended keep their increments.
@@ -277,6 +243,7 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
         self.quiet = S::select(lanes, S::zero(), self.quiet);
         self.rate = S::select(lanes, S::ratio(UNKNOWN.0, UNKNOWN.1), self.rate);
         self.taken = S::select(lanes, S::zero(), self.taken);
+        self.age = S::select(lanes, S::from_f64(FRESH), self.age);
     }
 
     /// The size of the slopes against which changes are measured: that of the base over h, or of the slopes themselves.

@@ -160,7 +160,7 @@ pub use splitting::{
     Coordinate, Found, Splitting, Splitting1, Splitting2, Splitting4, Splitting6, Splitting8,
     SplittingStepper,
 };
-pub use stage_parallel::{Field, Slopes, StageParallelStepper};
+pub use stage_parallel::{Field, MOST_UNKNOWNS, Slopes, StageParallelStepper};
 pub use stepper::{
     FactorSink, Method, Retraction, RungeKutta, Stage, StepFailure, StepReport, Stepper,
 };

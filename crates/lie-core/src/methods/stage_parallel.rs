@@ -9,8 +9,9 @@ use crate::poisson::{Poisson, Widen};
 use crate::scalar::{Mask, Scalar};
 use crate::state::{Stages, State, Unknown};
 
-/// Newton's iteration takes a full matrix of so many rows at most, 0.5 MB in double precision.
-const MOST_UNKNOWNS: usize = 256;
+/// Newton's iteration of a method whose stages are evaluated together takes a full matrix of so many rows at most, 0.5 MB in
+/// double precision.
+pub const MOST_UNKNOWNS: usize = 256;
 
 /// The state of the system over eight numbers.
 pub type WideState<S, P> = <<P as Widen<S>>::Widened as Poisson<<S as Scalar>::Wide>>::State;
@@ -119,6 +120,20 @@ where
         }
     }
 
+    /// Whether the fixed point is tried: not where the options ask for Newton's iteration, or a simplified one.
+    fn by_fixed_point(&self) -> bool {
+        let asked = matches!(
+            self.newton.iteration,
+            Iteration::Automatic | Iteration::FixedPoint
+        );
+        asked || !self.has_newton()
+    }
+
+    /// Whether a step can be solved by Newton's iteration.
+    fn has_newton(&self) -> bool {
+        STAGES * self.system.dimension() <= MOST_UNKNOWNS && self.system.has_jacobian()
+    }
+
     /// The step by Newton's iteration, in the lanes that are left.
     #[cold]
     #[inline(never)]
@@ -203,32 +218,33 @@ where
             self.stages
                 .start(!follows, mu.as_slice(), self.next.as_slice());
         }
-        let (wide, rule) = (&self.wide, &mut self.rule);
-        let solved = self.stages.iterate(|at, next| rule.next(wide, at, next));
-        self.stages.advance();
-        self.stages.base_into(self.next.as_mut_slice());
         let mut report = StepReport {
-            evaluations: solved.iterations + u32::from(!follows.all()),
-            iterations: solved.iterations,
-            fixed_point: solved.iterations,
-            residual: solved.residual,
+            evaluations: u32::from(!follows.all()),
             substeps: 1,
             ..StepReport::default()
         };
+        let mut left = S::Mask::splat(true);
+        if self.by_fixed_point() {
+            let (wide, rule) = (&self.wide, &mut self.rule);
+            let solved = self.stages.iterate(|at, next| rule.next(wide, at, next));
+            self.stages.advance();
+            self.stages.base_into(self.next.as_mut_slice());
+            report.evaluations += solved.iterations;
+            report.iterations = solved.iterations;
+            report.fixed_point = solved.iterations;
+            report.residual = solved.residual;
+            left = !solved.converged;
+        }
         let mut failure = None;
-        if !solved.converged.all() {
-            let unknowns = STAGES * self.system.dimension();
-            let alone = self.newton.iteration == Iteration::FixedPoint
-                || unknowns > MOST_UNKNOWNS
-                || !self.system.has_jacobian();
-            failure = if alone {
+        if left.any() {
+            failure = if self.newton.iteration == Iteration::FixedPoint || !self.has_newton() {
                 Some(StepFailure {
                     reason: FailureReason::NotConverged,
-                    lanes: (!solved.converged).bits(),
+                    lanes: left.bits(),
                     report,
                 })
             } else {
-                self.by_newton(mu, !solved.converged, &mut report)
+                self.by_newton(mu, left, &mut report)
             };
         }
         let solved = !S::Mask::from_bits(failure.map_or(0, |failure| failure.lanes));

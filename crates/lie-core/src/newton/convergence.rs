@@ -1,12 +1,10 @@
 //! When an iteration has converged, lane by lane.
 
 use super::options::Iteration;
+use super::rest::{REVIEW, Reviews, STAGNATION, dropped, left};
 use super::sizes::Sizes;
 use crate::scalar::{Mask, Scalar};
 use crate::state::Unknown;
-
-/// Updates up to this many units of round-off that no longer shrink are round-off themselves.
-const STAGNATION: f64 = 256.0;
 
 /// Follows the size of the updates of one solution.
 #[derive(Clone, Copy, Debug)]
@@ -15,7 +13,9 @@ pub(super) struct Convergence<S> {
     tolerance: S,
     first: S,
     previous: S,
+    earlier: S,
     count: u32,
+    reviews: Reviews<S>,
 }
 
 impl<S: Scalar> Convergence<S> {
@@ -26,14 +26,16 @@ impl<S: Scalar> Convergence<S> {
             quadratic: iteration == Iteration::Newton,
             tolerance: S::from_f64(tolerance),
             first: S::zero(),
-            previous: S::zero(),
+            previous: S::from_f64(f64::MAX),
+            earlier: S::from_f64(f64::MAX),
             count: 0,
+            reviews: Reviews::new(),
         }
     }
 
     /// Takes the size of an update and of the unknown, and returns the lanes that have converged:
     /// those whose error after this update is predicted to be below the tolerance, and those whose
-    /// updates have shrunk to round-off.
+    /// updates have shrunk to round-off and come to rest there.
     ///
     /// With `rate` the ratio of the last two updates d, the error left is about `d rate^2` for
     /// Newton's method and `d rate/(1 - rate)` for linear convergence.
@@ -41,26 +43,33 @@ impl<S: Scalar> Convergence<S> {
     pub(super) fn observe(&mut self, update: S, size: S) -> S::Mask {
         let round_off = S::epsilon() * size;
         let goal = self.tolerance * round_off;
-        let converged = if self.count == 0 {
+        self.count += 1;
+        let converged = if self.count == 1 {
             self.first = update;
             update.less_equal(if self.quadratic { round_off } else { goal })
         } else {
             let rate = update / self.previous;
-            let left = if self.quadratic {
-                update * rate * rate
+            let done = if self.quadratic {
+                let shrinking = rate.less(S::ratio(1.0, 2.0));
+                let at_round_off = update.less_equal(S::from_f64(STAGNATION) * round_off);
+                (shrinking & (update * rate * rate).less_equal(goal))
+                    | (!shrinking & at_round_off)
+                    | update.less_equal(round_off)
             } else {
-                update * rate / (S::one() - rate)
+                let mut done = rate.less(S::one()) & left(update, rate).less_equal(goal);
+                let updates = [self.earlier, self.previous, update];
+                done = done | dropped(self.first, updates, round_off, self.count);
+                if self.count.is_multiple_of(REVIEW) {
+                    let all = S::Mask::splat(true);
+                    let [resting, _] = self.reviews.take(all, update, round_off);
+                    done = done | resting;
+                }
+                done
             };
-            let shrinking = rate.less(S::ratio(1.0, 2.0));
-            let at_round_off = update.less_equal(S::from_f64(STAGNATION) * round_off);
-            let quadratic = S::Mask::splat(self.quadratic);
-            (shrinking & left.less_equal(goal))
-                | (!shrinking & at_round_off)
-                | (quadratic & update.less_equal(round_off))
-                | update.less_equal(S::zero())
+            done | update.less_equal(S::zero())
         };
+        self.earlier = self.previous;
         self.previous = update;
-        self.count += 1;
         converged
     }
 
@@ -189,9 +198,37 @@ mod tests {
     #[test]
     fn stagnation_counts_only_at_round_off() {
         let options = NewtonOptions::fixed_point();
-        assert_eq!(iterations(&options, &[1e-12, 2e-14, 1.9e-14]), Some(3));
+        assert_eq!(
+            iterations(&options, &[1e-12, 2e-14, 1.9e-14, 1.9e-14]),
+            Some(4)
+        );
         assert_eq!(iterations(&options, &[1e-3, 1e-10, 1e-10, 1e-10]), None);
         assert_eq!(iterations(&options, &[1.0, 2.0, f64::NAN, 4.0]), None);
+    }
+
+    /// Updates that shrink slowly, and turn meanwhile, are not at rest at 256 units of round-off, but below one; the control is
+    /// what they would leave there.
+    #[test]
+    fn slow_convergence_is_not_taken_for_rest() {
+        for rate in [0.55_f64, 0.7, 0.9] {
+            let update = |k: usize| {
+                let turn = 1.0 + 0.4 * (1.1 * k as f64).cos();
+                1e-3 * turn * rate.powi(k as i32) + 1e-17 * (2.3 * k as f64).cos().abs()
+            };
+            let updates: [f64; 500] = core::array::from_fn(update);
+            let count = iterations(&NewtonOptions::fixed_point(), &updates).expect("it ends");
+            let left = |k: usize| rate.powi(k as i32) * 1e-3 / (1.0 - rate);
+            let early = updates
+                .iter()
+                .position(|&update| update < 256.0 * f64::EPSILON);
+            let early = left(early.expect("it gets there"));
+            println!(
+                "{rate}: {count} iterations leave {:e}, early {early:e}",
+                left(count)
+            );
+            assert!(left(count) < 3e-16 && early > 3e-14);
+            assert!(count < 120 || rate > 0.8);
+        }
     }
 
     #[test]

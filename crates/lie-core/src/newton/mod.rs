@@ -1,5 +1,5 @@
 //! Newton's iteration for implicit steps: the equation is [`crate::equation::Equation`], the loop
-//! [`Newton`], its start `predictor`, one Jacobian a step `chord`, its stopping rule `convergence`, by what errors are measured `sizes`, the choice between variants `trial`, the update of each variant `update`, elimination
+//! [`Newton`], its start `predictor`, one Jacobian a step `chord`, its stopping rule `convergence`, round-off told from slow convergence `rest`, by what errors are measured `sizes`, the choice between variants `trial`, the update of each variant `update`, elimination
 //! [`dense`] and, for lanes with a small pivot, [`pivoted`]; [`exchanging`] is for matrices that are far
 //! from the identity.
 
@@ -13,6 +13,7 @@ mod options;
 pub mod pivoted;
 mod predictor;
 mod report;
+pub(crate) mod rest;
 mod sizes;
 mod solver;
 mod trial;

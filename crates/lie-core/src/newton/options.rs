@@ -50,7 +50,9 @@ pub struct NewtonOptions {
     /// updates, or from one and the rate at which earlier steps converged. The default 2^-10 keeps the error that is left far below round-off, so that it
     /// does not add up to a drift over millions of steps.
     pub tolerance: f64,
-    /// The number of iterations after which a step has failed; of an automatic choice, those of Newton's method.
+    /// The number of iterations after which a step has failed; of an automatic choice, those of Newton's method. Where stages are
+    /// evaluated together, twice as many are made of the fixed point before, or three times as many where the map is to
+    /// converge, which nothing else follows.
     pub max_iterations: u32,
     /// What has converged where an iteration ends, of methods that evaluate their stages together.
     pub convergence: Convergence,

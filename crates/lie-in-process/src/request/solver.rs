@@ -3,6 +3,7 @@
 use lie_codegen::methods::Choice;
 use lie_program::protocol::Tolerances;
 use lie_runtime::driver::Pace;
+use lie_runtime::methods::MOST_UNKNOWNS;
 use lie_runtime::newton::{Convergence, NewtonOptions};
 
 use super::plan::Planner;
@@ -65,6 +66,12 @@ impl Planner<'_> {
         let solved = choice.solved().entry();
         let explicit = solved.is_some_and(|method| method.explicit);
         let together = solved.is_some_and(|method| method.fixed_point);
+        // on points over the state, which have no equation for Newton's iteration
+        let lifted = together && solved.is_some_and(|method| method.preserves.poisson);
+        let unknowns =
+            solved.map_or(0, |method| method.order as usize / 2) * self.spec.model.dimension();
+        let alone =
+            lifted || together && (self.spec.model.family.is_some() || unknowns > MOST_UNKNOWNS);
         // the iteration first: the others differ from its defaults
         for name in [
             "iteration",
@@ -95,6 +102,17 @@ impl Planner<'_> {
                 self.foreign(name, given.wrong(text).help(help));
                 continue;
             }
+            if alone
+                && matches!(
+                    (name, given.text.trim()),
+                    ("iteration", "newton" | "simplified")
+                )
+            {
+                let system = &self.spec.model.name;
+                let text = format!("{id} is solved by fixed-point iteration alone on {system}");
+                self.foreign(name, given.wrong(text).help("leave it out"));
+                continue;
+            }
             let set = match name {
                 "iteration" => iteration(&given).map(|found| options = found),
                 "newton-tolerance" => tolerance(&given).map(|found| options.tolerance = found),
@@ -104,6 +122,21 @@ impl Planner<'_> {
                 _ => count(&given).map(|found| options.max_iterations = found),
             };
             self.keep(set);
+        }
+        let map = match options.convergence {
+            Convergence::Map => together,
+            Convergence::Claimed => lifted,
+            Convergence::State | Convergence::Tolerance => false,
+        };
+        if map && let Some(given) = self.method_option("newton-tolerance") {
+            let id = choice.id();
+            let text =
+                format!("the iteration of {id} ends where its map has converged, by no tolerance");
+            let help = format!(
+                "leave it out, or give {} too",
+                front.assignment("converge", "state")
+            );
+            self.foreign("newton-tolerance", given.wrong(text).help(help));
         }
         options
     }

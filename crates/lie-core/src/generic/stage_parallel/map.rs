@@ -1,10 +1,14 @@
 //! The iteration until the map of a step has converged, and not its state alone.
 
-use super::{Iterated, REVIEW, StageParallel};
-use crate::generic::stage_ending::{STAGNATION, are_below, most};
+use super::{BEYOND, Iterated, StageParallel};
+use crate::generic::stage_ending::{are_below, most};
 use crate::generic::stage_work::At;
+use crate::newton::rest::{REVIEW, Reviews, STAGNATION, dropped, is_quick};
 use crate::scalar::{Mask, Scalar};
 use crate::state::State;
+
+/// Changes up to so many units of round-off are at rest where they have shrunk quickly.
+const CALM: f64 = 4.0;
 
 impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAGES> {
     /// Until the derivative of the increments by the base has converged too.
@@ -12,16 +16,21 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
     /// With the start frozen, that derivative starts from nothing, and iterates by the same contraction as an error of
     /// the state. So by how much the updates have shrunk since the first one, they say how much of the derivative is left. Where
     /// they reach round-off before it, the last rate is taken to go on; a start at round-off shows no rate, and takes as
-    /// many iterations as the step before.
+    /// many iterations as the step before. Where changes do not shrink quickly, the last one is looked at: the rate of changes
+    /// that turn while they shrink may have been taken for a smaller one, and then the iteration goes on until they are at rest.
     #[inline(always)]
     pub(super) fn iterate_map(&mut self, mut field: impl FnMut(At<'_, V>, &mut V)) -> Iterated<S> {
-        let bound = self.size() * S::epsilon() * S::from_f64(STAGNATION);
+        let unit = self.size() * S::epsilon();
+        let bound = unit * S::from_f64(STAGNATION);
         let mut work = self.work.take::<S>();
-        let [mut ended, mut settled, mut ready] = [S::Mask::splat(false); 3];
+        let [mut ended, mut settled, mut converged] = [S::Mask::splat(false); 3];
+        let [mut quick, mut enough, mut again] = [S::Mask::splat(false); 3];
+        let never = S::from_f64(f64::MAX);
+        let (mut reviews, mut due) = (Reviews::new(), never);
         let (mut iterations, mut mark) = (0, S::from_f64(f64::MAX));
         let [mut first, mut before, mut change] = [S::Wide::zero(); 3];
         let [mut left, mut rate] = [S::one(); 2];
-        while iterations < self.options.max_iterations && !ended.all() {
+        while iterations < self.most_iterations && !ended.all() {
             let earlier = before;
             before = change;
             change = self.look(&mut work, ended, &mut field);
@@ -33,20 +42,40 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
             if new.any() {
                 if iterations > 1 {
                     let [size, before, earlier] = [change, before, earlier].map(most::<S>);
+                    let shrunk = [most::<S>(first), size];
+                    quick = quick | (new & is_quick(shrunk, iterations));
                     let last = self.seen(new, count, [size, before, earlier]);
                     rate = S::select(new, last, rate);
                     left = S::select(new, size / most::<S>(first), left);
                 }
                 settled = settled | new;
             }
-            ready = ready | (settled & open & self.derived(left, count));
-            self.taken = S::select(ready & !ended, count, self.taken);
-            ended = ended | ready;
+            let third = again;
+            again = enough;
+            enough = enough | (settled & open & self.derived(left, count));
+            let done = enough & quick & !ended;
+            self.taken = S::select(done, count, self.taken);
+            converged = converged | done;
+            ended = ended | done;
+            if (enough & !ended).any() {
+                let [first, earlier, before, size] =
+                    [first, earlier, before, change].map(most::<S>);
+                let calm = size.less_equal(unit * S::from_f64(CALM))
+                    & (is_quick([first, size], iterations) | size.less_equal(S::zero()));
+                let still = third & dropped(first, [earlier, before, size], unit, iterations);
+                let ready = enough & !ended & (calm | still | due.less_equal(count));
+                self.taken = S::select(ready, count, self.taken);
+                converged = converged | ready;
+                ended = ended | ready;
+            }
             if iterations.is_multiple_of(REVIEW) {
                 let size = most::<S>(change);
                 let active = open & !settled;
                 ended = ended | (active & !size.less(mark * S::ratio(1.0, 2.0)));
                 mark = S::select(active, size, mark);
+                let [resting, _] = reviews.take(enough & !ended, size, unit);
+                let late = count + S::from_f64(BEYOND);
+                due = S::select(resting & !due.less(never), late, due);
             }
             if iterations == 1 {
                 first = change;
@@ -54,22 +83,32 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
                     iterations = self.least_quiet().max(1);
                     self.blind(&mut work, iterations - 1, &mut field);
                 }
-            } else if settled.all() && !ended.any() {
-                // nothing is to be seen before some lane is ready
+            } else if settled.all() && !enough.any() {
+                // nothing is to be seen before the derivative of some lane has converged
                 let now = iterations;
-                while iterations < self.options.max_iterations && !ready.any() {
+                loop {
+                    let next = S::from_f64(f64::from(iterations + 1));
+                    let close = self.derived(left * rate, next).any();
+                    if close || iterations + 1 >= self.most_iterations {
+                        break;
+                    }
+                    iterations += 1;
+                    left *= rate;
+                }
+                if quick.all() && iterations + 1 < self.most_iterations {
                     iterations += 1;
                     left *= rate;
                     let count = S::from_f64(f64::from(iterations));
-                    ready = self.derived(left, count);
-                    self.taken = S::select(ready, count, self.taken);
+                    enough = self.derived(left, count);
+                    self.taken = S::select(enough, count, self.taken);
+                    converged = enough;
+                    ended = enough;
                 }
-                ended = ready;
                 self.blind(&mut work, iterations - now, &mut field);
             }
         }
         self.work = work;
-        self.end(iterations, change, ready)
+        self.end(iterations, change, converged)
     }
 
     /// The rate at which changes shrink that have just reached round-off, from the last three of them: single ones may

@@ -99,3 +99,100 @@ fn round_off_of_invariants_walks() {
 fn round_off_of_invariants_walks_for_long() {
     is_a_walk(1.5, 16, 200_000, 3e-19, 2e-18);
 }
+
+/// How many of 100 steps of a rotation at a rate of one about an axis are solved, and the part of the squared length that
+/// those lose.
+fn turn<const STAGES: usize>(axis: [f64; 3], h: f64, options: &NewtonOptions) -> (u32, f64) {
+    let cross = |y: &[Wide; 3], out: &mut [Wide; 3]| {
+        let [a, b, c] = axis.map(Scalar::widen);
+        *out = [
+            y[1] * c - y[2] * b,
+            y[2] * a - y[0] * c,
+            y[0] * b - y[1] * a,
+        ];
+    };
+    let start = [0.6, 0.48, 0.64];
+    let mut stages = StageParallel::<f64, [Wide; 3], STAGES>::new(h, [Wide::default(); 3], options);
+    stages.start(true, &start, &[0.0; 3]);
+    let mut solved = 0;
+    while solved < 100 {
+        if solved > 0 {
+            stages.go_on();
+        }
+        if !stages.iterate(|at, out| cross(at.points, out)).converged {
+            break;
+        }
+        stages.advance();
+        solved += 1;
+    }
+    let mut end = start;
+    stages.base_into(&mut end);
+    let square = end.iter().map(|y| y * y).sum::<f64>();
+    (solved, (square - 1.0).abs())
+}
+
+/// Steps that are solved keep the invariant, however slowly the iteration contracts; the control ends at 256 units.
+#[test]
+fn solved_steps_keep_invariants() {
+    let mut early_lost = 0.0_f64;
+    for convergence in [Convergence::State, Convergence::Map] {
+        let options = NewtonOptions {
+            convergence,
+            ..NewtonOptions::default()
+        };
+        let early = NewtonOptions {
+            convergence: Convergence::State,
+            tolerance: 256.0,
+            ..options
+        };
+        let mut accepted = [0; 2];
+        for k in 1..=30 {
+            let h = 0.2 * f64::from(k);
+            let angle = 0.7 * f64::from(k);
+            let axis = [
+                0.8 * angle.cos(),
+                0.8 * angle.sin(),
+                if k % 2 == 0 { 0.6 } else { -0.6 },
+            ];
+            let (eight, four) = (turn::<8>(axis, h, &options), turn::<4>(axis, h, &options));
+            for ((steps, lost), accepted) in [eight, four].into_iter().zip(&mut accepted) {
+                assert!(lost < 1e-13, "h = {h}: {lost:e} after {steps} steps");
+                *accepted += u32::from(steps == 100);
+            }
+            early_lost = early_lost.max(turn::<8>(axis, h, &early).1);
+        }
+        println!("{convergence:?}: {accepted:?} of 30");
+        assert!(accepted[0] >= 16 && accepted[1] >= 10, "{accepted:?}");
+    }
+    println!("by a tolerance of 256: {early_lost:e}");
+    assert!(early_lost > 1e-12);
+}
+
+/// Sizes of 2^-300 and of 2^300 end the iteration where 1 does: no change is squared.
+#[test]
+fn the_end_of_an_iteration_has_no_scale() {
+    let iterations = |scale: f64| {
+        let options = NewtonOptions::default();
+        let zero = [Wide::default(); 3];
+        let mut stages = StageParallel::<f64, [Wide; 3], 8>::new(0.9 / scale, zero, &options);
+        stages.start(true, &[0.8, 0.1, 0.6].map(|y| y * scale), &[0.0; 3]);
+        let mut end = [0.0; 3];
+        let counts: Vec<u32> = (0..20)
+            .map(|step| {
+                if step > 0 {
+                    stages.go_on();
+                }
+                let iterated = stages.iterate(body);
+                stages.advance();
+                iterated.iterations
+            })
+            .collect();
+        stages.base_into(&mut end);
+        (counts, end.map(|y| y / scale))
+    };
+    let one = iterations(1.0);
+    for exponent in [-300, 300, -20, 20] {
+        let scale = 2.0_f64.powi(exponent);
+        assert_eq!(iterations(scale), one, "2^{exponent}");
+    }
+}

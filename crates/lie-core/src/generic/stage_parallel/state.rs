@@ -1,0 +1,111 @@
+//! The iteration until the state has converged.
+
+use super::{BEYOND, FRESH, Iterated, StageParallel};
+use crate::generic::stage_ending::{Ending, are_below, most};
+use crate::generic::stage_work::At;
+use crate::newton::rest::{REVIEW, Reviews};
+use crate::scalar::{Mask, Scalar};
+use crate::state::State;
+
+impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAGES> {
+    /// Until the error of the increments is below the tolerance of the options, or changes have come to rest at round-off.
+    ///
+    /// The first change, which is looked at now and then, tells changes that dropped to round-off from those that shrink slowly
+    /// and may have any ratio. The latter end by their reviews.
+    #[inline(always)]
+    pub(super) fn iterate_state(
+        &mut self,
+        mut field: impl FnMut(At<'_, V>, &mut V),
+    ) -> Iterated<S> {
+        let ending = Ending::new(self.size(), self.rate, &self.options);
+        let (quiet, stale) = (self.least_quiet(), !self.age.less(S::from_f64(FRESH)));
+        let done = u32::from(quiet > 0 && stale.any());
+        if done > 0 {
+            self.begin(stale, &mut field);
+        }
+        self.age += S::one();
+        // by value, so that it can stay in registers
+        let mut work = self.work.take::<S>();
+        let [mut ended, mut converged] = [S::Mask::splat(false); 2];
+        let never = S::from_f64(f64::MAX);
+        let (mut reviews, mut due) = (Reviews::new(), never);
+        self.blind(&mut work, quiet - done, &mut field);
+        let mut iterations = quiet;
+        let [mut before, mut change] = [S::Wide::zero(); 2];
+        while iterations < self.most_iterations && !ended.all() {
+            let earlier = before;
+            before = change;
+            change = self.look(&mut work, ended, &mut field);
+            iterations += 1;
+            if iterations == 1 {
+                let seen = stale | self.quiet.less(S::one());
+                self.begun(seen, change);
+            }
+            let count = S::from_f64(f64::from(iterations));
+            let open = self.quiet.less(count) & !ended;
+            let looks = count - self.quiet;
+            let first = looks.less_equal(S::one());
+            let mut early = first;
+            let bound = S::select(first, ending.at_once, ending.bound);
+            let mut reached = are_below::<S>(change, bound) & open;
+            let doubtful = reached & !first;
+            if doubtful.any() {
+                let [earlier, before, size] = [earlier, before, change].map(most::<S>);
+                let earlier = S::select(looks.less(S::ratio(3.0, 1.0)), never, earlier);
+                let changes = [earlier, before, size];
+                let [small, dropped] = ending.reached(self.first, changes, iterations);
+                let rate = size / before;
+                self.rate = S::select(doubtful & small & rate.finite(), rate, self.rate);
+                reached = reached & (first | small | dropped);
+                early = early | (!small & looks.less_equal(S::ratio(3.0, 1.0)));
+            }
+            let late = due.less_equal(count) & open & !reached;
+            if late.any() {
+                // three reviews are to be seen, the last where this one was at rest
+                let seen = S::from_f64(BEYOND + f64::from(3 * REVIEW + 1));
+                let quiet = (count - seen).max(S::zero());
+                self.quiet = S::select(late, quiet, self.quiet);
+                converged = converged | late;
+                ended = ended | late;
+            }
+            if reached.any() {
+                self.expect(reached, early, count);
+                converged = converged | reached;
+                ended = ended | reached;
+            }
+            if iterations.is_multiple_of(REVIEW) {
+                let size = most::<S>(change);
+                let [resting, failing] = reviews.take(open & !ended, size, ending.unit);
+                due = S::select(resting & !due.less(never), count + S::from_f64(BEYOND), due);
+                ended = ended | failing;
+            }
+        }
+        self.work = work;
+        self.end(iterations, change, converged)
+    }
+
+    /// Iterates once, to see the first change of a step in some lanes.
+    #[cold]
+    #[inline(never)]
+    fn begin(&mut self, lanes: S::Mask, field: &mut impl FnMut(At<'_, V>, &mut V)) {
+        let mut work = self.work.take::<S>();
+        let change = self.look(&mut work, S::Mask::splat(false), field);
+        self.work = work;
+        self.begun(lanes, change);
+    }
+
+    /// Takes the first change of a step in some lanes.
+    fn begun(&mut self, lanes: S::Mask, change: S::Wide) {
+        self.first = S::select(lanes, most::<S>(change), self.first);
+        self.age = S::select(lanes, S::zero(), self.age);
+    }
+
+    /// All iterations of the next step but the last two need no look. Where the first look was enough, or the next two saw
+    /// nothing but round-off, it comes earlier.
+    #[inline(always)]
+    fn expect(&mut self, reached: S::Mask, early: S::Mask, count: S) {
+        let [one, two] = [1.0, 2.0].map(|k| S::ratio(k, 1.0));
+        let quiet = S::select(early, self.quiet - one, count - two);
+        self.quiet = S::select(reached, quiet.max(S::zero()), self.quiet);
+    }
+}
