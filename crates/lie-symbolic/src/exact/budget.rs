@@ -38,16 +38,42 @@ impl Budget {
         left.map(drop).ok_or(Exhausted)
     }
 
-    /// Takes the cost of one product of coefficients away.
+    /// Takes the cost of one product or sum of coefficients away: common divisors take the square of the length.
     ///
     /// # Errors
     /// [`Exhausted`] where too little is left or the number is too long.
-    pub fn spend_on(&self, product: &Rational) -> Result<(), Exhausted> {
-        let bits = product.bits();
-        if bits > MAX_BITS {
-            Err(Exhausted)
-        } else {
-            self.spend(1 + bits / 64)
+    pub fn spend_on(&self, value: &Rational) -> Result<(), Exhausted> {
+        self.spend(1)?;
+        self.spend_on_length(value.bits())
+    }
+
+    /// Takes away what the length of a coefficient adds to that cost: nothing of machine words.
+    pub(super) fn spend_on_length(&self, bits: u64) -> Result<(), Exhausted> {
+        let words = bits / 128;
+        match bits > MAX_BITS {
+            true => Err(Exhausted),
+            false => self.spend(16 * words * words),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The greatest common divisor of numbers of w words takes the square of w.
+    #[test]
+    fn long_numbers_cost_the_square_of_their_length() {
+        let cost = |exponent| {
+            let budget = Budget::new(1 << 40);
+            let value = Rational::from(2).pow(exponent).unwrap();
+            budget.spend_on(&value).unwrap();
+            (1 << 40) - budget.left()
+        };
+        assert_eq!(cost(60), 1);
+        let (short, long) = (cost(128 * 10), cost(128 * 40));
+        assert!((15..=17).contains(&(long / short)), "{short} {long}");
+        let too_long = Rational::from(2).pow(70_000).unwrap();
+        assert_eq!(Budget::new(1 << 60).spend_on(&too_long), Err(Exhausted));
     }
 }

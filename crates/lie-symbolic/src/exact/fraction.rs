@@ -84,7 +84,7 @@ impl Fraction {
     pub fn add(&self, other: &Self, budget: &Budget) -> Result<Self, Exhausted> {
         budget.spend((self.numerator.terms().len() + other.numerator.terms().len()) as u64)?;
         if self.denominator == other.denominator {
-            let numerator = &self.numerator + &other.numerator;
+            let numerator = self.numerator.sum(&other.numerator, budget)?;
             return Self {
                 numerator,
                 denominator: self.denominator.clone(),
@@ -108,7 +108,7 @@ impl Fraction {
             }
             Ok(numerator)
         };
-        let numerator = &lift(self)? + &lift(other)?;
+        let numerator = lift(self)?.sum(&lift(other)?, budget)?;
         Self {
             numerator,
             denominator: common,

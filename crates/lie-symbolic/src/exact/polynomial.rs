@@ -78,22 +78,41 @@ impl Polynomial {
 
     /// Adds one term.
     pub fn accumulate(&mut self, monomial: Monomial, coefficient: &Rational) {
+        self.added(monomial, coefficient);
+    }
+
+    /// Adds one term; the length of the sum in bits.
+    fn added(&mut self, monomial: Monomial, coefficient: &Rational) -> u64 {
         use std::collections::btree_map::Entry;
         match self.0.entry(monomial) {
             Entry::Vacant(entry) => {
                 if !coefficient.is_zero() {
                     entry.insert(coefficient.clone());
                 }
+                0
             }
             Entry::Occupied(mut entry) => {
                 let sum = entry.get() + coefficient;
+                let bits = sum.bits();
                 if sum.is_zero() {
                     entry.remove();
                 } else {
                     entry.insert(sum);
                 }
+                bits
             }
         }
+    }
+
+    /// Adds one term within a budget. The sum may be longer than what is added.
+    fn accumulate_within(
+        &mut self,
+        monomial: Monomial,
+        coefficient: &Rational,
+        budget: &Budget,
+    ) -> Result<(), Exhausted> {
+        budget.spend_on(coefficient)?;
+        budget.spend_on_length(self.added(monomial, coefficient))
     }
 
     /// The same with other variables, whose order must be that of the old ones.
@@ -123,9 +142,7 @@ impl Polynomial {
         let mut result = Self::default();
         for (m, a) in &self.0 {
             for (n, b) in &other.0 {
-                let product = a * b;
-                budget.spend_on(&product)?;
-                result.accumulate(m.mul(n)?, &product);
+                result.accumulate_within(m.mul(n)?, &(a * b), budget)?;
             }
         }
         Ok(result)
@@ -146,6 +163,18 @@ impl Polynomial {
             if left > 0 {
                 square = square.mul(&square, budget)?;
             }
+        }
+        Ok(result)
+    }
+
+    /// The sum.
+    ///
+    /// # Errors
+    /// [`Exhausted`] where the budget is too small for it.
+    pub fn sum(&self, other: &Self, budget: &Budget) -> Result<Self, Exhausted> {
+        let mut result = self.clone();
+        for (m, c) in &other.0 {
+            result.accumulate_within(m.clone(), c, budget)?;
         }
         Ok(result)
     }

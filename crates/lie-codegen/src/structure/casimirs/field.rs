@@ -177,6 +177,9 @@ impl Field for Prime<'_> {
     }
 }
 
+/// What an operation with rational functions takes, in operations modulo a prime.
+const OPERATION: u64 = 64;
+
 /// The rational functions of the parameters.
 pub struct Functions<'a> {
     /// What the operations are counted by.
@@ -195,14 +198,16 @@ impl Field for Functions<'_> {
         Rational::from(value).into()
     }
     fn sum(&self, a: &Fraction, b: &Fraction) -> Result<Fraction, Exhausted> {
-        self.budget.spend(16)?;
+        let (p, q) = (a.numerator().terms().len(), b.numerator().terms().len());
+        self.budget.spend(OPERATION + 32 * (p + q) as u64)?;
         a.add(b, self.budget)
     }
     fn negative(&self, a: &Fraction) -> Fraction {
         a.neg()
     }
     fn product(&self, a: &Fraction, b: &Fraction) -> Result<Fraction, Exhausted> {
-        self.budget.spend(16)?;
+        let (p, q) = (a.numerator().terms().len(), b.numerator().terms().len());
+        self.budget.spend(OPERATION + 32 * (p * q) as u64)?;
         a.mul(b, self.budget)
     }
     fn inverse(&self, a: &Fraction) -> Result<Fraction, Exhausted> {

@@ -17,32 +17,28 @@ pub fn kernel<F: Field>(
     rows: impl Iterator<Item = Sparse<F::Value>>,
 ) -> Result<Kernel<F::Value>, Exhausted> {
     let mut pivots: Vec<Option<Sparse<F::Value>>> = vec![None; columns];
-    let mut work: Vec<F::Value> = vec![field.zero(); columns];
+    let mut work = Work::new(field, columns);
     let mut new = Vec::new();
     for (number, row) in rows.enumerate() {
         if new.len() == columns {
             break;
         }
-        field.budget().spend(1 + columns as u64 / 8)?;
+        field.budget().spend(1 + columns as u64 / 64)?;
         for (column, value) in row {
-            work[column] = value;
+            work.set(column, value);
         }
         let mut lead = None;
-        for column in 0..columns {
-            if field.is_zero(&work[column]) {
-                continue;
+        let mut next = work.from(0);
+        while let Some(column) = next {
+            if !field.is_zero(&work.values[column]) {
+                match &pivots[column] {
+                    Some(pivot) => work.clear(field, column, pivot)?,
+                    None => lead = lead.or(Some(column)),
+                }
             }
-            match &pivots[column] {
-                Some(pivot) => clear(field, &mut work, column, pivot)?,
-                None => lead = lead.or(Some(column)),
-            }
+            next = work.from(column + 1);
         }
-        let entries = work
-            .iter_mut()
-            .enumerate()
-            .filter(|(_, v)| !field.is_zero(v));
-        let entries = entries.map(|(c, v)| (c, std::mem::replace(v, field.zero())));
-        let mut entries: Sparse<F::Value> = entries.collect();
+        let mut entries = work.taken(field);
         if let Some(lead) = lead {
             let inverse = field.inverse(&entries[0].1)?;
             field.budget().spend(entries.len() as u64)?;
@@ -56,20 +52,68 @@ pub fn kernel<F: Field>(
     Ok((vectors(field, &pivots)?, new))
 }
 
-/// `work -= work[column] * pivot`, whose first entry is a one in this column.
-fn clear<F: Field>(
-    field: &F,
-    work: &mut [F::Value],
-    column: usize,
-    pivot: &Sparse<F::Value>,
-) -> Result<(), Exhausted> {
-    field.budget().spend(pivot.len() as u64)?;
-    let factor = field.negative(&work[column]);
-    for (c, value) in &pivot[1..] {
-        work[*c] = field.sum(&work[*c], &field.product(&factor, value)?)?;
+/// A row that is reduced, with its places that are in use: rows are sparse, and looking at all places takes longer than the rest.
+struct Work<T> {
+    values: Vec<T>,
+    used: Vec<u64>,
+}
+
+impl<T: Clone> Work<T> {
+    fn new<F: Field<Value = T>>(field: &F, columns: usize) -> Self {
+        Self {
+            values: vec![field.zero(); columns],
+            used: vec![0; columns.div_ceil(64)],
+        }
     }
-    work[column] = field.zero();
-    Ok(())
+
+    fn set(&mut self, column: usize, value: T) {
+        self.values[column] = value;
+        self.used[column / 64] |= 1 << (column % 64);
+    }
+
+    /// The first place in use, from a column on.
+    fn from(&self, column: usize) -> Option<usize> {
+        let word = self.used.get(column / 64)? & (u64::MAX << (column % 64));
+        if word != 0 {
+            return Some(column / 64 * 64 + word.trailing_zeros() as usize);
+        }
+        let later = (column / 64 + 1..self.used.len()).find(|&i| self.used[i] != 0)?;
+        Some(later * 64 + self.used[later].trailing_zeros() as usize)
+    }
+
+    /// Subtracts a pivot, whose first entry is a one in a column, so that this column becomes zero.
+    fn clear<F: Field<Value = T>>(
+        &mut self,
+        field: &F,
+        column: usize,
+        pivot: &Sparse<T>,
+    ) -> Result<(), Exhausted> {
+        field.budget().spend(pivot.len() as u64)?;
+        let factor = field.negative(&self.values[column]);
+        for (c, value) in &pivot[1..] {
+            self.set(
+                *c,
+                field.sum(&self.values[*c], &field.product(&factor, value)?)?,
+            );
+        }
+        self.values[column] = field.zero();
+        Ok(())
+    }
+
+    /// The entries that are not zero; nothing is in use afterwards.
+    fn taken<F: Field<Value = T>>(&mut self, field: &F) -> Sparse<T> {
+        let mut entries = Vec::new();
+        let mut next = self.from(0);
+        while let Some(column) = next {
+            let value = std::mem::replace(&mut self.values[column], field.zero());
+            if !field.is_zero(&value) {
+                entries.push((column, value));
+            }
+            next = self.from(column + 1);
+        }
+        self.used.fill(0);
+        entries
+    }
 }
 
 /// A vector of the kernel for each column without a pivot, from below.

@@ -31,6 +31,7 @@ pub(crate) mod solve {
     pub(crate) use super::invariants::drawn;
     pub(crate) use super::kernel::{Sparse, kernel};
     pub(crate) use super::normal::cleared;
+    pub(crate) use super::operators::Echelon;
 }
 
 pub use field::{Field, PRIMES, Prime};

@@ -74,6 +74,19 @@ fn clebsch_and_manakov() {
     assert!(found[0].contains('a'), "{found:?}");
 }
 
+/// Products of what is known are solutions too. They are not solved for again over the rational functions of the parameters,
+/// which of eight of them took longer than anybody waits.
+#[test]
+fn what_is_known_is_not_found_again() {
+    let body = model(
+        "su(3)",
+        "a b c d e f g h",
+        r#""I1": 1, "I2": "4/3", "I3": "5/3", "I4": 2, "I5": "7/3", "I6": "8/3", "I7": 3, "I8": "10/3""#,
+        "a^2/(2*I1) + b^2/(2*I2) + c^2/(2*I3) + d^2/(2*I4) + e^2/(2*I5) + f^2/(2*I6) + g^2/(2*I7) + h^2/(2*I8)",
+    );
+    assert_eq!(shown(&body, WORK / 2), (Vec::new(), 4, End::Degree));
+}
+
 #[test]
 fn what_is_not_looked_for_is_said() {
     let spin = model("so(3)", "x y z", "", "exp(x) + y");

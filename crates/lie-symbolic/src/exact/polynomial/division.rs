@@ -26,9 +26,7 @@ impl Polynomial {
             };
             let factor = coefficient * &inverse;
             for (m, c) in &divisor.0 {
-                let product = c * &factor;
-                budget.spend_on(&product)?;
-                rest.accumulate(m.mul(&shift)?, &-&product);
+                rest.accumulate_within(m.mul(&shift)?, &-&(c * &factor), budget)?;
             }
             quotient.accumulate(shift, &factor);
         }
