@@ -30,3 +30,28 @@ fn a_report_on_six_coordinates_with_a_parameter() {
         run.stdout
     );
 }
+
+/// Errors within a hundred times those of the reference have no slope: a right method does not fail by it.
+#[test]
+fn an_order_at_round_off_is_not_measurable() {
+    let spec = r#"{"format": 1, "name": "Bianchi", "algebra": "bianchi(VI0)", "parameters": {"a": "2/5"},
+        "state": ["u1", "u2", "u3"], "initial": ["2/5", "-1/10", "1/5"],
+        "hamiltonian": "5*u1^2/12 + u2^2/6 + u3^2/4 - exp(-u2^2/3)/6 + a*u3*u3"}"#;
+    let run = with_spec("verify", spec, "--methods collective16,midpoint --quiet").ok();
+    assert!(run.stdout.contains("not measurable"), "{}", run.stdout);
+    // control: where there is something to tell it is told
+    assert!(run.stdout.contains("2: 2.0"), "{}", run.stdout);
+}
+
+/// From order 8 on a collective method over spinors moves the group element of other matrices to its order alone.
+#[test]
+fn a_group_element_that_goes_along() {
+    let spec = r#"{"format": 1, "name": "Right", "invariance": "right", "state": ["x", "y", "z"], "initial": [1, "1/2", "-1/3"],
+        "algebra": {"basis": ["e1", "e2", "e3"], "brackets": ["[e1, e2] = e3", "[e2, e3] = e1", "[e3, e1] = e2"],
+        "matrices": {"e1": [[0, 0, 0], [0, 0, -1], [0, 1, 0]], "e2": [[0, 0, 1], [0, 0, 0], [-1, 0, 0]],
+        "e3": [[0, -1, 0], [1, 0, 0], [0, 0, 0]]}}, "hamiltonian": "x^2/2 + y^2 + 3*z^2/2"}"#;
+    for step in ["0.1", "0.4"] {
+        let flags = format!("--methods collective4,collective8,collective16 --step {step} --quiet");
+        with_spec("verify", spec, &flags).ok();
+    }
+}

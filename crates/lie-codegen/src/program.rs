@@ -183,13 +183,16 @@ fn evidence(structure: &Structure) -> TokenStream {
     calls
 }
 
-/// The methods over a declared realization: what they act on are its points, and the group element of the declared matrices
-/// only goes along with them.
+/// The methods whose group element only goes along with their steps, to their order: what those over a declared realization act on
+/// are its points, and from order 8 on those over spinors and quaternions are Gauss methods there, while the element is one of the
+/// same velocities in the declared matrices.
 pub fn beside(choices: &[Choice]) -> impl Iterator<Item = String> {
-    let realized = choices
-        .iter()
-        .filter(|choice| matches!(choice.solved(), Choice::Collective(_, Lift::Spec)));
-    realized.map(Choice::label)
+    let elsewhere = |choice: &&Choice| match choice.solved() {
+        Choice::Collective(_, Lift::Spec) => true,
+        Choice::Collective(order, lift) => *order > 6 && *lift != Lift::Representation,
+        _ => false,
+    };
+    choices.iter().filter(elsewhere).map(Choice::label)
 }
 
 fn entry(choice: &Choice, purpose: Purpose) -> TokenStream {

@@ -16,7 +16,8 @@ class Fact(NamedTuple):
     """A fact of a method.
 
     ``claim``: what is claimed, an order as a number, else 0. ``measured``: what was measured. ``bound``: the largest value at
-    which a claim of 0 holds, the smallest at which an order does. ``verdict``: "holds", "fails", "not-claimed" or "absent".
+    which a claim of 0 holds, the smallest at which an order does. ``verdict``: "holds", "fails", "not-measurable",
+    "not-claimed" or "absent".
     ``step``: the step of the measurement.
     """
 

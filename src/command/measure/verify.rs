@@ -88,6 +88,7 @@ fn cell(row: &Row) -> String {
         Verdict::Absent => "–".to_owned(),
         Verdict::Holds => format!("{measured} ✓"),
         Verdict::Fails => format!("{measured} ✗"),
+        Verdict::NotMeasurable => "not measurable".to_owned(),
         Verdict::NotClaimed => measured,
     }
 }

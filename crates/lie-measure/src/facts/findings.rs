@@ -13,6 +13,8 @@ pub enum Verdict {
     Holds,
     /// It does not.
     Fails,
+    /// It is claimed, and nothing that round-off leaves tells whether it holds.
+    NotMeasurable,
     /// Nothing is claimed; the number is only shown.
     NotClaimed,
     /// The system has nothing of the kind.
@@ -89,6 +91,14 @@ impl Finding {
             verdict,
             step: f64::NAN,
             note: String::new(),
+        }
+    }
+
+    /// Something that is claimed, of which round-off and the error of the reference leave too little to tell.
+    pub(super) fn not_measurable(fact: &'static str, claim: f64, bound: f64) -> Self {
+        Self {
+            verdict: Verdict::NotMeasurable,
+            ..Self::at_least(fact, true, f64::NAN, claim, bound)
         }
     }
 

@@ -21,8 +21,9 @@ const POINTS: usize = 9;
 const LEAST: usize = 4;
 /// An error that is below this at the largest steps is at round-off before an order shows.
 const NEGLIGIBLE: f64 = 1e-9;
-/// An error within this multiple of what round-off at the start changes is round-off.
-const NOISE: f64 = 20.0;
+/// Within this multiple of the error of the reference, of what round-off at the start changes, and of a few units of round-off an
+/// error counts for no slope.
+const NOISE: f64 = 100.0;
 /// How much smaller than the order a slope may be at the end of the ladder.
 const SLACK: f64 = 0.3;
 /// The same as a part of the order, up to order 8, to order 12 and beyond. Methods of high order have few steps between
@@ -60,16 +61,18 @@ fn measured<P: Lift<f64>>(
     let claim = f64::from(order);
     let relative = RELATIVE_SLACK[usize::from(order > 8) + usize::from(order > 12)] * claim;
     let bound = claim - SLACK.max(relative);
-    let mut exact_everywhere = true;
+    let (mut exact_everywhere, mut arrives) = (true, false);
     let mut largest = f64::NAN;
     let mut best: Vec<(f64, f64)> = Vec::new();
     for exact in &ground.exact {
-        let floor = (20.0 * exact.error).max(100.0 * f64::EPSILON);
+        let floor = NOISE * exact.error.max(f64::EPSILON);
         let measured = match adaptive {
             Some(make) => by_tolerance(system, ground, exact, make, floor),
             None => by_step(system, ground, exact, method, floor),
         };
         let mut above: Vec<(f64, f64)> = measured.iter().filter(|p| p.1 > floor).copied().collect();
+        // the smallest steps end where the solution does
+        arrives |= measured.last().is_some_and(|last| last.1 <= floor);
         if adaptive.is_none() && slope(tail(&above, order)) < bound {
             // a method may amplify round-off, as differences divided by small increments do
             above.retain(|&(h, error)| error > NOISE * noise(system, ground, exact, method, h));
@@ -94,8 +97,11 @@ fn measured<P: Lift<f64>>(
         ));
     }
     if best.len() < LEAST {
-        return Finding::at_least("order", true, f64::NAN, claim, bound)
-            .note("too few steps between failure and round-off".to_owned());
+        let finding = match arrives {
+            true => Finding::not_measurable("order", claim, bound),
+            false => Finding::at_least("order", true, f64::NAN, claim, bound),
+        };
+        return finding.note("too few steps between failure and round-off".to_owned());
     }
     let last = tail(&best, order);
     let note = format!("errors {:.1e} to {:.1e}", last[0].1, last[last.len() - 1].1);
