@@ -7,6 +7,7 @@ use super::options::{Options, Save};
 use super::pace::{Assessed, Chosen, count, settle};
 use super::problem::Problem;
 use super::solve::IntegrateError;
+use super::stats::Status;
 use crate::clock::holds;
 use crate::methods::Method;
 use crate::newton::NewtonOptions;
@@ -15,7 +16,7 @@ use crate::scalar::{Scalar, largest};
 use crate::state::State;
 use core::ops::ControlFlow;
 
-/// A second run of more steps is not made.
+/// A run that nobody sees has no more steps, the parts of divided ones counted.
 const MOST_STEPS: f64 = 200_000.0;
 /// How much shorter its steps are.
 const SHORTER: f64 = 0.8;
@@ -82,7 +83,9 @@ fn error_of<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
     let tolerance = settled.chosen.tolerance;
     let divides = Course::<M>::may_divide::<S, P>(method);
     let newton = settled.newton(step);
-    let mut course = Course::new(&grid, method, newton, step).dividing(divides);
+    let mut course = Course::new(&grid, method, newton, step)
+        .dividing(divides)
+        .at_most(MOST_STEPS as u64);
     let start = problem.start();
     let run = course.run(
         &problem.system,
@@ -91,7 +94,9 @@ fn error_of<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
         &Save::Ends,
         &mut (),
     );
-    let (end, _) = run.ok()?;
+    let (end, Status::Finished) = run.ok()? else {
+        return None;
+    };
     let ended = Ended {
         problem,
         method,
@@ -141,10 +146,13 @@ impl<S: Scalar, P: Poisson<S>, M: Method<S, P>> Ended<'_, S, P, M> {
         let step = (end - start) / steps;
         let grid = Grid::new((start, end), step).ok()?;
         let divides = Course::<M>::may_divide::<S, P>(self.method);
-        let mut course = Course::new(&grid, self.method, self.newton, step).dividing(divides);
-        course
-            .run(&self.problem.system, mu, None, &Save::Ends, &mut last)
-            .ok()?;
+        let mut course = Course::new(&grid, self.method, self.newton, step)
+            .dividing(divides)
+            .at_most(MOST_STEPS as u64);
+        let run = course.run(&self.problem.system, mu, None, &Save::Ends, &mut last);
+        let (_, Status::Finished) = run.ok()? else {
+            return None;
+        };
         let system = &self.problem.system;
         let size = system.norm(self.end);
         last.0.axpy(S::from_f64(-1.0), self.end);

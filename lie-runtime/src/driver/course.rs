@@ -28,6 +28,9 @@ enum Left<P> {
     Divided,
 }
 
+/// Steps that divided ones may come to in all, unless the grid itself has an eighth of as many.
+const MOST_DIVIDED: u64 = 1 << 18;
+
 /// How far a run has come.
 pub(super) struct Course<'r, M> {
     grid: &'r Grid,
@@ -46,6 +49,8 @@ pub(super) struct Course<'r, M> {
     divides: bool,
     /// Jacobians that were factored, and steps since the last division for which some were.
     slow: (u64, u64),
+    /// The run stops after so many steps, their parts counted, failed ones included.
+    most: u64,
 }
 
 impl<'r, M> Course<'r, M> {
@@ -68,6 +73,12 @@ impl<'r, M> Course<'r, M> {
         self
     }
 
+    /// Stops after so many steps, their parts counted.
+    pub(super) fn at_most(mut self, steps: u64) -> Self {
+        self.most = steps;
+        self
+    }
+
     /// At the start of a grid, with its whole steps.
     pub(super) fn new(grid: &'r Grid, method: &'r M, newton: NewtonOptions, step: f64) -> Self {
         Self {
@@ -81,6 +92,7 @@ impl<'r, M> Course<'r, M> {
             done: 0,
             divides: false,
             slow: (0, 0),
+            most: u64::MAX,
         }
     }
 
@@ -166,6 +178,9 @@ impl<'r, M> Course<'r, M> {
                 self.done = self.parts;
             }
             while self.done < self.parts {
+                if self.stats.steps + self.stats.failures >= self.most {
+                    return Ok(Left::Over(Status::Stopped));
+                }
                 match stepper.step(mu, &mut MotionSink::new(observer, system)) {
                     Ok(report) => {
                         set_time(system, mu, self.next_time());
@@ -181,7 +196,7 @@ impl<'r, M> Course<'r, M> {
             self.done = 0;
             if let Some(guard) = guard.as_mut().filter(|_| watched) {
                 let parts = guard.parts(system, (self.step, self.parts), mu);
-                if parts > self.parts {
+                if parts > self.parts && self.may_come_to(parts) {
                     self.parts = parts;
                     observer.divided(self.progress(), parts);
                     // what has been shown of the motion on the group stays
@@ -217,6 +232,12 @@ impl<'r, M> Course<'r, M> {
         self.grid.time(self.index) + part
     }
 
+    /// Whether all steps that are left may be made in so many parts: a joint or a singularity asks for parts without end.
+    fn may_come_to(&self, parts: u32) -> bool {
+        let left = (self.grid.steps() - self.index).saturating_mul(u64::from(parts));
+        left <= self.grid.steps().saturating_mul(8).max(MOST_DIVIDED)
+    }
+
     /// Whether to divide all steps that are left costs less than some that need Jacobians.
     fn divides_rather(&self, slow: u64) -> bool {
         let left = (self.grid.steps() - self.index).saturating_mul(u64::from(self.parts));
@@ -247,7 +268,8 @@ impl<'r, M> Course<'r, M> {
     where
         M: Method<S, P>,
     {
-        let Some(parts) = divided(self.parts).filter(|_| self.divides) else {
+        let next = divided(self.parts).filter(|&parts| self.divides && self.may_come_to(parts));
+        let Some(parts) = next else {
             let size = self.step / f64::from(self.parts);
             return Err(self.stopped(system, failure, size, mu));
         };

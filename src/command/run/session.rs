@@ -344,7 +344,8 @@ fn of_tolerance(received: &Received) -> Vec<String> {
 fn missed(received: &Received) -> Option<String> {
     match received.assessed {
         Some((error, true)) if error.is_nan() => Some(
-            "the error at the end is not known: the run that would tell it takes over 200,000 steps, or stopped early"
+            "the error at the end is not known: the run that would tell it takes over 200,000 steps, or stopped early, as at a \
+             joint of H or before a singularity; give `--step`, and compare with the run of half of it"
                 .to_owned(),
         ),
         Some((error, true)) => Some(format!(
