@@ -168,7 +168,7 @@ pub fn attended<R: Send + 'static>(
         let _ = sender.send(work());
     };
     let thread = std::thread::Builder::new().stack_size(STACK).spawn(work)?;
-    py.detach(|| {
+    py.detach(move || {
         loop {
             match done.recv_timeout(PAUSE) {
                 Ok(found) => return Ok(found),
