@@ -130,7 +130,7 @@ fn sweep<'a>(declared: &'a Declared, choice: &'a Choice, save: Save) -> Members<
         parameters: (0..COUNT).map(of_member).collect(),
         starts: starts(declared),
         options: Options::new(STEP).save(save),
-        end: END,
+        span: (0.0, END),
     }
 }
 
@@ -202,7 +202,7 @@ fn a_group_that_fails_late_keeps_its_rows() {
     let declared = top(&choices);
     let mut members = sweep(&declared, &choices[0], Save::Every(1));
     members.options = Options::new(30.0).save(Save::Every(1));
-    members.end = 300.0;
+    members.span.1 = 300.0;
     let (found, expected) = (all(&members), alone(&members));
     assert_eq!(failures(&found), failures(&expected));
     assert_eq!(bits(&found), bits(&expected));
