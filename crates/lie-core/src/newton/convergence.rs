@@ -81,7 +81,7 @@ impl<S: Scalar> Convergence<S> {
 
     /// The lanes whose last update is larger than the first.
     pub(super) fn growing(&self) -> S::Mask {
-        self.first.less(self.previous)
+        self.first.less(self.previous) & S::Mask::splat(self.count > 0)
     }
 }
 

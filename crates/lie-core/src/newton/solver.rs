@@ -13,6 +13,9 @@ use crate::equation::Equation;
 use crate::scalar::{Mask, Scalar, largest};
 use crate::state::Unknown;
 
+/// A number is halved so often at most: the smallest entries have come to rest by then, or never do.
+const LONGEST: u32 = 2200;
+
 /// Newton's iteration `u <- u - (dr/du)^-1 r(u)`, or a cheaper variant, for all lanes together.
 ///
 /// A lane that has converged is frozen, so that it keeps the digits of a run of its own; the loop
@@ -255,7 +258,8 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
             active = active & !converged;
             if active.any() {
                 let keeps = bound.keeps(step, convergence.is_round_off(step, size));
-                active = active & (keeps | settling.ending());
+                let rests = settling.ending() & step.finite() & size.finite();
+                active = active & (keeps | rests & S::Mask::splat(index < LONGEST));
             }
         }
         report.residual = largest(residual);

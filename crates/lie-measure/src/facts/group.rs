@@ -57,9 +57,7 @@ where
     });
     match measured {
         Ok(((_, _, false), _)) => Finding::absent("group", "no motion on the group"),
-        Ok(((error, _, true), _)) if exact => {
-            Finding::zero("group", true, error, round_off)
-        }
+        Ok(((error, _, true), _)) if exact => Finding::zero("group", true, error, round_off),
         Ok(((error, slope, true), _)) => {
             let note = format!("momentum in space to {error:.1e}");
             Finding::at_least("group", true, slope, order, order - SLACK).note(note)
