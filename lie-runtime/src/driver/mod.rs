@@ -23,7 +23,7 @@ pub use grid::{Grid, Place};
 pub use observer::{EveryStep, Motion, Observer, Progress, Recorder};
 pub use options::{OptionError, Options, Pace, Save};
 pub use pace::{Assessed, Chosen};
-pub use problem::{IntoState, Problem};
+pub use problem::{IntoState, Problem, set_time};
 pub use reconstruction::{Chart, Reconstruction};
 pub use solution::Solution;
 pub use solve::{IntegrateError, integrate, solve, solve_observed};

@@ -74,9 +74,10 @@ impl<S: Scalar, P: Poisson<S>> Problem<S, P> {
     }
 }
 
-/// Sets the time of a state, where the Hamiltonian depends on it.
+/// Sets the time of a state, where the Hamiltonian depends on it ([`Poisson::clock`]): whoever makes steps without a driver sets
+/// it to `t0 + k h` after each.
 #[inline(always)]
-pub(super) fn set_time<S: Scalar, P: Poisson<S>>(system: &P, mu: &mut P::State, time: f64) {
+pub fn set_time<S: Scalar, P: Poisson<S>>(system: &P, mu: &mut P::State, time: f64) {
     if let Some(clock) = system.clock() {
         mu.as_mut_slice()[clock.time] = S::from_f64(time);
     }

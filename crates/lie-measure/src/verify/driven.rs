@@ -9,7 +9,7 @@ use lie_program::protocol::{Found, Message};
 use lie_program::session::Session;
 use lie_runtime::diagnostics::{AnyMethod, Forgotten};
 use lie_runtime::driver::{
-    IntegrateError, Options, Problem, Recorder, Save, Solution, Stats, Status, integrate,
+    IntegrateError, Options, Problem, Recorder, Save, Solution, Stats, Status, integrate, set_time,
 };
 use lie_runtime::methods::{StepFailure, StepReport};
 use lie_runtime::newton::NewtonOptions;
@@ -192,7 +192,8 @@ fn by_hand<P: Poisson<f64> + Clone>(
     let (mut rows, mut state, mut done) = (Vec::new(), mu.clone(), 0_u32);
     let mut whole = Vec::new();
     let mut places = PLACES.into_iter().enumerate().peekable();
-    let mut current = system.following(mu).unwrap_or_else(|| system.clone());
+    set_time(system, &mut state, t0);
+    let mut current = system.following(&state).unwrap_or_else(|| system.clone());
     loop {
         let mut stepper = method.any_stepper(&current, h, &newton);
         let next = loop {
@@ -204,6 +205,7 @@ fn by_hand<P: Poisson<f64> + Clone>(
                     let rest = time - (t0 + f64::from(done) * h);
                     let mut stepper = method.any_stepper(&current, rest, &newton);
                     shorter = Some(stepper.step(&mut here)?);
+                    set_time(&current, &mut here, time);
                 }
                 rows.push(Made {
                     row: row_at(&current, time, &here),
@@ -216,6 +218,7 @@ fn by_hand<P: Poisson<f64> + Clone>(
             }
             whole.push(stepper.step(&mut state)?);
             done += 1;
+            set_time(&current, &mut state, t0 + f64::from(done) * h);
             if let Some(next) = current.following(&state) {
                 break next;
             }
