@@ -1,5 +1,6 @@
 //! Random states that are the same on every machine.
 
+use lie_runtime::poisson::Poisson;
 use lie_runtime::state::State;
 
 /// The generator xorshift64* (Vigna 2016, doi:10.1145/2845077).
@@ -32,6 +33,20 @@ impl Random {
         let size = if size > 0.0 { size } else { 1.0 };
         for entry in near.as_mut_slice() {
             *entry += part * size * self.unit();
+        }
+        near
+    }
+
+    /// The same for a state of a system: beside the time the unit stays, without which there is no such motion.
+    pub(crate) fn near_state<P: Poisson<f64>>(
+        &mut self,
+        system: &P,
+        mu: &P::State,
+        part: f64,
+    ) -> P::State {
+        let mut near = self.near(mu, part);
+        if let Some(clock) = system.clock() {
+            near.as_mut_slice()[clock.time + 1] = mu.as_slice()[clock.time + 1];
         }
         near
     }

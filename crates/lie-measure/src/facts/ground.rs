@@ -196,7 +196,7 @@ fn states<P: Poisson<f64>>(
         if states.len() > GENERIC {
             break;
         }
-        let near = random.near(initial, part);
+        let near = random.near_state(system, initial, part);
         if usable(system, &near) {
             states.push(near);
         } else {

@@ -98,7 +98,7 @@ pub(super) fn growth<P: Poisson<f64>>(
     for state in 0..STATES {
         let start = match state {
             0 => mu.clone(),
-            _ => random.near(mu, APART),
+            _ => random.near_state(system, mu, APART),
         };
         errors.extend(follow(system, method, start, step, &points, stop));
     }
