@@ -109,7 +109,6 @@ def test_a_limit_of_memory_is_an_exception():
     [
         # a single step of the grid
         "system.run('taylor', h=1e9, t=1e9)",
-        "system.run('dopri5', h=1e9, t=1e9)",
         "system.run('rk4', h=1e-6, t=1e6, every=10**12)",
         # a large algebra, compiled
         "lp.System(algebra='su(5)', hamiltonian=H, initial=[1/(k + 1) for k in range(24)]).run('gauss4', h=0.1, t=1e9, every=10**9)",
