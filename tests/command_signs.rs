@@ -195,7 +195,8 @@ fn the_systems_of_the_page_move_as_in_textbooks() {
         slopes.push(0.0);
         slopes
     };
-    let systems: [(&str, &dyn Fn(&[f64]) -> Vec<f64>, &[f64]); 3] = [
+    type Slopes<'a> = &'a dyn Fn(&[f64]) -> Vec<f64>;
+    let systems: [(&str, Slopes<'_>, &[f64]); 3] = [
         ("dicke", &dicke, &[0.6, 0.0, -0.8, 0.5, 0.0, 1.0]),
         ("magnet", &magnet, &[0.6, 0.0, 0.8, 0.5, 0.0, -1.0]),
         (

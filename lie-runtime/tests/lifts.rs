@@ -472,7 +472,6 @@ where
                 max_iterations: solved.iterations,
                 convergence: Convergence::State,
                 iteration: Iteration::FixedPoint,
-                ..*options
             };
             // by columns
             let mut derivative = vec![vec![0.0; size]; size];

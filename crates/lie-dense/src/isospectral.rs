@@ -165,7 +165,7 @@ impl<'a, M: StreamMap> IsospectralStepper<'a, M> {
         }
         let rate = update / previous;
         let left = update * rate / (1.0 - rate);
-        let at_rest = !(rate < STILL) && update <= STAGNATION * round_off;
+        let at_rest = rate >= STILL && update <= STAGNATION * round_off;
         at_rest || (rate < 1.0 && left <= goal) || update <= 0.0
     }
 
