@@ -54,6 +54,32 @@ fn a_tolerance_across_joints() {
     }
 }
 
+/// The fall into a centre ends at t = π/√8 = 1.1107: steps that keep a tolerance there are short without end.
+#[test]
+fn a_tolerance_beyond_a_singularity() {
+    let spec = r#"{"format": 1, "name": "Fall", "state": ["q", "p"], "poisson": ["{q, p} = 1"], "initial": [1, 0],
+        "hamiltonian": "p^2/2 - 1/q"}"#;
+    for tolerance in ["1e-4", "1e-6", "1e-11"] {
+        let run = with_spec(
+            "run",
+            spec,
+            &format!("--method gauss16 --at 10 --tol {tolerance}"),
+        );
+        assert!(
+            run.stderr.contains("t = 1.1"),
+            "{tolerance}: {}",
+            run.stderr
+        );
+        // control: before it there are steps that do
+        with_spec(
+            "run",
+            spec,
+            &format!("--method gauss16 --at 1 --tol {tolerance}"),
+        )
+        .ok();
+    }
+}
+
 /// Errors within a hundred times those of the reference have no slope: a right method does not fail by it.
 #[test]
 fn an_order_at_round_off_is_not_measurable() {

@@ -336,7 +336,7 @@ impl Worker<'_> {
                 member.failed = Some((error.time, error.to_string()));
                 member
             }
-            Err(IntegrateError::Option(error @ OptionError::NoStep(_))) => {
+            Err(IntegrateError::Option(error @ OptionError::NoStep { .. })) => {
                 Member::failing(self.members.span.0, error.to_string())
             }
             Err(IntegrateError::Option(error)) => {

@@ -95,9 +95,15 @@ pub enum OptionError {
     Tolerance(f64),
     /// No step was found with which the method keeps the tolerance.
     #[error(
-        "no step was found that keeps the tolerance {0}: the error of a step does not decrease with its size"
+        "no step was found that keeps the tolerance {tolerance} beyond t = {time}: the motion becomes singular there, \
+         or the error of a step does not decrease with its size"
     )]
-    NoStep(f64),
+    NoStep {
+        /// The tolerance.
+        tolerance: f64,
+        /// How far the first steps came.
+        time: f64,
+    },
     /// The initial state has not one number for each coordinate.
     #[error("the initial state has length {found}, the system {expected} coordinates")]
     StateLength {

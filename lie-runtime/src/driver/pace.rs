@@ -61,6 +61,10 @@ const ROUND_OFF: f64 = 8.0;
 /// How much of the step that the estimates allow is taken.
 const SAFETY: f64 = 0.95;
 
+/// A step that is so many times shorter than one made before, and of which so many would be made, is that of a singularity.
+const MOST_SHORTENED: f64 = 1024.0;
+const MOST_STEPS: f64 = 4e6;
+
 /// How a step was chosen, what tries others, and what looks after it.
 pub(super) struct Settled<'a, S: Scalar, P: Poisson<S>, M> {
     pub(super) chosen: Chosen,
@@ -139,6 +143,10 @@ fn chosen_by<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>>(
         (trial.own_steps(span)?, tolerance, None)
     } else {
         let (size, estimates, gauge) = trial.run_in(span)?;
+        let short = estimates.longest > MOST_SHORTENED * size;
+        if short && span.abs() / size > MOST_STEPS {
+            return Err(trial.no_step(trial.time(span, estimates.reached)));
+        }
         let seen = (gauge, estimates.seen, estimates.part);
         (
             SAFETY * trial.below_round_off(size),

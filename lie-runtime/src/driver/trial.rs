@@ -60,6 +60,9 @@ pub(super) struct Estimates {
     pub(super) part: f64,
     /// The largest number of the gauge.
     pub(super) seen: f64,
+    /// How far the steps came, and the longest of them.
+    pub(super) reached: f64,
+    pub(super) longest: f64,
 }
 
 impl Estimates {
@@ -69,6 +72,8 @@ impl Estimates {
         worst: 0.0,
         part: 0.0,
         seen: 0.0,
+        reached: 0.0,
+        longest: 0.0,
     };
 }
 
@@ -157,13 +162,14 @@ impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'a, S, P, M> {
         let mut h = self.first(&mu);
         let (mut reached, mut estimates) = (0.0, Estimates::NONE);
         let (mut ceiling, mut shrunk, mut failure) = (f64::INFINITY, false, None);
-        let mut contracting = 0.0_f64;
+        let (mut contracting, mut longest) = (0.0_f64, 0.0_f64);
         for _ in 0..ATTEMPTS {
             // a step that the end cuts short says nothing of longer ones
             let cut = estimates.count > 0 && h > self.span - reached;
             if estimates.count >= ESTIMATES || reached >= self.span || cut {
                 let allowed = estimates.allowed.min(ceiling).min(self.span);
                 estimates.seen = estimates.seen.max(start);
+                (estimates.reached, estimates.longest) = (reached, longest);
                 return Ok((allowed.max(f64::MIN_POSITIVE), estimates, gauge));
             }
             let system = followed.as_ref().unwrap_or(&self.problem.system);
@@ -205,6 +211,7 @@ impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'a, S, P, M> {
                 estimates = Estimates::NONE;
                 continue;
             }
+            longest = longest.max(h);
             mu = end;
             reached += h;
             estimates.count += 1;
@@ -216,16 +223,28 @@ impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'a, S, P, M> {
                 followed = Some(next);
             }
         }
+        let time = self.time(span, reached);
         Err(match failure {
             Some(failure) => IntegrateError::Step(Box::new(StepError {
                 step: 1,
-                time: self.problem.span.0,
+                time,
                 failure,
                 stats: Stats::default(),
                 works: None,
             })),
-            None => OptionError::NoStep(self.tolerance).into(),
+            None => self.no_step(time),
         })
+    }
+
+    /// The time so far from the start.
+    pub(super) fn time(&self, span: f64, reached: f64) -> f64 {
+        self.problem.span.0 + reached * span.signum()
+    }
+
+    /// The error where steps beyond a time keep the tolerance only if they are far too short.
+    pub(super) fn no_step(&self, time: f64) -> IntegrateError {
+        let tolerance = self.tolerance;
+        OptionError::NoStep { tolerance, time }.into()
     }
 
     /// The mean of the steps that a method chooses itself, from the start on.
