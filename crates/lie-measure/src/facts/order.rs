@@ -105,9 +105,22 @@ fn measured<P: Lift<f64>>(
     }
     let last = tail(&best, order);
     let note = format!("errors {:.1e} to {:.1e}", last[0].1, last[last.len() - 1].1);
-    Finding::at_least("order", true, slope(last), claim, bound)
+    let found = slope(last);
+    if found < bound && arrives && adaptive.is_none() && is_rising(last) {
+        return Finding::not_measurable("order", claim, bound).note(format!(
+            "slope {found:.1}, still rising where round-off begins, {note}"
+        ));
+    }
+    Finding::at_least("order", true, found, claim, bound)
         .at_step(last[0].0)
         .note(note)
+}
+
+/// Whether the smaller steps of some have a larger slope: they have not reached the order, which a fault would lower there.
+fn is_rising(points: &[(f64, f64)]) -> bool {
+    let half = points.len() / 2;
+    let (coarse, fine) = (&points[..points.len() - half], &points[half..]);
+    half >= 2 && slope(fine) > slope(coarse) + SLACK
 }
 
 /// The points of the slope: those of the smallest steps.
