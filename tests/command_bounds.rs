@@ -80,6 +80,21 @@ fn a_tolerance_beyond_a_singularity() {
     }
 }
 
+/// A tenth of a unit of time in a hundred: the start knows nothing of it, and steps of 16 pass it.
+#[test]
+fn a_tolerance_across_a_pulse() {
+    let spec = r#"{"format": 1, "name": "Pulse", "algebra": "so(3)", "state": ["x", "y", "z"], "initial": [0.6, 0.48, 0.64],
+        "hamiltonian": "z + 3*exp(-((t - 50)/0.1)^2)*x"}"#;
+    let exact = [0.216_525_537_80, 0.946_620_629_05, 0.238_801_332_35];
+    for method in ["lie-midpoint", "gauss4", "gauss16"] {
+        let run = with_spec("run", spec, &format!("--method {method} --at 100 --tol 1e-4")).ok();
+        let (_, rows) = run.csv();
+        let pairs = rows[0][1..].iter().zip(exact);
+        let error = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(error < 3e-3, "{method} {error:e}: {}", run.stderr);
+    }
+}
+
 /// Errors within a hundred times those of the reference have no slope: a right method does not fail by it.
 #[test]
 fn an_order_at_round_off_is_not_measurable() {

@@ -11,6 +11,7 @@ mod observer;
 mod options;
 pub mod pace;
 mod problem;
+mod pulse;
 pub mod reconstruction;
 mod solution;
 mod solve;

@@ -6,15 +6,18 @@
 //! The error e of a step of h is that against two steps of h/2, times `2^p/(2^p - 1)`, p the order: h is chosen so that
 //! `e(h) |T|/h`, the sum over all steps of a span T, is the tolerance. It is relative to the size of the state, in the
 //! maximum norm. The first five steps decide. Of methods that iterate without a Jacobian, steps that do not contract by a
-//! factor of three are shortened: several that contract cost less. Where the motion becomes faster later, a step is
-//! divided during the run (see the module `watch`); where errors of single steps grow on their way, as near unstable motion, the
-//! error at the end is larger, which a second run tells ([`Options::assessed`]).
+//! factor of three are shortened: several that contract cost less. Where H depends on the time, a second run-in starts where
+//! the field changes most by it, and the smaller step is taken: steps chosen at the start could pass a pulse without seeing
+//! it. Where the motion becomes faster later, a step is divided during the run (see the module `watch`); where errors of single
+//! steps grow on their way, as near unstable motion, the error at the end is larger, which a second run tells
+//! ([`Options::assessed`]).
 //!
 //! Reference: E. Hairer, S. P. Nørsett, G. Wanner, "Solving Ordinary Differential Equations I", 2nd edition, Springer
 //! 1993, section II.4, [doi:10.1007/978-3-540-78862-1](https://doi.org/10.1007/978-3-540-78862-1).
 
 use super::options::{OptionError, Options, Pace};
 use super::problem::Problem;
+use super::pulse::pulse;
 use super::solve::IntegrateError;
 use super::trial::Trial;
 use super::watch::{Guard, Watch};
@@ -142,7 +145,14 @@ fn chosen_by<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>>(
     let (size, error, seen) = if method.own_steps() {
         (trial.own_steps(span)?, tolerance, None)
     } else {
-        let (size, estimates, gauge) = trial.run_in(span)?;
+        let mut found = trial.run_in(span, None)?;
+        if let Some(pulse) = pulse(problem)
+            && let Ok(later) = trial.run_in(span, Some(&pulse))
+            && later.0 < found.0
+        {
+            found = later;
+        }
+        let (size, estimates, gauge) = found;
         let short = estimates.longest > MOST_SHORTENED * size;
         if short && span.abs() / size > MOST_STEPS {
             return Err(trial.no_step(trial.time(span, estimates.reached)));

@@ -3,7 +3,8 @@
 use super::error::StepError;
 use super::options::OptionError;
 use super::pace::least_tolerance;
-use super::problem::Problem;
+use super::problem::{Problem, set_time};
+use super::pulse::Pulse;
 use super::solve::IntegrateError;
 use super::stats::Stats;
 use super::watch::Gauge;
@@ -149,18 +150,23 @@ impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'a, S, P, M> {
         }
     }
 
-    /// The size of step that the estimates of a run-in allow, and what they are.
+    /// The size of step that the estimates of a run-in allow, and what they are: from the start, or from the initial state at
+    /// the time of a pulse.
     pub(super) fn run_in(
         &self,
         span: f64,
+        pulse: Option<&Pulse>,
     ) -> Result<(f64, Estimates, Gauge<S, P>), IntegrateError> {
         let mut mu = self.problem.start();
+        let mut reached = pulse.map_or(0.0, |pulse| pulse.after);
+        set_time(&self.problem.system, &mut mu, self.time(span, reached));
         let mut followed = self.problem.system.following(&mu);
         let system = followed.as_ref().unwrap_or(&self.problem.system);
         let mut gauge = Gauge::new(system, &mu, self.method.order());
         let start = gauge.at(system, &mu);
-        let mut h = self.first(&mu);
-        let (mut reached, mut estimates) = (0.0, Estimates::NONE);
+        let spacing = pulse.map_or(f64::INFINITY, |pulse| pulse.spacing);
+        let mut h = self.first(&mu).min(spacing);
+        let mut estimates = Estimates::NONE;
         let (mut ceiling, mut shrunk, mut failure) = (f64::INFINITY, false, None);
         let (mut contracting, mut longest) = (0.0_f64, 0.0_f64);
         for _ in 0..ATTEMPTS {
@@ -219,6 +225,7 @@ impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'a, S, P, M> {
             estimates.worst = estimates.worst.max(error);
             estimates.part = estimates.part.max(error / target);
             estimates.seen = estimates.seen.max(gauge.at(system, &mu));
+            set_time(system, &mut mu, self.time(span, reached));
             if let Some(next) = system.following(&mu) {
                 followed = Some(next);
             }
