@@ -30,6 +30,8 @@ const SLACK: f64 = 0.3;
 /// failure and round-off, and at most of these they have not reached their order: Gauss collocation of order 16 measures
 /// 14.7 on the heavy top and 12.8 on the non-polynomial spin, between errors of 1e-6 and 1e-13.
 const RELATIVE_SLACK: [f64; 3] = [0.05, 0.1, 0.25];
+/// A slope that is too small by less than so many of its standard errors tells nothing.
+const CERTAIN: f64 = 2.0;
 
 pub(super) fn finding<P: Lift<f64>>(
     system: &P,
@@ -106,14 +108,31 @@ fn measured<P: Lift<f64>>(
     let last = tail(&best, order);
     let note = format!("errors {:.1e} to {:.1e}", last[0].1, last[last.len() - 1].1);
     let found = slope(last);
-    if found < bound && arrives && adaptive.is_none() && is_rising(last) {
-        return Finding::not_measurable("order", claim, bound).note(format!(
-            "slope {found:.1}, still rising where round-off begins, {note}"
-        ));
+    if found < bound && arrives && adaptive.is_none() {
+        let scatter = scatter(last);
+        if is_rising(last) || found + CERTAIN * scatter > bound {
+            return Finding::not_measurable("order", claim, bound).note(format!(
+                "slope {found:.1} ± {scatter:.1} where round-off begins, {note}"
+            ));
+        }
     }
     Finding::at_least("order", true, found, claim, bound)
         .at_step(last[0].0)
         .note(note)
+}
+
+/// The standard error of the slope by least squares.
+fn scatter(points: &[(f64, f64)]) -> f64 {
+    let slope = least_squares(points);
+    let count = points.len() as f64;
+    let mean = |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / count;
+    let (x, y) = (mean(|p| p.0.ln()), mean(|p| p.1.ln()));
+    let (left, spread) = points.iter().fold((0.0, 0.0), |(left, spread), p| {
+        let dx = p.0.ln() - x;
+        let residual = p.1.ln() - y - slope * dx;
+        (left + residual * residual, spread + dx * dx)
+    });
+    (left / (count - 2.0) / spread).sqrt()
 }
 
 /// Whether the smaller steps of some have a larger slope: they have not reached the order, which a fault would lower there.
