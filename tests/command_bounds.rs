@@ -87,7 +87,12 @@ fn a_tolerance_across_a_pulse() {
         "hamiltonian": "z + 3*exp(-((t - 50)/0.1)^2)*x"}"#;
     let exact = [0.216_525_537_80, 0.946_620_629_05, 0.238_801_332_35];
     for method in ["lie-midpoint", "gauss4", "gauss16"] {
-        let run = with_spec("run", spec, &format!("--method {method} --at 100 --tol 1e-4")).ok();
+        let run = with_spec(
+            "run",
+            spec,
+            &format!("--method {method} --at 100 --tol 1e-4"),
+        )
+        .ok();
         let (_, rows) = run.csv();
         let pairs = rows[0][1..].iter().zip(exact);
         let error = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);

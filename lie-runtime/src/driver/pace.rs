@@ -142,15 +142,21 @@ fn chosen_by<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>>(
         return Err(OptionError::Span(start, end).into());
     }
     let trial = Trial::new(problem, method, *newton, tolerance);
+    let pulse = pulse(problem);
     let (size, error, seen) = if method.own_steps() {
-        (trial.own_steps(span)?, tolerance, None)
+        let most = pulse.and_then(|pulse| pulse.step());
+        let size = trial.own_steps(span)?;
+        (most.map_or(size, |most| size.min(most)), tolerance, None)
     } else {
         let mut found = trial.run_in(span, None)?;
-        if let Some(pulse) = pulse(problem)
-            && let Ok(later) = trial.run_in(span, Some(&pulse))
-            && later.0 < found.0
+        if let Some(pulse) = pulse
+            && let Ok(mut later) = trial.run_in(span, Some(&pulse))
         {
-            found = later;
+            // its errors add up over a part of the span
+            later.0 *= pulse.part.powf(-1.0 / f64::from(method.order().max(1)));
+            if later.0 < found.0 {
+                found = later;
+            }
         }
         let (size, estimates, gauge) = found;
         let short = estimates.longest > MOST_SHORTENED * size;

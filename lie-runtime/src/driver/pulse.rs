@@ -10,11 +10,26 @@ use crate::state::State as _;
 const ENTRIES: usize = 1 << 17;
 const TIMES: (usize, usize) = (1 << 8, 1 << 14);
 
-/// A time from which on the field is looked at again, and the time between two looks.
+/// A field that comes from its smallest to its largest value in fewer looks than this is a pulse.
+const SHARP: f64 = 32.0;
+
+/// A time from which on the field is looked at again.
 pub(super) struct Pulse {
     /// After the start.
     pub(super) after: f64,
+    /// The time between two looks.
     pub(super) spacing: f64,
+    /// The part of all looks in which the field changes as much.
+    pub(super) part: f64,
+    /// Whether it is gone so soon that a series beside it does not know it.
+    sharp: bool,
+}
+
+impl Pulse {
+    /// A step that cannot pass it.
+    pub(super) fn step(&self) -> Option<f64> {
+        self.sharp.then_some(0.25 * SHARP * self.spacing)
+    }
 }
 
 /// The time at which the field at the initial state begins to change most from one of many times to the next; none of a
@@ -24,27 +39,33 @@ pub(super) fn pulse<S: Scalar, P: Poisson<S>>(problem: &Problem<S, P>) -> Option
     let clock = system.clock()?;
     let (start, end) = problem.span;
     let mut mu = problem.start();
-    let entries = mu.as_slice().len();
-    let times = (ENTRIES / entries).clamp(TIMES.0, TIMES.1);
+    let times = (ENTRIES / mu.as_slice().len()).clamp(TIMES.0, TIMES.1);
     let spacing = (end - start) / times as f64;
-    let mut field = system.zero_state();
-    let mut before = system.zero_state();
-    let (mut most, mut found) = (0.0, None);
-    for k in 0..=times {
+    let distance = |a: &P::State, b: &P::State| {
+        let pairs = a.as_slice().iter().zip(b.as_slice()).enumerate();
+        let counted = pairs.filter(|(i, _)| !holds(Some(clock), *i));
+        counted.fold(0.0, |sum, (_, (&a, &b))| sum + largest((a - b).magnitude()))
+    };
+    let [mut first, mut before, mut field] = core::array::from_fn(|_| system.zero_state());
+    system.vector_field(&mu, &mut first);
+    before.copy_from(&first);
+    let (mut most, mut sum, mut range, mut at) = (0.0, 0.0, 0.0_f64, 0);
+    for k in 1..=times {
         set_time(system, &mut mu, start + k as f64 * spacing);
         system.vector_field(&mu, &mut field);
-        let pairs = field.as_slice().iter().zip(before.as_slice()).enumerate();
-        let counted = pairs.filter(|(i, _)| !holds(Some(clock), *i));
-        let change = counted.fold(0.0, |sum, (_, (&a, &b))| sum + largest((a - b).magnitude()));
-        if k > 0 && change > most {
-            most = change;
-            // a pulse that lies between three times begins before the first
-            found = Some(k.saturating_sub(2));
+        let change = distance(&field, &before);
+        if change > most {
+            (most, at) = (change, k);
         }
+        sum += change;
+        range = range.max(distance(&field, &first));
         core::mem::swap(&mut field, &mut before);
     }
-    found.map(|k| Pulse {
-        after: k as f64 * spacing.abs(),
+    (most > 0.0 && sum.is_finite()).then(|| Pulse {
+        // one that lies between three times begins before the first
+        after: at.saturating_sub(2) as f64 * spacing.abs(),
         spacing: spacing.abs(),
+        part: (sum / most / times as f64).min(1.0),
+        sharp: SHARP * most > range,
     })
 }
