@@ -32,7 +32,7 @@ pub struct Expr {
     pub origin: Origin,
 }
 
-/// The forms of an expression.
+/// The forms of an expression. What few of them have is boxed: a long sum has a million others.
 #[derive(Clone, Debug)]
 pub enum ExprKind {
     /// An exact constant.
@@ -42,7 +42,7 @@ pub enum ExprKind {
         /// The identifier.
         name: String,
         /// `x[i+1]`.
-        index: Option<Index>,
+        index: Option<Box<Index>>,
     },
     /// `-a`.
     Negative(Box<Expr>),
@@ -55,14 +55,14 @@ pub enum ExprKind {
     /// `f(a, …)`.
     Call {
         /// The function.
-        function: Name,
+        function: Box<Name>,
         /// Its arguments.
         arguments: Vec<Expr>,
     },
     /// `sum(i in 0..N: body)`.
     IndexedSum {
         /// The running index.
-        index: Name,
+        index: Box<Name>,
         /// First value.
         from: Box<Expr>,
         /// One past the last value.
@@ -374,5 +374,16 @@ impl Declaration {
             Structure::Lie { algebra, .. } => algebra.origin,
             Structure::General { origin, .. } => *origin,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A Hamiltonian of 10 MB is several million of these.
+    #[test]
+    fn an_expression_is_small() {
+        assert!(size_of::<Expr>() <= 64);
     }
 }

@@ -269,6 +269,8 @@ fn n_ary(mut operands: Vec<(bool, Expr)>, kind: fn(Vec<(bool, Expr)>) -> ExprKin
     {
         return operand;
     }
+    // of a million products, what was reserved for more factors is most of the tree
+    operands.shrink_to_fit();
     let origin = operands[0]
         .1
         .origin

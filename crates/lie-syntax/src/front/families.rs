@@ -84,7 +84,7 @@ pub(super) fn indexed_sum<'a>(parser: &mut Parser<'a>, word: &'a Token) -> Optio
         .join(parser.close(open, Delimiter::Parenthesis)?);
     let sum = |body: Expr, (index, from, to): (Name, Expr, Expr)| Expr {
         kind: ExprKind::IndexedSum {
-            index,
+            index: Box::new(index),
             from: Box::new(from),
             to: Box::new(to),
             body: Box::new(body),

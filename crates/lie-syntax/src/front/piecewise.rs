@@ -103,7 +103,7 @@ fn choice(
     };
     Expr {
         kind: ExprKind::Call {
-            function,
+            function: Box::new(function),
             arguments,
         },
         origin,

@@ -39,7 +39,7 @@ impl<'a> Parser<'a> {
         Some(Expr {
             kind: ExprKind::Name {
                 name: name.to_owned(),
-                index,
+                index: index.map(Box::new),
             },
             origin,
         })
@@ -132,7 +132,7 @@ impl<'a> Parser<'a> {
         };
         Some(Expr {
             kind: ExprKind::Call {
-                function,
+                function: Box::new(function),
                 arguments,
             },
             origin,

@@ -45,7 +45,7 @@ impl Writer {
             origin: self.origin,
         };
         self.expression(ExprKind::Call {
-            function,
+            function: Box::new(function),
             arguments,
         })
     }

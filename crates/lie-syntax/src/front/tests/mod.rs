@@ -28,10 +28,11 @@ fn explicit(expression: &Expr) -> String {
         ExprKind::Name { name, index: None } => name.clone(),
         ExprKind::Name {
             name,
-            index: Some(Index {
-                variable, offset, ..
-            }),
+            index: Some(index),
         } => {
+            let Index {
+                variable, offset, ..
+            } = &**index;
             format!(
                 "{name}[{}{offset:+}]",
                 variable.as_ref().map_or("", |v| &v.text)

@@ -370,7 +370,7 @@ fn indexed(entry: &mut Expr, index: &Index, sites: &BTreeSet<String>) -> bool {
     };
     match &mut entry.kind {
         ExprKind::Name { name, index: place } if place.is_none() && sites.contains(name) => {
-            *place = Some(index.clone());
+            *place = Some(Box::new(index.clone()));
             true
         }
         ExprKind::Number(_) | ExprKind::Name { .. } => false,

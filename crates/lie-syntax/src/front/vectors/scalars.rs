@@ -41,7 +41,7 @@ pub fn root(operand: Expr, origin: Origin) -> Expr {
     };
     let arguments = vec![operand];
     let kind = ExprKind::Call {
-        function,
+        function: Box::new(function),
         arguments,
     };
     Expr { kind, origin }
