@@ -67,6 +67,36 @@ impl Grading {
         Ok(Some(()))
     }
 
+    /// A basis of its characters of order two: which basis elements change their signs.
+    pub fn characters(&self, dimension: usize) -> Vec<Vec<bool>> {
+        let mut pivots: Vec<(usize, Vec<bool>)> = Vec::new();
+        for (_, row) in &self.rows {
+            let mut row: Vec<bool> = row.iter().map(|v| v % 2 != 0).collect();
+            for (pivot, other) in &pivots {
+                if row[*pivot] {
+                    row.iter_mut().zip(other).for_each(|(a, b)| *a ^= b);
+                }
+            }
+            let Some(pivot) = row.iter().position(|v| *v) else {
+                continue;
+            };
+            for (_, other) in pivots.iter_mut().filter(|(_, other)| other[pivot]) {
+                other.iter_mut().zip(&row).for_each(|(a, b)| *a ^= b);
+            }
+            pivots.push((pivot, row));
+        }
+        let free = (0..dimension).filter(|i| pivots.iter().all(|(pivot, _)| pivot != i));
+        free.map(|free| {
+            let mut character = vec![false; dimension];
+            character[free] = true;
+            for (pivot, row) in &pivots {
+                character[*pivot] = row[free];
+            }
+            character
+        })
+        .collect()
+    }
+
     /// The degree of a monomial by its exponents, in a form that equal degrees share.
     pub fn class(&self, mut exponents: Vec<i64>) -> Vec<i64> {
         for (column, row) in &self.rows {
@@ -101,5 +131,11 @@ mod tests {
         assert_ne!(class([1, 0, 0]), class([0, 1, 0]));
         assert_ne!(class([1, 0, 0]), class([2, 0, 0]));
         assert_eq!(class([0, 0, 0]), class([2, 0, 0]));
+        // turns by pi about two axes
+        let characters = grading.characters(3);
+        assert_eq!(characters.len(), 2);
+        for character in characters {
+            assert_eq!(character.iter().filter(|sign| **sign).count(), 2);
+        }
     }
 }

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use num_bigint::BigInt;
 use rustc_hash::FxHashMap;
 
+use super::characters::Signs;
 use super::field::{Field, Functions, PRIMES, Prime};
 use super::grading::Grading;
 use super::kernel::{Sparse, kernel};
@@ -25,7 +26,7 @@ const LARGE: usize = 11;
 pub struct Search<'a> {
     constants: &'a StructureConstants<Fraction>,
     budget: &'a Budget,
-    grading: Option<Grading>,
+    grading: Option<(Grading, Signs)>,
     /// Basis elements that generate the algebra.
     generators: Vec<usize>,
     /// The operators of these elements over the rationals, where no parameter occurs.
@@ -73,10 +74,17 @@ impl<'a> Search<'a> {
             row[unit] = 1;
             gradients.insert(&field, row)?;
         }
+        let grading = match Grading::new(n, places, budget)? {
+            Some(grading) => {
+                let signs = Signs::new(constants, &grading, &table, &field)?;
+                Some((grading, signs))
+            }
+            None => None,
+        };
         Ok(Some(Self {
             constants,
             budget,
-            grading: Grading::new(n, places, budget)?,
+            grading,
             generators,
             rational,
             point: (0..n).map(drawn).collect(),
@@ -146,15 +154,17 @@ impl<'a> Search<'a> {
         Ok(basis)
     }
 
-    /// The monomials of a degree by their class.
+    /// The monomials of a degree that invariants may have, by their class.
     fn classes(&self, degree: usize) -> Result<BTreeMap<Vec<i64>, Vec<Word>>, Exhausted> {
         let n = self.constants.dimension();
         let count = operators::count(n, degree);
-        self.budget.spend(count.saturating_mul(2 + n as u64))?;
+        self.budget.spend(count.saturating_mul(2))?;
         let mut classes: BTreeMap<Vec<i64>, Vec<Word>> = BTreeMap::new();
         for word in operators::words(n, degree) {
             let class = match &self.grading {
-                Some(grading) => {
+                Some((_, signs)) if !signs.keep(&word) => continue,
+                Some((grading, _)) => {
+                    self.budget.spend(n as u64)?;
                     let mut exponents = vec![0; n];
                     operators::powers(&word).for_each(|(v, e, _)| exponents[v] = i64::from(e));
                     grading.class(exponents)

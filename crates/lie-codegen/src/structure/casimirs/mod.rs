@@ -10,6 +10,7 @@
 //! The number of independent Casimirs is the dimension less the generic rank (Beltrametti and Blasi, Phys. Lett. 20 (1966) 62,
 //! doi:10.1016/0031-9163(66)91048-1); where it is reached, nothing else is looked for.
 
+mod characters;
 mod field;
 mod grading;
 mod invariants;
@@ -40,7 +41,7 @@ pub use quotients::{HIGHEST as MAX_FACTOR_DEGREE, LARGEST as MAX_EXPONENT};
 
 /// Work allowed in a declaration: less than a tenth of a second without optimisation.
 pub const WORK: u64 = 2_000_000;
-/// Work allowed in a report, where the compiler is optimised: spent to the end, four to seven seconds (so(7), su(8)).
+/// Work allowed in a report, where the compiler is optimised: spent to the end, four to seven seconds (su(8)).
 pub const REPORT: u64 = 400_000_000;
 /// Work allowed for rational ones.
 const RATIONAL: u64 = 400_000;

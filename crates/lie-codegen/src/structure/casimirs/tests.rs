@@ -127,6 +127,16 @@ fn degrees_in_their_bases_and_in_others() {
     }
 }
 
+/// Reflections in pairs are inner automorphisms, and leave a 64th of the monomials; the Pfaffian changes its sign under a single one.
+#[test]
+fn large_rotations_have_the_monomials_of_one_sign() {
+    for (n, expected) in [(6, [2, 3, 4]), (7, [2, 4, 6])] {
+        let found = search(&from_matrices(&known::so(n)), 10 * WORK);
+        assert_eq!(degrees(&found), expected, "so({n})");
+        assert!(found.complete);
+    }
+}
+
 #[test]
 fn parameters_stay_in_the_coefficients() {
     let k = Fraction::variable(0);
