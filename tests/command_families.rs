@@ -331,6 +331,17 @@ fn a_file_that_is_no_state_is_refused_where_the_spec_names_it() {
         let run = lie(&format!("run {chain} --param N=4")).error(kind, &format!("{chain}:9:"));
         assert!(run.stderr.contains(text), "{text}: {}", run.stderr);
     }
+    // the same of states in rows
+    let many = folder.path().join("many.npy");
+    std::fs::write(&many, npy("<f8", "False", "(1, 12)", &infinite)).expect("a file");
+    let many = many.display();
+    let run = lie(&format!("run {chain} --param N=4 --initial-file {many}"));
+    let run = run.error("domain", &format!("{many}, row 0"));
+    assert!(
+        run.stderr.contains("`y` of site 3 is NaN"),
+        "{}",
+        run.stderr
+    );
     let chain = chain_from(folder.path(), r#"{ "npy": "start.npy", "seed": 1 }"#);
     let run = lie(&format!("check {chain}")).error("schema", &format!("{chain}:9:"));
     assert!(run.stderr.contains("unknown key `seed`"), "{}", run.stderr);

@@ -33,13 +33,12 @@ pub fn listen<R: Wire>(output: &mut dyn BufRead, take: &mut Sink<'_, R>) -> io::
 /// Reads rows of so many numbers each; half a row at the end of a killed program is dropped.
 pub(crate) fn rows(output: &mut dyn BufRead, width: usize, count: u64) -> io::Result<Vec<f64>> {
     let mut bytes = Vec::new();
-    let row = 8 * width as u64;
-    let read = output
-        .take(count.saturating_mul(row))
+    let row = width.saturating_mul(8);
+    output
+        .take(count.saturating_mul(row as u64))
         .read_to_end(&mut bytes)?;
-    let whole = bytes
-        .chunks_exact(8)
-        .take(read / (8 * width.max(1)) * width);
-    let eights = whole.filter_map(|eight| eight.try_into().ok());
+    bytes.truncate(bytes.len() - bytes.len() % row.max(1));
+    let eights = bytes.chunks_exact(8);
+    let eights = eights.filter_map(|eight| eight.try_into().ok());
     Ok(eights.map(f64::from_le_bytes).collect())
 }

@@ -296,4 +296,13 @@ fn what_a_killed_program_did_not_finish_is_dropped() {
     // in the middle of the line that announces them
     let announced = output.len() - 96 - 5;
     assert!(heard(3, &output[..announced]).rows.is_empty());
+    // more than there can be, as of no program of ours
+    let mut wide = &br#"{"found":{"rows":{"count":2,"width":4611686018427387904}}}
+12345678"#[..];
+    let taken = listen::listen(&mut wide, &mut |message: Message<Found>| {
+        let none = matches!(message, Message::Found(Found::Rows(rows)) if rows.numbers.is_empty());
+        assert!(none, "a row that is cut off");
+        Ok(())
+    });
+    assert!(taken.is_ok(), "{taken:?}");
 }

@@ -15,6 +15,21 @@ use crate::memory;
 use crate::message::{Fault, Message, Place};
 use crate::words::counted;
 
+/// What to do about a number that is not finite.
+pub(super) const FINITE: &str = "give each coordinate of each site a finite number";
+
+/// The first number of the state of a family that is not finite, in words.
+pub(super) fn not_finite(model: &Structure, state: &[f64]) -> Option<String> {
+    let at = state.iter().position(|value| !value.is_finite())?;
+    let sites = state.len() / model.dimension();
+    let coordinate = &model.coordinates[at / sites].text;
+    Some(format!(
+        "`{coordinate}` of site {} is {}",
+        at % sites,
+        state[at]
+    ))
+}
+
 impl Planner<'_> {
     /// The initial state of a family: the values of `--initial`, the first coordinates of all sites, then the second and
     /// so on, or what the spec says.
@@ -110,15 +125,10 @@ impl Planner<'_> {
             );
             return refuse(Kind::StateLength, text, &help);
         };
-        if let Some(at) = state.iter().position(|value| !value.is_finite()) {
-            let sites = sizes[0] * sizes[1];
-            let coordinate = &self.spec.model.coordinates[at / sites].text;
-            let (site, value) = (at % sites, state[at]);
-            let text = format!("`{coordinate}` of site {site} is {value}");
-            let help = "give each coordinate of each site a finite number";
-            return refuse(Kind::Domain, text, help);
+        match not_finite(&self.spec.model, &state) {
+            Some(text) => refuse(Kind::Domain, text, FINITE),
+            None => Some(state),
         }
-        Some(state)
     }
 }
 

@@ -6,6 +6,7 @@ use lie_syntax::front::names::normalised;
 use lie_syntax::suggest::did_you_mean;
 
 use super::plan::{Planner, Point};
+use super::sites::{FINITE, not_finite};
 use super::states::{States, without_commas};
 use super::{Front, OptionValue, Parameter};
 use crate::message::{Fault, Message, Place};
@@ -65,7 +66,12 @@ impl Planner<'_> {
             return None;
         };
         if model.family.is_some() {
-            return Some(state);
+            let Some(text) = not_finite(model, &state) else {
+                return Some(state);
+            };
+            let message = Message::new(Kind::Domain, text).at_place(place.clone());
+            self.mistakes.push(message.help(FINITE));
+            return None;
         }
         let fault = domain::fault(model, &state, parameters);
         if let Some(fault) = fault {
