@@ -1,0 +1,5 @@
+//! An array of NumPy.
+
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| lie_fuzz::npy(bytes));
