@@ -14,13 +14,28 @@ use lie_symbolic::exact::{Exhausted, Fraction};
 /// Of the budget, so much may be taken to see whether an algebra is semisimple.
 const SHARE: u64 = 16;
 
+/// The grading of an algebra, the operators of which are given modulo a prime, and its signs.
+pub fn graded(
+    constants: &StructureConstants<Fraction>,
+    table: &[Operator<u64>],
+    field: &Prime<'_>,
+) -> Result<Option<(Grading, Signs)>, Exhausted> {
+    let places = constants.entries().iter().map(|(i, j, k, _)| (*i, *j, *k));
+    let grading = Grading::new(constants.dimension(), places, field.budget)?;
+    let with_signs = |grading: Grading| {
+        let signs = Signs::new(constants, &grading, table, field)?;
+        Ok((grading, signs))
+    };
+    grading.map(with_signs).transpose()
+}
+
 /// The signs that inner automorphisms change.
 #[derive(Debug)]
 pub struct Signs(Vec<u64>);
 
 impl Signs {
-    /// Those of an algebra, the operators of which are given modulo a prime; none where it is not semisimple.
-    pub fn new(
+    /// Those of an algebra; none where it is not semisimple.
+    fn new(
         constants: &StructureConstants<Fraction>,
         grading: &Grading,
         table: &[Operator<u64>],

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use num_bigint::BigInt;
 use rustc_hash::FxHashMap;
 
-use super::characters::Signs;
+use super::characters::{Signs, graded};
 use super::field::{Field, Functions, PRIMES, Prime};
 use super::grading::Grading;
 use super::kernel::{Sparse, kernel};
@@ -66,7 +66,6 @@ impl<'a> Search<'a> {
         let Some(table) = table else { return Ok(None) };
         let generators = operators::generators(&field, &table)?;
         let rational = operators::operators(constants, &generators, Fraction::as_constant, |v| -v);
-        let places = constants.entries().iter().map(|(i, j, k, _)| (*i, *j, *k));
         let unit = with_unit.then(|| n - 1);
         let mut gradients = Echelon::new(n);
         if let Some(unit) = unit {
@@ -74,17 +73,10 @@ impl<'a> Search<'a> {
             row[unit] = 1;
             gradients.insert(&field, row)?;
         }
-        let grading = match Grading::new(n, places, budget)? {
-            Some(grading) => {
-                let signs = Signs::new(constants, &grading, &table, &field)?;
-                Some((grading, signs))
-            }
-            None => None,
-        };
         Ok(Some(Self {
             constants,
             budget,
-            grading,
+            grading: graded(constants, &table, &field)?,
             generators,
             rational,
             point: (0..n).map(drawn).collect(),
