@@ -4,6 +4,10 @@ mod common;
 
 use common::{folder, lie};
 
+fn number(text: &str) -> f64 {
+    text.parse().expect("a number")
+}
+
 #[test]
 fn table_map_and_points() {
     let folder = folder();
@@ -31,7 +35,7 @@ fn table_map_and_points() {
             .find(|cell| cell[0] == method && cell[1] == "long");
         cell.expect("the long run")[8..10]
             .iter()
-            .map(|f| f.parse().expect("a number"))
+            .map(|field| number(field))
             .collect()
     };
     // the control drifts, the energy of the others stays where it is
@@ -42,33 +46,38 @@ fn table_map_and_points() {
     );
     assert!(kept[0] < 1e-13 && bounded[0] > 1e-7, "{kept:?} {bounded:?}");
     // a bias or a walk: the growth is fitted for methods that claim something
-    let growth = |method: &str| {
-        let found = cells
-            .iter()
-            .find(|cell| cell[0] == method && cell[1] == "growth");
-        found.map(|cell| {
-            (
-                cell[2],
-                cell[3].parse::<f64>().expect("an exponent"),
-                cell[13],
-            )
-        })
+    let growths = |method: &str| -> Vec<&Vec<&str>> {
+        let of_method = cells.iter().filter(|cell| cell[0] == method);
+        of_method.filter(|cell| cell[1] == "growth").collect()
     };
-    assert!(growth("rk4").is_none() && growth("dopri5").is_none());
+    assert!(growths("rk4").is_empty() && growths("dopri5").is_empty());
     for method in ["midpoint", "lie-midpoint"] {
-        let (invariant, exponent, what) = growth(method).expect("a fit");
-        assert!(["energy", "norm2"].contains(&invariant), "{invariant}");
-        assert!((-0.5..1.6).contains(&exponent), "{method}: {exponent}");
-        assert!(what.starts_with("standard error "), "{what}");
-        // a table that is wider than a line goes on below, with the methods again
-        let name = format!("{method} ");
-        let mut rows = run.stdout.lines().filter(|line| line.starts_with(&name));
-        let shown = format!("{invariant} N^{exponent:.2} ± ");
+        let found = growths(method);
+        let steps: Vec<f64> = found.iter().map(|cell| number(cell[4])).collect();
         assert!(
-            rows.any(|row| row.contains(&shown)),
-            "{shown}: {}",
-            run.stdout
+            steps.len() == 2 && (steps[1] - 8.0 * steps[0]).abs() < 1e-12,
+            "{method}: {steps:?}"
         );
+        for cell in found {
+            let (invariant, exponent, what) = (cell[2], number(cell[3]), cell[13]);
+            assert!(["energy", "norm2"].contains(&invariant), "{invariant}");
+            assert!((-0.5..1.6).contains(&exponent), "{method}: {exponent}");
+            assert!(what.starts_with("standard error "), "{what}");
+            let bias = what.split("; bias ").nth(1).expect("a bias");
+            let bias: Vec<f64> = bias.split(" with standard error ").map(number).collect();
+            // a table that is wider than a line goes on below, with the methods again
+            let name = format!("{method} ");
+            let rows = run.stdout.lines().filter(|line| line.starts_with(&name));
+            let rows: Vec<&str> = rows.collect();
+            let shown = [
+                format!("{invariant} N^{exponent:.2} ± "),
+                format!("{:+.1e} ± {:.1e}", bias[0], bias[1]),
+            ];
+            for shown in shown {
+                let found = rows.iter().any(|row| row.contains(&shown));
+                assert!(found, "{shown}: {}", run.stdout);
+            }
+        }
     }
     // huge steps are refused with a reason
     assert!(

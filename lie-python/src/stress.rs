@@ -50,17 +50,15 @@ impl From<Cell> for Experiment {
     }
 }
 
-/// How round-off grows: method, invariant, exponent and its error; the error at the end, the largest; the steps of the first
-/// and of the last point; states, step; the largest error over its bound.
+/// How round-off grows: method, invariant, exponent and its error, bias and its error; the error at the end, the largest; the
+/// steps of the first and of the last point; states, step; the largest error over its bound.
 type Grown = (
     String,
     String,
-    f64,
-    f64,
-    f64,
-    f64,
-    u64,
-    u64,
+    [f64; 2],
+    [f64; 2],
+    [f64; 2],
+    [u64; 2],
     usize,
     f64,
     f64,
@@ -70,12 +68,10 @@ fn grown(growth: Growth) -> Grown {
     (
         growth.method,
         growth.invariant,
-        growth.exponent,
-        growth.error,
-        growth.end,
-        growth.largest,
-        growth.from,
-        growth.to,
+        [growth.exponent, growth.error],
+        [growth.bias, growth.bias_error],
+        [growth.end, growth.largest],
+        [growth.from, growth.to],
         growth.states,
         growth.step,
         growth.ratio,
@@ -93,7 +89,7 @@ pub struct Limits {
     losses: Vec<String>,
     /// A line for each method, below a head.
     table: Vec<Vec<String>>,
-    /// What its last column says.
+    /// What its last columns say.
     legend: String,
     complete: bool,
 }

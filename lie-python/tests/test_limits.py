@@ -42,6 +42,8 @@ def test_methods_keep_at_their_limits_what_they_claim() -> None:
     assert [min(scales), max(scales)] == pytest.approx([1e-100, 1e100])
     assert {growth.method for growth in found.growths} == {"lie-midpoint", "midpoint"}
     assert all(-0.5 < growth.exponent < 1.6 for growth in found.growths)
+    assert {round(growth.step / found.h0) for growth in found.growths} == {1, 8}
+    assert all(abs(growth.bias) < 8 * growth.bias_error for growth in found.growths)
     assert len(found["energy_drift"]) == len(found) == len(found["method"])
     assert "lie-midpoint" in repr(found) and "0 lost" in repr(found)
     assert max(len(line) for line in repr(found).splitlines()[2:-3]) <= 120

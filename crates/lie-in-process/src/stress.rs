@@ -66,7 +66,9 @@ impl Results {
                 .cmp(&(method(&b.method), b.experiment, name(b), &b.name))
                 .then(a.value.total_cmp(&b.value))
         });
-        self.growths.sort_by_key(|growth| method(&growth.method));
+        let place = |growth: &Growth| method(&growth.method);
+        self.growths
+            .sort_by(|a, b| (place(a).cmp(&place(b))).then(a.step.total_cmp(&b.step)));
     }
 
     /// A line for each method below a head.
@@ -101,8 +103,18 @@ impl Results {
             tally(&of(&[Experiment::Component, Experiment::Casimir])),
         ];
         row.extend(long_run(of(&[Experiment::Long]).first().copied()));
-        let growth = self.growths.iter().find(|growth| growth.method == method);
-        row.push(growth.map_or_else(|| "–".to_owned(), growth_cell));
+        // h0 itself, and the largest step that goes
+        for large in [false, true] {
+            let mut of_method = self.growths.iter().filter(|growth| growth.method == method);
+            let growth = of_method.find(|growth| (growth.step > self.step) == large);
+            let [mut exponent, bias] =
+                growth.map_or(["–".to_owned(), "–".to_owned()], growth_cells);
+            if let Some(growth) = growth.filter(|_| large) {
+                let factor = growth.step / self.step;
+                exponent = format!("{} h0: {exponent}", short(factor));
+            }
+            row.extend([exponent, bias]);
+        }
         row
     }
 
@@ -113,13 +125,14 @@ impl Results {
         };
         format!(
             "round-off: the claimed invariant that moves most, root of the mean square over {} states near the initial one against \
-             the steps N, {} to {}; 0.5 is a random walk, 1 a bias\n",
+             the steps N, {} to {}; 0.5 is a random walk, 1 a bias\n\
+             bias: the mean of that error per step, with its standard error over the states\n",
             growth.states, growth.from, growth.to
         )
     }
 }
 
-const COLUMNS: [&str; 11] = [
+const COLUMNS: [&str; 14] = [
     "method",
     "largest step",
     "parameters",
@@ -131,6 +144,9 @@ const COLUMNS: [&str; 11] = [
     "grows",
     "Newton",
     "round-off",
+    "bias",
+    "at larger steps",
+    "bias",
 ];
 
 /// The methods of experiments that are in order.
@@ -201,12 +217,15 @@ pub fn is_lost(growth: &Growth) -> bool {
     !matches!(growth.ratio, ratio if ratio <= 1.0)
 }
 
-/// As `length2 N^0.95 ± 0.03`.
-fn growth_cell(growth: &Growth) -> String {
-    format!(
-        "{} N^{:.2} ± {:.2}",
-        growth.invariant, growth.exponent, growth.error
-    )
+/// As `length2 N^0.95 ± 0.03` and `+4.7e-18 ± 2.0e-19`.
+fn growth_cells(growth: &Growth) -> [String; 2] {
+    [
+        format!(
+            "{} N^{:.2} ± {:.2}",
+            growth.invariant, growth.exponent, growth.error
+        ),
+        format!("{:+.1e} ± {:.1e}", growth.bias, growth.bias_error),
+    ]
 }
 
 /// How round-off grew, in one line.

@@ -57,15 +57,18 @@ class StressCell(NamedTuple):
 class Growth(NamedTuple):
     """How the round-off of the claimed invariant that moves most grows with the number of steps N.
 
-    ``exponent``: of its error in N, with its standard ``error``: 0.5 is a random walk, 1 a bias. ``end``: the error at the end, root of the
-    mean square over ``states`` near the initial one, ``largest``: the largest. ``first``, ``last``: the steps of the first and of the last
-    point of the fit. ``step``: the step. ``ratio``: the largest error over its bound.
+    ``exponent``: of its error in N, with its standard ``error``: 0.5 is a random walk, 1 a bias. ``bias``: the mean of the
+    error per step, with its standard error ``bias_error`` over ``states`` near the initial one. ``end``: the error at the end, root of
+    the mean square, ``largest``: the largest. ``first``, ``last``: the steps of the first and of the last point of the fit. ``step``: the
+    step, h0 or the largest of 8 h0, 4 h0 and 2 h0 that goes. ``ratio``: the largest error over its bound.
     """
 
     method: str
     invariant: str
     exponent: float
     error: float
+    bias: float
+    bias_error: float
     end: float
     largest: float
     first: int
@@ -73,6 +76,11 @@ class Growth(NamedTuple):
     states: int
     step: float
     ratio: float
+
+
+def _growth(method: str, invariant: str, *rest: Any) -> Growth:
+    exponent, bias, end, steps, states, step, ratio = rest
+    return Growth(method, invariant, *exponent, *bias, *end, *steps, states, step, ratio)
 
 
 class Stress:
@@ -89,7 +97,7 @@ class Stress:
         self.steps = steps
         self.h0: float = found["step"]
         self.cells = [StressCell(**cell) for cell in found["cells"]]
-        self.growths = [Growth(*growth) for growth in found["growths"]]
+        self.growths = [_growth(*growth) for growth in found["growths"]]
         self.lost: list[str] = found["losses"]
         self.complete: bool = found["complete"]
         self._table: list[list[str]] = found["table"]

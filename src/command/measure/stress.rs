@@ -139,7 +139,7 @@ fn growth_csv(growth: &Growth) -> String {
     };
     format!(
         "{},growth,{},{:?},{:?},{outcome},{},NaN,{energy:?},NaN,{casimir:?},NaN,{:?},standard error {:?} from {} steps on; \
-         {} states; largest {:?}\n",
+         {} states; largest {:?}; bias {:?} with standard error {:?}\n",
         growth.method,
         growth.invariant,
         growth.exponent,
@@ -149,7 +149,9 @@ fn growth_csv(growth: &Growth) -> String {
         growth.error,
         growth.from,
         growth.states,
-        growth.largest
+        growth.largest,
+        growth.bias,
+        growth.bias_error
     )
 }
 

@@ -142,6 +142,12 @@ pub struct Growth {
     /// The standard error of the exponent.
     #[serde(with = "number")]
     pub error: f64,
+    /// The mean of the error per step over the states, with its sign.
+    #[serde(with = "number")]
+    pub bias: f64,
+    /// The standard error of the bias.
+    #[serde(with = "number")]
+    pub bias_error: f64,
     /// The error at the end, relative to the size of the terms: root of the mean square over the states.
     #[serde(with = "number")]
     pub end: f64,

@@ -5,6 +5,9 @@
 //! spaced N, and a line is fitted to its logarithm by least squares. The standard error is that of the jackknife:
 //! the fit is repeated without each state, since the points of one state are not independent of each other.
 //!
+//! The bias is the mean over the states of what the error is at the end, with its sign, per step. An exponent hides one that is
+//! small beside the walk; the bias has a standard error of the walk over `sqrt(N)` and the root of the number of states.
+//!
 //! Reference: E. Hairer, R. I. McLachlan, A. Razakarivony, "Achieving Brouwer's law with implicit Runge–Kutta
 //! methods", BIT Numerical Mathematics 48 (2008) 231–243,
 //! [doi:10.1007/s10543-008-0170-3](https://doi.org/10.1007/s10543-008-0170-3).
@@ -19,7 +22,7 @@ use lie_runtime::scalar::Scalar;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// States that are followed.
-pub(super) const STATES: usize = 8;
+pub(super) const STATES: usize = 16;
 /// How far they lie from the initial one, in parts of its largest coordinate.
 const APART: f64 = 0.25;
 /// Points of the fit, each at the square root of two times the steps of the one before.
@@ -34,6 +37,8 @@ pub(super) struct Growth {
     pub(super) invariant: usize,
     /// The exponent and its standard error.
     pub(super) exponent: (f64, f64),
+    /// The mean of the error per step, and its standard error over the states.
+    pub(super) bias: (f64, f64),
     /// The error at the end, relative to the size of the terms: root of the mean square, and the largest.
     pub(super) end: (f64, f64),
     /// The steps of the first and of the last point.
@@ -58,6 +63,8 @@ impl Growth {
             invariant: invariant.to_owned(),
             exponent: self.exponent.0,
             error: self.exponent.1,
+            bias: self.bias.0,
+            bias_error: self.bias.1,
             end: self.end.0,
             largest: self.end.1,
             from,
@@ -107,19 +114,21 @@ pub(super) fn growth<P: Poisson<f64>>(
         .filter(|&invariant| claims[invariant])
         .max_by(|&a, &b| largest(a).total_cmp(&largest(b)))?;
     let last = |state: &Vec<Vec<f64>>| state[invariant][points.len() - 1];
+    let ends: Vec<f64> = errors.iter().map(last).collect();
     Some(Growth {
         invariant,
         exponent: exponent(&errors, invariant, &points)?,
+        bias: bias(&ends, *points.last()?),
         end: (
             largest(invariant).sqrt(),
-            errors.iter().map(last).fold(0.0, Scalar::max),
+            ends.iter().map(|end| end.abs()).fold(0.0, Scalar::max),
         ),
         steps: (points[0], *points.last()?),
         states: errors.len(),
     })
 }
 
-/// The relative error of each invariant at each point; none if a step fails, or a number is not finite.
+/// The relative error of each invariant at each point, with its sign; none if a step fails, or a number is not finite.
 fn follow<P: Poisson<f64>>(
     system: &P,
     method: &dyn AnyMethod<f64, P>,
@@ -148,7 +157,7 @@ fn follow<P: Poisson<f64>>(
         let sizes = sizes(system, &mu);
         for (index, all) in errors.iter_mut().enumerate() {
             sizes_seen[index] = sizes_seen[index].max(sizes[index]);
-            let error = (now[index] - first[index]).abs() / sizes_seen[index];
+            let error = (now[index] - first[index]) / sizes_seen[index];
             if !error.is_finite() {
                 return None;
             }
@@ -162,6 +171,17 @@ fn follow<P: Poisson<f64>>(
 fn mean_square(errors: &[Vec<Vec<f64>>], invariant: usize, point: usize) -> f64 {
     let sum: f64 = errors.iter().map(|e| e[invariant][point].powi(2)).sum();
     sum / errors.len() as f64
+}
+
+/// The mean of the errors per step, and its standard error.
+fn bias(ends: &[f64], steps: u64) -> (f64, f64) {
+    let (count, steps) = (ends.len() as f64, steps as f64);
+    let mean = ends.iter().sum::<f64>() / count;
+    let square: f64 = ends.iter().map(|end| (end - mean).powi(2)).sum();
+    (
+        mean / steps,
+        (square / (count * (count - 1.0))).sqrt() / steps,
+    )
 }
 
 /// The exponent with its standard error.
@@ -210,8 +230,8 @@ fn least_squares(points: &[(f64, f64)]) -> Option<f64> {
 mod tests {
     use super::*;
 
-    /// Errors of one invariant over 2^16 steps, from increments of each step.
-    fn fitted(increment: impl Fn(&mut Random) -> f64) -> (f64, f64) {
+    /// The exponent and the bias of one invariant over 2^16 steps, from increments of each step.
+    fn fitted(increment: impl Fn(&mut Random) -> f64) -> [(f64, f64); 2] {
         let points = points(1 << 16);
         let errors: Vec<Vec<Vec<f64>>> = (0..STATES as u64)
             .map(|seed| {
@@ -222,32 +242,48 @@ mod tests {
                         sum += increment(&mut random);
                         done += 1;
                     }
-                    all.push(sum.abs());
+                    all.push(sum);
                 }
                 vec![all]
             })
             .collect();
-        exponent(&errors, 0, &points).expect("a fit")
+        let ends: Vec<f64> = errors.iter().map(|e| e[0][points.len() - 1]).collect();
+        let exponent = exponent(&errors, 0, &points).expect("a fit");
+        [exponent, bias(&ends, 1 << 16)]
     }
 
     #[test]
     fn walks_and_biases_have_their_exponents() {
-        let (walk, error) = fitted(|random| random.unit());
+        let [(walk, error), (mean, deviation)] = fitted(|random| random.unit());
         assert!(
             (walk - 0.5).abs() < 3.0 * error && error < 0.15,
             "{walk} ± {error}"
         );
-        let (bias, error) = fitted(|_| 1e-16);
+        // uniform in -1..1: its deviation over the root of all draws
+        let draws = (65536.0 * STATES as f64).sqrt();
         assert!(
-            (bias - 1.0).abs() < 1e-3 && error < 1e-3,
-            "{bias} ± {error}"
+            mean.abs() < 3.0 * deviation && (deviation * draws * 3_f64.sqrt() - 1.0).abs() < 0.5,
+            "{mean} ± {deviation}"
         );
-        // a small bias in a walk shows in the end
-        let (both, error) = fitted(|random| random.unit() + 0.05);
+        let [(exponent, error), (mean, deviation)] = fitted(|_| 1e-16);
         assert!(
-            both > walk + 0.15 && both < 1.0 && error < 0.15,
-            "{both} ± {error}"
+            (exponent - 1.0).abs() < 1e-3 && error < 1e-3,
+            "{exponent} ± {error}"
         );
+        assert!(
+            (mean - 1e-16).abs() < 1e-24 && deviation < 1e-24,
+            "{mean} ± {deviation}"
+        );
+        // a bias that an exponent does not tell from the walk is many of its own errors
+        let [(both, error), (mean, deviation)] = fitted(|random| random.unit() + 0.01);
+        assert!(both < 0.9 && error < 0.15, "{both} ± {error}");
+        assert!(
+            mean > 5.0 * deviation && (mean - 0.01).abs() < 3.0 * deviation,
+            "{mean} ± {deviation}"
+        );
+        // a larger one shows in both
+        let [(larger, _), _] = fitted(|random| random.unit() + 0.05);
+        assert!(larger > walk + 0.15 && larger < 1.0, "{larger}");
     }
 
     #[test]

@@ -26,6 +26,10 @@ use trials::Trial;
 
 /// `h0` times the rate.
 const REACH: f64 = 0.2;
+/// Round-off is measured at this step, and at the first of [`LARGE`] at which states come to the end: a bias grows with the
+/// step.
+const USUAL: &[f64] = &[1.0];
+const LARGE: &[f64] = &[8.0, 4.0, 2.0];
 /// The long run has so many times the steps of each state that is followed for the growth of round-off: both take
 /// about as long.
 const SHARE: u64 = growth::STATES as u64;
@@ -54,11 +58,11 @@ pub struct Stress<P: Poisson<f64>> {
 /// What is done with a method.
 enum Task {
     Trial(Trial),
-    /// Follows the growth of round-off from a start with a step, for so many steps.
+    /// Follows the growth of round-off from a start for so many steps, with the first of these steps that goes.
     Growth {
         parameters: Vec<f64>,
         mu: Vec<f64>,
-        step: f64,
+        h: Vec<f64>,
         steps: u64,
     },
 }
@@ -146,13 +150,14 @@ impl<P: Poisson<f64> + Sync> Stress<P> {
         }
         let trials = self.trials(&system, &request.start, step, long)?;
         let mut tasks: Vec<Task> = trials.into_iter().map(Task::Trial).collect();
-        let growth = Task::Growth {
-            parameters: self.blueprint.values(&request.start)?,
-            mu: request.start.initial.clone(),
-            step,
-            steps: long / SHARE,
-        };
-        tasks.push(growth);
+        for factors in [USUAL, LARGE] {
+            tasks.push(Task::Growth {
+                parameters: self.blueprint.values(&request.start)?,
+                mu: request.start.initial.clone(),
+                h: factors.iter().map(|factor| factor * step).collect(),
+                steps: long / SHARE,
+            });
+        }
         let wanted = |label: &str| request.methods.iter().any(|method| method == label);
         let jobs: Vec<Job<'_, P>> = tasks
             .iter()
@@ -219,14 +224,16 @@ impl<P: Poisson<f64> + Sync> Stress<P> {
             Task::Growth {
                 parameters,
                 mu,
-                step,
+                h,
                 steps,
             } => {
                 let system = self.blueprint.make(parameters).ok()?;
                 let mut start = system.zero_state();
                 start.as_mut_slice().copy_from_slice(mu);
-                let found = growth::growth(&system, method, &start, *step, *steps, stop)?;
-                Some(Found::Growth(found.named(label, &system, *step)))
+                h.iter().find_map(|&h| {
+                    let found = growth::growth(&system, method, &start, h, *steps, stop)?;
+                    Some(Found::Growth(found.named(label.clone(), &system, h)))
+                })
             }
         }
     }
