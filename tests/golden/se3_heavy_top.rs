@@ -281,17 +281,26 @@ impl<'a, S: ::lie_runtime::Scalar> HeavyTopFound<'a, S> {
     ///
     /// `mu -> exp(s ad*_(e_i)) mu`, `s = t f_i'(mu_i)`
     ///
-    /// 9 additions, 13 multiplications, 1 division, 1 function call.
+    /// 11 additions, 15 multiplications, 2 divisions, 1 function call.
     #[inline]
     fn _flow0_0(&self, t: S, mu: &mut ::lie_runtime::__private_0_1::SVector<S, 6>) {
         let [[m1, m2, m3, _, g2, g3]] = mu.data.0;
         let _t0 = (m1 * t * self.system.inverse_2_I1).tan();
-        let _t1 = _t0 * S::from_f64(2.0) / (S::one() + _t0 * _t0);
-        let _t2 = _t0 * _t1;
-        mu[1] += m3 * _t1 - m2 * _t2;
-        mu[2] -= m2 * _t1 + m3 * _t2;
-        mu[4] += g3 * _t1 - g2 * _t2;
-        mu[5] -= g2 * _t1 + g3 * _t2;
+        let _t1 = _t0 * _t0;
+        let _t2 = S::one() - _t1;
+        let _t3 = S::select(_t2.less(S::zero()), S::from_f64(-1.0), S::one());
+        let _t4 = S::select(_t2.less(S::zero()), -(S::one() / _t0), _t0);
+        let _t5 = m3 * _t3;
+        let _t6 = m2 * _t3 + _t4 * _t5;
+        let _t7 = _t0 * _t3 * S::from_f64(2.0) / (S::one() + _t1);
+        let _t8 = _t5 - _t7 * _t6;
+        let _t9 = g3 * _t3;
+        let _t10 = g2 * _t3 + _t4 * _t9;
+        let _t11 = _t9 - _t7 * _t10;
+        mu[1] = _t6 + _t4 * _t8;
+        mu[2] = _t8;
+        mu[4] = _t10 + _t4 * _t11;
+        mu[5] = _t11;
     }
 }
 

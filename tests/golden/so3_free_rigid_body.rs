@@ -2156,20 +2156,24 @@ impl<
     }
 }
 
-/// The spherical midpoint method, unknown `u = mu1`: `u - mu - h f(w) = 0`,
-/// `w = |mu| s/|s|` with `s = mu + u` for each spin.
+/// The spherical midpoint method, unknown `d = mu1 - mu`: `d - h f(w) = 0`,
+/// `w = |mu| s/|s|` with `s = 2 mu + d` for each spin.
 #[derive(Clone, Debug)]
 #[allow(non_snake_case)]
 pub struct FreeRigidBodySphericalMidpoint<'a, S: ::lie_runtime::Scalar> {
     system: &'a FreeRigidBodySystem<S>,
     base: ::lie_runtime::__private_0_1::SVector<S, 3>,
     h: S,
-    /// `(1/I2 - 1/I3)*h`
+    /// `-(1/I2 - 1/I3)*h`
     _h0: S,
     /// `(1/I1 - 1/I3)*h`
     _h1: S,
-    /// `(1/I1 - 1/I2)*h`
+    /// `-(1/I1 - 1/I2)*h`
     _h2: S,
+    /// `(1/I2 - 1/I3)*h`
+    _h3: S,
+    /// `(1/I1 - 1/I2)*h`
+    _h4: S,
 }
 
 impl<'a, S: ::lie_runtime::Scalar> FreeRigidBodySphericalMidpoint<'a, S> {
@@ -2178,14 +2182,18 @@ impl<'a, S: ::lie_runtime::Scalar> FreeRigidBodySphericalMidpoint<'a, S> {
     pub fn new(system: &'a FreeRigidBodySystem<S>, h: S) -> Self {
         let _t0 = S::one() / system._parameters.I2;
         let _t1 = S::one() / system._parameters.I3;
-        let _t2 = S::one() / system._parameters.I1;
+        let _t2 = (_t0 - _t1) * h;
+        let _t3 = S::one() / system._parameters.I1;
+        let _t4 = (_t3 - _t0) * h;
         Self {
             system,
             base: ::lie_runtime::Poisson::zero_state(system),
             h,
-            _h0: (_t0 - _t1) * h,
-            _h1: (_t2 - _t1) * h,
-            _h2: (_t2 - _t0) * h,
+            _h0: -_t2,
+            _h1: (_t3 - _t1) * h,
+            _h2: -_t4,
+            _h3: _t2,
+            _h4: _t4,
         }
     }
 }
@@ -2209,9 +2217,20 @@ for FreeRigidBodySphericalMidpoint<'_, S> {
         self.base = *mu;
     }
 
-    /// `r = u - mu - h f(w)`, `w = rho s`, `s = mu + u`
+    /// `d = h f(mu)`
     ///
-    /// 9 additions, 9 multiplications.
+    /// 6 multiplications.
+    #[inline]
+    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+        let [[x, y, z]] = self.base.data.0;
+        unknown[0] = y * z * self._h0;
+        unknown[1] = x * z * self._h1;
+        unknown[2] = x * y * self._h2;
+    }
+
+    /// `r = d - h f(w)`, `w = rho s`, `s = 2 mu + d`
+    ///
+    /// 6 additions, 12 multiplications.
     #[inline]
     fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
         let [[x, y, z]] = self.base.data.0;
@@ -2221,17 +2240,17 @@ for FreeRigidBodySphericalMidpoint<'_, S> {
             _,
             2,
         >(self.system, &self.base, unknown);
-        let _t0 = (y + _u_y) * _given_x;
-        let _t1 = (z + _u_z) * _given_x;
-        let _t2 = (x + _u_x) * _given_x;
-        residual[0] = _u_x - x + _t0 * _t1 * self._h0;
-        residual[1] = _u_y - y - _t2 * _t1 * self._h1;
-        residual[2] = _u_z - z + _t2 * _t0 * self._h2;
+        let _t0 = (_u_y + y * S::from_f64(2.0)) * _given_x;
+        let _t1 = (_u_z + z * S::from_f64(2.0)) * _given_x;
+        let _t2 = (_u_x + x * S::from_f64(2.0)) * _given_x;
+        residual[0] = _u_x + _t0 * _t1 * self._h3;
+        residual[1] = _u_y - _t2 * _t1 * self._h1;
+        residual[2] = _u_z + _t2 * _t0 * self._h4;
     }
 
-    /// `r = u - mu - h f(w)`, `w = rho s`, and `dr/du = 1 - h rho Df(w) (1 - s s^T/s.s)`
+    /// `r = d - h f(w)`, `w = rho s`, and `dr/dd = 1 - h rho Df(w) (1 - s s^T/s.s)`
     ///
-    /// 21 additions, 38 multiplications.
+    /// 18 additions, 41 multiplications.
     #[inline]
     fn linearize(
         &mut self,
@@ -2246,11 +2265,11 @@ for FreeRigidBodySphericalMidpoint<'_, S> {
             _,
             2,
         >(self.system, &self.base, unknown);
-        let _t0 = y + _u_y;
+        let _t0 = _u_y + y * S::from_f64(2.0);
         let _t1 = _t0 * _given_x;
-        let _t2 = z + _u_z;
+        let _t2 = _u_z + z * S::from_f64(2.0);
         let _t3 = _t2 * _given_x;
-        let _t4 = x + _u_x;
+        let _t4 = _u_x + x * S::from_f64(2.0);
         let _t5 = _t4 * _given_x;
         let _t6 = _t4 * _given_y;
         let _t7 = self.h * _given_x;
@@ -2267,9 +2286,9 @@ for FreeRigidBodySphericalMidpoint<'_, S> {
         let _t18 = self.system._k8 * _t9;
         let _t19 = _t5 * _t7 * self.system._k8;
         let _t20 = _t4 * _t18 + _t0 * _t19;
-        residual[0] = _u_x - x + _t1 * _t3 * self._h0;
-        residual[1] = _u_y - y - _t5 * _t3 * self._h1;
-        residual[2] = _u_z - z + _t5 * _t1 * self._h2;
+        residual[0] = _u_x + _t1 * _t3 * self._h3;
+        residual[1] = _u_y - _t5 * _t3 * self._h1;
+        residual[2] = _u_z + _t5 * _t1 * self._h4;
         matrix[(0, 0)] = S::one() + _t6 * _t11;
         matrix[(0, 1)] = _t12 * _t11 - _t8;
         matrix[(0, 2)] = _t13 * _t11 - _t10;
@@ -2281,17 +2300,24 @@ for FreeRigidBodySphericalMidpoint<'_, S> {
         matrix[(2, 2)] = S::one() + _t13 * _t20;
     }
 
+    /// `mu1 = mu + d - s (2 mu.d + d.d)/s.s`
+    ///
+    /// 14 additions, 14 multiplications.
     #[inline]
     fn result(&mut self, unknown: &Self::State, mu: &mut Self::State) {
-        *mu = *unknown;
-    }
-
-    #[inline]
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        let mut field = self.base;
-        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
-        *unknown = self.base;
-        ::lie_runtime::State::axpy(unknown, self.h, &field);
+        let [[x, y, z]] = self.base.data.0;
+        let [[_u_x, _u_y, _u_z]] = unknown.data.0;
+        let [_, _given_y] = ::lie_runtime::generic::sphere_ratios::<
+            S,
+            _,
+            2,
+        >(self.system, &self.base, unknown);
+        let _t0 = _given_y
+            * (_u_x * _u_x + _u_y * _u_y + _u_z * _u_z
+                + S::from_f64(2.0) * (x * _u_x + y * _u_y + z * _u_z));
+        mu[0] = x + _u_x - (_u_x + x * S::from_f64(2.0)) * _t0;
+        mu[1] = y + _u_y - (_u_y + y * S::from_f64(2.0)) * _t0;
+        mu[2] = z + _u_z - (_u_z + z * S::from_f64(2.0)) * _t0;
     }
 
     /// Sparse elimination in the order [0, 1, 2], 0 entries of fill-in: 17 multiplications with the solution.
@@ -2538,45 +2564,60 @@ impl<'a, S: ::lie_runtime::Scalar> FreeRigidBodySplitting<'a, S> {
     ///
     /// `mu -> exp(s ad*_(e_i)) mu`, `s = t f_i'(mu_i)`
     ///
-    /// 5 additions, 9 multiplications, 1 division, 1 function call.
+    /// 8 additions, 10 multiplications, 2 divisions, 1 function call.
     #[inline]
     fn _flow0(&self, t: S, mu: &mut ::lie_runtime::__private_0_1::SVector<S, 3>) {
         let [[x, y, z]] = mu.data.0;
         let _t0 = (x * t * self.system.inverse_2_I1).tan();
-        let _t1 = _t0 * S::from_f64(2.0) / (S::one() + _t0 * _t0);
-        let _t2 = _t0 * _t1;
-        mu[1] += z * _t1 - y * _t2;
-        mu[2] -= y * _t1 + z * _t2;
+        let _t1 = _t0 * _t0;
+        let _t2 = S::one() - _t1;
+        let _t3 = S::select(_t2.less(S::zero()), S::from_f64(-1.0), S::one());
+        let _t4 = S::select(_t2.less(S::zero()), -(S::one() / _t0), _t0);
+        let _t5 = z * _t3;
+        let _t6 = y * _t3 + _t4 * _t5;
+        let _t7 = _t5 - _t0 * _t3 * S::from_f64(2.0) / (S::one() + _t1) * _t6;
+        mu[1] = _t6 + _t4 * _t7;
+        mu[2] = _t7;
     }
 
     /// The flow of the piece in `y` over a time t.
     ///
     /// `mu -> exp(s ad*_(e_i)) mu`, `s = t f_i'(mu_i)`
     ///
-    /// 5 additions, 9 multiplications, 1 division, 1 function call.
+    /// 8 additions, 10 multiplications, 2 divisions, 1 function call.
     #[inline]
     fn _flow1(&self, t: S, mu: &mut ::lie_runtime::__private_0_1::SVector<S, 3>) {
         let [[x, y, z]] = mu.data.0;
         let _t0 = (y * t * self.system.inverse_2_I2).tan();
-        let _t1 = _t0 * S::from_f64(2.0) / (S::one() + _t0 * _t0);
-        let _t2 = _t0 * _t1;
-        mu[0] -= z * _t1 + x * _t2;
-        mu[2] += x * _t1 - z * _t2;
+        let _t1 = _t0 * _t0;
+        let _t2 = S::one() - _t1;
+        let _t3 = S::select(_t2.less(S::zero()), S::from_f64(-1.0), S::one());
+        let _t4 = S::select(_t2.less(S::zero()), -(S::one() / _t0), _t0);
+        let _t5 = z * _t3;
+        let _t6 = x * _t3 - _t4 * _t5;
+        let _t7 = _t5 + _t0 * _t3 * S::from_f64(2.0) / (S::one() + _t1) * _t6;
+        mu[0] = _t6 - _t4 * _t7;
+        mu[2] = _t7;
     }
 
     /// The flow of the piece in `z` over a time t.
     ///
     /// `mu -> exp(s ad*_(e_i)) mu`, `s = t f_i'(mu_i)`
     ///
-    /// 5 additions, 9 multiplications, 1 division, 1 function call.
+    /// 8 additions, 10 multiplications, 2 divisions, 1 function call.
     #[inline]
     fn _flow2(&self, t: S, mu: &mut ::lie_runtime::__private_0_1::SVector<S, 3>) {
         let [[x, y, z]] = mu.data.0;
         let _t0 = (z * t * self.system.inverse_2_I3).tan();
-        let _t1 = _t0 * S::from_f64(2.0) / (S::one() + _t0 * _t0);
-        let _t2 = _t0 * _t1;
-        mu[0] += y * _t1 - x * _t2;
-        mu[1] -= y * _t2 + x * _t1;
+        let _t1 = _t0 * _t0;
+        let _t2 = S::one() - _t1;
+        let _t3 = S::select(_t2.less(S::zero()), S::from_f64(-1.0), S::one());
+        let _t4 = S::select(_t2.less(S::zero()), -(S::one() / _t0), _t0);
+        let _t5 = y * _t3;
+        let _t6 = x * _t3 + _t4 * _t5;
+        let _t7 = _t5 - _t0 * _t3 * S::from_f64(2.0) / (S::one() + _t1) * _t6;
+        mu[0] = _t6 + _t4 * _t7;
+        mu[1] = _t7;
     }
 }
 
@@ -2647,15 +2688,20 @@ impl<'a, S: ::lie_runtime::Scalar> FreeRigidBodyFound<'a, S> {
     ///
     /// `mu -> exp(s ad*_(e_i)) mu`, `s = t f_i'(mu_i)`
     ///
-    /// 5 additions, 9 multiplications, 1 division, 1 function call.
+    /// 8 additions, 10 multiplications, 2 divisions, 1 function call.
     #[inline]
     fn _flow0(&self, t: S, mu: &mut ::lie_runtime::__private_0_1::SVector<S, 3>) {
         let [[x, y, z]] = mu.data.0;
         let _t0 = (x * t * self.system._k9).tan();
-        let _t1 = _t0 * S::from_f64(2.0) / (S::one() + _t0 * _t0);
-        let _t2 = _t0 * _t1;
-        mu[1] += z * _t1 - y * _t2;
-        mu[2] -= y * _t1 + z * _t2;
+        let _t1 = _t0 * _t0;
+        let _t2 = S::one() - _t1;
+        let _t3 = S::select(_t2.less(S::zero()), S::from_f64(-1.0), S::one());
+        let _t4 = S::select(_t2.less(S::zero()), -(S::one() / _t0), _t0);
+        let _t5 = z * _t3;
+        let _t6 = y * _t3 + _t4 * _t5;
+        let _t7 = _t5 - _t0 * _t3 * S::from_f64(2.0) / (S::one() + _t1) * _t6;
+        mu[1] = _t6 + _t4 * _t7;
+        mu[2] = _t7;
     }
 
     /// the gradient of the piece
@@ -2675,15 +2721,20 @@ impl<'a, S: ::lie_runtime::Scalar> FreeRigidBodyFound<'a, S> {
     ///
     /// `mu -> exp(s ad*_(e_i)) mu`, `s = t f_i'(mu_i)`
     ///
-    /// 5 additions, 9 multiplications, 1 division, 1 function call.
+    /// 8 additions, 10 multiplications, 2 divisions, 1 function call.
     #[inline]
     fn _flow1(&self, t: S, mu: &mut ::lie_runtime::__private_0_1::SVector<S, 3>) {
         let [[x, y, z]] = mu.data.0;
         let _t0 = (z * t * self.system._k11).tan();
-        let _t1 = _t0 * S::from_f64(2.0) / (S::one() + _t0 * _t0);
-        let _t2 = _t0 * _t1;
-        mu[0] += y * _t1 - x * _t2;
-        mu[1] -= y * _t2 + x * _t1;
+        let _t1 = _t0 * _t0;
+        let _t2 = S::one() - _t1;
+        let _t3 = S::select(_t2.less(S::zero()), S::from_f64(-1.0), S::one());
+        let _t4 = S::select(_t2.less(S::zero()), -(S::one() / _t0), _t0);
+        let _t5 = y * _t3;
+        let _t6 = x * _t3 + _t4 * _t5;
+        let _t7 = _t5 - _t0 * _t3 * S::from_f64(2.0) / (S::one() + _t1) * _t6;
+        mu[0] = _t6 + _t4 * _t7;
+        mu[1] = _t7;
     }
 
     /// the gradient of the piece

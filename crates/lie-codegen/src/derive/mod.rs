@@ -15,6 +15,7 @@ mod poisson;
 mod realization;
 mod recurrence;
 mod second_kind;
+mod shears;
 mod source;
 mod splitting;
 mod tape;

@@ -4,11 +4,14 @@
 //! An entry that is only scaled is multiplied by an exponential, or divided by it where another grows
 //! as this one shrinks, so that their product keeps its digits. Of all others the increment is
 //! derived, which is added to mu last: then the only rounding in units of mu is that of this addition,
-//! and coefficients close to 1 lose nothing. For a rotation about the angle
+//! and coefficients close to 1 lose nothing.
+//!
+//! A rotation of a plane is three [shears](super::shears). Where other entries follow it, for the angle
 //! `a = w s`, with `T = tan(a/2)`: `sin a = 2 T/(1 + T^2)` and `1 - cos a = T sin a`, one function call;
 //! whatever the error of T, the squares of sine and cosine then sum to 1 up to `a^2` times round-off.
 
 use super::field::mu;
+use super::shears::turned;
 use super::{Kernel, Source};
 use crate::structure::one_parameter::{Block, Form};
 use crate::structure::separable::Piece;
@@ -40,6 +43,8 @@ pub enum Update {
     Multiply,
     /// The entry is divided by it.
     Divide,
+    /// The entry becomes it.
+    Replace,
 }
 
 /// Definitions under construction, each made once.
@@ -134,6 +139,12 @@ pub(super) fn kernel(
             } else {
                 (Update::Multiply, value)
             });
+            continue;
+        }
+        if let Some(turned) = turned(source, block, s, &mut definitions) {
+            for (row, value) in turned {
+                changes[row] = Some((Update::Replace, value));
+            }
             continue;
         }
         let weights = weights(source, block, s, &mut definitions);

@@ -24,16 +24,17 @@ impl Source {
         .expect("nothing is compared")
     }
 
-    /// Residual and Jacobian of the spherical midpoint method.
+    /// Residual, Jacobian and result of the spherical midpoint method.
     pub fn spherical_kernels(&mut self) -> Option<Vec<Kernel>> {
         self.spins()?;
         let formulas = Formulas {
-            residual: "`r = u - mu - h f(w)`, `w = rho s`, `s = mu + u`",
-            linearize: "`r = u - mu - h f(w)`, `w = rho s`, and `dr/du = 1 - h rho Df(w) (1 - s s^T/s.s)`",
-            result: "",
+            residual: "`r = d - h f(w)`, `w = rho s`, `s = 2 mu + d`",
+            linearize: "`r = d - h f(w)`, `w = rho s`, and `dr/dd = 1 - h rho Df(w) (1 - s s^T/s.s)`",
+            result: "`mu1 = mu + d - s (2 mu.d + d.d)/s.s`",
         };
         trace::kernels(self, &formulas, |system, h| {
-            trace::linearized(generic::Spherical::new(system, h)).with_given("ratios")
+            let equation = generic::Spherical::new(system, h);
+            trace::complete(equation, "`d = h f(mu)`").with_given("ratios")
         })
     }
 

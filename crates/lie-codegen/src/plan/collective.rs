@@ -34,8 +34,8 @@ impl Planner<'_> {
         let kernels = self.source.spherical_kernels()?;
         let form = Form {
             docs: &[
-                "The spherical midpoint method, unknown `u = mu1`: `u - mu - h f(w) = 0`,",
-                "`w = |mu| s/|s|` with `s = mu + u` for each spin.",
+                "The spherical midpoint method, unknown `d = mu1 - mu`: `d - h f(w) = 0`,",
+                "`w = |mu| s/|s|` with `s = 2 mu + d` for each spin.",
             ],
             motion: Motion::Factor,
             ..Form::new(

@@ -138,6 +138,7 @@ fn count_updates(counts: &mut Counts, updates: &[Update]) {
             Update::Add | Update::Subtract => counts.add += 1,
             Update::Multiply => counts.mul += 1,
             Update::Divide => counts.div += 1,
+            Update::Replace => {}
         }
     }
 }

@@ -197,6 +197,7 @@ pub(super) fn updates(
                 Update::Subtract => quote! { #mu[#row] -= #output; },
                 Update::Multiply => quote! { #mu[#row] *= #output; },
                 Update::Divide => quote! { #mu[#row] /= #output; },
+                Update::Replace => quote! { #mu[#row] = #output; },
             }
         })
         .collect()

@@ -218,12 +218,13 @@ fn flows_of_pieces_are_exact() {
             let outputs = system.outputs(kernel, t, &[("mu", &mu)]);
             let mut moved = mu.clone();
             for ((row, update), value) in rows.iter().zip(&piece.updates).zip(outputs) {
-                use lie_codegen::derive::Update::{Add, Divide, Multiply, Subtract};
+                use lie_codegen::derive::Update::{Add, Divide, Multiply, Replace, Subtract};
                 match update {
                     Add => moved[*row] += value,
                     Subtract => moved[*row] -= value,
                     Multiply => moved[*row] *= value,
                     Divide => moved[*row] /= value,
+                    Replace => moved[*row] = value,
                 }
             }
             let k = piece.coordinate;

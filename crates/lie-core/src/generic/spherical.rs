@@ -43,7 +43,7 @@ pub fn sphere_ratios_into<S: Scalar, P: SpinPoisson<S>>(
     ratios: &mut [S],
 ) {
     for (index, spin) in system.spins().iter().enumerate() {
-        let sum = spin.map(|k| mu[k] + unknown[k]);
+        let sum = spin.map(|k| (mu[k] + mu[k]) + unknown[k]);
         let of_spin = sphere_ratio(spin.map(|k| mu[k]), sum);
         ratios[2 * index..][..2].copy_from_slice(&of_spin);
     }
@@ -51,9 +51,13 @@ pub fn sphere_ratios_into<S: Scalar, P: SpinPoisson<S>>(
 
 /// The spherical midpoint method for a direct sum of algebras so(3).
 ///
-/// Unknown: the new state u. Equation: `r(u) = u - mu - h f(w)` with `w = |mu| s/|s|`, `s = mu + u` for each
-/// spin, and the vector field f. Jacobian: `1 - h Df(w) dw/du`, where
-/// `dw/du = (|mu|/|s|) (1 - s s^T/|s|^2)` for each spin. Start: `u = mu + h f(mu)`.
+/// Unknown: the increment d of the state. Equation: `r(d) = d - h f(w)` with `w = |mu| s/|s|`, `s = 2 mu + d` for each
+/// spin, and the vector field f. Jacobian: `1 - h Df(w) dw/dd`, where
+/// `dw/dd = (|mu|/|s|) (1 - s s^T/|s|^2)` for each spin. Start: `d = h f(mu)`.
+///
+/// An iteration ends a part of a unit of round-off early, always on the same side, which would add up: least where it finds
+/// increments, whose units are smaller. What is left changes the length by `d.s = 2 mu.d + d.d`, which is 0 in the equation;
+/// the result moves d along s until it is.
 #[derive(Debug)]
 pub struct Spherical<'a, S: Scalar, P: SpinPoisson<S>> {
     system: &'a P,
@@ -82,7 +86,7 @@ impl<'a, S: Scalar, P: SpinPoisson<S>> Spherical<'a, S, P> {
     fn sum(&self, index: usize, unknown: &P::State) -> ([S; 3], [S; 2]) {
         let (mu, unknown) = (self.base.as_slice(), unknown.as_slice());
         let spin = self.system.spins()[index];
-        let sum = spin.map(|k| (mu[k] + unknown[k]).quantity());
+        let sum = spin.map(|k| ((mu[k] + mu[k]) + unknown[k]).quantity());
         let ratios = S::given(2 * index, || sphere_ratio(spin.map(|k| mu[k]), sum));
         (sum, ratios)
     }
@@ -100,7 +104,7 @@ impl<'a, S: Scalar, P: SpinPoisson<S>> Spherical<'a, S, P> {
     fn write_residual(&self, unknown: &P::State, residual: &mut P::State) {
         for (row, out) in residual.as_mut_slice().iter_mut().enumerate() {
             let moved = self.step * self.field.as_slice()[row];
-            *out = (unknown.as_slice()[row] - self.base.as_slice()[row]) - moved;
+            *out = unknown.as_slice()[row] - moved;
         }
     }
 }
@@ -114,7 +118,7 @@ impl<S: Scalar, P: SpinPoisson<S>> Equation<S> for Spherical<'_, S, P> {
 
     fn initial_guess(&mut self, unknown: &mut P::State) {
         self.system.vector_field(&self.base, &mut self.field);
-        unknown.copy_from(&self.base);
+        unknown.fill(S::zero());
         unknown.axpy(self.step, &self.field);
     }
 
@@ -149,7 +153,7 @@ impl<S: Scalar, P: SpinPoisson<S>> Equation<S> for Spherical<'_, S, P> {
         self.set_point(unknown);
         self.system.gradient(&self.point, &mut self.field);
         for (index, spin) in self.system.spins().iter().enumerate() {
-            // u - mu = ad*_x (u + mu)/2 with x = 2 h (|mu|/|s|) grad H: the rotation of the quaternion (1, c x/2)
+            // d = ad*_x s/2 with x = 2 h (|mu|/|s|) grad H: the rotation of the quaternion (1, c x/2)
             let (scale, (_, [ratio, _])) = (self.system.scale(index), self.sum(index, unknown));
             let factor = scale * self.step * ratio;
             let axis = spin.map(|k| factor * self.field.as_slice()[k]);
@@ -160,7 +164,19 @@ impl<S: Scalar, P: SpinPoisson<S>> Equation<S> for Spherical<'_, S, P> {
         Some(Retraction::Exp)
     }
 
+    /// `mu + d`, of which the sum `s = 2 mu + d` is orthogonal to d.
     fn result(&mut self, unknown: &P::State, mu: &mut P::State) {
-        mu.copy_from(unknown);
+        let dot = |a: [S; 3], b: [S; 3]| (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]).quantity();
+        for (index, spin) in self.system.spins().iter().enumerate() {
+            let (sum, [_, inverse]) = self.sum(index, unknown);
+            let start = spin.map(|k| self.base.as_slice()[k]);
+            let moved = spin.map(|k| unknown.as_slice()[k]);
+            let along = dot(moved, start);
+            let off = ((along + along) + dot(moved, moved)) * inverse;
+            let off = off.quantity();
+            for (k, &coordinate) in spin.iter().enumerate() {
+                mu.as_mut_slice()[coordinate] = start[k] + (moved[k] - off * sum[k]);
+            }
+        }
     }
 }

@@ -312,7 +312,7 @@ where
     }
 
     fn result(&mut self, unknown: &Self::Unknown, mu: &mut Vec<S>) {
-        let Some(fused) = &self.fused else {
+        let Some(fused) = &mut self.fused else {
             return self.generic.result(unknown, mu);
         };
         match fused.row.ending {
@@ -325,8 +325,9 @@ where
                 let Some(call) = &fused.codes.result else {
                     unreachable!("the ending is a kernel")
                 };
-                let targets = [mu.as_mut_slice(), &mut []];
-                fused.run(self.system, call, (self.h, unknown.part(0)), targets);
+                let (unknown, targets) = (unknown.part(0), [mu.as_mut_slice(), &mut []]);
+                fused.prepare(self.system, unknown);
+                fused.run(self.system, call, (self.h, unknown), targets);
             }
         }
     }

@@ -102,6 +102,7 @@ pub(crate) fn update<S: Scalar>(updates: &[(usize, Update)], results: &[S], mu: 
             Update::Subtract => mu[*row] -= *result,
             Update::Multiply => mu[*row] *= *result,
             Update::Divide => mu[*row] /= *result,
+            Update::Replace => mu[*row] = *result,
         }
     }
 }
