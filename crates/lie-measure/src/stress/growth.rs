@@ -275,15 +275,15 @@ mod tests {
             "{mean} ± {deviation}"
         );
         // a bias that an exponent does not tell from the walk is many of its own errors
-        let [(both, error), (mean, deviation)] = fitted(|random| random.unit() + 0.01);
-        assert!(both < 0.9 && error < 0.15, "{both} ± {error}");
+        let [(both, error), (mean, deviation)] = fitted(|random| random.unit() + 0.005);
+        assert!(both < 0.85 && error < 0.15, "{both} ± {error}");
         assert!(
-            mean > 5.0 * deviation && (mean - 0.01).abs() < 3.0 * deviation,
+            mean > 5.0 * deviation && (mean - 0.005).abs() < 3.0 * deviation,
             "{mean} ± {deviation}"
         );
         // a larger one shows in both
         let [(larger, _), _] = fitted(|random| random.unit() + 0.05);
-        assert!(larger > walk + 0.15 && larger < 1.0, "{larger}");
+        assert!(larger > walk + 0.15 && larger < 1.1, "{larger}");
     }
 
     #[test]
