@@ -82,6 +82,11 @@ pub trait Poisson<S: Scalar>: Sized {
     fn following(&self, _mu: &Self::State) -> Option<Self> {
         None
     }
+    /// Where H has several branches: the same system on the branch with a gradient of H. A run that is taken up again begins
+    /// with the one that it had. `None` if there is only one branch.
+    fn on_branch(&self, _gradient: &Self::State) -> Option<Self> {
+        None
+    }
 
     /// The coordinates that carry the time, where H depends on it.
     fn clock(&self) -> Option<Clock> {

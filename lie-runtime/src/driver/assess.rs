@@ -90,6 +90,7 @@ fn error_of<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
     let run = course.run(
         &problem.system,
         start,
+        None,
         settled.guard(),
         &Save::Ends,
         &mut (),
@@ -149,7 +150,7 @@ impl<S: Scalar, P: Poisson<S>, M: Method<S, P>> Ended<'_, S, P, M> {
         let mut course = Course::new(&grid, self.method, self.newton, step)
             .dividing(divides)
             .at_most(MOST_STEPS as u64);
-        let run = course.run(&self.problem.system, mu, None, &Save::Ends, &mut last);
+        let run = course.run(&self.problem.system, mu, None, None, &Save::Ends, &mut last);
         let (_, Status::Finished) = run.ok()? else {
             return None;
         };

@@ -3,7 +3,8 @@
 use super::checks::{check_domain, check_start, smaller};
 use super::error::StepError;
 use super::grid::{Grid, Place, Rows};
-use super::joints::{Joints, Piece};
+use super::joints::Joints;
+use super::milestone::{MILESTONE, Milestone, gradient};
 use super::observer::{MotionSink, Observer, Progress};
 use super::options::Save;
 use super::problem::set_time;
@@ -26,6 +27,8 @@ enum Left<P> {
     Branch(P),
     /// Steps have another size.
     Divided,
+    /// The run can be taken up from here.
+    Milestone,
 }
 
 /// Steps that divided ones may come to in all, unless the grid itself has an eighth of as many.
@@ -33,22 +36,24 @@ const MOST_DIVIDED: u64 = 1 << 18;
 
 /// How far a run has come.
 pub(super) struct Course<'r, M> {
-    grid: &'r Grid,
-    method: &'r M,
-    newton: NewtonOptions,
+    pub(super) grid: &'r Grid,
+    pub(super) method: &'r M,
+    pub(super) newton: NewtonOptions,
     pub(super) stats: Stats,
     /// Steps done.
-    index: u64,
+    pub(super) index: u64,
+    /// The next milestone.
+    pub(super) milestone: u64,
     /// The step of the grid.
-    step: f64,
+    pub(super) step: f64,
     /// In so many parts each is made.
-    parts: u32,
+    pub(super) parts: u32,
     /// Parts done of the step that is being made.
     done: u32,
     /// Whether a step may be divided.
-    divides: bool,
+    pub(super) divides: bool,
     /// Jacobians that were factored, and steps since the last division for which some were.
-    slow: (u64, u64),
+    pub(super) slow: (u64, u64),
     /// The run stops after so many steps, their parts counted, failed ones included.
     most: u64,
 }
@@ -73,6 +78,12 @@ impl<'r, M> Course<'r, M> {
         self
     }
 
+    /// Has milestones, if they are wanted.
+    pub(super) fn with_milestones(mut self, wanted: bool) -> Self {
+        self.milestone = if wanted { MILESTONE } else { u64::MAX };
+        self
+    }
+
     /// Stops after so many steps, their parts counted.
     pub(super) fn at_most(mut self, steps: u64) -> Self {
         self.most = steps;
@@ -87,6 +98,7 @@ impl<'r, M> Course<'r, M> {
             newton,
             stats: Stats::default(),
             index: 0,
+            milestone: u64::MAX,
             step,
             parts: 1,
             done: 0,
@@ -96,11 +108,12 @@ impl<'r, M> Course<'r, M> {
         }
     }
 
-    /// Goes along the grid; the state at its end.
+    /// Goes along the grid, from a milestone if there is one; the state at its end.
     pub(super) fn run<S: Scalar, P: Poisson<S>>(
         &mut self,
         system: &P,
         mut mu: P::State,
+        taken_up: Option<&Milestone<P::State>>,
         mut guard: Option<Guard<'_, S, P, M>>,
         save: &Save,
         observer: &mut impl Observer<S, P>,
@@ -108,14 +121,25 @@ impl<'r, M> Course<'r, M> {
     where
         M: Method<S, P>,
     {
-        let mut rows = self.grid.rows(save)?.peekable();
-        let mut between = mu.clone();
         let first = system;
-        let mut followed = system.following(&mu);
+        let mut followed = match taken_up {
+            Some(milestone) => {
+                self.take_up(system, milestone, guard.as_mut())?;
+                mu.copy_from(&milestone.mu);
+                let branch = milestone.branch.as_ref();
+                branch.and_then(|gradient| system.on_branch(gradient))
+            }
+            None => system.following(&mu),
+        };
+        let mut rows = self.grid.rows(save)?.from(self.index).peekable();
+        while rows.next_if(|row| row.place.index() < self.index).is_some() {}
+        let mut between = mu.clone();
         let system = followed.as_ref().unwrap_or(first);
-        check_start(system, &mu).map_err(|failure| self.failed(failure))?;
+        if taken_up.is_none() {
+            check_start(system, &mu).map_err(|failure| self.failed(failure))?;
+        }
         observer.start(system, self.progress(), &mu);
-        // once, and again with each branch of the system that has to be followed, and each size of steps
+        // once, and again with each branch of the system that has to be followed, each size of steps, and from each milestone
         loop {
             let system = followed.as_ref().unwrap_or(first);
             let mut states = (&mut mu, &mut between);
@@ -123,6 +147,15 @@ impl<'r, M> Course<'r, M> {
                 Left::Over(status) => return Ok((mu, status)),
                 Left::Branch(next) => followed = Some(next),
                 Left::Divided => {}
+                Left::Milestone => {
+                    self.milestone += MILESTONE;
+                    let branch = followed.as_ref().map(|system| gradient(system, &mu));
+                    let from = branch.as_ref().and_then(|point| first.on_branch(point));
+                    followed = from.or(followed);
+                    let system = followed.as_ref().unwrap_or(first);
+                    let milestone = self.milestone(&mu, branch, guard.as_ref());
+                    observer.milestone(system, &milestone);
+                }
             }
         }
     }
@@ -148,6 +181,9 @@ impl<'r, M> Course<'r, M> {
         let mut stepper = self.method.stepper(system, size, &newton);
         let mut joints = Joints::of(system);
         loop {
+            if self.index == self.milestone && self.done == 0 {
+                return Ok(Left::Milestone);
+            }
             while let Some(row) =
                 rows.next_if(|row| row.place.index() == self.index && self.done == 0)
             {
@@ -301,7 +337,7 @@ impl<'r, M> Course<'r, M> {
     }
 
     /// The same of a step of h from a state: where it left its chart, with one that does not.
-    fn stopped<S: Scalar, P: Poisson<S>>(
+    pub(super) fn stopped<S: Scalar, P: Poisson<S>>(
         &self,
         system: &P,
         failure: StepFailure,
@@ -321,7 +357,7 @@ impl<'r, M> Course<'r, M> {
     }
 
     /// Counts a step that ended at a state.
-    fn arrived<S: Scalar, P: Poisson<S>>(
+    pub(super) fn arrived<S: Scalar, P: Poisson<S>>(
         &mut self,
         system: &P,
         mu: &P::State,
@@ -329,58 +365,6 @@ impl<'r, M> Course<'r, M> {
     ) -> Result<(), Box<StepError>> {
         check_domain(system, mu, report).map_err(|failure| self.failed(failure))?;
         self.stats.add(&report);
-        Ok(())
-    }
-
-    /// A shorter step, from a state of the grid to a row between two of them.
-    fn off_grid<S: Scalar, P: Poisson<S>>(
-        &mut self,
-        system: &P,
-        joints: Option<&mut Joints<S, P>>,
-        end: f64,
-        mu: &mut P::State,
-        observer: &mut impl Observer<S, P>,
-    ) -> Result<(), IntegrateError>
-    where
-        M: Method<S, P>,
-    {
-        let whole = [(self.grid.time(self.index), end)];
-        let pieces = joints.map_or(&[][..], |joints| joints.pieces(system, whole[0]));
-        observer.leave_grid();
-        match pieces {
-            [] => self.in_pieces(system, &whole, mu, observer),
-            pieces => self.in_pieces(system, pieces, mu, observer),
-        }
-    }
-
-    /// Goes from piece to piece, each with a stepper of its own.
-    fn in_pieces<S: Scalar, P: Poisson<S>>(
-        &mut self,
-        system: &P,
-        pieces: &[Piece],
-        mu: &mut P::State,
-        observer: &mut impl Observer<S, P>,
-    ) -> Result<(), IntegrateError>
-    where
-        M: Method<S, P>,
-    {
-        for &(from, to) in pieces {
-            let parts = ((to - from) / self.step * f64::from(self.parts))
-                .ceil()
-                .max(1.0);
-            let size = (to - from) / parts;
-            let mut stepper = self.method.stepper(system, S::from_f64(size), &self.newton);
-            set_time(system, mu, from);
-            for done in 1..=parts as u32 {
-                let report = match stepper.step(mu, &mut MotionSink::new(observer, system)) {
-                    Ok(report) => report,
-                    Err(failure) => return Err(self.stopped(system, failure, to - from, mu)),
-                };
-                let left = (to - from) * (1.0 - f64::from(done) / parts);
-                set_time(system, mu, to - left);
-                self.arrived(system, mu, report)?;
-            }
-        }
         Ok(())
     }
 }

@@ -175,6 +175,16 @@ enum Kind {
     At(std::vec::IntoIter<f64>),
 }
 
+impl Rows<'_> {
+    /// Those from a grid point on, possibly behind some before it.
+    pub(super) fn from(mut self, index: u64) -> Self {
+        if let (Kind::Every(every), Some(next)) = (&self.kind, &mut self.next) {
+            *next = index.div_ceil(*every);
+        }
+        self
+    }
+}
+
 impl Iterator for Rows<'_> {
     type Item = Row;
 

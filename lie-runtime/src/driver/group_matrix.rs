@@ -25,6 +25,10 @@ impl<S: Scalar> GroupMatrix<S> {
         matrix
     }
 
+    pub(super) fn entries_mut(&mut self) -> &mut [S] {
+        &mut self.entries
+    }
+
     pub(super) fn entries(&self) -> &[S] {
         &self.entries
     }

@@ -3,7 +3,11 @@
 //! Across such a joint no method has more order than the branches have derivatives in common. So the step that contains one
 //! is made in pieces, each by a stepper of its own; the grid stays as it is.
 
+use super::course::Course;
+use super::observer::{MotionSink, Observer};
 use super::problem::set_time;
+use super::solve::IntegrateError;
+use crate::methods::{Method, Stepper};
 use crate::poisson::Poisson;
 use crate::scalar::{Scalar, largest};
 
@@ -84,6 +88,60 @@ impl<S: Scalar, P: Poisson<S>> Joints<S, P> {
         }
         self.pieces.push((from, end));
         &self.pieces
+    }
+}
+
+impl<M> Course<'_, M> {
+    /// A shorter step, from a state of the grid to a row between two of them.
+    pub(super) fn off_grid<S: Scalar, P: Poisson<S>>(
+        &mut self,
+        system: &P,
+        joints: Option<&mut Joints<S, P>>,
+        end: f64,
+        mu: &mut P::State,
+        observer: &mut impl Observer<S, P>,
+    ) -> Result<(), IntegrateError>
+    where
+        M: Method<S, P>,
+    {
+        let whole = [(self.grid.time(self.index), end)];
+        let pieces = joints.map_or(&[][..], |joints| joints.pieces(system, whole[0]));
+        observer.leave_grid();
+        match pieces {
+            [] => self.in_pieces(system, &whole, mu, observer),
+            pieces => self.in_pieces(system, pieces, mu, observer),
+        }
+    }
+
+    /// Goes from piece to piece, each with a stepper of its own.
+    pub(super) fn in_pieces<S: Scalar, P: Poisson<S>>(
+        &mut self,
+        system: &P,
+        pieces: &[Piece],
+        mu: &mut P::State,
+        observer: &mut impl Observer<S, P>,
+    ) -> Result<(), IntegrateError>
+    where
+        M: Method<S, P>,
+    {
+        for &(from, to) in pieces {
+            let parts = ((to - from) / self.step * f64::from(self.parts))
+                .ceil()
+                .max(1.0);
+            let size = (to - from) / parts;
+            let mut stepper = self.method.stepper(system, S::from_f64(size), &self.newton);
+            set_time(system, mu, from);
+            for done in 1..=parts as u32 {
+                let report = match stepper.step(mu, &mut MotionSink::new(observer, system)) {
+                    Ok(report) => report,
+                    Err(failure) => return Err(self.stopped(system, failure, to - from, mu)),
+                };
+                let left = (to - from) * (1.0 - f64::from(done) / parts);
+                set_time(system, mu, to - left);
+                self.arrived(system, mu, report)?;
+            }
+        }
+        Ok(())
     }
 }
 

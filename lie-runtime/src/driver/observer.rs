@@ -1,5 +1,6 @@
 //! Observers of a run.
 
+use super::milestone::Milestone;
 use super::pace::{Assessed, Chosen};
 use super::solution::Solution;
 use crate::methods::{FactorSink, Retraction, RungeKutta, Stage};
@@ -47,6 +48,10 @@ pub trait Observer<S: Scalar, P: Poisson<S>> {
     fn step(&mut self, system: &P, progress: Progress, mu: &P::State) -> ControlFlow<()> {
         let _ = (system, progress, mu);
         ControlFlow::Continue(())
+    }
+    /// Sees a place from which the run can be taken up again, before the rows that are saved there.
+    fn milestone(&mut self, system: &P, milestone: &Milestone<P::State>) {
+        let _ = (system, milestone);
     }
     /// Sees each saved state with its time.
     fn row(&mut self, system: &P, time: f64, mu: &P::State) -> ControlFlow<()> {
@@ -136,6 +141,9 @@ impl<S: Scalar, P: Poisson<S>, O: Observer<S, P>> Observer<S, P> for &mut O {
     fn step(&mut self, system: &P, progress: Progress, mu: &P::State) -> ControlFlow<()> {
         (**self).step(system, progress, mu)
     }
+    fn milestone(&mut self, system: &P, milestone: &Milestone<P::State>) {
+        (**self).milestone(system, milestone);
+    }
     fn row(&mut self, system: &P, time: f64, mu: &P::State) -> ControlFlow<()> {
         (**self).row(system, time, mu)
     }
@@ -172,6 +180,10 @@ impl<S: Scalar, P: Poisson<S>, A: Observer<S, P>, B: Observer<S, P>> Observer<S,
     fn start(&mut self, system: &P, progress: Progress, mu: &P::State) {
         self.0.start(system, progress, mu);
         self.1.start(system, progress, mu);
+    }
+    fn milestone(&mut self, system: &P, milestone: &Milestone<P::State>) {
+        self.0.milestone(system, milestone);
+        self.1.milestone(system, milestone);
     }
     fn step(&mut self, system: &P, progress: Progress, mu: &P::State) -> ControlFlow<()> {
         let first = self.0.step(system, progress, mu);

@@ -138,6 +138,9 @@ pub enum OptionError {
         /// The end.
         end: f64,
     },
+    /// A milestone of another run.
+    #[error("the milestone is not one of this run: {0}")]
+    Milestone(&'static str),
     /// `Save::Every(0)`, or an interval that is not a finite number other than zero of the step's
     /// sign.
     #[error("states can be saved every 1, 2, 3, … steps or at a positive interval of time")]

@@ -82,6 +82,19 @@ impl<S: Scalar, V: State<S>> Reconstruction<S, V> {
         }
     }
 
+    /// The same beginning where another one was, with its entries in the chart; none if these are not as many.
+    pub fn beginning_at(mut self, element: &[S]) -> Option<Self> {
+        let entries = match self.chart {
+            Chart::Matrix => self.matrix.entries_mut(),
+            Chart::Quaternion => &mut self.quaternion,
+        };
+        if entries.len() != element.len() {
+            return None;
+        }
+        entries.copy_from_slice(element);
+        Some(self)
+    }
+
     /// The group element where the run is, in the chart.
     pub fn element(&self) -> &[S] {
         match self.chart {

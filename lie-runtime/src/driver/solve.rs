@@ -4,6 +4,7 @@ use super::assess::assess;
 use super::course::Course;
 use super::error::{SolveError, StepError};
 use super::grid::Grid;
+use super::milestone::Milestone;
 use super::observer::{Observer, Recorder};
 use super::options::{OptionError, Options};
 use super::pace::{Settled, settle};
@@ -98,6 +99,32 @@ pub fn integrate<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
     options: &Options,
     observer: &mut impl Observer<S, P>,
 ) -> Result<(Stats, Status), IntegrateError> {
+    run(problem, method, options, None, observer)
+}
+
+/// [`integrate`] with milestones, where steppers forget, from one of the same problem with the same method and options: what
+/// follows has the bits of the run that it was taken from. Without one, from the start.
+///
+/// # Errors
+/// As [`integrate`], and [`OptionError::Milestone`] for one of another run, as far as that shows.
+pub fn take_up<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
+    problem: &Problem<S, P>,
+    method: M,
+    options: &Options,
+    milestone: Option<&Milestone<P::State>>,
+    observer: &mut impl Observer<S, P>,
+) -> Result<(Stats, Status), IntegrateError> {
+    run(problem, method, options, Some(milestone), observer)
+}
+
+/// A run with milestones, from one of them, or without.
+fn run<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
+    problem: &Problem<S, P>,
+    method: M,
+    options: &Options,
+    milestones: Option<Option<&Milestone<P::State>>>,
+    observer: &mut impl Observer<S, P>,
+) -> Result<(Stats, Status), IntegrateError> {
     let (expected, found) = (problem.system.dimension(), problem.mu0.as_slice().len());
     if expected != found {
         return Err(OptionError::StateLength { expected, found }.into());
@@ -120,10 +147,19 @@ pub fn integrate<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
     let newton = settled
         .as_ref()
         .map_or(options.newton, |settled| settled.newton(step));
-    let mut course = Course::new(&grid, &method, newton, step).dividing(divides);
+    let mut course = Course::new(&grid, &method, newton, step)
+        .dividing(divides)
+        .with_milestones(milestones.is_some());
     let guard = settled.and_then(Settled::guard);
     let (system, mu) = (&problem.system, problem.start());
-    let (_, status) = course.run(system, mu, guard, &options.save, observer)?;
+    let (_, status) = course.run(
+        system,
+        mu,
+        milestones.flatten(),
+        guard,
+        &options.save,
+        observer,
+    )?;
     if let Some(assessed) = &assessed {
         observer.assessed(assessed);
     }

@@ -27,7 +27,7 @@ const ROOM: (f64, f64) = (4.0, 64.0);
 /// Steps are looked at once in so much of the time in which the motion changes.
 const LOOK: f64 = 2.0;
 /// Into so many parts a step is divided at most.
-const MOST_PARTS: u32 = 1 << 12;
+pub(super) const MOST_PARTS: u32 = 1 << 12;
 
 /// A number that follows the error of steps of an order.
 pub(super) struct Gauge<S: Scalar, P: Poisson<S>> {
@@ -102,6 +102,19 @@ pub(super) struct Watch<S: Scalar, P: Poisson<S>> {
     before: P::State,
 }
 
+/// What a run that is taken up has to know of the errors of its steps, as parts of what they may be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Watched {
+    /// Up to this value of the watched number nothing is estimated.
+    pub ceiling: f64,
+    /// The error of a step for a number of one.
+    pub slope: f64,
+    /// The sum of errors.
+    pub spent: f64,
+    /// Steps until the next look.
+    pub left: u32,
+}
+
 /// How much the gauge may grow from where an error was found, relative to what it may be.
 fn room(part: f64) -> f64 {
     (15.0 / part).clamp(ROOM.0, ROOM.1)
@@ -127,6 +140,22 @@ impl<S: Scalar, P: Poisson<S>> Watch<S, P> {
             left: 1,
             before: zero,
         }
+    }
+
+    /// What has changed since the start of the run.
+    pub(super) fn watched(&self) -> Watched {
+        Watched {
+            ceiling: self.ceiling,
+            slope: self.slope,
+            spent: self.spent,
+            left: self.left,
+        }
+    }
+
+    /// Goes on where another run was.
+    pub(super) fn restore(&mut self, watched: Watched) {
+        (self.ceiling, self.slope) = (watched.ceiling, watched.slope);
+        (self.spent, self.left) = (watched.spent, watched.left);
     }
 
     /// Adds the errors that a number suggests; whether one has to be estimated. A number that is none says nothing.

@@ -352,7 +352,11 @@ fn by_legendre() -> TokenStream {
     quote! {
         #[doc = " The system with the velocity of mu as a point of its branch."]
         fn following(&self, mu: &Self::State) -> ::core::option::Option<Self> {
-            let velocity = ::lie_runtime::lagrangian::legendre::follow(self, mu)?;
+            self.on_branch(&::lie_runtime::lagrangian::legendre::follow(self, mu)?)
+        }
+
+        #[doc = " The system with a velocity as a point of its branch."]
+        fn on_branch(&self, velocity: &Self::State) -> ::core::option::Option<Self> {
             let _branch = ::core::option::Option::Some(velocity.data.0[0]);
             ::core::option::Option::Some(Self { _branch, ..::core::clone::Clone::clone(self) })
         }

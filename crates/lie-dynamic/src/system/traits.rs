@@ -71,10 +71,12 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
         if !self.is_by_legendre() {
             return None;
         }
-        let branch = Some(legendre::follow(self, mu)?);
+        self.on_branch(&legendre::follow(self, mu)?)
+    }
+    fn on_branch(&self, gradient: &Vec<S>) -> Option<Self> {
         let mut following = self.clone();
-        following.branch = branch;
-        Some(following)
+        following.branch = self.is_by_legendre().then(|| gradient.clone());
+        following.branch.is_some().then_some(following)
     }
     fn has_jacobian(&self) -> bool {
         self.family.is_none()

@@ -1,0 +1,121 @@
+//! Places from which a run can be taken up again.
+//!
+//! Steppers keep what earlier steps have shown: where iterations begin, which of two is worth while, the next step of an
+//! adaptive method. At a milestone a run makes its stepper anew. So all that follows depends on what a [`Milestone`] holds, and
+//! a run that is taken up there has the bits of one that was never interrupted. Runs that nobody takes up have none: methods
+//! that try iterations without a Jacobian would try them again after each.
+
+use super::course::Course;
+use super::options::OptionError;
+use super::stats::Stats;
+use super::watch::{Guard, MOST_PARTS, Watched};
+use crate::methods::Method;
+use crate::poisson::Poisson;
+use crate::scalar::Scalar;
+use crate::state::State;
+
+/// Steps from one milestone to the next. To make a stepper, and its first step, which has nothing to begin from, takes the time
+/// of a few steps.
+pub const MILESTONE: u64 = 1000;
+
+/// A place from which a run can be taken up again, with what that takes beside its problem, method and options.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Milestone<V> {
+    /// Steps done, a multiple of [`MILESTONE`].
+    pub index: u64,
+    /// The time reached.
+    pub time: f64,
+    /// The step of the grid.
+    pub step: f64,
+    /// The state.
+    pub mu: V,
+    /// Where H has several branches, its gradient on the one that is followed.
+    pub branch: Option<V>,
+    /// The work so far.
+    pub stats: Stats,
+    /// How steps are divided.
+    pub division: Division,
+}
+
+/// How a run with a tolerance divides its steps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Division {
+    /// In so many parts each is made.
+    pub parts: u32,
+    /// Jacobians that were factored, and steps since the last division for which some were.
+    pub slow: (u64, u64),
+    /// What is known of the errors of steps, where they are looked at.
+    pub watched: Option<Watched>,
+}
+
+impl<M> Course<'_, M> {
+    /// The place where the run is.
+    pub(super) fn milestone<S: Scalar, P: Poisson<S>>(
+        &self,
+        mu: &P::State,
+        branch: Option<P::State>,
+        guard: Option<&Guard<'_, S, P, M>>,
+    ) -> Milestone<P::State> {
+        Milestone {
+            index: self.index,
+            time: self.grid.time(self.index),
+            step: self.step,
+            mu: mu.clone(),
+            branch,
+            stats: self.stats,
+            division: Division {
+                parts: self.parts,
+                slow: self.slow,
+                watched: guard.map(|guard| guard.watch.watched()),
+            },
+        }
+    }
+
+    /// Goes on from a place of the same run.
+    ///
+    /// # Errors
+    /// It is one of another run.
+    pub(super) fn take_up<S: Scalar, P: Poisson<S>>(
+        &mut self,
+        system: &P,
+        milestone: &Milestone<P::State>,
+        guard: Option<&mut Guard<'_, S, P, M>>,
+    ) -> Result<(), OptionError>
+    where
+        M: Method<S, P>,
+    {
+        let Milestone {
+            index, division, ..
+        } = *milestone;
+        let fits = |vector: &P::State| vector.as_slice().len() == system.dimension();
+        let why = if milestone.step.to_bits() != self.step.to_bits() {
+            "its step is another one"
+        } else if index > self.grid.steps() || !index.is_multiple_of(MILESTONE) {
+            "it is not on the grid of the run"
+        } else if !fits(&milestone.mu) || !milestone.branch.iter().all(fits) {
+            "its state has another length"
+        } else if !(1..=MOST_PARTS).contains(&division.parts)
+            || (division.parts > 1 && !self.divides)
+            || division.watched.is_some() != guard.is_some()
+            || division.watched.is_some_and(|watched| watched.left == 0)
+        {
+            "its steps are divided otherwise"
+        } else {
+            (self.index, self.milestone) = (index, index + MILESTONE);
+            (self.parts, self.slow) = (division.parts, division.slow);
+            self.stats = milestone.stats;
+            if let (Some(guard), Some(watched)) = (guard, division.watched) {
+                guard.watch.restore(watched);
+            }
+            return Ok(());
+        };
+        Err(OptionError::Milestone(why))
+    }
+}
+
+/// The gradient of H at a state, for the branch that is followed there.
+pub(super) fn gradient<S: Scalar, P: Poisson<S>>(system: &P, mu: &P::State) -> P::State {
+    let mut gradient = system.zero_state();
+    system.gradient(mu, &mut gradient);
+    gradient
+}
