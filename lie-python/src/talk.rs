@@ -232,7 +232,9 @@ fn refusal(system: &str, what: Obstacle, why: &str) -> String {
             "the reference solution is not confirmed on",
             "take a shorter t",
         ),
-        Obstacle::Request | Obstacle::Option | Obstacle::Initial => return why.to_owned(),
+        Obstacle::Request | Obstacle::Option | Obstacle::Milestone | Obstacle::Initial => {
+            return why.to_owned();
+        }
     };
     format!("{what} {system}: {why}\n  help: {help}")
 }

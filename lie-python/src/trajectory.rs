@@ -65,7 +65,7 @@ impl Heard {
                 rows.for_each(|row| self.row(row));
             }
             Found::Work(work) => self.steps = work.steps,
-            Found::Divided { .. } => {}
+            Found::Divided { .. } | Found::Milestone(_) => {}
         }
         Ok(())
     }

@@ -34,10 +34,11 @@ pub use cache::{failure as cache_failure, place as cache_place};
 use cause::Cause;
 use entry::Entry;
 pub use in_process::in_process_worker;
-use key::Key;
+pub use key::Key;
 pub use lie_in_process::declared;
 pub use limit::{limit as cache_limit, programs as cache_programs, size as cache_size};
 pub use processor::Processor;
+pub use runtime::identity as version;
 use toolchain::Toolchain;
 
 /// The files of a program beside its `main.rs`.
@@ -108,7 +109,7 @@ pub fn program(request: &Request<'_>, interrupt: &Interrupt) -> Result<PathBuf, 
             key.update(text)
         })
         .update(&toolchain.identity)
-        .update(&runtime::identity())
+        .update(runtime::identity())
         .update(template.manifest)
         .update(template.lock)
         .update(request.processor.name())
@@ -126,7 +127,7 @@ pub fn program(request: &Request<'_>, interrupt: &Interrupt) -> Result<PathBuf, 
     let installed = entry.install(&built);
     installed.map_err(|error| cache::failure(&entry.program, &error))?;
     limit::forget(&built, &package(&key));
-    limit::trim(&cache, limit, &entry.folder, &runtime::identity());
+    limit::trim(&cache, limit, &entry.folder, runtime::identity());
     Ok(entry.program)
 }
 

@@ -2,6 +2,7 @@
 
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 use include_dir::{Dir, DirEntry};
 
@@ -19,11 +20,14 @@ const CRATES: [(&str, &Dir<'_>); 4] = [
 const MANIFEST: &str = "standalone.toml";
 
 /// Identifies the sources: their version for people, their content for certainty.
-pub fn identity() -> String {
-    let key = files().into_iter().fold(Key::new(), |key, (path, text)| {
-        key.update(&path.to_string_lossy()).update(text)
-    });
-    format!("{}-{}", env!("CARGO_PKG_VERSION"), key.hex())
+pub fn identity() -> &'static str {
+    static IDENTITY: OnceLock<String> = OnceLock::new();
+    IDENTITY.get_or_init(|| {
+        let key = files().into_iter().fold(Key::new(), |key, (path, text)| {
+            key.update(&path.to_string_lossy()).update(text)
+        });
+        format!("{}-{}", env!("CARGO_PKG_VERSION"), key.hex())
+    })
 }
 
 /// All files by their places in the folder of the unpacked sources.

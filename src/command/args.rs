@@ -33,6 +33,8 @@ pub enum Command {
     Expand(Expand),
     /// Integrates a spec with its generated, compiled code
     Run(Box<Run>),
+    /// Goes on with a run of `lie run --checkpoint` that was ended, whatever ended it
+    Resume(Resume),
     /// Measures every fact that the methods claim, on a spec
     Verify(Verify),
     /// Compares methods on a spec: the error at the end against the run time
@@ -61,8 +63,6 @@ pub enum Later {
     #[command(hide = true)]
     Merge(Anything),
     #[command(hide = true)]
-    Resume(Anything),
-    #[command(hide = true)]
     Advise(Anything),
     #[command(hide = true)]
     Equilibria(Anything),
@@ -74,7 +74,6 @@ impl Later {
         match self {
             Later::Ensemble(_) => "ensemble",
             Later::Merge(_) => "merge",
-            Later::Resume(_) => "resume",
             Later::Advise(_) => "advise",
             Later::Equilibria(_) => "equilibria",
         }
@@ -186,6 +185,19 @@ pub struct Methods {
     pub json: bool,
 }
 
+/// `lie resume`.
+#[derive(Args, Debug)]
+#[command(
+    after_help = "All else is that of the run: its spec, options and files, which must be what they were. The rows go behind those \
+        in the file of --out, which becomes that of a run that was never ended, byte by byte.
+Exit codes: as of `lie run`."
+)]
+pub struct Resume {
+    /// The file of --checkpoint
+    #[arg(value_name = "FILE")]
+    pub checkpoint: PathBuf,
+}
+
 /// `lie run`.
 #[derive(Args, Clone, Debug, Default)]
 #[command(after_help = "Numbers may be exact constants: 1/7, -1/2, cos(11/10).
@@ -213,6 +225,13 @@ pub struct Run {
     /// (runs side by side; default of several)
     #[arg(long, value_name = "KIND")]
     pub picture: Option<String>,
+    /// Keeps in a file what `lie resume` needs to go on after Ctrl-C, a kill or a loss of power, written about once a second at a
+    /// multiple of 1000 steps; with --out
+    #[arg(long, value_name = "FILE")]
+    pub checkpoint: Option<PathBuf>,
+    /// Writes it every K steps instead, rounded up to a multiple of 1000
+    #[arg(long, value_name = "K", requires = "checkpoint", value_parser = clap::value_parser!(u64).range(1..))]
+    pub checkpoint_every: Option<u64>,
     /// Says nothing on stderr unless something fails
     #[arg(long)]
     pub quiet: bool,

@@ -76,6 +76,22 @@ impl Inputs {
         Ok(opened)
     }
 
+    /// The same, and the file of the rows.
+    #[must_use]
+    pub fn with_rows(&self, path: &Path) -> Self {
+        let mut files = Self(self.0.clone());
+        files.add("the file of the rows".to_owned(), path);
+        files
+    }
+
+    /// Refuses to write to one of them.
+    ///
+    /// # Errors
+    /// `option`, with exit code 2.
+    pub fn spare(&self, option: &str, path: &Path) -> Result<(), Failure> {
+        self.refuse(option, Identity::at(path), "give another file")
+    }
+
     /// Refuses to write to one of them by standard output.
     ///
     /// # Errors

@@ -10,6 +10,7 @@ mod measure;
 mod methods;
 mod new;
 mod report;
+mod resume;
 mod run;
 mod schema;
 mod shell;
@@ -31,6 +32,7 @@ pub fn run(command: &Command) -> Result<u8, Failure> {
         Command::Check(arguments) => check::run(arguments),
         Command::Expand(arguments) => expand::run(arguments),
         Command::Run(arguments) => run::run(arguments),
+        Command::Resume(arguments) => resume::run(arguments),
         Command::Bench(arguments) => measure::bench::run(arguments),
         Command::Stress(arguments) => measure::stress::run(arguments),
         Command::Verify(arguments) => measure::verify::run(arguments),
@@ -44,9 +46,9 @@ pub fn run(command: &Command) -> Result<u8, Failure> {
 }
 
 /// The commands that are built.
-pub const BUILT: [&str; 11] = [
-    "check", "expand", "run", "verify", "bench", "stress", "report", "methods", "schema", "new",
-    "cache",
+pub const BUILT: [&str; 12] = [
+    "check", "expand", "run", "resume", "verify", "bench", "stress", "report", "methods", "schema",
+    "new", "cache",
 ];
 
 fn not_built(later: &Later) -> Failure {

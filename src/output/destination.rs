@@ -74,6 +74,32 @@ impl Destination {
         })
     }
 
+    /// Whether it is a file on a disk.
+    pub fn is_regular(&self) -> bool {
+        match &self.to {
+            To::Stdout => false,
+            To::File { file, .. } => file.metadata().is_ok_and(|found| found.is_file()),
+        }
+    }
+
+    /// Brings what was sent to the disk.
+    pub(super) fn sync(&self) -> io::Result<()> {
+        match &self.to {
+            To::Stdout => Ok(()),
+            To::File { file, .. } => file.sync_data(),
+        }
+    }
+
+    /// Goes on behind so many bytes of what the file holds.
+    pub(super) fn take_up(&mut self, length: u64) -> io::Result<()> {
+        if let Some(file) = self.file_behind() {
+            file.set_len(length)?;
+            file.seek(SeekFrom::Start(length))?;
+        }
+        (self.good, self.arrived) = (length, length);
+        Ok(())
+    }
+
     /// Empties the file, or sets up a spool where the start is to be patched and cannot be.
     pub(super) fn begin(&mut self, patches: bool) -> io::Result<()> {
         let regular = match &self.to {

@@ -4,6 +4,7 @@ mod destination;
 mod form;
 mod identity;
 mod npy;
+mod written;
 
 use std::collections::VecDeque;
 use std::io;
@@ -13,6 +14,7 @@ use form::{Csv, Form, Json, JsonLines};
 pub use form::{Header, Run};
 pub use identity::Identity;
 use npy::Npy;
+pub use written::Written;
 
 use crate::command::args::Format;
 

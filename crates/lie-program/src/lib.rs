@@ -25,12 +25,13 @@ pub mod sources;
 use blueprint::{Blueprint, Built};
 use lie_runtime::diagnostics::{AnyMethod, Forgotten};
 use lie_runtime::driver::{
-    Chart, IntegrateError, Options, Problem, Reconstruction, Stats, Status, integrate,
+    Chart, IntegrateError, Milestone, Observer, OptionError, Options, Problem, Reconstruction,
+    Stats, Status, integrate, take_up,
 };
 use lie_runtime::methods::Method;
 use lie_runtime::{MatrixGroup, ParameterError, Poisson};
 pub use protocol::Tolerances;
-use protocol::{End, Found, Obstacle, Run, Stop, Work};
+use protocol::{End, Found, Milestones, Obstacle, Run, Stop, Work};
 use rows::OnGroup;
 pub use rows::RowWriter;
 use session::Session;
@@ -45,8 +46,12 @@ type Integrate<P> = dyn Fn(
     &Tolerances,
     &Problem<f64, P>,
     &Options,
+    Option<Option<&TakenUp<P>>>,
     &mut RowWriter<'_, '_>,
 ) -> Result<(Stats, Status), IntegrateError>;
+
+/// Where a run is taken up, with the group element there.
+type TakenUp<P> = (Milestone<<P as Poisson<f64>>::State>, Vec<f64>);
 
 /// A program for one system and some methods.
 pub struct Program<P: Poisson<f64>> {
@@ -73,8 +78,9 @@ impl<P: Poisson<f64>> Program<P> {
         id: &str,
         make: impl Fn(&Tolerances) -> M + 'static,
     ) -> Self {
-        let run: Box<Integrate<P>> = Box::new(move |tolerances, problem, options, rows| {
-            integrate(problem, make(tolerances), options, rows)
+        let run: Box<Integrate<P>> = Box::new(move |tolerances, problem, options, from, rows| {
+            let from = from.map(|from| from.map(|(milestone, _)| milestone));
+            go(problem, make(tolerances), options, from, rows)
         });
         self.methods.push((id.to_owned(), run));
         self
@@ -87,9 +93,10 @@ impl<P: Poisson<f64>> Program<P> {
         id: &str,
         make: impl Fn(&Tolerances) -> Box<dyn AnyMethod<f64, P>> + 'static,
     ) -> Self {
-        let run: Box<Integrate<P>> = Box::new(move |tolerances, problem, options, rows| {
+        let run: Box<Integrate<P>> = Box::new(move |tolerances, problem, options, from, rows| {
             let method = make(tolerances);
-            integrate(problem, Forgotten(method.as_ref()), options, rows)
+            let from = from.map(|from| from.map(|(milestone, _)| milestone));
+            go(problem, Forgotten(method.as_ref()), options, from, rows)
         });
         self.methods.push((id.to_owned(), run));
         self
@@ -106,13 +113,9 @@ impl<P: Poisson<f64>> Program<P> {
     where
         P: MatrixGroup<f64>,
     {
-        let run: Box<Integrate<P>> = Box::new(move |tolerances, problem, options, rows| {
-            let reconstruction = Reconstruction::new(&problem.system, chart);
-            let mut rows = OnGroup {
-                reconstruction,
-                rows,
-            };
-            integrate(problem, make(tolerances), options, &mut rows)
+        let run: Box<Integrate<P>> = Box::new(move |tolerances, problem, options, from, rows| {
+            let (from, mut rows) = on_group(&problem.system, chart, from, rows)?;
+            go(problem, make(tolerances), options, from, &mut rows)
         });
         self.methods.push((id.to_owned(), run));
         self
@@ -129,14 +132,16 @@ impl<P: Poisson<f64>> Program<P> {
     where
         P: MatrixGroup<f64>,
     {
-        let run: Box<Integrate<P>> = Box::new(move |tolerances, problem, options, rows| {
-            let reconstruction = Reconstruction::new(&problem.system, chart);
-            let mut rows = OnGroup {
-                reconstruction,
-                rows,
-            };
+        let run: Box<Integrate<P>> = Box::new(move |tolerances, problem, options, from, rows| {
+            let (from, mut rows) = on_group(&problem.system, chart, from, rows)?;
             let method = make(tolerances);
-            integrate(problem, Forgotten(method.as_ref()), options, &mut rows)
+            go(
+                problem,
+                Forgotten(method.as_ref()),
+                options,
+                from,
+                &mut rows,
+            )
         });
         self.methods.push((id.to_owned(), run));
         self
@@ -167,8 +172,24 @@ impl<P: Poisson<f64>> Program<P> {
             mu0: mu,
             span: request.span(),
         };
-        let mut rows = RowWriter::new(&problem.system, session);
-        let outcome = run(&request.tolerances, &problem, &request.options(), &mut rows);
+        let from = match &request.from_milestone {
+            Some(written) => {
+                let milestone = written.of(&problem.system).ok_or_else(foreign)?;
+                Some((milestone, written.element()))
+            }
+            None => None,
+        };
+        let last = from.as_ref().map_or(0, |(milestone, _)| milestone.index);
+        let mut rows = RowWriter::new(&problem.system, session).saying(request.milestones, last);
+        let options = request.options();
+        let wanted = from.is_some() || request.milestones != Milestones::None;
+        let outcome = run(
+            &request.tolerances,
+            &problem,
+            &options,
+            wanted.then_some(from.as_ref()),
+            &mut rows,
+        );
         rows.finish();
         session.intact()?;
         let (stats, status) = outcome.map_err(refusal)?;
@@ -193,9 +214,57 @@ fn serve(
     session::serve(None, input, output, work)
 }
 
+/// Makes a run with milestones, from one of them, or without.
+fn go<P: Poisson<f64>, M: Method<f64, P>>(
+    problem: &Problem<f64, P>,
+    method: M,
+    options: &Options,
+    from: Option<Option<&Milestone<P::State>>>,
+    rows: &mut impl Observer<f64, P>,
+) -> Result<(Stats, Status), IntegrateError> {
+    match from {
+        Some(milestone) => take_up(problem, method, options, milestone, rows),
+        None => integrate(problem, method, options, rows),
+    }
+}
+
+/// What writes rows with the group element, which begins where it was at a milestone.
+fn on_group<'f, 'r, 's, 'o, P: MatrixGroup<f64>>(
+    system: &P,
+    chart: Chart,
+    from: Option<Option<&'f TakenUp<P>>>,
+    rows: &'r mut RowWriter<'s, 'o>,
+) -> Result<
+    (
+        Option<Option<&'f Milestone<P::State>>>,
+        OnGroup<'r, 's, 'o, P::State>,
+    ),
+    IntegrateError,
+> {
+    let mut reconstruction = Reconstruction::new(system, chart);
+    if let Some(Some((_, element))) = from {
+        let there = reconstruction.beginning_at(element);
+        reconstruction = there.ok_or(OptionError::Milestone("its group element is another one"))?;
+    }
+    let rows = OnGroup {
+        reconstruction,
+        rows,
+    };
+    Ok((from.map(|from| from.map(|(milestone, _)| milestone)), rows))
+}
+
+/// The refusal of a milestone of another system.
+fn foreign() -> End {
+    let error = OptionError::Milestone("its state has another length");
+    End::refused(Obstacle::Milestone, error.to_string())
+}
+
 /// Why a run did not come to its end.
 fn refusal(error: IntegrateError) -> End {
     match error {
+        IntegrateError::Option(error @ OptionError::Milestone(_)) => {
+            End::refused(Obstacle::Milestone, error.to_string())
+        }
         IntegrateError::Option(error) => End::refused(Obstacle::Option, error.to_string()),
         IntegrateError::Step(error) => End::Stopped(Stop {
             step: error.step,

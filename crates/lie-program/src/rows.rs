@@ -1,15 +1,17 @@
 //! The rows of a run as they come, with progress, and the wish to stop.
 
-use crate::protocol::{Columns, End, Found, Rows};
+use crate::protocol::{Columns, End, Found, Milestone, Milestones, Rows};
 use crate::session::Session;
 use core::ops::ControlFlow;
-use lie_runtime::driver::{Assessed, Chosen, Motion, Observer, Progress, Reconstruction};
+use lie_runtime::driver::{self, Assessed, Chosen, Motion, Observer, Progress, Reconstruction};
 use lie_runtime::{MatrixGroup, Poisson, State};
 use std::time::{Duration, Instant};
 
 const FLUSH: Duration = Duration::from_millis(150);
 /// The clock is looked at about this often, whatever a step costs.
 const LOOK: Duration = Duration::from_millis(10);
+/// From one milestone that is said to the next, where that is not asked for by their steps.
+const BETWEEN: Duration = Duration::from_secs(1);
 /// Numbers of rows that are said together, about.
 const BLOCK: usize = 1 << 12;
 
@@ -25,6 +27,10 @@ pub struct RowWriter<'s, 'o> {
     left: u32,
     looked: Instant,
     flushed: Instant,
+    /// Which milestones are said, the last one, and when that was.
+    milestones: Milestones,
+    last: u64,
+    said: Instant,
 }
 
 impl<'s, 'o> RowWriter<'s, 'o> {
@@ -40,7 +46,16 @@ impl<'s, 'o> RowWriter<'s, 'o> {
             left: 1,
             looked: now,
             flushed: now,
+            milestones: Milestones::None,
+            last: 0,
+            said: now,
         }
+    }
+
+    /// Says milestones after one of so many steps.
+    pub(crate) fn saying(mut self, milestones: Milestones, last: u64) -> Self {
+        (self.milestones, self.last) = (milestones, last);
+        self
     }
 
     /// Writes what is left.
@@ -75,6 +90,21 @@ impl<'s, 'o> RowWriter<'s, 'o> {
             self.session.flush();
         }
         on(self.session.progress(progress.step, progress.steps))
+    }
+
+    /// Says a milestone, if it is one of those that are asked for.
+    fn milestone<V: State<f64>>(&mut self, milestone: &driver::Milestone<V>, element: &[f64]) {
+        let due = match self.milestones {
+            Milestones::None => false,
+            Milestones::Timed => self.said.elapsed() >= BETWEEN,
+            Milestones::Every(steps) => milestone.index / steps.max(1) > self.last / steps.max(1),
+        };
+        if due {
+            (self.last, self.said) = (milestone.index, Instant::now());
+            self.write_block();
+            let milestone = Milestone::new(milestone, element);
+            self.session.found(Found::Milestone(milestone));
+        }
     }
 
     /// One row, with the group element at its end if there is one.
@@ -149,6 +179,10 @@ impl<P: Poisson<f64>> Observer<f64, P> for RowWriter<'_, '_> {
         }
     }
 
+    fn milestone(&mut self, _system: &P, milestone: &driver::Milestone<P::State>) {
+        RowWriter::milestone(self, milestone, &[]);
+    }
+
     fn row(&mut self, system: &P, time: f64, mu: &P::State) -> ControlFlow<()> {
         RowWriter::row(self, system, time, mu, &[])
     }
@@ -177,6 +211,11 @@ impl<P: MatrixGroup<f64>> Observer<f64, P> for OnGroup<'_, '_, '_, P::State> {
 
     fn step(&mut self, system: &P, progress: Progress, mu: &P::State) -> ControlFlow<()> {
         self.rows.step(system, progress, mu)
+    }
+
+    fn milestone(&mut self, _system: &P, milestone: &driver::Milestone<P::State>) {
+        let element = self.reconstruction.element();
+        self.rows.milestone(milestone, element);
     }
 
     fn row(&mut self, system: &P, time: f64, mu: &P::State) -> ControlFlow<()> {

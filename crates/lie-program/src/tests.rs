@@ -84,6 +84,8 @@ fn request(method: &str, step: f64, times: Times, initial: &[f64]) -> Run {
         times,
         tolerances: Tolerances::default(),
         newton: NewtonOptions::default(),
+        from_milestone: None,
+        milestones: Milestones::None,
     }
 }
 

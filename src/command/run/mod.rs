@@ -1,10 +1,13 @@
 //! `lie run`: integrates a spec with its generated, compiled code.
 
 pub mod bar;
+pub mod checkpoint;
+mod keeper;
 pub mod layout;
 pub mod outputs;
 pub mod picture;
 mod reception;
+mod said;
 mod session;
 mod summary;
 mod tally;
@@ -27,6 +30,8 @@ use crate::interrupt::Interrupt;
 use crate::message::{Failure, Message};
 use crate::output::{Header, Rows};
 use crate::render;
+use checkpoint::Checkpoint;
+use keeper::Keeper;
 use layout::Layout;
 use outputs::Outputs;
 use picture::Picture;
@@ -37,6 +42,14 @@ use session::Session;
 /// # Errors
 /// Invalid input, or surroundings that fail.
 pub fn run(flags: &args::Run) -> Result<u8, Failure> {
+    go(flags, None)
+}
+
+/// Runs a spec, from a checkpoint if there is one.
+///
+/// # Errors
+/// As [`run`].
+pub fn go(flags: &args::Run, taken_up: Option<Checkpoint>) -> Result<u8, Failure> {
     let [path] = flags.specs.as_slice() else {
         let text = format!("{} specs are given, `lie run` takes one", flags.specs.len());
         let help = "run them one after the other; `lie check` takes several";
@@ -45,6 +58,9 @@ pub fn run(flags: &args::Run) -> Result<u8, Failure> {
     Processor::from_options(flags.cpu.unwrap_or_default(), flags.fma)?;
     let spec = compiler::load(path)?;
     let several = several(&spec, &flags.request).map_err(Failure::invalid)?;
+    if flags.checkpoint.is_some() {
+        keeper::check(flags, &several)?;
+    }
     let layout = layout(&spec, &several)?;
     let format = outputs::format(flags)?;
     let kind = picture::kind(&spec, flags, &several, &layout)?;
@@ -59,6 +75,21 @@ pub fn run(flags: &args::Run) -> Result<u8, Failure> {
     let states = flags.request.initial_file.as_deref();
     let inputs = Inputs::of_spec(path, &spec).with("--initial-file", states);
     let outputs = Outputs::open(flags, &inputs)?;
+    let keeper = match &flags.checkpoint {
+        Some(path) => Some(Keeper::new(flags, path, &spec, &inputs, taken_up)?),
+        None => None,
+    };
+    if let Some(place) = keeper
+        .as_ref()
+        .and_then(Keeper::place)
+        .filter(|_| !flags.quiet)
+    {
+        let (step, time) = (place.milestone.index, place.milestone.time);
+        render::say(&format!(
+            "{}: goes on from step {step}, t = {time:?}",
+            spec.model.name
+        ));
+    }
     let interrupt = Interrupt::install();
     let workers = workers(&spec, &several.plans, flags, &interrupt)?;
     let header = Header {
@@ -83,7 +114,7 @@ pub fn run(flags: &args::Run) -> Result<u8, Failure> {
         workers: &workers,
         interrupt: &interrupt,
     }
-    .run_all(rows, picture)
+    .run_all(rows, picture, keeper)
 }
 
 /// The columns, which all runs have in common.

@@ -116,6 +116,12 @@ impl Outputs {
         let form = plot.map(|plot| super::picture::form("--plot", plot));
         let form = form.transpose()?;
         let [rows, plot] = inputs.open_both(out, plot)?;
+        let device = rows.as_ref().filter(|rows| !rows.is_regular());
+        if let (Some(path), Some(_), Some(_)) = (out, device, &flags.checkpoint) {
+            let text = format!("`{}` is no file that could be gone on with", path.display());
+            let message = Message::option("--checkpoint", text);
+            return Err(message.help("give `--out` the name of a file").into());
+        }
         Ok(Self {
             rows: rows.unwrap_or_else(Destination::stdout),
             plot: form.zip(plot),

@@ -6,6 +6,8 @@ use lie_in_process::request::Plan;
 use lie_program::protocol::{Found, Times, Work};
 use lie_runtime::driver::Pace;
 
+use super::checkpoint::Place;
+use super::keeper::Keeper;
 use super::layout::Layout;
 use super::picture::Picture;
 use super::summary::Drift;
@@ -17,6 +19,8 @@ pub struct Reception<'a, 'p> {
     rows: &'a mut Rows,
     /// Where one is wanted.
     picture: Option<&'a mut Picture<'p>>,
+    /// Keeps a checkpoint, where one is wanted.
+    keeper: Option<&'a mut Keeper>,
     /// What the output needs to begin, until there are rows: of a run that is refused, nothing is written.
     waiting: Option<Run>,
     received: Received,
@@ -59,7 +63,7 @@ impl<'a, 'p> Reception<'a, 'p> {
         layout: Layout,
         run: Run,
         rows: &'a mut Rows,
-        picture: Option<&'a mut Picture<'p>>,
+        (picture, keeper): (Option<&'a mut Picture<'p>>, Option<&'a mut Keeper>),
     ) -> Self {
         let model = &spec.model;
         let step = match plan.pace.0 {
@@ -74,6 +78,7 @@ impl<'a, 'p> Reception<'a, 'p> {
             rows,
             waiting: Some(run),
             picture,
+            keeper,
             received: Received {
                 drift,
                 work: Work::default(),
@@ -87,6 +92,22 @@ impl<'a, 'p> Reception<'a, 'p> {
             width: 0,
             hidden: !shows_start(plan),
         }
+    }
+
+    /// Goes on from a place of the run: errors are taken against its start, and rows go behind those that are there.
+    ///
+    /// # Errors
+    /// The destination cannot be written.
+    pub fn take_up(&mut self, place: &Place) -> io::Result<()> {
+        self.hidden = false;
+        self.received.divided = place.divided;
+        self.received.drift.restore(&place.drift);
+        if let Some(written) = &place.written
+            && let Some(run) = self.waiting.take()
+        {
+            self.rows.take_up(&run, written)?;
+        }
+        Ok(())
     }
 
     /// The output, begun with the step, which is known now.
@@ -134,6 +155,11 @@ impl<'a, 'p> Reception<'a, 'p> {
                 return Err(io::Error::new(io::ErrorKind::InvalidData, text));
             }
             Found::Rows(rows) => self.push(&rows.numbers)?,
+            Found::Milestone(milestone) => {
+                if let Some(keeper) = &mut self.keeper {
+                    keeper.keep(milestone, self.rows, &self.received)?;
+                }
+            }
             Found::Work(work) => self.received.work = work,
         }
         Ok(())

@@ -1,18 +1,21 @@
 //! Runs on the way, one behind the other.
 
 use std::io::{self, IsTerminal as _};
+use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use lie_in_process::request::{Member, Plan, Several};
-use lie_in_process::words::counted;
-use lie_program::protocol::{Obstacle, Stop};
+use lie_in_process::request::{Member, Several};
+use lie_program::protocol::Obstacle;
 use lie_runtime::driver::Pace;
 
 use super::bar::Bar;
+use super::checkpoint::refused;
+use super::keeper::{Keeper, Unwritten};
 use super::layout::Layout;
 use super::picture::{Form, Picture, rounded};
 use super::reception::{Received, Reception};
+use super::said::{missed, of_tolerance, stopped_text, title, word};
 use super::summary::{self, Drift, Steps};
 use super::tally::{MOST_LINES, Tally};
 use super::{impossible, outputs};
@@ -44,6 +47,7 @@ impl Session<'_> {
         &self,
         mut rows: Rows,
         mut picture: Option<(Picture<'_>, Form, Destination)>,
+        mut keeper: Option<Keeper>,
     ) -> Result<u8, Failure> {
         let clock = Instant::now();
         if !self.flags.quiet {
@@ -57,7 +61,10 @@ impl Session<'_> {
         for (number, member) in self.several.members.iter().enumerate() {
             let start = Instant::now();
             let drawn = picture.as_mut().map(|(picture, ..)| picture);
-            let (outcome, received) = match self.one(number, member, &mut rows, drawn, &bar) {
+            let kept = keeper.as_mut();
+            let before = kept.as_ref().map_or(Duration::ZERO, |kept| kept.before());
+            let run = self.one((number, member), &mut rows, drawn, kept, &bar);
+            let (outcome, received) = match run {
                 Ok(run) => run,
                 Err(failure) => {
                     ended = Err(failure);
@@ -66,8 +73,9 @@ impl Session<'_> {
             };
             let goes_on = matches!(outcome, Outcome::Done | Outcome::Stopped(_));
             let done = matches!(outcome, Outcome::Done);
+            let interrupted = matches!(outcome, Outcome::Interrupted(_));
             if !self.flags.quiet && done {
-                let time = start.elapsed();
+                let time = before + start.elapsed();
                 bar.aside(|| self.say(number, member, &received, time, &mut tally));
             }
             if let (Outcome::Stopped(stop), Some((picture, ..))) = (&outcome, &mut picture) {
@@ -75,6 +83,9 @@ impl Session<'_> {
             }
             let drift = &received.drift;
             let code = bar.aside(|| self.ended(number, member, outcome, drift, &mut tally));
+            if let (Some(keeper), true) = (&keeper, interrupted && !self.flags.quiet) {
+                render::say(&keeper.remedy());
+            }
             match code {
                 Ok(0) => {}
                 other => ended = other,
@@ -91,10 +102,16 @@ impl Session<'_> {
         };
         // rows that cannot be written do not take the picture with them
         let drawn = picture.map_or(Ok(()), |picture| self.draw(picture, whole));
+        let kept = match &mut keeper {
+            Some(keeper) if matches!(ended, Ok(0)) && written.is_ok() => {
+                keeper.finish().map_err(|error| self.lost(error))
+            }
+            _ => Ok(()),
+        };
         if !self.flags.quiet {
             render::say_all(&folded(&tally.text(clock.elapsed())));
         }
-        [written, drawn].into_iter().fold(ended, also)
+        [written, drawn, kept].into_iter().fold(ended, also)
     }
 
     /// Writes the picture: of runs that did not come to their end, what there is of them; where there is nothing, the file stays
@@ -120,6 +137,13 @@ impl Session<'_> {
     }
 
     fn lost(&self, error: io::Error) -> Failure {
+        let inner = error.get_ref();
+        if let Some(unwritten) = inner.and_then(|inner| inner.downcast_ref::<Unwritten>()) {
+            let path = unwritten.0.display();
+            let help = format!("make room; then `lie resume {path}` goes on from the one before");
+            let message = Message::io(&unwritten.0, unwritten.to_string());
+            return Failure::surroundings(message.help(help));
+        }
         match (error.kind(), &self.flags.out) {
             (io::ErrorKind::BrokenPipe, None) => Failure::quiet(),
             (_, out) => outputs::writing_failed(out.as_deref(), &error),
@@ -129,10 +153,10 @@ impl Session<'_> {
     /// Makes one run.
     fn one<'a>(
         &self,
-        number: usize,
-        member: &Member,
+        (number, member): (usize, &Member),
         rows: &mut Rows,
         mut picture: Option<&mut Picture<'a>>,
+        keeper: Option<&mut Keeper>,
         bar: &Bar,
     ) -> Result<(Outcome, Received), Failure> {
         let plan = &self.several.plans[member.plan];
@@ -149,11 +173,18 @@ impl Session<'_> {
         if let Some(picture) = &mut picture {
             picture.begin(&self.short_name(number, member), plan, &member.start);
         }
-        let mut reception = Reception::new(self.spec, plan, layout, run, rows, picture);
+        let place = keeper.as_ref().and_then(|keeper| keeper.place().cloned());
+        let milestones = keeper.as_ref().map(|keeper| keeper.milestones());
+        let mut reception = Reception::new(self.spec, plan, layout, run, rows, (picture, keeper));
         let request = lie_program::protocol::Run {
             times: reception.times(plan),
+            from_milestone: place.as_ref().map(|place| place.milestone.clone()),
+            milestones: milestones.unwrap_or_default(),
             ..plan.run(member.start.clone())
         };
+        if let Some(place) = &place {
+            reception.take_up(place).map_err(|error| self.lost(error))?;
+        }
         let (before, all) = (number as u64, self.several.members.len() as u64);
         let worker = &self.workers[member.plan];
         let outcome = worker.talk(
@@ -166,7 +197,13 @@ impl Session<'_> {
             Ok(Outcome::NotTaken(error)) if error.kind() == io::ErrorKind::InvalidData => {
                 Outcome::Broken(error.to_string())
             }
-            Ok(Outcome::NotTaken(error)) => return Err(self.lost(error)),
+            Ok(Outcome::NotTaken(error)) => {
+                // what cannot take rows has ended them itself
+                if error.get_ref().is_some_and(|inner| inner.is::<Unwritten>()) {
+                    let _ = reception.finish("failed");
+                }
+                return Err(self.lost(error));
+            }
             Ok(outcome) => outcome,
             Err(error) => return Err(worker.not_started(&error)),
         };
@@ -295,6 +332,11 @@ impl Session<'_> {
                 let help = "give a step by `--step`, or another tolerance";
                 Err(Message::option("--tol", why).help(help).into())
             }
+            Outcome::Refused(Obstacle::Milestone, why) => {
+                let path = self.flags.checkpoint.as_deref().unwrap_or(Path::new(""));
+                let help = "begin the run anew with `lie run`";
+                Err(refused(path, why).help(help).into())
+            }
             Outcome::Parameter(name, why) => Err(impossible(&name, &why)),
             Outcome::Refused(what, why) => Err(worker.broken(&format!("{what:?}: {why}"))),
             Outcome::Broken(how) => Err(worker.broken(&how)),
@@ -314,74 +356,4 @@ fn also(ended: Result<u8, Failure>, further: Result<(), Failure>) -> Result<u8, 
             Err(failure)
         }
     }
-}
-
-fn title(spec: &Spec, plan: &Plan, step: f64) -> String {
-    let (name, method) = (&spec.model.name, plan.method.title());
-    let written = plan.pace.1.trim();
-    match plan.pace.0 {
-        Pace::Step(_) => format!("{name}, {method}, step {written}"),
-        Pace::Tolerance(_) => format!("{name}, {method}, tolerance {written}, step {step:?}"),
-    }
-}
-
-/// What a tolerance has led to.
-fn of_tolerance(received: &Received) -> Vec<String> {
-    let mut notes = Vec::new();
-    if received.at_round_off {
-        notes.push("the round-off of this many steps may exceed the tolerance".to_owned());
-    }
-    if let Some((parts, time)) = received.divided {
-        notes.push(format!(
-            "from t = {time:.6} on each step was made in {parts} parts: the motion is faster there than at the start"
-        ));
-    }
-    notes.extend(missed(received).map(|warning| format!("warning: {warning}")));
-    notes
-}
-
-/// How far the tolerance may be missed, if it may.
-fn missed(received: &Received) -> Option<String> {
-    match received.assessed {
-        Some((error, true)) if error.is_nan() => Some(
-            "the error at the end is not known: the run that would tell it takes over 200,000 steps, or stopped early, as at a \
-             joint of H or before a singularity; give `--step`, and compare with the run of half of it"
-                .to_owned(),
-        ),
-        Some((error, true)) => Some(format!(
-            "the error at the end is about {error:.1e} of the state, more than the tolerance: errors grow on this orbit, \
-             or the method cannot keep it"
-        )),
-        _ => None,
-    }
-}
-
-/// How the run ended, for the output.
-fn word(outcome: &Outcome) -> &'static str {
-    match outcome {
-        Outcome::Done => "done",
-        Outcome::Interrupted(_) => "interrupted",
-        Outcome::Stopped(_) => "stopped",
-        Outcome::Parameter(..)
-        | Outcome::Refused(..)
-        | Outcome::Broken(_)
-        | Outcome::NotTaken(_) => "failed",
-    }
-}
-
-fn stopped_text(stop: &Stop) -> String {
-    let Stop {
-        step, time, reason, ..
-    } = stop;
-    // nothing is iterated in an explicit step
-    let solver = match stop.iterations {
-        0 => String::new(),
-        iterations => {
-            let iterations = counted(iterations.into(), "iteration");
-            format!(" ({iterations}, residual {:?})", stop.residual)
-        }
-    };
-    format!(
-        "the integration stopped in step {step} at t = {time:?}: {reason}{solver}\nthe rows so far are written"
-    )
 }

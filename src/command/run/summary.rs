@@ -2,6 +2,8 @@
 
 use std::time::Duration;
 
+use serde::{Deserialize, Serialize};
+
 use lie_in_process::words::counted;
 use lie_poisson::plot::reference;
 use lie_program::protocol::Work;
@@ -18,7 +20,41 @@ pub struct Drift {
     time: f64,
 }
 
+/// The bits of the errors so far.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct KeptDrift {
+    /// The first value of each invariant, and how far it was from that.
+    invariants: Vec<(u64, u64)>,
+    scale: u64,
+    time: u64,
+}
+
 impl Drift {
+    /// What a run that is taken up again has to know.
+    pub fn kept(&self) -> KeptDrift {
+        let invariants = self.invariants.iter();
+        let bits = |drift: &InvariantDrift| (drift.initial.to_bits(), drift.max.to_bits());
+        KeptDrift {
+            invariants: invariants.map(bits).collect(),
+            scale: self.scale.to_bits(),
+            time: self.time.to_bits(),
+        }
+    }
+
+    /// Goes on from there.
+    pub fn restore(&mut self, kept: &KeptDrift) {
+        let pairs = self.names.iter().zip(&kept.invariants);
+        let one = |(name, &(initial, max)): (&String, &(u64, u64))| {
+            let mut drift = InvariantDrift::new(name, Some(f64::from_bits(initial)));
+            drift.record(f64::from_bits(max), 0, 0);
+            drift
+        };
+        self.invariants = pairs.map(one).collect();
+        self.scale = f64::from_bits(kept.scale);
+        self.time = f64::from_bits(kept.time);
+    }
+
     /// Invariants by name.
     pub fn new(names: &[String]) -> Self {
         Self {

@@ -3,7 +3,7 @@
 use lie_codegen::methods::{Choice, OptionError};
 use lie_codegen::program::Chart;
 use lie_codegen::structure::group;
-use lie_program::protocol::{Run, Start, Times, Tolerances};
+use lie_program::protocol::{Milestones, Run, Start, Times, Tolerances};
 use lie_runtime::driver::Pace;
 use lie_runtime::newton::NewtonOptions;
 
@@ -50,6 +50,8 @@ impl Plan {
             times: self.times.clone(),
             tolerances: self.tolerances,
             newton: self.newton,
+            from_milestone: None,
+            milestones: Milestones::None,
         }
     }
 

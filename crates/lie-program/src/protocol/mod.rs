@@ -8,6 +8,7 @@
 //! When the input ends, a program stops at the next step and keeps what it has; one that does not come to that
 //! ends soon after. So no program outlives the command that started it, however that one was ended.
 
+mod milestone;
 pub mod number;
 mod words;
 
@@ -15,6 +16,7 @@ use crate::listen;
 use lie_runtime::driver::{Chosen, Options, Pace, Save, Stats};
 pub use lie_runtime::methods::Tolerances;
 use lie_runtime::newton::NewtonOptions;
+pub use milestone::{Milestone, Milestones};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -69,6 +71,12 @@ pub struct Run {
     /// The solver of an implicit method.
     #[serde(with = "words::NewtonFields")]
     pub newton: NewtonOptions,
+    /// Where it is taken up again; nothing for a run from its start.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub from_milestone: Option<Milestone>,
+    /// Which milestones are said.
+    #[serde(default)]
+    pub milestones: Milestones,
 }
 
 impl Run {
@@ -165,6 +173,8 @@ pub enum Found {
     Columns(Columns),
     /// Rows. They come at least every 0.2 s while steps are being done.
     Rows(Rows),
+    /// A place from which the run can be taken up again, behind all rows before it.
+    Milestone(Milestone),
     /// The work so far, at the end.
     Work(Work),
 }
@@ -330,6 +340,8 @@ pub enum Obstacle {
     Request,
     /// Step, times, or what else the driver does not take.
     Option,
+    /// The milestone from which a run is to be taken up.
+    Milestone,
     /// The initial state.
     Initial,
     /// Nothing can be measured there.

@@ -1,0 +1,82 @@
+//! What is said of a run, in sentences.
+
+use lie_in_process::request::Plan;
+use lie_in_process::words::counted;
+use lie_program::protocol::Stop;
+use lie_runtime::driver::Pace;
+
+use super::reception::Received;
+use crate::build::talk::Outcome;
+use crate::compiler::Spec;
+
+/// The system, the method and its pace.
+pub fn title(spec: &Spec, plan: &Plan, step: f64) -> String {
+    let (name, method) = (&spec.model.name, plan.method.title());
+    let written = plan.pace.1.trim();
+    match plan.pace.0 {
+        Pace::Step(_) => format!("{name}, {method}, step {written}"),
+        Pace::Tolerance(_) => format!("{name}, {method}, tolerance {written}, step {step:?}"),
+    }
+}
+
+/// What a tolerance has led to.
+pub fn of_tolerance(received: &Received) -> Vec<String> {
+    let mut notes = Vec::new();
+    if received.at_round_off {
+        notes.push("the round-off of this many steps may exceed the tolerance".to_owned());
+    }
+    if let Some((parts, time)) = received.divided {
+        notes.push(format!(
+            "from t = {time:.6} on each step was made in {parts} parts: the motion is faster there than at the start"
+        ));
+    }
+    notes.extend(missed(received).map(|warning| format!("warning: {warning}")));
+    notes
+}
+
+/// How far the tolerance may be missed, if it may.
+pub fn missed(received: &Received) -> Option<String> {
+    match received.assessed {
+        Some((error, true)) if error.is_nan() => Some(
+            "the error at the end is not known: the run that would tell it takes over 200,000 steps, or stopped early, as at a \
+             joint of H or before a singularity; give `--step`, and compare with the run of half of it"
+                .to_owned(),
+        ),
+        Some((error, true)) => Some(format!(
+            "the error at the end is about {error:.1e} of the state, more than the tolerance: errors grow on this orbit, \
+             or the method cannot keep it"
+        )),
+        _ => None,
+    }
+}
+
+/// How the run ended, for the output.
+pub fn word(outcome: &Outcome) -> &'static str {
+    match outcome {
+        Outcome::Done => "done",
+        Outcome::Interrupted(_) => "interrupted",
+        Outcome::Stopped(_) => "stopped",
+        Outcome::Parameter(..)
+        | Outcome::Refused(..)
+        | Outcome::Broken(_)
+        | Outcome::NotTaken(_) => "failed",
+    }
+}
+
+/// Where and why a run stopped.
+pub fn stopped_text(stop: &Stop) -> String {
+    let Stop {
+        step, time, reason, ..
+    } = stop;
+    // nothing is iterated in an explicit step
+    let solver = match stop.iterations {
+        0 => String::new(),
+        iterations => {
+            let iterations = counted(iterations.into(), "iteration");
+            format!(" ({iterations}, residual {:?})", stop.residual)
+        }
+    };
+    format!(
+        "the integration stopped in step {step} at t = {time:?}: {reason}{solver}\nthe rows so far are written"
+    )
+}
