@@ -80,6 +80,22 @@ fn a_tolerance_beyond_a_singularity() {
     }
 }
 
+/// An iteration that contracts by one half ends where the state is at rest; a part of it that is a tenth of the rest needs more. It
+/// lost 1.1e-12 of its length.
+#[test]
+fn small_parts_of_slow_iterations_are_at_rest() {
+    let spec = include_str!("data/slow_top.json");
+    for method in ["gauss16", "cohen-hairer16"] {
+        let flags =
+            format!("--method {method} --step 2.6434950789188334 --until 528.6990157837666");
+        let (_, rows) = with_spec("run", spec, &flags).ok().csv();
+        let length = |row: &[f64]| row[4..7].iter().map(|y| y * y).sum::<f64>();
+        let lost = |row: &Vec<f64>| (length(row) / length(&rows[0]) - 1.0).abs();
+        let lost = rows.iter().map(lost).fold(0.0, f64::max);
+        assert!(rows.len() == 201 && lost < 1e-13, "{method}: {lost:e}");
+    }
+}
+
 /// A tenth of a unit of time in a hundred: the start knows nothing of it, and steps of 16 pass it.
 #[test]
 fn a_tolerance_across_a_pulse() {

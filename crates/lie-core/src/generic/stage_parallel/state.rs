@@ -7,11 +7,16 @@ use crate::newton::rest::{REVIEW, Reviews};
 use crate::scalar::{Mask, Scalar};
 use crate::state::State;
 
+/// Where changes shrink by less than this, what is left is taken to a part: entries may be so much smaller than the state.
+const SLOW: (f64, f64) = (1.0, 4.0);
+const PART: (f64, f64) = (1.0, 32.0);
+
 impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAGES> {
     /// Until the error of the increments is below the tolerance of the options, or changes have come to rest at round-off.
     ///
     /// The first change, which is looked at now and then, tells changes that dropped to round-off from those that shrink slowly
-    /// and may have any ratio. The latter end by their reviews.
+    /// and may have any ratio. The latter end by their reviews. Where changes shrink slowly, some iterations more are made for the
+    /// entries that are smaller than the state.
     #[inline(always)]
     pub(super) fn iterate_state(
         &mut self,
@@ -29,6 +34,7 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
         let [mut ended, mut converged] = [S::Mask::splat(false); 2];
         let never = S::from_f64(f64::MAX);
         let (mut reviews, mut due) = (Reviews::new(), never);
+        let mut closing = S::Mask::splat(false);
         self.blind(&mut work, quiet - done, &mut field);
         let mut iterations = quiet;
         let [mut before, mut change] = [S::Wide::zero(); 2];
@@ -42,7 +48,9 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
                 self.begun(seen, change);
             }
             let count = S::from_f64(f64::from(iterations));
-            let open = self.quiet.less(count) & !ended;
+            let closed = closing & due.less_equal(count);
+            ended = ended | closed;
+            let open = self.quiet.less(count) & !ended & !closing;
             let looks = count - self.quiet;
             let first = looks.less_equal(S::one());
             let mut early = first;
@@ -71,7 +79,12 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
             if reached.any() {
                 self.expect(reached, early, count);
                 converged = converged | reached;
-                ended = ended | reached;
+                let slow = reached & S::ratio(SLOW.0, SLOW.1).less(self.rate);
+                if slow.any() {
+                    due = S::select(slow, count + self.more(), due);
+                    closing = closing | slow;
+                }
+                ended = ended | (reached & !slow);
             }
             if iterations.is_multiple_of(REVIEW) {
                 let size = most::<S>(change);
@@ -82,6 +95,19 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
         }
         self.work = work;
         self.end(iterations, change, converged)
+    }
+
+    /// So many iterations more take what is left to a part.
+    #[cold]
+    #[inline(never)]
+    fn more(&self) -> S {
+        let (mut left, mut more) = (self.rate, S::one());
+        for _ in 1..BEYOND as u32 {
+            let goes_on = S::ratio(PART.0, PART.1).less(left);
+            more += S::select(goes_on, S::one(), S::zero());
+            left *= self.rate;
+        }
+        more
     }
 
     /// Iterates once, to see the first change of a step in some lanes.
