@@ -175,7 +175,8 @@ impl<S: Scalar, P: SpinPoisson<S>> Equation<S> for Spherical<'_, S, P> {
             let off = ((along + along) + dot(moved, moved)) * inverse;
             let off = off.quantity();
             for (k, &coordinate) in spin.iter().enumerate() {
-                mu.as_mut_slice()[coordinate] = start[k] + (moved[k] - off * sum[k]);
+                let corrected = (moved[k] - off * sum[k]).quantity();
+                mu.as_mut_slice()[coordinate] = start[k] + corrected;
             }
         }
     }
