@@ -96,6 +96,16 @@ fn small_parts_of_slow_iterations_are_at_rest() {
     }
 }
 
+/// Small steps start at round-off now and then and show no rate there. Each made more iterations than the one before it, up to the
+/// limit: after 518 and 3,449 steps.
+#[test]
+fn starts_at_round_off_need_no_more_iterations() {
+    for method in ["isospectral12", "collective10"] {
+        let flags = format!("--method {method} --step 0.01 --until 40 --every 4000");
+        lie(&format!("run specs/so3_free_rigid_body.json {flags}")).ok();
+    }
+}
+
 /// A tenth of a unit of time in a hundred: the start knows nothing of it, and steps of 16 pass it.
 #[test]
 fn a_tolerance_across_a_pulse() {

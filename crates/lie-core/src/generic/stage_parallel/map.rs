@@ -16,7 +16,7 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
     /// With the start frozen, that derivative starts from nothing, and iterates by the same contraction as an error of
     /// the state. So by how much the updates have shrunk since the first one, they say how much of the derivative is left. Where
     /// they reach round-off before it, the last rate is taken to go on; a start at round-off shows no rate, and takes as
-    /// many iterations as the step before. Where changes do not shrink quickly, the last one is looked at: the rate of changes
+    /// many iterations as the last step that showed one. Where changes do not shrink quickly, the last one is looked at: the rate of changes
     /// that turn while they shrink may have been taken for a smaller one, and then the iteration goes on until they are at rest.
     #[inline(always)]
     pub(super) fn iterate_map(&mut self, mut field: impl FnMut(At<'_, V>, &mut V)) -> Iterated<S> {
@@ -53,8 +53,9 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
             let third = again;
             again = enough;
             enough = enough | (settled & open & self.derived(left, count));
-            let done = enough & quick & !ended;
-            self.taken = S::select(done, count, self.taken);
+            let resumed = S::one().less_equal(left);
+            let done = enough & (quick | resumed) & !ended;
+            self.taken = S::select(done & !resumed, count, self.taken);
             converged = converged | done;
             ended = ended | done;
             if (enough & !ended).any() {
@@ -95,12 +96,13 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
                     iterations += 1;
                     left *= rate;
                 }
-                if quick.all() && iterations + 1 < self.most_iterations {
+                let resumed = S::one().less_equal(left);
+                if (quick | resumed).all() && iterations + 1 < self.most_iterations {
                     iterations += 1;
                     left *= rate;
                     let count = S::from_f64(f64::from(iterations));
                     enough = self.derived(left, count);
-                    self.taken = S::select(enough, count, self.taken);
+                    self.taken = S::select(enough & !resumed, count, self.taken);
                     converged = enough;
                     ended = enough;
                 }
