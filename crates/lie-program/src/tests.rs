@@ -119,7 +119,9 @@ fn heard(code: u8, mut output: &[u8]) -> Heard {
                 heard.rows.extend(rows);
             }
             Message::Found(Found::Work(work)) => heard.work = Some(work),
-            Message::Found(Found::Divided { .. } | Found::Assessed { .. }) => {}
+            Message::Found(
+                Found::Divided { .. } | Found::Assessed { .. } | Found::Milestone(_),
+            ) => {}
             Message::Progress(_) => {}
             Message::End(end) => heard.end = Some(end),
         }
