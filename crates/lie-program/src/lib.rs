@@ -214,12 +214,15 @@ fn serve(
     session::serve(None, input, output, work)
 }
 
+/// Where a run with milestones begins: at one of them, or at the start; none of a run without.
+type Beginning<'f, V> = Option<Option<&'f Milestone<V>>>;
+
 /// Makes a run with milestones, from one of them, or without.
 fn go<P: Poisson<f64>, M: Method<f64, P>>(
     problem: &Problem<f64, P>,
     method: M,
     options: &Options,
-    from: Option<Option<&Milestone<P::State>>>,
+    from: Beginning<'_, P::State>,
     rows: &mut impl Observer<f64, P>,
 ) -> Result<(Stats, Status), IntegrateError> {
     match from {
@@ -234,13 +237,7 @@ fn on_group<'f, 'r, 's, 'o, P: MatrixGroup<f64>>(
     chart: Chart,
     from: Option<Option<&'f TakenUp<P>>>,
     rows: &'r mut RowWriter<'s, 'o>,
-) -> Result<
-    (
-        Option<Option<&'f Milestone<P::State>>>,
-        OnGroup<'r, 's, 'o, P::State>,
-    ),
-    IntegrateError,
-> {
+) -> Result<(Beginning<'f, P::State>, OnGroup<'r, 's, 'o, P::State>), IntegrateError> {
     let mut reconstruction = Reconstruction::new(system, chart);
     if let Some(Some((_, element))) = from {
         let there = reconstruction.beginning_at(element);

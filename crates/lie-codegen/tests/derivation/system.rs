@@ -131,7 +131,7 @@ impl System {
                     .map(|&k| square(value(k)))
                     .sum::<f64>()
             };
-            let sum = size(&|k| mu[k] + u[k]);
+            let sum = size(&|k| 2.0 * mu[k] + u[k]);
             ratios.extend([(size(&|k| mu[k]) / sum).sqrt(), 1.0 / sum]);
         }
         let arguments: Arguments<'_> = &[
