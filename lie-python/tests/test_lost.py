@@ -7,10 +7,9 @@ import sys
 import textwrap
 import time
 
+import liepoisson as lp
 import numpy as np
 import pytest
-
-import liepoisson as lp
 
 BODY = {"algebra": "so(3)", "state": ["x", "y", "z"], "hamiltonian": "x^2/2 + y^2/4 + z^2/6", "initial": [0.8, 0.1, 0.6]}
 DRIVEN = {**BODY, "hamiltonian": "x^2/2 + y^2/4 + z^2/6 + cos(t)*x"}

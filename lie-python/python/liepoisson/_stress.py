@@ -80,7 +80,7 @@ class Growth(NamedTuple):
 
 def _growth(method: str, invariant: str, *rest: Any) -> Growth:
     exponent, bias, end, steps, states, step, ratio = rest
-    return Growth(method, invariant, *exponent, *bias, *end, *steps, states, step, ratio)
+    return Growth._make([method, invariant, *exponent, *bias, *end, *steps, states, step, ratio])
 
 
 class Stress:
