@@ -240,7 +240,7 @@ fn a_step_over_a_singularity_stops_the_run() {
         spec["initial"] = serde_json::json!([0.3, 0.7, 0.4]);
     });
     let run = lie(&format!(
-        "run {} --method splitting2 --pieces coordinate --step 0.3 --until 30 --out {}",
+        "run {} --method splitting2 --pieces coordinate --step 0.35 --until 30 --out {}",
         path.display(),
         out.display()
     ));
@@ -248,7 +248,7 @@ fn a_step_over_a_singularity_stops_the_run() {
     let reason = "the Hamiltonian is not finite at the end of the step";
     assert!(run.stderr.contains(reason), "{}", run.stderr);
     let (_, rows) = csv(&std::fs::read_to_string(out).expect("the rows are there"));
-    assert!(rows.len() > 10 && rows.iter().flatten().all(|value| value.is_finite()));
+    assert!(rows.len() > 5 && rows.iter().flatten().all(|value| value.is_finite()));
 }
 
 /// Points of a representation, from its columns, move as the state does, whatever the invariance.

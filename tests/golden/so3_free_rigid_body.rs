@@ -2315,9 +2315,9 @@ for FreeRigidBodySphericalMidpoint<'_, S> {
         let _t0 = _given_y
             * (_u_x * _u_x + _u_y * _u_y + _u_z * _u_z
                 + S::from_f64(2.0) * (x * _u_x + y * _u_y + z * _u_z));
-        mu[0] = x + _u_x - (_u_x + x * S::from_f64(2.0)) * _t0;
-        mu[1] = y + _u_y - (_u_y + y * S::from_f64(2.0)) * _t0;
-        mu[2] = z + _u_z - (_u_z + z * S::from_f64(2.0)) * _t0;
+        mu[0] = x + (_u_x - (_u_x + x * S::from_f64(2.0)) * _t0);
+        mu[1] = y + (_u_y - (_u_y + y * S::from_f64(2.0)) * _t0);
+        mu[2] = z + (_u_z - (_u_z + z * S::from_f64(2.0)) * _t0);
     }
 
     /// Sparse elimination in the order [0, 1, 2], 0 entries of fill-in: 17 multiplications with the solution.
