@@ -79,7 +79,7 @@ impl<P: Poisson<f64>> Program<P> {
         make: impl Fn(&Tolerances) -> M + 'static,
     ) -> Self {
         let run: Box<Integrate<P>> = Box::new(move |tolerances, problem, options, from, rows| {
-            let from = from.map(|from| from.map(|(milestone, _)| milestone));
+            let from = milestone::<P>(from);
             go(problem, make(tolerances), options, from, rows)
         });
         self.methods.push((id.to_owned(), run));
@@ -95,7 +95,7 @@ impl<P: Poisson<f64>> Program<P> {
     ) -> Self {
         let run: Box<Integrate<P>> = Box::new(move |tolerances, problem, options, from, rows| {
             let method = make(tolerances);
-            let from = from.map(|from| from.map(|(milestone, _)| milestone));
+            let from = milestone::<P>(from);
             go(problem, Forgotten(method.as_ref()), options, from, rows)
         });
         self.methods.push((id.to_owned(), run));
@@ -114,7 +114,8 @@ impl<P: Poisson<f64>> Program<P> {
         P: MatrixGroup<f64>,
     {
         let run: Box<Integrate<P>> = Box::new(move |tolerances, problem, options, from, rows| {
-            let (from, mut rows) = on_group(&problem.system, chart, from, rows)?;
+            let mut rows = on_group(&problem.system, chart, from, rows)?;
+            let from = milestone::<P>(from);
             go(problem, make(tolerances), options, from, &mut rows)
         });
         self.methods.push((id.to_owned(), run));
@@ -133,7 +134,8 @@ impl<P: Poisson<f64>> Program<P> {
         P: MatrixGroup<f64>,
     {
         let run: Box<Integrate<P>> = Box::new(move |tolerances, problem, options, from, rows| {
-            let (from, mut rows) = on_group(&problem.system, chart, from, rows)?;
+            let mut rows = on_group(&problem.system, chart, from, rows)?;
+            let from = milestone::<P>(from);
             let method = make(tolerances);
             go(
                 problem,
@@ -232,22 +234,26 @@ fn go<P: Poisson<f64>, M: Method<f64, P>>(
 }
 
 /// What writes rows with the group element, which begins where it was at a milestone.
-fn on_group<'f, 'r, 's, 'o, P: MatrixGroup<f64>>(
+fn on_group<'r, 's, 'o, P: MatrixGroup<f64>>(
     system: &P,
     chart: Chart,
-    from: Option<Option<&'f TakenUp<P>>>,
+    from: Option<Option<&TakenUp<P>>>,
     rows: &'r mut RowWriter<'s, 'o>,
-) -> Result<(Beginning<'f, P::State>, OnGroup<'r, 's, 'o, P::State>), IntegrateError> {
+) -> Result<OnGroup<'r, 's, 'o, P::State>, IntegrateError> {
     let mut reconstruction = Reconstruction::new(system, chart);
     if let Some(Some((_, element))) = from {
         let there = reconstruction.beginning_at(element);
         reconstruction = there.ok_or(OptionError::Milestone("its group element is another one"))?;
     }
-    let rows = OnGroup {
+    Ok(OnGroup {
         reconstruction,
         rows,
-    };
-    Ok((from.map(|from| from.map(|(milestone, _)| milestone)), rows))
+    })
+}
+
+/// The milestone without the group element.
+fn milestone<P: Poisson<f64>>(from: Option<Option<&TakenUp<P>>>) -> Beginning<'_, P::State> {
+    from.map(|from| from.map(|(milestone, _)| milestone))
 }
 
 /// The refusal of a milestone of another system.
