@@ -233,7 +233,7 @@ fn a_run_that_is_killed_goes_on() {
 }
 
 #[test]
-#[ignore = "minutes"]
+#[ignore = "minutes: .ci/nightly runs it"]
 fn two_hundred_runs_that_are_killed_go_on() {
     kills(200, 2026);
 }

@@ -95,7 +95,7 @@ fn round_off_of_invariants_walks() {
 
 /// The same to 3e-19, five standard errors.
 #[test]
-#[ignore = "a quarter of a minute; .ci/nightly asks for it"]
+#[ignore = "a quarter of a minute: .ci/nightly runs it"]
 fn round_off_of_invariants_walks_for_long() {
     is_a_walk(1.5, 16, 200_000, 3e-19, 2e-18);
 }
