@@ -36,7 +36,7 @@ use lie_jit::Jit;
 use lie_measure::verify::Kind;
 use lie_measure::{Bench, Request, Stress, Verify, bench, stress as limits, verify as claims};
 use lie_program::Program;
-use lie_program::protocol::{End, Found, Run, Tolerances};
+use lie_program::protocol::{End, Found, Milestones, Run, Tolerances};
 use lie_program::session::Session;
 use lie_runtime::ParameterError;
 
@@ -176,7 +176,16 @@ impl Work {
     }
 
     fn run(&self, run: &Run, session: &mut Session<'_, Found>) -> Result<(), End> {
-        let mut program = Program::new(&self.parameters(), maker(&self.declared));
+        // steppers that are made anew at milestones would wait again
+        let (make, hurries) = (maker(&self.declared), run.milestones != Milestones::None);
+        let mut program = Program::new(&self.parameters(), move |values| {
+            let system = make(values)?;
+            Ok(if hurries {
+                system.without_patience()
+            } else {
+                system
+            })
+        });
         for choice in &self.choices {
             let (label, choice) = (choice.label(), choice.clone());
             let make = move |tolerances: &Tolerances| method(&choice, *tolerances);
