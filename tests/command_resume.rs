@@ -101,6 +101,7 @@ fn every_form_and_every_kind_of_rows_goes_on() {
         "body.json --method gauss8 --step -0.2 --from 3 --until -230 --every 9".to_owned(),
         "driven.json --method collective8 --step 0.02 --until 22".to_owned(),
         "driven.json --method midpoint --tol 1e-4 --until 30".to_owned(),
+        "folded.json --method gauss6 --step 0.02 --until 22 --every 5".to_owned(),
     ]
     .iter()
     .enumerate()
@@ -116,6 +117,24 @@ fn rows_from(rows: &str, time: &str) -> Vec<String> {
     let from = rows.lines().skip_while(|line| !line.starts_with(time));
     from.map(|line| line.split_once(',').unwrap().1.to_owned())
         .collect()
+}
+
+/// A velocity that is found from elsewhere has other last digits.
+#[test]
+fn a_branch_is_part_of_a_checkpoint() {
+    let folder = folder();
+    let here = folder.path();
+    prepared(here);
+    let call = "run folded.json --method gauss6 --step 0.02 --until 44 --every 50 --out rows.csv --checkpoint ck --checkpoint-every 1";
+    within(here, call).ok();
+    let rows = fs::read(here.join("rows.csv")).unwrap();
+    forged(&here.join("ck"), |content| {
+        let branch = &mut content["place"]["milestone"]["branch"];
+        assert!(branch.is_array(), "{branch}");
+        *branch = serde_json::Value::Null;
+    });
+    within(here, "resume ck").ok();
+    assert!(fs::read(here.join("rows.csv")).unwrap() != rows);
 }
 
 #[test]

@@ -8,7 +8,7 @@ use std::path::Path;
 
 use super::common::{Run, command};
 
-/// A body to which every kind of method applies, with a table among its files.
+/// A body to which every kind of method applies, one with a table among its files, and one whose velocity has several branches.
 pub fn prepared(folder: &Path) {
     let spec = r#"{
         "format": 1, "name": "Body", "algebra": "so(3)", "state": ["x", "y", "z"],
@@ -22,6 +22,11 @@ pub fn prepared(folder: &Path) {
         r#""functions": { "drag": { "table": "drag.csv" } }, "parameters""#,
     );
     fs::write(folder.join("driven.json"), driven).unwrap();
+    let folded = r#"{
+        "format": 1, "name": "Fold", "algebra": "so(3)", "state": ["x", "y", "z"], "velocity": ["u", "v", "w"],
+        "lagrangian": "u^2/2 - u^4/4 + 3*u^6/60 + v^2 + w^2*3/2", "initial": [1, 0.9, 0.8]
+    }"#;
+    fs::write(folder.join("folded.json"), folded).unwrap();
     fs::write(folder.join("drag.csv"), "-9,0.1\n-2,0.2\n0,0\n2,0.5\n9,1\n").unwrap();
 }
 
