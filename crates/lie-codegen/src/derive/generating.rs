@@ -88,7 +88,17 @@ pub(crate) fn slope(source: &mut Source, generating: Generating) -> Slope {
             weighted.push((power_of_step(source, 2, 2), slope));
         }
         Generating::First(retraction, order) => {
-            let field = source.field_of_h();
+            // powers of h apart from what they multiply would leave the range of numbers at order 6: S5 has that of h H
+            let (unit, mut field) = (order == 6, source.field_of_h());
+            let mut gradient = gradient;
+            if unit {
+                for entry in gradient.iter_mut().chain(&mut field) {
+                    *entry = source.graph.mul(h, *entry);
+                }
+            }
+            let power = |source: &mut Source, power, denominator| {
+                power_of_step(source, if unit { 0 } else { power }, denominator)
+            };
             let x = tape.define_all(source, &field);
             let w = along(source, &mut tape, &gradient, &x);
             let w = tape.define_all(source, &w);
@@ -101,11 +111,11 @@ pub(crate) fn slope(source: &mut Source, generating: Generating) -> Slope {
             }
             let eta = tape.gradient(source, third);
             let eta = tape.define_all(source, &eta);
-            weighted.push((power_of_step(source, 3, 24), eta.clone()));
+            weighted.push((power(source, 3, 24), eta.clone()));
             if order == 6 {
-                let fifth = fifth_order(source, &mut tape, &x, &w, &eta);
+                let fifth = fifth_order(source, &mut tape, &gradient, [&x, &w, &eta]);
                 let slope = tape.gradient(source, fifth);
-                weighted.push((power_of_step(source, 5, 5760), slope));
+                weighted.push((power(source, 5, 5760), slope));
             }
         }
     }
@@ -143,17 +153,15 @@ fn cubic_term(source: &mut Source, tape: &mut Tape) -> ExprId {
     dot(source, &xi, &product)
 }
 
-/// `5760 S5` in exponential coordinates, given X, w and `eta = 24 grad S3`.
+/// `5760 S5` in exponential coordinates for a gradient, given X, w and `eta = 24 grad S3`.
 fn fifth_order(
     source: &mut Source,
     tape: &mut Tape,
-    x: &[ExprId],
-    w: &[ExprId],
-    eta: &[ExprId],
+    gradient: &[ExprId],
+    [x, w, eta]: [&[ExprId]; 3],
 ) -> ExprId {
-    let gradient = source.gradient_of_h();
     let p = source.coordinates();
-    let xi = tape.define_all(source, &gradient);
+    let xi = tape.define_all(source, gradient);
     let x2 = source.ad_star_of(&xi, x);
     let x2 = tape.define_all(source, &x2);
     let y = source.ad_star_of(w, &p);
@@ -168,9 +176,9 @@ fn fifth_order(
         .collect();
     let moved = tape.define_all(source, &moved);
     let first = dot(source, &moved, eta);
-    let along_x2 = along(source, tape, &gradient, &x2);
+    let along_x2 = along(source, tape, gradient, &x2);
     let square = dot(source, &along_x2, &x2);
-    let once = along(source, tape, &gradient, x);
+    let once = along(source, tape, gradient, x);
     let twice = along(source, tape, &once, x);
     let cubic = dot(source, &twice, &x2);
     let thrice = along(source, tape, &twice, x);

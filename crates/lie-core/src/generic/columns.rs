@@ -1,6 +1,8 @@
 //! Points of `T*V^r` over a matrix representation V. Beside them are the momentum of the time and the time, where H
 //! depends on it: their part of the algebra has no columns, since these would grow with the time.
 
+use core::ops::Range;
+
 use super::lifts::LinearLift;
 use crate::clock::{Clock, holds};
 use crate::methods::Representation;
@@ -143,6 +145,12 @@ impl<S: Scalar, P: ColumnPoisson<S>> LinearLift<S, P> for Representation {
             momentum: count - 2,
             time: count - 1,
         })
+    }
+
+    fn momenta(system: &P) -> Option<Range<usize>> {
+        let pair = if system.clock().is_some() { 2 } else { 0 };
+        let count = system.zero_columns().as_slice().len() - pair;
+        Some(count / 2..count)
     }
 
     #[inline]

@@ -14,7 +14,7 @@
 #![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
 
 use super::words::Words;
-use crate::scalar::{Mask, Scalar};
+use crate::scalar::{Mask, Scalar, power_of_two};
 
 /// Arguments up to this times the frequency are small: five terms of the series have all digits of f64.
 const SMALL: f64 = 1.0 / 32.0;
@@ -212,19 +212,6 @@ fn smallest<S: Scalar>() -> S {
     } else {
         1e-30
     })
-}
-
-/// The power of two at or below a positive number, lane by lane; of zero 1.
-fn power_of_two<S: Scalar>(number: S) -> S {
-    const EXPONENT: u64 = 0x7ff << 52;
-    let mut power = S::one();
-    for lane in 0..S::LANES {
-        let bits = number.lane(lane).to_f64().to_bits() & EXPONENT;
-        if bits != 0 {
-            power = power.with_lane(lane, S::Lane::from_f64(f64::from_bits(bits)));
-        }
-    }
-    power
 }
 
 /// The eigenvectors, as rows of a rotation, and the ascending eigenvalues of a symmetric 3 x 3 matrix, by Jacobi's

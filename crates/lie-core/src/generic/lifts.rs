@@ -1,5 +1,7 @@
 //! Spaces over g* on which Gauss methods are solved point by point.
 
+use core::ops::Range;
+
 use crate::clock::Clock;
 use crate::methods::Smallest;
 use crate::poisson::LiePoisson;
@@ -25,6 +27,10 @@ pub trait LinearLift<S: Scalar, P: LiePoisson<S>> {
     fn zero_labels(system: &P) -> Self::Labels;
     /// Where the time and its momentum are among the coordinates of a point, which carry them as they are.
     fn clock(_system: &P) -> Option<Clock> {
+        None
+    }
+    /// Which coordinates of a point have the units of mu where the others have none; without, all have the same.
+    fn momenta(_system: &P) -> Option<Range<usize>> {
         None
     }
     /// A point over a state, with its labels.
@@ -53,6 +59,10 @@ impl<S: Scalar, P: CollectivePoisson<S>> LinearLift<S, P> for Smallest {
 
     fn clock(system: &P) -> Option<Clock> {
         P::Lift::clock(system)
+    }
+
+    fn momenta(system: &P) -> Option<Range<usize>> {
+        P::Lift::momenta(system)
     }
 
     #[inline]

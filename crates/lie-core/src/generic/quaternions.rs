@@ -1,5 +1,7 @@
 //! Points of `T*H` over a rotation group with vectors.
 
+use core::ops::Range;
+
 use super::lifts::LinearLift;
 use super::quaternion_stages::product;
 use crate::methods::Quaternion;
@@ -168,6 +170,10 @@ impl<S: Scalar, P: VectorPoisson<S>> LinearLift<S, P> for Quaternion {
 
     fn zero_labels(system: &P) -> P::Labels {
         system.zero_labels()
+    }
+
+    fn momenta(_system: &P) -> Option<Range<usize>> {
+        Some(4..8)
     }
 
     #[inline]

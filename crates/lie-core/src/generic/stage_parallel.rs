@@ -6,6 +6,7 @@ mod state;
 mod tests;
 
 use core::array::from_fn;
+use core::ops::Range;
 
 use super::diagonals::{diagonals, product, total};
 use super::stage_ending::most;
@@ -13,7 +14,7 @@ use super::stage_work::{At, Work};
 use super::tableau::{gauss_ahead, gauss_ratio, gauss_weight};
 use crate::clock::{Clock, holds};
 use crate::newton::{Convergence, Iteration, NewtonOptions};
-use crate::scalar::{Mask, Scalar, largest};
+use crate::scalar::{Mask, Scalar, largest, power_of_two};
 use crate::state::{Stages, State};
 
 /// An iteration whose changes are at rest, but shrank slowly, goes on for so many iterations: in its slowest direction the
@@ -54,6 +55,8 @@ pub struct StageParallel<S: Scalar, V, const STAGES: usize> {
     work: Work<V>,
     /// The entries that carry the time, where there are any.
     clock: Option<Clock>,
+    /// The entries in a unit of their own, where there are any, and one over that unit.
+    momenta: Option<(Range<usize>, S)>,
     options: NewtonOptions,
     /// The number of iterations after which a step has failed.
     most_iterations: u32,
@@ -105,6 +108,7 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
                 next: zero,
             },
             clock: None,
+            momenta: None,
             options: *options,
             most_iterations: match (options.iteration, options.convergence) {
                 (Iteration::Automatic, Convergence::Map) => {
@@ -125,6 +129,39 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
     pub(crate) fn with_clock(mut self, clock: Option<Clock>) -> Self {
         self.clock = clock;
         self
+    }
+
+    /// With entries that have a unit of their own.
+    pub(crate) fn with_momenta(mut self, momenta: Option<Range<usize>>) -> Self {
+        self.momenta = momenta.map(|entries| (entries, S::one()));
+        self
+    }
+
+    /// Sets the unit of these entries, in the lanes of a mask: the power of two at or below the largest of them at a point.
+    pub(crate) fn set_unit(&mut self, mask: S::Mask, point: &[S]) {
+        if let Some((entries, per_unit)) = &mut self.momenta {
+            let size = S::largest_magnitude(&point[entries.clone()]);
+            let unit = S::one() / power_of_two(size);
+            *per_unit = S::select(mask, unit, *per_unit);
+        }
+    }
+
+    /// The largest magnitude at a point, in units.
+    pub(crate) fn norm(&self, point: &[S]) -> S {
+        let entries = point.iter().enumerate();
+        let counted = entries.filter(|(i, _)| !holds(self.clock, *i));
+        counted.fold(S::zero(), |norm, (i, y)| {
+            norm.max(y.abs() * self.per_unit(i))
+        })
+    }
+
+    /// One over the unit of an entry.
+    #[inline(always)]
+    fn per_unit(&self, entry: usize) -> S {
+        match &self.momenta {
+            Some((entries, per_unit)) if entries.contains(&entry) => *per_unit,
+            _ => S::one(),
+        }
     }
 
     /// Sets the time of the base.
@@ -213,7 +250,9 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
         if let Some(clock) = self.clock {
             work.replace_entries::<S>(&[clock.momentum, clock.time], ended);
         }
-        work.replace::<S>(ended) * self.per_weight
+        let momenta = self.momenta.as_ref();
+        let momenta = momenta.map(|(entries, per_unit)| (entries.clone(), per_unit.widen()));
+        work.replace::<S>(ended, momenta) * self.per_weight
     }
 
     /// Iterates so many times without a look at the changes.
@@ -252,7 +291,9 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
         let sum = |entries: &[S::Wide]| {
             let counted = entries.iter().enumerate();
             let counted = counted.filter(|(i, _)| !holds(self.clock, *i));
-            counted.fold(S::Wide::zero(), |sum, (_, y)| sum + y.magnitude())
+            counted.fold(S::Wide::zero(), |sum, (i, y)| {
+                sum + y.magnitude() * self.per_unit(i).widen()
+            })
         };
         let bases = sum(self.base.as_slice());
         let increments = sum(self.work.increments.as_slice());

@@ -1,6 +1,7 @@
 //! What an iteration over stages side by side writes.
 
 use core::array::from_fn;
+use core::ops::Range;
 
 use super::diagonals::product_from;
 use crate::scalar::Scalar;
@@ -92,16 +93,39 @@ impl<V> Work<V> {
         }
     }
 
-    /// Takes over the next increments but in the lanes that have ended; the sum of all changes at each stage.
+    /// Takes over the next increments but in the lanes that have ended; the sum of all changes at each stage. Entries that have
+    /// a unit of their own come with one over it.
     #[inline(always)]
-    pub(super) fn replace<S: Scalar>(&mut self, ended: S::Mask) -> S::Wide
+    pub(super) fn replace<S: Scalar>(
+        &mut self,
+        ended: S::Mask,
+        momenta: Option<(Range<usize>, S::Wide)>,
+    ) -> S::Wide
+    where
+        V: State<S::Wide>,
+    {
+        let Some((entries, per_unit)) = momenta else {
+            return self.replace_each::<S>(ended, |_, change| change);
+        };
+        self.replace_each::<S>(ended, |k, change| match entries.contains(&k) {
+            true => change * per_unit,
+            false => change,
+        })
+    }
+
+    #[inline(always)]
+    fn replace_each<S: Scalar>(
+        &mut self,
+        ended: S::Mask,
+        counted: impl Fn(usize, S::Wide) -> S::Wide,
+    ) -> S::Wide
     where
         V: State<S::Wide>,
     {
         let mut change = S::Wide::zero();
         let increments = self.increments.as_mut_slice().iter_mut();
-        for (increment, &next) in increments.zip(self.next.as_slice()) {
-            change += (next - *increment).magnitude();
+        for (k, (increment, &next)) in increments.zip(self.next.as_slice()).enumerate() {
+            change += counted(k, (next - *increment).magnitude());
             *increment = if S::LANES == 1 {
                 next
             } else {

@@ -3,7 +3,6 @@
 use super::implicit::equal_lanes;
 use super::stage_parallel::push_velocities;
 use super::stepper::{FactorSink, StepFailure, StepReport, Stepper};
-use crate::clock;
 use crate::generic::{LinearLift, StageParallel};
 use crate::newton::{FailureReason, NewtonOptions};
 use crate::poisson::{LiePoisson, Poisson, Widen};
@@ -77,7 +76,8 @@ where
         let point = <L as LinearLift<S, P>>::zero_point(system);
         Self {
             stages: StageParallel::new(h, L::zero_point(&wide), &newton)
-                .with_clock(<L as LinearLift<S, P>>::clock(system)),
+                .with_clock(<L as LinearLift<S, P>>::clock(system))
+                .with_momenta(<L as LinearLift<S, P>>::momenta(system)),
             point,
             labels: <L as LinearLift<S, P>>::zero_labels(system),
             wide_labels: L::zero_labels(&wide),
@@ -105,9 +105,10 @@ where
         for (wide, label) in entries.zip(self.labels.as_slice()) {
             *wide = label.widen();
         }
+        self.stages.set_unit(fresh, point.as_slice());
         if <L as LinearLift<S, P>>::GROWS {
-            let clock = <L as LinearLift<S, P>>::clock(system);
-            self.size = S::select(fresh, clock::norm(clock, &point), self.size);
+            let size = self.stages.norm(point.as_slice());
+            self.size = S::select(fresh, size, self.size);
         }
         <L as LinearLift<S, P>>::flow(system, &self.labels, &self.point, &mut point);
         self.stages
@@ -130,8 +131,8 @@ where
     fn grown(&mut self) -> S::Mask {
         if <L as LinearLift<S, P>>::GROWS {
             self.stages.base_into(self.point.as_mut_slice());
-            let clock = <L as LinearLift<S, P>>::clock(self.system);
-            !clock::norm(clock, &self.point).less_equal(self.size * S::from_f64(GROWTH))
+            let size = self.stages.norm(self.point.as_slice());
+            !size.less_equal(self.size * S::from_f64(GROWTH))
         } else {
             S::Mask::splat(false)
         }

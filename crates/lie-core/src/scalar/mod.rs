@@ -183,3 +183,16 @@ pub fn largest<S: Scalar>(value: S) -> f64 {
         Scalar::max(largest, value.lane(index).to_f64())
     })
 }
+
+/// The power of two at or below a positive number, lane by lane; of zero 1.
+pub fn power_of_two<S: Scalar>(number: S) -> S {
+    const EXPONENT: u64 = 0x7ff << 52;
+    let mut power = S::one();
+    for lane in 0..S::LANES {
+        let bits = number.lane(lane).to_f64().to_bits() & EXPONENT;
+        if bits != 0 {
+            power = power.with_lane(lane, S::Lane::from_f64(f64::from_bits(bits)));
+        }
+    }
+    power
+}

@@ -1,5 +1,5 @@
 //! Derivatives of H beyond the gradient along given directions, by running the gradient over nested
-//! dual numbers: `H''(p)(v, .)`, `H'''(p)(u, v, .)` and so on, as covectors.
+//! dual numbers: `H''(p)(v, .)`, `H'''(p)(u, v, .)` and so on, as covectors, each times a step h.
 
 use crate::poisson::{Lift, Poisson};
 use crate::scalar::{Dual, Scalar};
@@ -25,9 +25,10 @@ pub(super) fn slope<S: Scalar>(dual: &impl State<Dual<S>>, out: &mut impl State<
     }
 }
 
-/// `out = H''(p)(v, .)`.
+/// `out = h H''(p)(v, .)`.
 pub(super) fn second<S: Scalar, P: Lift<S>>(
     system: &P,
+    h: S,
     p: &P::State,
     v: &P::State,
     out: &mut P::State,
@@ -37,6 +38,14 @@ pub(super) fn second<S: Scalar, P: Lift<S>>(
     let mut gradient = lifted.zero_state();
     lifted.gradient(&q, &mut gradient);
     slope(&gradient, out);
+    scale(h, out);
+}
+
+/// Multiplies by h.
+pub(super) fn scale<S: Scalar>(h: S, out: &mut impl State<S>) {
+    for entry in out.as_mut_slice() {
+        *entry *= h;
+    }
 }
 
 macro_rules! next {
@@ -44,6 +53,7 @@ macro_rules! next {
         $(#[$doc])*
         pub(super) fn $name<S: Scalar, P: Lift<S>>(
             system: &P,
+            h: S,
             p: &P::State,
             $first: &P::State,
             $($rest: &P::State,)+
@@ -53,21 +63,21 @@ macro_rules! next {
             let q = seeded(&lifted, p.as_slice(), Some($first.as_slice()));
             $(let $rest = seeded(&lifted, $rest.as_slice(), None);)+
             let mut lower = lifted.zero_state();
-            $lower(&lifted, &q, $(&$rest,)+ &mut lower);
+            $lower(&lifted, Dual::constant_of(h), &q, $(&$rest,)+ &mut lower);
             slope(&lower, out);
         }
     };
 }
 
 next!(
-    /// `out = H'''(p)(u, v, .)`.
+    /// `out = h H'''(p)(u, v, .)`.
     third from second: u, v
 );
 next!(
-    /// `out = H''''(p)(t, u, v, .)`.
+    /// `out = h H''''(p)(t, u, v, .)`.
     fourth from third: t, u, v
 );
 next!(
-    /// `out = H^(5)(p)(s, t, u, v, .)`.
+    /// `out = h H^(5)(p)(s, t, u, v, .)`.
     fifth from fourth: s, t, u, v
 );

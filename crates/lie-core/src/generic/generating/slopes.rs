@@ -5,7 +5,7 @@
 //! is `[u, lambda]` and that of u is `-ad*_lambda m`; for `w = H''(p) v`, the adjoint of v is
 //! `H'' lambda` and that of p is `H'''(v, lambda, .)`.
 
-use super::derivatives::{fifth, fourth, second, seeded, slope, third};
+use super::derivatives::{fifth, fourth, scale, second, seeded, slope, third};
 use crate::matrix::SquareMatrix;
 use crate::poisson::{CayleyPoisson, LiePoisson, Lift, Poisson};
 use crate::scalar::{Dual, Scalar};
@@ -19,7 +19,7 @@ struct Flow<V> {
 }
 
 impl<V> Flow<V> {
-    fn at<S: Scalar, P: Lift<S> + LiePoisson<S, State = V>>(system: &P, p: &V) -> Self
+    fn at<S: Scalar, P: Lift<S> + LiePoisson<S, State = V>>(system: &P, h: S, p: &V) -> Self
     where
         V: State<S>,
     {
@@ -29,8 +29,9 @@ impl<V> Flow<V> {
             w: system.zero_state(),
         };
         system.gradient(p, &mut flow.xi);
+        scale(h, &mut flow.xi);
         system.ad_star(&flow.xi, p, &mut flow.x);
-        second(system, p, &flow.x, &mut flow.w);
+        second(system, h, p, &flow.x, &mut flow.w);
         flow
     }
 }
@@ -38,17 +39,18 @@ impl<V> Flow<V> {
 /// `grad H''(X, X) = H'''(X, X, .) + 2 ([xi, w] - H'' ad*_w p)`, and `Y = ad*_w p`.
 fn of_square<S: Scalar, P: Lift<S> + LiePoisson<S>>(
     system: &P,
+    h: S,
     p: &P::State,
     flow: &Flow<P::State>,
     y: &mut P::State,
     out: &mut P::State,
 ) {
     let mut part = system.zero_state();
-    third(system, p, &flow.x, &flow.x, out);
+    third(system, h, p, &flow.x, &flow.x, out);
     system.ad(&flow.xi, &flow.w, &mut part);
     out.axpy(S::from_f64(2.0), &part);
     system.ad_star(&flow.w, p, y);
-    second(system, p, y, &mut part);
+    second(system, h, p, y, &mut part);
     out.axpy(S::from_f64(-2.0), &part);
 }
 
@@ -66,17 +68,22 @@ pub(super) fn exp4<S: Scalar, P: Lift<S> + LiePoisson<S>>(
     p: &P::State,
     out: &mut P::State,
 ) {
-    let flow = Flow::at(system, p);
+    let flow = Flow::at(system, S::one(), p);
     let (mut y, mut eta) = (system.zero_state(), system.zero_state());
-    of_square(system, p, &flow, &mut y, &mut eta);
+    of_square(system, S::one(), p, &flow, &mut y, &mut eta);
     started(h, &flow.xi, h * h * h * S::ratio(1.0, 24.0), &eta, out);
 }
 
-/// 24 times the gradient of S3 alone, for its derivative along a direction.
-fn eta_of<S: Scalar, P: Lift<S> + LiePoisson<S>>(system: &P, p: &P::State, out: &mut P::State) {
-    let flow = Flow::at(system, p);
+/// 24 times the gradient of S3 of `h H` alone, for its derivative along a direction.
+fn eta_of<S: Scalar, P: Lift<S> + LiePoisson<S>>(
+    system: &P,
+    h: S,
+    p: &P::State,
+    out: &mut P::State,
+) {
+    let flow = Flow::at(system, h, p);
     let mut y = system.zero_state();
-    of_square(system, p, &flow, &mut y, out);
+    of_square(system, h, p, &flow, &mut y, out);
 }
 
 /// The derivatives of a function by p and by what it is computed from.
@@ -89,7 +96,7 @@ struct Adjoints<V> {
 
 impl<V> Adjoints<V> {
     /// Those of 5760 S5, where p, X, X2 and Y stand in it; what p does through eta is given.
-    fn of_s5<S, P>(system: &P, p: &V, (x, x2): (&V, &V), eta: &V, through_eta: &V) -> Self
+    fn of_s5<S, P>(system: &P, h: S, p: &V, (x, x2): (&V, &V), eta: &V, through_eta: &V) -> Self
     where
         S: Scalar,
         V: State<S>,
@@ -100,24 +107,24 @@ impl<V> Adjoints<V> {
         let mut part = zero.clone();
         let mut of_p = zero.clone();
         of_p.axpy(number(-4.0), through_eta);
-        third(system, p, x2, x2, &mut part);
+        third(system, h, p, x2, x2, &mut part);
         of_p.axpy(number(4.0), &part);
-        fourth(system, p, x, x, x2, &mut part);
+        fourth(system, h, p, x, x, x2, &mut part);
         of_p.axpy(number(12.0), &part);
-        fifth(system, p, x, x, x, x, &mut part);
+        fifth(system, h, p, x, x, x, x, &mut part);
         of_p.axpy(number(3.0), &part);
 
         let mut of_x2 = zero.clone();
         of_x2.axpy(number(-4.0), eta);
-        second(system, p, x2, &mut part);
+        second(system, h, p, x2, &mut part);
         of_x2.axpy(number(8.0), &part);
-        third(system, p, x, x, &mut part);
+        third(system, h, p, x, x, &mut part);
         of_x2.axpy(number(12.0), &part);
 
         let mut of_x = zero.clone();
-        third(system, p, x, x2, &mut part);
+        third(system, h, p, x, x2, &mut part);
         of_x.axpy(number(24.0), &part);
-        fourth(system, p, x, x, x, &mut part);
+        fourth(system, h, p, x, x, x, &mut part);
         of_x.axpy(number(12.0), &part);
 
         let mut of_y = zero;
@@ -134,6 +141,7 @@ impl<V> Adjoints<V> {
 /// The derivative by p in all, backwards through Y, w, X2, X and xi.
 fn back_to_p<S: Scalar, P: Lift<S> + LiePoisson<S>>(
     system: &P,
+    h: S,
     p: &P::State,
     flow: &Flow<P::State>,
     adjoints: Adjoints<P::State>,
@@ -153,9 +161,9 @@ fn back_to_p<S: Scalar, P: Lift<S> + LiePoisson<S>>(
     system.ad(w, &of_y, &mut part);
     of_p.axpy(S::one(), &part);
     // w = H''(p) X
-    second(system, p, &of_w, &mut part);
+    second(system, h, p, &of_w, &mut part);
     of_x.axpy(S::one(), &part);
-    third(system, p, x, &of_w, &mut part);
+    third(system, h, p, x, &of_w, &mut part);
     of_p.axpy(S::one(), &part);
     // X2 = ad*_xi X
     let mut of_xi = system.zero_state();
@@ -169,14 +177,14 @@ fn back_to_p<S: Scalar, P: Lift<S> + LiePoisson<S>>(
     system.ad_star(&of_x, p, &mut part);
     of_xi.axpy(-S::one(), &part);
     // xi = grad H(p)
-    second(system, p, &of_xi, &mut part);
+    second(system, h, p, &of_xi, &mut part);
     of_p.axpy(S::one(), &part);
     of_p
 }
 
 /// `grad (h H + h^3 S3 + h^5 S5)` in exponential coordinates, with
 /// `5760 S5 = -4 <X2 + 3 Y, eta> + 4 H''(X2, X2) + 12 H'''(X, X, X2) + 3 H''''(X, X, X, X)`
-/// and `eta = 24 grad S3`.
+/// and `eta = 24 grad S3`, all of them of `h H`: powers of h apart from what they multiply would leave the range of numbers.
 pub(super) fn exp6<S, P>(system: &P, h: S, p: &P::State, out: &mut P::State)
 where
     S: Scalar,
@@ -184,11 +192,11 @@ where
     P::Lifted: LiePoisson<Dual<S>>,
 {
     let zero = system.zero_state();
-    let flow = Flow::at(system, p);
+    let flow = Flow::at(system, h, p);
     let Flow { xi, x, .. } = &flow;
     let (mut y, mut eta) = (zero.clone(), zero.clone());
-    of_square(system, p, &flow, &mut y, &mut eta);
-    started(h, xi, h * h * h * S::ratio(1.0, 24.0), &eta, out);
+    of_square(system, h, p, &flow, &mut y, &mut eta);
+    started(S::one(), xi, S::ratio(1.0, 24.0), &eta, out);
 
     let mut x2 = zero;
     system.ad_star(xi, x, &mut x2);
@@ -198,14 +206,13 @@ where
     let lifted = system.lift();
     let q = seeded(&lifted, p.as_slice(), Some(moved.as_slice()));
     let mut along = lifted.zero_state();
-    eta_of(&lifted, &q, &mut along);
+    eta_of(&lifted, Dual::constant_of(h), &q, &mut along);
     let mut through_eta = system.zero_state();
     slope(&along, &mut through_eta);
 
-    let adjoints = Adjoints::of_s5(system, p, (x, &x2), &eta, &through_eta);
-    let of_p = back_to_p(system, p, &flow, adjoints);
-    let fifth_power = h * h * h * h * h;
-    out.axpy(fifth_power * S::ratio(1.0, 5760.0), &of_p);
+    let adjoints = Adjoints::of_s5(system, h, p, (x, &x2), &eta, &through_eta);
+    let of_p = back_to_p(system, h, p, &flow, adjoints);
+    out.axpy(S::ratio(1.0, 5760.0), &of_p);
 }
 
 /// `grad (h H + h^3 S3)` in Cayley coordinates. The gradient of `<p, T(xi, xi, xi)>` in xi is
@@ -216,15 +223,15 @@ where
     P: Lift<S> + CayleyPoisson<S>,
 {
     let zero = system.zero_state();
-    let flow = Flow::at(system, p);
+    let flow = Flow::at(system, S::one(), p);
     let (mut y, mut eta, mut part) = (zero.clone(), zero.clone(), zero.clone());
-    of_square(system, p, &flow, &mut y, &mut eta);
+    of_square(system, S::one(), p, &flow, &mut y, &mut eta);
     let mut of_xi = zero.clone();
     system.ad_star(&flow.xi, &flow.x, &mut part);
     of_xi.axpy(S::one(), &part);
     system.triple(&flow.xi, &flow.xi, p, &mut part);
     of_xi.axpy(S::from_f64(3.0), &part);
-    second(system, p, &of_xi, &mut part);
+    second(system, S::one(), p, &of_xi, &mut part);
     eta.axpy(S::from_f64(-2.0), &part);
     let mut unit = zero;
     for d in 0..system.dimension() {
@@ -262,7 +269,7 @@ pub(super) fn second_kind<S: Scalar, P: Lift<S> + LiePoisson<S>>(
         }
     }
     let mut eta = zero.clone();
-    second(system, p, &of_xi, &mut eta);
+    second(system, S::one(), p, &of_xi, &mut eta);
     let (mut one, mut before) = (zero.clone(), zero);
     for j in 0..system.dimension() {
         one.fill(S::zero());
