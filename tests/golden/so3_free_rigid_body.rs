@@ -61,25 +61,52 @@ impl<S: ::lie_runtime::Scalar> FreeRigidBody<S> {
     pub fn system(
         &self,
     ) -> ::core::result::Result<FreeRigidBodySystem<S>, ::lie_runtime::ParameterError> {
-        let _t0 = S::from_f64(0.5) / self.I1;
-        let _t1 = S::from_f64(0.5) / self.I2;
-        let _t2 = S::from_f64(0.5) / self.I3;
-        let _t3 = S::one() / self.I1;
-        let _t4 = S::one() / self.I2;
-        let _t5 = S::one() / self.I3;
-        let _t6 = _t3 - _t4;
-        let _c0 = _t0;
-        let _c1 = _t1;
-        let _c2 = _t2;
-        let _c3 = _t3;
-        let _c4 = _t4;
-        let _c5 = _t5;
-        let _c6 = _t5 - _t4;
-        let _c7 = _t3 - _t5;
-        let _c8 = -_t6;
-        let _c9 = _t0 - _t1;
-        let _c10 = _t6;
-        let _c11 = _t2 - _t1;
+        let _t0 = S::one() / self.I1;
+        let _t1 = S::one() / self.I3;
+        let _t2 = S::one() / self.I2;
+        let _t3 = S::select(_t0.less(S::zero()), S::zero(), _t0);
+        let _t4 = S::select((_t2 - _t3).less(S::zero()), _t3, _t2);
+        let _t5 = S::select(_t0.less(S::zero()), _t0, S::zero());
+        let _t6 = S::select((_t2 - _t5).less(S::zero()), _t2, _t5);
+        let _t7 = S::select((_t1 - _t4).less(S::zero()), _t4, _t1) * S::from_f64(2.0)
+            - S::select((_t1 - _t6).less(S::zero()), _t1, _t6) * S::from_f64(2.0);
+        let _t8 = S::select(_t0.less(S::zero()), -_t0, _t0);
+        let _t9 = S::select(
+            (_t8 * S::from_f64(2048.0) - _t7).less(S::zero()),
+            _t8,
+            _t7 + (_t8 - _t7),
+        );
+        let _t10 = S::select(_t0.less(S::zero()), -_t9, _t9);
+        let _t11 = _t10 * S::from_f64(0.5);
+        let _t12 = S::select(_t2.less(S::zero()), -_t2, _t2);
+        let _t13 = S::select(
+            (S::from_f64(2048.0) * _t12 - _t7).less(S::zero()),
+            _t12,
+            _t7 + (_t12 - _t7),
+        );
+        let _t14 = S::select(_t2.less(S::zero()), -_t13, _t13);
+        let _t15 = _t14 * S::from_f64(0.5);
+        let _t16 = S::select(_t1.less(S::zero()), -_t1, _t1);
+        let _t17 = S::select(
+            (S::from_f64(2048.0) * _t16 - _t7).less(S::zero()),
+            _t16,
+            _t7 + (_t16 - _t7),
+        );
+        let _t18 = S::select(_t1.less(S::zero()), -_t17, _t17);
+        let _t19 = _t18 * S::from_f64(0.5);
+        let _t20 = _t10 - _t14;
+        let _c0 = _t11;
+        let _c1 = _t15;
+        let _c2 = _t19;
+        let _c3 = _t10;
+        let _c4 = _t14;
+        let _c5 = _t18;
+        let _c6 = _t18 - _t14;
+        let _c7 = _t10 - _t18;
+        let _c8 = -_t20;
+        let _c9 = _t11 - _t15;
+        let _c10 = _t20;
+        let _c11 = _t19 - _t15;
         ::lie_runtime::__private_0_1::all_finite(
             &[
                 (_c0, "I1", "1/(2*I1)"),
@@ -613,19 +640,45 @@ impl<'a, S: ::lie_runtime::Scalar> FreeRigidBodyMidpoint<'a, S> {
     /// The equation of a step of size h; what depends on h alone is computed here, once.
     #[must_use]
     pub fn new(system: &'a FreeRigidBodySystem<S>, h: S) -> Self {
-        let _t0 = S::one() / system._parameters.I2;
-        let _t1 = S::one() / system._parameters.I3;
-        let _t2 = h * S::from_f64(0.25);
-        let _t3 = S::one() / system._parameters.I1;
-        let _t4 = _t3 - _t1;
+        let _t0 = h / system._parameters.I2;
+        let _t1 = h / system._parameters.I1;
+        let _t2 = h / system._parameters.I3;
+        let _t3 = S::select(_t0.less(S::zero()), S::zero(), _t0);
+        let _t4 = S::select((_t2 - _t3).less(S::zero()), _t3, _t2);
+        let _t5 = S::select(_t0.less(S::zero()), _t0, S::zero());
+        let _t6 = S::select((_t2 - _t5).less(S::zero()), _t2, _t5);
+        let _t7 = S::select((_t1 - _t4).less(S::zero()), _t4, _t1) * S::from_f64(2.0)
+            - S::select((_t1 - _t6).less(S::zero()), _t1, _t6) * S::from_f64(2.0);
+        let _t8 = S::select(_t0.less(S::zero()), -_t0, _t0);
+        let _t9 = S::select(
+            (_t8 * S::from_f64(2048.0) - _t7).less(S::zero()),
+            _t8,
+            _t7 + (_t8 - _t7),
+        );
+        let _t10 = S::select(_t0.less(S::zero()), -_t9, _t9) * S::from_f64(0.25);
+        let _t11 = S::select(_t2.less(S::zero()), -_t2, _t2);
+        let _t12 = S::select(
+            (S::from_f64(2048.0) * _t11 - _t7).less(S::zero()),
+            _t11,
+            _t7 + (_t11 - _t7),
+        );
+        let _t13 = S::select(_t2.less(S::zero()), -_t12, _t12) * S::from_f64(0.25);
+        let _t14 = S::select(_t1.less(S::zero()), -_t1, _t1);
+        let _t15 = S::select(
+            (S::from_f64(2048.0) * _t14 - _t7).less(S::zero()),
+            _t14,
+            _t7 + (_t14 - _t7),
+        );
+        let _t16 = S::select(_t1.less(S::zero()), -_t15, _t15) * S::from_f64(0.25);
+        let _t17 = _t13 - _t16;
         Self {
             system,
             base: ::lie_runtime::Poisson::zero_state(system),
             h,
-            _h0: (_t0 - _t1) * _t2,
-            _h1: _t4 * _t2,
-            _h2: (_t3 - _t0) * _t2,
-            _h3: _t4 * h * S::from_f64(-0.25),
+            _h0: _t10 - _t13,
+            _h1: -_t17,
+            _h2: _t16 - _t10,
+            _h3: _t17,
         }
     }
 }
@@ -1024,26 +1077,52 @@ impl<'a, S: ::lie_runtime::Scalar> FreeRigidBodyCayleyMidpoint<'a, S> {
     /// The equation of a step of size h; what depends on h alone is computed here, once.
     #[must_use]
     pub fn new(system: &'a FreeRigidBodySystem<S>, h: S) -> Self {
-        let _t0 = S::one() / system._parameters.I1;
-        let _t1 = h * S::from_f64(0.5);
-        let _t2 = S::one() / system._parameters.I2;
-        let _t3 = S::one() / system._parameters.I3;
-        let _t4 = _t2 - _t3;
-        let _t5 = _t0 - _t3;
-        let _t6 = _t0 - _t2;
+        let _t0 = h / system._parameters.I1;
+        let _t1 = h / system._parameters.I3;
+        let _t2 = h / system._parameters.I2;
+        let _t3 = S::select(_t2.less(S::zero()), S::zero(), _t2);
+        let _t4 = S::select((_t1 - _t3).less(S::zero()), _t3, _t1);
+        let _t5 = S::select(_t2.less(S::zero()), _t2, S::zero());
+        let _t6 = S::select((_t1 - _t5).less(S::zero()), _t1, _t5);
+        let _t7 = S::select((_t0 - _t4).less(S::zero()), _t4, _t0) * S::from_f64(2.0)
+            - S::select((_t0 - _t6).less(S::zero()), _t0, _t6) * S::from_f64(2.0);
+        let _t8 = S::select(_t0.less(S::zero()), -_t0, _t0);
+        let _t9 = S::select(
+            (S::from_f64(2048.0) * _t8 - _t7).less(S::zero()),
+            _t8,
+            _t7 + (_t8 - _t7),
+        );
+        let _t10 = S::select(_t0.less(S::zero()), -_t9, _t9);
+        let _t11 = _t10 * S::from_f64(0.5);
+        let _t12 = S::select(_t2.less(S::zero()), -_t2, _t2);
+        let _t13 = S::select(
+            (_t12 * S::from_f64(2048.0) - _t7).less(S::zero()),
+            _t12,
+            _t7 + (_t12 - _t7),
+        );
+        let _t14 = S::select(_t2.less(S::zero()), -_t13, _t13);
+        let _t15 = _t14 * S::from_f64(0.5);
+        let _t16 = S::select(_t1.less(S::zero()), -_t1, _t1);
+        let _t17 = S::select(
+            (S::from_f64(2048.0) * _t16 - _t7).less(S::zero()),
+            _t16,
+            _t7 + (_t16 - _t7),
+        );
+        let _t18 = S::select(_t1.less(S::zero()), -_t17, _t17);
+        let _t19 = _t18 * S::from_f64(0.5);
         Self {
             system,
             base: ::lie_runtime::Poisson::zero_state(system),
             h,
-            h_over_2_I1: _t0 * _t1,
-            h_over_2_I2: _t2 * _t1,
-            h_over_2_I3: _t3 * _t1,
-            _h3: _t4 * _t1,
-            _h4: _t5 * _t1,
-            _h5: _t6 * _t1,
-            _h6: _t4 * h,
-            _h7: _t5 * h,
-            _h8: _t6 * h,
+            h_over_2_I1: _t11,
+            h_over_2_I2: _t15,
+            h_over_2_I3: _t19,
+            _h3: _t15 - _t19,
+            _h4: _t11 - _t19,
+            _h5: _t11 - _t15,
+            _h6: _t14 - _t18,
+            _h7: _t10 - _t18,
+            _h8: _t10 - _t14,
         }
     }
 }
@@ -1950,20 +2029,46 @@ impl<'a, S: ::lie_runtime::Scalar> FreeRigidBodyMoserVeselov<'a, S> {
     /// The equation of a step of size h; what depends on h alone is computed here, once.
     #[must_use]
     pub fn new(system: &'a FreeRigidBodySystem<S>, h: S) -> Self {
-        let _t0 = S::one() / system._parameters.I1;
-        let _t1 = h * S::from_f64(0.5);
-        let _t2 = S::one() / system._parameters.I2;
-        let _t3 = S::one() / system._parameters.I3;
+        let _t0 = h / system._parameters.I1;
+        let _t1 = h / system._parameters.I3;
+        let _t2 = h / system._parameters.I2;
+        let _t3 = S::select(_t2.less(S::zero()), S::zero(), _t2);
+        let _t4 = S::select((_t1 - _t3).less(S::zero()), _t3, _t1);
+        let _t5 = S::select(_t2.less(S::zero()), _t2, S::zero());
+        let _t6 = S::select((_t1 - _t5).less(S::zero()), _t1, _t5);
+        let _t7 = S::select((_t0 - _t4).less(S::zero()), _t4, _t0) * S::from_f64(2.0)
+            - S::select((_t0 - _t6).less(S::zero()), _t0, _t6) * S::from_f64(2.0);
+        let _t8 = S::select(_t0.less(S::zero()), -_t0, _t0);
+        let _t9 = S::select(
+            (S::from_f64(2048.0) * _t8 - _t7).less(S::zero()),
+            _t8,
+            _t7 + (_t8 - _t7),
+        );
+        let _t10 = S::select(_t0.less(S::zero()), -_t9, _t9) * S::from_f64(0.5);
+        let _t11 = S::select(_t2.less(S::zero()), -_t2, _t2);
+        let _t12 = S::select(
+            (_t11 * S::from_f64(2048.0) - _t7).less(S::zero()),
+            _t11,
+            _t7 + (_t11 - _t7),
+        );
+        let _t13 = S::select(_t2.less(S::zero()), -_t12, _t12) * S::from_f64(0.5);
+        let _t14 = S::select(_t1.less(S::zero()), -_t1, _t1);
+        let _t15 = S::select(
+            (S::from_f64(2048.0) * _t14 - _t7).less(S::zero()),
+            _t14,
+            _t7 + (_t14 - _t7),
+        );
+        let _t16 = S::select(_t1.less(S::zero()), -_t15, _t15) * S::from_f64(0.5);
         Self {
             system,
             base: ::lie_runtime::Poisson::zero_state(system),
             h,
-            h_over_2_I1: _t0 * _t1,
-            h_over_2_I2: _t2 * _t1,
-            h_over_2_I3: _t3 * _t1,
-            _h3: (_t2 - _t3) * _t1,
-            _h4: (_t0 - _t3) * _t1,
-            _h5: (_t0 - _t2) * _t1,
+            h_over_2_I1: _t10,
+            h_over_2_I2: _t13,
+            h_over_2_I3: _t16,
+            _h3: _t13 - _t16,
+            _h4: _t10 - _t16,
+            _h5: _t10 - _t13,
         }
     }
 }
@@ -2180,20 +2285,47 @@ impl<'a, S: ::lie_runtime::Scalar> FreeRigidBodySphericalMidpoint<'a, S> {
     /// The equation of a step of size h; what depends on h alone is computed here, once.
     #[must_use]
     pub fn new(system: &'a FreeRigidBodySystem<S>, h: S) -> Self {
-        let _t0 = S::one() / system._parameters.I2;
-        let _t1 = S::one() / system._parameters.I3;
-        let _t2 = (_t0 - _t1) * h;
-        let _t3 = S::one() / system._parameters.I1;
-        let _t4 = (_t3 - _t0) * h;
+        let _t0 = h / system._parameters.I2;
+        let _t1 = h / system._parameters.I1;
+        let _t2 = h / system._parameters.I3;
+        let _t3 = S::select(_t0.less(S::zero()), S::zero(), _t0);
+        let _t4 = S::select((_t2 - _t3).less(S::zero()), _t3, _t2);
+        let _t5 = S::select(_t0.less(S::zero()), _t0, S::zero());
+        let _t6 = S::select((_t2 - _t5).less(S::zero()), _t2, _t5);
+        let _t7 = S::select((_t1 - _t4).less(S::zero()), _t4, _t1) * S::from_f64(2.0)
+            - S::select((_t1 - _t6).less(S::zero()), _t1, _t6) * S::from_f64(2.0);
+        let _t8 = S::select(_t0.less(S::zero()), -_t0, _t0);
+        let _t9 = S::select(
+            (_t8 * S::from_f64(2048.0) - _t7).less(S::zero()),
+            _t8,
+            _t7 + (_t8 - _t7),
+        );
+        let _t10 = S::select(_t0.less(S::zero()), -_t9, _t9);
+        let _t11 = S::select(_t2.less(S::zero()), -_t2, _t2);
+        let _t12 = S::select(
+            (S::from_f64(2048.0) * _t11 - _t7).less(S::zero()),
+            _t11,
+            _t7 + (_t11 - _t7),
+        );
+        let _t13 = S::select(_t2.less(S::zero()), -_t12, _t12);
+        let _t14 = _t10 - _t13;
+        let _t15 = S::select(_t1.less(S::zero()), -_t1, _t1);
+        let _t16 = S::select(
+            (S::from_f64(2048.0) * _t15 - _t7).less(S::zero()),
+            _t15,
+            _t7 + (_t15 - _t7),
+        );
+        let _t17 = S::select(_t1.less(S::zero()), -_t16, _t16);
+        let _t18 = _t10 - _t17;
         Self {
             system,
             base: ::lie_runtime::Poisson::zero_state(system),
             h,
-            _h0: -_t2,
-            _h1: (_t3 - _t1) * h,
-            _h2: -_t4,
-            _h3: _t2,
-            _h4: _t4,
+            _h0: -_t14,
+            _h1: _t17 - _t13,
+            _h2: _t18,
+            _h3: _t14,
+            _h4: -_t18,
         }
     }
 }

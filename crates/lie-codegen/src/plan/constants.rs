@@ -1,5 +1,7 @@
 //! Constants that are computed before the kernels run.
 
+mod grid;
+
 use std::collections::{BTreeSet, HashMap};
 
 use super::planner::Planner;
@@ -91,12 +93,15 @@ impl Planner<'_> {
 
     /// The program that computes expressions from the parameters and the step size.
     pub(super) fn preparation(&mut self, outputs: &[ExprId]) -> Code {
-        let task = Task {
+        self.scheduled(&Task {
             definitions: Vec::new(),
             outputs: outputs.to_vec(),
             known: KnownSymbols::Nothing,
-        };
-        let program = schedule(&mut self.source.graph, &task);
+        })
+    }
+
+    fn scheduled(&mut self, task: &Task) -> Code {
+        let program = schedule(&mut self.source.graph, task);
         self.code_of_system(&program)
     }
 
@@ -111,9 +116,10 @@ impl Planner<'_> {
             }
             entries.push(entry);
         }
+        let task = grid::preparation(&mut self.source.graph, &table.order);
         Constants {
             entries,
-            program: self.preparation(&table.order),
+            program: self.scheduled(&task),
         }
     }
 
