@@ -65,7 +65,7 @@ fn what_does_not_fit_is_refused() {
         fs::write(here.join(name), before).unwrap();
     }
     type Change = fn(&mut serde_json::Value);
-    let changes: [(Change, &str); 6] = [
+    let changes: [(Change, &str); 7] = [
         (
             |content| content["arguments"] = serde_json::json!(["check", "driven.json"]),
             "no `lie run`",
@@ -89,6 +89,10 @@ fn what_does_not_fit_is_refused() {
         (
             |content| content["place"]["milestone"]["division"]["parts"] = 2.into(),
             "divided otherwise",
+        ),
+        (
+            |content| content["place"]["milestone"]["stats"]["steps"] = u64::MAX.into(),
+            "those of no run",
         ),
     ];
     for (change, why) in changes {

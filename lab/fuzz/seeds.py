@@ -70,7 +70,8 @@ def corpora():
     texts = [text for text, _ in found]
     states = [spec["initial"] for _, spec in found if isinstance(spec.get("initial"), list)]
     lines = [",".join(str(value) for value in state) for state in states]
-    declarations = [path.read_bytes() for path in sorted((FOLDER / "seeds/declaration").iterdir())]
+    declarations, checkpoints = ([path.read_bytes() for path in sorted((FOLDER / "seeds" / kind).iterdir())]
+                                 for kind in ["declaration", "checkpoint"])
     arrays = [array(2, 3), array(1, 6), array(4, 3, "<f4"), array(0, 3), array(3, 2, "<f4")]
     return {
         "spec": texts,
@@ -82,6 +83,7 @@ def corpora():
         "initial_file": [line.encode() for line in lines] + [b"z,y,x\n1,2,3\n1/2,cos(1),-1\n", b"\xef\xbb\xbf1,2,3\n# no\n4,5,6"] + arrays,
         "request": [json.dumps(run).encode() for run in [spec.get("run", {}) for _, spec in found] + REQUESTS],
         "messages": list(messages()),
+        "checkpoint": checkpoints + [b"lie checkpoint 1, by lie 0\n{}\n"],
     }
 
 

@@ -4,8 +4,8 @@ use std::ffi::OsString;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use super::Key;
 use super::cache;
-use super::key::Key;
 
 /// The folder of a program: its source, the program, and a sum by which damage is noticed.
 pub struct Entry {

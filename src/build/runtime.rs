@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 
 use include_dir::{Dir, DirEntry};
 
-use super::key::Key;
+use super::Key;
 
 /// The crates that a generated program can depend on, with their folders `src`.
 const CRATES: [(&str, &Dir<'_>); 4] = [

@@ -3,9 +3,10 @@
 use std::path::Path;
 
 use super::args::{Command, Resume};
-use super::run::{self, checkpoint::Checkpoint, checkpoint::refused};
+use super::run::{self, checkpoint, checkpoint::Checkpoint, checkpoint::refused};
 use super::usage::{Parsed, parse};
 use crate::message::Failure;
+use crate::output::is_in;
 
 /// Goes on with a run.
 ///
@@ -13,7 +14,7 @@ use crate::message::Failure;
 /// `checkpoint` for one that does not fit; else as of `lie run`.
 pub fn run(arguments: &Resume) -> Result<u8, Failure> {
     let path = &arguments.checkpoint;
-    let checkpoint = Checkpoint::read(path)?;
+    let checkpoint = checkpoint::read(path)?;
     let path = std::path::absolute(path).unwrap_or_else(|_| path.clone());
     let line = std::iter::once("lie".to_owned()).chain(checkpoint.arguments.iter().cloned());
     let flags = match parse(line.map(Into::into)) {
@@ -28,10 +29,10 @@ pub fn run(arguments: &Resume) -> Result<u8, Failure> {
         return Err(message.help("begin the run anew with `lie run`").into());
     };
     go_to(&checkpoint);
-    checkpoint.check_inputs()?;
+    checkpoint::check_inputs(&checkpoint)?;
     if let (Some(out), Some(place)) = (&flags.out, &checkpoint.place)
         && let Some(written) = &place.written
-        && let Err(why) = written.is_in(out)
+        && let Err(why) = is_in(written, out)
     {
         let message = refused(out, format!("the rows so far are not in this file: {why}"));
         let help = "put it back as the run has left it, or begin the run anew with `lie run`";

@@ -14,7 +14,7 @@ use form::{Csv, Form, Json, JsonLines};
 pub use form::{Header, Run};
 pub use identity::Identity;
 use npy::Npy;
-pub use written::Written;
+pub use written::is_in;
 
 use crate::command::args::Format;
 

@@ -5,7 +5,7 @@ use std::fs::File;
 use std::io::{self, Read as _, Seek as _, SeekFrom};
 use std::path::Path;
 
-use serde::{Deserialize, Serialize};
+use lie_in_process::checkpoint::Written;
 
 use super::{Rows, Run};
 use crate::build::Key;
@@ -13,34 +13,20 @@ use crate::build::Key;
 /// So many of the last bytes tell the file from another one.
 const TAIL: u64 = 4096;
 
-/// So much of a file that rows go to as is on the disk.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize)]
-#[serde(deny_unknown_fields)]
-pub struct Written {
-    /// Bytes at the start that change with the number of rows.
-    start: u64,
-    length: u64,
-    rows: u64,
-    /// A digest of the last bytes.
-    tail: String,
-}
-
-impl Written {
-    /// Whether a file holds it; why not.
-    ///
-    /// # Errors
-    /// It does not.
-    pub fn is_in(&self, path: &Path) -> Result<(), String> {
-        let found = path.metadata().map_err(|error| error.to_string())?;
-        if !found.is_file() || found.len() < self.length {
-            let (there, expected) = (found.len(), self.length);
-            return Err(format!("it has {there} bytes of the {expected} written"));
-        }
-        match tail(path, self.start, self.length) {
-            Ok(tail) if tail == self.tail => Ok(()),
-            Ok(_) => Err("it was changed".to_owned()),
-            Err(error) => Err(error.to_string()),
-        }
+/// Whether a file holds what was written; why not.
+///
+/// # Errors
+/// It does not.
+pub fn is_in(written: &Written, path: &Path) -> Result<(), String> {
+    let found = path.metadata().map_err(|error| error.to_string())?;
+    if !found.is_file() || found.len() < written.length {
+        let (there, expected) = (found.len(), written.length);
+        return Err(format!("it has {there} bytes of the {expected} written"));
+    }
+    match tail(path, written.start, written.length) {
+        Ok(tail) if tail == written.tail => Ok(()),
+        Ok(_) => Err("it was changed".to_owned()),
+        Err(error) => Err(error.to_string()),
     }
 }
 

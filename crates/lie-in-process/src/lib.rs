@@ -8,12 +8,14 @@
 #![warn(missing_docs)]
 
 pub mod catalogue;
+pub mod checkpoint;
 pub mod clock;
 pub mod converse;
 pub mod ensemble;
 pub mod evidence;
 pub mod families;
 pub mod formula;
+pub mod key;
 pub mod list;
 pub mod members;
 pub mod memory;

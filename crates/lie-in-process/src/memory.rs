@@ -10,6 +10,8 @@ use lie_program::protocol::Times;
 
 /// Of what is free, so much is left for everything that is not counted.
 const LEFT: f64 = 0.1;
+/// So many bytes are had without asking: what is free is read from half a dozen files of the system, which takes longer than many a run.
+const LITTLE: u64 = 1 << 20;
 /// Bytes of a number.
 pub const NUMBER: f64 = 8.0;
 
@@ -62,8 +64,11 @@ impl From<Exceeded> for io::Error {
 /// Whether so many bytes can be had.
 ///
 /// # Errors
-/// They cannot; where the system tells nothing, everything fits.
+/// They cannot; what is little fits, and everything where the system tells nothing.
 pub fn fits(needed: f64) -> Result<(), Exceeded> {
+    if needed <= LITTLE as f64 {
+        return Ok(());
+    }
     match free().map(|free| free * (1.0 - LEFT)) {
         Some(free) if needed > free => Err(Exceeded { needed, free }),
         _ => Ok(()),
@@ -88,9 +93,14 @@ pub fn reserve(numbers: &mut Vec<f64>, more: usize) -> io::Result<()> {
 /// Those of the file system, and a file that is too large.
 pub fn read(path: &Path) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
+    let mut file = File::open(path)?;
+    if file.by_ref().take(LITTLE).read_to_end(&mut bytes)? < LITTLE as usize {
+        return Ok(bytes);
+    }
     let most = free().map_or(u64::MAX, |free| (free / 4.0) as u64);
-    File::open(path)?.take(most).read_to_end(&mut bytes)?;
-    match bytes.len() as u64 == most {
+    file.take(most.saturating_sub(LITTLE))
+        .read_to_end(&mut bytes)?;
+    match bytes.len() as u64 >= most {
         true => Err(io::Error::new(
             io::ErrorKind::OutOfMemory,
             "it is larger than a quarter of the free memory",

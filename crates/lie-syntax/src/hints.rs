@@ -1,13 +1,27 @@
 //! What other languages and tools write, and what is meant: the tables of `hints.txt`.
 
+use std::collections::HashMap;
+use std::sync::LazyLock;
+
 const TEXT: &str = include_str!("hints.txt");
 
+/// The rows of each table, which are taken apart once.
+static TABLES: LazyLock<HashMap<&str, Vec<(&str, &str)>>> = LazyLock::new(|| {
+    let mut tables = HashMap::new();
+    let mut rows = &mut Vec::new();
+    for line in TEXT.lines() {
+        if line.starts_with('[') {
+            rows = tables.entry(line.trim_matches(['[', ']'])).or_default();
+        } else if let Some(row) = line.split_once(" = ") {
+            rows.push(row);
+        }
+    }
+    tables
+});
+
 /// The rows of a table: what others write, and what belongs to it here.
-pub fn table(name: &'static str) -> impl Iterator<Item = (&'static str, &'static str)> {
-    let is_head = move |line: &&str| line.starts_with('[') && line.trim_matches(['[', ']']) == name;
-    let behind = TEXT.lines().skip_while(move |line| !is_head(line)).skip(1);
-    let lines = behind.take_while(|line| !line.is_empty());
-    lines.filter_map(|line| line.split_once(" = "))
+pub fn table(name: &str) -> impl Iterator<Item = (&'static str, &'static str)> + use<> {
+    TABLES.get(name).into_iter().flatten().copied()
 }
 
 /// What belongs to a word in a table with several words in a row.

@@ -1,8 +1,27 @@
 //! "Did you mean": the nearest of a few known words.
 
+use std::collections::HashMap;
+use std::sync::LazyLock;
+
 use strsim::{damerau_levenshtein, jaro_winkler};
 
 use crate::hints;
+
+/// What is meant by the words of other tools, by these without what makes no difference.
+static OF_OTHERS: LazyLock<HashMap<String, Vec<&str>>> = LazyLock::new(|| {
+    let mut meant: HashMap<String, Vec<&str>> = HashMap::new();
+    for (theirs, ours) in hints::table("words of other tools") {
+        for word in theirs.split(' ') {
+            meant.entry(plain(word)).or_default().push(ours);
+        }
+    }
+    meant
+});
+
+/// A word without what makes no difference.
+fn plain(word: &str) -> String {
+    word.to_lowercase().replace(['-', '_'], "")
+}
 
 /// The word of the language, option or command that is meant by a word: what other tools call so, or
 /// the nearest one. Underscores, hyphens and case make no difference to other tools' words.
@@ -10,20 +29,18 @@ pub fn meant<'a>(
     word: &str,
     candidates: impl IntoIterator<Item = &'a str> + Clone,
 ) -> Option<&'a str> {
-    let plain = |text: &str| text.to_lowercase().replace(['-', '_'], "");
     let word_plain = plain(word);
-    let called_so = |candidate: &&str| {
-        let mut rows = hints::table("words of other tools");
-        let row = rows.find(|(_, ours)| ours == candidate);
-        row.is_some_and(|(theirs, _)| theirs.split(' ').any(|other| plain(other) == word_plain))
-    };
+    let called_so = OF_OTHERS.get(&word_plain).map_or(&[][..], Vec::as_slice);
     // A word that is ours but for its case or one exchange of letters is a slip, not another tool's.
     let same = candidates
         .clone()
         .into_iter()
         .find(|candidate| plain(candidate) == word_plain);
-    same.or_else(|| candidates.clone().into_iter().find(called_so))
-        .or_else(|| did_you_mean(word, candidates))
+    same.or_else(|| {
+        let mut ours = candidates.clone().into_iter();
+        ours.find(|candidate| called_so.contains(candidate))
+    })
+    .or_else(|| did_you_mean(word, candidates))
 }
 
 /// The candidate nearest to a misspelt word, `None` if none is near.

@@ -7,6 +7,7 @@ use lie_codegen::expand::expand_macro;
 use lie_codegen::methods::{CATALOGUE, Choice};
 use lie_codegen::structure::Structure;
 use proc_macro2::TokenStream;
+use proc_macro2::extra::invalidate_current_thread_spans;
 
 use crate::told;
 
@@ -49,6 +50,7 @@ pub(crate) fn choices(model: &Structure) -> Vec<Choice> {
 /// the text could be the body of a macro at all.
 pub fn declaration(text: &str) -> bool {
     // What Rust's own lexer refuses never reaches a macro; a spec by path is another target.
+    invalidate_current_thread_spans();
     let Ok(tokens) = text.parse::<TokenStream>() else {
         return false;
     };

@@ -3,6 +3,7 @@
 mod asked;
 mod compiler;
 mod readers;
+mod taken_up;
 
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -11,6 +12,7 @@ pub use asked::{initial_file, npy, request};
 pub use compiler::{declaration, spec};
 use lie_syntax::diagnostic::{Diagnostic, Origin};
 pub use readers::{messages, read_declaration, read_spec, table};
+pub use taken_up::checkpoint;
 
 /// Whether a text was refused with errors at places inside it, and with their remedies.
 fn told(diagnostics: &[Diagnostic], text: &str) {

@@ -5,6 +5,7 @@ use lie_program::protocol::{Found, Run};
 use lie_syntax::diagnostic::{Report, forget_spans};
 use lie_syntax::front::{Parsed, declaration, spec};
 use proc_macro2::TokenStream;
+use proc_macro2::extra::invalidate_current_thread_spans;
 
 use crate::{file, folder, told};
 
@@ -20,7 +21,10 @@ pub fn read_spec(bytes: &[u8]) {
 }
 
 /// The body of the macro, from tokens to the syntax tree. Whether the text could be the body of a macro at all.
+///
+/// A process that expands one macro keeps its text for the places of its tokens, and this one would keep millions.
 pub fn read_declaration(text: &str) -> bool {
+    invalidate_current_thread_spans();
     let Ok(tokens) = text.parse::<TokenStream>() else {
         return false;
     };

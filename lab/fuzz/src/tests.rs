@@ -56,6 +56,16 @@ fn seeds_of_the_specs() {
         .for_each(|bytes| spec(bytes));
 }
 
+#[test]
+fn seeds_of_the_checkpoints() {
+    assert!(
+        files("seeds/checkpoint")
+            .iter()
+            .all(|bytes| checkpoint(bytes))
+    );
+    assert!(!checkpoint(b"lie checkpoint 1, by lie 0\n{}\n"));
+}
+
 /// What is right and what is not reaches its end in each of the others.
 #[test]
 fn readers_come_to_an_end() {

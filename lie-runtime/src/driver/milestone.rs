@@ -18,6 +18,9 @@ use crate::state::State;
 /// of a few steps; methods that try iterations without a Jacobian take up to a tenth longer in all.
 pub const MILESTONE: u64 = 1000;
 
+/// No run counts so far: whatever comes after a milestone can be added to its counts.
+const UNCOUNTED: u64 = 1 << 63;
+
 /// A place from which a run can be taken up again, with what that takes beside its problem, method and options.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Milestone<V> {
@@ -100,6 +103,11 @@ impl<M> Course<'_, M> {
             || division.watched.is_some_and(|watched| watched.left == 0)
         {
             "its steps are divided otherwise"
+        } else if counts(milestone)
+            .into_iter()
+            .any(|count| count >= UNCOUNTED)
+        {
+            "its counts are those of no run"
         } else {
             (self.index, self.milestone) = (index, index + MILESTONE);
             (self.parts, self.slow) = (division.parts, division.slow);
@@ -111,6 +119,35 @@ impl<M> Course<'_, M> {
         };
         Err(OptionError::Milestone(why))
     }
+}
+
+/// What later steps are added to.
+fn counts<V>(milestone: &Milestone<V>) -> [u64; 11] {
+    let Stats {
+        steps,
+        evaluations,
+        newton,
+        fixed_point,
+        factorizations,
+        pivoted,
+        accepted,
+        rejected,
+        failures,
+    } = milestone.stats;
+    let (factored, slow) = milestone.division.slow;
+    [
+        steps,
+        evaluations,
+        newton,
+        fixed_point,
+        factorizations,
+        pivoted,
+        accepted,
+        rejected,
+        failures,
+        factored,
+        slow,
+    ]
 }
 
 /// The gradient of H at a state, for the branch that is followed there.

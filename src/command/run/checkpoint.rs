@@ -1,181 +1,129 @@
 //! The checkpoint of a run: a file from which `lie resume` goes on.
 //!
-//! It has three lines: what it is and which program has written it; the content as JSON; a digest of both. It is written beside
-//! its place and renamed, after the rows that it counts are on the disk: whatever ends the run, there is a whole one, and all
-//! that it speaks of.
+//! It is written beside its place and renamed, after the rows that it counts are on the disk: whatever ends the run, there is a
+//! whole one, and all that it speaks of.
 
 use std::fs::{self, File};
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
-use lie_program::protocol::Milestone;
+use lie_in_process::checkpoint::Unread;
+pub use lie_in_process::checkpoint::{Checkpoint, Place};
 use lie_syntax::diagnostic::Kind;
 use lie_syntax::front::spec::files;
-use serde::{Deserialize, Serialize};
 
-use super::summary::KeptDrift;
 use crate::build::{self, Key};
 use crate::command::args;
 use crate::compiler::Spec;
 use crate::message::{Failure, Message, Place as At};
-use crate::output::Written;
-
-/// What each begins with; the number is that of the form.
-const MARK: &str = "lie checkpoint 1, by lie ";
-
-/// What is kept of a run.
-#[derive(Clone, Debug, Deserialize, Serialize)]
-#[serde(deny_unknown_fields)]
-pub struct Checkpoint {
-    /// The command line behind `lie`, and the folder in which it was given.
-    pub arguments: Vec<String>,
-    pub folder: PathBuf,
-    /// The files that were read, with a digest of each.
-    pub inputs: Vec<(PathBuf, String)>,
-    /// How far the run is; nothing before its first milestone.
-    pub place: Option<Place>,
-    /// Whether it came to its end.
-    pub finished: bool,
-}
-
-/// How far a run is.
-#[derive(Clone, Debug, Deserialize, Serialize)]
-#[serde(deny_unknown_fields)]
-pub struct Place {
-    pub milestone: Milestone,
-    /// The rows in the file; nothing before the first.
-    pub written: Option<Written>,
-    /// The errors of the invariants.
-    pub drift: KeptDrift,
-    /// In how many parts steps are made, and since when.
-    pub divided: Option<(u32, f64)>,
-    /// The time that it took.
-    pub seconds: f64,
-}
 
 /// What is wrong with a checkpoint.
 pub fn refused(path: &Path, text: impl Into<String>) -> Message {
     Message::new(Kind::Checkpoint, text).at_place(At::File(path.display().to_string()))
 }
 
-impl Checkpoint {
-    /// That of a run that has not begun.
-    ///
-    /// # Errors
-    /// `option` for arguments that are no text; `io` for inputs that cannot be read again.
-    pub fn of(flags: &args::Run, spec: &Spec) -> Result<Self, Failure> {
-        let arguments = std::env::args_os().skip(1).map(|one| one.into_string());
-        let arguments = arguments.collect::<Result<_, _>>().map_err(|_| {
-            let text = "a checkpoint keeps the command line, which is not UTF-8";
-            Message::option("--checkpoint", text).help("give the files names that are text")
-        })?;
-        let path = &flags.specs[0];
-        let mut inputs = vec![(path.clone(), Key::digest(spec.source.text.as_bytes()))];
-        let folder = path.parent().unwrap_or(Path::new(""));
-        let named = files(&spec.source.text)
-            .into_iter()
-            .map(|file| folder.join(file));
-        for path in named.chain(flags.request.initial_file.clone()) {
-            let bytes = fs::read(&path).map_err(|error| unreadable(&path, &error))?;
-            inputs.push((path, Key::digest(unmarked(&bytes))));
-        }
-        Ok(Self {
-            arguments,
-            folder: std::env::current_dir().unwrap_or_default(),
-            inputs,
-            place: None,
-            finished: false,
-        })
+/// That of a run that has not begun.
+///
+/// # Errors
+/// `option` for arguments that are no text; `io` for inputs that cannot be read again.
+pub fn of(flags: &args::Run, spec: &Spec) -> Result<Checkpoint, Failure> {
+    let arguments = std::env::args_os().skip(1).map(|one| one.into_string());
+    let arguments = arguments.collect::<Result<_, _>>().map_err(|_| {
+        let text = "a checkpoint keeps the command line, which is not UTF-8";
+        Message::option("--checkpoint", text).help("give the files names that are text")
+    })?;
+    let path = &flags.specs[0];
+    let mut inputs = vec![(path.clone(), Key::digest(spec.source.text.as_bytes()))];
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let named = files(&spec.source.text)
+        .into_iter()
+        .map(|file| folder.join(file));
+    for path in named.chain(flags.request.initial_file.clone()) {
+        let bytes = fs::read(&path).map_err(|error| unreadable(&path, &error))?;
+        inputs.push((path, Key::digest(unmarked(&bytes))));
     }
+    Ok(Checkpoint {
+        arguments,
+        folder: std::env::current_dir().unwrap_or_default(),
+        inputs,
+        place: None,
+        finished: false,
+    })
+}
 
-    /// Reads one.
-    ///
-    /// # Errors
-    /// `checkpoint` for what is none, is damaged, or was written by another version; `io`.
-    pub fn read(path: &Path) -> Result<Self, Failure> {
-        match path.metadata() {
-            Ok(found) if found.is_file() => {}
-            Ok(_) => return Err(none(path).into()),
-            Err(error) => return Err(unreadable(path, &error)),
-        }
-        let bytes = fs::read(path).map_err(|error| unreadable(path, &error))?;
-        let first = bytes.split(|&byte| byte == b'\n').next().unwrap_or(&[]);
-        let writer = first.strip_prefix(MARK.as_bytes());
-        let writer = String::from_utf8_lossy(writer.ok_or_else(|| none(path))?);
-        let damaged = |what: &str| {
-            let message = refused(path, format!("the checkpoint is damaged: {what}"));
-            message.help("begin the run anew with `lie run`, or take a copy of the checkpoint if there is one")
+/// Reads one.
+///
+/// # Errors
+/// `checkpoint` for what is none, is damaged, or was written by another version; `io`.
+pub fn read(path: &Path) -> Result<Checkpoint, Failure> {
+    match path.metadata() {
+        Ok(found) if found.is_file() => {}
+        Ok(_) => return Err(none(path).into()),
+        Err(error) => return Err(unreadable(path, &error)),
+    }
+    let bytes = fs::read(path).map_err(|error| unreadable(path, &error))?;
+    let ours = build::version();
+    Checkpoint::read(&bytes, ours).map_err(|unread| {
+        let message = match unread {
+            Unread::Foreign => none(path),
+            Unread::Version(writer) => {
+                let text =
+                    format!("the checkpoint was written by lie {writer}, and this is lie {ours}");
+                let help = "go on with the program that has written it, or begin the run anew with `lie run`";
+                refused(path, text).help(help)
+            }
+            Unread::Damaged(what) => {
+                let message = refused(path, format!("the checkpoint is damaged: {what}"));
+                message.help("begin the run anew with `lie run`, or take a copy of the checkpoint if there is one")
+            }
         };
-        let ours = build::version();
-        if writer != ours {
-            let text =
-                format!("the checkpoint was written by lie {writer}, and this is lie {ours}");
-            let help =
-                "go on with the program that has written it, or begin the run anew with `lie run`";
-            return Err(refused(path, text).help(help).into());
-        }
-        let text = String::from_utf8(bytes).map_err(|_| damaged("it is no text"))?;
-        let mut lines = text.split_inclusive('\n').skip(1);
-        let (Some(content), Some(digest), None) = (lines.next(), lines.next(), lines.next()) else {
-            return Err(damaged("a part of it is missing").into());
+        message.into()
+    })
+}
+
+/// Writes it in place of what is there.
+///
+/// # Errors
+/// Those of the file system: what is there stays.
+pub fn write(checkpoint: &Checkpoint, path: &Path) -> io::Result<()> {
+    let text = checkpoint.text(build::version())?;
+    let mut draft = path.as_os_str().to_owned();
+    draft.push(".new");
+    let draft = PathBuf::from(draft);
+    let written = File::create(&draft).and_then(|mut file| {
+        file.write_all(text.as_bytes())?;
+        file.sync_all()?;
+        fs::rename(&draft, path)
+    });
+    if written.is_err() {
+        let _ = fs::remove_file(&draft);
+    }
+    written?;
+    // the name is on the disk too; where folders cannot be opened, the system sees to that
+    let folder = path
+        .parent()
+        .filter(|folder| !folder.as_os_str().is_empty());
+    if let Ok(folder) = File::open(folder.unwrap_or(Path::new("."))) {
+        let _ = folder.sync_all();
+    }
+    Ok(())
+}
+
+/// Whether its inputs are what they were.
+///
+/// # Errors
+/// `checkpoint` at the first that is not.
+pub fn check_inputs(checkpoint: &Checkpoint) -> Result<(), Failure> {
+    for (path, digest) in &checkpoint.inputs {
+        let text = match fs::read(path) {
+            Ok(bytes) if Key::digest(unmarked(&bytes)) == *digest => continue,
+            Ok(_) => "this file has changed since the run began".to_owned(),
+            Err(error) => format!("this file, which the run has read, is not there: {error}"),
         };
-        let signed = &text[..text.len() - digest.len()];
-        if digest.strip_suffix('\n') != Some(Key::digest(signed.as_bytes()).as_str()) {
-            return Err(damaged("its digest is another one").into());
-        }
-        let content = serde_json::from_str(content);
-        Ok(content.map_err(|error| damaged(&error.to_string()))?)
+        let help = "put it back as it was, or begin the run anew with `lie run`";
+        return Err(refused(path, text).help(help).into());
     }
-
-    /// Writes it in place of what is there.
-    ///
-    /// # Errors
-    /// Those of the file system: what is there stays.
-    pub fn write(&self, path: &Path) -> io::Result<()> {
-        let mut text = format!(
-            "{MARK}{}\n{}\n",
-            build::version(),
-            serde_json::to_string(self)?
-        );
-        text = format!("{text}{}\n", Key::digest(text.as_bytes()));
-        let mut draft = path.as_os_str().to_owned();
-        draft.push(".new");
-        let draft = PathBuf::from(draft);
-        let written = File::create(&draft).and_then(|mut file| {
-            file.write_all(text.as_bytes())?;
-            file.sync_all()?;
-            fs::rename(&draft, path)
-        });
-        if written.is_err() {
-            let _ = fs::remove_file(&draft);
-        }
-        written?;
-        // the name is on the disk too; where folders cannot be opened, the system sees to that
-        let folder = path
-            .parent()
-            .filter(|folder| !folder.as_os_str().is_empty());
-        if let Ok(folder) = File::open(folder.unwrap_or(Path::new("."))) {
-            let _ = folder.sync_all();
-        }
-        Ok(())
-    }
-
-    /// Whether its inputs are what they were.
-    ///
-    /// # Errors
-    /// `checkpoint` at the first that is not.
-    pub fn check_inputs(&self) -> Result<(), Failure> {
-        for (path, digest) in &self.inputs {
-            let text = match fs::read(path) {
-                Ok(bytes) if Key::digest(unmarked(&bytes)) == *digest => continue,
-                Ok(_) => "this file has changed since the run began".to_owned(),
-                Err(error) => format!("this file, which the run has read, is not there: {error}"),
-            };
-            let help = "put it back as it was, or begin the run anew with `lie run`";
-            return Err(refused(path, text).help(help).into());
-        }
-        Ok(())
-    }
+    Ok(())
 }
 
 /// The bytes of a file without the mark that some editors put in front.
@@ -215,7 +163,7 @@ mod tests {
             }
         });
         let checkpoint: Checkpoint = serde_json::from_value(content).unwrap();
-        checkpoint.write(path).unwrap();
+        super::write(&checkpoint, path).unwrap();
         fs::read(path).unwrap()
     }
 
@@ -226,7 +174,7 @@ mod tests {
         let whole = whole(&path);
         let read = |bytes: &[u8]| {
             fs::write(&path, bytes).unwrap();
-            let read = Checkpoint::read(&path);
+            let read = super::read(&path);
             if let Err(failure) = &read {
                 let [message] = failure.messages.as_slice() else {
                     panic!("{} messages", failure.messages.len())

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use lie_in_process::request::Several;
 use lie_program::protocol::{Milestone, Milestones};
 
-use super::checkpoint::{Checkpoint, Place, refused};
+use super::checkpoint::{self, Checkpoint, Place, refused};
 use super::reception::Received;
 use crate::command::args;
 use crate::command::files::{Inputs, unwritable};
@@ -86,10 +86,8 @@ impl Keeper {
             None => {
                 inputs.with_rows(&rows).spare("--checkpoint", path)?;
                 vacant(path)?;
-                let checkpoint = Checkpoint::of(flags, spec)?;
-                checkpoint
-                    .write(path)
-                    .map_err(|error| unwritable(path, &error))?;
+                let checkpoint = checkpoint::of(flags, spec)?;
+                checkpoint::write(&checkpoint, path).map_err(|error| unwritable(path, &error))?;
                 checkpoint
             }
         };
@@ -149,7 +147,7 @@ impl Keeper {
     }
 
     fn write(&self) -> io::Result<()> {
-        let written = self.checkpoint.write(&self.path);
+        let written = checkpoint::write(&self.checkpoint, &self.path);
         written.map_err(|error| io::Error::other(Unwritten(self.path.clone(), error)))
     }
 
@@ -173,7 +171,7 @@ fn vacant(path: &Path) -> Result<(), Failure> {
             return Err(Message::option("--checkpoint", text).help(help).into());
         }
     }
-    let place = match Checkpoint::read(path) {
+    let place = match checkpoint::read(path) {
         Ok(Checkpoint {
             finished: false,
             place: Some(place),

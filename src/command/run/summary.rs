@@ -2,8 +2,7 @@
 
 use std::time::Duration;
 
-use serde::{Deserialize, Serialize};
-
+use lie_in_process::checkpoint::KeptDrift;
 use lie_in_process::words::counted;
 use lie_poisson::plot::reference;
 use lie_program::protocol::Work;
@@ -18,16 +17,6 @@ pub struct Drift {
     /// Largest absolute value of a component of the state.
     scale: f64,
     time: f64,
-}
-
-/// The bits of the errors so far.
-#[derive(Clone, Debug, Deserialize, Serialize)]
-#[serde(deny_unknown_fields)]
-pub struct KeptDrift {
-    /// The first value of each invariant, and how far it was from that.
-    invariants: Vec<(u64, u64)>,
-    scale: u64,
-    time: u64,
 }
 
 impl Drift {

@@ -1,4 +1,4 @@
-//! The key of a built program: a hash of everything that goes into it.
+//! A hash: of everything that goes into a built program, and of files that must be what they were.
 
 /// FNV-1a with 128 bits (Fowler, Noll, Vo), stable across versions of Rust and machines.
 ///
@@ -6,11 +6,18 @@
 /// find a collision, and the generated source is compared byte by byte besides.
 pub struct Key(u128);
 
+impl Default for Key {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 impl Key {
     const BASIS: u128 = 0x6c62_272e_07bb_0142_62b8_2175_6295_c58d;
     const PRIME: u128 = 0x0000_0000_0100_0000_0000_0000_0000_013b;
 
     /// The hash of nothing.
+    #[must_use]
     pub fn new() -> Self {
         Self(Self::BASIS)
     }
@@ -23,6 +30,7 @@ impl Key {
     }
 
     /// The hash of one text of bytes, as digits.
+    #[must_use]
     pub fn digest(bytes: &[u8]) -> String {
         Self::new().bytes(bytes).hex()
     }
@@ -35,6 +43,7 @@ impl Key {
     }
 
     /// 32 hexadecimal digits.
+    #[must_use]
     pub fn hex(&self) -> String {
         format!("{:032x}", self.0)
     }
