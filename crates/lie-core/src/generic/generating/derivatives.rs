@@ -27,8 +27,7 @@ pub(super) fn slope<S: Scalar>(dual: &impl State<Dual<S>>, out: &mut impl State<
 
 /// `out = h H''(p)(v, .)`.
 pub(super) fn second<S: Scalar, P: Lift<S>>(
-    system: &P,
-    h: S,
+    (system, h): (&P, S),
     p: &P::State,
     v: &P::State,
     out: &mut P::State,
@@ -52,8 +51,7 @@ macro_rules! next {
     ($(#[$doc:meta])* $name:ident from $lower:ident: $first:ident, $($rest:ident),+) => {
         $(#[$doc])*
         pub(super) fn $name<S: Scalar, P: Lift<S>>(
-            system: &P,
-            h: S,
+            (system, h): (&P, S),
             p: &P::State,
             $first: &P::State,
             $($rest: &P::State,)+
@@ -63,7 +61,7 @@ macro_rules! next {
             let q = seeded(&lifted, p.as_slice(), Some($first.as_slice()));
             $(let $rest = seeded(&lifted, $rest.as_slice(), None);)+
             let mut lower = lifted.zero_state();
-            $lower(&lifted, Dual::constant_of(h), &q, $(&$rest,)+ &mut lower);
+            $lower((&lifted, Dual::constant_of(h)), &q, $(&$rest,)+ &mut lower);
             slope(&lower, out);
         }
     };

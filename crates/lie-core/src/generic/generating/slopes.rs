@@ -31,7 +31,7 @@ impl<V> Flow<V> {
         system.gradient(p, &mut flow.xi);
         scale(h, &mut flow.xi);
         system.ad_star(&flow.xi, p, &mut flow.x);
-        second(system, h, p, &flow.x, &mut flow.w);
+        second((system, h), p, &flow.x, &mut flow.w);
         flow
     }
 }
@@ -46,11 +46,11 @@ fn of_square<S: Scalar, P: Lift<S> + LiePoisson<S>>(
     out: &mut P::State,
 ) {
     let mut part = system.zero_state();
-    third(system, h, p, &flow.x, &flow.x, out);
+    third((system, h), p, &flow.x, &flow.x, out);
     system.ad(&flow.xi, &flow.w, &mut part);
     out.axpy(S::from_f64(2.0), &part);
     system.ad_star(&flow.w, p, y);
-    second(system, h, p, y, &mut part);
+    second((system, h), p, y, &mut part);
     out.axpy(S::from_f64(-2.0), &part);
 }
 
@@ -107,24 +107,24 @@ impl<V> Adjoints<V> {
         let mut part = zero.clone();
         let mut of_p = zero.clone();
         of_p.axpy(number(-4.0), through_eta);
-        third(system, h, p, x2, x2, &mut part);
+        third((system, h), p, x2, x2, &mut part);
         of_p.axpy(number(4.0), &part);
-        fourth(system, h, p, x, x, x2, &mut part);
+        fourth((system, h), p, x, x, x2, &mut part);
         of_p.axpy(number(12.0), &part);
-        fifth(system, h, p, x, x, x, x, &mut part);
+        fifth((system, h), p, x, x, x, x, &mut part);
         of_p.axpy(number(3.0), &part);
 
         let mut of_x2 = zero.clone();
         of_x2.axpy(number(-4.0), eta);
-        second(system, h, p, x2, &mut part);
+        second((system, h), p, x2, &mut part);
         of_x2.axpy(number(8.0), &part);
-        third(system, h, p, x, x, &mut part);
+        third((system, h), p, x, x, &mut part);
         of_x2.axpy(number(12.0), &part);
 
         let mut of_x = zero.clone();
-        third(system, h, p, x, x2, &mut part);
+        third((system, h), p, x, x2, &mut part);
         of_x.axpy(number(24.0), &part);
-        fourth(system, h, p, x, x, x, &mut part);
+        fourth((system, h), p, x, x, x, &mut part);
         of_x.axpy(number(12.0), &part);
 
         let mut of_y = zero;
@@ -161,9 +161,9 @@ fn back_to_p<S: Scalar, P: Lift<S> + LiePoisson<S>>(
     system.ad(w, &of_y, &mut part);
     of_p.axpy(S::one(), &part);
     // w = H''(p) X
-    second(system, h, p, &of_w, &mut part);
+    second((system, h), p, &of_w, &mut part);
     of_x.axpy(S::one(), &part);
-    third(system, h, p, x, &of_w, &mut part);
+    third((system, h), p, x, &of_w, &mut part);
     of_p.axpy(S::one(), &part);
     // X2 = ad*_xi X
     let mut of_xi = system.zero_state();
@@ -177,7 +177,7 @@ fn back_to_p<S: Scalar, P: Lift<S> + LiePoisson<S>>(
     system.ad_star(&of_x, p, &mut part);
     of_xi.axpy(-S::one(), &part);
     // xi = grad H(p)
-    second(system, h, p, &of_xi, &mut part);
+    second((system, h), p, &of_xi, &mut part);
     of_p.axpy(S::one(), &part);
     of_p
 }
@@ -231,7 +231,7 @@ where
     of_xi.axpy(S::one(), &part);
     system.triple(&flow.xi, &flow.xi, p, &mut part);
     of_xi.axpy(S::from_f64(3.0), &part);
-    second(system, S::one(), p, &of_xi, &mut part);
+    second((system, S::one()), p, &of_xi, &mut part);
     eta.axpy(S::from_f64(-2.0), &part);
     let mut unit = zero;
     for d in 0..system.dimension() {
@@ -269,7 +269,7 @@ pub(super) fn second_kind<S: Scalar, P: Lift<S> + LiePoisson<S>>(
         }
     }
     let mut eta = zero.clone();
-    second(system, S::one(), p, &of_xi, &mut eta);
+    second((system, S::one()), p, &of_xi, &mut eta);
     let (mut one, mut before) = (zero.clone(), zero);
     for j in 0..system.dimension() {
         one.fill(S::zero());
