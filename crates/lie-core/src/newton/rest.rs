@@ -77,3 +77,32 @@ impl<S: Scalar> Reviews<S> {
         [resting, failing]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scalar::Mask;
+
+    /// The reviews of updates in units of round-off, each as whether it is at rest and whether it does not converge.
+    fn reviewed(updates: &[f64]) -> Vec<[bool; 2]> {
+        let all = <f64 as Scalar>::Mask::splat(true);
+        let mut reviews = Reviews::new();
+        let taken = updates.iter().map(|&update| reviews.take(all, update, 1.0));
+        taken.map(|found| found.map(|mask| mask.any())).collect()
+    }
+
+    #[test]
+    fn what_stands_still_is_at_rest_or_does_not_converge() {
+        let going = [false, false];
+        // updates that shrink go on, whatever their size
+        assert_eq!(reviewed(&[1e6, 1e4, 1e2, 1.0, 1e-2]), [going; 5]);
+        // those that stand still above round-off do not converge, at once
+        assert_eq!(reviewed(&[1e6, 9e5]), [going, [false, true]]);
+        // those at round-off are at rest where they have not halved in two reviews
+        assert_eq!(
+            reviewed(&[200.0, 150.0, 110.0]),
+            [going, going, [true, false]]
+        );
+        assert_eq!(reviewed(&[200.0, 150.0, 90.0]), [going; 3]);
+    }
+}
