@@ -4,15 +4,18 @@ mod common;
 
 use common::{Run, lie};
 
-const BODY: (&str, &str, [i32; 3]) = (
+/// A spec, a state, and how its coordinates change with the unit: as that power of it.
+type System = (&'static str, &'static [f64], &'static [i32]);
+
+const BODY: System = (
     "specs/so3_free_rigid_body.json",
-    "0.4535961214255773,0.1,0.8912073600614354",
-    [1; 3],
+    &[0.4535961214255773, 0.1, 0.8912073600614354],
+    &[1; 3],
 );
-const TOP: (&str, &str, [i32; 6]) = (
+const TOP: System = (
     "specs/se3_heavy_top.json",
-    "0.4,0.3,0.9,0.36,0.48,0.8",
-    [1, 1, 1, 2, 2, 2],
+    &[0.4, 0.3, 0.9, 0.36, 0.48, 0.8],
+    &[1, 1, 1, 2, 2, 2],
 );
 
 /// The methods that apply to a spec, as arguments of `lie run`.
@@ -29,21 +32,12 @@ fn methods(spec: &str) -> Vec<String> {
         .collect()
 }
 
-/// The states after 40 steps of each method, of which the coordinates are of these degrees, in units of `2^power` and brought
-/// back.
-fn ends(
-    (spec, initial, degrees): (&str, &str, &[i32]),
-    methods: &[String],
-    power: i32,
-) -> Vec<Vec<f64>> {
+/// The states after 40 steps of each method, in units of `2^power` and brought back.
+fn ends((spec, initial, degrees): System, methods: &[String], power: i32) -> Vec<Vec<f64>> {
     let step = 0.15 * 2.0_f64.powi(-power);
-    let initial: Vec<String> = initial
-        .split(',')
-        .zip(degrees)
-        .map(|(number, degree)| {
-            let number: f64 = number.parse().expect("a number");
-            (number * 2.0_f64.powi(degree * power)).to_string()
-        })
+    let scaled = initial.iter().zip(degrees);
+    let initial: Vec<String> = scaled
+        .map(|(number, degree)| (number * 2.0_f64.powi(degree * power)).to_string())
         .collect();
     let named: Vec<String> = methods.iter().map(|m| format!("--method {m}")).collect();
     let run: Run = lie(&format!(
@@ -67,7 +61,7 @@ fn ends(
 }
 
 /// The largest difference to units of 1 of each method.
-fn differences(system: (&str, &str, &[i32]), powers: &[i32]) -> Vec<(String, f64)> {
+fn differences(system: System, powers: &[i32]) -> Vec<(String, f64)> {
     let methods = methods(system.0);
     let expected = ends(system, &methods, 0);
     let mut largest = vec![0.0_f64; methods.len()];
@@ -85,8 +79,7 @@ fn differences(system: (&str, &str, &[i32]), powers: &[i32]) -> Vec<(String, f64
 
 #[test]
 fn the_bits_do_not_depend_on_units() {
-    let (spec, initial, degrees) = BODY;
-    let found = differences((spec, initial, &degrees), &[20, -100, 300]);
+    let found = differences(BODY, &[20, -100, 300]);
     for (method, difference) in &found {
         match method.as_str() {
             // the control: it has an absolute tolerance
@@ -101,10 +94,8 @@ fn the_bits_do_not_depend_on_units() {
 #[test]
 #[ignore = "half a minute of machine code for the top: .ci/nightly runs it"]
 fn no_unit_is_too_large_or_too_small() {
-    let (spec, initial, degrees) = BODY;
-    let body = differences((spec, initial, &degrees), &[21, -301]);
-    let (spec, initial, degrees) = TOP;
-    let top = differences((spec, initial, &degrees), &[21, -20, 100, -100, 250, -250]);
+    let body = differences(BODY, &[21, -301]);
+    let top = differences(TOP, &[21, -20, 100, -100, 250, -250]);
     for (method, difference) in body.iter().chain(&top).filter(|(m, _)| m != "dopri5") {
         assert!(*difference < 2e-14, "{method}: {difference:e}");
     }

@@ -140,9 +140,8 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
     /// Sets the unit of these entries, in the lanes of a mask: the power of two at or below the largest of them at a point.
     pub(crate) fn set_unit(&mut self, mask: S::Mask, point: &[S]) {
         if let Some((entries, per_unit)) = &mut self.momenta {
-            let size = S::largest_magnitude(&point[entries.clone()]);
-            let unit = S::one() / power_of_two(size);
-            *per_unit = S::select(mask, unit, *per_unit);
+            let unit = power_of_two(S::largest_magnitude(&point[entries.clone()]));
+            *per_unit = S::select(mask, S::one() / unit, *per_unit);
         }
     }
 
@@ -151,7 +150,7 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
         let entries = point.iter().enumerate();
         let counted = entries.filter(|(i, _)| !holds(self.clock, *i));
         counted.fold(S::zero(), |norm, (i, y)| {
-            norm.max(y.abs() * self.per_unit(i))
+            norm.max(y.magnitude() * self.per_unit(i))
         })
     }
 
