@@ -53,6 +53,8 @@ struct Table {
     /// The polynomial through values at the nodes of one step, at the nodes of the next: `L_j(1 + c_i)`, for values times
     /// their weights: `b_i L_j(1 + c_i)/b_j`.
     ahead: [[Pair; MOST_STAGES]; MOST_STAGES],
+    /// `(2k + 1) P_k(x_j)` in row k.
+    legendre: [[Pair; MOST_STAGES]; MOST_STAGES],
 }
 
 /// The tables by the number of stages, from one.
@@ -74,6 +76,7 @@ impl Table {
         b: [Pair::ZERO; MOST_STAGES],
         c: [Pair::ZERO; MOST_STAGES],
         ahead: [[Pair::ZERO; MOST_STAGES]; MOST_STAGES],
+        legendre: [[Pair::ZERO; MOST_STAGES]; MOST_STAGES],
     };
 
     const fn gauss(stages: usize, roots: &[Pair; MOST_STAGES]) -> Self {
@@ -95,12 +98,13 @@ impl Table {
             while j < stages {
                 let there = legendre(roots[j]);
                 let (mut integral, mut value) = (table.c[i], Pair::ONE);
+                table.legendre[0][j] = Pair::ONE;
                 let mut k = 1;
                 while k < stages {
                     let slope = here[k + 1].sub(here[k - 1]).scaled(0.5);
                     integral = integral.plus(there[k].times(slope));
-                    let norm = (2 * k + 1) as f64;
-                    value = value.plus(there[k].times(next[k]).times(Pair::new(norm)));
+                    table.legendre[k][j] = there[k].times(Pair::new((2 * k + 1) as f64));
+                    value = value.plus(table.legendre[k][j].times(next[k]));
                     k += 1;
                 }
                 table.ratios[i][j] = integral;
@@ -218,6 +222,15 @@ pub fn gauss_ahead<S: Scalar>(stages: usize, i: usize, j: usize) -> S {
     table(stages).ahead[i][j].number()
 }
 
+/// What an increment `h b_j f(Y_j)` counts in coefficient k of the slopes in Legendre polynomials: `(2k + 1) P_k(x_j)`.
+///
+/// # Panics
+/// If there is no such tableau, or entry.
+pub fn gauss_legendre<S: Scalar>(stages: usize, k: usize, j: usize) -> S {
+    assert!(k < stages && j < stages, "there is no such entry");
+    table(stages).legendre[k][j].number()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -278,6 +291,21 @@ mod tests {
                     // the entries reach 1e5 with eight stages
                     assert!(error(terms, there) < 1e-24, "{stages} stages, degree {q}");
                 }
+            }
+        }
+    }
+
+    /// `sum_j b_j (2k + 1) P_k(x_j) P_l(x_j)` is 1 for k = l and 0 for other degrees that the rule integrates.
+    #[test]
+    fn coefficients_in_legendre_polynomials_are_those_of_the_interpolation() {
+        for stages in 1..=MOST_STAGES {
+            let Table { b, legendre, .. } = &TABLES[stages - 1];
+            for (k, l) in (0..stages).flat_map(|k| (0..stages).map(move |l| (k, l))) {
+                let norm = reciprocal(2 * l + 1);
+                let terms = (0..stages)
+                    .map(|j| b[j].times(legendre[k][j]).times(legendre[l][j]).times(norm));
+                let expected = if k == l { Pair::ONE } else { Pair::ZERO };
+                assert!(error(terms, expected) < 1e-29, "{stages} stages: {k}, {l}");
             }
         }
     }

@@ -12,6 +12,9 @@ use crate::state::{State, Unknown};
 /// Points this many times as large as one that is chosen over the state are chosen anew.
 const GROWTH: f64 = 2.0;
 
+/// By how much the error of a step is larger for the momentum than for its point, to which it is quadratic: measured on random systems.
+const OF_MOMENTA: f64 = 10.0;
+
 type Wide<S, P> = <P as Widen<S>>::Widened;
 type WideState<S, P> = <Wide<S, P> as Poisson<<S as Scalar>::Wide>>::State;
 type WidePoint<S, P, L> = <L as LinearLift<<S as Scalar>::Wide, Wide<S, P>>>::Point;
@@ -223,5 +226,9 @@ where
             lanes,
             report,
         })
+    }
+
+    fn estimate(&mut self) -> Option<S> {
+        Some(self.stages.estimate() * S::from_f64(OF_MOMENTA))
     }
 }

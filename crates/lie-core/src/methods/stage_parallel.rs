@@ -274,6 +274,10 @@ where
         self.follows = good;
         failure.map_or(Ok(report), |failure| Err(StepFailure { report, ..failure }))
     }
+
+    fn estimate(&mut self) -> Option<S> {
+        Some(self.stages.estimate())
+    }
 }
 
 /// Gives away h times the gradients at the stages, one stage after the other; `xi` is any state of the right size.

@@ -139,6 +139,12 @@ pub trait Stepper<S: Scalar> {
         mu: &mut Self::State,
         sink: &mut K,
     ) -> Result<StepReport, StepFailure>;
+
+    /// The error of the step made last, relative to the size of the state, where its stages tell it: an estimate from above
+    /// that costs much less than a second step.
+    fn estimate(&mut self) -> Option<S> {
+        None
+    }
 }
 
 /// A method of integration, as a value with its options.

@@ -32,7 +32,7 @@ pub enum Convergence {
     Claimed,
     /// The state, to the tolerance.
     State,
-    /// The state, as far as the tolerance of a run asks: the iteration leaves a twentieth of the error that a step may have.
+    /// The state, as far as the tolerance of a run asks: the iteration leaves three tenths of the share that a step has of it.
     /// What the method preserves is preserved as far. As [`Self::State`] where the step of a run is given.
     Tolerance,
     /// The state and its derivative, both to round-off: what the exact step preserves, a Poisson bracket for one, the
