@@ -155,6 +155,8 @@ pub trait AnyStepper<S, V> {
     /// # Errors
     /// The number of steps done, and the failure of the next.
     fn advance(&mut self, mu: &mut V, steps: u64) -> Result<Stats, (u64, StepFailure)>;
+    /// See [`Stepper::estimate`].
+    fn estimate(&mut self) -> Option<S>;
 }
 
 impl<S: Scalar, V: State<S>, T: Stepper<S, State = V>> AnyStepper<S, V> for T {
@@ -180,6 +182,10 @@ impl<S: Scalar, V: State<S>, T: Stepper<S, State = V>> AnyStepper<S, V> for T {
             }
         }
         Ok(stats)
+    }
+
+    fn estimate(&mut self) -> Option<S> {
+        Stepper::estimate(self)
     }
 }
 
@@ -268,5 +274,9 @@ impl<S: Scalar, V: State<S>> Stepper<S> for ForgottenStepper<'_, V, S> {
         let report = self.stepper.step_with_motions(mu, &mut self.motions);
         self.motions.show(sink);
         report
+    }
+
+    fn estimate(&mut self) -> Option<S> {
+        self.stepper.estimate()
     }
 }

@@ -1,17 +1,19 @@
 //! The loop over the grid.
 
+use super::by_stages::Begun;
 use super::checks::{check_domain, check_start, smaller};
 use super::error::StepError;
-use super::grid::{Grid, Place, Rows};
+use super::grid::{Grid, Place, Row, Rows};
 use super::joints::Joints;
 use super::milestone::{MILESTONE, Milestone, gradient};
 use super::observer::{MotionSink, Observer, Progress};
 use super::options::Save;
+use super::pace::count;
 use super::problem::set_time;
 use super::solve::IntegrateError;
 use super::stats::{Stats, Status};
 use super::trial::Trial;
-use super::watch::{Guard, JACOBIAN, SLOW_PARTS, divided};
+use super::watch::{Change, From, Guard, JACOBIAN, SLOW_PARTS, Verdict, divided};
 use crate::methods::{Method, StepFailure, StepReport, Stepper};
 use crate::newton::{FailureReason, NewtonOptions};
 use crate::poisson::Poisson;
@@ -34,9 +36,22 @@ enum Left<P> {
 /// Steps that divided ones may come to in all, unless the grid itself has an eighth of as many.
 const MOST_DIVIDED: u64 = 1 << 18;
 
+/// Where a run begins.
+pub(super) enum Beginning<'m, T, V> {
+    /// At its start.
+    Start,
+    /// With a first step that is made.
+    Step(Begun<T, V>),
+    /// Where another was.
+    Milestone(&'m Milestone<V>),
+}
+
+/// So many times as many steps are made after one that failed or did not contract, where that can be any number.
+const SHORTER: f64 = 1.4;
+
 /// How far a run has come.
 pub(super) struct Course<'r, M> {
-    pub(super) grid: &'r Grid,
+    pub(super) grid: Grid,
     pub(super) method: &'r M,
     pub(super) newton: NewtonOptions,
     pub(super) stats: Stats,
@@ -44,18 +59,20 @@ pub(super) struct Course<'r, M> {
     pub(super) index: u64,
     /// The next milestone.
     pub(super) milestone: u64,
-    /// The step of the grid.
+    /// The step at the start.
     pub(super) step: f64,
+    /// The time of the last row.
+    shown: Option<f64>,
     /// In so many parts each is made.
     pub(super) parts: u32,
     /// Parts done of the step that is being made.
     done: u32,
     /// Whether a step may be divided.
     pub(super) divides: bool,
+    /// Whether the stages of steps tell their errors: the grid changes then, by small factors, where parts would be halves.
+    by_stages: bool,
     /// Jacobians that were factored, and steps since the last division for which some were.
     pub(super) slow: (u64, u64),
-    /// The run stops after so many steps, their parts counted, failed ones included.
-    most: u64,
 }
 
 impl<'r, M> Course<'r, M> {
@@ -65,11 +82,6 @@ impl<'r, M> Course<'r, M> {
         M: Method<S, P>,
     {
         !method.own_steps() && S::LANES == 1
-    }
-
-    /// In how many parts the last steps were made.
-    pub(super) fn parts(&self) -> u32 {
-        self.parts
     }
 
     /// Divides steps where need be.
@@ -84,14 +96,8 @@ impl<'r, M> Course<'r, M> {
         self
     }
 
-    /// Stops after so many steps, their parts counted.
-    pub(super) fn at_most(mut self, steps: u64) -> Self {
-        self.most = steps;
-        self
-    }
-
     /// At the start of a grid, with its whole steps.
-    pub(super) fn new(grid: &'r Grid, method: &'r M, newton: NewtonOptions, step: f64) -> Self {
+    pub(super) fn new(grid: Grid, method: &'r M, newton: NewtonOptions) -> Self {
         Self {
             grid,
             method,
@@ -99,29 +105,37 @@ impl<'r, M> Course<'r, M> {
             stats: Stats::default(),
             index: 0,
             milestone: u64::MAX,
-            step,
+            step: grid.step(),
+            shown: None,
             parts: 1,
             done: 0,
             divides: false,
+            by_stages: false,
             slow: (0, 0),
-            most: u64::MAX,
         }
     }
 
-    /// Goes along the grid, from a milestone if there is one; the state at its end.
-    pub(super) fn run<S: Scalar, P: Poisson<S>>(
+    /// Goes along the grid, from a milestone if there is one, or with a first step that is made; the state at its end.
+    pub(super) fn run<'s, S: Scalar, P: Poisson<S>, O: Observer<S, P>>(
         &mut self,
-        system: &P,
+        system: &'s P,
         mut mu: P::State,
-        taken_up: Option<&Milestone<P::State>>,
+        beginning: Beginning<'_, M::Stepper<'s>, P::State>,
         mut guard: Option<Guard<'_, S, P, M>>,
         save: &Save,
-        observer: &mut impl Observer<S, P>,
+        observer: &mut O,
     ) -> Result<(P::State, Status), IntegrateError>
     where
         M: Method<S, P>,
     {
         let first = system;
+        self.by_stages = guard.as_ref().is_some_and(Guard::is_by_stages);
+        let (taken_up, begun) = match beginning {
+            Beginning::Milestone(milestone) => (Some(milestone), None),
+            // what it has shown of the motion on the group is gone
+            Beginning::Step(begun) if !O::MOTION => (None, Some(begun)),
+            Beginning::Step(_) | Beginning::Start => (None, None),
+        };
         let mut followed = match taken_up {
             Some(milestone) => {
                 self.take_up(system, milestone, guard.as_mut())?;
@@ -131,19 +145,41 @@ impl<'r, M> Course<'r, M> {
             }
             None => system.following(&mu),
         };
-        let mut rows = self.grid.rows(save)?.from(self.index).peekable();
-        while rows.next_if(|row| row.place.index() < self.index).is_some() {}
+        let (mut grid, mut rows) = (self.grid, self.rows_left(save)?);
+        let mut size = self.size();
         let mut between = mu.clone();
         let system = followed.as_ref().unwrap_or(first);
         if taken_up.is_none() {
             check_start(system, &mu).map_err(|failure| self.failed(failure))?;
         }
         observer.start(system, self.progress(), &mu);
+        let mut begun = begun.filter(|_| followed.is_none());
         // once, and again with each branch of the system that has to be followed, each size of steps, and from each milestone
         loop {
-            let system = followed.as_ref().unwrap_or(first);
             let mut states = (&mut mu, &mut between);
-            match self.go(system, &mut states, &mut rows, &mut guard, observer)? {
+            let left = match begun.take() {
+                Some(begun) => self.go(
+                    first,
+                    Some(begun),
+                    &mut states,
+                    &mut rows,
+                    &mut guard,
+                    observer,
+                ),
+                None => {
+                    let system = followed.as_ref().unwrap_or(first);
+                    self.go(system, None, &mut states, &mut rows, &mut guard, observer)
+                }
+            };
+            let left = left?;
+            if self.size() != size {
+                size = self.size();
+                observer.shortened(self.progress(), size);
+            }
+            if self.grid != grid {
+                (grid, rows) = (self.grid, self.rows_left(save)?);
+            }
+            match left {
                 Left::Over(status) => return Ok((mu, status)),
                 Left::Branch(next) => followed = Some(next),
                 Left::Divided => {}
@@ -160,25 +196,28 @@ impl<'r, M> Course<'r, M> {
         }
     }
 
-    /// Goes on with one system and one size of steps.
-    #[inline(always)]
-    fn go<S: Scalar, P: Poisson<S>, O: Observer<S, P>>(
+    /// Goes on with one system and one size of steps, the first of which may be made.
+    fn go<'s, S: Scalar, P: Poisson<S>, O: Observer<S, P>>(
         &mut self,
-        system: &P,
+        system: &'s P,
+        begun: Option<Begun<M::Stepper<'s>, P::State>>,
         (mu, between): &mut (&mut P::State, &mut P::State),
-        rows: &mut Peekable<Rows<'_>>,
+        rows: &mut Peekable<Rows>,
         guard: &mut Option<Guard<'_, S, P, M>>,
         observer: &mut O,
     ) -> Result<Left<P>, IntegrateError>
     where
         M: Method<S, P>,
     {
-        let size = S::from_f64(self.step / f64::from(self.parts));
+        let size = S::from_f64(self.size());
         let newton = match self.divides_rather(1) {
             true => Trial::<S, P, M>::cheap(self.method, self.newton),
             false => self.newton,
         };
-        let mut stepper = self.method.stepper(system, size, &newton);
+        let (mut stepper, mut made) = match begun {
+            Some(begun) => (begun.stepper, Some((begun.end, begun.report))),
+            None => (self.method.stepper(system, size, &newton), None),
+        };
         let mut joints = Joints::of(system);
         loop {
             if self.index == self.milestone && self.done == 0 {
@@ -197,6 +236,7 @@ impl<'r, M> Course<'r, M> {
                         looked
                     }
                 };
+                self.shown = Some(row.time);
                 if looked.is_break() {
                     return Ok(Left::Over(Status::Stopped));
                 }
@@ -204,7 +244,8 @@ impl<'r, M> Course<'r, M> {
             if self.index == self.grid.steps() {
                 return Ok(Left::Over(Status::Finished));
             }
-            let watched = self.done == 0 && guard.as_mut().is_some_and(|guard| guard.begins(mu));
+            let begins = |guard: &mut Guard<'_, S, P, M>| guard.begins(mu, self.index);
+            let mut watched = self.done == 0 && guard.as_mut().is_some_and(begins);
             let pieces = joints.as_mut().filter(|_| self.done == 0).map(|joints| {
                 let times = [self.index, self.index + 1].map(|index| self.grid.time(index));
                 joints.pieces(system, times.into())
@@ -212,39 +253,59 @@ impl<'r, M> Course<'r, M> {
             if let Some(pieces) = pieces.filter(|pieces| !pieces.is_empty()) {
                 self.in_pieces(system, pieces, mu, observer)?;
                 self.done = self.parts;
+                watched = false;
             }
+            let (mut iterations, mut slow) = (0, false);
             while self.done < self.parts {
-                if self.stats.steps + self.stats.failures >= self.most {
-                    return Ok(Left::Over(Status::Stopped));
-                }
-                match stepper.step(mu, &mut MotionSink::new(observer, system)) {
+                let stepped = match made.take() {
+                    Some((end, report)) => {
+                        mu.copy_from(&end);
+                        Ok(report)
+                    }
+                    None => stepper.step(mu, &mut MotionSink::new(observer, system)),
+                };
+                match stepped {
                     Ok(report) => {
                         set_time(system, mu, self.next_time());
                         self.arrived(system, mu, report)?;
+                        iterations = report.iterations;
                     }
-                    Err(failure) => return self.divided(system, failure, mu),
+                    Err(failure) => return self.divided(system, failure, mu, guard.as_mut()),
                 }
                 self.done += 1;
-                if self.method.fixed_point() && self.divides && self.is_slow() {
+                slow |= self.method.fixed_point() && self.divides && self.is_slow();
+                if slow && self.done < self.parts {
+                    self.done *= 2;
+                    self.change(
+                        Change::Parts(2 * self.parts),
+                        None::<&mut Guard<'_, S, P, M>>,
+                    );
                     return Ok(Left::Divided);
                 }
             }
             self.done = 0;
-            if let Some(guard) = guard.as_mut().filter(|_| watched) {
-                let parts = guard.parts(system, (self.step, self.parts), mu);
-                if parts > self.parts && self.may_come_to(parts) {
-                    self.parts = parts;
-                    observer.divided(self.progress(), parts);
-                    // what has been shown of the motion on the group stays
-                    if !O::MOTION {
-                        mu.copy_from(guard.before());
-                        return Ok(Left::Divided);
+            let looks = |guard: &&mut Guard<'_, S, P, M>| watched || guard.wonders(iterations);
+            let mut change = self.shorter().filter(|_| slow);
+            if let Some(guard) = guard.as_mut().filter(looks) {
+                let told = || stepper.estimate();
+                let step = (self.index, self.grid.step(), self.parts);
+                guard.usual(iterations);
+                match guard.looks(system, step, mu, told) {
+                    Verdict::Kept => {}
+                    Verdict::Change(next, from) if self.allows(next) => {
+                        // what has been shown of the motion on the group stays
+                        if from == From::Before && !O::MOTION {
+                            mu.copy_from(guard.before());
+                            self.change(next, Some(guard));
+                            return Ok(Left::Divided);
+                        }
+                        change = Some(next);
                     }
-                    stepper = self.method.stepper(
-                        system,
-                        S::from_f64(self.step / f64::from(parts)),
-                        &newton,
-                    );
+                    Verdict::Change(..) | Verdict::Lost => {
+                        if guard.watch.says() {
+                            observer.lost(self.progress());
+                        }
+                    }
                 }
             }
             self.index += 1;
@@ -252,9 +313,76 @@ impl<'r, M> Course<'r, M> {
             if looked.is_break() {
                 return Ok(Left::Over(Status::Stopped));
             }
+            let change = change.filter(|_| self.index < self.grid.steps());
+            if let Some(change) = change {
+                self.change(change, guard.as_mut());
+            }
             if let Some(next) = system.following(mu) {
                 return Ok(Left::Branch(next));
             }
+            if change.is_some() {
+                return Ok(Left::Divided);
+            }
+        }
+    }
+
+    /// The size of the steps that are made.
+    pub(super) fn size(&self) -> f64 {
+        self.grid.step() / f64::from(self.parts)
+    }
+
+    /// The rows that have not been shown.
+    fn rows_left(&self, save: &Save) -> Result<Peekable<Rows>, IntegrateError> {
+        let mut rows = self.grid.rows(save)?.from(self.index).peekable();
+        let sign = self.step.signum();
+        let is_shown = |row: &Row| {
+            let shown = self
+                .shown
+                .is_some_and(|shown| (row.time - shown) * sign <= 0.0);
+            shown || row.place.index() < self.index
+        };
+        while rows.next_if(is_shown).is_some() {}
+        Ok(rows)
+    }
+
+    /// Whether steps may change like that: a joint or a singularity asks for smaller ones without end.
+    fn allows(&self, change: Change) -> bool {
+        let left = match change {
+            Change::Parts(parts) => {
+                (self.grid.steps() - self.index).saturating_mul(u64::from(parts))
+            }
+            Change::Times(factor) => self.steps_left(self.index, factor),
+        };
+        left <= self.grid.steps().saturating_mul(8).max(MOST_DIVIDED)
+    }
+
+    /// How many steps are left from a point on, of which there are so many times as many as now.
+    fn steps_left(&self, index: u64, factor: f64) -> u64 {
+        let left = (self.grid.steps() - index) as f64 * f64::from(self.parts);
+        let span = self.grid.time(self.grid.steps()) - self.grid.time(index);
+        count(span, (left * factor).ceil()) as u64
+    }
+
+    /// Changes the steps from where the run is.
+    #[cold]
+    fn change<S: Scalar, P: Poisson<S>>(
+        &mut self,
+        change: Change,
+        guard: Option<&mut Guard<'_, S, P, M>>,
+    ) where
+        M: Method<S, P>,
+    {
+        match change {
+            Change::Parts(parts) => self.parts = parts,
+            Change::Times(factor) => {
+                let here = (self.index, self.grid.time(self.index));
+                let steps = self.steps_left(self.index, factor);
+                self.grid = self.grid.from_there(here, steps);
+                self.parts = 1;
+            }
+        }
+        if let Some(guard) = guard {
+            guard.steps_are(self.grid.step());
         }
     }
 
@@ -264,23 +392,26 @@ impl<'r, M> Course<'r, M> {
         if done == self.parts {
             return self.grid.time(self.index + 1);
         }
-        let part = self.step * (f64::from(done) / f64::from(self.parts));
+        let part = self.grid.step() * (f64::from(done) / f64::from(self.parts));
         self.grid.time(self.index) + part
-    }
-
-    /// Whether all steps that are left may be made in so many parts: a joint or a singularity asks for parts without end.
-    fn may_come_to(&self, parts: u32) -> bool {
-        let left = (self.grid.steps() - self.index).saturating_mul(u64::from(parts));
-        left <= self.grid.steps().saturating_mul(8).max(MOST_DIVIDED)
     }
 
     /// Whether to divide all steps that are left costs less than some that need Jacobians.
     fn divides_rather(&self, slow: u64) -> bool {
         let left = (self.grid.steps() - self.index).saturating_mul(u64::from(self.parts));
-        self.divides && self.parts < SLOW_PARTS && left < slow.saturating_mul(JACOBIAN)
+        let shortened = self.step / self.size();
+        self.divides && shortened < SLOW_PARTS && left < slow.saturating_mul(JACOBIAN)
     }
 
-    /// Divides the steps, where too many did not contract.
+    /// Steps that are somewhat shorter, as after one that failed.
+    fn shorter(&self) -> Option<Change> {
+        match self.by_stages {
+            true => Some(Change::Times(SHORTER)),
+            false => divided(self.parts).map(Change::Parts),
+        }
+    }
+
+    /// Whether too many steps did not contract.
     fn is_slow(&mut self) -> bool {
         let slow = self.stats.factorizations > self.slow.0;
         self.slow.0 = self.stats.factorizations;
@@ -289,7 +420,6 @@ impl<'r, M> Course<'r, M> {
             return false;
         }
         self.slow.1 = 0;
-        (self.parts, self.done) = (2 * self.parts, 2 * self.done);
         true
     }
 
@@ -300,18 +430,20 @@ impl<'r, M> Course<'r, M> {
         system: &P,
         failure: StepFailure,
         mu: &P::State,
+        guard: Option<&mut Guard<'_, S, P, M>>,
     ) -> Result<Left<P>, IntegrateError>
     where
         M: Method<S, P>,
     {
-        let next = divided(self.parts).filter(|&parts| self.divides && self.may_come_to(parts));
-        let Some(parts) = next else {
-            let size = self.step / f64::from(self.parts);
-            return Err(self.stopped(system, failure, size, mu));
+        let next = self.shorter();
+        let Some(next) = next.filter(|&next| self.divides && self.allows(next)) else {
+            return Err(self.stopped(system, failure, self.size(), mu));
         };
         self.stats.add_failure(&failure.report);
-        self.done *= parts / self.parts;
-        self.parts = parts;
+        if let Change::Parts(parts) = next {
+            self.done *= parts / self.parts;
+        }
+        self.change(next, guard);
         Ok(Left::Divided)
     }
 

@@ -8,7 +8,7 @@ const TOLERANCE: f64 = 1e-9;
 /// Beyond this, counts are no longer exact in f64.
 const MAX_STEPS: f64 = 9_007_199_254_740_992.0;
 
-/// Times `t_k = t0 + k h`, k from 0 to a last one; the end may lie off the grid beyond it.
+/// Times `t_k = t0 + k h`, k from 0 to a last one; the end may lie off the grid beyond it. From a point on h may be another.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grid {
     start: f64,
@@ -16,6 +16,8 @@ pub struct Grid {
     step: f64,
     steps: u64,
     end_place: Place,
+    /// The point from which on the step is this one, and its time.
+    from: (u64, f64),
 }
 
 /// Where a time lies relative to the grid.
@@ -62,6 +64,7 @@ impl Grid {
             step,
             steps: 0,
             end_place: Place::On(0),
+            from: (0, start),
         };
         let count = (end - start) / step;
         if count < -TOLERANCE {
@@ -75,6 +78,28 @@ impl Grid {
         Ok(grid)
     }
 
+    /// The same up to a point, and from there on with so many steps to the end.
+    pub(super) fn from_there(self, (index, time): (u64, f64), steps: u64) -> Self {
+        let steps = steps.max(1);
+        Self {
+            step: (self.end - time) / steps as f64,
+            steps: index + steps,
+            end_place: Place::On(index + steps),
+            from: (index, time),
+            ..self
+        }
+    }
+
+    /// The point from which on the step is what it is, and its time.
+    pub(super) fn from(&self) -> (u64, f64) {
+        self.from
+    }
+
+    /// The step.
+    pub(super) fn step(&self) -> f64 {
+        self.step
+    }
+
     /// The number of whole steps.
     pub fn steps(&self) -> u64 {
         self.steps
@@ -82,25 +107,30 @@ impl Grid {
 
     /// The time of a grid point, `t0 + k h` by multiplication.
     pub fn time(&self, index: u64) -> f64 {
-        self.start + index as f64 * self.step
+        let (first, start) = self.from;
+        if first > 0 && index == self.steps {
+            return self.end;
+        }
+        start + (index - first) as f64 * self.step
     }
 
     /// Where a time between start and end lies. Outside, the nearest grid point.
     pub fn locate(&self, time: f64) -> Place {
-        let count = (time - self.start) / self.step;
+        let (first, start) = self.from;
+        let count = (time - start) / self.step;
         let nearest = count.round();
         let slack = TOLERANCE.max(2.0 * f64::EPSILON * nearest);
         // A time that is small beside the step is not the start, however near it lies.
         let start = nearest == 0.0 && count > 0.0;
         if !start && (count - nearest).abs() <= slack || count < 0.0 {
-            return Place::On(nearest.max(0.0) as u64);
+            return Place::On(first + nearest.max(0.0) as u64);
         }
-        let before = count.floor() as u64;
+        let before = first + count.floor() as u64;
         Place::After(before, time - self.time(before))
     }
 
     /// The states that a choice saves, in order of the run.
-    pub(super) fn rows(&self, save: &Save) -> Result<Rows<'_>, OptionError> {
+    pub(super) fn rows(&self, save: &Save) -> Result<Rows, OptionError> {
         let kind = match save {
             Save::Every(0) => return Err(OptionError::Interval),
             Save::Every(every) => Kind::Every(*every),
@@ -116,7 +146,7 @@ impl Grid {
             Save::At(times) => Kind::At(self.sorted(times)?.into_iter()),
         };
         Ok(Rows {
-            grid: self,
+            grid: *self,
             kind,
             next: Some(0),
         })
@@ -161,8 +191,8 @@ impl Grid {
 
 /// Iterator over the rows of a run.
 #[derive(Clone, Debug)]
-pub(super) struct Rows<'a> {
-    grid: &'a Grid,
+pub(super) struct Rows {
+    grid: Grid,
     kind: Kind,
     /// Number of the next row; none after the end.
     next: Option<u64>,
@@ -175,7 +205,7 @@ enum Kind {
     At(std::vec::IntoIter<f64>),
 }
 
-impl Rows<'_> {
+impl Rows {
     /// Those from a grid point on, possibly behind some before it.
     pub(super) fn from(mut self, index: u64) -> Self {
         if let (Kind::Every(every), Some(next)) = (&self.kind, &mut self.next) {
@@ -185,7 +215,7 @@ impl Rows<'_> {
     }
 }
 
-impl Iterator for Rows<'_> {
+impl Iterator for Rows {
     type Item = Row;
 
     fn next(&mut self) -> Option<Row> {
@@ -325,6 +355,35 @@ mod tests {
             times((0.0, 0.65), 0.1, &Save::Interval(0.325)),
             [0.0, 0.325, 0.65]
         );
+    }
+
+    /// A grid whose step changes: rows of steps, of times and of an interval, and the end, which is met exactly.
+    #[test]
+    fn a_step_may_change_on_the_way() {
+        let grid = Grid::new((0.0, 1.0), 0.25).unwrap().from_there((2, 0.5), 3);
+        let of = |save: &Save| -> Vec<(Place, f64)> {
+            let rows = grid.rows(save).unwrap().from(2);
+            rows.map(|row| (row.place, row.time)).collect()
+        };
+        let third = 0.5 / 3.0;
+        let steps: Vec<f64> = of(&Save::Every(1)).iter().map(|row| row.1).collect();
+        assert_eq!(steps, [0.5, 0.5 + third, 0.5 + 2.0 * third, 1.0]);
+        assert_eq!(
+            of(&Save::Every(3)),
+            [(Place::On(3), 0.5 + third), (Place::On(5), 1.0)]
+        );
+        assert_eq!(of(&Save::Ends), [(Place::On(5), 1.0)]);
+        let after = Place::After(2, 0.6 - 0.5);
+        assert_eq!(
+            of(&Save::At(vec![1.0, 0.6])),
+            [(after, 0.6), (Place::On(5), 1.0)]
+        );
+        let all = grid.rows(&Save::Interval(0.6)).unwrap();
+        assert_eq!(all.map(|row| row.time).collect::<Vec<_>>(), [0.0, 0.6, 1.0]);
+        let back = Grid::new((0.1, -0.2), -0.1)
+            .unwrap()
+            .from_there((1, 0.0), 7);
+        assert_eq!((back.time(8), back.steps()), (-0.2, 8));
     }
 
     #[test]

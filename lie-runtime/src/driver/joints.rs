@@ -125,7 +125,7 @@ impl<M> Course<'_, M> {
         M: Method<S, P>,
     {
         for &(from, to) in pieces {
-            let parts = ((to - from) / self.step * f64::from(self.parts))
+            let parts = ((to - from) / self.grid.step() * f64::from(self.parts))
                 .ceil()
                 .max(1.0);
             let size = (to - from) / parts;

@@ -45,6 +45,8 @@ pub struct Milestone<V> {
 pub struct Division {
     /// In so many parts each is made.
     pub parts: u32,
+    /// Where there are more of them from a point on: its number and time, and how many.
+    pub shortened: Option<(u64, f64, u64)>,
     /// Jacobians that were factored, and steps since the last division for which some were.
     pub slow: (u64, u64),
     /// What is known of the errors of steps, where they are looked at.
@@ -68,6 +70,10 @@ impl<M> Course<'_, M> {
             stats: self.stats,
             division: Division {
                 parts: self.parts,
+                shortened: match self.grid.from() {
+                    (0, _) => None,
+                    (index, time) => Some((index, time, self.grid.steps() - index)),
+                },
                 slow: self.slow,
                 watched: guard.map(|guard| guard.watch.watched()),
             },
@@ -90,10 +96,17 @@ impl<M> Course<'_, M> {
         let Milestone {
             index, division, ..
         } = *milestone;
+        let grid = match division.shortened {
+            None => self.grid,
+            Some((first, time, steps)) => self.grid.from_there((first, time), steps),
+        };
+        let beyond = division.shortened.is_some_and(|(first, time, steps)| {
+            !self.divides || first > index || !time.is_finite() || steps > UNCOUNTED
+        });
         let fits = |vector: &P::State| vector.as_slice().len() == system.dimension();
         let why = if milestone.step.to_bits() != self.step.to_bits() {
             "its step is another one"
-        } else if index > self.grid.steps() || !index.is_multiple_of(MILESTONE) {
+        } else if beyond || index > grid.steps() || !index.is_multiple_of(MILESTONE) {
             "it is not on the grid of the run"
         } else if !fits(&milestone.mu) || !milestone.branch.iter().all(fits) {
             "its state has another length"
@@ -109,6 +122,7 @@ impl<M> Course<'_, M> {
         {
             "its counts are those of no run"
         } else {
+            self.grid = grid;
             (self.index, self.milestone) = (index, index + MILESTONE);
             (self.parts, self.slow) = (division.parts, division.slow);
             self.stats = milestone.stats;

@@ -1,6 +1,7 @@
 //! From a problem to a solution: the loop over the time grid, what is saved, and observers.
 
 mod assess;
+mod by_stages;
 mod checks;
 mod course;
 mod error;

@@ -31,10 +31,20 @@ pub trait Observer<S: Scalar, P: Poisson<S>> {
     fn chosen(&mut self, chosen: &Chosen) {
         let _ = chosen;
     }
-    /// Sees that steps are made in several parts from here on: the error of single steps has become larger than the tolerance
-    /// allows.
-    fn divided(&mut self, progress: Progress, parts: u32) {
-        let _ = (progress, parts);
+    /// Sees that steps have this size from here on, smaller than before: the error of single steps has become larger than the
+    /// tolerance allows.
+    fn shortened(&mut self, progress: Progress, step: f64) {
+        let _ = (progress, step);
+    }
+    /// Sees that the errors of steps are larger than the tolerance allows from here on, and steps cannot be divided so far that
+    /// they would not be, as before a singularity.
+    fn lost(&mut self, progress: Progress) {
+        let _ = progress;
+    }
+    /// Sees the steps of the run that tells the error of the one before, and may end it.
+    fn compared(&mut self, progress: Progress) -> ControlFlow<()> {
+        let _ = progress;
+        ControlFlow::Continue(())
     }
     /// Sees the error at the end, after all else, where the options ask for it.
     fn assessed(&mut self, assessed: &Assessed) {
@@ -129,8 +139,14 @@ impl<S: Scalar, P: Poisson<S>, O: Observer<S, P>> Observer<S, P> for &mut O {
     fn chosen(&mut self, chosen: &Chosen) {
         (**self).chosen(chosen);
     }
-    fn divided(&mut self, progress: Progress, parts: u32) {
-        (**self).divided(progress, parts);
+    fn shortened(&mut self, progress: Progress, step: f64) {
+        (**self).shortened(progress, step);
+    }
+    fn lost(&mut self, progress: Progress) {
+        (**self).lost(progress);
+    }
+    fn compared(&mut self, progress: Progress) -> ControlFlow<()> {
+        (**self).compared(progress)
     }
     fn assessed(&mut self, assessed: &Assessed) {
         (**self).assessed(assessed);
@@ -169,9 +185,18 @@ impl<S: Scalar, P: Poisson<S>, A: Observer<S, P>, B: Observer<S, P>> Observer<S,
         self.0.chosen(chosen);
         self.1.chosen(chosen);
     }
-    fn divided(&mut self, progress: Progress, parts: u32) {
-        self.0.divided(progress, parts);
-        self.1.divided(progress, parts);
+    fn shortened(&mut self, progress: Progress, step: f64) {
+        self.0.shortened(progress, step);
+        self.1.shortened(progress, step);
+    }
+    fn lost(&mut self, progress: Progress) {
+        self.0.lost(progress);
+        self.1.lost(progress);
+    }
+    fn compared(&mut self, progress: Progress) -> ControlFlow<()> {
+        let first = self.0.compared(progress);
+        let second = self.1.compared(progress);
+        if first.is_break() { first } else { second }
     }
     fn assessed(&mut self, assessed: &Assessed) {
         self.0.assessed(assessed);
@@ -231,8 +256,12 @@ impl<S: Scalar, P: Poisson<S>> Observer<S, P> for Recorder<S, P::State> {
         self.solution.chosen = Some(*chosen);
     }
 
-    fn divided(&mut self, _progress: Progress, parts: u32) {
-        self.solution.parts = parts;
+    fn shortened(&mut self, _progress: Progress, step: f64) {
+        self.solution.shortened = Some(step);
+    }
+
+    fn lost(&mut self, progress: Progress) {
+        self.solution.lost = Some(progress.time);
     }
 
     fn assessed(&mut self, assessed: &Assessed) {

@@ -34,7 +34,7 @@ pub struct Options {
     pub save: Save,
     /// The solver of implicit methods.
     pub newton: NewtonOptions,
-    /// Whether the error at the end of a run with a tolerance is estimated, and its step shortened where it is too large.
+    /// Whether a second run tells the error at the end.
     pub assess: bool,
 }
 
@@ -58,10 +58,9 @@ impl Options {
         }
     }
 
-    /// The same with two runs before that with a tolerance that nobody sees, which tell the error at the end: one as it would
-    /// be, and one with steps of four fifths, or for a method that chooses its own steps from a start that is changed by a
-    /// tenth of the tolerance. A step with which the error is more than ten times the tolerance is shortened. They take about
-    /// twice as long as the run, and are not made where they would take more than 200,000 steps.
+    /// The same with another run behind it that nobody sees, which tells the error at the end: with steps of four fifths, or for
+    /// a method that chooses its own steps from a start that is changed by a tenth of the tolerance. It takes 1.25 times as
+    /// long.
     #[must_use]
     pub fn assessed(self) -> Self {
         Self {

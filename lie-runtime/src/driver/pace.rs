@@ -1,26 +1,26 @@
 //! A step size from a tolerance.
 //!
-//! A run-in from the initial state estimates the error of single steps and the constant step that follows from it; the run
-//! itself then starts anew with that step, so that it is one map from its beginning to its end.
+//! The step is constant, and chosen so that `e(h) |T|/h`, the sum of the errors of all steps of a span T, is the tolerance. It is
+//! relative to the size of the state, in the maximum norm.
 //!
-//! The error e of a step of h is that against two steps of h/2, times `2^p/(2^p - 1)`, p the order: h is chosen so that
-//! `e(h) |T|/h`, the sum over all steps of a span T, is the tolerance. It is relative to the size of the state, in the
-//! maximum norm. The first five steps decide. Of methods that iterate without a Jacobian, steps that do not contract by a
-//! factor of three are shortened: several that contract cost less. Where H depends on the time, a second run-in starts where
-//! the field changes most by it, and the smaller step is taken: steps chosen at the start could pass a pulse without seeing
-//! it. Where the motion becomes faster later, a step is divided during the run (see the module `watch`); where errors of single
-//! steps grow on their way, as near unstable motion, the error at the end is larger, which a second run tells
-//! ([`Options::assessed`]).
+//! Where the stages of a step tell its error, the run's own first step is tried until it is right (see the module
+//! `by_stages`), and nothing is made twice. Of other methods a run-in from the initial state estimates the error of single
+//! steps: that of a step of h against two steps of h/2, times `2^p/(2^p - 1)`, p the order; the first five steps decide, and
+//! the run starts anew. Where H depends on the time, steps are tried too where the field changes most by it, and the smaller
+//! step is taken: steps chosen at the start could pass a pulse without seeing it. Where the motion becomes faster later, steps
+//! become shorter during the run (see the module `watch`); where errors of single steps grow on their way, as near unstable motion,
+//! the error at the end is larger, which a second run tells ([`Options::assessed`]).
 //!
 //! Reference: E. Hairer, S. P. Nørsett, G. Wanner, "Solving Ordinary Differential Equations I", 2nd edition, Springer
 //! 1993, section II.4, [doi:10.1007/978-3-540-78862-1](https://doi.org/10.1007/978-3-540-78862-1).
 
+use super::by_stages::{Begun, Staged};
 use super::options::{OptionError, Options, Pace};
 use super::problem::Problem;
-use super::pulse::pulse;
+use super::pulse::{Pulse, pulse};
 use super::solve::IntegrateError;
-use super::trial::Trial;
-use super::watch::{Guard, Watch};
+use super::trial::{Estimates, Trial};
+use super::watch::{Gauge, Guard, Watch};
 use crate::methods::Method;
 use crate::newton::NewtonOptions;
 use crate::poisson::Poisson;
@@ -39,23 +39,38 @@ pub struct Chosen {
     pub at_round_off: bool,
 }
 
+impl Chosen {
+    fn new<S: Scalar, T, V>(tolerance: f64, span: f64, found: &Staged<T, V>) -> Self {
+        Self {
+            tolerance,
+            step: if span == 0.0 { 1.0 } else { span / found.steps },
+            error: found.error,
+            at_round_off: tolerance / found.steps < least_tolerance::<S>(),
+        }
+    }
+}
+
 /// Times the tolerance that an error at the end may be without a warning.
 const MISSED: f64 = 30.0;
 
 /// What is known of the error at the end of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Assessed {
-    /// The tolerance that was asked for.
-    pub tolerance: f64,
-    /// The error at the end relative to the state, by a second run; none where that failed or would take too many steps.
+    /// The tolerance that was asked for, if one was.
+    pub tolerance: Option<f64>,
+    /// The error at the end relative to the state, by a second run; none where that failed or was ended, and of a method that
+    /// chooses its own steps without a tolerance.
     pub error: Option<f64>,
 }
 
 impl Assessed {
     /// Whether the error is more than 30 times the tolerance, or cannot be told.
     pub fn missed(&self) -> bool {
+        let most = self
+            .tolerance
+            .map_or(f64::INFINITY, |tolerance| MISSED * tolerance);
         self.error
-            .is_none_or(|error| error.is_nan() || error > MISSED * self.tolerance)
+            .is_none_or(|error| error.is_nan() || error > most)
     }
 }
 
@@ -69,11 +84,13 @@ const MOST_SHORTENED: f64 = 1024.0;
 const MOST_STEPS: f64 = 4e6;
 
 /// How a step was chosen, what tries others, and what looks after it.
-pub(super) struct Settled<'a, S: Scalar, P: Poisson<S>, M> {
+pub(super) struct Settled<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> {
     pub(super) chosen: Chosen,
     pub(super) trial: Trial<'a, S, P, M>,
     /// None of methods that choose their own steps.
     pub(super) watch: Option<Watch<S, P>>,
+    /// The first step, where it is made.
+    pub(super) begun: Option<Begun<M::Stepper<'a>, P::State>>,
 }
 
 impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Settled<'a, S, P, M> {
@@ -82,10 +99,16 @@ impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Settled<'a, S, P, M> {
         self.trial.newton_of_run(step.abs())
     }
 
-    /// What looks after the run.
-    pub(super) fn guard(self) -> Option<Guard<'a, S, P, M>> {
+    /// What looks after the run, and its first step.
+    pub(super) fn begin(
+        self,
+    ) -> (
+        Option<Guard<'a, S, P, M>>,
+        Option<Begun<M::Stepper<'a>, P::State>>,
+    ) {
         let trial = self.trial;
-        self.watch.map(|watch| Guard { watch, trial })
+        let guard = self.watch.map(|watch| Guard { watch, trial });
+        (guard, self.begun)
     }
 }
 
@@ -143,49 +166,93 @@ fn chosen_by<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>>(
     }
     let trial = Trial::new(problem, method, *newton, tolerance);
     let pulse = pulse(problem);
+    let zero = || problem.system.zero_state();
+    if method.fixed_point()
+        && S::LANES == 1
+        && span != 0.0
+        && let Some(found) = by_stages(&trial, span, pulse.as_ref())?
+    {
+        let watch = Watch::by_stages(1.0 / found.steps, zero());
+        return Ok(Settled {
+            chosen: Chosen::new::<S, _, _>(tolerance, span, &found),
+            trial,
+            watch: Some(watch),
+            begun: found.begun,
+        });
+    }
     let (size, error, seen) = if method.own_steps() {
         let most = pulse.and_then(|pulse| pulse.step());
         let size = trial.own_steps(span)?;
         (most.map_or(size, |most| size.min(most)), tolerance, None)
     } else {
-        let mut found = trial.run_in(span, None)?;
-        if let Some(pulse) = pulse
-            && let Ok(mut later) = trial.run_in(span, Some(&pulse))
-        {
-            // its errors add up over a part of the span
-            later.0 *= pulse.part.powf(-1.0 / f64::from(method.order().max(1)));
-            if later.0 < found.0 {
-                found = later;
-            }
-        }
-        let (size, estimates, gauge) = found;
-        let short = estimates.longest > MOST_SHORTENED * size;
-        if short && span.abs() / size > MOST_STEPS {
-            return Err(trial.no_step(trial.time(span, estimates.reached)));
-        }
+        let (size, estimates, gauge) = by_run_in(&trial, span, pulse.as_ref())?;
         let seen = (gauge, estimates.seen, estimates.part);
-        (
-            SAFETY * trial.below_round_off(size),
-            estimates.worst,
-            Some(seen),
-        )
+        let size = SAFETY * trial.below_round_off(size);
+        (size, estimates.worst, Some(seen))
     };
     let steps = count(span, (span.abs() / size).ceil().max(1.0));
-    let step = if span == 0.0 { 1.0 } else { span / steps };
-    let chosen = Chosen {
-        tolerance,
-        step,
+    let found = Staged {
+        steps,
         error,
-        at_round_off: tolerance / steps < least_tolerance::<S>(),
+        begun: None,
     };
-    let zero = || problem.system.zero_state();
-    let watch = seen
-        .map(|(gauge, seen, part)| Watch::new(gauge, (seen, part), &chosen, 1.0 / steps, zero()));
+    let chosen = Chosen::new::<S, _, _>(tolerance, span, &found);
+    let watch = seen.map(|(gauge, seen, part)| {
+        Watch::by_field(gauge, (seen, part), &chosen, 1.0 / steps, zero())
+    });
     Ok(Settled {
         chosen,
         trial,
         watch,
+        begun: found.begun,
     })
+}
+
+/// The number of steps that keeps the tolerance at the start and at a pulse; none where the stages tell no errors.
+fn by_stages<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>>(
+    trial: &Trial<'a, S, P, M>,
+    span: f64,
+    pulse: Option<&Pulse>,
+) -> Result<Option<Staged<M::Stepper<'a>, P::State>>, IntegrateError> {
+    let Some(mut found) = trial.by_stages(span, None)? else {
+        return Ok(None);
+    };
+    if let Some(pulse) = pulse
+        && let Ok(Some(later)) = trial.by_stages(span, Some(pulse))
+    {
+        let steps = count(span, (later.steps * trial.over_a_part(pulse)).ceil());
+        if steps > found.steps {
+            found = Staged {
+                steps,
+                error: later.error,
+                begun: None,
+            };
+        }
+    }
+    Ok(Some(found))
+}
+
+/// The step that the estimates of a run-in allow, at the start and at a pulse.
+fn by_run_in<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
+    trial: &Trial<'_, S, P, M>,
+    span: f64,
+    pulse: Option<&Pulse>,
+) -> Result<(f64, Estimates, Gauge<S, P>), IntegrateError> {
+    let mut found = trial.run_in(span, None)?;
+    if let Some(pulse) = pulse
+        && let Ok(mut later) = trial.run_in(span, Some(pulse))
+    {
+        later.0 /= trial.over_a_part(pulse);
+        if later.0 < found.0 {
+            found = later;
+        }
+    }
+    let (size, estimates, _) = &found;
+    let short = estimates.longest > MOST_SHORTENED * size;
+    if short && span.abs() / size > MOST_STEPS {
+        return Err(trial.no_step(trial.time(span, estimates.reached)));
+    }
+    Ok(found)
 }
 
 /// The least number of steps, from one on, whose last time is the end of the span to the last digit, if it is near.

@@ -23,10 +23,12 @@ pub struct Solution<S, V> {
     pub stats: Stats,
     /// The step that was chosen, where the options gave a tolerance.
     pub chosen: Option<Chosen>,
-    /// In how many parts the last steps were made: 1 but where a chosen step had to be divided.
-    pub parts: u32,
+    /// The last and smallest step, where the one that was chosen had to be shortened on the way.
+    pub shortened: Option<f64>,
     /// The error at the end, where the options asked for it.
     pub assessed: Option<Assessed>,
+    /// From when on the steps of a run with a tolerance are too long for it, and could not be made shorter.
+    pub lost: Option<f64>,
     /// How the run ended.
     pub status: Status,
     /// The names of the coordinates.
@@ -50,8 +52,9 @@ impl<S, V> Solution<S, V> {
             casimirs: Vec::new(),
             stats: Stats::default(),
             chosen: None,
-            parts: 1,
+            shortened: None,
             assessed: None,
+            lost: None,
             status: Status::Finished,
             coordinates: coordinates.collect(),
             casimir_names: casimirs.collect(),

@@ -1,13 +1,13 @@
 //! Runs: what is saved of them, and how they end.
 
-use super::assess::assess;
-use super::course::Course;
+use super::assess::Ended;
+use super::course::{Beginning, Course};
 use super::error::{SolveError, StepError};
 use super::grid::Grid;
 use super::milestone::Milestone;
 use super::observer::{Observer, Recorder};
 use super::options::{OptionError, Options};
-use super::pace::{Settled, settle};
+use super::pace::{Assessed, Settled, settle};
 use super::problem::Problem;
 use super::solution::Solution;
 use super::stats::{Stats, Status};
@@ -129,16 +129,8 @@ fn run<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
     if expected != found {
         return Err(OptionError::StateLength { expected, found }.into());
     }
-    let (mut step, mut settled) = settle(problem, &method, options)?;
-    let mut assessed = None;
-    if let (Some(first), true) = (&settled, options.assess) {
-        let (steps, found) = assess(problem, &method, options, &first.chosen)?;
-        assessed = Some(found);
-        step = steps;
-        if let Some(settled) = &mut settled {
-            settled.chosen.step = step;
-        }
-    }
+    let (step, settled) = settle(problem, &method, options)?;
+    let tolerance = settled.as_ref().map(|settled| settled.chosen.tolerance);
     if let Some(settled) = &settled {
         observer.chosen(&settled.chosen);
     }
@@ -147,21 +139,28 @@ fn run<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
     let newton = settled
         .as_ref()
         .map_or(options.newton, |settled| settled.newton(step));
-    let mut course = Course::new(&grid, &method, newton, step)
+    let mut course = Course::new(grid, &method, newton)
         .dividing(divides)
         .with_milestones(milestones.is_some());
-    let guard = settled.and_then(Settled::guard);
+    let (guard, begun) = settled.map_or((None, None), Settled::begin);
+    let beginning = match (milestones.flatten(), begun) {
+        (Some(milestone), _) => Beginning::Milestone(milestone),
+        (None, Some(begun)) => Beginning::Step(begun),
+        (None, None) => Beginning::Start,
+    };
     let (system, mu) = (&problem.system, problem.start());
-    let (_, status) = course.run(
-        system,
-        mu,
-        milestones.flatten(),
-        guard,
-        &options.save,
-        observer,
-    )?;
-    if let Some(assessed) = &assessed {
-        observer.assessed(assessed);
+    let (end, status) = course.run(system, mu, beginning, guard, &options.save, observer)?;
+    if options.assess && status == Status::Finished {
+        let ended = Ended {
+            problem,
+            method: &method,
+            newton: options.newton,
+            tolerance,
+            step: course.size(),
+            end: &end,
+        };
+        let error = ended.error(observer);
+        observer.assessed(&Assessed { tolerance, error });
     }
     Ok((course.stats, status))
 }

@@ -22,21 +22,14 @@ const ATTEMPTS: u32 = 200;
 const UNSEEN: f64 = 3.0;
 /// Smaller parts of round-off than this are not worth shorter steps.
 const SMALLEST: f64 = 1.0 / 64.0;
-/// The part of the error of a step that its solver may have in the run-in.
-const SOLVER: f64 = 0.05;
-/// By how much steps are shortened at most so that the iteration contracts.
-const SLOWER: f64 = 16.0;
-/// By how much a fixed point has to contract at least: iterations by a factor of e are the best use of evaluations, and
-/// the continued polynomial of a shorter step is a better start.
-const CONTRACTION: f64 = 3.0;
 
 /// Steps that are tried.
 pub(super) struct Trial<'a, S: Scalar, P: Poisson<S>, M> {
-    problem: &'a Problem<S, P>,
-    method: &'a M,
-    newton: NewtonOptions,
-    span: f64,
-    tolerance: f64,
+    pub(super) problem: &'a Problem<S, P>,
+    pub(super) method: &'a M,
+    pub(super) newton: NewtonOptions,
+    pub(super) span: f64,
+    pub(super) tolerance: f64,
 }
 
 /// What a trial has found.
@@ -45,8 +38,6 @@ pub(super) struct TrialStep<V> {
     pub(super) error: f64,
     /// The state after two steps of half the size.
     end: V,
-    /// Whether the iteration without a Jacobian does not contract well.
-    slow: bool,
 }
 
 /// What the estimates of a run-in have come to.
@@ -105,11 +96,6 @@ impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'a, S, P, M> {
         (self.tolerance * part).max(least_tolerance::<S>())
     }
 
-    /// The method.
-    pub(super) fn method(&self) -> &'a M {
-        self.method
-    }
-
     /// A step whose error is too small to be seen, from one whose error is round-off, by the order of the method.
     pub(super) fn below_round_off(&self, h: f64) -> f64 {
         let asked = self.tolerance * h / self.span.max(h);
@@ -129,23 +115,10 @@ impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'a, S, P, M> {
         }
     }
 
-    /// The solver for a trial of a size: where each digit costs an iteration, no more exact than the estimate needs.
-    fn newton_of(&self, h: f64) -> NewtonOptions {
-        if !self.method.fixed_point() {
-            return self.newton;
-        }
-        let enough = SOLVER * self.target(h) / largest(S::epsilon());
-        NewtonOptions {
-            tolerance: self.newton.tolerance.max(enough),
-            convergence: Convergence::State,
-            ..self.newton
-        }
-    }
-
-    /// The solver of a run with steps of a size.
+    /// The solver of a run with steps of a size: where each digit costs an iteration, as exact as was asked for.
     pub(super) fn newton_of_run(&self, h: f64) -> NewtonOptions {
         match self.newton.convergence {
-            Convergence::Tolerance => self.newton_of(h),
+            Convergence::Tolerance if self.method.fixed_point() => self.by_tolerance(h),
             _ => self.newton,
         }
     }
@@ -168,7 +141,7 @@ impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'a, S, P, M> {
         let mut h = self.first(&mu).min(spacing);
         let mut estimates = Estimates::NONE;
         let (mut ceiling, mut shrunk, mut failure) = (f64::INFINITY, false, None);
-        let (mut contracting, mut longest) = (0.0_f64, 0.0_f64);
+        let mut longest = 0.0_f64;
         for _ in 0..ATTEMPTS {
             // a step that the end cuts short says nothing of longer ones
             let cut = estimates.count > 0 && h > self.span - reached;
@@ -180,27 +153,15 @@ impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'a, S, P, M> {
             }
             let system = followed.as_ref().unwrap_or(&self.problem.system);
             h = h.min(self.span - reached);
-            let cheap = h > contracting;
-            let TrialStep { error, end, .. } =
-                match self.estimate(system, &mu, h * span.signum(), cheap) {
-                    // where it does not contract, several shorter steps cost less
-                    Ok(found) if found.slow && cheap => {
-                        contracting = f64::max(contracting, h / SLOWER);
-                        h *= 0.7;
-                        (ceiling, shrunk, estimates) = (h, true, Estimates::NONE);
-                        continue;
-                    }
-                    Ok(found) => found,
-                    Err(failed) => {
-                        if self.method.fixed_point() && cheap {
-                            contracting = f64::max(contracting, h / SLOWER);
-                        }
-                        failure = Some(failed);
-                        h *= 0.5;
-                        (ceiling, shrunk, estimates) = (h, true, Estimates::NONE);
-                        continue;
-                    }
-                };
+            let TrialStep { error, end } = match self.estimate(system, &mu, h * span.signum()) {
+                Ok(found) => found,
+                Err(failed) => {
+                    failure = Some(failed);
+                    h *= 0.5;
+                    (ceiling, shrunk, estimates) = (h, true, Estimates::NONE);
+                    continue;
+                }
+            };
             let target = self.target(h);
             let ratio = (target / error).powf(1.0 / f64::from(self.method.order().max(1)));
             let kept = error <= 3.0 * target;
@@ -241,6 +202,11 @@ impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'a, S, P, M> {
             })),
             None => self.no_step(time),
         })
+    }
+
+    /// By how many more steps errors may be larger that add up over a pulse alone.
+    pub(super) fn over_a_part(&self, pulse: &Pulse) -> f64 {
+        pulse.part.powf(1.0 / f64::from(self.method.order().max(1)))
     }
 
     /// The time so far from the start.
@@ -289,28 +255,18 @@ impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'a, S, P, M> {
         }
     }
 
-    /// The error of a step of h, relative to the state, and the state after two steps of h/2; if cheap, it fails where a
-    /// Jacobian would be needed in place of a fixed point.
+    /// The error of a step of h, relative to the state, and the state after two steps of h/2.
     pub(super) fn estimate(
         &self,
         system: &P,
         mu: &P::State,
         h: f64,
-        cheap: bool,
     ) -> Result<TrialStep<P::State>, StepFailure> {
-        let mut newton = self.newton_of(h.abs());
-        if cheap {
-            newton = Self::cheap(self.method, newton);
-        }
-        let digits = -(newton.tolerance * largest(S::epsilon())).ln();
-        let (mut slow, most) = (false, digits / CONTRACTION.ln());
-        let mut steps = |h: f64, count: u32| {
-            let mut stepper = self.method.stepper(system, S::from_f64(h), &newton);
+        let steps = |h: f64, count: u32| {
+            let mut stepper = self.method.stepper(system, S::from_f64(h), &self.newton);
             let mut end = mu.clone();
             for _ in 0..count {
-                let report = stepper.step(&mut end, &mut ())?;
-                slow |= self.method.fixed_point()
-                    && (report.factorizations > 0 || f64::from(report.iterations) > most);
+                stepper.step(&mut end, &mut ())?;
             }
             Ok(end)
         };
@@ -323,7 +279,6 @@ impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'a, S, P, M> {
         Ok(TrialStep {
             error: largest(error.max(S::epsilon())) / part,
             end: halves,
-            slow,
         })
     }
 }

@@ -1,10 +1,12 @@
 //! What looks after the error of steps during a run whose step was chosen.
 //!
-//! The run-in knows the start alone: a motion may begin quietly and become fast. So the run watches a number that follows the
-//! error of a step and costs little, `s = |f| |Df|^p/|mu|`, p the order, and adds up the errors that it suggests. Where the
+//! The start alone was known when it was: a motion may begin quietly and become fast. Where the stages of a step tell its error
+//! ([`Stepper::estimate`](crate::methods::Stepper::estimate)), the first six and then every fourth are asked. Of other methods
+//! the run watches a number that follows the error of a step and costs little, `s = |f| |Df|^p/|mu|`, p the order, and adds up the errors that it suggests. Where the
 //! sum is ten times the tolerance, or the number far beyond what it was when an error was estimated last, the error of the
 //! step just made is estimated again. If the sum stays too large, the step is made again in several parts, and so is every
-//! later one: the method is one map again from there on. A step that fails is divided too.
+//! later one: the method is one map again from there on. A step that fails is divided too. Where steps cannot be divided as
+//! far as the tolerance asks, as before a singularity, the run says so.
 //!
 //! The sum decides and not the largest error: to divide all steps for the sake of a few costs more than these do.
 
@@ -87,19 +89,95 @@ impl<S: Scalar, P: Poisson<S>> Gauge<S, P> {
     }
 }
 
-/// What a run knows of the errors of its steps.
-pub(super) struct Watch<S: Scalar, P: Poisson<S>> {
+/// Of methods whose stages tell errors, the first steps are all looked at, then one of so many.
+const FIRST_STEPS: u64 = 6;
+const BETWEEN: u32 = 4;
+/// Steps are shortened where one has more than so many times its share, of the first ones and of later ones; and where the sum
+/// is so many times what it may be, and one has as much as of the first ones may have.
+const ABOVE: f64 = 3.0;
+const FAR_ABOVE: f64 = 30.0;
+const SPENT: f64 = 3.0;
+/// By how much at least.
+const LEAST_SHORTER: f64 = 1.05;
+/// A step with more than so many times its share is made again.
+const AGAIN: f64 = 1e3;
+/// More iterations than usual by more than this say that the motion is faster.
+const WONDER: u32 = 2;
+/// Larger parts of what an error may be count as so large.
+const MOST_COUNTED: f64 = 1e6;
+
+/// What tells the errors of steps.
+enum By<S: Scalar, P: Poisson<S>> {
+    /// The stages of a step.
+    Stages,
+    /// A number that follows them.
+    Field(Field<S, P>),
+}
+
+/// The number that follows errors.
+struct Field<S: Scalar, P: Poisson<S>> {
     gauge: Gauge<S, P>,
     /// Up to this number nothing is estimated.
     ceiling: f64,
-    /// The error of a step for a number of one, and the sum of errors, both as parts of what they may be.
+    /// The error of a step for a number of one, as a part of what it may be.
     slope: f64,
+}
+
+/// The sum of the errors of a run, as a part of what it may be.
+struct Sum {
     spent: f64,
     /// The part of the span that a step is.
     share: f64,
+    /// From one step that is looked at to the next.
     interval: u32,
+}
+
+impl Sum {
+    /// Adds the error of a step, for all up to the next look.
+    fn add(&mut self, part: f64) {
+        self.spent += part * self.share * f64::from(self.interval);
+    }
+}
+
+/// What a run knows of the errors of its steps.
+pub(super) struct Watch<S: Scalar, P: Poisson<S>> {
+    by: By<S, P>,
+    sum: Sum,
     left: u32,
     before: P::State,
+    /// The iterations of the step that was looked at last.
+    usual: u32,
+    /// Whether it was said that steps cannot be divided any more.
+    said: bool,
+}
+
+/// What becomes of the steps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Change {
+    /// Each is made in so many parts.
+    Parts(u32),
+    /// There are so many times as many.
+    Times(f64),
+}
+
+/// From where on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum From {
+    /// From the start of the step that was looked at.
+    Before,
+    /// From its end.
+    Behind,
+}
+
+/// What follows from a look at a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Verdict {
+    /// It is good.
+    Kept,
+    /// Steps are to be shorter.
+    Change(Change, From),
+    /// Its error is too large in any number of parts.
+    Lost,
 }
 
 /// What a run that is taken up has to know of the errors of its steps, as parts of what they may be.
@@ -121,8 +199,8 @@ fn room(part: f64) -> f64 {
 }
 
 impl<S: Scalar, P: Poisson<S>> Watch<S, P> {
-    /// From the largest number seen while steps were chosen, and the largest error of one relative to what it may be.
-    pub(super) fn new(
+    /// By the field, from the largest number seen while steps were chosen, and the largest error of one relative to what it may be.
+    pub(super) fn by_field(
         gauge: Gauge<S, P>,
         (seen, part): (f64, f64),
         chosen: &Chosen,
@@ -130,78 +208,135 @@ impl<S: Scalar, P: Poisson<S>> Watch<S, P> {
         zero: P::State,
     ) -> Self {
         let interval = gauge.interval(chosen.step.abs());
-        Self {
+        let by = By::Field(Field {
             ceiling: seen * room(part),
             slope: part / seen,
-            spent: 0.0,
-            share,
             gauge,
-            interval,
+        });
+        Self::new(by, (share, interval), zero)
+    }
+
+    /// By the stages of the steps.
+    pub(super) fn by_stages(share: f64, zero: P::State) -> Self {
+        Self::new(By::Stages, (share, 1), zero)
+    }
+
+    fn new(by: By<S, P>, (share, interval): (f64, u32), zero: P::State) -> Self {
+        Self {
+            by,
+            sum: Sum {
+                spent: 0.0,
+                share,
+                interval,
+            },
             left: 1,
             before: zero,
+            usual: u32::MAX,
+            said: false,
         }
     }
 
     /// What has changed since the start of the run.
     pub(super) fn watched(&self) -> Watched {
+        let (ceiling, slope) = match &self.by {
+            By::Field(field) => (field.ceiling, field.slope),
+            By::Stages => (0.0, 0.0),
+        };
         Watched {
-            ceiling: self.ceiling,
-            slope: self.slope,
-            spent: self.spent,
+            ceiling,
+            slope,
+            spent: self.sum.spent,
             left: self.left,
         }
     }
 
     /// Goes on where another run was.
     pub(super) fn restore(&mut self, watched: Watched) {
-        (self.ceiling, self.slope) = (watched.ceiling, watched.slope);
-        (self.spent, self.left) = (watched.spent, watched.left);
+        if let By::Field(field) = &mut self.by {
+            (field.ceiling, field.slope) = (watched.ceiling, watched.slope);
+        }
+        (self.sum.spent, self.left) = (watched.spent, watched.left);
     }
 
+    /// Says that steps cannot be divided any more; whether that was not said before.
+    pub(super) fn says(&mut self) -> bool {
+        !core::mem::replace(&mut self.said, true)
+    }
+
+    /// What becomes of a step whose error is so much of what it may be.
+    fn by_part(&mut self, part: f64, order: f64, index: u64) -> Verdict {
+        let counted = part.min(MOST_COUNTED);
+        let counted = if part.is_nan() { MOST_COUNTED } else { counted };
+        self.sum.add(counted);
+        let most = if index < FIRST_STEPS {
+            ABOVE
+        } else {
+            FAR_ABOVE
+        };
+        if counted <= ABOVE || (counted <= most && self.sum.spent <= SPENT) {
+            return Verdict::Kept;
+        }
+        self.sum.spent = 0.0;
+        let times = Change::Times(counted.powf(1.0 / order).clamp(LEAST_SHORTER, 8.0));
+        let from = if counted > AGAIN {
+            From::Before
+        } else {
+            From::Behind
+        };
+        Verdict::Change(times, from)
+    }
+}
+
+impl<S: Scalar, P: Poisson<S>> Field<S, P> {
     /// Adds the errors that a number suggests; whether one has to be estimated. A number that is none says nothing.
     #[inline(always)]
-    fn exceeded(&mut self, number: f64) -> bool {
-        let sum = self.slope * number * self.share * f64::from(self.interval);
-        self.spent += if sum.is_finite() { sum } else { 0.0 };
-        number > self.ceiling || self.spent > TOO_LARGE
+    fn exceeded(&self, number: f64, sum: &mut Sum) -> bool {
+        let suggested = self.slope * number;
+        sum.add(if suggested.is_finite() {
+            suggested
+        } else {
+            0.0
+        });
+        number > self.ceiling || sum.spent > TOO_LARGE
     }
 
     /// Corrects the sum of errors after one was estimated that has a part of what it may be; whether they are too large.
-    fn corrected(&mut self, number: f64, part: f64, order: f64) -> bool {
+    fn corrected(&self, number: f64, part: f64, order: f64, sum: &mut Sum) -> bool {
         let suggested = self.slope * number;
         if part < suggested {
-            self.spent *= part / suggested;
+            sum.spent *= part / suggested;
         } else {
-            self.spent += (part - suggested).max(0.0) * self.share * f64::from(self.interval);
+            sum.add((part - suggested).max(0.0));
         }
         let far = f64::max(FAR_TOO_LARGE, (0.5 * order).exp2());
-        let much = self.spent.min(part) > TOO_LARGE || part > far;
-        if self.spent > TOO_LARGE {
-            self.spent = 0.0;
+        let much = sum.spent.min(part) > TOO_LARGE || part > far;
+        if sum.spent > TOO_LARGE {
+            sum.spent = 0.0;
         }
         much || part.is_nan()
     }
 
-    /// In how many parts the step of h after the state that was kept is to be made; `number` is that of the gauge at its end.
+    /// What becomes of the step of h after a state; `number` is that of the gauge at its end.
     #[cold]
     #[inline(never)]
     fn needed<M: Method<S, P>>(
         &mut self,
+        sum: &mut Sum,
         trial: &Trial<'_, S, P, M>,
-        system: &P,
+        (system, before): (&P, &P::State),
         (h, parts): (f64, u32),
         number: f64,
-    ) -> u32 {
-        let order = f64::from(trial.method().order().max(1));
+    ) -> Verdict {
+        let order = f64::from(trial.method.order().max(1));
         let (mut now, mut first) = (parts, true);
-        let number = number.max(self.gauge.at(system, &self.before));
+        let number = number.max(self.gauge.at(system, before));
         loop {
             let size = h / f64::from(now);
-            let factor = match trial.estimate(system, &self.before, size, now < SLOW_PARTS) {
+            let factor = match trial.estimate(system, before, size) {
                 Ok(found) => {
                     let part = found.error / trial.target(size.abs());
                     let large = if first {
-                        self.corrected(number, part, order)
+                        self.corrected(number, part, order, sum)
                     } else {
                         part.is_nan() || part > TOO_LARGE
                     };
@@ -218,11 +353,18 @@ impl<S: Scalar, P: Poisson<S>> Watch<S, P> {
             if next > MOST_PARTS {
                 self.ceiling = f64::INFINITY;
                 self.slope = 0.0;
+                if now == parts {
+                    return Verdict::Lost;
+                }
                 break;
             }
             (now, first) = (next, false);
         }
-        now
+        if now > parts {
+            Verdict::Change(Change::Parts(now), From::Before)
+        } else {
+            Verdict::Kept
+        }
     }
 }
 
@@ -233,17 +375,35 @@ pub(super) struct Guard<'a, S: Scalar, P: Poisson<S>, M> {
 }
 
 impl<S: Scalar, P: Poisson<S>, M: Method<S, P>> Guard<'_, S, P, M> {
-    /// Whether the step to come is looked at; keeps the state before it if so.
+    /// Whether the step to come, whose number is known, is looked at; keeps the state before it if so.
     #[inline(always)]
-    pub(super) fn begins(&mut self, mu: &P::State) -> bool {
+    pub(super) fn begins(&mut self, mu: &P::State, index: u64) -> bool {
         let watch = &mut self.watch;
         watch.left -= 1;
         let due = watch.left == 0;
         if due {
-            watch.left = watch.interval;
+            if let By::Stages = watch.by {
+                watch.sum.interval = if index < FIRST_STEPS { 1 } else { BETWEEN };
+            }
+            watch.left = watch.sum.interval;
+        }
+        if due || matches!(watch.by, By::Stages) {
             watch.before.copy_from(mu);
         }
         due
+    }
+
+    /// Whether a step took so many more iterations than usual that it is looked at before its turn: its stages are at hand.
+    #[inline(always)]
+    pub(super) fn wonders(&self, iterations: u32) -> bool {
+        let usual = self.watch.usual;
+        matches!(self.watch.by, By::Stages) && iterations > usual.saturating_add(WONDER)
+    }
+
+    /// A step that is looked at took so many iterations.
+    #[inline(always)]
+    pub(super) fn usual(&mut self, iterations: u32) {
+        self.watch.usual = iterations;
     }
 
     /// The state before the step.
@@ -251,21 +411,46 @@ impl<S: Scalar, P: Poisson<S>, M: Method<S, P>> Guard<'_, S, P, M> {
         &self.watch.before
     }
 
-    /// In how many parts a step of h is to be made that was made in some and has ended at a state.
+    /// Whether the stages of steps tell their errors.
+    pub(super) fn is_by_stages(&self) -> bool {
+        matches!(self.watch.by, By::Stages)
+    }
+
+    /// Steps have this size from here on.
+    pub(super) fn steps_are(&mut self, h: f64) {
+        self.watch.sum.share = h.abs() / self.trial.span;
+    }
+
+    /// What becomes of the step of h with a number that was made in some parts and has ended at a state; the stages of its last
+    /// part may tell the error of that.
     #[inline(always)]
-    pub(super) fn parts(&mut self, system: &P, (h, parts): (f64, u32), end: &P::State) -> u32 {
-        let number = self.watch.gauge.at(system, end);
-        if !self.watch.exceeded(number) {
-            return parts;
+    pub(super) fn looks(
+        &mut self,
+        system: &P,
+        (index, h, parts): (u64, f64, u32),
+        end: &P::State,
+        told: impl FnOnce() -> Option<S>,
+    ) -> Verdict {
+        let watch = &mut self.watch;
+        let By::Field(field) = &mut watch.by else {
+            let error = told().map_or(f64::NAN, largest);
+            let part = self.trial.part(error, h / f64::from(parts));
+            let order = f64::from(self.trial.method.order().max(1));
+            return watch.by_part(part, order, index);
+        };
+        let number = field.gauge.at(system, end);
+        if !field.exceeded(number, &mut watch.sum) {
+            return Verdict::Kept;
         }
-        self.watch.needed(&self.trial, system, (h, parts), number)
+        let at = (system, &watch.before);
+        field.needed(&mut watch.sum, &self.trial, at, (h, parts), number)
     }
 }
 
 /// A step that needs a Jacobian in place of a fixed point costs about as much as so many that do not.
 pub(super) const JACOBIAN: u64 = 200;
 /// Into so many parts steps are divided at most in order to contract.
-pub(super) const SLOW_PARTS: u32 = 8;
+pub(super) const SLOW_PARTS: f64 = 8.0;
 
 /// In how many parts a step is made that failed in some; none where that is enough.
 pub(super) fn divided(parts: u32) -> Option<u32> {
