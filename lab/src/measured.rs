@@ -201,7 +201,8 @@ fn run<M: Method<f64, Drawn>>(
         Ok(solution) => {
             let end = solution.mu.last().expect("the end is saved");
             let error = off(end, &member.end);
-            let warned = solution.assessed.is_some_and(|found| found.missed());
+            let warned =
+                solution.lost.is_some() || solution.assessed.is_some_and(|found| found.missed());
             let stats = solution.stats;
             Outcome::Done {
                 error: if error.is_nan() { f64::INFINITY } else { error },

@@ -41,6 +41,7 @@ pub fn request(declaration: &Declaration, asked: &Bound<'_, PyDict>) -> PyResult
         }
         match name.as_str() {
             "method" => request.method = vec![value.extract()?],
+            "assess" => request.assess = value.extract()?,
             "parameters" => {
                 let values = declaration.named(value.extract()?);
                 let set = |(name, value)| Parameter::Set(name, Value::Number(value));

@@ -36,10 +36,14 @@ struct Heard {
     energies: Vec<f64>,
     casimirs: Vec<f64>,
     elements: Vec<f64>,
-    /// The step that was chosen.
+    /// The step that was chosen, and the one that it was shortened to on the way.
     step: Option<f64>,
-    /// The error at the end, where it may be much larger than the tolerance; not a number where it cannot be told.
-    missed: Option<f64>,
+    smallest: Option<f64>,
+    /// The error at the end, where it was asked for, and whether it is much larger than the tolerance; not a number where it
+    /// cannot be told.
+    assessed: Option<(f64, bool)>,
+    /// From when on the tolerance is not kept.
+    lost: Option<f64>,
     steps: u64,
 }
 
@@ -54,7 +58,8 @@ impl Heard {
                 self.step = Some(chosen.step);
                 self.rows = Some(memory::rows(&plan.times, plan.from, chosen.step));
             }
-            Found::Assessed { error, missed } => self.missed = missed.then_some(error),
+            Found::Lost { time } => self.lost = Some(time),
+            Found::Assessed { error, missed } => self.assessed = Some((error, missed)),
             Found::Columns(columns) => {
                 self.columns = columns;
                 self.reserve(self.rows.unwrap_or(0.0))?;
@@ -65,7 +70,8 @@ impl Heard {
                 rows.for_each(|row| self.row(row));
             }
             Found::Work(work) => self.steps = work.steps,
-            Found::Divided { .. } | Found::Milestone(_) => {}
+            Found::Shortened { step, .. } => self.smallest = Some(step),
+            Found::Milestone(_) => {}
         }
         Ok(())
     }
@@ -151,12 +157,15 @@ pub fn run<'py>(
     }
     let (Pace::Step(given) | Pace::Tolerance(given)) = plan.pace.0;
     found.set_item("method", plan.method.label())?;
-    found.set_item("step", heard.step.unwrap_or(given))?;
+    found.set_item("step", heard.smallest.or(heard.step).unwrap_or(given))?;
     found.set_item("steps", heard.steps)?;
     found.set_item("note", note)?;
-    if let Some(error) = heard.missed {
-        found.set_item("missed", error)?;
-        found.set_item("tolerance", given)?;
+    if let Some((error, missed)) = heard.assessed {
+        found.set_item("error", error)?;
+        found.set_item("missed", missed)?;
+    }
+    if let Some(time) = heard.lost {
+        found.set_item("lost", time)?;
     }
     if let Some(chart) = plan.chart {
         found.set_item("quaternion", chart == Chart::Quaternion)?;

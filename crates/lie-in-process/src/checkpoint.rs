@@ -38,8 +38,8 @@ pub struct Place {
     pub written: Option<Written>,
     /// The errors of the invariants.
     pub drift: KeptDrift,
-    /// In how many parts steps are made, and since when.
-    pub divided: Option<(u32, f64)>,
+    /// The step that was shortened, and since when.
+    pub shortened: Option<(f64, f64)>,
     /// The time that it took.
     pub seconds: f64,
 }

@@ -157,9 +157,21 @@ impl<P: Poisson<f64>> Observer<f64, P> for RowWriter<'_, '_> {
         self.session.mentions(Found::Chosen(chosen.into()));
     }
 
-    fn divided(&mut self, progress: Progress, parts: u32) {
+    fn shortened(&mut self, progress: Progress, step: f64) {
         let time = progress.time;
-        self.session.mentions(Found::Divided { parts, time });
+        self.session.mentions(Found::Shortened { step, time });
+    }
+
+    fn lost(&mut self, progress: Progress) {
+        let time = progress.time;
+        self.session.mentions(Found::Lost { time });
+    }
+
+    fn compared(&mut self, _progress: Progress) -> ControlFlow<()> {
+        match self.session.is_interrupted() {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        }
     }
 
     fn assessed(&mut self, assessed: &Assessed) {
@@ -201,8 +213,16 @@ impl<P: MatrixGroup<f64>> Observer<f64, P> for OnGroup<'_, '_, '_, P::State> {
         Observer::<f64, P>::chosen(self.rows, chosen);
     }
 
-    fn divided(&mut self, progress: Progress, parts: u32) {
-        Observer::<f64, P>::divided(self.rows, progress, parts);
+    fn shortened(&mut self, progress: Progress, step: f64) {
+        Observer::<f64, P>::shortened(self.rows, progress, step);
+    }
+
+    fn lost(&mut self, progress: Progress) {
+        Observer::<f64, P>::lost(self.rows, progress);
+    }
+
+    fn compared(&mut self, progress: Progress) -> ControlFlow<()> {
+        Observer::<f64, P>::compared(self.rows, progress)
     }
 
     fn assessed(&mut self, assessed: &Assessed) {

@@ -84,6 +84,7 @@ fn request(method: &str, step: f64, times: Times, initial: &[f64]) -> Run {
         times,
         tolerances: Tolerances::default(),
         newton: NewtonOptions::default(),
+        assess: false,
         from_milestone: None,
         milestones: Milestones::None,
     }
@@ -120,7 +121,10 @@ fn heard(code: u8, mut output: &[u8]) -> Heard {
             }
             Message::Found(Found::Work(work)) => heard.work = Some(work),
             Message::Found(
-                Found::Divided { .. } | Found::Assessed { .. } | Found::Milestone(_),
+                Found::Shortened { .. }
+                | Found::Lost { .. }
+                | Found::Assessed { .. }
+                | Found::Milestone(_),
             ) => {}
             Message::Progress(_) => {}
             Message::End(end) => heard.end = Some(end),

@@ -7,7 +7,7 @@
 //! cargo run --release -p lab --bin tolerance -- page ROWS LIBRARY 1e5   # … from which, and that of `plain`, the page is written
 //! ```
 //!
-//! `plain` in the place of `rows` runs without the assessment, as a library does unless it is asked for. Ids of methods may follow.
+//! `plain` in the place of `rows` runs without `--assess`. Ids of methods may follow.
 
 use lab::drawn::member::Member;
 use lab::lifted::cases;
@@ -64,7 +64,6 @@ fn write(commanded: &[Row], plain: &[Row], span: f64) {
     for (mark, text) in [
         ("{commanded}", table(commanded)),
         ("{plain}", table(plain)),
-        ("{histogram}", histogram(commanded, Way::Gauss16)),
         ("{plain histogram}", histogram(plain, Way::Gauss16)),
         ("{span}", format!("{span:e}")),
         ("{lifts}", lifts(span)),

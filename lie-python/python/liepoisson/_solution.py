@@ -51,6 +51,8 @@ class Solution:
         self._sites: Sites | None = None
         # whether H depends on the time: the energy is no constant then
         self._driven = False
+        #: The error at the end relative to the state, where it was asked for; not a number where it cannot be told.
+        self.error: float | None = None
         #: The group element at each row, shape (m, s, s) or (m, 4), where it was asked for.
         self.group: Array | None = None
 

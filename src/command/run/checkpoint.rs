@@ -153,12 +153,12 @@ mod tests {
                 "steps": 1000, "evaluations": 4000, "newton": 0, "fixed_point": 0, "factorizations": 0, "pivoted": 0,
                 "accepted": 1000, "rejected": 0, "failures": 0
             },
-            "division": { "parts": 1, "slow": [0, 0], "watched": null }
+            "division": { "parts": 1, "shortened": null, "slow": [0, 0], "watched": null }
         });
         let content = serde_json::json!({
             "arguments": ["run", "body.json"], "folder": "/", "inputs": [["body.json", "00"]], "finished": false,
             "place": {
-                "milestone": milestone, "written": null, "divided": null, "seconds": 0.5,
+                "milestone": milestone, "written": null, "shortened": null, "seconds": 0.5,
                 "drift": { "invariants": [[1, 2]], "scale": 3, "time": 4 }
             }
         });

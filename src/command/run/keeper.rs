@@ -131,7 +131,7 @@ impl Keeper {
             milestone,
             written: rows.written(&self.rows)?,
             drift: received.drift.kept(),
-            divided: received.divided,
+            shortened: received.shortened,
             seconds: (self.before + self.began.elapsed()).as_secs_f64(),
         });
         self.write()

@@ -42,16 +42,23 @@ pub struct Received {
     pub step: f64,
     /// Whether round-off forbids the tolerance.
     pub at_round_off: bool,
-    /// In how many parts steps were made in the end, and from when on.
-    pub divided: Option<(u32, f64)>,
-    /// The error at the end, and whether it may be much larger than the tolerance.
+    /// The smallest step, and from when on it was made, where steps became shorter on the way.
+    pub shortened: Option<(f64, f64)>,
+    /// From when on the tolerance is not kept.
+    pub lost: Option<f64>,
+    /// The error at the end, and whether it is much larger than the tolerance.
     pub assessed: Option<(f64, bool)>,
 }
 
 impl Received {
+    /// The smallest step that was made.
+    pub fn smallest(&self) -> f64 {
+        self.shortened.map_or(self.step, |(step, _)| step)
+    }
+
     /// Whether the error at the end may be larger than the tolerance.
     pub fn missed(&self) -> bool {
-        self.assessed.is_some_and(|(_, missed)| missed)
+        self.lost.is_some() || self.assessed.is_some_and(|(_, missed)| missed)
     }
 }
 
@@ -84,7 +91,8 @@ impl<'a, 'p> Reception<'a, 'p> {
                 work: Work::default(),
                 step,
                 at_round_off: false,
-                divided: None,
+                shortened: None,
+                lost: None,
                 assessed: None,
             },
             layout,
@@ -100,7 +108,7 @@ impl<'a, 'p> Reception<'a, 'p> {
     /// The destination cannot be written.
     pub fn take_up(&mut self, place: &Place) -> io::Result<()> {
         self.hidden = false;
-        self.received.divided = place.divided;
+        self.received.shortened = place.shortened;
         self.received.drift.restore(&place.drift);
         if let Some(written) = &place.written
             && let Some(run) = self.waiting.take()
@@ -141,7 +149,8 @@ impl<'a, 'p> Reception<'a, 'p> {
                 self.received.step = chosen.step;
                 self.received.at_round_off = chosen.at_round_off;
             }
-            Found::Divided { parts, time } => self.received.divided = Some((parts, time)),
+            Found::Shortened { step, time } => self.received.shortened = Some((step, time)),
+            Found::Lost { time } => self.received.lost = Some(time),
             Found::Assessed { error, missed } => self.received.assessed = Some((error, missed)),
             Found::Columns(columns) => {
                 let places = self.layout.places(&columns).ok_or_else(|| {

@@ -4,8 +4,10 @@ use lie_in_process::request::Plan;
 use lie_in_process::words::counted;
 use lie_program::protocol::Stop;
 use lie_runtime::driver::Pace;
+use lie_runtime::newton::Convergence;
 
 use super::reception::Received;
+use super::summary::short;
 use crate::build::talk::Outcome;
 use crate::compiler::Spec;
 
@@ -20,14 +22,31 @@ pub fn title(spec: &Spec, plan: &Plan, step: f64) -> String {
 }
 
 /// What a tolerance has led to.
-pub fn of_tolerance(received: &Received) -> Vec<String> {
+pub fn of_tolerance(plan: &Plan, received: &Received) -> Vec<String> {
     let mut notes = Vec::new();
     if received.at_round_off {
         notes.push("the round-off of this many steps may exceed the tolerance".to_owned());
     }
-    if let Some((parts, time)) = received.divided {
+    if let Some((step, time)) = received.shortened {
         notes.push(format!(
-            "from t = {time:.6} on each step was made in {parts} parts: the motion is faster there than at the start"
+            "from t = {time:.6} on steps have the size {step:?}, {:?} before: the motion is faster there than at the start",
+            received.step
+        ));
+    }
+    if plan.newton.convergence == Convergence::Tolerance {
+        let kept = received.drift.errors().map(|(name, error, relative)| {
+            let absolute = if relative { "" } else { " (absolute)" };
+            format!("{name} {}{absolute}", short(error))
+        });
+        notes.push(format!(
+            "the solver stopped at the tolerance, and what {} keeps is kept as far: {}",
+            plan.method.id(),
+            kept.collect::<Vec<_>>().join(", ")
+        ));
+    }
+    if let Some((error, false)) = received.assessed {
+        notes.push(format!(
+            "the error at the end is about {error:.1e} of the state, by a second run"
         ));
     }
     notes.extend(missed(received).map(|warning| format!("warning: {warning}")));
@@ -36,15 +55,19 @@ pub fn of_tolerance(received: &Received) -> Vec<String> {
 
 /// How far the tolerance may be missed, if it may.
 pub fn missed(received: &Received) -> Option<String> {
-    match received.assessed {
-        Some((error, true)) if error.is_nan() => Some(
-            "the error at the end is not known: the run that would tell it takes over 200,000 steps, or stopped early, as at a \
-             joint of H or before a singularity; give `--step`, and compare with the run of half of it"
+    match (received.assessed, received.lost) {
+        (Some((error, true)), _) if error.is_nan() => Some(
+            "the error at the end is not known: the second run, which would tell it, failed, or chooses its own steps; give \
+             `--step`, and compare with the run of half of it"
                 .to_owned(),
         ),
-        Some((error, true)) => Some(format!(
+        (Some((error, true)), _) => Some(format!(
             "the error at the end is about {error:.1e} of the state, more than the tolerance: errors grow on this orbit, \
              or the method cannot keep it"
+        )),
+        (_, Some(time)) => Some(format!(
+            "from t = {time:.6} on no step is short enough for the tolerance: there is a singularity or a joint of H; \
+             `--assess` says by how much the end is off"
         )),
         _ => None,
     }

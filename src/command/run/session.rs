@@ -223,9 +223,10 @@ impl Session<'_> {
             format!(" in place of {}, which the spec names", method.trim())
         });
         let text = format!(
-            "{} was picked{replaced}: it applies to every system, has order 16, and keeps quadratic Casimirs and a quadratic \
+            "{} was picked{replaced}: it applies to every system, has order {}, and keeps quadratic Casimirs and a quadratic \
              energy to round-off; --method chooses another",
-            plan.method.id()
+            plan.method.id(),
+            plan.method.entry().map_or(0, |entry| entry.order)
         );
         render::say(&folded(&text));
     }
@@ -243,10 +244,10 @@ impl Session<'_> {
         let (work, drift) = (&received.work, &received.drift);
         tally.record(member.plan, number, received);
         if self.several.labels.is_none() {
-            for note in of_tolerance(received) {
+            for note in of_tolerance(plan, received) {
                 render::say(&folded(&note));
             }
-            let title = title(self.spec, plan, received.step);
+            let title = title(self.spec, plan, received.smallest());
             let whose = match (plan.method.is_adaptive(), plan.pace.0) {
                 (false, _) => Steps::Constant,
                 (true, Pace::Step(_)) => Steps::Own,
@@ -260,7 +261,7 @@ impl Session<'_> {
                 render::say(&folded(&format!("warning: {title}: {warning}")));
             }
             if let Pace::Tolerance(_) = plan.pace.0 {
-                title.push_str(&format!(", step {:?}", received.step));
+                title.push_str(&format!(", step {:?}", received.smallest()));
             }
             let text = summary::line(&title, work, drift, time);
             render::say(&folded(&text));

@@ -25,8 +25,8 @@ pub struct Tally {
     stops: usize,
     /// Runs that round-off may keep from their tolerance.
     at_round_off: u64,
-    /// Runs in which steps were divided.
-    divided: u64,
+    /// Runs in which steps became shorter.
+    shortened: u64,
     /// Runs that may have missed their tolerance.
     missed: u64,
 }
@@ -69,7 +69,7 @@ impl Tally {
                 .any(|plan| matches!(plan.pace.0, Pace::Tolerance(_))),
             stops: 0,
             at_round_off: 0,
-            divided: 0,
+            shortened: 0,
             missed: 0,
         }
     }
@@ -77,7 +77,7 @@ impl Tally {
     /// Takes a run that reached its end.
     pub fn record(&mut self, method: usize, run: usize, received: &Received) {
         self.at_round_off += u64::from(received.at_round_off);
-        self.divided += u64::from(received.divided.is_some());
+        self.shortened += u64::from(received.shortened.is_some());
         self.missed += u64::from(received.missed());
         let method = &mut self.methods[method];
         method.runs += 1;
@@ -182,8 +182,9 @@ impl Tally {
         };
         let round_off = ": the round-off of so many steps may exceed the tolerance";
         say(self.at_round_off, round_off);
-        let divided = " with divided steps: the motion becomes faster than at the start";
-        say(self.divided, divided);
+        let shortened =
+            " with steps that became shorter: the motion becomes faster than at the start";
+        say(self.shortened, shortened);
         if self.many && self.missed > 0 {
             let runs = counted(self.missed, "run");
             let _ = writeln!(text, "warning: {runs} may miss the tolerance");

@@ -61,6 +61,9 @@ macro_rules! request {
             #[serde(rename = "initial-file")]
             #[cfg_attr(feature = "clap", arg(long, value_name = "FILE", conflicts_with = "initial"))]
             pub initial_file: Option<PathBuf>,
+            /// Makes a second run behind each, with other steps, and says by how much its end is off: 1.25 times the time of the run
+            #[cfg_attr(feature = "clap", arg(long))]
+            pub assess: bool,
             $(
                 $(#[$doc])*
                 #[serde(rename = $name)]

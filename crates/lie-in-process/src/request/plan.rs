@@ -13,8 +13,10 @@ use crate::spec::Spec;
 
 /// The method where none is given, for Lie–Poisson brackets and for others.
 const METHODS: [&str; 2] = ["lie-midpoint", "midpoint"];
-/// That of a tolerance.
+/// That of a tolerance, and of one that is no smaller than a bound: there fewer stages are enough.
 const OF_TOLERANCE: &str = "gauss16";
+const OF_LOOSE_TOLERANCE: &str = "gauss8";
+const LOOSE: f64 = 1e-4;
 /// That of a system by a discrete Lagrangian in coordinates of the exponential map.
 const DISCRETE: &str = "discrete-euler-poincare";
 
@@ -37,6 +39,8 @@ pub struct Plan {
     pub tolerances: Tolerances,
     /// The solver of an implicit method.
     pub newton: NewtonOptions,
+    /// Whether a second run tells the error at the end.
+    pub assess: bool,
 }
 
 impl Plan {
@@ -50,6 +54,7 @@ impl Plan {
             times: self.times.clone(),
             tolerances: self.tolerances,
             newton: self.newton,
+            assess: self.assess,
             from_milestone: None,
             milestones: Milestones::None,
         }
@@ -122,6 +127,7 @@ pub(super) fn planned(spec: &Spec, request: &Request) -> Planned {
             chart,
             tolerances: tolerances.unwrap_or_default(),
             newton: newton.unwrap_or_default(),
+            assess: request.assess,
         }),
         _ => None,
     };
@@ -233,6 +239,12 @@ impl<'a> Planner<'a> {
         self.wants_tolerance() && self.request.method.is_empty() && !in_spec
     }
 
+    /// Whether the tolerance is so large that a lower order is faster.
+    fn is_loose(&self) -> bool {
+        let given = self.option("tol").and_then(|given| given.number().ok());
+        given.is_some_and(|tolerance| tolerance >= LOOSE)
+    }
+
     /// The method as it is given, or the usual one.
     fn label(&self) -> OptionValue {
         let picks = self.picks();
@@ -245,7 +257,9 @@ impl<'a> Planner<'a> {
         }
         let model = &self.spec.model;
         let discrete = model.energy.lagrangian().and_then(|l| l.discrete);
-        let usual = if picks || model.family.is_some() {
+        let usual = if picks && self.is_loose() {
+            OF_LOOSE_TOLERANCE
+        } else if picks || model.family.is_some() {
             OF_TOLERANCE
         } else if discrete.is_some_and(|discrete| !discrete.in_entries) {
             DISCRETE

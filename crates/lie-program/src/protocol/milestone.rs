@@ -114,6 +114,7 @@ struct StatsFields {
 #[serde(remote = "Division", deny_unknown_fields)]
 struct DivisionFields {
     parts: u32,
+    shortened: Option<(u64, f64, u64)>,
     slow: (u64, u64),
     #[serde(with = "watched")]
     watched: Option<Watched>,

@@ -71,6 +71,9 @@ pub struct Run {
     /// The solver of an implicit method.
     #[serde(with = "words::NewtonFields")]
     pub newton: NewtonOptions,
+    /// Whether a second run tells the error at the end.
+    #[serde(default)]
+    pub assess: bool,
     /// Where it is taken up again; nothing for a run from its start.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub from_milestone: Option<Milestone>,
@@ -101,7 +104,7 @@ impl Run {
             pace: self.pace,
             save,
             newton: self.newton,
-            assess: matches!(self.pace, Pace::Tolerance(_)),
+            assess: self.assess,
         }
     }
 }
@@ -153,20 +156,27 @@ pub struct Progress {
 pub enum Found {
     /// The step that was chosen from a tolerance, before all else.
     Chosen(Choice),
-    /// Steps are made in so many parts from a time on.
-    Divided {
-        /// The parts.
-        parts: u32,
+    /// Steps are shorter from a time on.
+    Shortened {
+        /// Their size.
+        #[serde(with = "number")]
+        step: f64,
         /// The time.
         #[serde(with = "number")]
         time: f64,
     },
-    /// The error at the end of a run with a tolerance, relative to the state, if it can be told.
+    /// From a time on the errors of steps are larger than the tolerance allows, and steps cannot be shortened any more.
+    Lost {
+        /// The time.
+        #[serde(with = "number")]
+        time: f64,
+    },
+    /// The error at the end of a run, relative to the state, if it can be told.
     Assessed {
         /// The error; not a number where it cannot be told.
         #[serde(with = "number")]
         error: f64,
-        /// Whether it may be much larger than the tolerance.
+        /// Whether it is much larger than the tolerance, or cannot be told.
         missed: bool,
     },
     /// What the numbers of the rows to come are.
