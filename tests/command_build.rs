@@ -541,3 +541,68 @@ fn to_show_the_cache_does_not_make_it() {
     );
     assert!(!cache.exists() && !folder.path().join("none").exists());
 }
+
+/// A project holds all that it needs, and nothing is written over.
+#[test]
+fn a_project_is_written_into_an_empty_folder() {
+    let folder = folder();
+    let place = folder.path().join("body");
+    let call = format!(
+        "expand specs/so3_free_rigid_body.json --project {}",
+        place.display()
+    );
+    let said = lie(&call).ok().stdout;
+    assert!(said.contains("cargo run --release"), "{said}");
+    let read = |file: &str| std::fs::read_to_string(place.join(file)).expect("the file is there");
+    let (main, system, manifest) = (
+        read("src/main.rs"),
+        read("src/system.rs"),
+        read("Cargo.toml"),
+    );
+    assert!(
+        main.contains("solve(&problem, ImplicitMidpoint, "),
+        "{main}"
+    );
+    assert!(system.contains("pub struct FreeRigidBody"));
+    assert!(manifest.contains("runtime/lie-runtime"));
+    assert!(read("runtime/lie-runtime/Cargo.toml").contains("../lie-core"));
+    assert!(
+        !place.join("runtime/lie-program").exists(),
+        "what is not needed is left out"
+    );
+    let again = lie(&call);
+    assert_eq!(again.code, Some(1));
+    assert!(
+        again.stderr.contains("a folder that is new or empty"),
+        "{}",
+        again.stderr
+    );
+    assert_eq!(read("src/main.rs"), main);
+    assert_eq!(lie(&format!("{call} --plan")).code, Some(2));
+}
+
+/// What it computes has the bits of `lie run`.
+#[test]
+#[ignore = "a minute, it builds the runtime again: .ci/nightly runs it"]
+fn a_project_computes_what_the_command_does() {
+    let folder = folder();
+    for (name, spec, options) in [
+        ("body", "so3_free_rigid_body", "--method gauss4"),
+        ("spin", "so3_nonpolynomial", "--method taylor"),
+    ] {
+        let place = folder.path().join(name);
+        let spec = format!("specs/{spec}.json {options}");
+        lie(&format!("expand {spec} --project {}", place.display())).ok();
+        let mut cargo = std::process::Command::new("cargo");
+        cargo.args(["run", "--quiet"]).current_dir(&place);
+        cargo.env("CARGO_TARGET_DIR", folder.path().join("target"));
+        let output = cargo.output().expect("cargo starts");
+        let run = lie(&format!("run {spec} --quiet")).ok();
+        let written = String::from_utf8(output.stdout).expect("text");
+        assert!(
+            written == run.stdout,
+            "{}",
+            String::from_utf8_lossy(&output.stderr)
+        );
+    }
+}

@@ -101,6 +101,7 @@ fn every_form_and_every_kind_of_rows_goes_on() {
         "body.json --method gauss8 --step -0.2 --from 3 --until -230 --every 9".to_owned(),
         "driven.json --method collective8 --step 0.02 --until 22".to_owned(),
         "driven.json --method midpoint --tol 1e-4 --until 30".to_owned(),
+        "body.json --method gauss16 --tol 1e-10 --until 2500 --initial 1e-4,1,1e-4".to_owned(),
         "folded.json --method gauss6 --step 0.02 --until 22 --every 5".to_owned(),
     ]
     .iter()

@@ -427,7 +427,12 @@ fn a_tolerance_chooses_step_and_method() {
     for tolerance in [1e-4, 1e-8] {
         let (state, said) = end(&format!("--tol {tolerance:e}"));
         assert!(error(&state) < 10.0 * tolerance, "{tolerance:e}: {state:?}");
-        assert!(said.contains("gauss16 was picked"), "{said}");
+        let picked = if tolerance < 1e-4 {
+            "gauss16"
+        } else {
+            "gauss8"
+        };
+        assert!(said.contains(&format!("{picked} was picked")), "{said}");
         let (state, said) = end(&format!("--tol {tolerance:e} --method gauss6"));
         assert!(error(&state) < 10.0 * tolerance, "{tolerance:e}: {state:?}");
         assert!(
@@ -437,6 +442,17 @@ fn a_tolerance_chooses_step_and_method() {
     }
     let (coarse, _) = end("--tol 1e-2 --method midpoint");
     assert!(error(&coarse) > 1e-8, "a tolerance is used");
+    let (_, said) = end("--tol 1e-6 --method gauss16");
+    assert!(
+        !said.contains("second run") && !said.contains("kept as far"),
+        "{said}"
+    );
+    let (_, said) = end("--tol 1e-6 --method gauss16 --converge tolerance --assess");
+    for expected in ["is kept as far: energy ", "the error at the end is about "] {
+        assert!(said.contains(expected), "{said}");
+    }
+    let (_, said) = end("--step 0.5 --method gauss4 --assess");
+    assert!(said.contains("of the state, by a second run"), "{said}");
 
     let json = lie(&format!("{BODY} --tol 1e-6 --until 3 --format json")).ok();
     let value: serde_json::Value = serde_json::from_str(&json.stdout).expect("JSON");

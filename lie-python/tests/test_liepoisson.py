@@ -406,10 +406,15 @@ def test_a_missed_tolerance_is_said() -> None:
     top = lp.load(spec)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        top.run("rk4", tol=1e-3, t=100, every=1000)
+        run = top.run("rk4", tol=1e-3, t=100, every=1000)
+        assert run.error is None
+        run = top.run("gauss16", tol=1e-9, t=20, assess=True)
+        assert 0 < run.error < 1e-7
+        run = top.run("gauss16", h=0.5, t=20, assess=True)
+        assert 0 < run.error < 1
     # its motion is chaotic: after a longer time no step is small enough
     with pytest.warns(UserWarning, match="more than the tolerance 0.001"):
-        top.run("rk4", tol=1e-3, t=400, every=1000)
+        top.run("rk4", tol=1e-3, t=400, every=1000, assess=True)
 
 
 def test_mechanics_that_runs_backwards_is_said() -> None:

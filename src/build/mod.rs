@@ -15,6 +15,7 @@ mod entry;
 mod in_process;
 mod limit;
 mod processor;
+pub mod project;
 mod runtime;
 pub mod talk;
 mod toolchain;

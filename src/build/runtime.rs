@@ -31,7 +31,7 @@ pub fn identity() -> &'static str {
 }
 
 /// All files by their places in the folder of the unpacked sources.
-fn files() -> Vec<(PathBuf, &'static str)> {
+pub fn files() -> Vec<(PathBuf, &'static str)> {
     let mut files = Vec::new();
     for (name, sources) in CRATES {
         let mut folders = vec![sources];

@@ -175,6 +175,10 @@ pub struct Expand {
     /// Prints the plan of the code instead: what is computed, with operation counts
     #[arg(long)]
     pub plan: bool,
+    /// Writes a cargo project instead, into a folder that is new or empty: the code, a program that integrates it as the spec's `run`
+    /// says and prints the rows, and the runtime
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["plan", "runtime"])]
+    pub project: Option<PathBuf>,
 }
 
 /// `lie methods`.

@@ -94,6 +94,76 @@ pub fn program(structure: &Structure, choices: &[Choice], purpose: Purpose) -> S
     format(main)
 }
 
+/// What a program integrates.
+#[derive(Clone, Copy, Debug)]
+pub struct Numbers<'n> {
+    /// The values of the parameters, in order.
+    pub parameters: &'n [f64],
+    /// The initial state.
+    pub initial: &'n [f64],
+    /// Start and end.
+    pub span: (f64, f64),
+    /// The step, or the tolerance.
+    pub pace: f64,
+    /// Whether it is a tolerance.
+    pub by_tolerance: bool,
+}
+
+/// The text of a program that integrates the system of its module `system` by a method and writes the rows as CSV: for people
+/// to go on from.
+pub fn integrates(structure: &Structure, choice: &Choice, numbers: &Numbers<'_>) -> String {
+    let Numbers {
+        parameters,
+        initial,
+        span: (start, end),
+        pace,
+        by_tolerance,
+    } = *numbers;
+    let name = &structure.name;
+    let title = choice.title();
+    let method = choice.at_defaults().to_string();
+    let close = [
+        (" :: ", "::"),
+        (":: ", "::"),
+        (" ::<", "::<"),
+        ("< ", "<"),
+        (" >", ">"),
+        (" (", "("),
+    ];
+    let method = close
+        .iter()
+        .fold(method, |text, (loose, close)| text.replace(loose, close));
+    let method = method.replace("::lie_runtime::methods::", "");
+    let paced = if by_tolerance { "tolerance" } else { "new" };
+    format!(
+        "//! {name}, {title}: writes rows of t, state and invariants as CSV.
+
+use std::error::Error;
+
+use lie_runtime::driver::{{Options, Problem, solve}};
+use lie_runtime::methods::*;
+
+#[allow(dead_code)]
+mod system;
+
+/// In the order of the declaration.
+const PARAMETERS: [f64; {parameter_count}] = {parameters:?};
+const START: [f64; {dimension}] = {initial:?};
+const SPAN: (f64, f64) = ({start:?}, {end:?});
+
+fn main() -> Result<(), Box<dyn Error>> {{
+    let system = system::{name}::from_values(&PARAMETERS).system()?;
+    let problem = Problem::new(system, START, SPAN);
+    let solution = solve(&problem, {method}, &Options::{paced}({pace:?}))?;
+    solution.write_csv(std::io::stdout().lock())?;
+    Ok(())
+}}
+",
+        parameter_count = parameters.len(),
+        dimension = initial.len(),
+    )
+}
+
 /// The same system without fused equations, and the methods that are compared on it: those that are fused, once each.
 fn plain(structure: &Structure, choices: &[Choice]) -> Option<(TokenStream, TokenStream)> {
     let fused = compared(structure, choices);

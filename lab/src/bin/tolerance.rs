@@ -4,14 +4,15 @@
 //! ```text
 //! cargo run --release -p lab --bin tolerance                     # all of it, some tens of minutes
 //! cargo run --release -p lab --bin tolerance -- rows 0 100       # rows of some members alone, to a file …
-//! cargo run --release -p lab --bin tolerance -- page ROWS LIBRARY 1e5   # … from which, and that of `plain`, the page is written
+//! cargo run --release -p lab --bin tolerance -- page ROWS PLAIN STEPS 1e5   # … from which, and those of `plain` and `steps`, the page is written
 //! ```
 //!
+//! `steps` writes how many steps gauss16 takes to each of twelve tolerances, and the page says how often a looser one takes more.
 //! `plain` in the place of `rows` runs without `--assess`. Ids of methods may follow.
 
 use lab::drawn::member::Member;
 use lab::lifted::cases;
-use lab::measured::{Row, Way};
+use lab::measured::{Outcome, Row, Way};
 use lab::page::{histogram, table};
 use std::fmt::Write as _;
 
@@ -30,14 +31,22 @@ fn main() {
                 println!("{}", row.to_line());
             }
         }
-        ["page", commanded, plain, span] => {
+        ["steps", from, to] => {
+            let number = |text: &str| text.parse().expect("the number of a member");
+            for line in steps(number(from)..number(to)) {
+                println!("{line}");
+            }
+        }
+        ["page", commanded, plain, steps, span] => {
             let span = span.parse().expect("a time");
-            write(&read(commanded), &read(plain), span);
+            let steps = std::fs::read_to_string(steps).expect("the steps can be read");
+            write(&read(commanded), &read(plain), &steps, span);
         }
         _ => {
             let commanded: Vec<Row> = rows(0..MEMBERS, &[], true).collect();
             let plain: Vec<Row> = rows(0..MEMBERS, &[], false).collect();
-            write(&commanded, &plain, SPAN);
+            let steps: Vec<String> = steps(0..MEMBERS).collect();
+            write(&commanded, &plain, &steps.join("\n"), SPAN);
         }
     }
 }
@@ -59,13 +68,58 @@ fn read(path: &str) -> Vec<Row> {
     text.lines().filter_map(Row::from_line).collect()
 }
 
-fn write(commanded: &[Row], plain: &[Row], span: f64) {
+/// For each member the steps to 1e-2, 1e-3, …; 0 where a run was refused.
+fn steps(numbers: std::ops::Range<u64>) -> impl Iterator<Item = String> {
+    numbers.map(|number| {
+        let member = Member::draw(number);
+        let counts =
+            (2..=13).map(
+                |digits| match Way::Gauss16.run(&member, 0.1_f64.powi(digits), false) {
+                    Outcome::Done { steps, .. } => steps.to_string(),
+                    Outcome::Refused(why) => {
+                        eprintln!("{number}, 1e-{digits}: {why}");
+                        "0".to_owned()
+                    }
+                },
+            );
+        counts.collect::<Vec<_>>().join(" ")
+    })
+}
+
+/// How often a tolerance takes fewer steps than the one before, ten times as large, and how many fewer.
+fn monotone(text: &str) -> String {
+    let mut falls = Vec::new();
+    let mut pairs = 0;
+    for line in text.lines() {
+        let counts: Vec<f64> = line.split(' ').filter_map(|n| n.parse().ok()).collect();
+        for pair in counts
+            .windows(2)
+            .filter(|pair| pair[0] > 0.0 && pair[1] > 0.0)
+        {
+            pairs += 1;
+            falls.push(pair[0] / pair[1]);
+        }
+    }
+    falls.sort_by(f64::total_cmp);
+    let above = |ratio: f64| falls.iter().filter(|fall| **fall > ratio).count();
+    format!(
+        "gauss16 to 1e-2, 1e-3, … 1e-13: of {pairs} pairs of neighbours the looser one takes more steps in {}, more than 1.1 times as \
+         many in {}, more than 1.5 times in {}; the most is {:.2} times.",
+        above(1.0),
+        above(1.1),
+        above(1.5),
+        falls.last().copied().unwrap_or(f64::NAN)
+    )
+}
+
+fn write(commanded: &[Row], plain: &[Row], steps: &str, span: f64) {
     let mut page = String::from(include_str!("tolerance.md"));
     for (mark, text) in [
         ("{commanded}", table(commanded)),
         ("{plain}", table(plain)),
         ("{plain histogram}", histogram(plain, Way::Gauss16)),
         ("{span}", format!("{span:e}")),
+        ("{steps}", monotone(steps)),
         ("{lifts}", lifts(span)),
     ] {
         page = page.replace(mark, text.trim_end());

@@ -18,7 +18,8 @@ const MOST_STOPS: usize = 5;
 /// The work and the worst errors of the runs of each method.
 pub struct Tally {
     methods: Vec<OfMethod>,
-    /// Whether there are too many for a line each.
+    /// Whether there are several, and too many for a line each.
+    several: bool,
     many: bool,
     /// Whether steps are chosen by a tolerance.
     by_tolerance: bool,
@@ -62,6 +63,7 @@ impl Tally {
         });
         Self {
             methods: methods.collect(),
+            several: several.labels.is_some(),
             many: several.members.len() > MOST_LINES,
             by_tolerance: several
                 .plans
@@ -125,7 +127,9 @@ impl Tally {
             let more = counted(more as u64, "more run");
             let _ = writeln!(text, "{more} stopped early");
         }
-        text.push_str(&self.of_tolerance());
+        if self.several {
+            text.push_str(&self.of_tolerance());
+        }
         if !self.many {
             return text;
         }

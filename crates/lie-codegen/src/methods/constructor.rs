@@ -15,7 +15,7 @@ impl Choice {
     /// The value of a method that is a type with a default.
     pub(crate) fn at_defaults(&self) -> TokenStream {
         match self {
-            Self::Taylor | Self::LieTaylor => {
+            Self::Taylor | Self::LieTaylor | Self::Dopri5 => {
                 let name = self.type_of();
                 quote! { <#name as ::core::default::Default>::default() }
             }
