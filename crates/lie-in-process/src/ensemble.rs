@@ -76,7 +76,7 @@ impl Question for Ensemble {
             span: run.span(),
             options: Options {
                 save: if self.ends { Save::Ends } else { options.save },
-                assess: false,
+                assess: 0,
                 ..options
             },
         };

@@ -84,7 +84,7 @@ fn request(method: &str, step: f64, times: Times, initial: &[f64]) -> Run {
         times,
         tolerances: Tolerances::default(),
         newton: NewtonOptions::default(),
-        assess: false,
+        assess: 0,
         from_milestone: None,
         milestones: Milestones::None,
     }

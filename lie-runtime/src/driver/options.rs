@@ -34,8 +34,8 @@ pub struct Options {
     pub save: Save,
     /// The solver of implicit methods.
     pub newton: NewtonOptions,
-    /// Whether a second run tells the error at the end.
-    pub assess: bool,
+    /// A second run tells the error at the end of one with at most so many steps: none by default.
+    pub assess: u64,
 }
 
 impl Options {
@@ -54,7 +54,7 @@ impl Options {
             pace,
             save: Save::Every(1),
             newton: NewtonOptions::default(),
-            assess: false,
+            assess: 0,
         }
     }
 
@@ -64,7 +64,7 @@ impl Options {
     #[must_use]
     pub fn assessed(self) -> Self {
         Self {
-            assess: true,
+            assess: u64::MAX,
             ..self
         }
     }

@@ -150,7 +150,7 @@ fn run<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
     };
     let (system, mu) = (&problem.system, problem.start());
     let (end, status) = course.run(system, mu, beginning, guard, &options.save, observer)?;
-    if options.assess && status == Status::Finished {
+    if course.stats.steps <= options.assess && status == Status::Finished {
         let ended = Ended {
             problem,
             method: &method,

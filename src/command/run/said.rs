@@ -44,7 +44,7 @@ pub fn of_tolerance(plan: &Plan, received: &Received) -> Vec<String> {
             kept.collect::<Vec<_>>().join(", ")
         ));
     }
-    if let Some((error, false)) = received.assessed {
+    if let Some((error, false)) = received.assessed.filter(|_| plan.assess) {
         notes.push(format!(
             "the error at the end is about {error:.1e} of the state, by a second run"
         ));

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use lie_in_process::request::{Member, Several};
+use lie_in_process::request::{Member, Plan, Several};
 use lie_program::protocol::Obstacle;
 use lie_runtime::driver::Pace;
 
@@ -180,6 +180,7 @@ impl Session<'_> {
             times: reception.times(plan),
             from_milestone: place.as_ref().map(|place| place.milestone.clone()),
             milestones: milestones.unwrap_or_default(),
+            assess: assessed_up_to(plan),
             ..plan.run(member.start.clone())
         };
         if let Some(place) = &place {
@@ -356,5 +357,18 @@ fn also(ended: Result<u8, Failure>, further: Result<(), Failure>) -> Result<u8, 
             failure.messages.extend(further.messages);
             Err(failure)
         }
+    }
+}
+
+/// The second run of a tolerance with so few steps takes no time beside the start of the program, and tells orbits on which errors
+/// grow.
+const SHORT: u64 = 1000;
+
+/// Up to how many steps the error at the end is told.
+fn assessed_up_to(plan: &Plan) -> u64 {
+    match plan.pace.0 {
+        _ if plan.assess => u64::MAX,
+        Pace::Tolerance(_) => SHORT,
+        Pace::Step(_) => 0,
     }
 }

@@ -54,7 +54,7 @@ impl Plan {
             times: self.times.clone(),
             tolerances: self.tolerances,
             newton: self.newton,
-            assess: self.assess,
+            assess: if self.assess { u64::MAX } else { 0 },
             from_milestone: None,
             milestones: Milestones::None,
         }

@@ -71,9 +71,9 @@ pub struct Run {
     /// The solver of an implicit method.
     #[serde(with = "words::NewtonFields")]
     pub newton: NewtonOptions,
-    /// Whether a second run tells the error at the end.
+    /// A second run tells the error at the end of one with at most so many steps.
     #[serde(default)]
-    pub assess: bool,
+    pub assess: u64,
     /// Where it is taken up again; nothing for a run from its start.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub from_milestone: Option<Milestone>,

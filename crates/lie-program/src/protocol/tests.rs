@@ -12,7 +12,7 @@ fn run(times: Times) -> Run {
         times,
         tolerances: Tolerances::both(1e-8),
         newton: NewtonOptions::fixed_point(),
-        assess: false,
+        assess: 0,
         from_milestone: None,
         milestones: Milestones::Every(5000),
     }
