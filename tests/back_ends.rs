@@ -1,4 +1,4 @@
-//! The interpreter, Cranelift, WebAssembly, CPython and rustc give the same bits: every kernel of every spec on random states, and
+//! The interpreter, machine code, WebAssembly, CPython and rustc give the same bits: every kernel of every spec on random states, and
 //! steps of every method.
 
 #[path = "common/bits.rs"]
@@ -16,7 +16,7 @@ use lie_codegen::compile::{compile_spec, with_options};
 use lie_codegen::methods::{Choice, Lift, Retraction, Tensor};
 use lie_codegen::plan::plan;
 use lie_dynamic::{Dynamic, Engine, Interpreted, method};
-use lie_jit::Jit;
+use lie_jit::{Jit, JitWith, Registers};
 use lie_runtime::methods as m;
 use lie_runtime::newton::NewtonOptions;
 use lie_runtime::{
@@ -57,6 +57,12 @@ fn choice_of(label: &str) -> Choice {
         (Choice::Collective(order, _), _) => Choice::Collective(*order, Lift::Representation),
         _ => choice,
     }
+}
+
+/// Machine code in all registers that this processor has.
+fn machine_code() -> Vec<JitWith> {
+    let all = Registers::ALL.into_iter();
+    all.filter_map(Jit::with).collect()
 }
 
 /// A spec as a system made at run time, by an engine.
@@ -193,7 +199,9 @@ macro_rules! compare {
     ($differences:ident, $spec:expr => $system:ident, [$($algebra:ident)?], [$($id:literal $method:expr),* $(,)?]) => {{
         let printed = $system::new().system().unwrap();
         let spec = $spec;
-        for engine in [&Interpreted as &dyn Engine, &Jit, &Wasmi, &CPython] {
+        let machine_code = machine_code();
+        let machine_code = machine_code.iter().map(|engine| engine as &dyn Engine);
+        for engine in machine_code.chain([&Interpreted as &dyn Engine, &Wasmi, &CPython]) {
             let made = made(spec, &spec_systems::methods::METHODS, engine);
             let start: Vec<f64> = $system::new().initial_state().as_slice().to_vec();
             let name = |what: &str| format!("{spec} {} {what}", engine.name());
@@ -389,35 +397,38 @@ fn lanes_are_numbers_side_by_side() {
     });
     for text in texts.iter().map(String::as_str).chain([piecewise]) {
         let model = compile_spec(text).unwrap();
-        let system = Dynamic::new(plan(&model, &[]), &[], &Jit).unwrap();
-        let (n, wide) = (system.dimension(), system.widen());
-        let mut random = Random(2018);
-        for _ in 0..STATES {
-            let lanes: Vec<Vec<f64>> = (0..Wide::LANES).map(|_| random.numbers(2 * n)).collect();
-            let pack = |from: usize| -> Vec<Wide> {
-                let of = |k: usize| {
-                    let mut number = Wide::zero();
-                    for (lane, values) in lanes.iter().enumerate() {
-                        number = number.with_lane(lane, values[from + k]);
-                    }
-                    number
+        for engine in machine_code() {
+            let system = Dynamic::new(plan(&model, &[]), &[], &engine).unwrap();
+            let (n, wide) = (system.dimension(), system.widen());
+            let mut random = Random(2018);
+            for _ in 0..STATES {
+                let lanes: Vec<Vec<f64>> =
+                    (0..Wide::LANES).map(|_| random.numbers(2 * n)).collect();
+                let pack = |from: usize| -> Vec<Wide> {
+                    let of = |k: usize| {
+                        let mut number = Wide::zero();
+                        for (lane, values) in lanes.iter().enumerate() {
+                            number = number.with_lane(lane, values[from + k]);
+                        }
+                        number
+                    };
+                    (0..n).map(of).collect()
                 };
-                (0..n).map(of).collect()
-            };
-            let (mu, xi) = (pack(0), pack(n));
-            let mut all = [wide.zero_state(), wide.zero_state(), wide.zero_state()];
-            wide.vector_field(&mu, &mut all[0]);
-            wide.coadjoint_action(&xi, &mu, &mut all[1]);
-            wide.dexp_dual(&xi, &mu, &mut all[2]);
-            for (lane, values) in lanes.iter().enumerate() {
-                let (mu, xi) = (values[..n].to_vec(), values[n..].to_vec());
-                let mut expected = [vec![0.0; n], vec![0.0; n], vec![0.0; n]];
-                system.vector_field(&mu, &mut expected[0]);
-                system.coadjoint_action(&xi, &mu, &mut expected[1]);
-                system.dexp_dual(&xi, &mu, &mut expected[2]);
-                for (wide, expected) in all.iter().zip(&expected) {
-                    let own: Vec<f64> = wide.iter().map(|number| number.lane(lane)).collect();
-                    differences.compare(&model.name, expected, &own);
+                let (mu, xi) = (pack(0), pack(n));
+                let mut all = [wide.zero_state(), wide.zero_state(), wide.zero_state()];
+                wide.vector_field(&mu, &mut all[0]);
+                wide.coadjoint_action(&xi, &mu, &mut all[1]);
+                wide.dexp_dual(&xi, &mu, &mut all[2]);
+                for (lane, values) in lanes.iter().enumerate() {
+                    let (mu, xi) = (values[..n].to_vec(), values[n..].to_vec());
+                    let mut expected = [vec![0.0; n], vec![0.0; n], vec![0.0; n]];
+                    system.vector_field(&mu, &mut expected[0]);
+                    system.coadjoint_action(&xi, &mu, &mut expected[1]);
+                    system.dexp_dual(&xi, &mu, &mut expected[2]);
+                    for (wide, expected) in all.iter().zip(&expected) {
+                        let own: Vec<f64> = wide.iter().map(|number| number.lane(lane)).collect();
+                        differences.compare(&model.name, expected, &own);
+                    }
                 }
             }
         }

@@ -1,4 +1,4 @@
-//! Families: the interpreter, Cranelift, WebAssembly and rustc give the same bits, in every kernel at random states and in steps of every
+//! Families: the interpreter, machine code, WebAssembly and rustc give the same bits, in every kernel at random states and in steps of every
 //! method.
 
 #[path = "common/bits.rs"]
@@ -13,7 +13,7 @@ use lie_codegen::compile::compile_spec;
 use lie_codegen::methods::{Choice, applicability};
 use lie_codegen::plan::plan;
 use lie_dynamic::{Dynamic, Engine, Interpreted, method};
-use lie_jit::Jit;
+use lie_jit::{Jit, JitWith, Registers};
 use lie_runtime::diagnostics::AnyMethod;
 use lie_runtime::methods as m;
 use lie_runtime::{LiePoisson, Poisson, lie_poisson};
@@ -75,7 +75,9 @@ fn compare<P: LiePoisson<f64, State = Vec<f64>>>(
     });
     let values: Vec<f64> = values.collect();
     let mut differences = Differences::default();
-    for engine in [&Interpreted as &dyn Engine, &Jit, &Wasmi] {
+    let machine_code: Vec<JitWith> = Registers::ALL.into_iter().filter_map(Jit::with).collect();
+    let machine_code = machine_code.iter().map(|engine| engine as &dyn Engine);
+    for engine in machine_code.chain([&Interpreted as &dyn Engine, &Wasmi]) {
         let made = Dynamic::new(plan(&model, &[]), &values, engine).unwrap();
         let n = printed.dimension();
         assert_eq!(

@@ -1,7 +1,9 @@
 //! Codes over columns: a loop over places, two numbers at a time.
 
 use crate::compile::{Body, Compiler, Shape, WORD};
-use crate::{LONGEST, Memory};
+use crate::make::{Purpose, make};
+use crate::memory::Memory;
+use crate::registers::Registers;
 use cranelift_codegen::ir::condcodes::IntCC;
 use cranelift_codegen::ir::{AbiParam, BlockArg, InstBuilder, MemFlags, Value, types};
 use cranelift_frontend::FunctionBuilder;
@@ -10,6 +12,7 @@ use lie_dynamic::{Code, Frame, Lengths, Source};
 use lie_runtime::Scalar;
 use smallvec::SmallVec;
 use std::collections::HashMap;
+use std::ops::Range;
 use std::sync::OnceLock;
 
 /// A function over columns: reads from a table of the slices in a frame and from a table of columns, writes to a table of
@@ -162,6 +165,8 @@ pub struct ColumnKernels(Vec<OnceLock<Option<OverColumns>>>);
 /// A code over columns.
 pub struct OverColumns {
     function: Function,
+    /// How many neighbours it does: of numbers places, of lanes those of a place.
+    pub at_once: usize,
     lengths: Lengths,
     /// The entries that it does not write.
     clear: Vec<usize>,
@@ -174,35 +179,33 @@ impl ColumnKernels {
     }
 
     /// A code; none where it is too long, or has a matrix.
-    pub fn get(&self, place: usize, code: &Code, columns: Columns) -> Option<&OverColumns> {
-        let compile = || OverColumns::new(code, columns);
+    pub fn get(&self, place: usize, made: (&Code, Purpose, Registers)) -> Option<&OverColumns> {
+        let compile = || OverColumns::new(made.0, made.1, made.2);
         self.0[place].get_or_init(compile).as_ref()
     }
 }
 
 impl OverColumns {
-    fn new(code: &Code, columns: Columns) -> Option<Self> {
-        let matrix = code.stores.iter().any(|store| store.target > 0);
-        if code.instructions.len() > LONGEST || matrix {
+    fn new(code: &Code, purpose: Purpose, registers: Registers) -> Option<Self> {
+        if code.stores.iter().any(|store| store.target > 0) {
             return None;
         }
-        let mut compiler = Compiler::new()?;
-        let place = compiler.add_columns(code, columns)?;
-        let memory = Memory::new(compiler)?;
+        let made = make(code, purpose, registers)?;
         let written = |entry: &usize| {
             let mut stores = code.stores.iter();
             stores.any(|store| store.entry as usize == *entry)
         };
         let all = code.clear[0].unwrap_or(0) as usize;
         Some(Self {
-            function: memory.over_columns(place),
+            function: made.memory.over_columns(made.place),
+            at_once: made.at_once,
             lengths: Lengths::new(code),
             clear: (0..all).filter(|entry| !written(entry)).collect(),
-            _memory: memory,
+            _memory: made.memory,
         })
     }
 
-    /// Calls the function for so many places from the first on, of numbers an even number of them; at least one is asked for.
+    /// Calls the function for these places, at least one; of numbers, as many as are done at a time or a multiple of it.
     ///
     /// # Panics
     /// A slice is shorter than the code needs, or a column than the first target; or there are other places than that.
@@ -211,41 +214,43 @@ impl OverColumns {
         columns: &[&[S]],
         frame: &Frame<'_, S>,
         to: &mut [&mut [S]],
-        places: usize,
+        places: Range<usize>,
     ) {
         self.lengths.check_columns(columns, frame, to);
-        let enough = to.first().is_some_and(|to| to.len() >= places);
+        let enough = to.first().is_some_and(|to| to.len() >= places.end);
         assert!(
-            enough && places > 0,
+            enough && !places.is_empty(),
             "there are fewer places than are asked for"
         );
         for entry in &self.clear {
-            to[*entry][..places].fill(S::zero());
+            to[*entry][places.clone()].fill(S::zero());
         }
         let lanes = size_of::<S>() / size_of::<f64>();
         assert!(
-            (places * lanes).is_multiple_of(2),
-            "numbers are done two at a time"
+            (places.len() * lanes).is_multiple_of(self.at_once),
+            "numbers are done several at a time"
         );
         let mut table = frame.slices().map(|slice| slice.as_ptr().cast::<f64>());
-        let columns = columns.iter().map(|column| column.as_ptr().cast::<f64>());
+        let columns = columns.iter();
+        let columns = columns.map(|column| column[places.clone()].as_ptr().cast::<f64>());
         let mut columns: SmallVec<[*const f64; 24]> = columns.collect();
-        let to = to.iter_mut().map(|to| to.as_mut_ptr().cast::<f64>());
+        let to = to.iter_mut();
+        let to = to.map(|to| to[places.clone()].as_mut_ptr().cast::<f64>());
         let mut to: SmallVec<[*mut f64; 24]> = to.collect();
-        for pair in 0..lanes.div_ceil(2) {
-            if pair > 0 {
-                table = table.map(|slice| slice.wrapping_add(2));
+        for first in (0..lanes).step_by(self.at_once) {
+            if first > 0 {
+                table = table.map(|slice| slice.wrapping_add(self.at_once));
                 for column in &mut columns {
-                    *column = column.wrapping_add(2);
+                    *column = column.wrapping_add(self.at_once);
                 }
                 for to in &mut to {
-                    *to = to.wrapping_add(2);
+                    *to = to.wrapping_add(self.at_once);
                 }
             }
-            let bytes = places * size_of::<S>();
+            let bytes = places.len() * size_of::<S>();
             // SAFETY: every slice and every column is as long as the code needs, and has this many bytes from its own
-            // beginning on; the function does two numbers for each step, which the places are a multiple of. What is written
-            // is borrowed for writing.
+            // beginning on; the function does so many numbers for each step, which the places are a multiple of. What is
+            // written is borrowed for writing.
             unsafe { (self.function)(table.as_ptr(), columns.as_ptr(), to.as_ptr(), bytes) }
         }
     }

@@ -1,8 +1,10 @@
 //! Codes over lanes.
 
-use crate::columns::{ColumnKernels, Columns};
-use crate::compile::{Compiler, Shape};
-use crate::{Entry, Function, LONGEST, Memory, Others};
+use crate::columns::ColumnKernels;
+use crate::make::{Purpose, make};
+use crate::memory::Memory;
+use crate::registers::Registers;
+use crate::{Entry, Others};
 use lie_dynamic::{Code, Frame, Interpreter, Machine, Targets};
 use lie_runtime::Scalar;
 use std::sync::{Arc, OnceLock};
@@ -10,49 +12,46 @@ use std::sync::{Arc, OnceLock};
 /// Lanes of double precision.
 pub type Wide = <f64 as Scalar>::Wide;
 
-const LANES: usize = size_of::<Wide>() / size_of::<f64>();
+pub const LANES: usize = size_of::<Wide>() / size_of::<f64>();
 const _: () = assert!(
-    LANES.is_multiple_of(2) && LANES == <Wide as Scalar>::LANES,
-    "lanes are numbers one behind the other, and come in pairs"
+    LANES == 8 && LANES == <Wide as Scalar>::LANES,
+    "lanes are numbers one behind the other, as many as the widest registers have"
 );
 
 /// Codes over lanes, each compiled when it is first run.
 pub struct Lanes {
-    entries: Vec<OnceLock<Option<(Entry, Function, Memory)>>>,
+    entries: Vec<OnceLock<Option<(Entry, Memory)>>>,
     codes: Arc<[Code]>,
+    registers: Registers,
     column_kernels: ColumnKernels,
     others: Others<Self>,
     interpreted: Interpreter,
 }
 
 impl Lanes {
-    pub fn new(codes: &Arc<[Code]>) -> Self {
+    pub fn new(codes: &Arc<[Code]>, registers: Registers) -> Self {
         Self {
             entries: codes.iter().map(|_| OnceLock::new()).collect(),
             codes: Arc::clone(codes),
+            registers,
             column_kernels: ColumnKernels::new(codes.len()),
             others: Others::new(),
             interpreted: Interpreter::new(Arc::clone(codes)),
         }
     }
 
-    fn compile(code: &Code) -> Option<(Entry, Function, Memory)> {
-        if code.instructions.len() > LONGEST {
-            return None;
-        }
-        let mut compiler = Compiler::new()?;
-        let place = compiler.add(code, Shape::pair_of_lanes(LANES))?;
-        let memory = Memory::new(compiler)?;
-        let function = memory.function(place);
-        Some((Entry::new(code, Some(function)), function, memory))
+    fn compiled(&self, code: usize) -> Option<(Entry, Memory)> {
+        let code = &self.codes[code];
+        let made = make(code, Purpose::Lanes, self.registers)?;
+        let function = made.memory.function(made.place);
+        Some((Entry::new(code, function, made.at_once), made.memory))
     }
 }
 
 impl Machine<Wide> for Lanes {
     fn run(&self, code: usize, frame: &Frame<'_, Wide>, targets: Targets<'_, Wide>) {
-        let compiled = self.entries[code].get_or_init(|| Self::compile(&self.codes[code]));
-        match compiled {
-            Some((entry, function, _)) => entry.call(*function, frame, targets),
+        match self.entries[code].get_or_init(|| self.compiled(code)) {
+            Some((entry, _)) => entry.call(frame, targets),
             None => self.interpreted.run(code, frame, targets),
         }
     }
@@ -66,10 +65,8 @@ impl Machine<Wide> for Lanes {
     }
 
     fn compile(&self, codes: &Arc<[Code]>) -> Option<Arc<dyn Machine<Wide>>> {
-        Some(
-            self.others
-                .get_or_compile(codes, || Some(Self::new(codes)))?,
-        )
+        let make = || Some(Self::new(codes, self.registers));
+        Some(self.others.get_or_compile(codes, make)?)
     }
 
     fn run_columns(
@@ -80,11 +77,9 @@ impl Machine<Wide> for Lanes {
         to: &mut [&mut [Wide]],
     ) {
         let places = to.first().map_or(0, |to| to.len());
-        let compiled = self
-            .column_kernels
-            .get(code, &self.codes[code], Columns::lanes(LANES));
-        match compiled {
-            Some(compiled) if places > 0 => compiled.call(columns, frame, to, places),
+        let made = (&self.codes[code], Purpose::ColumnsOfLanes, self.registers);
+        match self.column_kernels.get(code, made) {
+            Some(compiled) if places > 0 => compiled.call(columns, frame, to, 0..places),
             _ => Machine::<Wide>::run_columns(&self.interpreted, code, columns, frame, to),
         }
     }

@@ -1,100 +1,98 @@
-//! Machine code for the codes of [`lie_dynamic`], made at run time by Cranelift.
+//! Machine code for the codes of [`lie_dynamic`], made at run time.
 //!
 //! One function for each code, with the operations in their order: the digits are those of the interpreter. Elementary functions are
-//! those of the numeric core. This is the only crate with `unsafe` code: it calls what it has compiled. Before every call the
-//! lengths of all slices are compared with what the code reads and writes.
+//! those of the numeric core. An assembler of our own makes the functions where the processor has AVX2 or AVX-512 (`assembler`), Cranelift
+//! elsewhere (`compile`). Before every call the lengths of all slices are compared with what the code reads and writes.
 
 #![warn(missing_docs)]
 
+#[cfg(all(unix, target_arch = "x86_64"))]
+mod assembler;
 mod columns;
 mod compile;
 mod functions;
 mod lanes;
+mod make;
+mod memory;
+mod registers;
 
-use columns::{ColumnKernels, Columns};
-use compile::{Compiler, Shape};
-use cranelift_jit::JITModule;
-use cranelift_module::FuncId;
+use columns::ColumnKernels;
 use lanes::{Lanes, Wide};
 use lie_dynamic::{Code, Engine, Frame, Interpreted, Lengths, Machine, Targets, place_by_place};
 use lie_runtime::Scalar;
-use std::mem::ManuallyDrop;
+use make::Purpose;
+use memory::{Function, Memory};
+pub use registers::Registers;
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
-/// The engine of Cranelift. Where the processor is none that it knows, codes are interpreted.
+/// The engine of machine code, in the widest registers of this processor. Where it is none that Cranelift knows, codes are
+/// interpreted.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Jit;
 
-/// Codes with more instructions than this are interpreted: Cranelift's time grows faster than they are long.
-const LONGEST: usize = 20_000;
+impl Jit {
+    /// The same in these registers, for tests and measurements; none where the processor does not have them.
+    pub fn with(registers: Registers) -> Option<JitWith> {
+        registers.are_here().then_some(JitWith(registers))
+    }
+}
 
-/// A compiled code: reads from a table of the slices in a frame, writes to two places.
-type Function = unsafe extern "C" fn(*const *const f64, *mut f64, *mut f64);
+/// The engine of machine code in registers that were asked for, see [`Jit::with`].
+#[derive(Clone, Copy, Debug)]
+pub struct JitWith(Registers);
+
+fn machine(codes: &Arc<[Code]>, registers: Registers) -> Arc<dyn Machine<f64>> {
+    let interpreted = Interpreted.machine(codes);
+    match Compiled::new(codes, Arc::clone(&interpreted), registers) {
+        Some(compiled) => Arc::new(compiled),
+        None => interpreted,
+    }
+}
 
 impl Engine for Jit {
     fn name(&self) -> &'static str {
-        "cranelift"
+        "machine code"
     }
 
     fn machine(&self, codes: &Arc<[Code]>) -> Arc<dyn Machine<f64>> {
-        let interpreted = Interpreted.machine(codes);
-        match Compiled::new(codes, Arc::clone(&interpreted)) {
-            Some(compiled) => Arc::new(compiled),
-            None => interpreted,
+        machine(codes, Registers::widest())
+    }
+}
+
+impl Engine for JitWith {
+    fn name(&self) -> &'static str {
+        match self.0 {
+            Registers::Avx512 => "AVX-512",
+            Registers::Avx2 => "AVX2",
+            Registers::Pairs => "cranelift",
         }
+    }
+
+    fn machine(&self, codes: &Arc<[Code]>) -> Arc<dyn Machine<f64>> {
+        machine(codes, self.0)
     }
 }
 
 /// One code: its function, and the least lengths of what it reads and writes.
 struct Entry {
-    /// None of a code that is too long, which is interpreted.
-    function: Option<Function>,
+    function: Function,
+    /// How many lanes it does.
+    at_once: usize,
     lengths: Lengths,
     clear: [usize; 2],
 }
 
-/// The memory of compiled functions.
-struct Memory(ManuallyDrop<JITModule>);
-
-// SAFETY: functions read nothing but their arguments, and the memory they are in is not changed once they are complete.
-unsafe impl Send for Memory {}
-// SAFETY: as above.
-unsafe impl Sync for Memory {}
-
-impl Drop for Memory {
-    fn drop(&mut self) {
-        // SAFETY: the module is taken once, here; its functions are called only by the machines that own the memory.
-        unsafe { ManuallyDrop::take(&mut self.0).free_memory() }
-    }
-}
-
-impl Memory {
-    fn new(compiler: Compiler) -> Option<Self> {
-        Some(Self(ManuallyDrop::new(compiler.finish()?)))
-    }
-
-    fn function(&self, place: FuncId) -> Function {
-        let pointer = self.0.get_finalized_function(place);
-        // SAFETY: the pointer is that of a function which was compiled with this signature.
-        unsafe { std::mem::transmute::<*const u8, Function>(pointer) }
-    }
-
-    fn over_columns(&self, place: FuncId) -> columns::Function {
-        let pointer = self.0.get_finalized_function(place);
-        // SAFETY: as above.
-        unsafe { std::mem::transmute::<*const u8, columns::Function>(pointer) }
-    }
-}
-
 /// Compiled codes with the memory that they are in.
 struct Compiled {
-    entries: Vec<Entry>,
+    /// None of a code that is too long, which is interpreted.
+    entries: Vec<Option<Entry>>,
     interpreted: Arc<dyn Machine<f64>>,
     codes: Arc<[Code]>,
+    registers: Registers,
     wide: OnceLock<Arc<Lanes>>,
     column_kernels: ColumnKernels,
     others: Others<Self>,
-    _memory: Memory,
+    _memories: Vec<Memory>,
 }
 
 /// Machines for other codes than those of a plan, each with the codes that it was made of.
@@ -134,48 +132,45 @@ impl<M> Others<M> {
 }
 
 impl Compiled {
-    fn new(codes: &Arc<[Code]>, interpreted: Arc<dyn Machine<f64>>) -> Option<Self> {
-        let mut compiler = Compiler::new()?;
-        let mut places = Vec::with_capacity(codes.len());
-        for code in codes.iter() {
-            let short = code.instructions.len() <= LONGEST;
-            places.push(if short {
-                Some(compiler.add(code, Shape::ONE)?)
-            } else {
-                None
-            });
-        }
-        let memory = Memory::new(compiler)?;
-        let entries = codes
-            .iter()
-            .zip(places)
-            .map(|(code, place)| Entry::new(code, place.map(|place| memory.function(place))));
+    fn new(
+        codes: &Arc<[Code]>,
+        interpreted: Arc<dyn Machine<f64>>,
+        registers: Registers,
+    ) -> Option<Self> {
+        let made = make::over_numbers(codes, registers)?;
+        let entries = made.places.iter().zip(codes.iter()).map(|(place, code)| {
+            let (memory, place) = (*place)?;
+            let function = made.memories[memory].function(place);
+            Some(Entry::new(code, function, 1))
+        });
         Some(Self {
             entries: entries.collect(),
             interpreted,
             codes: Arc::clone(codes),
+            registers,
             wide: OnceLock::new(),
             column_kernels: ColumnKernels::new(codes.len()),
             others: Others::new(),
-            _memory: memory,
+            _memories: made.memories,
         })
     }
 }
 
 impl Entry {
-    fn new(code: &Code, function: Option<Function>) -> Self {
+    fn new(code: &Code, function: Function, at_once: usize) -> Self {
         Self {
             function,
+            at_once,
             lengths: Lengths::new(code),
             clear: code.clear.map(|count| count.unwrap_or(0) as usize),
         }
     }
 
-    /// Calls the function over lanes, two by two; over numbers, once.
+    /// Calls the function over as many lanes as it does at a time, until all are done; over numbers, once.
     ///
     /// # Panics
     /// A slice is shorter than the code needs.
-    fn call<S: Scalar>(&self, function: Function, frame: &Frame<'_, S>, targets: Targets<'_, S>) {
+    fn call<S: Scalar>(&self, frame: &Frame<'_, S>, targets: Targets<'_, S>) {
         self.lengths.check(frame, &targets);
         let [vector, matrix] = targets;
         vector[..self.clear[0]].fill(S::zero());
@@ -184,24 +179,23 @@ impl Entry {
         let mut vector = vector.as_mut_ptr().cast::<f64>();
         let mut matrix = matrix.as_mut_ptr().cast::<f64>();
         let lanes = size_of::<S>() / size_of::<f64>();
-        for pair in 0..lanes.div_ceil(2) {
-            if pair > 0 {
-                table = table.map(|slice| slice.wrapping_add(2));
-                vector = vector.wrapping_add(2);
-                matrix = matrix.wrapping_add(2);
+        for first in (0..lanes).step_by(self.at_once) {
+            if first > 0 {
+                table = table.map(|slice| slice.wrapping_add(self.at_once));
+                vector = vector.wrapping_add(self.at_once);
+                matrix = matrix.wrapping_add(self.at_once);
             }
             // SAFETY: every slice is as long as the code needs, what is written is borrowed for writing, and a number is
-            // its lanes one behind the other, of which the function takes the first two, or the only one.
-            unsafe { function(table.as_ptr(), vector, matrix) }
+            // its lanes one behind the other, of which the function takes so many from the first on; they divide the lanes.
+            unsafe { (self.function)(table.as_ptr(), vector, matrix) }
         }
     }
 }
 
 impl Machine<f64> for Compiled {
     fn run(&self, code: usize, frame: &Frame<'_, f64>, targets: Targets<'_, f64>) {
-        let entry = &self.entries[code];
-        match entry.function {
-            Some(function) => entry.call(function, frame, targets),
+        match &self.entries[code] {
+            Some(entry) => entry.call(frame, targets),
             None => self.interpreted.run(code, frame, targets),
         }
     }
@@ -214,20 +208,21 @@ impl Machine<f64> for Compiled {
         to: &mut [&mut [f64]],
     ) {
         let places = to.first().map_or(0, |to| to.len());
-        let pairs = places - places % 2;
-        let compiled = self
-            .column_kernels
-            .get(code, &self.codes[code], Columns::NUMBERS);
-        let done = match compiled {
-            Some(compiled) if pairs > 0 => {
-                compiled.call(columns, frame, to, pairs);
-                pairs
+        let made = (&self.codes[code], Purpose::ColumnsOfNumbers, self.registers);
+        let compiled = self.column_kernels.get(code, made);
+        match compiled.filter(|compiled| compiled.at_once <= places) {
+            Some(compiled) => {
+                let rest = places % compiled.at_once;
+                compiled.call(columns, frame, to, 0..places - rest);
+                if rest > 0 {
+                    // those at the end once more: the same numbers
+                    compiled.call(columns, frame, to, places - compiled.at_once..places);
+                }
             }
-            _ => 0,
-        };
-        place_by_place(done..places, columns, to, |at, out| {
-            self.run(code, &frame.with_first(at), [out, &mut []]);
-        });
+            None => place_by_place(0..places, columns, to, |at, out| {
+                self.run(code, &frame.with_first(at), [out, &mut []]);
+            }),
+        }
     }
 
     fn compiles(&self) -> bool {
@@ -239,12 +234,12 @@ impl Machine<f64> for Compiled {
     }
 
     fn compile(&self, codes: &Arc<[Code]>) -> Option<Arc<dyn Machine<f64>>> {
-        let make = || Self::new(codes, Interpreted.machine(codes));
+        let make = || Self::new(codes, Interpreted.machine(codes), self.registers);
         Some(self.others.get_or_compile(codes, make)?)
     }
 
     fn wide(&self) -> Option<Arc<dyn Machine<Wide>>> {
-        let lanes = || Arc::new(Lanes::new(&self.codes));
+        let lanes = || Arc::new(Lanes::new(&self.codes, self.registers));
         Some(Arc::clone(self.wide.get_or_init(lanes)) as Arc<dyn Machine<Wide>>)
     }
 }

@@ -1,5 +1,5 @@
-//! The interpreter, Cranelift, WebAssembly and CPython give the same bits: every code of every spec, with every method that applies, on
-//! random numbers.
+//! The interpreter, machine code in all registers that the processor has, WebAssembly and CPython give the same bits: every code of every
+//! spec, with every method that applies, on random numbers.
 
 #[path = "../../../tests/common/cpython/mod.rs"]
 mod cpython;
@@ -15,12 +15,14 @@ use lie_dynamic::{
     Code, Declared, Dynamic, Engine, Frame, Instruction, Interpreted, Interpreter, Machine, Number,
     SLICES, Source, Store,
 };
-use lie_jit::Jit;
+use lie_jit::{Jit, JitWith, Registers};
 use lie_runtime::Elementary;
 use lie_runtime::Scalar;
 use random::Random;
 use std::sync::{Arc, Mutex};
 use wasmi_engine::Wasmi;
+
+type Wide = <f64 as Scalar>::Wide;
 
 /// The interpreter, which keeps the codes it is asked for.
 #[derive(Default)]
@@ -34,6 +36,18 @@ impl Engine for Listening {
         self.0.lock().unwrap().push(Arc::clone(codes));
         Interpreted.machine(codes)
     }
+}
+
+/// Machine code in all registers that this processor has.
+fn machine_code() -> Vec<JitWith> {
+    let all = Registers::ALL.into_iter();
+    all.filter_map(Jit::with).collect()
+}
+
+/// Machine code and these.
+fn engines<'a>(machine_code: &'a [JitWith], others: &[&'a dyn Engine]) -> Vec<&'a dyn Engine> {
+    let all = machine_code.iter().map(|engine| engine as &dyn Engine);
+    all.chain(others.iter().copied()).collect()
 }
 
 /// The codes of a spec with all methods that apply to it; none where no system is made of it at run time.
@@ -73,7 +87,12 @@ fn bits(number: f64) -> u64 {
 }
 
 /// What a code writes for these numbers, entry by entry.
-fn written(machine: &dyn Machine<f64>, code: usize, of: &Code, numbers: &[Vec<f64>]) -> Vec<u64> {
+fn written<S: Scalar>(
+    machine: &dyn Machine<S>,
+    code: usize,
+    of: &Code,
+    numbers: &[Vec<S>],
+) -> Vec<u64> {
     let frame = frame(numbers);
     let size = |target: u8| {
         let stores = of.stores.iter().filter(|store| store.target == target);
@@ -81,20 +100,38 @@ fn written(machine: &dyn Machine<f64>, code: usize, of: &Code, numbers: &[Vec<f6
         last.max(of.clear[usize::from(target)].unwrap_or(0)) as usize
     };
     // what is not written stays
-    let (mut vector, mut matrix) = (vec![7.0; size(0)], vec![7.0; size(1)]);
+    let seven = S::from_f64(7.0);
+    let (mut vector, mut matrix) = (vec![seven; size(0)], vec![seven; size(1)]);
     machine.run(code, &frame, [&mut vector, &mut matrix]);
     let all = vector.iter().chain(&matrix);
-    all.map(|number| bits(*number)).collect()
+    all.flat_map(bits_of_lanes).collect()
+}
+
+fn bits_of_lanes<S: Scalar>(x: &S) -> impl Iterator<Item = u64> {
+    let x = *x;
+    (0..S::LANES).map(move |lane| bits(x.lane(lane).to_f64()))
+}
+
+/// Numbers by lot, of each lane one of its own.
+fn by_lot<S: Scalar>(random: &mut Random, count: usize) -> Vec<S> {
+    let number = |values: &[f64]| {
+        let lanes = values.iter().enumerate();
+        lanes.fold(S::zero(), |x, (lane, value)| {
+            x.with_lane(lane, S::Lane::from_f64(*value))
+        })
+    };
+    let values = random.numbers(count * S::LANES);
+    values.chunks_exact(S::LANES).map(number).collect()
 }
 
 /// Numbers for all slices of a code.
-fn numbers(code: &Code, random: &mut Random) -> Vec<Vec<f64>> {
+fn numbers<S: Scalar>(code: &Code, random: &mut Random) -> Vec<Vec<S>> {
     let mut lengths = [0; SLICES];
     lengths[SLICES - 1] = 2;
     for (slice, entry) in code.sources.iter().filter_map(Source::place) {
         lengths[slice] = lengths[slice].max(entry + 1);
     }
-    lengths.map(|length| random.numbers(length)).to_vec()
+    lengths.map(|length| by_lot(random, length)).to_vec()
 }
 
 /// The positions of codes that differ between engines.
@@ -144,11 +181,12 @@ fn specs() -> Vec<(String, String)> {
 
 #[test]
 fn all_codes_of_all_specs() {
-    let mut run = 0;
+    let (mut run, machine_code) = (0, machine_code());
+    let engines = engines(&machine_code, &[&Wasmi, &CPython]);
     for (name, text) in specs() {
         let Some(codes) = codes(&text) else { continue };
-        let engines = [&Jit as &dyn Engine, &Wasmi, &CPython];
-        let found = differences(&codes, &engines.map(|engine| (engine, &codes)));
+        let all: Vec<_> = engines.iter().map(|engine| (*engine, &codes)).collect();
+        let found = differences(&codes, &all);
         assert!(
             found.is_empty(),
             "{name}: codes {found:?} of {}",
@@ -175,13 +213,10 @@ fn run_columns<S: Scalar>(
     let mut to: Vec<&mut [S]> = out.chunks_exact_mut(places).collect();
     let columns: Vec<&[S]> = columns.iter().map(Vec::as_slice).collect();
     machine.run_columns(code, &columns, &frame, &mut to);
-    let lanes = out
-        .iter()
-        .flat_map(|x| (0..S::LANES).map(|lane| x.lane(lane)));
-    lanes.map(|number| bits(number.to_f64())).collect()
+    out.iter().flat_map(bits_of_lanes).collect()
 }
 
-const PLACES: usize = 5;
+const PLACES: usize = 11;
 
 /// Whether some code gives other bits along columns by machine code than by the interpreter; `moved` reads the last column at another
 /// place.
@@ -191,16 +226,6 @@ fn differs_along<S: Scalar>(
     moved: bool,
 ) -> Option<usize> {
     let mut random = Random(1951);
-    let mut wide = |count: usize| -> Vec<S> {
-        let number = |values: &[f64]| {
-            let lanes = values.iter().enumerate();
-            lanes.fold(S::zero(), |x, (lane, value)| {
-                x.with_lane(lane, S::Lane::from_f64(*value))
-            })
-        };
-        let values = random.numbers(count * S::LANES);
-        values.chunks_exact(S::LANES).map(number).collect()
-    };
     // vectors of which every entry is written or cleared
     let whole = |code: &Code| {
         let entries = code.stores.iter().map(|store| store.entry + 1).max();
@@ -211,9 +236,9 @@ fn differs_along<S: Scalar>(
         .enumerate()
         .filter(|(_, code)| code.stores.iter().all(|store| store.target == 0) && whole(code));
     for (place, code) in vectors {
-        let lengths = numbers(code, &mut Random(1)).into_iter();
-        let numbers: Vec<Vec<S>> = lengths.map(|slice| wide(slice.len())).collect();
-        let columns: Vec<Vec<S>> = numbers[0].iter().map(|_| wide(PLACES)).collect();
+        let numbers: Vec<Vec<S>> = numbers(code, &mut random);
+        let of_places = numbers[0].iter().map(|_| by_lot(&mut random, PLACES));
+        let columns: Vec<Vec<S>> = of_places.collect();
         let mut read = columns.clone();
         if let Some(last) = read.last_mut().filter(|_| moved) {
             last.rotate_left(1);
@@ -230,16 +255,54 @@ fn differs_along<S: Scalar>(
 fn along_columns_every_place_has_its_own_bits() {
     for (name, text) in specs() {
         let Some(codes) = codes(&text) else { continue };
-        let machines = [Interpreted.machine(&codes), Jit.machine(&codes)];
         let interpreter = Interpreter::new(Arc::clone(&codes));
-        let lanes = machines[1].wide().expect("lanes of machine code");
-        let [one, other] = &machines;
-        let one_of_lanes: &dyn Machine<<f64 as Scalar>::Wide> = &interpreter;
-        for moved in [false, true] {
-            let of_numbers = differs_along(&codes, [one.as_ref(), other.as_ref()], moved);
-            let of_lanes = differs_along(&codes, [one_of_lanes, lanes.as_ref()], moved);
-            assert_eq!(of_numbers.is_some(), moved, "{name}: {of_numbers:?}");
-            assert_eq!(of_lanes.is_some(), moved, "{name}: {of_lanes:?}");
+        let one: &dyn Machine<f64> = &interpreter;
+        let one_of_lanes: &dyn Machine<Wide> = &interpreter;
+        for engine in machine_code() {
+            let other = engine.machine(&codes);
+            let lanes = other.wide().expect("lanes of machine code");
+            let name = format!("{name} {}", engine.name());
+            for moved in [false, true] {
+                let of_numbers = differs_along(&codes, [one, other.as_ref()], moved);
+                let of_lanes = differs_along(&codes, [one_of_lanes, lanes.as_ref()], moved);
+                assert_eq!(of_numbers.is_some(), moved, "{name}: {of_numbers:?}");
+                assert_eq!(of_lanes.is_some(), moved, "{name}: {of_lanes:?}");
+            }
+        }
+    }
+}
+
+/// The positions of codes that differ over lanes from the interpreter's.
+fn differences_of_lanes(codes: &Arc<[Code]>, engine: &JitWith, others: &Arc<[Code]>) -> Vec<usize> {
+    let reference = Interpreter::new(Arc::clone(codes));
+    let lanes = engine.machine(others).wide();
+    let lanes = lanes.expect("lanes of machine code");
+    let mut random = Random(2018);
+    let mut found = Vec::new();
+    for (position, code) in codes.iter().enumerate() {
+        let differs = (0..4).any(|_| {
+            let numbers: Vec<Vec<Wide>> = numbers(code, &mut random);
+            let expected = written(&reference, position, code, &numbers);
+            written(lanes.as_ref(), position, code, &numbers) != expected
+        });
+        if differs {
+            found.push(position);
+        }
+    }
+    found
+}
+
+#[test]
+fn every_lane_has_its_own_bits() {
+    for (name, text) in specs() {
+        let Some(codes) = codes(&text) else { continue };
+        for engine in machine_code() {
+            let found = differences_of_lanes(&codes, &engine, &codes);
+            assert!(
+                found.is_empty(),
+                "{name} {}: codes {found:?}",
+                engine.name()
+            );
         }
     }
 }
@@ -301,9 +364,14 @@ fn every_instruction() -> Code {
 #[test]
 fn every_instruction_is_the_interpreters() {
     let codes: Arc<[Code]> = [every_instruction()].into();
-    for engine in [&Jit as &dyn Engine, &Wasmi, &CPython] {
+    let machine_code = machine_code();
+    for engine in engines(&machine_code, &[&Wasmi, &CPython]) {
         let found = differences(&codes, &[(engine, &codes)]);
         assert_eq!(found, [0; 0], "{}", engine.name());
+    }
+    for engine in &machine_code {
+        let found = differences_of_lanes(&codes, engine, &codes);
+        assert_eq!(found, [0; 0], "lanes of {}", engine.name());
     }
 }
 
@@ -329,8 +397,13 @@ fn a_flipped_operation_is_found() {
         }
     }
     let flipped = flipped.into();
-    for engine in [&Wasmi as &dyn Engine, &Jit] {
+    let machine_code = machine_code();
+    for engine in engines(&machine_code, &[&Wasmi]) {
         assert_eq!(differences(&codes, &[(engine, &flipped)]), [position]);
+    }
+    for engine in &machine_code {
+        let found = differences_of_lanes(&codes, engine, &flipped);
+        assert_eq!(found, [position], "lanes of {}", engine.name());
     }
     if cpython::there_is_cpython() {
         assert_eq!(differences(&codes, &[(&CPython, &flipped)]), [position]);

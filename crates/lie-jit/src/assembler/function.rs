@@ -1,0 +1,372 @@
+//! A program as a function: where its slices are, its frame, its loop along columns, the functions that it calls.
+
+use super::calls::{binary, phi, stumpff, unary};
+use super::encoding::{Bytes, General, Memory, Read};
+use super::operation::{
+    Called, Columns, Layout, Operand, Operation, Place, Program, Vector, Width,
+};
+
+/// Larger frames are not made.
+const LARGEST_FRAME: u32 = 1 << 18;
+/// Bytes of a page of the stack.
+const PAGE: u32 = 4096;
+
+/// Arguments of a function: the table of slices; the vector and the matrix, or of columns the tables of those that are read and
+/// written; of columns how many bytes each has.
+const ARGUMENTS: [General; 4] = [General::Rdi, General::Rsi, General::Rdx, General::Rcx];
+const TABLE: General = ARGUMENTS[0];
+/// Where slices begin. The last one may have that of the table.
+const BASES: [General; 7] = [
+    General::Rax,
+    General::Rcx,
+    General::R8,
+    General::R9,
+    General::R10,
+    General::R11,
+    TABLE,
+];
+/// The same along columns.
+const BASES_BESIDE_COLUMNS: [General; 7] = [
+    General::R8,
+    General::R9,
+    General::R10,
+    General::R11,
+    General::R12,
+    General::R13,
+    General::R14,
+];
+/// Where functions of numbers have their argument and their result.
+const FIRST: Vector = Vector(0);
+/// How far along columns.
+const ALONG: General = General::Rbx;
+/// Where a column begins.
+const COLUMN: General = General::Rax;
+/// What a function along columns gives back as it was.
+const KEPT: [General; 4] = [General::Rbx, General::R12, General::R13, General::R14];
+
+struct Writer<'a> {
+    bytes: Bytes,
+    program: &'a Program,
+    layout: Layout,
+    /// The slices that are read, each with the register of its beginning.
+    bases: Vec<(u8, General)>,
+    calls: bool,
+    /// Bytes of the frame.
+    frame: u32,
+}
+
+/// The bytes of a function with its constants; none where it has more slices or a larger frame than registers and stack are for.
+pub fn function(program: &Program, layout: Layout) -> Option<Vec<u8>> {
+    let mut writer = Writer::new(program, layout)?;
+    writer.begin();
+    match layout.columns {
+        None => writer.body()?,
+        Some(columns) => writer.along(columns)?,
+    }
+    writer.end();
+    writer.with_constants()
+}
+
+impl<'a> Writer<'a> {
+    fn new(program: &'a Program, layout: Layout) -> Option<Self> {
+        let mut slices = Vec::new();
+        let mut read = |place: Place| match place {
+            Place::Slice { slice: 0, .. } if layout.columns.is_some() => {}
+            Place::Slice { slice, .. } if !slices.contains(&slice) => slices.push(slice),
+            _ => {}
+        };
+        for operation in &program.operations {
+            match operation {
+                Operation::Load { from, .. } => read(*from),
+                Operation::Arithmetic {
+                    right: Operand::Place(place),
+                    ..
+                } => read(*place),
+                _ => {}
+            }
+        }
+        let mut operations = program.operations.iter();
+        let calls = operations.any(|operation| matches!(operation, Operation::Call { .. }));
+        let pool = match layout.columns {
+            None => BASES,
+            Some(_) => BASES_BESIDE_COLUMNS,
+        };
+        if slices.len() > pool.len() {
+            return None;
+        }
+        let words = if calls { 8 * ARGUMENTS.len() as u32 } else { 0 };
+        let places = program.shared.checked_add(program.slots)?;
+        let frame = places
+            .checked_mul(layout.width.bytes())?
+            .checked_add(words)?;
+        let frame = frame.next_multiple_of(64);
+        (frame <= LARGEST_FRAME).then_some(Self {
+            bytes: Bytes::default(),
+            bases: slices.into_iter().zip(pool).collect(),
+            program,
+            layout,
+            calls,
+            frame,
+        })
+    }
+
+    fn has_frame(&self) -> bool {
+        self.frame > 0 || self.layout.columns.is_some()
+    }
+
+    fn begin(&mut self) {
+        if !self.has_frame() {
+            self.load_bases();
+            return;
+        }
+        let bytes = &mut self.bytes;
+        bytes.push(General::Rbp);
+        bytes.copy_word(General::Rbp, General::Rsp);
+        if self.layout.columns.is_some() {
+            KEPT.into_iter().for_each(|register| bytes.push(register));
+        }
+        bytes.align(General::Rsp);
+        let mut left = self.frame;
+        while left > 0 {
+            let part = left.min(PAGE);
+            bytes.subtract(General::Rsp, part);
+            // none of the pages that end a stack is passed over
+            if self.frame > PAGE / 2 {
+                bytes.touch(General::Rsp);
+            }
+            left -= part;
+        }
+        if self.calls {
+            for (place, argument) in (0..).zip(ARGUMENTS) {
+                let to = self.word(place);
+                self.bytes.store_word(to, argument);
+            }
+        }
+        self.load_bases();
+    }
+
+    /// Where arguments are kept over calls.
+    fn word(&self, place: u32) -> Memory {
+        let places = self.program.shared + self.program.slots;
+        let offset = places * self.layout.width.bytes() + 8 * place;
+        Memory::At(General::Rsp, offset as i32)
+    }
+
+    fn load_bases(&mut self) {
+        for (slice, base) in &self.bases {
+            let from = Memory::At(TABLE, 8 * i32::from(*slice));
+            self.bytes.load_word(*base, from);
+        }
+    }
+
+    fn end(&mut self) {
+        self.bytes.clear_upper_halves();
+        if self.has_frame() {
+            let bytes = &mut self.bytes;
+            if self.layout.columns.is_some() {
+                let kept = 8 * KEPT.len() as u8;
+                bytes.address_below(General::Rsp, General::Rbp, kept);
+                KEPT.into_iter()
+                    .rev()
+                    .for_each(|register| bytes.pop(register));
+            } else {
+                bytes.copy_word(General::Rsp, General::Rbp);
+            }
+            bytes.pop(General::Rbp);
+        }
+        self.bytes.return_();
+    }
+
+    /// The loop along columns, which have something in them.
+    fn along(&mut self, columns: Columns) -> Option<()> {
+        self.bytes.zero(ALONG);
+        let start = self.bytes.all.len();
+        self.body()?;
+        self.bytes.add(ALONG, columns.step);
+        self.bytes.compare(ALONG, General::Rcx);
+        self.bytes.jump_if_below(start);
+        Some(())
+    }
+
+    /// A place in memory; the beginning of a column is loaded for it.
+    fn memory(&mut self, place: Place) -> Option<Memory> {
+        let bytes = self.layout.width.bytes();
+        let at = |base, entry: u32, stride: u32| {
+            let offset = entry.checked_mul(stride)?;
+            Some(Memory::At(base, i32::try_from(offset).ok()?))
+        };
+        match place {
+            Place::Slice { slice: 0, entry } if self.layout.columns.is_some() => {
+                self.column(General::Rsi, entry)
+            }
+            Place::Target { target: 0, entry } if self.layout.columns.is_some() => {
+                self.column(General::Rdx, entry)
+            }
+            Place::Slice { slice, entry } => {
+                let mut bases = self.bases.iter();
+                let (_, base) = bases.find(|(known, _)| *known == slice)?;
+                at(*base, entry, self.layout.stride)
+            }
+            Place::Target { target, entry } if self.layout.columns.is_none() => {
+                let base = *ARGUMENTS[1..3].get(usize::from(target))?;
+                at(base, entry, self.layout.stride)
+            }
+            Place::Target { .. } => None,
+            Place::Shared(place) => at(General::Rsp, place, bytes),
+            Place::Slot(slot) => at(General::Rsp, self.program.shared + slot, bytes),
+            Place::Constant(constant) => Some(Memory::Constant(constant)),
+        }
+    }
+
+    fn column(&mut self, table: General, entry: u32) -> Option<Memory> {
+        let offset = i32::try_from(entry.checked_mul(8)?).ok()?;
+        self.bytes.load_word(COLUMN, Memory::At(table, offset));
+        Some(Memory::Sum(COLUMN, ALONG))
+    }
+
+    fn read(&mut self, place: Place) -> Option<Read> {
+        let memory = self.memory(place)?;
+        Some(match self.layout.is_single(place) {
+            true => Read::Single(memory),
+            false => Read::Whole(memory),
+        })
+    }
+
+    fn body(&mut self) -> Option<()> {
+        let width = self.layout.width;
+        let program = self.program;
+        for (place, operation) in program.operations.iter().enumerate() {
+            match *operation {
+                // the result of a function of numbers is there
+                Operation::Load { to: FIRST, from } if self.has_result(place, from) => {}
+                Operation::Load { to, from } => {
+                    let from = self.read(from)?;
+                    self.bytes.load(width, to, from);
+                }
+                Operation::Store { from, to } => {
+                    let to = self.memory(to)?;
+                    self.bytes.store(width, to, from);
+                }
+                Operation::Arithmetic {
+                    what,
+                    to,
+                    left,
+                    right,
+                    ..
+                } => {
+                    let right = match right {
+                        Operand::Vector(vector) => Read::Vector(vector),
+                        Operand::Place(place) => self.read(place)?,
+                    };
+                    self.bytes.arithmetic(width, what, to, left, right);
+                }
+                Operation::Sqrt { to, of, .. } => self.bytes.sqrt(width, to, of),
+                Operation::Below {
+                    to,
+                    test,
+                    zero,
+                    then,
+                    otherwise,
+                    ..
+                } => {
+                    let zero = self.read(zero)?;
+                    self.bytes.below(width, to, [test, then, otherwise], zero);
+                }
+                Operation::Call { called, .. } => self.call(place, called),
+            }
+        }
+        Some(())
+    }
+
+    /// Whether the first register has this number since the operation before, which called a function of numbers.
+    fn has_result(&self, place: usize, from: Place) -> bool {
+        let before = place
+            .checked_sub(1)
+            .map(|place| self.program.operations[place]);
+        let called = match before {
+            Some(Operation::Call { called, .. }) => called,
+            _ => return false,
+        };
+        let is_of_numbers = matches!(called, Called::Unary(_) | Called::Binary(_));
+        self.layout.width == Width::One && is_of_numbers && from == Place::Shared(0)
+    }
+
+    /// Calls a function with what is shared, which is where the frame begins.
+    fn call(&mut self, place: usize, called: Called) {
+        match (self.layout.width, called) {
+            (Width::One, Called::Unary(f)) => {
+                // what is stored before a call is in its register still
+                let before = self.program.operations[..place].iter().rev();
+                let mut stores = before.map_while(|operation| match *operation {
+                    Operation::Store { from, to } => Some((from, to)),
+                    _ => None,
+                });
+                let argument = stores.find(|(_, to)| *to == Place::Shared(0));
+                match argument {
+                    Some((FIRST, _)) => {}
+                    Some((from, _)) => self.bytes.copy(FIRST, from),
+                    None => self.load_shared(FIRST, 0),
+                }
+                self.call_of_numbers(f as *const () as u64);
+            }
+            (Width::One, Called::Binary(f)) => {
+                self.load_shared(FIRST, 0);
+                self.load_shared(Vector(1), 1);
+                self.call_of_numbers(f as *const () as u64);
+            }
+            _ => self.call_of_lanes(called),
+        }
+        for (place, argument) in (0..).zip(ARGUMENTS) {
+            let from = self.word(place);
+            self.bytes.load_word(argument, from);
+        }
+        self.load_bases();
+    }
+
+    fn load_shared(&mut self, to: Vector, place: i32) {
+        let from = Memory::At(General::Rsp, 8 * place);
+        self.bytes.load(Width::One, to, Read::Whole(from));
+    }
+
+    /// A function of the numbers in the first registers, whose result is in the first one and is shared.
+    fn call_of_numbers(&mut self, function: u64) {
+        self.bytes.word_constant(General::Rax, function);
+        self.bytes.call(General::Rax);
+        let shared = Memory::At(General::Rsp, 0);
+        self.bytes.store(Width::One, shared, FIRST);
+    }
+
+    /// A function of each lane.
+    fn call_of_lanes(&mut self, called: Called) {
+        let (helper, argument) = match called {
+            Called::Unary(f) => (unary as *const () as u64, f as *const () as u64),
+            Called::Binary(f) => (binary as *const () as u64, f as *const () as u64),
+            Called::Stumpff(count) => (stumpff as *const () as u64, u64::from(count)),
+            Called::Phi(count) => (phi as *const () as u64, u64::from(count)),
+        };
+        let bytes = &mut self.bytes;
+        bytes.clear_upper_halves();
+        bytes.word_constant(General::Rdi, argument);
+        bytes.word_constant(General::Rsi, self.layout.width.lanes() as u64);
+        bytes.copy_word(General::Rdx, General::Rsp);
+        bytes.word_constant(General::Rax, helper);
+        bytes.call(General::Rax);
+    }
+
+    /// The constants behind the code, and the distances to them.
+    fn with_constants(self) -> Option<Vec<u8>> {
+        let Bytes { mut all, distances } = self.bytes;
+        let copies = self.layout.width.copies_of_constants();
+        all.resize(all.len().next_multiple_of(64), 0xCC);
+        let start = all.len();
+        for constant in &self.program.constants {
+            all.extend(constant.to_le_bytes().repeat(copies));
+        }
+        for (place, from, constant) in distances {
+            let to = start + constant as usize * 8 * copies;
+            let distance = i32::try_from(to.checked_sub(from)?).ok()?;
+            all[place..place + 4].copy_from_slice(&distance.to_le_bytes());
+        }
+        Some(all)
+    }
+}
