@@ -191,7 +191,7 @@ fn options_of_the_spec_are_checked_at_their_place() {
 
 #[test]
 fn commands_to_come_say_so() {
-    for name in ["ensemble", "merge", "advise", "equilibria"] {
+    for name in ["advise", "equilibria"] {
         let run = lie(&format!("{name} specs/x.json --whatever 3"));
         let run = run.error("option", &format!("command line: {name}"));
         assert!(run.stderr.contains("not built yet"), "{}", run.stderr);

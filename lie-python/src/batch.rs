@@ -6,7 +6,8 @@ use crate::errors::of_system;
 use crate::progress::Progress;
 use crate::talk::{Outcome, converse};
 use lie_codegen::structure::Structure;
-use lie_in_process::ensemble::Ensemble;
+use lie_in_process::draw::{Draw, Spread, keeps_norm};
+use lie_in_process::ensemble::{Cast, Ensemble};
 use lie_in_process::members::Member;
 use lie_in_process::memory::{self, Exceeded};
 use lie_in_process::report::signs;
@@ -14,7 +15,8 @@ use lie_in_process::request::{Request, plan};
 use lie_program::protocol::{End, Obstacle, Start};
 use lie_runtime::driver::Pace;
 use numpy::{
-    IntoPyArray, PyArray1, PyArray3, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods as _,
+    IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray2,
+    PyUntypedArrayMethods as _,
 };
 use pyo3::exceptions::{PyRuntimeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -82,15 +84,20 @@ pub fn ensemble<'py>(
     let ensemble = Ensemble {
         plan,
         ends: request.every.is_none() && request.at.is_none(),
-        parameters: rows(parameters),
-        starts: rows(starts),
+        cast: Cast {
+            parameters: rows(parameters),
+            starts: rows(starts),
+            drawn: None,
+        },
+        some: 0..starts.shape()[0],
         threads,
     };
+    ensemble.fits().map_err(|error| of_system(error.into()))?;
     let note = declaration.with_model(py, |model| note(model, &ensemble));
-    let mut members = Vec::new();
+    let mut members: Vec<Member> = Vec::new();
     let progress = Progress::new("members", progress);
     let take = |found: Result<_, Exceeded>| {
-        members = found?;
+        members.extend(found?);
         Ok(())
     };
     let outcome = py.detach(|| converse(&work, ensemble, progress, take))?;
@@ -126,10 +133,46 @@ pub fn ensemble<'py>(
 fn note(model: &Structure, ensemble: &Ensemble) -> Option<String> {
     let names = model.parameters.iter().map(|parameter| &parameter.name);
     // a row for each member, or one for all
-    let rows = ensemble.parameters.iter().cycle().zip(&ensemble.starts);
+    let rows = ensemble
+        .cast
+        .parameters
+        .iter()
+        .cycle()
+        .zip(&ensemble.cast.starts);
     let starts = rows.map(|(values, state)| Start {
         parameters: names.clone().cloned().zip(values.iter().copied()).collect(),
         initial: state.clone(),
     });
     signs::note(model, starts.collect::<Vec<_>>().iter())
+}
+
+/// States drawn around one: how many, by which seed, and how far they go, nothing for the whole orbit.
+pub fn drawn<'py>(
+    py: Python<'py>,
+    declaration: &Declaration,
+    parameters: &PyReadonlyArray2<'py, f64>,
+    around: &[f64],
+    (count, seed, far): (usize, u64, Option<f64>),
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let orbits = declaration.with_model(py, |model| model.is_lie_poisson());
+    let draw = Draw {
+        count,
+        seed,
+        spread: far.map_or(Spread::Orbit, Spread::Normal),
+    };
+    let rows = parameters.as_array();
+    let rows: Vec<Vec<f64>> = rows.rows().into_iter().map(|row| row.to_vec()).collect();
+    let systems = rows.iter().map(|values| declaration.system(py, values));
+    let systems: Vec<_> = systems.collect::<PyResult<_>>()?;
+    if far.is_none() && !(orbits && keeps_norm(&systems[0])) {
+        let text = "the orbits have no uniform distribution in these coordinates: the group does not keep their Euclidean norm\n  help: \
+                    give a standard deviation, such as spread=0.1";
+        return Err(PyValueError::new_err(text));
+    }
+    let numbers = (0..count).flat_map(|member| {
+        let system = &systems[member % systems.len()];
+        draw.state(system, orbits, around, member as u64)
+    });
+    let numbers: Vec<f64> = numbers.collect();
+    numbers.into_pyarray(py).reshape([count, around.len()])
 }

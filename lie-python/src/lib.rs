@@ -244,6 +244,17 @@ impl Core {
         let asked = (&arguments::request(&self.0, asked)?, threads);
         batch::ensemble(py, &self.0, &parameters, &starts, asked, progress)
     }
+
+    /// Initial states drawn around one: how many, by which seed, how far they go; nothing for the whole orbit.
+    fn drawn<'py>(
+        &self,
+        py: Python<'py>,
+        parameters: PyReadonlyArray2<'py, f64>,
+        around: Vec<f64>,
+        asked: (usize, u64, Option<f64>),
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        batch::drawn(py, &self.0, &parameters, &around, asked)
+    }
 }
 
 /// The value of an exact constant such as `1/7` or `cos(11/10)`.

@@ -71,16 +71,7 @@ impl Worker {
             Self::Program(program) => {
                 talk(Command::new(program), &question, interrupt, found, progress)
             }
-            Self::InProcess(work) => {
-                interrupt.expect();
-                let mut listener = Ears {
-                    found,
-                    progress,
-                    interrupt,
-                };
-                let last = converse(work, question, Some(GRACE), &mut listener)?;
-                Ok(outcome_here(last, interrupt))
-            }
+            Self::InProcess(work) => talk_here(work, question, interrupt, found, progress),
         }
     }
 
@@ -111,8 +102,29 @@ impl Worker {
     }
 }
 
+/// Has a question answered to its end by a thread of this program.
+///
+/// # Errors
+/// There is no thread.
+pub fn talk_here<Q: Question>(
+    work: &Arc<Work>,
+    question: Q,
+    interrupt: &Interrupt,
+    found: &mut Sink<'_, Q::Found>,
+    progress: &mut dyn FnMut(&Progress),
+) -> io::Result<Outcome> {
+    interrupt.expect();
+    let mut listener = Ears {
+        found,
+        progress,
+        interrupt,
+    };
+    let last = converse(work, question, Some(GRACE), &mut listener)?;
+    Ok(outcome_here(last, interrupt))
+}
+
 /// A thread that fails.
-fn fault(how: &str) -> crate::message::Message {
+pub fn fault(how: &str) -> crate::message::Message {
     let text = format!("the run failed: {how}");
     crate::message::Message::new(Kind::Toolchain, text).help(
         "`--compile` runs a program that is built by cargo; if that works, report this failure",

@@ -1,5 +1,6 @@
 //! The command line, as clap reads it; what is asked of a run is a [`Request`].
 
+mod ensemble;
 mod measured;
 
 use std::path::PathBuf;
@@ -7,6 +8,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use lie_in_process::request::Request;
 
+pub use ensemble::{Ensemble, Merge, Reduce};
 pub use measured::{Bench, Measured, Sense, Stress, Verify};
 
 /// Structure-preserving integrators for Lie–Poisson systems.
@@ -35,6 +37,10 @@ pub enum Command {
     Run(Box<Run>),
     /// Goes on with a run of `lie run --checkpoint` that was ended, whatever ended it
     Resume(Resume),
+    /// Integrates many members of a spec, as one array: states drawn on the orbit or from a file, ranges of parameters
+    Ensemble(Box<Ensemble>),
+    /// Puts the shares of `lie ensemble --shard` together
+    Merge(Merge),
     /// Measures every fact that the methods claim, on a spec
     Verify(Verify),
     /// Compares methods on a spec: the error at the end against the run time
@@ -59,10 +65,6 @@ pub enum Command {
 #[derive(Debug, Subcommand)]
 pub enum Later {
     #[command(hide = true)]
-    Ensemble(Anything),
-    #[command(hide = true)]
-    Merge(Anything),
-    #[command(hide = true)]
     Advise(Anything),
     #[command(hide = true)]
     Equilibria(Anything),
@@ -72,8 +74,6 @@ impl Later {
     /// The name as it was typed.
     pub fn name(&self) -> &'static str {
         match self {
-            Later::Ensemble(_) => "ensemble",
-            Later::Merge(_) => "merge",
             Later::Advise(_) => "advise",
             Later::Equilibria(_) => "equilibria",
         }

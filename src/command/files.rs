@@ -1,6 +1,7 @@
 //! The files of a command: what it reads, and what it may write to.
 
-use std::io;
+use std::fs::{self, File};
+use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
 use lie_syntax::front::spec::files;
@@ -118,4 +119,31 @@ impl Inputs {
 pub fn unwritable(path: &Path, error: &io::Error) -> Failure {
     let message = Message::io(path, format!("cannot be written: {error}"));
     Failure::surroundings(message.help("give a file in a folder that exists and can be written"))
+}
+
+/// Writes a file in place of what is there, as a whole: whatever ends this, there is the one or the other.
+///
+/// # Errors
+/// Those of the file system: what is there stays.
+pub fn put(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let mut draft = path.as_os_str().to_owned();
+    draft.push(".new");
+    let draft = PathBuf::from(draft);
+    let written = File::create(&draft).and_then(|mut file| {
+        file.write_all(bytes)?;
+        file.sync_all()?;
+        fs::rename(&draft, path)
+    });
+    if written.is_err() {
+        let _ = fs::remove_file(&draft);
+    }
+    written?;
+    // the name is on the disk too; where folders cannot be opened, the system sees to that
+    let folder = path
+        .parent()
+        .filter(|folder| !folder.as_os_str().is_empty());
+    if let Ok(folder) = File::open(folder.unwrap_or(Path::new("."))) {
+        let _ = folder.sync_all();
+    }
+    Ok(())
 }

@@ -3,6 +3,7 @@
 pub mod args;
 mod cache;
 mod check;
+mod ensemble;
 mod expand;
 pub mod files;
 mod fold;
@@ -33,6 +34,8 @@ pub fn run(command: &Command) -> Result<u8, Failure> {
         Command::Expand(arguments) => expand::run(arguments),
         Command::Run(arguments) => run::run(arguments),
         Command::Resume(arguments) => resume::run(arguments),
+        Command::Ensemble(arguments) => ensemble::run(arguments),
+        Command::Merge(arguments) => ensemble::merge::run(arguments),
         Command::Bench(arguments) => measure::bench::run(arguments),
         Command::Stress(arguments) => measure::stress::run(arguments),
         Command::Verify(arguments) => measure::verify::run(arguments),
@@ -46,9 +49,9 @@ pub fn run(command: &Command) -> Result<u8, Failure> {
 }
 
 /// The commands that are built.
-pub const BUILT: [&str; 12] = [
-    "check", "expand", "run", "resume", "verify", "bench", "stress", "report", "methods", "schema",
-    "new", "cache",
+pub const BUILT: [&str; 14] = [
+    "check", "expand", "run", "resume", "ensemble", "merge", "verify", "bench", "stress", "report",
+    "methods", "schema", "new", "cache",
 ];
 
 fn not_built(later: &Later) -> Failure {

@@ -3,7 +3,7 @@
 mod destination;
 mod form;
 mod identity;
-mod npy;
+pub mod npy;
 mod written;
 
 use std::collections::VecDeque;
@@ -31,6 +31,8 @@ pub struct Rows {
     destination: Destination,
     form: Box<dyn Form>,
     header: Header,
+    /// Numbers in a row.
+    width: usize,
     /// Whether the destination was emptied, and what stands before all rows is on its way.
     begun: bool,
     /// Whether a failure has ended it.
@@ -55,10 +57,28 @@ impl Rows {
             Format::Jsonl => Box::new(JsonLines::default()),
             Format::Npy => Box::new(Npy::new(&header)),
         };
+        let width = header.columns.len();
+        Self::of_form(destination, form, header, width)
+    }
+
+    /// An array of such a shape behind its first axis, along which it grows.
+    pub fn of_array(destination: Destination, shape: Vec<usize>) -> Self {
+        let width = shape.iter().product();
+        let form = Box::new(Npy::of_shape(shape));
+        Self::of_form(destination, form, Header::default(), width)
+    }
+
+    fn of_form(
+        destination: Destination,
+        form: Box<dyn Form>,
+        header: Header,
+        width: usize,
+    ) -> Self {
         Self {
             destination,
             form,
             header,
+            width,
             begun: false,
             settled: false,
             buffer: Vec::new(),
@@ -135,7 +155,7 @@ impl Rows {
     }
 
     fn try_push(&mut self, numbers: &[f64]) -> io::Result<()> {
-        for row in numbers.chunks_exact(self.header.columns.len()) {
+        for row in numbers.chunks_exact(self.width) {
             let whole = self.buffer.len();
             self.form.row(row, &mut self.buffer);
             if whole > 0 && self.destination.room_in_page() < self.buffer.len() {

@@ -3,11 +3,12 @@
 use super::form::{Form, Header, Run};
 
 /// Length of the header. The row count has room for 20 digits, so that it can be patched.
-const LENGTH: usize = 128;
+pub const LENGTH: usize = 128;
 
-/// A two-dimensional array that grows row by row.
+/// An array that grows along its first axis.
 pub struct Npy {
-    width: usize,
+    /// The size along the others.
+    shape: Vec<usize>,
     /// What tells the run apart: its number and the values of its parameters.
     prefix: Vec<f64>,
 }
@@ -17,26 +18,40 @@ impl Npy {
     pub fn new(header: &Header) -> Self {
         let labels = header.labels.as_ref();
         let before = labels.map_or(0, |labels| 1 + labels.parameters.len());
-        let width = before + header.columns.len();
-        let prefix = Vec::new();
-        Self { width, prefix }
+        Self::of_shape(vec![before + header.columns.len()])
     }
 
-    fn header(&self, rows: u64) -> Vec<u8> {
-        let mut header = b"\x93NUMPY\x01\x00".to_vec();
-        header.extend_from_slice(&((LENGTH - 10) as u16).to_le_bytes());
-        let shape = format!("({rows}, {})", self.width);
-        let text = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': {shape}, }}");
-        header.extend_from_slice(text.as_bytes());
-        header.resize(LENGTH - 1, b' ');
-        header.push(b'\n');
-        header
+    /// An array with this shape behind its first axis.
+    pub fn of_shape(shape: Vec<usize>) -> Self {
+        let prefix = Vec::new();
+        Self { shape, prefix }
     }
+}
+
+/// The first bytes of an array with so many rows of a shape.
+pub fn header(rows: u64, shape: &[usize]) -> Vec<u8> {
+    let mut header = b"\x93NUMPY\x01\x00".to_vec();
+    header.extend_from_slice(&((LENGTH - 10) as u16).to_le_bytes());
+    let sizes = shape.iter().map(|size| format!(", {size}"));
+    let shape = format!("({rows}{})", sizes.collect::<String>());
+    let text = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': {shape}, }}");
+    header.extend_from_slice(text.as_bytes());
+    header.resize(LENGTH - 1, b' ');
+    header.push(b'\n');
+    header
+}
+
+/// The bytes of a whole array.
+pub fn array(shape: &[usize], numbers: &[f64]) -> Vec<u8> {
+    let (first, rest) = shape.split_first().unwrap_or((&1, &[]));
+    let mut bytes = header(*first as u64, rest);
+    bytes.extend(numbers.iter().flat_map(|number| number.to_le_bytes()));
+    bytes
 }
 
 impl Form for Npy {
     fn begin(&mut self, _header: &Header, out: &mut Vec<u8>) {
-        out.extend_from_slice(&self.header(0));
+        out.extend_from_slice(&header(0, &self.shape));
     }
 
     fn open(&mut self, header: &Header, run: &Run, _out: &mut Vec<u8>) {
@@ -53,7 +68,7 @@ impl Form for Npy {
     }
 
     fn start(&self, rows: u64) -> Option<Vec<u8>> {
-        Some(self.header(rows))
+        Some(header(rows, &self.shape))
     }
 
     fn patches_its_start(&self) -> bool {

@@ -72,7 +72,7 @@ impl Rows {
         self.form.begin(&self.header, &mut known);
         self.form.open(&self.header, run, &mut known);
         if written.rows > 0 {
-            let row = vec![0.0; self.header.columns.len()];
+            let row = vec![0.0; self.width];
             self.form.row(&row, &mut known);
         }
         self.begun = true;

@@ -1,13 +1,18 @@
 //! Many trajectories on several threads. The bits of a member depend neither on the number of threads nor on the members
 //! beside it.
 
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::sync::atomic::Ordering;
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use lie_program::protocol::{End, Obstacle};
+use lie_program::protocol::{End, Obstacle, Times};
 use lie_program::session::Session;
-use lie_runtime::driver::{Options, Pace, Save};
+use lie_runtime::driver::{Grid, Options, Pace, Place, Save};
 
+use crate::draw::Drawn;
 use crate::members::{LANES, Member, Members, Watch};
 use crate::memory::{self, Exceeded};
 use crate::request::Plan;
@@ -17,8 +22,68 @@ use crate::{Question, Work};
 const SHARE: usize = 64;
 /// Shares of each thread, so that none waits long for another.
 const SHARES: usize = 8;
-/// Between two looks how far the threads are.
-const PAUSE: Duration = Duration::from_millis(1);
+/// So many shares of each thread may wait for one before them.
+const AHEAD: usize = 16;
+/// Between two looks whether all is to end.
+const PAUSE: Duration = Duration::from_millis(20);
+
+/// Who takes part.
+#[derive(Clone)]
+pub struct Cast {
+    /// The values of the parameters: a row for each initial state, or one for all.
+    pub parameters: Vec<Vec<f64>>,
+    /// The initial states.
+    pub starts: Vec<Vec<f64>>,
+    /// Members are drawn around each of them, where there is more to say than that.
+    pub drawn: Option<Drawn>,
+}
+
+impl Cast {
+    /// How many members there are.
+    pub fn count(&self) -> usize {
+        self.starts.len().saturating_mul(self.each())
+    }
+
+    /// How many are drawn around each state.
+    fn each(&self) -> usize {
+        self.drawn.as_ref().map_or(1, |drawn| drawn.draw.count)
+    }
+
+    /// The parameters of some members, one row where they have the same, and their initial states.
+    fn some(&self, some: Range<usize>) -> (Vec<Vec<f64>>, Vec<Vec<f64>>) {
+        let each = self.each();
+        let of = |start: usize| match self.parameters.as_slice() {
+            [only] => only,
+            all => &all[start],
+        };
+        let (first, last) = (some.start / each, (some.end - 1) / each);
+        let parameters = match self.parameters.len() == 1 || first == last {
+            true => vec![of(first).clone()],
+            false => some
+                .clone()
+                .map(|member| of(member / each).clone())
+                .collect(),
+        };
+        let starts = (first..=last).flat_map(|start| {
+            let whole = start * each..(start + 1) * each;
+            let own = some.start.max(whole.start)..some.end.min(whole.end);
+            let from = &self.starts[start];
+            let drawn = self.drawn.as_ref().and_then(|drawn| {
+                // that parameters are impossible, each member says itself
+                Some((drawn, drawn.declared.system(of(start)).ok()?))
+            });
+            let state = |member: usize| match &drawn {
+                None => from.clone(),
+                Some((drawn, system)) => {
+                    let number = (member - whole.start) as u64;
+                    drawn.draw.state(system, drawn.orbits, from, number)
+                }
+            };
+            own.map(state).collect::<Vec<_>>()
+        });
+        (parameters, starts.collect())
+    }
+}
 
 /// Trajectories by one method from many starts.
 pub struct Ensemble {
@@ -26,25 +91,71 @@ pub struct Ensemble {
     pub plan: Plan,
     /// Whether only their ends are kept.
     pub ends: bool,
-    /// The values of the parameters: a row for each member, or one for all.
-    pub parameters: Vec<Vec<f64>>,
-    /// Their initial states.
-    pub starts: Vec<Vec<f64>>,
+    /// Who takes part.
+    pub cast: Cast,
+    /// The members that are run.
+    pub some: Range<usize>,
     /// On so many threads.
     pub threads: usize,
 }
 
 impl Ensemble {
-    /// Bytes of all rows: of each member alone, and of all together.
-    fn size(&self) -> f64 {
+    /// Whether there is memory for the rows of all members at once: of each alone, and of all together.
+    ///
+    /// # Errors
+    /// There is not.
+    pub fn fits(&self) -> Result<(), Exceeded> {
+        memory::fits(self.size(self.some.len()))
+    }
+
+    /// Bytes of the rows of so many members, twice.
+    fn size(&self, members: usize) -> f64 {
         let plan = &self.plan;
         let rows = match (self.ends, plan.pace.0) {
             (false, Pace::Step(step)) => memory::rows(&plan.times, plan.from, step),
             (false, Pace::Tolerance(_)) => memory::rows(&plan.times, plan.from, f64::INFINITY),
             (true, _) => 1.0,
         };
-        let width = 1.0 + self.starts.first().map_or(0.0, |start| start.len() as f64);
-        2.0 * rows * width * self.starts.len() as f64 * memory::NUMBER
+        let width = 1.0
+            + self
+                .cast
+                .starts
+                .first()
+                .map_or(0.0, |start| start.len() as f64);
+        2.0 * rows * width * members as f64 * memory::NUMBER
+    }
+}
+
+/// The times of the rows of each member that comes to its end: of the ends alone one.
+pub fn times(plan: &Plan, ends: bool) -> Vec<f64> {
+    let (start, end) = plan.run(Default::default()).span();
+    let grid = match plan.pace.0 {
+        Pace::Step(step) => Grid::new((start, end), step).ok(),
+        Pace::Tolerance(_) => None,
+    };
+    let last = grid.map_or(end, |grid| match grid.locate(end) {
+        Place::On(index) => grid.time(index),
+        Place::After(..) => end,
+    });
+    match (&plan.times, grid) {
+        _ if ends => vec![last],
+        (Times::At(times), _) => {
+            let mut times = times.clone();
+            times.sort_by(f64::total_cmp);
+            if end < start {
+                times.reverse();
+            }
+            times
+        }
+        (Times::Until { every, .. }, Some(grid)) => {
+            let multiples = (0..=grid.steps() / every).map(|k| grid.time(k * every));
+            let mut times: Vec<f64> = multiples.collect();
+            if times.last() != Some(&last) {
+                times.push(last);
+            }
+            times
+        }
+        (Times::Until { .. }, None) => Vec::new(),
     }
 }
 
@@ -56,90 +167,171 @@ fn share(count: usize, threads: usize) -> usize {
 }
 
 impl Question for Ensemble {
-    /// All members, in order; or that there is not enough memory for their rows.
+    /// The next members, in order; or that there is not enough memory for their rows.
     type Found = Result<Vec<Member>, Exceeded>;
 
     fn put(self, work: &Work, session: &mut Session<'_, Self::Found>) -> Result<(), End> {
-        let run = self.plan.run(Default::default());
-        let size = self.size();
-        if let Err(exceeded) = memory::fits(size) {
+        let threads = self.threads.clamp(1, self.some.len().max(1));
+        let share = share(self.some.len(), threads);
+        let waiting = self.size(self.some.len().min(share * threads * (AHEAD + 1)));
+        if let Err(exceeded) = memory::fits(waiting) {
             session.found(Err(exceeded));
             return Ok(());
         }
+        let run = self.plan.run(Default::default());
         let options = run.options();
-        let members = Members {
-            declared: work.declared(),
-            choice: &self.plan.method,
-            tolerances: self.plan.tolerances,
-            parameters: self.parameters,
-            starts: self.starts,
-            span: run.span(),
+        let ensemble = Running {
+            work,
             options: Options {
                 save: if self.ends { Save::Ends } else { options.save },
                 assess: 0,
                 ..options
             },
+            span: run.span(),
+            asked: &self,
+            share,
+            ahead: share * threads * AHEAD,
+            watch: Watch::default(),
+            queue: Mutex::new((self.some.start, self.some.start)),
+            moved: Condvar::new(),
         };
-        let watch = Watch::default();
-        let found = on_threads(&members, self.threads, &watch, session)?;
-        if let Some(error) = found.iter().find_map(|member| member.refused.as_ref()) {
-            return Err(End::refused(Obstacle::Option, error.to_string()));
+        ensemble.on_threads(threads, session)?;
+        if ensemble.watch.full() {
+            session.found(Err(Exceeded::by(waiting)));
         }
-        session.found(match watch.full() {
-            true => Err(Exceeded::by(size)),
-            false => Ok(found),
-        });
         Ok(())
     }
 }
 
-/// All members, on so many threads.
-fn on_threads(
-    members: &Members<'_>,
-    threads: usize,
-    watch: &Watch,
-    session: &mut Session<'_, Result<Vec<Member>, Exceeded>>,
-) -> Result<Vec<Member>, End> {
-    let count = members.starts.len();
-    let threads = threads.clamp(1, count.max(1));
-    let share = share(count, threads);
-    let next = AtomicUsize::new(0);
-    let work = || {
-        let mut done: Vec<(usize, Member)> = Vec::new();
+/// An ensemble on its way.
+struct Running<'a> {
+    work: &'a Work,
+    asked: &'a Ensemble,
+    options: Options,
+    span: (f64, f64),
+    /// Members that a thread takes at a time.
+    share: usize,
+    /// Members that may be done before those that come before them.
+    ahead: usize,
+    watch: Watch,
+    /// The next member to be run, and the next to be told of.
+    queue: Mutex<(usize, usize)>,
+    /// Members were told of, or all is to end.
+    moved: Condvar,
+}
+
+/// A share: its first member, and all.
+type Done = (usize, Vec<Member>);
+
+impl Running<'_> {
+    fn stops(&self) -> bool {
+        self.watch.stop.load(Ordering::Relaxed)
+    }
+
+    fn queue(&self) -> MutexGuard<'_, (usize, usize)> {
+        self.queue.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The next share, as soon as it is not too far ahead; none at the end.
+    fn next(&self) -> Option<Range<usize>> {
+        let end = self.asked.some.end;
+        let mut queue = self.queue();
+        while !self.stops() && queue.0 < end && queue.0 >= queue.1 + self.ahead {
+            let waited = self.moved.wait_timeout(queue, PAUSE);
+            queue = waited.unwrap_or_else(PoisonError::into_inner).0;
+        }
+        if self.stops() || queue.0 >= end {
+            return None;
+        }
+        let some = queue.0..(queue.0 + self.share).min(end);
+        queue.0 = some.end;
+        Some(some)
+    }
+
+    fn members(&self, some: Range<usize>) -> Vec<Member> {
+        let (parameters, starts) = self.asked.cast.some(some.clone());
+        let members = Members {
+            declared: self.work.declared(),
+            choice: &self.asked.plan.method,
+            tolerances: self.asked.plan.tolerances,
+            parameters,
+            starts,
+            count: self.asked.some.len(),
+            span: self.span,
+            options: self.options.clone(),
+        };
+        members.run(0..some.len(), &self.watch)
+    }
+
+    fn work(&self, done: &Sender<Done>) {
+        while let Some(some) = self.next() {
+            let members = self.members(some.clone());
+            // what was ended early is not whole
+            let refused = members.iter().any(|member| member.refused.is_some());
+            if (self.stops() && !refused) || done.send((some.start, members)).is_err() {
+                return;
+            }
+        }
+    }
+
+    /// Runs all members on so many threads, and tells of them in order.
+    fn on_threads(
+        &self,
+        threads: usize,
+        session: &mut Session<'_, <Ensemble as Question>::Found>,
+    ) -> Result<(), End> {
+        std::thread::scope(|scope| {
+            let (sender, done) = channel();
+            // where the machine gives fewer threads, these do it all
+            let spawn = |_| {
+                let sender = sender.clone();
+                let work = move || self.work(&sender);
+                std::thread::Builder::new().spawn_scoped(scope, work).ok()
+            };
+            let threads: Vec<_> = (0..threads).map_while(spawn).collect();
+            drop(sender);
+            if threads.is_empty() {
+                return Err(End::refused(
+                    Obstacle::Option,
+                    "the machine gives no thread",
+                ));
+            }
+            let told = self.tell(&done, session);
+            self.watch.stop.fetch_or(told.is_err(), Ordering::Relaxed);
+            drop(done);
+            let failed = |_| End::refused(Obstacle::Option, "a thread of the ensemble failed");
+            let joined = threads.into_iter().try_for_each(|thread| thread.join());
+            told.and(joined.map_err(failed))
+        })
+    }
+
+    fn tell(
+        &self,
+        done: &std::sync::mpsc::Receiver<Done>,
+        session: &mut Session<'_, <Ensemble as Question>::Found>,
+    ) -> Result<(), End> {
+        let count = self.asked.some.len() as u64;
+        session.stage(0, count, "members")?;
+        let mut waiting: BTreeMap<usize, Vec<Member>> = BTreeMap::new();
         loop {
-            let first = next.fetch_add(share, Ordering::Relaxed);
-            if first >= count || watch.stop.load(Ordering::Relaxed) {
-                return done;
+            match done.recv_timeout(PAUSE) {
+                Ok((first, members)) => {
+                    if let Some(error) = members.iter().find_map(|one| one.refused.as_ref()) {
+                        return Err(End::refused(Obstacle::Option, error.to_string()));
+                    }
+                    waiting.insert(first, members);
+                }
+                Err(RecvTimeoutError::Timeout) => {}
+                Err(RecvTimeoutError::Disconnected) => return Ok(()),
             }
-            let last = (first + share).min(count);
-            done.extend((first..last).zip(members.run(first..last, watch)));
-        }
-    };
-    let mut all: Vec<(usize, Member)> = std::thread::scope(|scope| {
-        // where the machine gives fewer threads, these do it all
-        let spawn = |_| std::thread::Builder::new().spawn_scoped(scope, work).ok();
-        let threads: Vec<_> = (0..threads).map_while(spawn).collect();
-        if threads.is_empty() {
-            return Err(End::refused(
-                Obstacle::Option,
-                "the machine gives no thread",
-            ));
-        }
-        let mut told = session.stage(0, count as u64, "members");
-        while threads.iter().any(|thread| !thread.is_finished()) {
-            std::thread::sleep(PAUSE);
-            if told.is_ok() {
-                let done = watch.done.load(Ordering::Relaxed) as u64;
-                told = session.progress(done, count as u64);
+            let mut told = self.queue().1;
+            while let Some(members) = waiting.remove(&told) {
+                told += members.len();
+                session.found(Ok(members));
+                self.queue().1 = told;
+                self.moved.notify_all();
             }
-            watch.stop.fetch_or(told.is_err(), Ordering::Relaxed);
+            session.progress(self.watch.done.load(Ordering::Relaxed) as u64, count)?;
         }
-        told?;
-        let found = threads.into_iter().map(|thread| thread.join());
-        let found: Result<Vec<_>, _> = found.collect();
-        let failed = |_| End::refused(Obstacle::Option, "a thread of the ensemble failed");
-        Ok(found.map_err(failed)?.into_iter().flatten().collect())
-    })?;
-    all.sort_by_key(|(member, _)| *member);
-    Ok(all.into_iter().map(|(_, member)| member).collect())
+    }
 }

@@ -38,6 +38,8 @@ pub struct Members<'a> {
     pub parameters: Vec<Vec<f64>>,
     /// The initial state of each member.
     pub starts: Vec<Vec<f64>>,
+    /// How many there are in all, of which these may be some.
+    pub count: usize,
     /// The options of every run; of [`Save::Ends`] the end alone is kept.
     pub options: Options,
     /// Start and end.
@@ -191,9 +193,7 @@ impl Members<'_> {
     /// The steps of all members; none where each run chooses its own.
     fn steps(&self) -> f64 {
         match self.options.pace {
-            Pace::Step(step) => {
-                ((self.span.1 - self.span.0) / step).abs() * self.starts.len() as f64
-            }
+            Pace::Step(step) => ((self.span.1 - self.span.0) / step).abs() * self.count as f64,
             Pace::Tolerance(_) => 0.0,
         }
     }

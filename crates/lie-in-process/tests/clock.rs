@@ -122,6 +122,7 @@ fn members_in_lanes_have_the_bits_of_members_alone() {
             tolerances: Tolerances::default(),
             parameters: vec![Vec::new(); starts.len()],
             starts: starts.clone(),
+            count: starts.len(),
             span: (7.0, 9.0),
             options: Options::new(STEP).save(Save::Ends),
         };

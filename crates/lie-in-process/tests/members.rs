@@ -80,6 +80,7 @@ fn different(name: &str, save: Save, newton: NewtonOptions) -> (usize, Vec<Strin
             tolerances: Tolerances::default(),
             parameters: vec![Vec::new()],
             starts: starts.clone(),
+            count: COUNT,
             options: Options::new(STEP).save(save.clone()).newton(newton),
             span: (0.0, END),
         };
@@ -129,6 +130,7 @@ fn sweep<'a>(declared: &'a Declared, choice: &'a Choice, save: Save) -> Members<
         tolerances: Tolerances::default(),
         parameters: (0..COUNT).map(of_member).collect(),
         starts: starts(declared),
+        count: COUNT,
         options: Options::new(STEP).save(save),
         span: (0.0, END),
     }
@@ -234,6 +236,7 @@ fn kernel_by_kernel(members: &Members<'_>) -> Vec<Member> {
             declared: &declared,
             parameters: vec![parameters.clone()],
             starts: vec![start.clone()],
+            count: 1,
             options: members.options.clone(),
             ..*members
         };

@@ -33,6 +33,15 @@ impl Bar {
         }
     }
 
+    /// A bar that counts members; none without a terminal.
+    pub fn for_members(wanted: bool) -> Self {
+        let template = "{wide_bar} {percent}% of {len} members, {rate} per second, {eta} left";
+        Self {
+            line: None,
+            ..Self::of(wanted, template)
+        }
+    }
+
     /// A bar that counts parts of the work and names the one that it is at; without a terminal, lines.
     pub fn for_stages(wanted: bool) -> Self {
         Self::of(wanted, "{bar:30} {percent}%, {elapsed}: {wide_msg}")

@@ -3,9 +3,9 @@
 //! It is written beside its place and renamed, after the rows that it counts are on the disk: whatever ends the run, there is a
 //! whole one, and all that it speaks of.
 
-use std::fs::{self, File};
-use std::io::{self, Write as _};
-use std::path::{Path, PathBuf};
+use std::fs;
+use std::io;
+use std::path::Path;
 
 use lie_in_process::checkpoint::Unread;
 pub use lie_in_process::checkpoint::{Checkpoint, Place};
@@ -14,6 +14,7 @@ use lie_syntax::front::spec::files;
 
 use crate::build::{self, Key};
 use crate::command::args;
+use crate::command::files::put;
 use crate::compiler::Spec;
 use crate::message::{Failure, Message, Place as At};
 
@@ -87,26 +88,7 @@ pub fn read(path: &Path) -> Result<Checkpoint, Failure> {
 /// Those of the file system: what is there stays.
 pub fn write(checkpoint: &Checkpoint, path: &Path) -> io::Result<()> {
     let text = checkpoint.text(build::version())?;
-    let mut draft = path.as_os_str().to_owned();
-    draft.push(".new");
-    let draft = PathBuf::from(draft);
-    let written = File::create(&draft).and_then(|mut file| {
-        file.write_all(text.as_bytes())?;
-        file.sync_all()?;
-        fs::rename(&draft, path)
-    });
-    if written.is_err() {
-        let _ = fs::remove_file(&draft);
-    }
-    written?;
-    // the name is on the disk too; where folders cannot be opened, the system sees to that
-    let folder = path
-        .parent()
-        .filter(|folder| !folder.as_os_str().is_empty());
-    if let Ok(folder) = File::open(folder.unwrap_or(Path::new("."))) {
-        let _ = folder.sync_all();
-    }
-    Ok(())
+    put(path, text.as_bytes())
 }
 
 /// Whether its inputs are what they were.

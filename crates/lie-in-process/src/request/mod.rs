@@ -5,6 +5,7 @@
 //! spelling of the [`Front`] at which it was made. A new option is a row of [`Request`], and what is made of it in
 //! `solver`, `times` or `plan`; a call from Python has it as an argument of the same name.
 
+mod cast;
 mod front;
 mod measured;
 pub mod method;
@@ -24,6 +25,7 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
+pub use cast::{Asked, Drawing, cast};
 pub use front::Front;
 pub use measured::{span, step_of_facts};
 pub use option_value::{OptionValue, constant};

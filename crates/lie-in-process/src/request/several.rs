@@ -157,7 +157,7 @@ fn plans(spec: &Spec, flags: &Request) -> Result<Vec<Plan>, Vec<Message>> {
 }
 
 /// The parameters and the initial state of each run, and the values of the parameters that have several.
-fn points(
+pub(super) fn points(
     spec: &Spec,
     flags: &Request,
     sweeps: &[Sweep],
@@ -203,13 +203,13 @@ fn points(
 }
 
 /// A parameter with several values.
-struct Sweep {
-    name: String,
-    values: Vec<f64>,
+pub(super) struct Sweep {
+    pub(super) name: String,
+    pub(super) values: Vec<f64>,
 }
 
 /// The parameters with several values, and what is said of the others.
-fn sweeps(request: &Request) -> Result<(Vec<Sweep>, Vec<Parameter>), Vec<Message>> {
+pub(super) fn sweeps(request: &Request) -> Result<(Vec<Sweep>, Vec<Parameter>), Vec<Message>> {
     let (mut sweeps, mut fixed, mut mistakes) = (Vec::new(), Vec::new(), Vec::new());
     let mut runs = 1_usize;
     let front = request.front;

@@ -1,0 +1,143 @@
+//! The files of an ensemble: the members, what they are, and what is computed of them.
+
+use std::fs::File;
+use std::io::{self, BufReader, Seek as _, SeekFrom};
+use std::path::{Path, PathBuf};
+
+use clap::ValueEnum as _;
+use lie_in_process::reduce::quantiles;
+use lie_in_process::share::{Record, Share};
+
+use crate::command::args::Reduce;
+use crate::command::files::{Inputs, put, unwritable};
+use crate::message::Failure;
+use crate::output::{Destination, npy};
+
+/// The name of a reduction.
+pub fn name(reduce: Reduce) -> &'static str {
+    match reduce {
+        Reduce::Mean => "mean",
+        Reduce::Covariance => "covariance",
+        Reduce::Quantiles => "quantiles",
+    }
+}
+
+/// Where what members are is said: beside their file, under its whole name.
+pub fn path_of_record(out: &Path) -> PathBuf {
+    let mut name = out.as_os_str().to_owned();
+    name.push(".json");
+    name.into()
+}
+
+/// The files, opened before anything is computed.
+pub struct Beside {
+    out: PathBuf,
+    /// Takes the members.
+    pub members: Destination,
+    reductions: Vec<(Reduce, PathBuf, Destination)>,
+}
+
+impl Beside {
+    /// Opens them. Of a share nothing is computed.
+    ///
+    /// # Errors
+    /// `option` for an input, with exit code 2; `io`, with exit code 1.
+    pub fn open(out: &Path, inputs: &Inputs, record: &Record) -> Result<Self, Failure> {
+        inputs.spare("--out", &path_of_record(out))?;
+        let wanted = Reduce::value_variants().iter().copied().filter(|one| {
+            record.share == Share::WHOLE && record.reduce.iter().any(|known| known == name(*one))
+        });
+        let reductions = wanted.map(|one| {
+            let path = out.with_extension(format!("{}.npy", name(one)));
+            inputs.spare("--out", &path)?;
+            Ok((one, path))
+        });
+        // whatever is refused, nothing has been made
+        let reductions: Vec<(Reduce, PathBuf)> = reductions.collect::<Result<_, Failure>>()?;
+        let members = inputs.open("--out", out)?;
+        let open = |(one, path): (Reduce, PathBuf)| {
+            let file = inputs.open("--out", &path)?;
+            Ok((one, path, file))
+        };
+        Ok(Self {
+            out: out.to_owned(),
+            members,
+            reductions: reductions
+                .into_iter()
+                .map(open)
+                .collect::<Result<_, Failure>>()?,
+        })
+    }
+
+    /// What is left to be written, and where the members go.
+    pub fn split(self) -> (Destination, Rest) {
+        let Self {
+            out,
+            members,
+            reductions,
+        } = self;
+        (members, Rest { out, reductions })
+    }
+}
+
+/// The files beside the members.
+pub struct Rest {
+    out: PathBuf,
+    reductions: Vec<(Reduce, PathBuf, Destination)>,
+}
+
+impl Rest {
+    /// Whether mean or covariance is wanted.
+    pub fn wants_moments(&self) -> bool {
+        let moments = [Reduce::Mean, Reduce::Covariance];
+        self.reductions
+            .iter()
+            .any(|(one, ..)| moments.contains(one))
+    }
+
+    /// Writes what the members are.
+    ///
+    /// # Errors
+    /// `io`.
+    pub fn say(&self, record: &Record) -> Result<(), Failure> {
+        let path = path_of_record(&self.out);
+        let text = serde_json::to_string(record).map_err(io::Error::from);
+        let written = text.and_then(|text| put(&path, format!("{text}\n").as_bytes()));
+        written.map_err(|error| unwritable(&path, &error))
+    }
+
+    /// Writes what is computed: mean and covariance as they were found, quantiles from the members in the file.
+    ///
+    /// # Errors
+    /// `io`.
+    pub fn reduce(
+        &mut self,
+        record: &Record,
+        (means, covariances): (Vec<f64>, Vec<f64>),
+    ) -> Result<(), Failure> {
+        let shape = record.shape();
+        let columns = shape.iter().product();
+        for (one, path, destination) in self.reductions.drain(..) {
+            let array = match one {
+                Reduce::Mean => Ok(npy::array(&shape, &means)),
+                Reduce::Covariance => {
+                    let shape = [&shape[..], &shape[shape.len() - 1..]].concat();
+                    Ok(npy::array(&shape, &covariances))
+                }
+                Reduce::Quantiles => {
+                    let again = || {
+                        let mut file = File::open(&self.out)?;
+                        file.seek(SeekFrom::Start(npy::LENGTH as u64))?;
+                        Ok(BufReader::with_capacity(1 << 20, file))
+                    };
+                    let shape = [&[record.quantiles.len()], &shape[..]].concat();
+                    let found = quantiles(again, (record.members, columns), &record.quantiles);
+                    found.map(|found| npy::array(&shape, &found))
+                }
+            };
+            let written = array.and_then(|array| destination.replace(&array));
+            written.map_err(|error| unwritable(&path, &error))?;
+        }
+        Ok(())
+    }
+}
