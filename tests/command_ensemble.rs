@@ -3,6 +3,7 @@
 #![cfg(unix)]
 
 mod common;
+#[allow(dead_code)]
 #[path = "common/process.rs"]
 mod process;
 
