@@ -14,7 +14,7 @@ pub type Function = unsafe extern "C" fn(*const *const f64, *mut f64, *mut f64);
 /// The memory of compiled functions.
 pub enum Memory {
     /// That of Cranelift.
-    Module(ManuallyDrop<JITModule>),
+    Module(Box<ManuallyDrop<JITModule>>),
     /// That of the assembler.
     #[cfg(all(unix, target_arch = "x86_64"))]
     Own(Pages),
@@ -29,7 +29,7 @@ impl Drop for Memory {
     fn drop(&mut self) {
         match self {
             // SAFETY: the module is taken once, here; its functions are called only by the machines that own the memory.
-            Self::Module(module) => unsafe { ManuallyDrop::take(module).free_memory() },
+            Self::Module(module) => unsafe { ManuallyDrop::take(module.as_mut()).free_memory() },
             #[cfg(all(unix, target_arch = "x86_64"))]
             Self::Own(_) => {}
         }
@@ -49,7 +49,8 @@ pub enum Place {
 impl Memory {
     /// That of a module.
     pub fn of_module(compiler: Compiler) -> Option<Self> {
-        Some(Self::Module(ManuallyDrop::new(compiler.finish()?)))
+        let module = ManuallyDrop::new(compiler.finish()?);
+        Some(Self::Module(Box::new(module)))
     }
 
     /// # Panics
