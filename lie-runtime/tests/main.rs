@@ -6,6 +6,7 @@ mod charts;
 mod coadjoint_orbit;
 mod collective;
 mod cotangent;
+mod curve;
 mod driver;
 mod families;
 mod family_splittings;

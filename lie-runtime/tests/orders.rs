@@ -42,17 +42,47 @@ fn slope<P: Poisson<f64>, M: Method<f64, P>>(
         .slope
 }
 
+/// The same of a state between two steps: the end lies 0.4 of a step beyond the last one.
+fn slope_between<P: Poisson<f64> + Clone, M: Method<f64, P> + Clone>(
+    system: &P,
+    method: &M,
+    start: &[f64],
+    end: &[f64],
+) -> f64 {
+    let exact = state(system, end);
+    let problem = Problem {
+        system: system.clone(),
+        mu0: state(system, start),
+        span: (0.0, 1.0),
+    };
+    let points: Vec<(f64, f64)> = [8, 12, 16, 24, 32, 48, 64]
+        .into_iter()
+        .map(|count| {
+            let h = 1.0 / (f64::from(count) + 0.4);
+            let options = Options::new(h).save(Save::At(vec![1.0]));
+            let solution = solve(&problem, method.clone(), &options).ok();
+            let found = solution.expect("the steps converge");
+            assert_eq!(found.stats.steps, count as u64 + 1);
+            (h, distance(&found.mu[0], &exact))
+        })
+        .collect();
+    let order = order_of_convergence(&points, 3e-14);
+    order.expect("enough points above round-off").slope
+}
+
 fn check<M>(method: M)
 where
-    M: Method<f64, Nonpolynomial> + Method<f64, HeavyTop> + Facts,
+    M: Method<f64, Nonpolynomial> + Method<f64, HeavyTop> + Facts + Clone,
 {
     let order = f64::from(M::ORDER);
     let first = slope(&Nonpolynomial, &method, &[0.6, -0.5, 0.7], &NONPOLYNOMIAL);
     let second = slope(&HeavyTop::default(), &method, &START, &TOP);
-    for slope in [first, second] {
+    let start = [0.6, -0.5, 0.7];
+    let between = slope_between(&Nonpolynomial, &method, &start, &NONPOLYNOMIAL);
+    for slope in [first, second, between] {
         assert!(
             (slope - order).abs() < 0.1,
-            "{}: {first} and {second}",
+            "{}: {first} and {second}, between steps {between}",
             M::ID
         );
     }

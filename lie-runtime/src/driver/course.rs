@@ -2,6 +2,7 @@
 
 use super::by_stages::Begun;
 use super::checks::{check_domain, check_start, smaller};
+use super::curve::Curve;
 use super::error::StepError;
 use super::grid::{Grid, Place, Row, Rows};
 use super::joints::Joints;
@@ -49,6 +50,11 @@ pub(super) enum Beginning<'m, T, V> {
 /// So many times as many steps are made after one that failed or did not contract, where that can be any number.
 const SHORTER: f64 = 1.4;
 
+/// Whether an observer sees the motion on the group.
+fn with_motion<S: Scalar, P: Poisson<S>, O: Observer<S, P>>(_: &O) -> bool {
+    O::MOTION
+}
+
 /// How far a run has come.
 pub(super) struct Course<'r, M> {
     pub(super) grid: Grid,
@@ -66,7 +72,7 @@ pub(super) struct Course<'r, M> {
     /// In so many parts each is made.
     pub(super) parts: u32,
     /// Parts done of the step that is being made.
-    done: u32,
+    pub(super) done: u32,
     /// Whether a step may be divided.
     pub(super) divides: bool,
     /// Whether the stages of steps tell their errors: the grid changes then, by small factors, where parts would be halves.
@@ -154,21 +160,21 @@ impl<'r, M> Course<'r, M> {
         }
         observer.start(system, self.progress(), &mu);
         let mut begun = begun.filter(|_| followed.is_none());
+        let mut curve = match observer.draws() {
+            true => Curve::along(system, &self.grid, with_motion(observer)),
+            false => None,
+        };
         // once, and again with each branch of the system that has to be followed, each size of steps, and from each milestone
         loop {
             let mut states = (&mut mu, &mut between);
+            let shown = (&mut rows, &mut curve);
             let left = match begun.take() {
-                Some(begun) => self.go(
-                    first,
-                    Some(begun),
-                    &mut states,
-                    &mut rows,
-                    &mut guard,
-                    observer,
-                ),
+                Some(begun) => {
+                    self.go(first, Some(begun), &mut states, shown, &mut guard, observer)
+                }
                 None => {
                     let system = followed.as_ref().unwrap_or(first);
-                    self.go(system, None, &mut states, &mut rows, &mut guard, observer)
+                    self.go(system, None, &mut states, shown, &mut guard, observer)
                 }
             };
             let left = left?;
@@ -202,7 +208,7 @@ impl<'r, M> Course<'r, M> {
         system: &'s P,
         begun: Option<Begun<M::Stepper<'s>, P::State>>,
         (mu, between): &mut (&mut P::State, &mut P::State),
-        rows: &mut Peekable<Rows>,
+        (rows, curve): (&mut Peekable<Rows>, &mut Option<Curve<P::State>>),
         guard: &mut Option<Guard<'_, S, P, M>>,
         observer: &mut O,
     ) -> Result<Left<P>, IntegrateError>
@@ -223,10 +229,17 @@ impl<'r, M> Course<'r, M> {
             if self.index == self.milestone && self.done == 0 {
                 return Ok(Left::Milestone);
             }
-            while let Some(row) =
-                rows.next_if(|row| row.place.index() == self.index && self.done == 0)
-            {
+            if let Some(curve) = curve.as_mut().filter(|_| self.done == 0) {
+                let is_row = rows.peek().map(|row| row.place) == Some(Place::On(self.index));
+                curve.arrive(system, (&self.grid, self.index), mu, is_row);
+            }
+            while let Some((row, is_kept)) = self.due(rows, curve) {
                 let looked = match row.place {
+                    _ if !is_kept => {
+                        let states = (&**mu, &mut **between);
+                        self.sample(system, joints.as_mut(), &row, states, curve, observer);
+                        continue;
+                    }
                     Place::On(_) => observer.row(system, row.time, mu),
                     Place::After(..) => {
                         between.copy_from(mu);

@@ -114,6 +114,15 @@ impl Grid {
         start + (index - first) as f64 * self.step
     }
 
+    /// The length of the step from a grid point; from the last one on, of what is left until the end.
+    pub(super) fn length(&self, index: u64) -> f64 {
+        match self.end_place {
+            _ if index < self.steps => self.step,
+            Place::On(_) => 0.0,
+            Place::After(_, rest) => rest,
+        }
+    }
+
     /// Where a time between start and end lies. Outside, the nearest grid point.
     pub fn locate(&self, time: f64) -> Place {
         let (first, start) = self.from;

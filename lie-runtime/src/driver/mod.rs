@@ -4,6 +4,7 @@ mod assess;
 mod by_stages;
 mod checks;
 mod course;
+mod curve;
 mod error;
 mod grid;
 mod group_matrix;

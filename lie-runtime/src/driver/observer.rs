@@ -68,6 +68,15 @@ pub trait Observer<S: Scalar, P: Poisson<S>> {
         let _ = (system, time, mu);
         ControlFlow::Continue(())
     }
+    /// Whether it draws the run as a curve, and wants to see states between the rows where these are far apart; asked once, at
+    /// the start.
+    fn draws(&self) -> bool {
+        false
+    }
+    /// Sees such a state with its time.
+    fn between(&mut self, system: &P, time: f64, mu: &P::State) {
+        let _ = (system, time, mu);
+    }
     /// Sees how a step moves the group element, in one or several parts, if it asks for it by
     /// [`Observer::MOTION`]; before it sees the state.
     fn motion(&mut self, system: &P, motion: &Motion<'_, P::State>) {
@@ -163,6 +172,12 @@ impl<S: Scalar, P: Poisson<S>, O: Observer<S, P>> Observer<S, P> for &mut O {
     fn row(&mut self, system: &P, time: f64, mu: &P::State) -> ControlFlow<()> {
         (**self).row(system, time, mu)
     }
+    fn draws(&self) -> bool {
+        (**self).draws()
+    }
+    fn between(&mut self, system: &P, time: f64, mu: &P::State) {
+        (**self).between(system, time, mu);
+    }
 }
 
 /// Both observe the run; either may end it.
@@ -219,6 +234,13 @@ impl<S: Scalar, P: Poisson<S>, A: Observer<S, P>, B: Observer<S, P>> Observer<S,
         let first = self.0.row(system, time, mu);
         let second = self.1.row(system, time, mu);
         if first.is_break() { first } else { second }
+    }
+    fn draws(&self) -> bool {
+        self.0.draws() || self.1.draws()
+    }
+    fn between(&mut self, system: &P, time: f64, mu: &P::State) {
+        self.0.between(system, time, mu);
+        self.1.between(system, time, mu);
     }
 }
 
