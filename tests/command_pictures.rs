@@ -151,6 +151,53 @@ fn phase_attitude_and_several_runs() {
     assert!(svg.contains("I1 = 1.25"));
 }
 
+/// How many places the discs of a picture have.
+fn discs(svg: &str) -> usize {
+    svg.matches("h0").count() + svg.matches("<circle").count()
+}
+
+#[test]
+fn few_steps_are_dots_on_a_curve() {
+    let folder = folder();
+    let call = "specs/so3_free_rigid_body.json --tol 1e-9 --until 40";
+    let rows = lie(&format!("run {call} --quiet")).ok().stdout;
+    let steps = rows.lines().count() - 1;
+    assert!(steps < 60, "{steps}");
+    // what is drawn, and of how many curves
+    for (kind, attribute, curves) in [
+        ("components", "stroke-width=\"1.5\"", 3),
+        ("orbit", "stroke=\"#0072b2\" stroke-width=\"1.6\"", 1),
+        ("phase", "stroke-width=\"1.3\"", 1),
+        ("attitude --group quaternion", "stroke-width=\"1.6\"", 1),
+        ("compare", "stroke-width=\"1.3\"", 1),
+    ] {
+        let svg = draw(folder.path(), &format!("{call} --picture {kind}"));
+        let longest = lines(&svg, attribute).iter().map(Vec::len).max();
+        assert!(longest > Some(60), "{kind}: {longest:?}");
+        assert!(discs(&svg) >= curves * steps, "{kind}: {}", discs(&svg));
+        assert!(svg.contains("dots: the rows"), "{kind}");
+        let written = std::fs::read_to_string(folder.path().join("rows.csv")).expect("rows");
+        if !kind.contains("group") {
+            assert_eq!(
+                written, rows,
+                "the rows are those of the run without a picture"
+            );
+        }
+    }
+    // no passage of the section is missed
+    let section = |call: &str| {
+        let call = format!("specs/so3_free_rigid_body.json {call} --until 400 --picture section");
+        discs(&draw(folder.path(), &call))
+    };
+    assert_eq!(
+        section("--tol 1e-3"),
+        section("--method gauss8 --step 0.05")
+    );
+    // the control: short steps are a curve by themselves
+    let svg = draw(folder.path(), &format!("{BODY} --until 30 --picture phase"));
+    assert!(!svg.contains("dots: the rows") && discs(&svg) == 0);
+}
+
 #[test]
 fn level_curves_are_those_of_all_runs_or_of_none() {
     let folder = folder();

@@ -21,7 +21,7 @@ pub const COORDINATE: f64 = 300.0;
 /// The rows of a run from a time on whose step is known.
 pub fn rows(times: &Times, from: f64, step: f64) -> f64 {
     match times {
-        Times::At(times) => times.len() as f64,
+        Times::At(times) | Times::Within { times, .. } => times.len() as f64,
         // the first and the last among them
         Times::Until { end, every } => ((end - from) / step).abs() / *every as f64 + 2.0,
     }

@@ -3,6 +3,7 @@
 use super::bins::Bins;
 use super::chart::{Axis, Chart, Panel, Series, Stroke};
 use super::reference;
+use super::rows::Rows;
 use super::trace::Trace;
 
 /// Panels in a row.
@@ -27,6 +28,7 @@ pub struct Compare {
 struct Run {
     name: String,
     phase: Trace,
+    rows: Rows,
     errors: Vec<Bins>,
     first: Vec<f64>,
     scale: f64,
@@ -55,6 +57,7 @@ impl Compare {
         self.runs.push(Run {
             name: name.into(),
             phase: Trace::stretched(),
+            rows: Rows::default(),
             errors: vec![Bins::new(range, COLUMNS); invariants],
             first: Vec::new(),
             scale: 0.0,
@@ -69,7 +72,9 @@ impl Compare {
         };
         let (t, state) = (row[0], &row[1..=states]);
         let invariants = &row[1 + states..width];
-        run.phase.push((state[0], state[1.min(states - 1)]));
+        let point = (state[0], state[1.min(states - 1)]);
+        run.phase.push(point);
+        run.rows.push(point);
         run.scale = state.iter().fold(run.scale, |scale, x| scale.max(x.abs()));
         if run.first.is_empty() {
             run.first = invariants.to_vec();
@@ -80,6 +85,15 @@ impl Compare {
         }
     }
 
+    /// Takes a point between rows, with the columns of a row: the curve goes through it. The errors are those of the rows.
+    pub fn between(&mut self, row: &[f64]) {
+        let other = 1 + 1.min(self.states - 1);
+        if let Some(run) = self.runs.last_mut() {
+            run.phase.push((row[1], row[other]));
+            run.rows.add_between();
+        }
+    }
+
     /// The picture.
     pub fn to_svg(&self) -> String {
         let gap = (f64::NAN, f64::NAN);
@@ -87,16 +101,18 @@ impl Compare {
         for (colour, run) in self.runs.iter().enumerate() {
             let pieces = run.phase.pieces().iter();
             let points = pieces.flat_map(|piece| piece.iter().copied().chain([gap]));
+            let mut series = vec![Series {
+                name: run.name.clone(),
+                colour,
+                stroke: Stroke::Curve,
+                points: points.collect(),
+            }];
+            series.extend(run.rows.series(&run.name, colour));
             panels.push(Panel {
                 title: run.name.clone(),
                 x: Axis::linear(&self.columns[1]),
                 y: Axis::linear(&self.columns[2.min(self.states)]),
-                series: vec![Series {
-                    name: run.name.clone(),
-                    colour,
-                    stroke: Stroke::Curve,
-                    points: points.collect(),
-                }],
+                series,
             });
         }
         for (place, name) in self.columns[1 + self.states..].iter().enumerate() {

@@ -3,7 +3,7 @@
 use super::chart::{paint, shade_and_naming};
 use super::svg::{FAINT, INK, Svg, text_width};
 use super::ticks::{Axis, power_of_ten};
-use super::{Curve, Plot, reference};
+use super::{Curve, Plot, few, reference};
 
 const WIDTH: f64 = 960.0;
 const HEAD: f64 = 72.0;
@@ -42,6 +42,8 @@ const ROUND_OFF: f64 = f64::EPSILON / 2.0;
 struct Line {
     label: String,
     pieces: Vec<Vec<(f64, f64)>>,
+    /// Points by themselves, on the pieces.
+    dots: Vec<(f64, f64)>,
 }
 
 struct Panel {
@@ -151,6 +153,7 @@ fn components(plot: &Plot, curves: &[Curve], title: &str, y_title: &'static str)
     let line = |curve: &Curve| Line {
         label: curve.name.clone(),
         pieces: curve.bins.pieces(),
+        dots: few(&curve.dots, plot.between).to_vec(),
     };
     let title = match curves.len() {
         0..=NAMED => title.to_owned(),
@@ -165,7 +168,7 @@ fn components(plot: &Plot, curves: &[Curve], title: &str, y_title: &'static str)
         logarithmic: false,
         lines: curves.iter().map(line).collect(),
         colour,
-        markers: plot.rows <= 60,
+        markers: plot.rows <= 60 && plot.between == 0,
     }
 }
 
@@ -192,6 +195,7 @@ fn errors(plot: &Plot) -> Panel {
                 .iter()
                 .map(|piece| piece.iter().map(place).collect())
                 .collect(),
+            dots: Vec::new(),
         }
     };
     let lines: Vec<Line> = plot.invariants.iter().map(line).collect();
@@ -265,6 +269,8 @@ fn draw(svg: &mut Svg, panel: &Panel, frame: &Frame) {
         let (Colour { name, opacity }, _) = panel.colour(index);
         let stroke = format!("stroke=\"{name}\" stroke-width=\"1.5\" opacity=\"{opacity}\"");
         let fill = format!("fill=\"{name}\" opacity=\"{opacity}\"");
+        let dots = line.dots.iter().filter(|(_, value)| value.is_finite());
+        dots.for_each(|&dot| svg.disc(frame.place(panel, dot), 2.2, &fill));
         for piece in &line.pieces {
             let places = || piece.iter().map(|&point| frame.place(panel, point));
             if panel.markers || piece.len() == 1 {

@@ -26,6 +26,7 @@ mod draw;
 pub mod frontier;
 pub mod map;
 pub mod phase;
+mod rows;
 pub mod surface;
 mod svg;
 mod ticks;
@@ -39,6 +40,8 @@ use bins::Bins;
 
 /// Points of all curves of a panel together, about; each takes twelve bytes of the file.
 const POINTS: usize = 20_000;
+/// Curves that have points between their rows show so many rows as dots.
+const FEW_ROWS: usize = 200;
 /// Columns of a curve at most: about as many as the panel has pixels.
 const COLUMNS: usize = 640;
 
@@ -53,6 +56,8 @@ pub struct Plot {
     element: Vec<Curve>,
     range: (f64, f64),
     rows: u64,
+    /// Points between the rows.
+    between: usize,
     /// Largest absolute value of a state component.
     scale: f64,
 }
@@ -64,6 +69,8 @@ struct Curve {
     bins: Bins,
     /// The value in the first row.
     first: f64,
+    /// The rows, as long as they are few.
+    dots: Vec<(f64, f64)>,
 }
 
 impl Plot {
@@ -85,6 +92,7 @@ impl Plot {
             element: Vec::new(),
             range,
             rows: 0,
+            between: 0,
             scale: 0.0,
         }
     }
@@ -113,7 +121,7 @@ impl Plot {
         let (states, rest) = values.split_at(self.states.len().min(values.len()));
         let (invariants, element) = rest.split_at(self.invariants.len().min(rest.len()));
         for (curve, &value) in self.element.iter_mut().zip(element) {
-            curve.bins.push(t, value);
+            curve.row(t, value);
         }
         for (curve, &value) in self.states.iter_mut().zip(states) {
             if self.rows == 0 {
@@ -122,7 +130,7 @@ impl Plot {
             if value.is_finite() {
                 self.scale = self.scale.max(value.abs());
             }
-            curve.bins.push(t, value);
+            curve.row(t, value);
         }
         for (curve, &value) in self.invariants.iter_mut().zip(invariants) {
             if self.rows == 0 {
@@ -133,6 +141,21 @@ impl Plot {
             curve.bins.push(t, (value - curve.first).abs());
         }
         self.rows += 1;
+    }
+
+    /// Takes a point between rows, with the columns of a row: the curves go through it, and few rows are dots on them. The errors
+    /// are those of the rows.
+    pub fn between(&mut self, row: &[f64]) {
+        let Some((&t, values)) = row.split_first() else {
+            return;
+        };
+        self.between += 1;
+        let (states, rest) = values.split_at(self.states.len().min(values.len()));
+        let element = &rest[self.invariants.len().min(rest.len())..];
+        let curves = self.states.iter_mut().zip(states);
+        for (curve, &value) in curves.chain(self.element.iter_mut().zip(element)) {
+            curve.bins.push(t, value);
+        }
     }
 
     /// The picture.
@@ -149,6 +172,29 @@ impl Plot {
     }
 }
 
+impl Curve {
+    /// Takes the value in a row.
+    fn row(&mut self, t: f64, value: f64) {
+        self.bins.push(t, value);
+        if self.dots.len() <= FEW_ROWS {
+            self.dots.push((t, value));
+        }
+    }
+}
+
+/// Whether so many rows are dots on a curve with so many points between them: where they are few, and far apart.
+pub fn are_dots(rows: usize, between: usize) -> bool {
+    (1..=FEW_ROWS).contains(&rows) && between >= rows
+}
+
+/// Rows as dots, where they are.
+fn few(dots: &[(f64, f64)], between: usize) -> &[(f64, f64)] {
+    match are_dots(dots.len(), between) {
+        true => dots,
+        false => &[],
+    }
+}
+
 /// Curves without points, `per_column` of them for each pixel column.
 fn curves(names: &[&str], per_column: usize, range: (f64, f64)) -> Vec<Curve> {
     let columns = (POINTS / (per_column * names.len().max(1))).clamp(50, COLUMNS);
@@ -156,6 +202,7 @@ fn curves(names: &[&str], per_column: usize, range: (f64, f64)) -> Vec<Curve> {
         name: (*name).to_owned(),
         bins: Bins::new(range, columns),
         first: f64::NAN,
+        dots: Vec::new(),
     };
     names.iter().map(curve).collect()
 }

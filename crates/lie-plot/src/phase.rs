@@ -1,6 +1,7 @@
 //! Phase portraits and sections: one coordinate against another.
 
 use super::chart::{Axis, Chart, Panel, Series, Stroke, shade_and_naming};
+use super::rows::Rows;
 use super::surface::Surface;
 use super::svg::Place;
 use super::trace::Trace;
@@ -30,6 +31,7 @@ struct Run {
     name: String,
     trace: Trace,
     dots: Vec<Place>,
+    rows: Rows,
 }
 
 impl Phase {
@@ -55,6 +57,7 @@ impl Phase {
             name: name.into(),
             trace: Trace::stretched(),
             dots: Vec::new(),
+            rows: Rows::default(),
         });
     }
 
@@ -62,6 +65,15 @@ impl Phase {
     pub fn push(&mut self, point: Place) {
         if let Some(run) = self.runs.last_mut() {
             run.trace.push(point);
+            run.rows.push(point);
+        }
+    }
+
+    /// Takes a point between rows, through which the line goes.
+    pub fn between(&mut self, point: Place) {
+        if let Some(run) = self.runs.last_mut() {
+            run.trace.push(point);
+            run.rows.add_between();
         }
     }
 
@@ -154,6 +166,7 @@ impl Phase {
                 });
             }
             series.push(curve(name, colour, Stroke::Curve, run.trace.pieces()));
+            series.extend(run.rows.series(name, colour));
         }
         let [x, y] = &self.names;
         let panel = Panel {

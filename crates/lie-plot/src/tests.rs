@@ -309,3 +309,35 @@ fn of_two_runs_with_the_same_errors_both_are_seen() {
     assert!(dashes(&two_runs([1e-3, 1e-3])) > 0);
     assert_eq!(dashes(&two_runs([1e-3, 2e-3])), 0);
 }
+
+/// A circle by rows, with so many points between each two of them.
+fn circle(rows: u32, parts: u32) -> Plot {
+    let mut plot = Plot::new("Circle", &["t", "x", "energy"], 1, (0.0, 6.0));
+    for row in 0..=rows {
+        for part in 0..parts {
+            let t = 6.0 * (f64::from(row) + f64::from(part) / f64::from(parts)) / f64::from(rows);
+            let values = [t, t.cos(), 0.5];
+            match part {
+                0 => plot.push(&values),
+                _ if row < rows => plot.between(&values),
+                _ => {}
+            }
+        }
+    }
+    plot
+}
+
+#[test]
+fn few_rows_are_dots_on_a_curve_between_them() {
+    let discs = |plot: &Plot| plot.to_svg().matches("r=\"2.2\"").count();
+    assert_eq!(discs(&circle(10, 20)), 11);
+    assert_eq!(discs(&circle(199, 3)), 200);
+    assert_eq!(discs(&circle(200, 3)), 0);
+    assert_eq!(discs(&circle(100, 1)), 0);
+    // the curve goes through what is between the rows, the errors do not
+    let points = |svg: &str| -> Vec<usize> {
+        let lines = svg.lines().filter(|line| line.starts_with("<polyline"));
+        lines.map(|line| line.matches(',').count()).collect()
+    };
+    assert_eq!(points(&circle(10, 20).to_svg()), [201, 10]);
+}

@@ -1,11 +1,15 @@
 //! Pictures of space: what a curve on a coadjoint orbit or on the sphere of directions looks like from outside.
 
+mod on_surface;
+
 use super::chart::paint;
 use super::clip::{bounding_box, clipped};
 use super::contours::contours;
 use super::surface::{Field, Point, dot};
 use super::svg::{FAINT, INK, Place, Svg, thinned};
 use super::trace::Trace;
+
+pub use on_surface::OnSurface;
 
 /// The sides of the square in which space is shown, and where it begins.
 const SIDE: f64 = 640.0;
@@ -52,54 +56,6 @@ fn pale(paint: &str) -> String {
     let part = |at: usize| u16::from_str_radix(&paint[at..at + 2], 16).unwrap_or(0);
     let mixed = [1, 3, 5].map(|at| (3 * part(at) + 7 * 255) / 10);
     format!("#{:02x}{:02x}{:02x}", mixed[0], mixed[1], mixed[2])
-}
-
-/// A curve on a surface: what faces the eye, and the rest.
-#[derive(Clone, Debug)]
-pub struct OnSurface {
-    name: String,
-    front: Trace,
-    back: Trace,
-    bounds: Option<(Point, Point)>,
-    first: Option<Point>,
-    /// Whether the last point faced the eye.
-    side: Option<bool>,
-}
-
-impl OnSurface {
-    /// A curve without points.
-    pub fn new(name: impl Into<String>) -> Self {
-        Self {
-            name: name.into(),
-            front: Trace::default(),
-            back: Trace::default(),
-            bounds: None,
-            first: None,
-            side: None,
-        }
-    }
-
-    /// Takes the next point, and the normal of the surface there.
-    pub fn push(&mut self, point: &Point, normal: &Point) {
-        let (low, high) = self.bounds.unwrap_or((*point, *point));
-        self.bounds = Some((
-            [0, 1, 2].map(|i| low[i].min(point[i])),
-            [0, 1, 2].map(|i| high[i].max(point[i])),
-        ));
-        self.first.get_or_insert(*point);
-        let place = projected(point);
-        let front = faces(normal);
-        let (own, other) = match front {
-            true => (&mut self.front, &mut self.back),
-            false => (&mut self.back, &mut self.front),
-        };
-        if self.side.replace(front) == Some(!front) {
-            // the segment in which it turns away belongs to the side it comes from
-            other.push(place);
-            other.lift();
-        }
-        own.push(place);
-    }
 }
 
 /// Lines of one kind behind the curves.
@@ -334,7 +290,15 @@ impl View {
                 &format!("stroke=\"{paint}\" stroke-width=\"1.6\""),
             );
         }
+        let inside = |&(x, y): &&Place| kept((*x, *y)) == (*x, *y);
         for (index, curve) in self.curves.iter().enumerate() {
+            let [front, back] = curve.dots();
+            for (dots, paint) in [(back, &*pale(paint(index))), (front, paint(index))] {
+                let places: Vec<Place> = dots.iter().filter(inside).map(place).collect();
+                if !places.is_empty() {
+                    svg.discs(&places, 2.4, paint);
+                }
+            }
             if let Some(first) = &curve.first {
                 let paint = paint(index);
                 svg.disc(place(&projected(first)), 4.0, &format!("fill=\"{paint}\""));

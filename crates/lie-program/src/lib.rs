@@ -182,7 +182,9 @@ impl<P: Poisson<f64>> Program<P> {
             None => None,
         };
         let last = from.as_ref().map_or(0, |(milestone, _)| milestone.index);
-        let mut rows = RowWriter::new(&problem.system, session).saying(request.milestones, last);
+        let mut rows = RowWriter::new(&problem.system, session)
+            .saying(request.milestones, last)
+            .curve(request.curve);
         let options = request.options();
         let wanted = from.is_some() || request.milestones != Milestones::None;
         let outcome = run(

@@ -20,8 +20,11 @@ pub struct RowWriter<'s, 'o> {
     session: &'s mut Session<'o, Found>,
     announced: bool,
     casimirs: Vec<f64>,
-    /// Rows that are not yet said.
+    /// Rows that are not yet said, or states between rows.
     block: Rows,
+    between: bool,
+    /// Whether states between rows are said.
+    curve: bool,
     /// Steps between two looks at the clock, and left until the next.
     stride: u32,
     left: u32,
@@ -42,6 +45,8 @@ impl<'s, 'o> RowWriter<'s, 'o> {
             announced: false,
             casimirs: vec![0.0; system.casimir_count()],
             block: Rows::default(),
+            between: false,
+            curve: false,
             stride: 1,
             left: 1,
             looked: now,
@@ -58,6 +63,11 @@ impl<'s, 'o> RowWriter<'s, 'o> {
         self
     }
 
+    /// Says states between rows too, where that is wanted.
+    pub(crate) fn curve(self, curve: bool) -> Self {
+        Self { curve, ..self }
+    }
+
     /// Writes what is left.
     pub fn finish(mut self) {
         self.write_block();
@@ -68,7 +78,10 @@ impl<'s, 'o> RowWriter<'s, 'o> {
         if self.block.count > 0 {
             let width = self.block.width;
             let block = core::mem::take(&mut self.block);
-            self.session.mentions(Found::Rows(block));
+            self.session.mentions(match self.between {
+                true => Found::Between(block),
+                false => Found::Rows(block),
+            });
             self.block.width = width;
         }
     }
@@ -107,17 +120,21 @@ impl<'s, 'o> RowWriter<'s, 'o> {
         }
     }
 
-    /// One row, with the group element at its end if there is one.
-    fn row<P: Poisson<f64>>(
+    /// One row, or a state between rows, with the group element at its end if there is one.
+    fn write<P: Poisson<f64>>(
         &mut self,
         system: &P,
-        time: f64,
+        (time, between): (f64, bool),
         mu: &P::State,
         element: &[f64],
-    ) -> ControlFlow<()> {
+    ) {
         if !self.announced {
             self.announced = true;
             self.announce(system, element.len());
+        }
+        if self.between != between {
+            self.write_block();
+            self.between = between;
         }
         system.casimirs(mu, &mut self.casimirs);
         let energy = system.energy(mu);
@@ -128,7 +145,6 @@ impl<'s, 'o> RowWriter<'s, 'o> {
         if self.block.numbers.len() >= BLOCK {
             self.write_block();
         }
-        on(self.session.intact())
     }
 
     fn announce<P: Poisson<f64>>(&mut self, system: &P, element: usize) {
@@ -196,7 +212,16 @@ impl<P: Poisson<f64>> Observer<f64, P> for RowWriter<'_, '_> {
     }
 
     fn row(&mut self, system: &P, time: f64, mu: &P::State) -> ControlFlow<()> {
-        RowWriter::row(self, system, time, mu, &[])
+        self.write(system, (time, false), mu, &[]);
+        on(self.session.intact())
+    }
+
+    fn draws(&self) -> bool {
+        self.curve
+    }
+
+    fn between(&mut self, system: &P, time: f64, mu: &P::State) {
+        self.write(system, (time, true), mu, &[]);
     }
 }
 
@@ -240,7 +265,17 @@ impl<P: MatrixGroup<f64>> Observer<f64, P> for OnGroup<'_, '_, '_, P::State> {
 
     fn row(&mut self, system: &P, time: f64, mu: &P::State) -> ControlFlow<()> {
         let element = self.reconstruction.element();
-        self.rows.row(system, time, mu, element)
+        self.rows.write(system, (time, false), mu, element);
+        on(self.rows.session.intact())
+    }
+
+    fn draws(&self) -> bool {
+        self.rows.curve
+    }
+
+    fn between(&mut self, system: &P, time: f64, mu: &P::State) {
+        let element = self.reconstruction.element();
+        self.rows.write(system, (time, true), mu, element);
     }
 
     fn motion(&mut self, system: &P, motion: &Motion<'_, P::State>) {

@@ -87,6 +87,7 @@ fn request(method: &str, step: f64, times: Times, initial: &[f64]) -> Run {
         assess: 0,
         from_milestone: None,
         milestones: Milestones::None,
+        curve: false,
     }
 }
 
@@ -124,6 +125,7 @@ fn heard(code: u8, mut output: &[u8]) -> Heard {
                 Found::Shortened { .. }
                 | Found::Lost { .. }
                 | Found::Assessed { .. }
+                | Found::Between(_)
                 | Found::Milestone(_),
             ) => {}
             Message::Progress(_) => {}
@@ -181,6 +183,32 @@ fn long_runs_come_in_several_blocks() {
     let heard = serve(&request("rk4", 0.5, until(5e3), &[3.0, 4.0]));
     let expected = (0..=10_000).map(|k| 0.5 * f64::from(k));
     assert!(heard.rows.iter().map(|row| row[0]).eq(expected));
+}
+
+#[test]
+fn states_between_rows_are_said_where_they_are_drawn() {
+    let said = |curve| {
+        let mut said: Vec<Message<Found>> = Vec::new();
+        let request = Run {
+            curve,
+            ..request("rk4", 1.0, until(10.0), &[3.0, 4.0])
+        };
+        let mut session = Session::undisturbed(&mut said);
+        program().run(&request, &mut session).expect("it runs");
+        said
+    };
+    let numbers = |said: &[Message<Found>], between: bool| -> Vec<f64> {
+        let numbers = said.iter().filter_map(|message| match message {
+            Message::Found(Found::Rows(rows)) if !between => Some(&rows.numbers),
+            Message::Found(Found::Between(rows)) if between => Some(&rows.numbers),
+            _ => None,
+        });
+        numbers.flatten().copied().collect()
+    };
+    let (plain, drawn) = (said(false), said(true));
+    assert_eq!(numbers(&plain, false), numbers(&drawn, false));
+    assert!(numbers(&plain, true).is_empty());
+    assert!(numbers(&drawn, true).len() > 100);
 }
 
 #[test]

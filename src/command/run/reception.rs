@@ -129,12 +129,13 @@ impl<'a, 'p> Reception<'a, 'p> {
 
     /// The times at which rows are asked for: errors are taken against the initial state, also where it is not shown.
     pub fn times(&self, plan: &Plan) -> Times {
+        let with_start = |times: &[f64]| [&[plan.from], times].concat();
         match &plan.times {
-            Times::At(times) if self.hidden => Times::At(
-                std::iter::once(plan.from)
-                    .chain(times.iter().copied())
-                    .collect(),
-            ),
+            Times::At(times) if self.hidden => Times::At(with_start(times)),
+            Times::Within { end, times } if self.hidden => Times::Within {
+                end: *end,
+                times: with_start(times),
+            },
             times => times.clone(),
         }
     }
@@ -159,11 +160,14 @@ impl<'a, 'p> Reception<'a, 'p> {
                 })?;
                 (self.places, self.width) = (places, columns.width());
             }
-            Found::Rows(rows) if self.width == 0 || rows.width != self.width => {
+            Found::Rows(rows) | Found::Between(rows)
+                if self.width == 0 || rows.width != self.width =>
+            {
                 let text = "rows come before their columns, or with others";
                 return Err(io::Error::new(io::ErrorKind::InvalidData, text));
             }
             Found::Rows(rows) => self.push(&rows.numbers)?,
+            Found::Between(rows) => self.between(&rows.numbers),
             Found::Milestone(milestone) => {
                 if let Some(keeper) = &mut self.keeper {
                     keeper.keep(milestone, self.rows, &self.received)?;
@@ -174,11 +178,24 @@ impl<'a, 'p> Reception<'a, 'p> {
         Ok(())
     }
 
-    fn push(&mut self, numbers: &[f64]) -> io::Result<()> {
+    /// The columns that are shown.
+    fn shown(&self, numbers: &[f64]) -> Vec<f64> {
         let rows = numbers.chunks_exact(self.width);
-        let shown: Vec<f64> = rows
-            .flat_map(|row| self.places.iter().map(|&place| row[place]))
-            .collect();
+        rows.flat_map(|row| self.places.iter().map(|&place| row[place]))
+            .collect()
+    }
+
+    /// Draws states between rows, of which nothing else is wanted.
+    fn between(&mut self, numbers: &[f64]) {
+        let shown = self.shown(numbers);
+        if let Some(picture) = &mut self.picture {
+            let rows = shown.chunks_exact(self.places.len());
+            rows.for_each(|row| picture.between(row));
+        }
+    }
+
+    fn push(&mut self, numbers: &[f64]) -> io::Result<()> {
+        let shown = self.shown(numbers);
         let columns = self.places.len();
         for row in shown.chunks_exact(columns) {
             let invariants = &self.layout.invariants;
@@ -209,6 +226,6 @@ impl<'a, 'p> Reception<'a, 'p> {
 fn shows_start(plan: &Plan) -> bool {
     match &plan.times {
         Times::Until { .. } => true,
-        Times::At(times) => times.first() == Some(&plan.from),
+        Times::At(times) | Times::Within { times, .. } => times.first() == Some(&plan.from),
     }
 }

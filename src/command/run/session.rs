@@ -175,12 +175,14 @@ impl Session<'_> {
         }
         let place = keeper.as_ref().and_then(|keeper| keeper.place().cloned());
         let milestones = keeper.as_ref().map(|keeper| keeper.milestones());
+        let curve = picture.is_some();
         let mut reception = Reception::new(self.spec, plan, layout, run, rows, (picture, keeper));
         let request = lie_program::protocol::Run {
             times: reception.times(plan),
             from_milestone: place.as_ref().map(|place| place.milestone.clone()),
             milestones: milestones.unwrap_or_default(),
             assess: assessed_up_to(plan),
+            curve,
             ..plan.run(member.start.clone())
         };
         if let Some(place) = &place {

@@ -57,13 +57,14 @@ impl Plan {
             assess: if self.assess { u64::MAX } else { 0 },
             from_milestone: None,
             milestones: Milestones::None,
+            curve: false,
         }
     }
 
     /// The final time.
     pub fn end(&self) -> f64 {
         match &self.times {
-            Times::Until { end, .. } => *end,
+            Times::Until { end, .. } | Times::Within { end, .. } => *end,
             Times::At(times) => times.last().copied().unwrap_or(self.from),
         }
     }

@@ -47,6 +47,15 @@ pub enum Times {
     },
     /// At given times.
     At(#[serde(with = "number::list")] Vec<f64>),
+    /// At given times of a run that goes on to a final time.
+    Within {
+        /// The final time.
+        #[serde(with = "number")]
+        end: f64,
+        /// The times.
+        #[serde(with = "number::list")]
+        times: Vec<f64>,
+    },
 }
 
 /// One trajectory.
@@ -80,6 +89,9 @@ pub struct Run {
     /// Which milestones are said.
     #[serde(default)]
     pub milestones: Milestones,
+    /// Whether states between rows are said, so that lines through all of them are a curve.
+    #[serde(default)]
+    pub curve: bool,
 }
 
 impl Run {
@@ -88,7 +100,7 @@ impl Run {
         let far = |time: f64| (time - self.from).abs();
         let farther = |a: f64, b: f64| if far(b) > far(a) { b } else { a };
         let end = match &self.times {
-            Times::Until { end, .. } => *end,
+            Times::Until { end, .. } | Times::Within { end, .. } => *end,
             Times::At(times) => times.iter().copied().fold(self.from, farther),
         };
         (self.from, end)
@@ -98,7 +110,7 @@ impl Run {
     pub fn options(&self) -> Options {
         let save = match &self.times {
             Times::Until { every, .. } => Save::Every(*every),
-            Times::At(times) => Save::At(times.clone()),
+            Times::At(times) | Times::Within { times, .. } => Save::At(times.clone()),
         };
         Options {
             pace: self.pace,
@@ -183,6 +195,8 @@ pub enum Found {
     Columns(Columns),
     /// Rows. They come at least every 0.2 s while steps are being done.
     Rows(Rows),
+    /// States between the rows, with the same columns, where a curve is wanted.
+    Between(Rows),
     /// A place from which the run can be taken up again, behind all rows before it.
     Milestone(Milestone),
     /// The work so far, at the end.
@@ -205,14 +219,14 @@ pub struct Rows {
 impl Wire for Found {
     fn numbers(&self) -> &[f64] {
         match self {
-            Self::Rows(rows) => &rows.numbers,
+            Self::Rows(rows) | Self::Between(rows) => &rows.numbers,
             _ => &[],
         }
     }
 
     fn read_numbers(&mut self, input: &mut dyn BufRead) -> io::Result<()> {
         match self {
-            Self::Rows(rows) => {
+            Self::Rows(rows) | Self::Between(rows) => {
                 rows.numbers = listen::rows(input, rows.width, rows.count)?;
                 Ok(())
             }

@@ -15,6 +15,7 @@ fn run(times: Times) -> Run {
         assess: 0,
         from_milestone: None,
         milestones: Milestones::Every(5000),
+        curve: true,
     }
 }
 
@@ -24,9 +25,14 @@ fn a_request_comes_back_and_has_an_end() {
         end: -2.0,
         every: 5,
     };
+    let within = Times::Within {
+        end: 4.0,
+        times: vec![1.5, 0.25],
+    };
     for (times, end, save) in [
         (until, -2.0, Save::Every(5)),
         (Times::At(vec![1.5, 0.25]), 1.5, Save::At(vec![1.5, 0.25])),
+        (within, 4.0, Save::At(vec![1.5, 0.25])),
     ] {
         let run = run(times);
         let line = serde_json::to_string(&run).expect("text");

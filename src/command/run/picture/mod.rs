@@ -2,23 +2,25 @@
 
 pub mod choice;
 mod file;
+mod quaternions;
 #[cfg(feature = "raster")]
 mod raster;
 mod section;
 
 use lie_dynamic::Dynamic;
 use lie_in_process::request::{Plan, Several};
-use lie_poisson::plot::Plot;
 use lie_poisson::plot::compare::Compare;
 use lie_poisson::plot::phase::Phase;
 use lie_poisson::plot::surface::{Field, Point};
 use lie_poisson::plot::view::{OnSurface, View};
+use lie_poisson::plot::{Plot, are_dots};
 use lie_program::protocol::Start;
 use lie_runtime::Poisson as _;
 use lie_runtime::driver::Pace;
 
 pub use choice::{Kind, kind};
 pub use file::{Form, form};
+use quaternions::Quaternions;
 use section::Section;
 
 use super::layout::Layout;
@@ -27,6 +29,8 @@ use crate::compiler::Spec;
 
 /// So many runs that stopped early are named in a picture.
 const SHOWN: usize = 3;
+/// What is said where steps are so long that a curve between them is drawn.
+const DOTS: &str = "; dots: the rows";
 /// What is said where each run has an energy of its own.
 const NO_LEVELS: &str = "; no level curves of H: parameters differ between runs";
 
@@ -44,8 +48,14 @@ pub struct Picture<'a> {
     /// The names of runs that stopped early, and when.
     stopped: Vec<(String, f64)>,
     drawn: Drawn,
+    quaternions: Quaternions,
     /// Rows that were drawn.
     rows: u64,
+    /// Those of the run that is being drawn, and the states between them.
+    of_run: usize,
+    between: usize,
+    /// Whether rows of some run are dots.
+    dotted: bool,
 }
 
 enum Drawn {
@@ -77,12 +87,18 @@ impl<'a> Picture<'a> {
             subtitle: String::new(),
             stopped: Vec::new(),
             drawn: Drawn::Nothing(kind),
+            quaternions: Quaternions::default(),
             rows: 0,
+            of_run: 0,
+            between: 0,
+            dotted: false,
         }
     }
 
     /// Begins a further run.
     pub fn begin(&mut self, name: &str, plan: &Plan, start: &Start) {
+        self.end_run();
+        self.quaternions = Quaternions::of(plan.chart, self.layout.invariants.end);
         if let Drawn::Nothing(kind) = self.drawn {
             self.subtitle = self.second_line(plan);
             self.drawn = self.first(kind, plan, start);
@@ -99,6 +115,13 @@ impl<'a> Picture<'a> {
                 curves.push(OnSurface::new(name));
             }
         }
+    }
+
+    /// Takes note of whether its rows are dots.
+    fn end_run(&mut self) {
+        let section = matches!(self.drawn, Drawn::Section(..));
+        self.dotted |= are_dots(self.of_run, self.between) && !section;
+        (self.of_run, self.between) = (0, 0);
     }
 
     /// Whether nothing was drawn.
@@ -123,6 +146,9 @@ impl<'a> Picture<'a> {
         }
         if let Some(more @ 1..) = self.stopped.len().checked_sub(SHOWN) {
             line.push_str(&format!("; and {more} more"));
+        }
+        if self.dotted {
+            line.push_str(DOTS);
         }
         let would = match self.drawn {
             Drawn::Orbit(..) => true,
@@ -188,17 +214,14 @@ impl<'a> Picture<'a> {
     /// Takes a row of the run.
     pub fn push(&mut self, row: &[f64]) {
         self.rows += 1;
+        self.of_run += 1;
+        let states = self.layout.states;
         match &mut self.drawn {
             Drawn::Nothing(_) => {}
-            Drawn::Components(plot) => plot.push(row),
+            Drawn::Components(plot) => plot.push(&self.quaternions.continued(row)),
             Drawn::Compare(compare) => compare.push(&row[..self.layout.invariants.end]),
             Drawn::Phase(phase, [x, y], _) => phase.push((row[1 + *x], row[1 + *y])),
-            Drawn::Section(phase, section) => {
-                let states = self.layout.states;
-                if let Some(point) = section.push(row[0], &row[1..=states]) {
-                    phase.dot(point);
-                }
-            }
+            Drawn::Section(phase, section) => pass(phase, section, row, states),
             Drawn::Orbit(curves, system) => {
                 let point: Point = [row[1], row[2], row[3]];
                 if let Some(curve) = curves.last_mut() {
@@ -214,8 +237,34 @@ impl<'a> Picture<'a> {
         }
     }
 
+    /// Takes a state of the run between two rows, with the same columns.
+    pub fn between(&mut self, row: &[f64]) {
+        self.between += 1;
+        let states = self.layout.states;
+        match &mut self.drawn {
+            Drawn::Nothing(_) => {}
+            Drawn::Components(plot) => plot.between(&self.quaternions.continued(row)),
+            Drawn::Compare(compare) => compare.between(row),
+            Drawn::Phase(phase, [x, y], _) => phase.between((row[1 + *x], row[1 + *y])),
+            Drawn::Section(phase, section) => pass(phase, section, row, states),
+            Drawn::Orbit(curves, system) => {
+                let point: Point = [row[1], row[2], row[3]];
+                if let Some(curve) = curves.last_mut() {
+                    curve.between(&point, &casimir(system, &point).1);
+                }
+            }
+            Drawn::Attitude(curves) => {
+                let tip = tip(&row[self.layout.invariants.end..]);
+                if let Some(curve) = curves.last_mut() {
+                    curve.between(&tip, &tip);
+                }
+            }
+        }
+    }
+
     /// The picture as SVG, and what there is to say about it.
-    pub fn finish(self) -> (String, Option<String>) {
+    pub fn finish(mut self) -> (String, Option<String>) {
+        self.end_run();
         let name = &*self.spec.model.name;
         let line = self.whole_line();
         let levels = self.has_levels();
@@ -269,6 +318,13 @@ impl<'a> Picture<'a> {
                 (view.to_svg(), None)
             }
         }
+    }
+}
+
+/// Draws the passage of a section since the last state, if there is one.
+fn pass(phase: &mut Phase, section: &mut Section, row: &[f64], states: usize) {
+    if let Some(point) = section.push(row[0], &row[1..=states]) {
+        phase.dot(point);
     }
 }
 
