@@ -62,6 +62,65 @@ fn times_off_the_grid_take_one_shorter_step() {
 }
 
 #[test]
+fn rows_at_equal_distances_are_those_at_their_times() {
+    let rows = |call: &str| lie(&format!("{BODY} --method gauss4 {call}")).ok().csv().1;
+    let equal = rows("--step 1/10 --rows 0:1:4");
+    assert_eq!(equal, rows("--step 1/10 --at 0,1/3,2/3,1"));
+    assert_eq!(
+        rows("--step 0.3 --rows sqrt(2)/4:1/2:3 --until 2"),
+        rows("--step 0.3 --at sqrt(2)/4,(sqrt(2)/4+1/2)/2,1/2")
+    );
+    // backwards, and from the far end
+    let backwards = rows("--step -0.3 --rows 0:-1:5 --until -1");
+    assert_eq!(backwards, rows("--step -0.3 --at 0,-0.25,-0.5,-0.75,-1"));
+    assert_eq!(rows("--rows 2:1:5"), rows("--rows 1:2:5"));
+    // the step is that of the whole run
+    let until = rows("--tol 1e-6 --until 10 --rows 0:5:3");
+    let at = rows("--tol 1e-6 --at 0,2.5,5,10");
+    assert_eq!(until, at[..3]);
+    assert_ne!(until[2], rows("--tol 1e-6 --rows 0:5:3")[2], "a control");
+}
+
+#[test]
+fn rows_at_equal_distances_that_cannot_be() {
+    for (call, says, help) in [
+        ("--rows 0:1", "is not T1:T2:COUNT", "--rows 0:10:101"),
+        ("--rows 0:1:0", "at least 1", "the number of rows"),
+        ("--rows 0:1:1", "cannot be both ends", "--at 2.5"),
+        ("--rows 0:1:1e9", "1000000000 rows", "--every"),
+        ("--rows 0:x:3", "x", ""),
+        ("--rows 0:1:3 --every 2", "excludes `--every`", "leave out"),
+        ("--rows 0:1:3 --at 1", "excludes `--at`", "leave out"),
+        (
+            "--rows 0:20:3 --until 10",
+            "beyond the end, t = 10.0",
+            "--until 20",
+        ),
+        (
+            "--rows -1:1:3 --until 10",
+            "before the start, t = 0.0",
+            "--from",
+        ),
+        (
+            "--rows 1:2:3 --from 1.5",
+            "before the start, t = 1.5",
+            "--from",
+        ),
+        (
+            "--rows 0:1:3 --step -0.1 --until 1",
+            "lead away",
+            "--step 0.1",
+        ),
+    ] {
+        let run = lie(&format!("{BODY} {call}"));
+        assert_eq!(run.code, 2, "{call}: {}", run.stderr);
+        for text in [says, help, "command line: --"] {
+            assert!(run.stderr.contains(text), "{call}: {}", run.stderr);
+        }
+    }
+}
+
+#[test]
 fn backwards_in_time() {
     let there = lie(&format!("{BODY} --method lie-midpoint --step 0.1 --at 1"))
         .ok()

@@ -24,6 +24,11 @@ const COMPARED: [&str; 7] = [
     "rk4",
     "dopri5",
 ];
+/// The rows of the trajectory, and what lies between them.
+const ROWS: &str = "rows.csv";
+const BETWEEN: &str = "curve.csv";
+/// Trajectories of fewer rows are drawn by so many.
+const CURVE: usize = 2000;
 /// Seconds that a single run of the comparison may take.
 const BUDGET: &str = "0.02";
 
@@ -63,7 +68,7 @@ impl Report<'_> {
     pub(super) fn trajectory(&mut self) -> Result<(), Failure> {
         let methods: Vec<String> = self.flags.method.first().into_iter().cloned().collect();
         let words = self.run_words(&methods);
-        let files = [("--out", "rows.csv"), ("--plot", "components.svg")];
+        let files = [("--out", ROWS), ("--plot", "components.svg")];
         let Some((line, said)) = self.call(&words, &files)? else {
             return Ok(());
         };
@@ -105,7 +110,8 @@ impl Report<'_> {
         let model = &self.spec.model;
         match model.dimension() {
             3 if model.family.is_none() && no_orbit(model).is_none() => {
-                if let Some(scene) = self.scene() {
+                let file = self.curve(words)?;
+                if let Some(scene) = self.scene(file) {
                     let surface = leaf(model);
                     self.page.section(&format!("On its {surface}"));
                     self.page
@@ -143,8 +149,30 @@ impl Report<'_> {
         }
     }
 
-    fn scene(&self) -> Option<serde_json::Value> {
-        let rows = File::open(self.folder.join("rows.csv")).ok()?;
+    /// The file with points of the trajectory: its rows, or where these are few, more of them at equal distances.
+    fn curve(&mut self, words: &[String]) -> Result<&'static str, Failure> {
+        let rows = std::fs::read_to_string(self.folder.join(ROWS)).unwrap_or_default();
+        let times = rows
+            .lines()
+            .skip(1)
+            .filter_map(|line| line.split(',').next());
+        let times: Vec<&str> = times.take(CURVE + 1).collect();
+        let (Some(first), Some(last)) = (times.first(), times.last()) else {
+            return Ok(ROWS);
+        };
+        if times.len() > CURVE || first == last {
+            return Ok(ROWS);
+        }
+        let range = ["--rows".to_owned(), format!("{first}:{last}:{CURVE}")];
+        let words = [words, &range, &["--quiet".to_owned()]].concat();
+        let drawn = self.attempt(&words, &[("--out", BETWEEN)])?;
+        // of a run that stops early, the rows are what there is
+        let whole = drawn.is_some_and(|(_, said)| said.code == 0);
+        Ok(if whole { BETWEEN } else { ROWS })
+    }
+
+    fn scene(&self, file: &str) -> Option<serde_json::Value> {
+        let rows = File::open(self.folder.join(file)).ok()?;
         let mut lines = BufReader::new(rows).lines().map_while(Result::ok);
         let names: Vec<String> = lines
             .next()?

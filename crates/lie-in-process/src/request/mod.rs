@@ -12,6 +12,7 @@ pub mod method;
 mod npy;
 mod option_value;
 mod plan;
+mod range;
 mod runs;
 mod several;
 mod sites;
@@ -127,6 +128,9 @@ request! {
     quantity every "every" "K";
     /// Writes the state at these times only, separated by commas; excludes --until and --every
     quantity at "at" "T1,T2,…";
+    /// Writes COUNT states at equal distances from T1 to T2, both among them, in place of those of the steps; the end is that of
+    /// --until or of the spec, else T2
+    quantity rows "rows" "T1:T2:COUNT";
     /// Retraction of lie-midpoint and of generating methods: exp or cayley
     word retraction "retraction" "NAME";
     /// Coefficients of a composition or a splitting: suzuki, triple-jump, kahan-li, …; some are for two pieces of which one is small (`lie methods` lists them)

@@ -4,6 +4,7 @@ use lie_program::protocol::Start;
 use lie_syntax::diagnostic::Kind;
 
 use super::plan::{Foreign, Planned, Planner, planned};
+use super::range::{Range, Words};
 use super::sites::bound_to_itself;
 use super::states::{States, states};
 use super::{Front, Labels, Member, OptionValue, Parameter, Plan, Point, Request, Several, Value};
@@ -218,16 +219,16 @@ pub(super) fn sweeps(request: &Request) -> Result<(Vec<Sweep>, Vec<Parameter>), 
             Parameter::Written(text) => text
                 .split_once('=')
                 .filter(|(_, range)| range.contains(':'))
-                .map(|(name, range)| (text, name, range)),
+                .map(|(name, _)| (text, name)),
             Parameter::Set(..) => None,
         };
-        let Some((text, name, range)) = range else {
+        let Some((text, name)) = range else {
             fixed.push(parameter.clone());
             continue;
         };
         let given =
             OptionValue::flag(&front.option("param"), text).part(name.len() + 1..text.len());
-        match values(front, &given, range) {
+        match values(front, &given) {
             Ok(values) => {
                 runs = runs.saturating_mul(values.len());
                 let name = name.trim().to_owned();
@@ -245,34 +246,16 @@ pub(super) fn sweeps(request: &Request) -> Result<(Vec<Sweep>, Vec<Parameter>), 
     }
 }
 
-/// The values of `FROM:TO:COUNT`, at equal distances, both ends among them.
-fn values(front: Front, given: &OptionValue, range: &str) -> Result<Vec<f64>, Message> {
-    let mut parts = Vec::new();
-    let mut from = 0;
-    for part in range.split(':') {
-        parts.push(given.part(from..from + part.len()));
-        from += part.len() + 1;
-    }
-    let [from, to, count] = parts.as_slice() else {
-        let message = given.wrong(format!("`{range}` is not FROM:TO:COUNT"));
-        let example = front.parameter("k", "1:2:11");
-        return Err(message.help(format!("write it like {example}, for 1, 1.1, …, 2")));
+/// The values of `FROM:TO:COUNT`.
+fn values(front: Front, given: &OptionValue) -> Result<Vec<f64>, Message> {
+    let words = Words {
+        form: "FROM:TO:COUNT",
+        example: front.parameter("k", "1:2:11"),
+        meaning: "1, 1.1, …, 2",
+        what: "values",
+        single: "NAME=VALUE".to_owned(),
+        most: MOST,
+        too_many: &|count| too_many(front, count),
     };
-    let (from, to) = (from.number()?, to.number()?);
-    let example = front.parameter("k", "1:2:11");
-    let help = format!("give the number of values, at least 1, such as {example}");
-    let count = count.count().map_err(|message| message.help(help))? as usize;
-    if count > MOST {
-        return Err(too_many(front, count).at_place(given.wrong("").place));
-    }
-    if count == 1 && from != to {
-        let message = given.wrong("one value cannot be both ends");
-        return Err(message.help("take at least 2 values, or give one as NAME=VALUE"));
-    }
-    let last = (count - 1).max(1) as f64;
-    let value = |k: usize| match k + 1 == count {
-        true => to,
-        false => from + (to - from) * (k as f64 / last),
-    };
-    Ok((0..count).map(value).collect())
+    Range::read(given, &words).map(|range| range.values())
 }

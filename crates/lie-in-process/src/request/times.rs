@@ -1,15 +1,21 @@
 //! The step, and the times at which rows are wanted.
 
 use super::plan::Planner;
+use super::range::{Range, Words};
 use super::{Front, OptionValue};
-use crate::message::Fault;
+use crate::message::{Fault, Message};
 use lie_codegen::methods::Choice;
 use lie_program::protocol::Times;
 use lie_runtime::driver::Pace;
+use lie_syntax::diagnostic::Kind;
 
 const STEP: &str = "0.01";
 /// The time that a run takes where nobody says it.
 const UNTIL: f64 = 10.0;
+/// So many rows can be asked for by their times: all of them are kept.
+const MOST_ROWS: usize = 10_000_000;
+/// What excludes what.
+const EXCLUSIVE: &[(&str, &[&str])] = &[("at", &["until", "every"]), ("rows", &["at", "every"])];
 /// Below this a tolerance is round-off.
 const LEAST_TOLERANCE: f64 = 8.0 * f64::EPSILON;
 
@@ -103,26 +109,39 @@ impl Planner<'_> {
     /// Whether rows are wanted at times, which the request or the spec lists.
     fn at_times(&self) -> bool {
         let request = self.request;
-        let otherwise = request.until.is_some() || request.every.is_some();
+        let otherwise =
+            request.until.is_some() || request.every.is_some() || request.rows.is_some();
         request.at.is_some() || (!otherwise && !self.in_spec("at").is_empty())
     }
 
     /// The final time, or the times asked for.
     fn ends(&self, from: f64) -> Vec<OptionValue> {
+        let away = |time: f64| (time - from).abs();
         if self.at_times() {
             return self
                 .requested("at")
                 .map_or_else(|| self.in_spec("at"), |at| at.split());
         }
+        // rows at equal distances end the run where nothing else does
+        let of_rows = || {
+            let range = self.range()?.ok()?;
+            let (from, to) = range.ends();
+            let order = [(from, range.from), (to, range.to)];
+            let farther = order
+                .into_iter()
+                .max_by(|(a, _), (b, _)| away(*a).total_cmp(&away(*b)));
+            farther.map(|(_, given)| given)
+        };
         // where other rows than those at the times of the spec are asked for, the last of them is still the end
-        let far = |end: &OptionValue| end.number().map_or(0.0, |end| (end - from).abs());
+        let far = |end: &OptionValue| end.number().map_or(0.0, away);
         let last = self.in_spec("at").into_iter();
         let last = last.max_by(|a, b| far(a).total_cmp(&far(b)));
         let usual = || {
             let end = format!("{:?}", from + UNTIL);
             OptionValue::flag(&self.request.front.option("until"), &end)
         };
-        vec![self.option("until").or(last).unwrap_or_else(usual)]
+        let end = self.option("until").or(last).or_else(of_rows);
+        vec![end.unwrap_or_else(usual)]
     }
 
     /// When rows are wanted of a run that starts at a time.
@@ -168,30 +187,94 @@ impl Planner<'_> {
             values.sort_by(|a, b| away(a).total_cmp(&away(b)));
             return Some(Times::At(values));
         }
+        let end = *values.first()?;
+        if let Some(range) = self.range() {
+            let range = self.keep(range)?;
+            return self.at_equal_distances(&range, (from, end));
+        }
         let every = match self.option("every") {
             Some(given) => self.keep(given.count())?,
             None => 1,
         };
-        Some(Times::Until {
-            end: *values.first()?,
-            every,
-        })
+        Some(Times::Until { end, every })
+    }
+
+    /// `T1:T2:COUNT`, where rows are wanted so.
+    fn range(&self) -> Option<Result<Range, Message>> {
+        let given = self.requested("rows")?;
+        let front = self.request.front;
+        let too_many = |count: usize| {
+            let text = format!("{count} rows, and {MOST_ROWS} can be asked for by their times");
+            let message = Message::new(Kind::Limit, text);
+            let every = front.option("every");
+            message.help(format!("take fewer, or every K-th step by `{every}`"))
+        };
+        let words = Words {
+            form: "T1:T2:COUNT",
+            example: front.assignment("rows", "0:10:101"),
+            meaning: "t = 0, 0.1, …, 10",
+            what: "rows",
+            single: front.assignment("at", "2.5"),
+            most: MOST_ROWS,
+            too_many: &too_many,
+        };
+        Some(Range::read(&given, &words))
+    }
+
+    /// The rows of a range, which must lie between the start and the end.
+    fn at_equal_distances(&mut self, range: &Range, (from, end): (f64, f64)) -> Option<Times> {
+        let (first, last) = range.ends();
+        let front = self.request.front;
+        for (time, given) in [(first, &range.from), (last, &range.to)] {
+            let written = given.text.trim();
+            let (text, help) = if (time - from) * (end - from) < 0.0 || (end == from && time != end)
+            {
+                let text = format!("t = {written} lies before the start, t = {from:?}");
+                let start = front.option("from");
+                (
+                    text,
+                    format!(
+                        "give rows between the start and the end; the start is that of `{start}`"
+                    ),
+                )
+            } else if (time - from).abs() > (end - from).abs() {
+                let text = format!("t = {written} lies beyond the end, t = {end:?}");
+                let until = front.assignment("until", written);
+                (
+                    text,
+                    format!("give rows that end earlier, or the end by {until}"),
+                )
+            } else {
+                continue;
+            };
+            self.mistakes.push(given.wrong(text).help(help));
+            return None;
+        }
+        let mut times = range.values();
+        if (first - from).abs() > (last - from).abs() {
+            times.reverse();
+        }
+        Some(Times::Within { end, times })
     }
 
     /// Whether nothing stands beside a list of times.
     fn exclusive(&mut self) -> Option<()> {
         let front = self.request.front;
-        let excludes = |other: &str| format!("`{}` excludes `{other}`", front.option("at"));
-        for name in ["until", "every"] {
-            if self.request.at.is_some() && self.request.get(name).is_some() {
-                let other = front.option(name);
-                let help = format!(
-                    "there is one row for each time asked for, and the last one is the end: leave out `{other}`"
-                );
-                let message = self.option_mistake("at", excludes(&other)).help(help);
-                self.mistakes.push(message.with_fault(Fault::Arguments));
-                return None;
-            }
+        for (name, others) in EXCLUSIVE {
+            let given = |name: &str| self.request.get(name).is_some();
+            let Some(other) = others.iter().find(|other| given(name) && given(other)) else {
+                continue;
+            };
+            let other = front.option(other);
+            let why = match *name {
+                "at" => "there is one row for each time asked for, and the last one is the end",
+                _ => "the rows are those at equal distances",
+            };
+            let text = format!("`{}` excludes `{other}`", front.option(name));
+            let message = self.option_mistake(name, text);
+            let message = message.help(format!("{why}: leave out `{other}`"));
+            self.mistakes.push(message.with_fault(Fault::Arguments));
+            return None;
         }
         if self.request.at.is_none() && self.at_times() {
             let at = self.in_spec("at");
