@@ -213,6 +213,17 @@ impl Core {
         trajectory::run(py, &self.0, &request, progress)
     }
 
+    /// The states of that trajectory at times between its start and its end, in its order.
+    fn at<'py>(
+        &self,
+        py: Python<'py>,
+        asked: &Bound<'py, PyDict>,
+        times: Vec<f64>,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let request = arguments::request(&self.0, asked)?;
+        trajectory::at(py, &self.0, &request, times)
+    }
+
     /// A kernel at states, one in each row, in the coordinates that users give.
     fn evaluate<'py>(
         &self,

@@ -9,7 +9,7 @@ use lie_codegen::program::Chart;
 use lie_in_process::memory;
 use lie_in_process::report::signs;
 use lie_in_process::request::{Plan, Request};
-use lie_program::protocol::{Columns, End, Found, Obstacle};
+use lie_program::protocol::{Columns, End, Found, Obstacle, Run, Stop, Times};
 use lie_runtime::driver::Pace;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
@@ -71,7 +71,7 @@ impl Heard {
             }
             Found::Work(work) => self.steps = work.steps,
             Found::Shortened { step, .. } => self.smallest = Some(step),
-            Found::Milestone(_) => {}
+            Found::Between(_) | Found::Milestone(_) => {}
         }
         Ok(())
     }
@@ -107,16 +107,20 @@ impl Heard {
     }
 }
 
-/// Times, states, energies and Casimirs; the method and its step; what ended it early.
-pub fn run<'py>(
-    py: Python<'py>,
+/// How a run ended.
+enum Ended {
+    Done,
+    Stopped(Stop),
+}
+
+/// Makes a run.
+fn make(
+    py: Python<'_>,
     declaration: &Declaration,
-    request: &Request,
+    (plan, run): (&Plan, Run),
     progress: Option<Py<PyAny>>,
-) -> PyResult<(Rows<'py>, Bound<'py, PyDict>)> {
-    let (plan, run) = arguments::checked(py, declaration, request, arguments::run)?;
+) -> PyResult<(Heard, Ended)> {
     let work = declaration.work(py, &plan.method, plan.chart)?;
-    let note = declaration.with_model(py, |model| signs::note(model, std::iter::once(&run.start)));
     let (dimension, casimirs) = (run.start.initial.len(), declaration.facts.casimirs.len());
     let mut heard = Heard::default();
     if let Pace::Step(step) = plan.pace.0 {
@@ -127,34 +131,72 @@ pub fn run<'py>(
         heard.rows = Some(rows);
     }
     let progress = Progress::new("steps", progress);
-    let take = |found| heard.record(found, &plan);
+    let take = |found| heard.record(found, plan);
     let outcome = py.detach(|| converse(&work, run, progress, take))?;
     let Outcome { end, interrupted } = outcome;
     if let Some(error) = interrupted {
         return Err(error);
     }
-    let found = PyDict::new(py);
     match end {
-        Some(End::Done) => {}
-        Some(End::Stopped(stop)) => {
-            heard.steps = stop.step - 1;
-            found.set_item("step_number", stop.step)?;
-            found.set_item("time", stop.time)?;
-            found.set_item("why", stop.reason)?;
-            found.set_item("remedy", stop.remedy)?;
-        }
-        Some(End::Parameter { why, .. }) => return Err(PyValueError::new_err(why)),
+        Some(End::Done) => Ok((heard, Ended::Done)),
+        Some(End::Stopped(stop)) => Ok((heard, Ended::Stopped(stop))),
+        Some(End::Parameter { why, .. }) => Err(PyValueError::new_err(why)),
         Some(End::Refused {
             what: Obstacle::Option,
             why,
-        }) => {
-            return Err(PyValueError::new_err(why));
-        }
+        }) => Err(PyValueError::new_err(why)),
         other => {
             let text = format!("the run ended early: {other:?}");
-            return Err(PyRuntimeError::new_err(text));
+            Err(PyRuntimeError::new_err(text))
         }
     }
+}
+
+/// The states of a run at times in its order, which is made again up to there: with a step until the last of them, with a
+/// tolerance, from whose span the step is chosen, until its end. Fewer where it stops early.
+pub fn at<'py>(
+    py: Python<'py>,
+    declaration: &Declaration,
+    request: &Request,
+    times: Vec<f64>,
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let (mut plan, mut run) = arguments::checked(py, declaration, request, arguments::run)?;
+    plan.times = match plan.pace.0 {
+        Pace::Tolerance(_) => Times::Within {
+            end: plan.end(),
+            times,
+        },
+        Pace::Step(_) => Times::At(times),
+    };
+    run.times = plan.times.clone();
+    let dimension = run.start.initial.len();
+    let (heard, _) = make(py, declaration, (&plan, run), None)?;
+    let rows = heard.times.len();
+    heard.states.into_pyarray(py).reshape([rows, dimension])
+}
+
+/// Times, states, energies and Casimirs; the method and its step; what ended it early.
+pub fn run<'py>(
+    py: Python<'py>,
+    declaration: &Declaration,
+    request: &Request,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<(Rows<'py>, Bound<'py, PyDict>)> {
+    let (plan, run) = arguments::checked(py, declaration, request, arguments::run)?;
+    let note = declaration.with_model(py, |model| signs::note(model, std::iter::once(&run.start)));
+    let (dimension, casimirs) = (run.start.initial.len(), declaration.facts.casimirs.len());
+    let (mut heard, ended) = make(py, declaration, (&plan, run), progress)?;
+    let found = PyDict::new(py);
+    let mut end = plan.end();
+    if let Ended::Stopped(stop) = ended {
+        heard.steps = stop.step - 1;
+        end = stop.time;
+        found.set_item("step_number", stop.step)?;
+        found.set_item("time", stop.time)?;
+        found.set_item("why", stop.reason)?;
+        found.set_item("remedy", stop.remedy)?;
+    }
+    found.set_item("span", (plan.from, end))?;
     let (Pace::Step(given) | Pace::Tolerance(given)) = plan.pace.0;
     found.set_item("method", plan.method.label())?;
     found.set_item("step", heard.smallest.or(heard.step).unwrap_or(given))?;

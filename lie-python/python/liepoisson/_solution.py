@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from ._again import Again
 from ._arguments import Array, among
 from ._pictures import image, new_figure, page, shown, table
 from ._sites import Sites
@@ -15,6 +16,13 @@ __all__ = ["Ensemble", "Solution"]
 
 #: Coordinates of a family that a picture shows.
 _DRAWN = 12
+#: Runs of so many steps are drawn by their rows alone.
+_MOST_STEPS = 10_000
+#: Points of a curve, at least, where rows are fewer; numbers of all curves together, at most.
+_POINTS = 1000
+_NUMBERS = 1_000_000
+#: So many rows are dots on a curve that goes on between them.
+_DOTS = 200
 #: Failures of an ensemble that a notebook shows.
 _SHOWN = 10
 
@@ -49,6 +57,7 @@ class Solution:
         self.step = step
         self.steps = steps
         self._sites: Sites | None = None
+        self._again: Again | None = None
         # whether H depends on the time: the energy is no constant then
         self._driven = False
         #: The error at the end relative to the state, where it was asked for; not a number where it cannot be told.
@@ -75,6 +84,38 @@ class Solution:
 
     def __len__(self) -> int:
         return len(self.t)
+
+    def at(self, times: Any) -> Array:
+        """The states at any times from the start of the run to its end, saved or not: shape (…, n) for times of shape (…).
+
+        A state between two steps is reached by one shorter step from the one before, as the rows of ``run(…, at=…)`` are: it has
+        the order of the method and lies on its orbit. The run is made again for that, up to the last of the times, or with
+        ``tol`` to its end: give all times in one call. At the times of rows that are steps, the bits are those of ``mu``.
+
+        >>> from liepoisson import System
+        >>> body = System(algebra="so(3)", state=["x", "y", "z"], hamiltonian="x^2/2 + y^2/4 + z^2/6")
+        >>> run = body.run(tol=1e-9, t=10, x0=[0.8, 0.1, 0.6])
+        >>> run.at(2.5).shape, run.at([0, 2.5, 10]).shape
+        ((3,), (3, 3))
+
+        Errors: :class:`ValueError` for a time outside the run.
+        """
+        if self._again is None:
+            raise AttributeError(
+                f"{self.name}: only what `run` returns has states between its rows"
+            )
+        return self._again.at(times)
+
+    def _curve(self) -> tuple[Array, Array]:
+        """Times and states for a picture: between the rows too, where these are few."""
+        rows, width = len(self.t), self.mu.shape[1]
+        parts = -(-_POINTS // max(rows - 1, 1))
+        few = rows > 1 and parts > 1 and self.steps <= _MOST_STEPS
+        if self._again is None or not few or parts * rows * width > _NUMBERS:
+            return self.t, self.mu
+        places = np.arange((rows - 1) * parts + 1) / parts
+        times = np.interp(places, np.arange(rows), self.t)
+        return times, self.at(times)
 
     @property
     def sites(self) -> Array:
@@ -124,7 +165,10 @@ class Solution:
         )
 
     def plot(self, *, show: bool = False) -> Any:
-        """Draws the components and the errors of the invariants with matplotlib; returns the figure."""
+        """Draws the components and the errors of the invariants with matplotlib; returns the figure.
+
+        Where rows are few, the components are curves through states between them (:meth:`at`), and the rows are dots.
+        """
         if not len(self.t):
             raise ValueError("there are no rows to draw")
         figure = new_figure((8, 6), "plot()")
@@ -153,8 +197,12 @@ class Solution:
 
     def _draw_components(self, axes: Any) -> None:
         drawn = len(self.coordinates) if self._sites is None else _DRAWN
-        for name in self.coordinates[:drawn]:
-            axes.plot(self.t, self[name], label=name, linewidth=1)
+        times, states = self._curve()
+        dots = len(times) > len(self.t) and len(self.t) <= _DOTS
+        for place, name in enumerate(self.coordinates[:drawn]):
+            (line,) = axes.plot(times, states[:, place], label=name, linewidth=1)
+            if dots:
+                axes.plot(self.t, self[name], ".", color=line.get_color(), markersize=4)
         more = len(self.coordinates) - drawn
         if more > 0:
             axes.plot([], [], " ", label=f"… and {more} more")

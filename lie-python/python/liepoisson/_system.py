@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from ._again import Again
 from ._arguments import Number, Progress, heard, merged, spelled, whole
 from ._bench import Bench
 from ._declared import Declared
@@ -107,6 +108,7 @@ class System(Declared):
             found["steps"],
         )
         solution._sites = Sites(self, values) if family else None
+        solution._again = Again(self, asked, found["span"])
         solution._driven = self._core.time() is not None
         if "group" in found:
             elements = np.asarray(found["group"]).reshape(len(t_rows), -1)
