@@ -113,6 +113,36 @@ function line(pen, points, paint, width) {
   pen.strokeStyle = paint; pen.lineWidth = width; pen.beginPath();
   points.forEach(([x, y], k) => k ? pen.lineTo(x, y) : pen.moveTo(x, y)); pen.stroke();
 }
+/// Into how many parts lines from row to row are to be divided: more than one where they turn.
+function bends(points) {
+  const turns = [], last = points.slice(-64);
+  for (let k = 2; k < last.length; k++) {
+    const [a, b] = [1, 2].map(at => last[k - 2 + at].map((x, i) => x - last[k - 3 + at][i]));
+    const cosine = a.reduce((sum, x, i) => sum + x * b[i], 0) / (Math.hypot(...a) * Math.hypot(...b));
+    if (Number.isFinite(cosine)) turns.push(Math.acos(Math.min(1, Math.max(-1, cosine))));
+  }
+  const turn = turns.sort((x, y) => x - y)[Math.floor(0.9 * turns.length)];
+  return points.length >= 6 && turn > 0.2 ? Math.min(10, Math.ceil(turn / 0.08)) : 1;
+}
+/// Points at equal times with others between them, on the polynomials through six neighbours.
+function curve(points, parts) {
+  if (parts < 2 || points.length < 6) return points;
+  const found = [], all = points.length, six = [0, 1, 2, 3, 4, 5];
+  for (let k = 0; k + 1 < all; k++) {
+    const base = Math.min(Math.max(k - 2, 0), all - 6);
+    for (let part = 0; part < parts; part++) {
+      const x = k - base + part / parts, weights = six.map(j => six.reduce((w, i) => i === j ? w : w * (x - i) / (j - i), 1));
+      found.push(part ? points[k].map((_, i) => six.reduce((sum, j) => sum + weights[j] * points[base + j][i], 0)) : points[k]);
+    }
+  }
+  return [...found, points[all - 1]];
+}
+/// The rows as dots, where they are few and lines between them are divided.
+function dots(pen, places, parts, paint) {
+  if (parts < 2 || places.length > 200) return;
+  pen.fillStyle = paint;
+  for (const [x, y] of places) { pen.beginPath(); pen.arc(x, y, 2.2, 0, 7); pen.fill(); }
+}
 const SIDES = [0.62, 0.4, 0.2], FACES = [[0, 1], [0, -1], [1, 1], [1, -1], [2, 1], [2, -1]];
 function drawBody() {
   const [pen, w, h] = paper($("body"));
@@ -127,7 +157,9 @@ function drawBody() {
       const normal = [0, 0, 0]; normal[axis] = sign; const out = rotate(q, normal);
       return { corners, paint: axis, depth: view.depth(corners.reduce((m, p) => m.map((x, k) => x + p[k] / 4), [0, 0, 0])), light: 0.55 + 0.45 * Math.max(0, view.depth(out)) };
     }).sort((a, b) => a.depth - b.depth);
-    line(pen, state.tip.map(view.place), COLOURS[1], 1.4);
+    const parts = bends(state.tip);
+    line(pen, curve(state.tip, parts).map(view.place), COLOURS[1], 1.4);
+    dots(pen, state.tip.map(view.place), parts, COLOURS[1]);
     for (const face of faces) {
       pen.beginPath(); face.corners.map(view.place).forEach(([x, y], k) => k ? pen.lineTo(x, y) : pen.moveTo(x, y)); pen.closePath();
       pen.fillStyle = ["#5b8fc4", "#e2a35b", "#69b391"][face.paint]; pen.globalAlpha = 1; pen.fill();
@@ -138,18 +170,21 @@ function drawBody() {
   } else if (about.coordinates.length === 3 && state.rows.length) {
     const size = Math.max(...state.rows.map(row => Math.hypot(row[1], row[2], row[3])), 1e-300), view = camera(w, h, size);
     [0, 1, 2].forEach(k => { const a = [0, 0, 0]; a[k] = size; line(pen, [[0, 0, 0], a].map(view.place), dark.matches ? "#3a4048" : "#c9ced4", 1); pen.fillText(about.coordinates[k], ...view.place(a)); });
-    line(pen, state.rows.map(row => view.place(row.slice(1))), COLOURS[0], 1.5);
+    const rows = state.rows.map(row => row.slice(1)), parts = bends(rows);
+    line(pen, curve(rows, parts).map(view.place), COLOURS[0], 1.5);
+    dots(pen, rows.map(view.place), parts, COLOURS[0]);
     const [x, y] = view.place(state.rows.at(-1).slice(1)); pen.fillStyle = COLOURS[1]; pen.beginPath(); pen.arc(x, y, 5, 0, 7); pen.fill();
-  } else chart(pen, w, h, state.rows, about.coordinates, x => x, "coordinates");
+  } else chart(pen, w, h, state.rows, about.coordinates, x => x, "coordinates", bends(state.rows.map(row => row.slice(1))));
 }
-function chart(pen, w, h, rows, names, scale, title) {
+function chart(pen, w, h, rows, names, scale, title, parts = 1) {
   const left = 58, bottom = h - 24, right = w - 12, top = 26, shown = Math.min(names.length, 8);
   if (shown < names.length) title += ` (the first ${shown} of ${names.length})`;
   pen.textAlign = "left"; pen.fillText(title, left, 16);
   let x0 = left + pen.measureText(title).width + 16;
   for (let k = 0; k < shown; k++) { pen.fillStyle = COLOURS[k]; pen.fillText(names[k], x0, 16); x0 += pen.measureText(names[k]).width + 12; }
   if (rows.length < 2) return;
-  const values = rows.flatMap(row => row.slice(1, shown + 1)).filter(v => scale(v) !== null && Number.isFinite(scale(v))).map(scale);
+  const drawn = curve(rows, parts);
+  const values = drawn.flatMap(row => row.slice(1, shown + 1)).filter(v => scale(v) !== null && Number.isFinite(scale(v))).map(scale);
   if (!values.length) return;
   let [low, high] = [values.reduce((a, b) => Math.min(a, b)), values.reduce((a, b) => Math.max(a, b))];
   if (scale(1e-3) === -3) { low = Math.floor(Math.min(low, -16)); high = Math.ceil(Math.max(high, -14)); } else if (high - low <= 1e-12 * Math.max(Math.abs(low), Math.abs(high))) { const half = 0.1 * Math.max(Math.abs(low), Math.abs(high)) || 1; low -= half; high += half; }
@@ -159,7 +194,11 @@ function chart(pen, w, h, rows, names, scale, title) {
   const lines = logs ? Array.from({ length: high - low + 1 }, (_, k) => low + k).filter((_, k, all) => k % Math.ceil(all.length / 6) === 0) : [low, (low + high) / 2, high];
   for (const v of lines) { line(pen, [[left, Y(v)], [right, Y(v)]], grid, 1); pen.fillText(logs ? `1e${v}` : v.toPrecision(3), left - 6, Y(v) + 4); }
   pen.fillText(`t = ${t1.toPrecision(4)}`, right, h - 7); pen.textAlign = "left"; pen.fillText(t0.toPrecision(4), left, h - 7);
-  for (let k = 0; k < shown; k++) line(pen, rows.filter(row => scale(row[k + 1]) !== null).map(row => [X(row[0]), Y(scale(row[k + 1]))]), COLOURS[k], 1.3);
+  for (let k = 0; k < shown; k++) {
+    const places = of => of.filter(row => scale(row[k + 1]) !== null).map(row => [X(row[0]), Y(scale(row[k + 1]))]);
+    line(pen, places(drawn), COLOURS[k], 1.3);
+    dots(pen, places(rows), parts, COLOURS[k]);
+  }
 }
 function draw() {
   drawBody();
