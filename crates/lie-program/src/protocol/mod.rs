@@ -10,6 +10,7 @@
 
 mod milestone;
 pub mod number;
+mod times;
 mod words;
 
 use crate::listen;
@@ -21,6 +22,7 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::io::{self, BufRead};
+pub use times::Times;
 
 /// Where a system starts.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
@@ -31,31 +33,6 @@ pub struct Start {
     /// The initial state.
     #[serde(with = "number::list")]
     pub initial: Vec<f64>,
-}
-
-/// At which times rows are wanted.
-#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub enum Times {
-    /// Every so many steps until a final time.
-    Until {
-        /// The final time.
-        #[serde(with = "number")]
-        end: f64,
-        /// Steps between rows.
-        every: u64,
-    },
-    /// At given times.
-    At(#[serde(with = "number::list")] Vec<f64>),
-    /// At given times of a run that goes on to a final time.
-    Within {
-        /// The final time.
-        #[serde(with = "number")]
-        end: f64,
-        /// The times.
-        #[serde(with = "number::list")]
-        times: Vec<f64>,
-    },
 }
 
 /// One trajectory.
