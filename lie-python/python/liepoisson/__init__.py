@@ -18,7 +18,7 @@ from __future__ import annotations
 from ._bench import Bench, BenchRow
 from ._check import Casimir, Check, Motion
 from ._core import __version__ as __version__
-from ._errors import DeclarationError, IntegrationError, Interrupted, MethodError
+from ._errors import DeclarationError, IntegrationError, Interrupted, LostShares, MethodError
 from ._functions import Function
 from ._methods import Method, Methods
 from ._solution import Ensemble, Solution
@@ -38,6 +38,7 @@ __all__ = [
     "Growth",
     "IntegrationError",
     "Interrupted",
+    "LostShares",
     "Method",
     "MethodError",
     "Methods",

@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from ._solution import Solution
+    from ._solution import Ensemble, Solution
 
-__all__ = ["DeclarationError", "IntegrationError", "Interrupted", "MethodError"]
+__all__ = ["DeclarationError", "IntegrationError", "Interrupted", "LostShares", "MethodError"]
 
 
 class DeclarationError(ValueError):
@@ -48,6 +48,22 @@ class IntegrationError(RuntimeError):
 
     def __reduce__(self) -> tuple[object, ...]:
         return type(self), (str(self), self.partial, self.step, self.time)
+
+
+class LostShares(RuntimeError):
+    """An ensemble of which some workers ended, and their shares with them.
+
+    ``missing`` are the members that are not there, a range for each share; ``partial`` is the :class:`Ensemble` of the others, in
+    which those are not numbers. The same call does the missing shares alone.
+    """
+
+    def __init__(self, message: str, missing: list[range], partial: Ensemble) -> None:
+        super().__init__(message)
+        self.missing = missing
+        self.partial = partial
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return type(self), (str(self), self.missing, self.partial)
 
 
 class Interrupted(KeyboardInterrupt):

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from ._arguments import Array, floats
+from ._arguments import Array, Number, floats, whole
+from ._arguments import number as number_of
 from ._sites import Sites
 
 if TYPE_CHECKING:
@@ -77,3 +78,39 @@ def table_of(system: Declared, parameters: Mapping[str, Any], members: int) -> A
             column = floats(value, f"the parameter {name}")
             table[:, list(system.parameters).index(name)] = np.ravel(column)
     return table
+
+
+def drawn(
+    system: Declared,
+    x0: Any,
+    parameters: Mapping[str, Any],
+    asked: tuple[int, int | None, Number | None],
+) -> tuple[Array, Array]:
+    """So many initial states drawn around one, by a seed and how far they go; and the values of the parameters."""
+    members, seed, spread = asked
+    count = whole(members, "members", 1)
+    lengths = {name: np.size(value) for name, value in parameters.items()}
+    if any(length not in (1, count) for length in lengths.values()):
+        raise ValueError(
+            f"parameters have lengths {lengths}, and there are {count} members: give one value, or one for each of them"
+        )
+    table = table_of(system, parameters, count)
+    if x0 is None:
+        x0 = system._core.initial(list(table[0]))
+        if x0 is None:
+            raise TypeError(
+                "x0 is missing: the state around which members are drawn, which the declaration does not give"
+            )
+    first = {name: np.ravel(value)[0] for name, value in parameters.items()}
+    family = system._core.family
+    around = members_of_family(system, x0, first) if family else _members_of_one(system, x0)
+    if len(around) != 1:
+        raise ValueError(f"members are drawn around one state, and x0 has {len(around)}")
+    if isinstance(spread, str) and spread.strip() == "orbit":
+        far = None
+    else:
+        far = 0.1 if spread is None else number_of(spread, "spread")
+        if not 0 <= far < np.inf:
+            raise ValueError(f'spread is a standard deviation, or "orbit", not {spread!r}')
+    which = 1 if seed is None else whole(seed, "seed", 0)
+    return system._core.drawn(table, around[0].tolist(), (count, which, far)), table

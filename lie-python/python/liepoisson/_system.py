@@ -17,8 +17,9 @@ from ._declared import Declared
 from ._errors import IntegrationError
 from ._functions import Function
 from ._measure import asked_of, measured, stressed, verified
-from ._members import members_of, table_of
+from ._members import drawn, members_of, table_of
 from ._notebook import page_of
+from ._shares import Work, gathered
 from ._sites import Sites
 from ._solution import Ensemble, Solution
 from ._stress import Stress
@@ -151,7 +152,13 @@ class System(Declared):
         t: Number | None = None,
         every: int | None = None,
         at: Sequence[float] | None = None,
+        members: int | None = None,
+        seed: int | None = None,
+        spread: Number | None = None,
         threads: int | None = None,
+        executor: Any = None,
+        shares: int | None = None,
+        folder: str | os.PathLike[str] | None = None,
         rtol: float | None = None,
         atol: float | None = None,
         iteration: str | None = None,
@@ -170,6 +177,18 @@ class System(Declared):
         on, and is named in ``failures``. Of a group element that the declaration asks for, nothing is kept. ``progress`` hears how many
         members are done, as in :meth:`run`.
 
+        ``members=1000`` draws initial states around a single one, that of the declaration where x0 is None: where random
+        elements of the group take it, on its coadjoint orbit. ``spread`` is the standard deviation of their coordinates in the algebra
+        (0.1), or "orbit": uniformly over the orbit, of a compact group. ``seed`` (1) says which; `lie ensemble` draws the same.
+
+        ``executor`` has the members computed by other workers: any of ``concurrent.futures``, a Client of Dask, the module ``ray``
+        after its ``init``, or ``mpi4py.futures.MPIPoolExecutor``. They take shares of the members, ``shares`` in number, each on
+        one thread unless ``threads`` says otherwise. The bits are the same for every number of workers and shares. With ``folder``
+        the shares are kept there as they come, and the same call does no share again that is there.
+
+        Errors: :class:`LostShares` names the members of workers that ended, and has the others: the same call with a new executor
+        does the missing ones alone.
+
         >>> body = System(algebra="so(3)", state=["x", "y", "z"], hamiltonian="x^2/2 + y^2/4 + z^2/6")
         >>> starts = [[1, 0.1, 0], [0, 1, 0.1]]
         >>> body.ensemble(starts, "gauss4", h=0.1, t=1).mu.shape
@@ -177,6 +196,11 @@ class System(Declared):
         >>> rows = body.ensemble(starts, "gauss4", h=0.1, t=1, every=5)
         >>> rows.mu.shape, rows.t.tolist()
         ((2, 3, 3), [0.0, 0.5, 1.0])
+        >>> from concurrent.futures import ThreadPoolExecutor
+        >>> with ThreadPoolExecutor(2) as workers:
+        ...     many = body.ensemble([1, 0.1, 0], "gauss4", h=0.1, t=1, members=500, executor=workers)
+        >>> many.mu.shape
+        (500, 3)
         """
         own = {
             "method": method, "h": h, "tol": tol, "t0": t0, "t": t, "x0": x0, "every": every, "at": at,
@@ -186,11 +210,28 @@ class System(Declared):
         others = dict(named)
         spelled(own, others, self.parameters)
         parameters = merged(parameters, others)
-        starts = members_of(self, own.pop("x0"), parameters)
-        table = table_of(self, parameters, len(starts))
+        if members is None:
+            if seed is not None or spread is not None:
+                raise TypeError(
+                    "seed and spread are for initial states that are drawn: give members=1000"
+                )
+            starts = members_of(self, own.pop("x0"), parameters)
+            table = table_of(self, parameters, len(starts))
+        else:
+            starts, table = drawn(self, own.pop("x0"), parameters, (members, seed, spread))
         asked = self._asked(own, None, {})
-        count = (os.cpu_count() or 1) if threads is None else whole(threads, "threads", 1)
-        found = self._core.ensemble(table, starts, asked, count, heard(progress))
+        usual = (os.cpu_count() or 1) if executor is None else 1
+        count = usual if threads is None else whole(threads, "threads", 1)
+        if executor is None:
+            if shares is not None or folder is not None:
+                raise TypeError(
+                    "shares and folder are for workers: give executor=ProcessPoolExecutor()"
+                )
+            found = self._core.ensemble(table, starts, asked, count, heard(progress))
+        else:
+            cut = None if shares is None else whole(shares, "shares", 1)
+            work = Work(self.text, table, starts, asked, count)
+            found = gathered(work, executor, cut, folder, heard(progress))
         rows, states, failures, note = found
         if note is not None:
             warnings.warn(note, stacklevel=2)
