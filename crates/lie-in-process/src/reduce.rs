@@ -55,9 +55,9 @@ impl Sums {
                 *mean += *before / self.counts[row] as f64;
             }
             let mut place = 0;
-            for i in 0..width {
-                for j in 0..=i {
-                    products[place] += before[i] * (state[j] - mean[j]);
+            for (i, before) in before.iter().enumerate() {
+                for (x, mean) in state[..=i].iter().zip(mean.iter()) {
+                    products[place] += before * (x - mean);
                     place += 1;
                 }
             }
@@ -114,7 +114,7 @@ impl Moments {
     pub fn push(&mut self, member: &[f64]) {
         self.leaf.push(self.shape, member);
         self.members += 1;
-        if self.members % LEAF > 0 {
+        if !self.members.is_multiple_of(LEAF) {
             return;
         }
         let mut carried = std::mem::replace(&mut self.leaf, Sums::none(self.shape));

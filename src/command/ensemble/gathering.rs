@@ -56,8 +56,8 @@ impl Gathering {
                 let text = format!("a member has {rows} rows for {wanted} times");
                 return Err(io::Error::new(io::ErrorKind::InvalidData, text));
             }
-            if rows > 0 {
-                let states = member.states.chunks_exact(member.states.len() / rows);
+            if let Some(width) = member.states.len().checked_div(rows) {
+                let states = member.states.chunks_exact(width);
                 numbers
                     .extend(states.flat_map(|state| self.places.iter().map(|&place| state[place])));
             }

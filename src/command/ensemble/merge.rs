@@ -2,7 +2,7 @@
 
 use std::fs::File;
 use std::io::{self, BufReader, Read as _};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use lie_in_process::share::{Record, Share};
 use lie_in_process::words::counted;
@@ -212,7 +212,7 @@ fn is_whole(part: &Part<'_>) -> Result<(), Failure> {
 }
 
 /// Takes the members of a share.
-fn copy(part: &Part<'_>, gathering: &mut Gathering, out: &PathBuf) -> Result<(), Failure> {
+fn copy(part: &Part<'_>, gathering: &mut Gathering, out: &Path) -> Result<(), Failure> {
     let record = &part.record;
     let size = record.shape().iter().product::<usize>().max(1);
     let unread = |error: io::Error| {
