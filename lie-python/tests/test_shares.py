@@ -138,6 +138,19 @@ def test_mistakes_come_back_as_they_are() -> None:
         body().ensemble(STARTS, "rk4", h=0.1, t=1, executor=pool)
 
 
+def test_arrays_from_a_network_need_not_be_aligned() -> None:
+    bytes_ = np.zeros(8 * STARTS.size + 1, dtype=np.uint8)
+    moved = bytes_[1:].view(np.float64).reshape(STARTS.shape)
+    moved[:] = STARTS
+    assert not moved.flags.aligned
+    work = _shares.Work(
+        body().text, np.ones((1, 1)), moved, {"method": "rk4", "h": 0.1, "t": 1.0}, 1
+    )
+    part, error = _shares._members(work)
+    assert error is None and part is not None
+    assert np.array_equal(part.states[:, 0], body().ensemble(STARTS, "rk4", h=0.1, t=1).mu)
+
+
 def test_members_are_drawn_on_the_orbit() -> None:
     call: dict[str, Any] = {"method": "rk4", "h": 0.1, "at": [0], "members": 50}
     first = body().ensemble(**call).mu[:, 0]

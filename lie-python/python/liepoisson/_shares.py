@@ -67,7 +67,11 @@ def _members(work: Work) -> tuple[Part | None, Exception | None]:
     """What a worker does. That members cannot be run is an answer; what is raised has happened to the worker."""
     try:
         core = _system(work.text)
-        return Part(*core.ensemble(work.table, work.starts, work.asked, work.threads, None)), None
+        # what came over a network may lie across the places of numbers
+        table, starts = (
+            np.require(array, requirements="AC") for array in (work.table, work.starts)
+        )
+        return Part(*core.ensemble(table, starts, work.asked, work.threads, None)), None
     except Exception as error:  # noqa: BLE001
         return None, error
 
