@@ -69,7 +69,7 @@ def _members(work: Work) -> tuple[Part | None, Exception | None]:
         core = _system(work.text)
         # what came over a network may lie across the places of numbers
         table, starts = (
-            np.require(array, requirements="AC") for array in (work.table, work.starts)
+            np.require(array, requirements=["A", "C"]) for array in (work.table, work.starts)
         )
         return Part(*core.ensemble(table, starts, work.asked, work.threads, None)), None
     except Exception as error:  # noqa: BLE001
