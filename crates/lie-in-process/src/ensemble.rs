@@ -139,7 +139,7 @@ pub fn times(plan: &Plan, ends: bool) -> Vec<f64> {
     });
     match (&plan.times, grid) {
         _ if ends => vec![last],
-        (Times::At(times), _) => {
+        (Times::At(times) | Times::Within { times, .. }, _) => {
             let mut times = times.clone();
             times.sort_by(f64::total_cmp);
             if end < start {
