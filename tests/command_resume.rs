@@ -103,6 +103,8 @@ fn every_form_and_every_kind_of_rows_goes_on() {
         "driven.json --method midpoint --tol 1e-4 --until 30".to_owned(),
         "body.json --method gauss16 --tol 1e-10 --until 2500 --initial 1e-4,1,1e-4".to_owned(),
         "folded.json --method gauss6 --step 0.02 --until 22 --every 5".to_owned(),
+        "chirp.json --method gauss8 --tol 1e-5 --until 460".to_owned(),
+        "chirp.json --method gauss16 --tol 1e-5 --at 1,300,700.5,899,900".to_owned(),
     ]
     .iter()
     .enumerate()

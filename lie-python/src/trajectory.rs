@@ -205,6 +205,7 @@ pub fn run<'py>(
     if let Some((error, missed)) = heard.assessed {
         found.set_item("error", error)?;
         found.set_item("missed", missed)?;
+        found.set_item("tolerance", given)?;
     }
     if let Some(time) = heard.lost {
         found.set_item("lost", time)?;

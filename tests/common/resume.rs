@@ -8,7 +8,8 @@ use std::path::Path;
 
 use super::common::{Run, command};
 
-/// A body to which every kind of method applies, one with a table among its files, and one whose velocity has several branches.
+/// A body to which every kind of method applies, one with a table among its files, one whose velocity has several branches, and an
+/// oscillator that becomes faster and faster.
 pub fn prepared(folder: &Path) {
     let spec = r#"{
         "format": 1, "name": "Body", "algebra": "so(3)", "state": ["x", "y", "z"],
@@ -27,6 +28,11 @@ pub fn prepared(folder: &Path) {
         "lagrangian": "u^2/2 - u^4/4 + 3*u^6/60 + v^2 + w^2*3/2", "initial": [1, 0.9, 0.8]
     }"#;
     fs::write(folder.join("folded.json"), folded).unwrap();
+    let chirp = r#"{
+        "format": 1, "name": "Chirp", "poisson": ["{q, p} = 1", "{r, s} = -1"], "state": ["q", "p", "s", "r"],
+        "hamiltonian": "r/100 + (1 + s)*(p^2 + q^2)/2 + (1 + s)*q^4/10", "initial": [1, 0, 0, 0]
+    }"#;
+    fs::write(folder.join("chirp.json"), chirp).unwrap();
     fs::write(folder.join("drag.csv"), "-9,0.1\n-2,0.2\n0,0\n2,0.5\n9,1\n").unwrap();
 }
 

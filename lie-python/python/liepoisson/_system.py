@@ -120,7 +120,7 @@ class System(Declared):
         solution.error = found.get("error")
         if found.get("missed"):
             text = (
-                f"the error at the end is about {solution.error:.1e} of the state, more than the tolerance {tol}: "
+                f"the error at the end is about {solution.error:.1e} of the state, more than the tolerance {found['tolerance']:g}: "
                 f"errors grow on this orbit, or {found['method']} cannot keep it"
                 if np.isfinite(solution.error)
                 else "the error at the end is not known: the second run, which would tell it, failed, or chooses its own steps"

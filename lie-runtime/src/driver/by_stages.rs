@@ -3,7 +3,8 @@
 //! A step is tried from the start: it is solved as the run will solve it, and its stages tell its error
 //! ([`Stepper::estimate`]). Where the sum of such errors over the span is more than the tolerance allows, more steps are tried, else
 //! fewer, until neighbours on a ladder of numbers of steps are one too few and the other enough. The accepted step is the
-//! first one of the run. Neighbours differ by a tenth, so a tighter tolerance takes no fewer steps.
+//! first one of the run. Neighbours differ by a tenth. A tighter tolerance is found to take no fewer steps; later ones may be
+//! shortened where those of a looser one are not, so that the sum may differ by some tenths.
 //!
 //! A step also has to contract well: the number of evaluations in all hardly depends on the step where the fixed point contracts by
 //! a factor of three to eight an iteration, and where it contracts more slowly, later steps may not contract at all.
@@ -41,6 +42,8 @@ const CHANGE: (f64, f64) = (0.3, 3.0);
 /// The same where a step failed, and where its stages tell no error.
 const FAILED: f64 = 1.6;
 const UNTOLD: f64 = 1.35;
+/// A piece between joints tells the error of a step that is up to so many times as long.
+const LONGER: f64 = 4.0;
 /// More steps than this, and so many times as many as were tried first, are those of a singularity.
 const MOST_STEPS: f64 = 4e6;
 const MOST_SHORTENED: f64 = 1024.0;
@@ -193,12 +196,14 @@ impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'a, S, P, M> {
         place: &Place<'s, '_, S, P>,
     ) -> Tried<M::Stepper<'s>, P::State> {
         let h = span / steps;
-        let size = self.before_a_joint(place, h);
+        let (time, size) = self.between_joints(place, h);
+        let mut mu = place.mu.clone();
+        set_time(place.system, &mut mu, time);
         let newton = self.newton_of_stages(steps);
         let mut stepper = self
             .method
             .stepper(place.system, S::from_f64(size), &newton);
-        let mut end = place.mu.clone();
+        let mut end = mu;
         let report = match stepper.step(&mut end, &mut ()) {
             Ok(report) => report,
             Err(failure) => return Tried::TooFew(FAILED * steps, Some(failure)),
@@ -206,11 +211,14 @@ impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'a, S, P, M> {
         let Some(error) = stepper.estimate() else {
             return Tried::Untold;
         };
-        set_time(place.system, &mut end, place.time + size);
+        set_time(place.system, &mut end, time + size);
         let order = f64::from(self.method.order().max(1));
         let error = largest(error);
-        let part = self.part(error, size) * (h / size).powf(order);
-        let slow = self.rate(&report, &newton) * (h / size) / SLOWEST;
+        // what a short piece says of a whole step is nothing: those of the run tell more
+        let longer = h / size;
+        let longer = if longer > LONGER { 1.0 } else { longer };
+        let part = self.part(error, size) * longer.powf(order);
+        let slow = self.rate(&report, &newton) * longer / SLOWEST;
         let enough = part <= 1.0 && slow <= 1.0 && report.factorizations == 0;
         if !enough {
             let by_error = if part.is_finite() {
@@ -271,13 +279,15 @@ impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'a, S, P, M> {
         }
     }
 
-    /// A step, or what comes of it before a joint that is known beforehand.
-    fn before_a_joint(&self, place: &Place<'_, '_, S, P>, h: f64) -> f64 {
+    /// A step, or the longest piece of it between joints that are known beforehand: where it begins, and its size.
+    fn between_joints(&self, place: &Place<'_, '_, S, P>, h: f64) -> (f64, f64) {
+        let whole = (place.time, h);
         let Some(mut joints) = Joints::of(place.system) else {
-            return h;
+            return whole;
         };
         let pieces = joints.pieces(place.system, (place.time, place.time + h));
-        let first = pieces.first().map(|&(start, end)| end - start);
-        first.filter(|size| *size != 0.0).unwrap_or(h)
+        let sizes = pieces.iter().map(|&(start, end)| (start, end - start));
+        let longest = sizes.max_by(|a, b| f64::total_cmp(&a.1.abs(), &b.1.abs()));
+        longest.filter(|piece| piece.1 != 0.0).unwrap_or(whole)
     }
 }

@@ -14,7 +14,7 @@ use super::problem::set_time;
 use super::solve::IntegrateError;
 use super::stats::{Stats, Status};
 use super::trial::Trial;
-use super::watch::{Change, From, Guard, JACOBIAN, SLOW_PARTS, Verdict, divided};
+use super::watch::{Change, From, Guard, JACOBIAN, MOST_PARTS, SLOW_PARTS, Verdict, divided};
 use crate::methods::{Method, StepFailure, StepReport, Stepper};
 use crate::newton::{FailureReason, NewtonOptions};
 use crate::poisson::Poisson;
@@ -65,8 +65,9 @@ pub(super) struct Course<'r, M> {
     pub(super) index: u64,
     /// The next milestone.
     pub(super) milestone: u64,
-    /// The step at the start.
+    /// The step at the start, and how many of them there were to be.
     pub(super) step: f64,
+    planned: u64,
     /// The time of the last row.
     shown: Option<f64>,
     /// In so many parts each is made.
@@ -112,6 +113,7 @@ impl<'r, M> Course<'r, M> {
             index: 0,
             milestone: u64::MAX,
             step: grid.step(),
+            planned: grid.steps(),
             shown: None,
             parts: 1,
             done: 0,
@@ -360,13 +362,18 @@ impl<'r, M> Course<'r, M> {
 
     /// Whether steps may change like that: a joint or a singularity asks for smaller ones without end.
     fn allows(&self, change: Change) -> bool {
-        let left = match change {
+        let (left, size) = match change {
             Change::Parts(parts) => {
-                (self.grid.steps() - self.index).saturating_mul(u64::from(parts))
+                let left = (self.grid.steps() - self.index).saturating_mul(u64::from(parts));
+                (left, self.grid.step() / f64::from(parts))
             }
-            Change::Times(factor) => self.steps_left(self.index, factor),
+            Change::Times(factor) => {
+                let left = self.steps_left(self.index, factor);
+                (left, self.size() / factor)
+            }
         };
-        left <= self.grid.steps().saturating_mul(8).max(MOST_DIVIDED)
+        let most = self.planned.saturating_mul(8).max(MOST_DIVIDED);
+        left.saturating_add(self.index) <= most && self.step / size <= f64::from(MOST_PARTS)
     }
 
     /// How many steps are left from a point on, of which there are so many times as many as now.

@@ -18,6 +18,8 @@ pub struct Grid {
     end_place: Place,
     /// The point from which on the step is this one, and its time.
     from: (u64, f64),
+    /// Whether it was another one before.
+    changed: bool,
 }
 
 /// Where a time lies relative to the grid.
@@ -65,6 +67,7 @@ impl Grid {
             steps: 0,
             end_place: Place::On(0),
             from: (0, start),
+            changed: false,
         };
         let count = (end - start) / step;
         if count < -TOLERANCE {
@@ -83,16 +86,17 @@ impl Grid {
         let steps = steps.max(1);
         Self {
             step: (self.end - time) / steps as f64,
-            steps: index + steps,
-            end_place: Place::On(index + steps),
+            steps: index.saturating_add(steps),
+            end_place: Place::On(index.saturating_add(steps)),
             from: (index, time),
+            changed: true,
             ..self
         }
     }
 
-    /// The point from which on the step is what it is, and its time.
-    pub(super) fn from(&self) -> (u64, f64) {
-        self.from
+    /// The point from which on the step is another one than before, and its time.
+    pub(super) fn change(&self) -> Option<(u64, f64)> {
+        self.changed.then_some(self.from)
     }
 
     /// The step.
@@ -108,10 +112,10 @@ impl Grid {
     /// The time of a grid point, `t0 + k h` by multiplication.
     pub fn time(&self, index: u64) -> f64 {
         let (first, start) = self.from;
-        if first > 0 && index == self.steps {
+        if self.changed && index == self.steps {
             return self.end;
         }
-        start + (index - first) as f64 * self.step
+        start + index.saturating_sub(first) as f64 * self.step
     }
 
     /// The length of the step from a grid point; from the last one on, of what is left until the end.
@@ -131,8 +135,11 @@ impl Grid {
         let slack = TOLERANCE.max(2.0 * f64::EPSILON * nearest);
         // A time that is small beside the step is not the start, however near it lies.
         let start = nearest == 0.0 && count > 0.0;
-        if !start && (count - nearest).abs() <= slack || count < 0.0 {
+        if !start && (count - nearest).abs() <= slack {
             return Place::On(first + nearest.max(0.0) as u64);
+        }
+        if count < 0.0 {
+            return Place::On(first.saturating_sub(1));
         }
         let before = first + count.floor() as u64;
         Place::After(before, time - self.time(before))
@@ -167,7 +174,8 @@ impl Grid {
             self.start.min(self.end) - slack,
             self.start.max(self.end) + slack,
         );
-        for &time in times {
+        // which was looked at before the step changed
+        for &time in times.iter().filter(|_| !self.changed) {
             if !(low <= time && time <= high) {
                 return Err(OptionError::SavedTime {
                     time,

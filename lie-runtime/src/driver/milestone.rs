@@ -70,10 +70,10 @@ impl<M> Course<'_, M> {
             stats: self.stats,
             division: Division {
                 parts: self.parts,
-                shortened: match self.grid.from() {
-                    (0, _) => None,
-                    (index, time) => Some((index, time, self.grid.steps() - index)),
-                },
+                shortened: self
+                    .grid
+                    .change()
+                    .map(|(index, time)| (index, time, self.grid.steps() - index)),
                 slow: self.slow,
                 watched: guard.map(|guard| guard.watch.watched()),
             },
@@ -128,6 +128,7 @@ impl<M> Course<'_, M> {
             self.stats = milestone.stats;
             if let (Some(guard), Some(watched)) = (guard, division.watched) {
                 guard.watch.restore(watched);
+                guard.steps_are(self.grid.step());
             }
             return Ok(());
         };

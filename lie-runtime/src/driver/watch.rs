@@ -189,8 +189,14 @@ pub struct Watched {
     pub slope: f64,
     /// The sum of errors.
     pub spent: f64,
-    /// Steps until the next look.
+    /// Steps until the next look, and from one to the next.
     pub left: u32,
+    /// The same.
+    pub interval: u32,
+    /// The iterations of the step that was looked at last.
+    pub usual: u32,
+    /// Whether it was said that steps cannot be shortened any more.
+    pub said: bool,
 }
 
 /// How much the gauge may grow from where an error was found, relative to what it may be.
@@ -247,6 +253,9 @@ impl<S: Scalar, P: Poisson<S>> Watch<S, P> {
             slope,
             spent: self.sum.spent,
             left: self.left,
+            interval: self.sum.interval,
+            usual: self.usual,
+            said: self.said,
         }
     }
 
@@ -256,6 +265,8 @@ impl<S: Scalar, P: Poisson<S>> Watch<S, P> {
             (field.ceiling, field.slope) = (watched.ceiling, watched.slope);
         }
         (self.sum.spent, self.left) = (watched.spent, watched.left);
+        (self.sum.interval, self.usual) = (watched.interval, watched.usual);
+        self.said = watched.said;
     }
 
     /// Says that steps cannot be divided any more; whether that was not said before.

@@ -49,8 +49,29 @@ pub fn of_tolerance(plan: &Plan, received: &Received) -> Vec<String> {
             "the error at the end is about {error:.1e} of the state, by a second run"
         ));
     }
-    notes.extend(missed(received).map(|warning| format!("warning: {warning}")));
+    let warning = missed(received).or_else(|| moved(plan, received));
+    notes.extend(warning.map(|warning| format!("warning: {warning}")));
     notes
+}
+
+/// An invariant that moved so many times the tolerance says what the steps that were looked at do not.
+const MOVED: f64 = 100.0;
+
+/// What of the rows says that the tolerance is missed.
+fn moved(plan: &Plan, received: &Received) -> Option<String> {
+    let Pace::Tolerance(tolerance) = plan.pace.0 else {
+        return None;
+    };
+    let relative = received.drift.errors().filter(|(_, _, relative)| *relative);
+    let worst = relative.max_by(|a, b| f64::total_cmp(&a.1, &b.1))?;
+    (worst.1 > MOVED * tolerance).then(|| {
+        format!(
+            "{} moved by {} of itself, much more than the tolerance: H may have a kink that steps passed; `--assess` says by how \
+             much the end is off",
+            worst.0,
+            short(worst.1)
+        )
+    })
 }
 
 /// How far the tolerance may be missed, if it may.

@@ -326,7 +326,8 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
     /// ```
     ///
     /// because both the defect of the polynomial and the test function that meets it begin with degree s (superconvergence). It
-    /// is ten to thirty times too large on smooth orbits; infinite where the coefficients do not shrink.
+    /// is ten to thirty times too large on smooth orbits. Where the coefficients do not shrink, as across a kink, the last of
+    /// them are the error.
     pub fn estimate(&mut self) -> S {
         let Self {
             legendre,
@@ -362,7 +363,7 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
         let unseen = high.less_equal(S::epsilon() * S::from_f64(UNSEEN) * most);
         let next = S::select(shrinks, high * ratio, high);
         let error = next / most * (next / size);
-        let error = S::select(shrinks | unseen, error, S::from_f64(f64::INFINITY));
+        let error = S::select(shrinks | unseen, error, high / size);
         S::select(most.less_equal(S::zero()), S::zero(), error)
     }
 

@@ -135,6 +135,9 @@ mod watched {
         #[serde(with = "number")]
         spent: f64,
         left: u32,
+        interval: u32,
+        usual: u32,
+        said: bool,
     }
 
     #[derive(Deserialize, Serialize)]
