@@ -164,15 +164,17 @@ pub fn drawn<'py>(
     let rows: Vec<Vec<f64>> = rows.rows().into_iter().map(|row| row.to_vec()).collect();
     let systems = rows.iter().map(|values| declaration.system(py, values));
     let systems: Vec<_> = systems.collect::<PyResult<_>>()?;
-    if far.is_none() && !(orbits && keeps_norm(&systems[0])) {
+    if far.is_none() && !(orbits && systems.iter().all(keeps_norm)) {
         let text = "the orbits have no uniform distribution in these coordinates: the group does not keep their Euclidean norm\n  help: \
                     give a standard deviation, such as spread=0.1";
         return Err(PyValueError::new_err(text));
     }
-    let numbers = (0..count).flat_map(|member| {
-        let system = &systems[member % systems.len()];
-        draw.state(system, orbits, around, member as u64)
-    });
+    let within: Vec<_> = systems
+        .iter()
+        .map(|system| draw.within(system, orbits))
+        .collect();
+    let numbers =
+        (0..count).flat_map(|member| within[member % within.len()].state(around, member as u64));
     let numbers: Vec<f64> = numbers.collect();
     numbers.into_pyarray(py).reshape([count, around.len()])
 }

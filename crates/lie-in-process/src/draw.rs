@@ -1,7 +1,10 @@
 //! Initial states drawn at random around others, each by its number: the same ones whoever draws them, in whatever order.
 
+mod directions;
+
 use std::f64::consts::PI;
 
+use directions::Directions;
 use lie_dynamic::{Declared, Dynamic};
 use lie_runtime::matrix::SquareMatrix as _;
 use lie_runtime::{LiePoisson, Poisson, Scalar};
@@ -26,8 +29,8 @@ pub enum Spread {
     Orbit,
 }
 
-/// Of a walk over an orbit, so many steps of the standard deviation 1: on so(3) each takes a third of what distinguishes the
-/// distribution from the uniform one.
+/// Of a walk over an orbit so many steps of [`Directions`]. Each leaves about a third of what distinguishes the mean from that of
+/// the uniform distribution, on each simple factor: on so(3) a third, since `E cos` of the angle is 0.
 const WALK: usize = 40;
 /// Steps of a flow that has no closed form.
 const STEPS: usize = 64;
@@ -44,6 +47,42 @@ pub struct Drawn {
 }
 
 impl Draw {
+    /// Draws in a system; `orbits` says whether its space is one of coadjoint orbits.
+    pub fn within<'a>(&self, system: &'a Dynamic<f64>, orbits: bool) -> Within<'a> {
+        let clock = Poisson::<f64>::clock(system).map(|clock| clock.time);
+        let steps = match self.spread {
+            Spread::Normal(deviation) => Steps::Normal(deviation),
+            Spread::Orbit => Steps::Walk(Directions::of(system)),
+        };
+        Within {
+            system,
+            orbits,
+            seed: self.seed,
+            steps,
+            carried: clock.map(|time| [time, time + 1]),
+        }
+    }
+}
+
+/// Draws states in one system.
+pub struct Within<'a> {
+    system: &'a Dynamic<f64>,
+    orbits: bool,
+    seed: u64,
+    steps: Steps,
+    /// The places of what carries the time.
+    carried: Option<[usize; 2]>,
+}
+
+/// What takes a state to another one.
+enum Steps {
+    /// One element with independent coordinates.
+    Normal(f64),
+    /// Many, one after the other.
+    Walk(Directions),
+}
+
+impl Within<'_> {
     /// The state with a number around another one: where the flow of a linear Hamiltonian takes it.
     ///
     /// ```math
@@ -52,45 +91,47 @@ impl Draw {
     ///
     /// On a Lie–Poisson space it is on the coadjoint orbit of the other one, to round-off. Of any other bracket the
     /// flow of `x' = Pi(x) xi` is taken in 64 steps of RK4 to the time 1: it leaves the symplectic leaf by the error of that.
-    /// What carries the time stays. A uniform distribution over an orbit of a compact group is that of a long walk of such steps.
-    pub fn state(
-        &self,
-        system: &Dynamic<f64>,
-        orbits: bool,
-        from: &[f64],
-        number: u64,
-    ) -> Vec<f64> {
+    /// What carries the time stays. A uniform distribution over an orbit of a compact group is that of a long walk, whose steps
+    /// have on each simple factor the size that they have on so(3), whatever the structure constants.
+    pub fn state(&self, from: &[f64], number: u64) -> Vec<f64> {
         let mut source = Source::new(self.seed, number);
-        let (steps, deviation) = match self.spread {
-            Spread::Normal(deviation) => (1, deviation),
-            Spread::Orbit => (WALK, 1.0),
-        };
         let mut state = from.to_vec();
         let mut xi = vec![0.0; state.len()];
-        let clock = Poisson::<f64>::clock(system).map(|clock| clock.time);
-        let carried = |place: usize| clock.is_some_and(|time| place == time || place == time + 1);
-        for _ in 0..steps {
-            for (place, entry) in xi.iter_mut().enumerate() {
-                *entry = match carried(place) {
-                    true => 0.0,
-                    false => deviation * source.normal(),
-                };
-            }
-            state = match orbits {
-                true => {
-                    let mut moved = state.clone();
-                    system.coadjoint_action(&xi, &state, &mut moved);
-                    moved
+        match &self.steps {
+            Steps::Normal(deviation) => {
+                for (place, entry) in xi.iter_mut().enumerate() {
+                    if !self.carries(place) {
+                        *entry = deviation * source.normal();
+                    }
                 }
-                false => along(system, &xi, state),
-            };
+                state = self.moved(&xi, state);
+            }
+            Steps::Walk(directions) => {
+                for _ in 0..WALK {
+                    directions.draw(&mut source, &mut xi);
+                    state = self.moved(&xi, state);
+                }
+            }
         }
         for (place, entry) in state.iter_mut().enumerate() {
-            if carried(place) {
+            if self.carries(place) {
                 *entry = from[place];
             }
         }
         state
+    }
+
+    fn carries(&self, place: usize) -> bool {
+        self.carried.is_some_and(|places| places.contains(&place))
+    }
+
+    fn moved(&self, xi: &Vec<f64>, state: Vec<f64>) -> Vec<f64> {
+        if !self.orbits {
+            return along(self.system, xi, state);
+        }
+        let mut moved = state.clone();
+        self.system.coadjoint_action(xi, &state, &mut moved);
+        moved
     }
 }
 
@@ -179,7 +220,11 @@ mod tests {
 
     fn system(name: &str) -> (Dynamic<f64>, Vec<f64>, bool) {
         let path = format!("{}/../../specs/{name}.json", env!("CARGO_MANIFEST_DIR"));
-        let model = compile_spec(&std::fs::read_to_string(path).unwrap()).unwrap();
+        system_of(&std::fs::read_to_string(path).unwrap())
+    }
+
+    fn system_of(text: &str) -> (Dynamic<f64>, Vec<f64>, bool) {
+        let model = compile_spec(text).unwrap();
         let declared = crate::declared(&model).unwrap();
         let system = declared.system(&model.defaults()).unwrap();
         let initial = system.initial_state().unwrap();
@@ -210,7 +255,7 @@ mod tests {
             let expected = casimirs(&system, &initial);
             let mut far = 0.0_f64;
             for number in 0..100 {
-                let state = draw.state(&system, orbits, &initial, number);
+                let state = draw.within(&system, orbits).state(&initial, number);
                 for (found, expected) in casimirs(&system, &state).iter().zip(&expected) {
                     let error = (found - expected).abs() / (1.0 + expected.abs());
                     let most = if orbits { 1e-13 } else { 1e-8 };
@@ -218,7 +263,7 @@ mod tests {
                 }
                 let moved = state.iter().zip(&initial).map(|(a, b)| (a - b).abs());
                 far = moved.fold(far, f64::max);
-                assert_eq!(state, draw.state(&system, orbits, &initial, number));
+                assert_eq!(state, draw.within(&system, orbits).state(&initial, number));
             }
             assert!(far > 0.01, "{name}, {spread:?}: {far}");
         }
@@ -237,8 +282,9 @@ mod tests {
             };
             let norm = initial.iter().map(|x| x * x).sum::<f64>();
             let mut moments = [0.0; 6];
+            let within = draw.within(&system, orbits);
             for number in 0..count as u64 {
-                let state = draw.state(&system, orbits, &initial, number);
+                let state = within.state(&initial, number);
                 for i in 0..3 {
                     moments[i] += state[i] / norm.sqrt() / count as f64;
                     moments[3 + i] += state[i] * state[i] / norm / count as f64;
@@ -254,5 +300,139 @@ mod tests {
         };
         assert!(even(moments(Spread::Orbit)), "{:?}", moments(Spread::Orbit));
         assert!(!even(moments(Spread::Normal(1.0))), "the control");
+    }
+
+    /// A spec by structure constants: of each bracket the factor, with the indices of basis elements.
+    fn by_constants(size: usize, brackets: &[(usize, usize, &str, usize)]) -> String {
+        let basis = (1..=size).map(|k| format!("\"e{k}\""));
+        let state = (1..=size).map(|k| format!("\"x{k}\""));
+        // a start that is not the same along all of them
+        let initial = (1..=size).map(|k| format!("\"{}/3\"", k % 3 + k / 4));
+        let mut sums = std::collections::BTreeMap::<_, Vec<String>>::new();
+        for (i, j, factor, k) in brackets {
+            for (i, j, k) in [(i, j, k), (j, k, i), (k, i, j)] {
+                let (pair, sign) = if i < j { ((i, j), "") } else { ((j, i), "-") };
+                sums.entry(pair)
+                    .or_default()
+                    .push(format!("{sign}{factor}*e{k}"));
+            }
+        }
+        let brackets = sums.iter().map(|((i, j), sum)| {
+            format!(
+                "\"[e{i}, e{j}] = {}\"",
+                sum.join(" + ").replace("+ -", "- ")
+            )
+        });
+        let list = |items: &mut dyn Iterator<Item = String>| items.collect::<Vec<_>>().join(", ");
+        format!(
+            "{{\"format\": 1, \"name\": \"Scaled\", \"algebra\": {{\"basis\": [{}], \"brackets\": [{}]}}, \"state\": [{}], \
+             \"hamiltonian\": \"x1^2 + 2*x2^2\", \"initial\": [{}]}}",
+            list(&mut basis.into_iter()),
+            list(&mut brackets.into_iter()),
+            list(&mut state.into_iter()),
+            list(&mut initial.into_iter()),
+        )
+    }
+
+    /// The largest mean of a coordinate, in standard deviations of it.
+    fn uneven(states: impl Iterator<Item = Vec<f64>>) -> f64 {
+        let states: Vec<_> = states.collect();
+        let count = states.len() as f64;
+        let of = |k: usize| {
+            let mean = states.iter().map(|state| state[k]).sum::<f64>() / count;
+            let square = states
+                .iter()
+                .map(|state| (state[k] - mean).powi(2))
+                .sum::<f64>();
+            mean.abs() / (square / (count * (count - 1.0))).sqrt()
+        };
+        (0..states[0].len()).map(of).fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn an_orbit_is_covered_whatever_the_structure_constants() {
+        // e1 + e4 and e1 - e4 and so on, of [e1, e2] = e3 and [e4, e5] = e6 / 50
+        let mixed: Vec<_> = (0..8)
+            .map(|bits: usize| {
+                let [a, b, c] = [0, 1, 2].map(|bit| bits >> bit & 1);
+                let odd = (a + b + c) % 2 == 1;
+                (
+                    1 + 3 * a,
+                    2 + 3 * b,
+                    if odd { "49/100" } else { "51/100" },
+                    3 + 3 * c,
+                )
+            })
+            .collect();
+        for (name, size, brackets) in [
+            ("small so(3)", 3, vec![(1, 2, "1/100", 3)]),
+            ("tiny so(3)", 3, vec![(1, 2, "1/1000000000000", 3)]),
+            ("large so(3)", 3, vec![(1, 2, "300", 3)]),
+            ("two scales", 6, vec![(1, 2, "1/100", 3), (4, 5, "7", 6)]),
+            (
+                "two scales and a center",
+                7,
+                vec![(1, 3, "1/100", 4), (5, 6, "7", 7)],
+            ),
+            ("mixed", 6, mixed),
+        ] {
+            let (system, initial, orbits) = system_of(&by_constants(size, &brackets));
+            assert!(orbits && keeps_norm(&system), "{name}");
+            let draw = Draw {
+                count: 2000,
+                seed: 3,
+                spread: Spread::Orbit,
+            };
+            let within = draw.within(&system, orbits);
+            let still = |k: usize| {
+                brackets
+                    .iter()
+                    .all(|(a, b, _, c)| ![*a, *b, *c].contains(&(k + 1)))
+            };
+            let moving: Vec<usize> = (0..size).filter(|k| !still(*k)).collect();
+            let part = |state: Vec<f64>| moving.iter().map(|k| state[*k]).collect::<Vec<f64>>();
+            let found = uneven((0..2000).map(|number| part(within.state(&initial, number))));
+            assert!(found < 4.0, "{name}: {found}");
+            // the control: steps of the deviation 1 in each coordinate
+            let plain = (0..2000).map(|number| {
+                let (mut source, mut state) = (Source::new(3, number), initial.clone());
+                for _ in 0..WALK {
+                    let xi: Vec<f64> = state.iter().map(|_| source.normal()).collect();
+                    state = within.moved(&xi, state);
+                }
+                part(state)
+            });
+            assert!(
+                name.starts_with("large") || uneven(plain) > 8.0,
+                "{name}: the control"
+            );
+        }
+    }
+
+    #[test]
+    fn an_orbit_of_higher_rank_is_covered() {
+        for (algebra, size) in [("so(5)", 10), ("so(4)", 6)] {
+            let state = (0..size)
+                .map(|k| format!("\"x{k}\""))
+                .collect::<Vec<_>>()
+                .join(", ");
+            let initial = (0..size)
+                .map(|k| (k % 3).to_string())
+                .collect::<Vec<_>>()
+                .join(", ");
+            let (system, initial, orbits) = system_of(&format!(
+                "{{\"format\": 1, \"name\": \"Large\", \"algebra\": \"{algebra}\", \"state\": [{state}], \"hamiltonian\": \"x1^2\", \
+                 \"initial\": [{initial}]}}"
+            ));
+            assert!(keeps_norm(&system), "{algebra}");
+            let draw = Draw {
+                count: 2000,
+                seed: 3,
+                spread: Spread::Orbit,
+            };
+            let within = draw.within(&system, orbits);
+            let found = uneven((0..2000).map(|number| within.state(&initial, number)));
+            assert!(found < 4.0, "{algebra}: {found}");
+        }
     }
 }

@@ -72,12 +72,11 @@ impl Cast {
                 // that parameters are impossible, each member says itself
                 Some((drawn, drawn.declared.system(of(start)).ok()?))
             });
-            let state = |member: usize| match &drawn {
+            let drawn = drawn.as_ref();
+            let within = drawn.map(|(drawn, system)| drawn.draw.within(system, drawn.orbits));
+            let state = |member: usize| match &within {
                 None => from.clone(),
-                Some((drawn, system)) => {
-                    let number = (member - whole.start) as u64;
-                    drawn.draw.state(system, drawn.orbits, from, number)
-                }
+                Some(within) => within.state(from, (member - whole.start) as u64),
             };
             own.map(state).collect::<Vec<_>>()
         });

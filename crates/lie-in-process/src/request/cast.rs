@@ -100,11 +100,19 @@ pub fn cast(spec: &Spec, request: &Request, drawing: Drawing<'_>) -> Result<Aske
         ))]);
     }
     let drawn = draw.map(|draw| drawn(spec, draw)).transpose()?;
-    let first = &points[0].1.parameters;
-    if drawn
-        .as_ref()
-        .is_some_and(|drawn| !has_distribution(drawn, first))
-    {
+    let of_all = |values: &Vec<f64>| points.iter().all(|(_, point)| point.parameters == *values);
+    let parameters = match points.first() {
+        Some((_, first)) if of_all(&first.parameters) => vec![first.parameters.clone()],
+        _ => points
+            .iter()
+            .map(|(_, point)| point.parameters.clone())
+            .collect(),
+    };
+    let lacks = |drawn: &Drawn| {
+        let mut values = parameters.iter();
+        !values.all(|values| has_distribution(drawn, values))
+    };
+    if drawn.as_ref().is_some_and(lacks) {
         let given = drawing
             .spread
             .cloned()
@@ -116,14 +124,6 @@ pub fn cast(spec: &Spec, request: &Request, drawing: Drawing<'_>) -> Result<Aske
             message.help(format!("give a standard deviation, such as {example}")),
         ]);
     }
-    let of_all = |values: &Vec<f64>| points.iter().all(|(_, point)| point.parameters == *values);
-    let parameters = match points.first() {
-        Some((_, first)) if of_all(&first.parameters) => vec![first.parameters.clone()],
-        _ => points
-            .iter()
-            .map(|(_, point)| point.parameters.clone())
-            .collect(),
-    };
     Ok(Asked {
         ends: request.every.is_none() && request.at.is_none(),
         plan,
