@@ -385,6 +385,15 @@ fn a_signal_leaves_members() {
     let run = ended(child);
     assert_eq!(run.code, Some(130), "{}", run.stderr);
     assert!(
+    // one with the numbers of another
+    fs::copy(path("2"), path("3")).expect("copied");
+    let run = merge(&["1", "2", "3", "4"]);
+    assert_eq!(run.code, Some(1), "{}", run.stderr);
+    for text in ["3.npy", "not those of share 3 of 4", "--shard 3/4"] {
+        assert!(run.stderr.contains(text), "{text}\n{}", run.stderr);
+    }
+    assert_eq!(record(&path("merged"))["complete"], false);
+    fs::remove_file(path("merged")).expect("it is there");
         run.stderr.contains("of 100000000 members are written"),
         "{}",
         run.stderr

@@ -35,7 +35,9 @@ impl Key {
         Self::new().bytes(bytes).hex()
     }
 
-    fn bytes(mut self, bytes: &[u8]) -> Self {
+    /// Adds bytes of a text that comes in parts: how it is cut makes no difference.
+    #[must_use]
+    pub fn bytes(mut self, bytes: &[u8]) -> Self {
         for &byte in bytes {
             self.0 = (self.0 ^ u128::from(byte)).wrapping_mul(Self::PRIME);
         }

@@ -70,6 +70,9 @@ pub struct Record {
     pub quantiles: Vec<f64>,
     /// The members that ended early.
     pub failures: Vec<Failed>,
+    /// A digest of the numbers of the share, once all are in the file.
+    #[serde(default)]
+    pub numbers: Option<String>,
 }
 
 /// A member that ended early.
@@ -86,7 +89,7 @@ pub struct Failed {
 
 impl Record {
     /// The form that is written today.
-    pub const FORMAT: u64 = 1;
+    pub const FORMAT: u64 = 2;
 
     /// How the ensemble differs from that of another share, if it does.
     pub fn differs(&self, other: &Self) -> Option<String> {
@@ -119,6 +122,7 @@ impl Record {
                 share: Share::WHOLE,
                 complete: true,
                 failures: Vec::new(),
+                numbers: None,
                 ..one.clone()
             };
             (plain(self) != plain(other)).then(|| "what was asked for differs".to_owned())

@@ -2,6 +2,7 @@
 
 use std::io;
 
+use lie_in_process::key::Key;
 use lie_in_process::members::Member;
 use lie_in_process::reduce::Moments;
 use lie_in_process::share::{Failed, Record};
@@ -21,6 +22,8 @@ pub struct Gathering {
     places: Vec<usize>,
     /// How many members were taken.
     taken: usize,
+    /// Of their numbers.
+    key: Key,
 }
 
 impl Gathering {
@@ -39,6 +42,7 @@ impl Gathering {
             record,
             places,
             taken: 0,
+            key: Key::new(),
         })
     }
 
@@ -88,6 +92,9 @@ impl Gathering {
                 .chunks_exact(size)
                 .for_each(|member| moments.push(member));
         }
+        for number in numbers {
+            self.key = std::mem::take(&mut self.key).bytes(&number.to_le_bytes());
+        }
         self.rows.open(&Run::default())?;
         self.rows.push(numbers)
     }
@@ -113,6 +120,7 @@ impl Gathering {
             .map_or((Vec::new(), Vec::new()), Moments::found);
         self.rest.reduce(&self.record, found)?;
         self.record.complete = true;
+        self.record.numbers = Some(self.key.hex());
         self.rest.say(&self.record)?;
         Ok(self.record)
     }

@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::{self, BufReader, Read as _};
 use std::path::Path;
 
+use lie_in_process::key::Key;
 use lie_in_process::share::{Record, Share};
 use lie_in_process::words::counted;
 use lie_syntax::diagnostic::Kind;
@@ -45,6 +46,7 @@ pub fn run(arguments: &args::Merge) -> Result<u8, Failure> {
         failures: Vec::new(),
         complete: false,
         ..parts[0].record.clone()
+        numbers: None,
     };
     let failures = parts
         .iter()
@@ -211,7 +213,7 @@ fn is_whole(part: &Part<'_>) -> Result<(), Failure> {
     }
 }
 
-/// Takes the members of a share.
+/// Takes the members of a share, and sees whether they are those that its record speaks of.
 fn copy(part: &Part<'_>, gathering: &mut Gathering, out: &Path) -> Result<(), Failure> {
     let record = &part.record;
     let size = record.shape().iter().product::<usize>().max(1);
@@ -233,5 +235,17 @@ fn copy(part: &Part<'_>, gathering: &mut Gathering, out: &Path) -> Result<(), Fa
         pushed.map_err(|error| writing_failed(Some(out), &error))?;
         left -= some;
     }
-    Ok(())
+    if record.numbers == Some(key.hex()) {
+        return Ok(());
+    }
+    let Share { number, of } = record.share;
+    let text = format!(
+        "the numbers in this file are not those of share {number} of {of}: it was changed, or another file was copied over it"
+    );
+    let help = format!("run it by `lie ensemble … --shard {number}/{of}`, and merge again");
+    Err(Failure::surroundings(
+        Message::io(part.path, text).help(help),
+    ))
 }
+    let mut key = Key::new();
+        key = key.bytes(&bytes);

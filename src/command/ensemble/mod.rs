@@ -282,6 +282,7 @@ fn record(
 }
 
 /// A digest of the spec and of the files that it reads.
+        numbers: None,
 fn digest_of_spec(path: &Path, spec: &Spec) -> Result<String, Failure> {
     let text = &spec.source.text;
     let folder = path.parent().unwrap_or(Path::new(""));
