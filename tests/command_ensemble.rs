@@ -473,4 +473,5 @@ fn mistakes_have_a_place_and_a_remedy() {
     let call = "specs/se3_heavy_top.json --members 10 --spread orbit";
     lie(&format!("ensemble {call} --out {}", out.display()))
         .error("option", "command line: --spread");
+        ("--members 10 --assess", "--assess"),
 }

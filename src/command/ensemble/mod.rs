@@ -168,6 +168,11 @@ fn check(flags: &args::Ensemble) -> Result<(), Failure> {
         let help = "leave it out, or follow the members one by one with `lie run`";
         mistakes.push(Message::option("--group", text).help(help));
     }
+    if flags.request.assess {
+        let text = "the errors of members are not assessed";
+        let help = "leave it out, or run some members by `lie run --assess`";
+        mistakes.push(Message::option("--assess", text).help(help));
+    }
     if flags.quantiles.is_some() && !flags.reduce.contains(&Reduce::Quantiles) {
         let message = Message::option("--quantiles", "no quantiles are computed");
         mistakes.push(message.help("ask for them by `--reduce quantiles`"));
@@ -277,12 +282,12 @@ fn record(
         reduce: reduce.collect(),
         quantiles,
         failures: Vec::new(),
+        numbers: None,
     };
     Ok((record, places))
 }
 
 /// A digest of the spec and of the files that it reads.
-        numbers: None,
 fn digest_of_spec(path: &Path, spec: &Spec) -> Result<String, Failure> {
     let text = &spec.source.text;
     let folder = path.parent().unwrap_or(Path::new(""));
