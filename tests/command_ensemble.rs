@@ -312,6 +312,40 @@ fn lost_shares_are_named() {
         &["share 2 is given twice"],
     );
     refused(merge(&["1", "none"]), 1, &["none.npy"]);
+    // of very many shares the gaps are named, and not more than some
+    let far = |number: u64, of: u64| {
+        let name = format!("far{number}");
+        let rest = format!(
+            "--shard {number}/{of} --quiet --out {}",
+            path(&name).display()
+        );
+        lie(&format!("ensemble {BODY} {DRAWN} {rest}")).ok();
+        name
+    };
+    let last = u64::MAX;
+    let name = far(last, last);
+    let gap = format!(
+        "shares 1 to {} of {last} are missing: members 0 to 498",
+        last - 1
+    );
+    refused(merge(&[&name]), 1, &[&gap, &format!("--shard 1/{last}")]);
+    let every_third: Vec<String> = (1..=15).map(|k| far(3 * k, 60)).collect();
+    let names: Vec<&str> = every_third.iter().map(String::as_str).collect();
+    let run = merge(&names);
+    assert_eq!(
+        run.stderr.matches("are missing").count(),
+        10,
+        "{}",
+        run.stderr
+    );
+    refused(
+        run,
+        1,
+        &[
+            "shares 28 to 29 of 60 are missing: members 225 to 240",
+            "of 25 more shares",
+        ],
+    );
     // another seed, another spec, another number of shares, the whole
     for (flags, what) in [
         (
@@ -455,6 +489,12 @@ fn mistakes_have_a_place_and_a_remedy() {
         assert!(!out.exists(), "{flags}");
     }
     let to = |name: &str| lie(&format!("ensemble {BODY} --members 10 --out {name}"));
+    let none = lie(&format!(
+        "ensemble {BODY} --members 0 --out {}",
+        out.display()
+    ));
+    assert!(none.stderr.contains("--members 1000"), "{}", none.stderr);
+    assert!(!none.stderr.contains("every tenth"), "{}", none.stderr);
     to("rows.csv").error("option", "command line: --out");
     let wide = "--members 10 --spread wide --out x.npy";
     lie(&format!("ensemble {BODY} {wide}")).error("number", "command line: --spread");

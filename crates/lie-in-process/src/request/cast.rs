@@ -169,7 +169,9 @@ fn draw(
         };
     };
     let members = OptionValue::value(&front.option("members"), members);
-    let count = planner.keep(members.count());
+    let example = front.assignment("members", "1000");
+    let many = |message: Message| message.help(format!("say how many, such as {example}"));
+    let count = planner.keep(members.count().map_err(many));
     let spread = match drawing.spread {
         None => Some(Spread::Normal(SPREAD)),
         Some(Value::Text(text)) if text.trim() == "orbit" => Some(Spread::Orbit),
