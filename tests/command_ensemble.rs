@@ -385,6 +385,15 @@ fn lost_shares_are_named() {
         1,
         &["the members of share 3 of 4 are not in this file"],
     );
+    // one with the numbers of another
+    fs::copy(path("2"), path("3")).expect("copied");
+    let run = merge(&["1", "2", "3", "4"]);
+    assert_eq!(run.code, Some(1), "{}", run.stderr);
+    for text in ["3.npy", "not those of share 3 of 4", "--shard 3/4"] {
+        assert!(run.stderr.contains(text), "{text}\n{}", run.stderr);
+    }
+    assert_eq!(record(&path("merged"))["complete"], false);
+    fs::remove_file(path("merged")).expect("it is there");
     // one that was killed on its way, where there was a whole one before
     let long = DRAWN.replace("--members 500", "--members 100000000");
     let out = path("4").display().to_string();
@@ -419,15 +428,6 @@ fn a_signal_leaves_members() {
     let run = ended(child);
     assert_eq!(run.code, Some(130), "{}", run.stderr);
     assert!(
-    // one with the numbers of another
-    fs::copy(path("2"), path("3")).expect("copied");
-    let run = merge(&["1", "2", "3", "4"]);
-    assert_eq!(run.code, Some(1), "{}", run.stderr);
-    for text in ["3.npy", "not those of share 3 of 4", "--shard 3/4"] {
-        assert!(run.stderr.contains(text), "{text}\n{}", run.stderr);
-    }
-    assert_eq!(record(&path("merged"))["complete"], false);
-    fs::remove_file(path("merged")).expect("it is there");
         run.stderr.contains("of 100000000 members are written"),
         "{}",
         run.stderr
@@ -473,6 +473,7 @@ fn mistakes_have_a_place_and_a_remedy() {
         ("--members 10 --shard 3/2", "--shard"),
         ("--members 10 --method rk4 --method gauss4", "--method"),
         ("--members 10 --group matrix", "--group"),
+        ("--members 10 --assess", "--assess"),
         ("--members 10 --reduce mean --quantiles 0.5", "--quantiles"),
         (
             "--members 10 --reduce quantiles --quantiles 0.5,2",
@@ -488,13 +489,13 @@ fn mistakes_have_a_place_and_a_remedy() {
         run.error("option", &format!("command line: {place}"));
         assert!(!out.exists(), "{flags}");
     }
-    let to = |name: &str| lie(&format!("ensemble {BODY} --members 10 --out {name}"));
     let none = lie(&format!(
         "ensemble {BODY} --members 0 --out {}",
         out.display()
     ));
     assert!(none.stderr.contains("--members 1000"), "{}", none.stderr);
     assert!(!none.stderr.contains("every tenth"), "{}", none.stderr);
+    let to = |name: &str| lie(&format!("ensemble {BODY} --members 10 --out {name}"));
     to("rows.csv").error("option", "command line: --out");
     let wide = "--members 10 --spread wide --out x.npy";
     lie(&format!("ensemble {BODY} {wide}")).error("number", "command line: --spread");
@@ -513,5 +514,4 @@ fn mistakes_have_a_place_and_a_remedy() {
     let call = "specs/se3_heavy_top.json --members 10 --spread orbit";
     lie(&format!("ensemble {call} --out {}", out.display()))
         .error("option", "command line: --spread");
-        ("--members 10 --assess", "--assess"),
 }

@@ -21,6 +21,8 @@ use crate::render;
 
 /// Numbers that are read at a time.
 const CHUNK: usize = 1 << 16;
+/// So many of the gaps between shares are named.
+const NAMED: usize = 10;
 
 /// A share on the disk.
 struct Part<'a> {
@@ -44,9 +46,9 @@ pub fn run(arguments: &args::Merge) -> Result<u8, Failure> {
     let mut record = Record {
         share: Share::WHOLE,
         failures: Vec::new(),
+        numbers: None,
         complete: false,
         ..parts[0].record.clone()
-        numbers: None,
     };
     let failures = parts
         .iter()
@@ -151,37 +153,90 @@ fn belong(parts: &[Part<'_>]) -> Result<(), Failure> {
     }
 }
 
+/// Shares that lie side by side: missing, or one that did not come to its end, in its file.
+struct Lost<'a> {
+    first: u64,
+    last: u64,
+    file: Option<&'a Path>,
+}
+
 /// Names the shares that are missing, and those that did not come to their end.
 fn lost(parts: &[Part<'_>]) -> Result<(), Failure> {
     let (of, members) = (parts[0].record.share.of, parts[0].record.members);
-    let mut all = parts.iter().peekable();
-    let mut messages = Vec::new();
-    for number in 1..=of {
-        let range = Share { number, of }.members(members);
-        let part = all.next_if(|part| part.record.share.number == number);
-        let (what, place) = match part {
-            Some(part) if part.record.complete => continue,
-            Some(part) => {
-                let place = Place::File(part.path.display().to_string());
-                ("did not come to its end", place)
-            }
-            None => ("is missing", Place::None),
-        };
-        let which = match range.len() {
-            0 => "no members".to_owned(),
-            _ => format!("members {} to {}", range.start, range.end - 1),
-        };
-        let text = format!("share {number} of {of} {what}: {which}");
-        let message = Message::new(Kind::Io, text).at_place(place);
-        let help = format!("run it by `lie ensemble … --shard {number}/{of}`, and merge again");
-        messages.push(message.help(help));
+    let mut all = Vec::new();
+    let mut before = 0;
+    let missing = |before: u64, next: u64| Lost {
+        first: before + 1,
+        last: next,
+        file: None,
+    };
+    for part in parts {
+        let number = part.record.share.number;
+        if number - before > 1 {
+            all.push(missing(before, number - 1));
+        }
+        if !part.record.complete {
+            all.push(Lost {
+                first: number,
+                last: number,
+                file: Some(part.path),
+            });
+        }
+        before = number;
     }
-    match messages.is_empty() {
-        true => Ok(()),
-        false => Err(Failure {
-            messages,
-            code: crate::message::SURROUNDINGS,
-        }),
+    if before < of {
+        all.push(missing(before, of));
+    }
+    if all.is_empty() {
+        return Ok(());
+    }
+    let (named, more) = all.split_at(all.len().min(NAMED));
+    let named = named.iter().map(|lost| lost.message(of, members));
+    let mut messages: Vec<Message> = named.collect();
+    let more: u64 = more.iter().map(|lost| lost.last - lost.first + 1).sum();
+    if more > 0 {
+        let more = counted(more, "more share");
+        let text = format!("of {more} the members are lost too");
+        messages.push(Message::new(Kind::Io, text).help("merge again to have them named"));
+    }
+    Err(Failure {
+        messages,
+        code: crate::message::SURROUNDINGS,
+    })
+}
+
+impl Lost<'_> {
+    fn message(&self, of: u64, members: usize) -> Message {
+        let &Self { first, last, file } = self;
+        let start = Share { number: first, of }.members(members).start;
+        let end = Share { number: last, of }.members(members).end;
+        let which = match end - start {
+            0 => "no members".to_owned(),
+            1 => format!("member {start}"),
+            _ => format!("members {start} to {}", end - 1),
+        };
+        let (shares, help) = match first == last {
+            true => (
+                format!("share {first} of {of}"),
+                format!("run it by `lie ensemble … --shard {first}/{of}`, and merge again"),
+            ),
+            false => (
+                format!("shares {first} to {last} of {of}"),
+                format!(
+                    "run them by `lie ensemble … --shard {first}/{of}` and so on, and merge again"
+                ),
+            ),
+        };
+        let (what, place) = match file {
+            Some(path) => (
+                "did not come to its end",
+                Place::File(path.display().to_string()),
+            ),
+            None if first == last => ("is missing", Place::None),
+            None => ("are missing", Place::None),
+        };
+        let text = format!("{shares} {what}: {which}");
+        Message::new(Kind::Io, text).at_place(place).help(help)
     }
 }
 
@@ -224,10 +279,12 @@ fn copy(part: &Part<'_>, gathering: &mut Gathering, out: &Path) -> Result<(), Fa
     let mut file = BufReader::with_capacity(1 << 20, File::open(part.path).map_err(unread)?);
     file.seek_relative(npy::LENGTH as i64).map_err(unread)?;
     let mut left = record.share.members(record.members).len();
+    let mut key = Key::new();
     while left > 0 {
         let some = left.min((CHUNK / size).max(1));
         let mut bytes = vec![0; 8 * some * size];
         file.read_exact(&mut bytes).map_err(unread)?;
+        key = key.bytes(&bytes);
         let numbers = bytes.chunks_exact(8);
         let number = |bytes: &[u8]| bytes.try_into().map_or(f64::NAN, f64::from_le_bytes);
         let numbers: Vec<f64> = numbers.map(number).collect();
@@ -247,5 +304,3 @@ fn copy(part: &Part<'_>, gathering: &mut Gathering, out: &Path) -> Result<(), Fa
         Message::io(part.path, text).help(help),
     ))
 }
-    let mut key = Key::new();
-        key = key.bytes(&bytes);
