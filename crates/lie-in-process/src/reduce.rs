@@ -177,7 +177,8 @@ pub fn quantiles<R: Read>(
     let mut bytes = vec![0; columns * 8];
     for first in (0..columns).step_by(at_once) {
         let last = (first + at_once).min(columns);
-        let mut sets = vec![Vec::with_capacity(members); last - first];
+        let empty = |_| Vec::with_capacity(members);
+        let mut sets: Vec<Vec<f64>> = (first..last).map(empty).collect();
         let mut numbers = again()?;
         for _ in 0..members {
             numbers.read_exact(&mut bytes)?;
