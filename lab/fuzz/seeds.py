@@ -55,7 +55,7 @@ def array(rows, columns, kind="<f8"):
 def messages():
     rows = struct.pack("<6d", *(0.5 * k for k in range(6)))
     columns = {"columns": {"coordinates": ["x"], "casimirs": [], "element": 0}}
-    said = [{"progress": {"done": 1, "all": 2}}, {"found": columns}, {"found": {"divided": {"parts": 2, "time": 0.5}}}]
+    said = [{"progress": {"done": 1, "all": 2}}, {"found": columns}, {"found": {"shortened": {"step": 0.25, "time": 0.5}}}]
     lines = "".join(json.dumps(message) + "\n" for message in said).encode()
     yield lines + b'{"found":{"rows":{"count":2,"width":3}}}\n' + rows + b'{"end":"done"}\n'
     run = {"method": "rk4", "start": {"parameters": {"k": 1.5}, "initial": [0.5, 1]}, "pace": {"step": 0.1}, "from": 0,
