@@ -409,7 +409,7 @@ fn lost_shares_are_named() {
         1,
         &[
             "share 4 of 4 did not come to its end",
-            "share 1 of 4 is missing",
+            "shares 1 to 3 of 4 are missing",
         ],
     );
 }
