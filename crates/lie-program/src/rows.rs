@@ -116,7 +116,7 @@ impl<'s, 'o> RowWriter<'s, 'o> {
             (self.last, self.said) = (milestone.index, Instant::now());
             self.write_block();
             let milestone = Milestone::new(milestone, element);
-            self.session.found(Found::Milestone(milestone));
+            self.session.found(Found::Milestone(Box::new(milestone)));
         }
     }
 

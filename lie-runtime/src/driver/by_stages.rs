@@ -66,6 +66,13 @@ pub(super) struct Staged<T, V> {
     pub(super) begun: Option<Begun<T, V>>,
 }
 
+/// The same of a method and a system.
+pub(super) type FirstStep<'s, S, P, M> =
+    Begun<<M as Method<S, P>>::Stepper<'s>, <P as Poisson<S>>::State>;
+/// The same.
+pub(super) type FirstStaged<'s, S, P, M> =
+    Staged<<M as Method<S, P>>::Stepper<'s>, <P as Poisson<S>>::State>;
+
 /// What a step that was tried has come to.
 enum Tried<T, V> {
     /// Of the number of steps, so many would do.
@@ -100,7 +107,7 @@ impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'a, S, P, M> {
         &self,
         span: f64,
         pulse: Option<&Pulse>,
-    ) -> Result<Option<Staged<M::Stepper<'a>, P::State>>, IntegrateError> {
+    ) -> Result<Option<FirstStaged<'a, S, P, M>>, IntegrateError> {
         let system = &self.problem.system;
         let mut mu = self.problem.start();
         let time = self.time(span, pulse.map_or(0.0, |pulse| pulse.after));
@@ -133,7 +140,7 @@ impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'a, S, P, M> {
         span: f64,
         place: &Place<'s, '_, S, P>,
         longest: f64,
-    ) -> Result<Option<Staged<M::Stepper<'s>, P::State>>, IntegrateError> {
+    ) -> Result<Option<FirstStaged<'s, S, P, M>>, IntegrateError> {
         let mut field = place.system.zero_state();
         place.system.vector_field(place.mu, &mut field);
         let rate = largest(place.system.norm(&field) / place.system.norm(place.mu));

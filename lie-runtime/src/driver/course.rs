@@ -397,7 +397,7 @@ impl<'r, M> Course<'r, M> {
             Change::Times(factor) => {
                 let here = (self.index, self.grid.time(self.index));
                 let steps = self.steps_left(self.index, factor);
-                self.grid = self.grid.from_there(here, steps);
+                self.grid = self.grid.going_on_with(here, steps);
                 self.parts = 1;
             }
         }

@@ -82,7 +82,7 @@ impl Grid {
     }
 
     /// The same up to a point, and from there on with so many steps to the end.
-    pub(super) fn from_there(self, (index, time): (u64, f64), steps: u64) -> Self {
+    pub(super) fn going_on_with(self, (index, time): (u64, f64), steps: u64) -> Self {
         let steps = steps.max(1);
         Self {
             step: (self.end - time) / steps as f64,
@@ -377,7 +377,9 @@ mod tests {
     /// A grid whose step changes: rows of steps, of times and of an interval, and the end, which is met exactly.
     #[test]
     fn a_step_may_change_on_the_way() {
-        let grid = Grid::new((0.0, 1.0), 0.25).unwrap().from_there((2, 0.5), 3);
+        let grid = Grid::new((0.0, 1.0), 0.25)
+            .unwrap()
+            .going_on_with((2, 0.5), 3);
         let of = |save: &Save| -> Vec<(Place, f64)> {
             let rows = grid.rows(save).unwrap().from(2);
             rows.map(|row| (row.place, row.time)).collect()
@@ -399,7 +401,7 @@ mod tests {
         assert_eq!(all.map(|row| row.time).collect::<Vec<_>>(), [0.0, 0.6, 1.0]);
         let back = Grid::new((0.1, -0.2), -0.1)
             .unwrap()
-            .from_there((1, 0.0), 7);
+            .going_on_with((1, 0.0), 7);
         assert_eq!((back.time(8), back.steps()), (-0.2, 8));
     }
 

@@ -98,7 +98,7 @@ impl<M> Course<'_, M> {
         } = *milestone;
         let grid = match division.shortened {
             None => self.grid,
-            Some((first, time, steps)) => self.grid.from_there((first, time), steps),
+            Some((first, time, steps)) => self.grid.going_on_with((first, time), steps),
         };
         let beyond = division.shortened.is_some_and(|(first, time, steps)| {
             !self.divides || first > index || !time.is_finite() || steps > UNCOUNTED

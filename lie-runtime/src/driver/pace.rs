@@ -14,7 +14,7 @@
 //! Reference: E. Hairer, S. P. Nørsett, G. Wanner, "Solving Ordinary Differential Equations I", 2nd edition, Springer
 //! 1993, section II.4, [doi:10.1007/978-3-540-78862-1](https://doi.org/10.1007/978-3-540-78862-1).
 
-use super::by_stages::{Begun, Staged};
+use super::by_stages::{FirstStaged, FirstStep, Staged};
 use super::options::{OptionError, Options, Pace};
 use super::problem::Problem;
 use super::pulse::{Pulse, pulse};
@@ -90,7 +90,7 @@ pub(super) struct Settled<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> {
     /// None of methods that choose their own steps.
     pub(super) watch: Option<Watch<S, P>>,
     /// The first step, where it is made.
-    pub(super) begun: Option<Begun<M::Stepper<'a>, P::State>>,
+    pub(super) begun: Option<FirstStep<'a, S, P, M>>,
 }
 
 impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Settled<'a, S, P, M> {
@@ -100,17 +100,15 @@ impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Settled<'a, S, P, M> {
     }
 
     /// What looks after the run, and its first step.
-    pub(super) fn begin(
-        self,
-    ) -> (
-        Option<Guard<'a, S, P, M>>,
-        Option<Begun<M::Stepper<'a>, P::State>>,
-    ) {
+    pub(super) fn begin(self) -> Begins<'a, S, P, M> {
         let trial = self.trial;
         let guard = self.watch.map(|watch| Guard { watch, trial });
         (guard, self.begun)
     }
 }
+
+/// What looks after a run, and its first step.
+type Begins<'a, S, P, M> = (Option<Guard<'a, S, P, M>>, Option<FirstStep<'a, S, P, M>>);
 
 /// A step, and how it was chosen if it was.
 type Paced<'a, S, P, M> = (f64, Option<Settled<'a, S, P, M>>);
@@ -213,7 +211,7 @@ fn by_stages<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>>(
     trial: &Trial<'a, S, P, M>,
     span: f64,
     pulse: Option<&Pulse>,
-) -> Result<Option<Staged<M::Stepper<'a>, P::State>>, IntegrateError> {
+) -> Result<Option<FirstStaged<'a, S, P, M>>, IntegrateError> {
     let Some(mut found) = trial.by_stages(span, None)? else {
         return Ok(None);
     };

@@ -170,7 +170,7 @@ impl<'a, 'p> Reception<'a, 'p> {
             Found::Between(rows) => self.between(&rows.numbers),
             Found::Milestone(milestone) => {
                 if let Some(keeper) = &mut self.keeper {
-                    keeper.keep(milestone, self.rows, &self.received)?;
+                    keeper.keep(*milestone, self.rows, &self.received)?;
                 }
             }
             Found::Work(work) => self.received.work = work,

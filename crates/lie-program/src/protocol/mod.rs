@@ -175,7 +175,7 @@ pub enum Found {
     /// States between the rows, with the same columns, where a curve is wanted.
     Between(Rows),
     /// A place from which the run can be taken up again, behind all rows before it.
-    Milestone(Milestone),
+    Milestone(Box<Milestone>),
     /// The work so far, at the end.
     Work(Work),
 }
