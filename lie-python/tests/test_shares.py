@@ -5,9 +5,11 @@ from __future__ import annotations
 import importlib.util
 import os
 import pathlib
+import shutil
 import signal
 import subprocess
 import sys
+import sysconfig
 from concurrent.futures import Future, ProcessPoolExecutor, ThreadPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from multiprocessing import get_context
@@ -218,10 +220,29 @@ def test_ray() -> None:
         ray.shutdown()
 
 
-@pytest.mark.skipif(importlib.util.find_spec("mpi4py") is None, reason="mpi4py is not installed")
-def test_mpi() -> None:
-    from mpi4py.futures import MPIPoolExecutor
+MPI = """
+from mpi4py.futures import MPIPoolExecutor
+from test_shares import HARD, STARTS, body, same
 
-    with MPIPoolExecutor(2) as pool:
+if __name__ == "__main__":
+    with MPIPoolExecutor() as pool:
         found = body().ensemble(STARTS, **HARD, executor=pool, shares=6)
     assert same(found, body().ensemble(STARTS, **HARD))
+    print("the same bits")
+"""
+
+
+@pytest.mark.skipif(importlib.util.find_spec("mpi4py") is None, reason="mpi4py is not installed")
+def test_mpi(tmp_path: pathlib.Path) -> None:
+    beside = pathlib.Path(sysconfig.get_path("scripts")) / "mpirun"
+    launcher = str(beside) if beside.exists() else shutil.which("mpirun")
+    if launcher is None:
+        pytest.skip("mpirun is not installed")
+    script = tmp_path / "mpi_shares.py"
+    script.write_text(MPI)
+    environment = {**os.environ, "PYTHONPATH": str(pathlib.Path(__file__).parent)}
+    call = [launcher, "-n", "3", sys.executable, "-m", "mpi4py.futures", str(script)]
+    ended = subprocess.run(
+        call, check=False, env=environment, timeout=120, capture_output=True, text=True
+    )
+    assert ended.returncode == 0 and "the same bits" in ended.stdout, ended.stderr

@@ -42,6 +42,8 @@ SLIPS = {
 VARIANTS = ("retraction", "lift", "gradient", "composition", "pieces", "tensor")
 #: Arguments that count something.
 COUNTS = ("every", "max_iterations")
+#: Arguments that are True or False.
+FLAGS = ("assess",)
 #: The step where neither the call nor the declaration gives one.
 STEP = 0.01
 #: The time until which a system runs where neither says it.
@@ -132,6 +134,10 @@ def asked(options: Mapping[str, Any]) -> dict[str, Any]:
 def _value(name: str, value: Any) -> Any:
     if name in COUNTS:
         return whole(value, name, 1)
+    if name in FLAGS:
+        if isinstance(value, (bool, np.bool_)):
+            return bool(value)
+        raise TypeError(f"{name} must be True or False, not {value!r}")
     if isinstance(value, str):
         return str(value)
     if _core.is_word(name):
