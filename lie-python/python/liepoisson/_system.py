@@ -117,12 +117,13 @@ class System(Declared):
             solution.group = elements if found["quaternion"] else elements.reshape(-1, size, size)
         if found["note"] is not None:
             warnings.warn(found["note"], stacklevel=2)
-        solution.error = found.get("error")
-        if found.get("missed"):
+        error = found.get("error")
+        solution.error = error
+        if error is not None and found["missed"]:
             text = (
-                f"the error at the end is about {solution.error:.1e} of the state, more than the tolerance {found['tolerance']:g}: "
+                f"the error at the end is about {error:.1e} of the state, more than the tolerance {found['tolerance']:g}: "
                 f"errors grow on this orbit, or {found['method']} cannot keep it"
-                if np.isfinite(solution.error)
+                if np.isfinite(error)
                 else "the error at the end is not known: the second run, which would tell it, failed, or chooses its own steps"
             )
             warnings.warn(text, stacklevel=2)
