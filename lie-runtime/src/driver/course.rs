@@ -9,12 +9,11 @@ use super::joints::Joints;
 use super::milestone::{MILESTONE, Milestone, gradient};
 use super::observer::{MotionSink, Observer, Progress};
 use super::options::Save;
-use super::pace::count;
 use super::problem::set_time;
 use super::solve::IntegrateError;
 use super::stats::{Stats, Status};
 use super::trial::Trial;
-use super::watch::{Change, From, Guard, JACOBIAN, MOST_PARTS, SLOW_PARTS, Verdict, divided};
+use super::watch::{Change, From, Guard, Verdict};
 use crate::methods::{Method, StepFailure, StepReport, Stepper};
 use crate::newton::{FailureReason, NewtonOptions};
 use crate::poisson::Poisson;
@@ -23,7 +22,7 @@ use crate::state::State;
 use core::iter::Peekable;
 
 /// Why a stepper was left.
-enum Left<P> {
+pub(super) enum Left<P> {
     /// The run is at its end, or was ended.
     Over(Status),
     /// The system has another branch.
@@ -34,9 +33,6 @@ enum Left<P> {
     Milestone,
 }
 
-/// Steps that divided ones may come to in all, unless the grid itself has an eighth of as many.
-const MOST_DIVIDED: u64 = 1 << 18;
-
 /// Where a run begins.
 pub(super) enum Beginning<'m, T, V> {
     /// At its start.
@@ -46,9 +42,6 @@ pub(super) enum Beginning<'m, T, V> {
     /// Where another was.
     Milestone(&'m Milestone<V>),
 }
-
-/// So many times as many steps are made after one that failed or did not contract, where that can be any number.
-const SHORTER: f64 = 1.4;
 
 /// Whether an observer sees the motion on the group.
 fn with_motion<S: Scalar, P: Poisson<S>, O: Observer<S, P>>(_: &O) -> bool {
@@ -67,7 +60,7 @@ pub(super) struct Course<'r, M> {
     pub(super) milestone: u64,
     /// The step at the start, and how many of them there were to be.
     pub(super) step: f64,
-    planned: u64,
+    pub(super) planned: u64,
     /// The time of the last row.
     shown: Option<f64>,
     /// In so many parts each is made.
@@ -77,7 +70,7 @@ pub(super) struct Course<'r, M> {
     /// Whether a step may be divided.
     pub(super) divides: bool,
     /// Whether the stages of steps tell their errors: the grid changes then, by small factors, where parts would be halves.
-    by_stages: bool,
+    pub(super) by_stages: bool,
     /// Jacobians that were factored, and steps since the last division for which some were.
     pub(super) slow: (u64, u64),
 }
@@ -360,52 +353,6 @@ impl<'r, M> Course<'r, M> {
         Ok(rows)
     }
 
-    /// Whether steps may change like that: a joint or a singularity asks for smaller ones without end.
-    fn allows(&self, change: Change) -> bool {
-        let (left, size) = match change {
-            Change::Parts(parts) => {
-                let left = (self.grid.steps() - self.index).saturating_mul(u64::from(parts));
-                (left, self.grid.step() / f64::from(parts))
-            }
-            Change::Times(factor) => {
-                let left = self.steps_left(self.index, factor);
-                (left, self.size() / factor)
-            }
-        };
-        let most = self.planned.saturating_mul(8).max(MOST_DIVIDED);
-        left.saturating_add(self.index) <= most && self.step / size <= f64::from(MOST_PARTS)
-    }
-
-    /// How many steps are left from a point on, of which there are so many times as many as now.
-    fn steps_left(&self, index: u64, factor: f64) -> u64 {
-        let left = (self.grid.steps() - index) as f64 * f64::from(self.parts);
-        let span = self.grid.time(self.grid.steps()) - self.grid.time(index);
-        count(span, (left * factor).ceil()) as u64
-    }
-
-    /// Changes the steps from where the run is.
-    #[cold]
-    fn change<S: Scalar, P: Poisson<S>>(
-        &mut self,
-        change: Change,
-        guard: Option<&mut Guard<'_, S, P, M>>,
-    ) where
-        M: Method<S, P>,
-    {
-        match change {
-            Change::Parts(parts) => self.parts = parts,
-            Change::Times(factor) => {
-                let here = (self.index, self.grid.time(self.index));
-                let steps = self.steps_left(self.index, factor);
-                self.grid = self.grid.going_on_with(here, steps);
-                self.parts = 1;
-            }
-        }
-        if let Some(guard) = guard {
-            guard.steps_are(self.grid.step());
-        }
-    }
-
     /// The time at the end of the part that is being made of a step.
     fn next_time(&self) -> f64 {
         let done = self.done + 1;
@@ -414,57 +361,6 @@ impl<'r, M> Course<'r, M> {
         }
         let part = self.grid.step() * (f64::from(done) / f64::from(self.parts));
         self.grid.time(self.index) + part
-    }
-
-    /// Whether to divide all steps that are left costs less than some that need Jacobians.
-    fn divides_rather(&self, slow: u64) -> bool {
-        let left = (self.grid.steps() - self.index).saturating_mul(u64::from(self.parts));
-        let shortened = self.step / self.size();
-        self.divides && shortened < SLOW_PARTS && left < slow.saturating_mul(JACOBIAN)
-    }
-
-    /// Steps that are somewhat shorter, as after one that failed.
-    fn shorter(&self) -> Option<Change> {
-        match self.by_stages {
-            true => Some(Change::Times(SHORTER)),
-            false => divided(self.parts).map(Change::Parts),
-        }
-    }
-
-    /// Whether too many steps did not contract.
-    fn is_slow(&mut self) -> bool {
-        let slow = self.stats.factorizations > self.slow.0;
-        self.slow.0 = self.stats.factorizations;
-        self.slow.1 += u64::from(slow);
-        if !slow || !self.divides_rather(self.slow.1) {
-            return false;
-        }
-        self.slow.1 = 0;
-        true
-    }
-
-    /// Goes on in smaller steps after one that failed, where that may be.
-    #[cold]
-    fn divided<S: Scalar, P: Poisson<S>>(
-        &mut self,
-        system: &P,
-        failure: StepFailure,
-        mu: &P::State,
-        guard: Option<&mut Guard<'_, S, P, M>>,
-    ) -> Result<Left<P>, IntegrateError>
-    where
-        M: Method<S, P>,
-    {
-        let next = self.shorter();
-        let Some(next) = next.filter(|&next| self.divides && self.allows(next)) else {
-            return Err(self.stopped(system, failure, self.size(), mu));
-        };
-        self.stats.add_failure(&failure.report);
-        if let Change::Parts(parts) = next {
-            self.done *= parts / self.parts;
-        }
-        self.change(next, guard);
-        Ok(Left::Divided)
     }
 
     fn progress(&self) -> Progress {

@@ -16,6 +16,7 @@ pub mod pace;
 mod problem;
 mod pulse;
 pub mod reconstruction;
+mod shorter;
 mod solution;
 mod solve;
 mod stats;
