@@ -565,6 +565,14 @@ fn a_project_is_written_into_an_empty_folder() {
     );
     assert!(system.contains("pub struct FreeRigidBody"));
     assert!(manifest.contains("runtime/lie-runtime"));
+    let mut cargo = std::process::Command::new("cargo");
+    cargo.args(["metadata", "--no-deps", "--format-version", "1"]);
+    let output = cargo.current_dir(&place).output().expect("cargo starts");
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
     assert!(read("runtime/lie-runtime/Cargo.toml").contains("../lie-core"));
     assert!(
         !place.join("runtime/lie-program").exists(),

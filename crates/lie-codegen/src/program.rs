@@ -134,6 +134,7 @@ pub fn integrates(structure: &Structure, choice: &Choice, numbers: &Numbers<'_>)
         .iter()
         .fold(method, |text, (loose, close)| text.replace(loose, close));
     let method = method.replace("::lie_runtime::methods::", "");
+    let method = method.replace(" as::", " as ::");
     let paced = if by_tolerance { "tolerance" } else { "new" };
     format!(
         "//! {name}, {title}: writes rows of t, state and invariants as CSV.
