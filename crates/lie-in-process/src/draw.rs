@@ -2,12 +2,11 @@
 
 mod directions;
 
-use std::f64::consts::PI;
-
 use directions::Directions;
 use lie_dynamic::{Declared, Dynamic};
+use lie_runtime::family::SplitMix;
 use lie_runtime::matrix::SquareMatrix as _;
-use lie_runtime::{LiePoisson, Poisson, Scalar};
+use lie_runtime::{LiePoisson, Poisson};
 
 /// How many states are drawn around each, and how.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -94,7 +93,7 @@ impl Within<'_> {
     /// What carries the time stays. A uniform distribution over an orbit of a compact group is that of a long walk, whose steps
     /// have on each simple factor the size that they have on so(3), whatever the structure constants.
     pub fn state(&self, from: &[f64], number: u64) -> Vec<f64> {
-        let mut source = Source::new(self.seed, number);
+        let mut source = stream(self.seed, number);
         let mut state = from.to_vec();
         let mut xi = vec![0.0; state.len()];
         match &self.steps {
@@ -138,7 +137,7 @@ impl Within<'_> {
 /// Whether the group keeps the Euclidean norm of the coordinates, as a compact one does in a basis that suits it: then each
 /// orbit is bounded, and has a uniform distribution. Asked at random elements and states.
 pub fn keeps_norm(system: &Dynamic<f64>) -> bool {
-    let mut source = Source::new(0, 0);
+    let mut source = stream(0, 0);
     let size = Poisson::<f64>::dimension(system);
     let mut image = vec![0.0; size];
     (0..8).all(|_| {
@@ -182,35 +181,10 @@ fn along(system: &Dynamic<f64>, xi: &[f64], mut state: Vec<f64>) -> Vec<f64> {
     state
 }
 
-/// SplitMix64: G. L. Steele, D. Lea, C. H. Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014,
-/// [doi:10.1145/2660193.2660195](https://doi.org/10.1145/2660193.2660195).
-struct Source(u64);
-
-impl Source {
-    /// A stream of its own for each seed and number.
-    fn new(seed: u64, number: u64) -> Self {
-        let begin = Self(seed).next();
-        Self(Self(begin ^ number).next())
-    }
-
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^ (z >> 31)
-    }
-
-    /// A number above 0 and at most 1, with 53 bits.
-    fn uniform(&mut self) -> f64 {
-        ((self.next() >> 11) + 1) as f64 / (1_u64 << 53) as f64
-    }
-
-    /// A normally distributed number, by the method of Box and Muller.
-    fn normal(&mut self) -> f64 {
-        let radius = (-2.0 * Scalar::log(self.uniform())).sqrt();
-        radius * Scalar::cos(2.0 * PI * self.uniform())
-    }
+/// A stream of its own for each seed and number.
+fn stream(seed: u64, number: u64) -> SplitMix {
+    let begin = SplitMix::new(seed).bits();
+    SplitMix::new(SplitMix::new(begin ^ number).bits())
 }
 
 #[cfg(test)]
@@ -395,7 +369,7 @@ mod tests {
             assert!(found < 4.0, "{name}: {found}");
             // the control: steps of the deviation 1 in each coordinate
             let plain = (0..2000).map(|number| {
-                let (mut source, mut state) = (Source::new(3, number), initial.clone());
+                let (mut source, mut state) = (stream(3, number), initial.clone());
                 for _ in 0..WALK {
                     let xi: Vec<f64> = state.iter().map(|_| source.normal()).collect();
                     state = within.moved(&xi, state);

@@ -26,7 +26,7 @@ mod splitting;
 mod stencil;
 mod system;
 
-pub use initial::unit_spheres;
+pub use initial::{SplitMix, unit_spheres};
 pub use matrix::LateMatrix;
 pub use shape::{Fixed, Of, Shape};
 pub use sites::{Around, Site, Sites, Span, Sums, Term};

@@ -3,7 +3,7 @@
 use lie_dynamic::Dynamic;
 use lie_runtime::{LiePoisson, Poisson};
 
-use super::Source;
+use lie_runtime::family::SplitMix;
 
 /// A direction that is this near to a sum of those before it, up to the center, is left out.
 const NEAR: f64 = 1e-10;
@@ -64,7 +64,7 @@ impl Directions {
     }
 
     /// Draws an element.
-    pub fn draw(&self, source: &mut Source, xi: &mut [f64]) {
+    pub fn draw(&self, source: &mut SplitMix, xi: &mut [f64]) {
         let mut element = vec![0.0; self.size];
         for site in 0..self.sites {
             for (k, entry) in element.iter_mut().enumerate() {
