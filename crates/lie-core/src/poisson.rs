@@ -217,6 +217,15 @@ pub trait Widen<S: Scalar>: Poisson<S> {
     type Widened: Poisson<S::Wide>;
     /// The system with each of its constants eight times.
     fn widen(&self) -> Self::Widened;
+    /// Programs that do an iteration of a step with its stages side by side, where the system has some in place of its kernels.
+    #[cfg(feature = "std")]
+    fn stage_program(
+        &self,
+        _slopes: generic::StageSlopes,
+        _stages: usize,
+    ) -> Option<Box<dyn generic::StageProgram<S::Wide>>> {
+        None
+    }
 }
 
 /// A generated system over other scalars, by its function `_over`.

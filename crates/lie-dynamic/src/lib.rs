@@ -41,7 +41,7 @@ mod system;
 pub use code::{Code, Instruction, Number, Register, Source, Store};
 pub use engine::{
     BINARY, Binary, Engine, Frame, Interpreted, Interpreter, Lengths, Machine, SLICES, Targets,
-    UNARY, Unary, phi, place_by_place, stumpff,
+    UNARY, Unary, in_turns, phi, place_by_place, stumpff,
 };
 pub use lie_runtime::methods::Tolerances;
 pub use methods::{

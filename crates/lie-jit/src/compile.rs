@@ -257,6 +257,17 @@ impl Body<'_, '_> {
                 let a = at(a);
                 self.builder.ins().sqrt(a)
             }
+            Instruction::Abs(a) => {
+                let a = at(a);
+                self.builder.ins().fabs(a)
+            }
+            // neighbours in a pair; of single numbers there are none
+            Instruction::Exchange(1, a) if self.shape.number.is_vector() => {
+                let a = at(a);
+                let [first, second] = [0, 1].map(|lane| self.builder.ins().extractlane(a, lane));
+                self.both(second, first)
+            }
+            Instruction::Exchange(..) => return None,
             Instruction::Power(a, b) => {
                 let arguments = [at(a), at(b)];
                 self.function(&functions::name("powf"), Kind::Binary, &arguments)?

@@ -2,10 +2,10 @@
 
 use crate::columns::ColumnKernels;
 use crate::make::{Purpose, make};
-use crate::memory::Memory;
+use crate::memory::{Memory, Repeated};
 use crate::registers::Registers;
 use crate::{Entry, Others};
-use lie_dynamic::{Code, Frame, Interpreter, Machine, Targets};
+use lie_dynamic::{Code, Frame, Interpreter, Lengths, Machine, Targets, in_turns};
 use lie_runtime::Scalar;
 use std::sync::{Arc, OnceLock};
 
@@ -18,9 +18,15 @@ const _: () = assert!(
     "lanes are numbers one behind the other, as many as the widest registers have"
 );
 
+/// The argument that takes turns with what a code gives.
+const SECOND: usize = 1;
+
 /// Codes over lanes, each compiled when it is first run.
 pub struct Lanes {
     entries: Vec<OnceLock<Option<(Entry, Memory)>>>,
+    /// Those that are repeated.
+    repeated: Vec<OnceLock<Option<(Repeated, Memory)>>>,
+    lengths: Vec<Lengths>,
     codes: Arc<[Code]>,
     registers: Registers,
     column_kernels: ColumnKernels,
@@ -32,6 +38,8 @@ impl Lanes {
     pub fn new(codes: &Arc<[Code]>, registers: Registers) -> Self {
         Self {
             entries: codes.iter().map(|_| OnceLock::new()).collect(),
+            repeated: codes.iter().map(|_| OnceLock::new()).collect(),
+            lengths: codes.iter().map(Lengths::new).collect(),
             codes: Arc::clone(codes),
             registers,
             column_kernels: ColumnKernels::new(codes.len()),
@@ -46,6 +54,12 @@ impl Lanes {
         let function = made.memory.function(made.place);
         Some((Entry::new(code, function, made.at_once), made.memory))
     }
+
+    fn compiled_to_repeat(&self, code: usize) -> Option<(Repeated, Memory)> {
+        let purpose = Purpose::Repeated(SECOND as u8);
+        let made = make(&self.codes[code], purpose, self.registers)?;
+        Some((made.memory.repeated(made.place), made.memory))
+    }
 }
 
 impl Machine<Wide> for Lanes {
@@ -56,8 +70,37 @@ impl Machine<Wide> for Lanes {
         }
     }
 
+    fn repeat(
+        &self,
+        code: usize,
+        count: u32,
+        frame: &Frame<'_, Wide>,
+        [one, other]: [&mut [Wide]; 2],
+    ) {
+        let made = self.repeated[code].get_or_init(|| self.compiled_to_repeat(code));
+        let Some((function, _)) = made.as_ref().filter(|_| count > 0) else {
+            return in_turns(count, [one, other], |from, to| {
+                self.run(code, &frame.with_second(from), [to, &mut []]);
+            });
+        };
+        // each is read and written
+        let lengths = &self.lengths[code];
+        lengths.check(&frame.with_second(one), &[&mut *other, &mut []]);
+        lengths.check(&frame.with_second(other), &[&mut *one, &mut []]);
+        let mut table = frame.slices().map(|slice| slice.as_ptr().cast::<f64>());
+        table[SECOND] = one.as_mut_ptr().cast::<f64>().cast_const();
+        let vector = other.as_mut_ptr().cast::<f64>();
+        // SAFETY: every slice is as long as the code needs, in either turn; both vectors are borrowed for writing, and the code
+        // writes to no other place. A code that is repeated has all lanes in one call.
+        unsafe { function(table.as_mut_ptr(), vector, vector, count as usize) }
+    }
+
     fn compiles(&self) -> bool {
         true
+    }
+
+    fn compiles_quickly(&self) -> bool {
+        self.registers != Registers::Pairs
     }
 
     fn has_compiled(&self, codes: &Arc<[Code]>) -> bool {

@@ -229,6 +229,10 @@ impl Machine<f64> for Compiled {
         true
     }
 
+    fn compiles_quickly(&self) -> bool {
+        self.registers != Registers::Pairs
+    }
+
     fn has_compiled(&self, codes: &Arc<[Code]>) -> bool {
         self.others.has_compiled(codes)
     }

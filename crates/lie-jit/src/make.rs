@@ -25,6 +25,8 @@ pub struct Made {
 pub enum Purpose {
     /// Lanes.
     Lanes,
+    /// All lanes, again and again: this slice takes turns with the vector.
+    Repeated(u8),
     /// Columns of numbers.
     ColumnsOfNumbers,
     /// Columns of lanes.
@@ -36,13 +38,30 @@ pub fn make(code: &Code, purpose: Purpose, registers: Registers) -> Option<Made>
     own(code, purpose, registers).or_else(|| by_cranelift(code, purpose))
 }
 
+/// What exchanges lanes has all of them in one call, in as many registers as that takes.
+fn with_all_lanes(code: &Code, at_once: usize) -> Code {
+    let halvings = (LANES / at_once).ilog2();
+    (0..halvings).fold(code.clone(), |code, done| {
+        code.halved((LANES >> done) as u8)
+    })
+}
+
 fn by_cranelift(code: &Code, purpose: Purpose) -> Option<Made> {
     if code.instructions.len() > LONGEST {
         return None;
     }
     let mut compiler = Compiler::new()?;
     let place = match purpose {
+        Purpose::Lanes if code.exchanges() => {
+            let whole = with_all_lanes(code, 2);
+            return Some(Made {
+                place: Place::Id(compiler.add(&whole, Shape::pair_of_lanes(2))?),
+                memory: Memory::of_module(compiler)?,
+                at_once: LANES,
+            });
+        }
         Purpose::Lanes => compiler.add(code, Shape::pair_of_lanes(LANES))?,
+        Purpose::Repeated(_) => return None,
         Purpose::ColumnsOfNumbers => compiler.add_columns(code, Columns::NUMBERS)?,
         Purpose::ColumnsOfLanes => compiler.add_columns(code, Columns::lanes(LANES))?,
     };
@@ -103,6 +122,10 @@ mod with_assembler {
     pub fn own(code: &Code, purpose: Purpose, registers: Registers) -> Option<Made> {
         let width = width(registers)?;
         let layout = match purpose {
+            Purpose::Repeated(slice) => {
+                return all_lanes(code, width, |layout| layout.repeated(slice));
+            }
+            Purpose::Lanes if code.exchanges() => return all_lanes(code, width, |layout| layout),
             Purpose::Lanes => Layout::lanes(width, LANES),
             Purpose::ColumnsOfNumbers => Layout::columns_of_numbers(width),
             Purpose::ColumnsOfLanes => Layout::columns_of_lanes(width, LANES),
@@ -112,6 +135,17 @@ mod with_assembler {
             memory: Memory::Own(pages),
             place: Place::Offset(0),
             at_once: width.lanes(),
+        })
+    }
+
+    /// The function of a code that does all lanes in a call.
+    fn all_lanes(code: &Code, width: Width, layout: impl FnOnce(Layout) -> Layout) -> Option<Made> {
+        let whole = super::with_all_lanes(code, width.lanes());
+        let layout = layout(Layout::lanes(width, width.lanes()));
+        Some(Made {
+            memory: Memory::Own(Pages::new(&assemble(&whole, layout)?)?),
+            place: Place::Offset(0),
+            at_once: LANES,
         })
     }
 

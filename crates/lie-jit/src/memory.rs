@@ -11,6 +11,9 @@ use std::mem::ManuallyDrop;
 /// A compiled code: reads from a table of the slices in a frame, writes to two places.
 pub type Function = unsafe extern "C" fn(*const *const f64, *mut f64, *mut f64);
 
+/// A compiled code that is repeated: reads from a table of the slices in a frame, of which one takes turns with the vector, so many times.
+pub type Repeated = unsafe extern "C" fn(*mut *const f64, *mut f64, *mut f64, usize);
+
 /// The memory of compiled functions.
 pub enum Memory {
     /// That of Cranelift.
@@ -70,6 +73,13 @@ impl Memory {
         let pointer = self.pointer(place);
         // SAFETY: the pointer is that of a function which was compiled with this signature.
         unsafe { std::mem::transmute::<*const u8, Function>(pointer) }
+    }
+
+    /// A function that is repeated.
+    pub fn repeated(&self, place: Place) -> Repeated {
+        let pointer = self.pointer(place);
+        // SAFETY: as above.
+        unsafe { std::mem::transmute::<*const u8, Repeated>(pointer) }
     }
 
     /// A function over columns.

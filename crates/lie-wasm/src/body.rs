@@ -141,6 +141,11 @@ impl<'a> Body<'a> {
             Instruction::Sqrt(a) => {
                 self.operands(&[a]).f64_sqrt();
             }
+            Instruction::Abs(a) => {
+                self.operands(&[a]).f64_abs();
+            }
+            // of one lane it is the same number
+            Instruction::Exchange(_, a) => self.operand(a),
             Instruction::Power(a, b) => self.call("powf", &[a, b]),
             Instruction::Atan2(a, b) => self.call("atan2", &[a, b]),
             Instruction::Call(function, a) => self.call(function.name(), &[a]),

@@ -114,6 +114,9 @@ fn function((position, code): (usize, &Code)) -> String {
             Instruction::Div(a, b) => format!("divided(r{a}, r{b})"),
             Instruction::Neg(a) => format!("-r{a}"),
             Instruction::Sqrt(a) => format!("root(r{a})"),
+            Instruction::Abs(a) => format!("abs(r{a})"),
+            // of one lane it is the same number
+            Instruction::Exchange(_, a) => format!("r{a}"),
             Instruction::Below(a, b, c) => format!("r{b} if r{a} < 0.0 else r{c}"),
             Instruction::Power(a, b) => format!("asked('powf', r{a}, r{b})[0]"),
             Instruction::Atan2(a, b) => format!("asked('atan2', r{a}, r{b})[0]"),

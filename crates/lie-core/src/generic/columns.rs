@@ -3,6 +3,7 @@
 
 use core::ops::Range;
 
+use super::StageSlopes;
 use super::lifts::LinearLift;
 use crate::clock::{Clock, holds};
 use crate::methods::Representation;
@@ -130,6 +131,7 @@ impl<S: Scalar, P: ColumnPoisson<S>> LinearLift<S, P> for Representation {
     type Point = P::Columns;
     type Labels = [S; 0];
     const GROWS: bool = true;
+    const SLOPES: Option<StageSlopes> = Some(StageSlopes::Representation);
 
     fn zero_point(system: &P) -> P::Columns {
         system.zero_columns()

@@ -26,7 +26,7 @@ pub(super) fn diagonals<S: Scalar>(
 /// moves numbers within a register four times.
 #[inline(always)]
 pub(super) fn product<S: Scalar, const STAGES: usize>(
-    diagonals: &[S::Wide; 8],
+    diagonals: &[S::Wide],
     entry: S::Wide,
 ) -> S::Wide {
     let [even, odd] = [0, 1].map(|d| diagonals[d] * entry);
@@ -37,7 +37,7 @@ pub(super) fn product<S: Scalar, const STAGES: usize>(
 #[inline(always)]
 pub(super) fn product_from<S: Scalar, const STAGES: usize>(
     start: S::Wide,
-    diagonals: &[S::Wide; 8],
+    diagonals: &[S::Wide],
     entry: S::Wide,
 ) -> S::Wide {
     let even = start + diagonals[0] * entry;
@@ -47,7 +47,7 @@ pub(super) fn product_from<S: Scalar, const STAGES: usize>(
 /// The terms of the first two diagonals and those of the rest.
 #[inline(always)]
 fn finish<S: Scalar, const STAGES: usize>(
-    diagonals: &[S::Wide; 8],
+    diagonals: &[S::Wide],
     entry: S::Wide,
     even: S::Wide,
     odd: S::Wide,

@@ -2,6 +2,7 @@
 
 use core::ops::Range;
 
+use super::StageSlopes;
 use crate::clock::Clock;
 use crate::methods::Smallest;
 use crate::poisson::LiePoisson;
@@ -21,6 +22,8 @@ pub trait LinearLift<S: Scalar, P: LiePoisson<S>> {
     type Labels: State<S>;
     /// Whether points become large on a bounded orbit, and are to be chosen anew.
     const GROWS: bool;
+    /// Which flow it is, where a system may have programs of it.
+    const SLOPES: Option<StageSlopes> = None;
     /// A point, all coordinates 0.
     fn zero_point(system: &P) -> Self::Point;
     /// Labels, all 0.
@@ -48,6 +51,7 @@ impl<S: Scalar, P: CollectivePoisson<S>> LinearLift<S, P> for Smallest {
     type Point = <P::Lift as LinearLift<S, P>>::Point;
     type Labels = <P::Lift as LinearLift<S, P>>::Labels;
     const GROWS: bool = P::Lift::GROWS;
+    const SLOPES: Option<StageSlopes> = P::Lift::SLOPES;
 
     fn zero_point(system: &P) -> Self::Point {
         P::Lift::zero_point(system)

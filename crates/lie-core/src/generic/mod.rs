@@ -140,6 +140,9 @@ pub use series::{coadjoint_action, dexp_dual};
 pub use spherical::{Spherical, sphere_ratio, sphere_ratios, sphere_ratios_into};
 pub use spinors::{flow_of_spinors, flow_over_spins, spinors_of, spins_of};
 pub use stage_momenta::{MatrixMomenta, QuaternionMomenta, StageMap, StageMomenta};
+#[cfg(feature = "std")]
+pub use stage_parallel::program::StageProgram;
+pub use stage_parallel::program::{StageSlopes, StageStep, TABLE as STAGE_TABLE};
 pub use stage_parallel::{Iterated, StageParallel};
 pub use stage_work::At;
 pub use tableau::{MOST_STAGES, Tableau, gauss_ahead, gauss_ratio, gauss_tableau, gauss_weight};

@@ -2,6 +2,7 @@
 
 use core::ops::Range;
 
+use super::StageSlopes;
 use super::lifts::LinearLift;
 use super::quaternion_stages::product;
 use crate::methods::Quaternion;
@@ -163,6 +164,7 @@ impl<S: Scalar, P: VectorPoisson<S>> LinearLift<S, P> for Quaternion {
     type Point = P::Quaternions;
     type Labels = P::Labels;
     const GROWS: bool = false;
+    const SLOPES: Option<StageSlopes> = Some(StageSlopes::Quaternion);
 
     fn zero_point(system: &P) -> P::Quaternions {
         system.zero_quaternions()

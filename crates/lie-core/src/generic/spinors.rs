@@ -1,5 +1,6 @@
 //! The Hopf map: points of `T*R^2` over each spin.
 
+use super::StageSlopes;
 use super::lifts::LinearLift;
 use crate::methods::Hopf;
 use crate::scalar::Scalar;
@@ -86,6 +87,7 @@ impl<S: Scalar, P: SpinPoisson<S>> LinearLift<S, P> for Hopf {
     type Point = P::Spinors;
     type Labels = [S; 0];
     const GROWS: bool = false;
+    const SLOPES: Option<StageSlopes> = Some(StageSlopes::Hopf);
 
     fn zero_point(system: &P) -> P::Spinors {
         system.zero_spinors()

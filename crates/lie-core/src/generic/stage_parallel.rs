@@ -1,6 +1,7 @@
 //! Gauss collocation with its stages side by side in one number, by fixed-point iteration.
 
 mod map;
+pub(super) mod program;
 mod state;
 #[cfg(test)]
 mod tests;
@@ -8,12 +9,17 @@ mod tests;
 use core::array::from_fn;
 use core::ops::Range;
 
-use super::diagonals::{diagonals, product, total};
+#[cfg(feature = "std")]
+use self::program::StageProgram;
+use self::program::{AHEAD, PER_UNIT, PER_WEIGHT, RATIOS, StageSlopes, TABLE, WEIGHTS};
+use super::diagonals::{diagonals, product};
 use super::stage_ending::most;
 use super::stage_work::{At, Work};
 use super::tableau::{gauss_ahead, gauss_legendre, gauss_ratio, gauss_weight};
 use crate::clock::{Clock, holds};
 use crate::newton::{Convergence, Iteration, NewtonOptions};
+#[cfg(feature = "std")]
+use crate::poisson::Widen;
 use crate::scalar::{Mask, Scalar, largest, power_of_two};
 use crate::state::{Stages, State};
 
@@ -43,24 +49,22 @@ const UNSEEN: f64 = 256.0;
 /// ([`gauss_ratio`]). It starts from the polynomial of the step before, continued; without
 /// one, from `f(y)`. It converges linearly, by a factor proportional to h. How many iterations a step takes changes
 /// little from step to step, so most of them are made without a look at the changes.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct StageParallel<S: Scalar, V, const STAGES: usize> {
-    /// `a_ij/b_j`
-    ratios: [S::Wide; 8],
-    /// The matrix that continues the polynomial of a step.
-    ahead: [S::Wide; 8],
+    /// By their [places](program): `a_ij/b_j`, the matrix that continues the polynomial of a step, `h b_i` in place i and 0 in the places
+    /// without a stage, `1/|h b_i|` likewise, so that places without a stage do not count, and one over the unit of the momenta.
+    table: [S::Wide; TABLE],
     /// The coefficients in Legendre polynomials, once they were asked for.
     legendre: Option<[S::Wide; 8]>,
-    /// `h b_i` in place i, 0 in the places without a stage.
-    weights: S::Wide,
-    /// `1/|h b_i|` in place i, 0 in the places without a stage, which do not count.
-    per_weight: S::Wide,
     step: S,
     /// `1/|h|`
     per_step: S,
     /// y, the same in all places.
     base: V,
     work: Work<V>,
+    /// What iterates in place of the kernels of the system.
+    #[cfg(feature = "std")]
+    program: Option<Box<dyn StageProgram<S::Wide>>>,
     /// The entries that carry the time, where there are any.
     clock: Option<Clock>,
     /// The entries in a unit of their own, where there are any, and one over that unit.
@@ -102,12 +106,18 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
                 }
             }))
         };
+        let mut table = [S::Wide::one(); TABLE];
+        let ratios = diagonals(STAGES, STAGES, |i, j| gauss_ratio::<S>(STAGES, i, j));
+        let ahead = diagonals(STAGES, STAGES, |i, j| gauss_ahead::<S>(STAGES, i, j));
+        table[RATIOS].copy_from_slice(&ratios);
+        table[AHEAD].copy_from_slice(&ahead);
+        table[WEIGHTS] = stages(&|weight| weight);
+        table[PER_WEIGHT] = stages(&|weight| S::one() / weight.abs());
         Self {
-            ratios: diagonals(STAGES, STAGES, |i, j| gauss_ratio::<S>(STAGES, i, j)),
-            ahead: diagonals(STAGES, STAGES, |i, j| gauss_ahead::<S>(STAGES, i, j)),
+            table,
             legendre: None,
-            weights: stages(&|weight| weight),
-            per_weight: stages(&|weight| S::one() / weight.abs()),
+            #[cfg(feature = "std")]
+            program: None,
             step: h,
             per_step: S::one() / h.abs(),
             base: zero.clone(),
@@ -146,11 +156,39 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
         self
     }
 
+    /// Iterates by programs of a system, where it has some of these slopes.
+    #[cfg(feature = "std")]
+    pub(crate) fn by_programs_of<P: Widen<S>>(
+        mut self,
+        system: &P,
+        slopes: Option<StageSlopes>,
+    ) -> Self {
+        let program = |slopes| system.stage_program(slopes, STAGES);
+        self.program = slopes.and_then(program);
+        self
+    }
+
+    /// Iterates by the kernels of the system.
+    #[cfg(not(feature = "std"))]
+    pub(crate) fn by_programs_of<P>(self, _system: &P, _slopes: Option<StageSlopes>) -> Self {
+        self
+    }
+
+    /// Tells the programs what is constant on the space of a lift.
+    #[inline(always)]
+    pub(crate) fn set_labels(&mut self, _labels: &[S::Wide]) {
+        #[cfg(feature = "std")]
+        if let Some(program) = &mut self.program {
+            program.set_labels(_labels);
+        }
+    }
+
     /// Sets the unit of these entries, in the lanes of a mask: the power of two at or below the largest of them at a point.
     pub(crate) fn set_unit(&mut self, mask: S::Mask, point: &[S]) {
         if let Some((entries, per_unit)) = &mut self.momenta {
             let unit = power_of_two(S::largest_magnitude(&point[entries.clone()]));
             *per_unit = S::select(mask, S::one() / unit, *per_unit);
+            self.table[PER_UNIT] = per_unit.widen();
         }
     }
 
@@ -183,7 +221,7 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
     /// Starts from a base, with a slope that is the same at all stages, in the lanes of a mask.
     pub fn start(&mut self, mask: S::Mask, base: &[S], slope: &[S]) {
         self.set_base(mask, base);
-        let weights = S::scatter(self.weights);
+        let weights = S::scatter(self.table[WEIGHTS]);
         let increments = self.work.increments.as_mut_slice().iter_mut();
         for (increments, &slope) in increments.zip(slope) {
             let old = S::scatter(*increments);
@@ -206,9 +244,8 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
     pub fn approach(&mut self, mask: S::Mask, mut field: impl FnMut(At<'_, V>, &mut V)) {
         let half = S::ratio(1.0, 2.0);
         for _ in 0..APPROACH {
-            let table = (&self.ratios, self.weights);
             self.work
-                .evaluate::<S, STAGES>(table, &self.base, &mut field);
+                .evaluate::<S, STAGES>(&self.table, &self.base, &mut field);
             let increments = self.work.increments.as_mut_slice().iter_mut();
             for (increment, &next) in increments.zip(self.work.next.as_slice()) {
                 let (old, new) = (S::scatter(*increment), S::scatter(next));
@@ -221,8 +258,13 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
     /// Starts from the polynomial of the last step.
     #[inline(always)]
     pub fn go_on(&mut self) {
+        #[cfg(feature = "std")]
+        if let Some(program) = &mut self.program {
+            program.go_on(&self.table, self.work.both());
+            return self.work.exchange();
+        }
         for increments in self.work.increments.as_mut_slice() {
-            *increments = product::<S, STAGES>(&self.ahead, *increments);
+            *increments = product::<S, STAGES>(&self.table[AHEAD], *increments);
         }
     }
 
@@ -249,25 +291,39 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
     /// Iterates once; the changes of the slopes. The lanes that have ended keep their increments.
     #[inline(always)]
     fn look(
-        &self,
+        &mut self,
         work: &mut Work<V>,
         ended: S::Mask,
         field: &mut impl FnMut(At<'_, V>, &mut V),
     ) -> S::Wide {
-        work.evaluate::<S, STAGES>((&self.ratios, self.weights), &self.base, field);
+        #[cfg(feature = "std")]
+        if let Some(program) = &mut self.program {
+            let change = program.look(&self.table, self.base.as_slice(), work.both());
+            work.exchange();
+            return change;
+        }
+        work.evaluate::<S, STAGES>(&self.table, &self.base, field);
         if let Some(clock) = self.clock {
             work.replace_entries::<S>(&[clock.momentum, clock.time], ended);
         }
         let momenta = self.momenta.as_ref();
         let momenta = momenta.map(|(entries, per_unit)| (entries.clone(), per_unit.widen()));
-        work.replace::<S>(ended, momenta) * self.per_weight
+        work.replace::<S>(ended, momenta) * self.table[PER_WEIGHT]
     }
 
     /// Iterates so many times without a look at the changes.
     #[inline(always)]
-    fn blind(&self, work: &mut Work<V>, count: u32, field: &mut impl FnMut(At<'_, V>, &mut V)) {
+    fn blind(&mut self, work: &mut Work<V>, count: u32, field: &mut impl FnMut(At<'_, V>, &mut V)) {
+        #[cfg(feature = "std")]
+        if let Some(program) = &mut self.program {
+            program.iterate(count, &self.table, self.base.as_slice(), work.both());
+            if count % 2 == 1 {
+                work.exchange();
+            }
+            return;
+        }
         for _ in 0..count {
-            work.evaluate::<S, STAGES>((&self.ratios, self.weights), &self.base, field);
+            work.evaluate::<S, STAGES>(&self.table, &self.base, field);
             work.increments.copy_from(&work.next);
         }
     }
@@ -306,16 +362,14 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
         let bases = sum(self.base.as_slice());
         let increments = sum(self.work.increments.as_slice());
         let [base, ..] = S::scatter(bases);
-        (base * self.per_step).max(most::<S>(increments * self.per_weight))
+        (base * self.per_step).max(most::<S>(increments * self.table[PER_WEIGHT]))
     }
 
     /// Moves the base to the end of the step.
     #[inline(always)]
     pub fn advance(&mut self) {
         let increments = self.work.increments.as_slice();
-        for (y, increments) in self.base.as_mut_slice().iter_mut().zip(increments) {
-            *y += total::<S>(*increments);
-        }
+        program::advance::<S>(self.base.as_mut_slice(), increments);
     }
 
     /// The error of the step that was made, relative to the size of its end, by the stages: with the coefficients L_k of h F in
@@ -385,7 +439,8 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
     /// The stages of a step with the increments of the last one from a base, which is set.
     pub fn stages(&mut self, base: &[S]) -> At<'_, V> {
         self.set_base(S::Mask::splat(true), base);
-        self.work.set_points::<S, STAGES>(&self.ratios, &self.base);
+        self.work
+            .set_points::<S, STAGES>(&self.table[RATIOS], &self.base);
         At {
             base: &self.base,
             increments: &self.work.increments,

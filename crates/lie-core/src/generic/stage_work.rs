@@ -4,6 +4,7 @@ use core::array::from_fn;
 use core::ops::Range;
 
 use super::diagonals::product_from;
+use super::stage_parallel::program::{RATIOS, WEIGHTS};
 use crate::scalar::Scalar;
 use crate::state::State;
 
@@ -41,11 +42,28 @@ impl<V> Work<V> {
         }
     }
 
+    /// The increments, and what is written over.
+    #[cfg(feature = "std")]
+    #[inline(always)]
+    pub(super) fn both<W: Scalar>(&mut self) -> [&mut [W]; 2]
+    where
+        V: State<W>,
+    {
+        [self.increments.as_mut_slice(), self.next.as_mut_slice()]
+    }
+
+    /// Takes over the next increments.
+    #[cfg(feature = "std")]
+    #[inline(always)]
+    pub(super) fn exchange(&mut self) {
+        core::mem::swap(&mut self.increments, &mut self.next);
+    }
+
     /// The points of the stages.
     #[inline(always)]
     pub(super) fn set_points<S: Scalar, const STAGES: usize>(
         &mut self,
-        ratios: &[S::Wide; 8],
+        ratios: &[S::Wide],
         base: &V,
     ) where
         V: State<S::Wide>,
@@ -60,13 +78,14 @@ impl<V> Work<V> {
     #[inline(always)]
     pub(super) fn evaluate<S: Scalar, const STAGES: usize>(
         &mut self,
-        (ratios, weights): (&[S::Wide; 8], S::Wide),
+        table: &[S::Wide],
         base: &V,
         field: &mut impl FnMut(At<'_, V>, &mut V),
     ) where
         V: State<S::Wide>,
     {
-        self.set_points::<S, STAGES>(ratios, base);
+        self.set_points::<S, STAGES>(&table[RATIOS], base);
+        let weights = table[WEIGHTS];
         let at = At {
             base,
             increments: &self.increments,
@@ -87,8 +106,7 @@ impl<V> Work<V> {
         for &entry in entries {
             let increment = &mut self.increments.as_mut_slice()[entry];
             let next = &mut self.next.as_mut_slice()[entry];
-            let (old, new) = (S::scatter(*increment), S::scatter(*next));
-            *increment = S::gather(from_fn(|i| S::select(ended, old[i], new[i])));
+            *increment = chosen::<S>(ended, *increment, *next);
             *next = *increment;
         }
     }
@@ -126,13 +144,18 @@ impl<V> Work<V> {
         let increments = self.increments.as_mut_slice().iter_mut();
         for (k, (increment, &next)) in increments.zip(self.next.as_slice()).enumerate() {
             change += counted(k, (next - *increment).magnitude());
-            *increment = if S::LANES == 1 {
-                next
-            } else {
-                let (old, new) = (S::scatter(*increment), S::scatter(next));
-                S::gather(from_fn(|i| S::select(ended, old[i], new[i])))
-            };
+            *increment = chosen::<S>(ended, *increment, next);
         }
         change
     }
+}
+
+/// The old numbers in the lanes that have ended, the new ones in the others; of a single lane, which has not, the new ones.
+#[inline(always)]
+fn chosen<S: Scalar>(ended: S::Mask, old: S::Wide, new: S::Wide) -> S::Wide {
+    if S::LANES == 1 {
+        return new;
+    }
+    let (old, new) = (S::scatter(old), S::scatter(new));
+    S::gather(from_fn(|i| S::select(ended, old[i], new[i])))
 }

@@ -80,7 +80,8 @@ where
         Self {
             stages: StageParallel::new(h, L::zero_point(&wide), &newton)
                 .with_clock(<L as LinearLift<S, P>>::clock(system))
-                .with_momenta(<L as LinearLift<S, P>>::momenta(system)),
+                .with_momenta(<L as LinearLift<S, P>>::momenta(system))
+                .by_programs_of(system, <L as LinearLift<S, P>>::SLOPES),
             point,
             labels: <L as LinearLift<S, P>>::zero_labels(system),
             wide_labels: L::zero_labels(&wide),
@@ -108,6 +109,7 @@ where
         for (wide, label) in entries.zip(self.labels.as_slice()) {
             *wide = label.widen();
         }
+        self.stages.set_labels(self.wide_labels.as_slice());
         self.stages.set_unit(fresh, point.as_slice());
         if <L as LinearLift<S, P>>::GROWS {
             let size = self.stages.norm(point.as_slice());

@@ -3,7 +3,7 @@
 use super::implicit::{ImplicitStepper, clear, equal_lanes};
 use super::stepper::{FactorSink, RungeKutta, Stage, StepFailure, StepReport, Stepper};
 use crate::equation::Equation;
-use crate::generic::{At, Gauss, StageParallel};
+use crate::generic::{At, Gauss, StageParallel, StageSlopes};
 use crate::newton::{FailureReason, Iteration, NewtonOptions};
 use crate::poisson::{Poisson, Widen};
 use crate::scalar::{Mask, Scalar};
@@ -20,6 +20,9 @@ pub type WideState<S, P> = <<P as Widen<S>>::Widened as Poisson<<S as Scalar>::W
 pub trait Slopes<'a, S: Scalar, P: Widen<S> + 'a, const STAGES: usize>: Sized {
     /// The equation of a step.
     type Equation: Equation<S, State = P::State, Unknown = Stages<P::State, STAGES>>;
+
+    /// Which slopes they are, where a system may have programs of them.
+    const SLOPES: Option<StageSlopes> = None;
 
     /// For steps of size h.
     fn new(system: &'a P, wide: &P::Widened, h: S) -> Self;
@@ -55,6 +58,7 @@ pub struct Field;
 
 impl<'a, S: Scalar, P: Widen<S> + 'a, const STAGES: usize> Slopes<'a, S, P, STAGES> for Field {
     type Equation = Gauss<'a, S, P, STAGES>;
+    const SLOPES: Option<StageSlopes> = Some(StageSlopes::Field);
 
     fn new(_system: &'a P, _wide: &P::Widened, _h: S) -> Self {
         Self
@@ -106,12 +110,13 @@ where
     pub(super) fn new(system: &'a P, h: S, newton: &NewtonOptions) -> Self {
         let wide = system.widen();
         let zero = wide.zero_state();
+        let stages = StageParallel::new(h, zero.clone(), newton).with_clock(system.clock());
         Self {
             rule: F::new(system, &wide, h),
             system,
             wide,
             step: h,
-            stages: StageParallel::new(h, zero.clone(), newton).with_clock(system.clock()),
+            stages: stages.by_programs_of(system, F::SLOPES),
             newton: *newton,
             end: system.zero_state(),
             follows: S::Mask::splat(false),

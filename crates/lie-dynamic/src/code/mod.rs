@@ -1,5 +1,6 @@
 //! Programs of a plan as code over registers.
 
+mod halves;
 mod lowering;
 
 use lie_codegen::derive::{Quantity, Shape};
@@ -56,6 +57,10 @@ pub enum Instruction {
     Neg(Register),
     /// The square root.
     Sqrt(Register),
+    /// The number without its sign.
+    Abs(Register),
+    /// Over eight lanes: in place i the number in place i xor the first of these, which is 1, 2, 4 or 6.
+    Exchange(u8, Register),
     /// `a` to the power `b`.
     Power(Register, Register),
     /// An elementary function of one number.
@@ -214,6 +219,8 @@ impl Instruction {
             Self::Atan2(a, b) => Self::Atan2(to(a), to(b)),
             Self::Neg(a) => Self::Neg(to(a)),
             Self::Sqrt(a) => Self::Sqrt(to(a)),
+            Self::Abs(a) => Self::Abs(to(a)),
+            Self::Exchange(distance, a) => Self::Exchange(distance, to(a)),
             Self::Call(function, a) => Self::Call(function, to(a)),
             Self::Below(a, b, c) => Self::Below(to(a), to(b), to(c)),
             Self::Stumpff(count, a) => Self::Stumpff(count, to(a)),

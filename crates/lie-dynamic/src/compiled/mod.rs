@@ -7,12 +7,14 @@ pub(crate) use values::Values;
 
 use crate::code::Code;
 use crate::engine::ARGUMENTS;
-use crate::recording::{Programs, Step};
+use crate::recording::{Programs, StageCodes, Step};
 use elimination::Elimination;
 use lie_codegen::methods::{Choice, Gradient};
 use lie_codegen::plan::{Constants, Function, Fused, Generating, Item, Method, Plan, Solver};
+use lie_core::generic::StageSlopes;
 use smallvec::SmallVec;
 use std::collections::HashMap;
+use std::hash::Hash;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// A code by its place; none where the plan has no such kernel.
@@ -129,23 +131,25 @@ pub(crate) struct Compiled {
     pub steps: MethodCache<Step>,
     /// Equations as programs.
     pub equations: MethodCache<Programs>,
+    /// Iterations over stages side by side, by their slopes and whether they are more than four.
+    pub stages: MethodCache<StageCodes, (StageSlopes, bool)>,
 }
 
 /// What was made for each method; `None` where there is none.
 #[derive(Debug)]
-pub(crate) struct MethodCache<T>(Mutex<HashMap<Choice, Option<Arc<T>>>>);
+pub(crate) struct MethodCache<T, K = Choice>(Mutex<HashMap<K, Option<Arc<T>>>>);
 
-impl<T> MethodCache<T> {
+impl<T, K: Clone + Eq + Hash> MethodCache<T, K> {
     fn new() -> Self {
         Self(Mutex::new(HashMap::new()))
     }
 
-    fn all(&self) -> MutexGuard<'_, HashMap<Choice, Option<Arc<T>>>> {
+    fn all(&self) -> MutexGuard<'_, HashMap<K, Option<Arc<T>>>> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// That of a method, made where it is asked for the first time.
-    pub fn get(&self, choice: &Choice, make: impl FnOnce() -> Option<T>) -> Option<Arc<T>> {
+    pub fn get(&self, choice: &K, make: impl FnOnce() -> Option<T>) -> Option<Arc<T>> {
         let mut all = self.all();
         if let Some(known) = all.get(choice) {
             return known.clone();
@@ -156,7 +160,7 @@ impl<T> MethodCache<T> {
     }
 
     /// That of a method where it was asked for before.
-    pub fn cached(&self, choice: &Choice) -> Option<Arc<T>> {
+    pub fn cached(&self, choice: &K) -> Option<Arc<T>> {
         self.all().get(choice).cloned().flatten()
     }
 }
@@ -359,6 +363,7 @@ impl Compiled {
             casimir_degrees,
             steps: MethodCache::new(),
             equations: MethodCache::new(),
+            stages: MethodCache::new(),
         }
     }
 }

@@ -65,6 +65,14 @@ fn load<S: Scalar>(source: &Source, frame: &Frame<'_, S>) -> S {
     }
 }
 
+/// The lanes of a number with places i and i xor a distance exchanged.
+fn exchanged<S: Scalar>(number: S, distance: usize) -> S {
+    let lanes = 0..S::LANES;
+    lanes.fold(number, |all, lane| {
+        all.with_lane(lane, number.lane(lane ^ distance))
+    })
+}
+
 fn run<S: Scalar>(
     code: &Code,
     frame: &Frame<'_, S>,
@@ -84,6 +92,8 @@ fn run<S: Scalar>(
             Instruction::Div(a, b) => at(a) / at(b),
             Instruction::Neg(a) => -at(a),
             Instruction::Sqrt(a) => at(a).sqrt(),
+            Instruction::Abs(a) => at(a).abs(),
+            Instruction::Exchange(distance, a) => exchanged(at(a), usize::from(distance)),
             Instruction::Power(a, b) => at(a).powf(at(b)),
             Instruction::Atan2(a, b) => at(a).atan2(at(b)),
             Instruction::Call(function, a) => function.apply(at(a)),

@@ -41,8 +41,26 @@ impl<'a, S> Frame<'a, S> {
     where
         'a: 'b,
     {
+        self.with(0, first)
+    }
+
+    /// The same with another second argument.
+    #[inline]
+    #[must_use]
+    pub fn with_second<'b>(&self, second: &'b [S]) -> Frame<'b, S>
+    where
+        'a: 'b,
+    {
+        self.with(1, second)
+    }
+
+    #[inline]
+    fn with<'b>(&self, place: usize, argument: &'b [S]) -> Frame<'b, S>
+    where
+        'a: 'b,
+    {
         let mut slices: [&'b [S]; SLICES] = self.0;
-        slices[0] = first;
+        slices[place] = argument;
         Frame(slices)
     }
 }
@@ -74,6 +92,22 @@ pub trait Machine<S>: Send + Sync {
         });
     }
 
+    /// Runs a code so many times, each time with what it gave before as its second argument: from the first of these vectors to the
+    /// second one, and back, in turn. The second argument of the frame is not read.
+    ///
+    /// # Panics
+    /// A slice is shorter than the code needs.
+    fn repeat(&self, code: usize, count: u32, frame: &Frame<'_, S>, vectors: [&mut [S]; 2]) {
+        in_turns(count, vectors, |from, to| {
+            self.run(code, &frame.with_second(from), [to, &mut []]);
+        });
+    }
+
+    /// Whether [`Machine::compile`] takes so little time that nobody waits for it.
+    fn compiles_quickly(&self) -> bool {
+        false
+    }
+
     /// Whether [`Machine::compile`] makes machines.
     fn compiles(&self) -> bool {
         false
@@ -96,6 +130,16 @@ pub trait Machine<S>: Send + Sync {
         S: Scalar,
     {
         None
+    }
+}
+
+/// Runs something so many times, from the first of two vectors to the second one, and back, in turn.
+pub fn in_turns<S>(count: u32, [one, other]: [&mut [S]; 2], mut run: impl FnMut(&[S], &mut [S])) {
+    for turn in 0..count {
+        match turn % 2 {
+            0 => run(one, other),
+            _ => run(other, one),
+        }
     }
 }
 

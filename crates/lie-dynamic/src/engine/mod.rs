@@ -8,4 +8,4 @@ mod machine;
 pub use elementary::{BINARY, Binary, UNARY, Unary};
 pub use interpreter::{Interpreted, Interpreter, phi, stumpff};
 pub use layout::Lengths;
-pub use machine::{ARGUMENTS, Engine, Frame, Machine, SLICES, Targets, place_by_place};
+pub use machine::{ARGUMENTS, Engine, Frame, Machine, SLICES, Targets, in_turns, place_by_place};

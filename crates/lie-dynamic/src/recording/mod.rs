@@ -8,6 +8,7 @@
 mod equation;
 mod record;
 mod recorded;
+mod stages;
 
 use crate::code::{Code, Source};
 use crate::compiled::{Compiled, Values};
@@ -26,6 +27,7 @@ use std::sync::Arc;
 
 pub(crate) use equation::{Programs, Running, Write, write};
 pub(crate) use recorded::Recorded;
+pub(crate) use stages::StageCodes;
 
 /// Steps that a stepper makes kernel by kernel before it compiles a program of the whole; one whose program has more instructions
 /// makes as many steps as that. So many steps gain more than the compilation costs.
@@ -94,7 +96,7 @@ impl<S: Scalar> Dynamic<S> {
     fn compiles_at_once(&self, known: Option<&Arc<[Code]>>) -> bool {
         let machine = &self.values.machine;
         let there = known.is_some_and(|codes| machine.has_compiled(codes));
-        machine.compiles() && (self.values.hurry || there)
+        machine.compiles() && (self.values.hurry || there || machine.compiles_quickly())
     }
 
     /// The step of a method as one program; none where it is not one, nor where nothing would compile it.

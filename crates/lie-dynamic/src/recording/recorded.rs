@@ -5,7 +5,6 @@ use crate::code::{Code, Instruction, Number, Register, Source};
 use crate::engine::{Frame, Machine, Targets};
 use lie_core::Elementary;
 use lie_runtime::Scalar;
-use lie_runtime::scalar::Pack;
 use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 use std::sync::Arc;
 
@@ -120,7 +119,8 @@ macro_rules! functions {
 impl Scalar for Recorded {
     type Lane = Self;
     type Mask = bool;
-    type Wide = Pack<Self>;
+    /// In whichever lanes it will be run, a number is the same register.
+    type Wide = Self;
     const LANES: usize = 1;
 
     fn zero() -> Self {
@@ -154,15 +154,21 @@ impl Scalar for Recorded {
     fn to_f64(self) -> f64 {
         Self::branch(f64::NAN)
     }
-    fn gather(numbers: [Self; 8]) -> Self::Wide {
-        Pack(numbers)
+    fn gather([first, ..]: [Self; 8]) -> Self {
+        Self::branch(first)
     }
-    fn scatter(wide: Self::Wide) -> [Self; 8] {
-        wide.0
+    fn scatter(wide: Self) -> [Self; 8] {
+        Self::branch([wide; 8])
+    }
+    fn exchange<const D: usize>(wide: Self) -> Self {
+        Self::result(Instruction::Exchange(D as u8, wide.0))
+    }
+    fn widen(self) -> Self {
+        self
     }
 
     fn abs(self) -> Self {
-        Self::branch(self)
+        Self::result(Instruction::Abs(self.0))
     }
     fn sqrt(self) -> Self {
         Self::result(Instruction::Sqrt(self.0))

@@ -3,6 +3,7 @@
 use crate::compiled::Place;
 use crate::system::Dynamic;
 use lie_core::family::LateMatrix;
+use lie_core::generic::{StageProgram, StageSlopes};
 use lie_core::{Clock, generic, lagrangian::legendre};
 use lie_runtime::scalar::Truncated;
 use lie_runtime::{
@@ -293,6 +294,13 @@ impl<S: Scalar> Widen<S> for Dynamic<S> {
     type Widened = Dynamic<S::Wide>;
     fn widen(&self) -> Self::Widened {
         self.with_scalar(S::widen, self.values.machine.wide())
+    }
+    fn stage_program(
+        &self,
+        slopes: StageSlopes,
+        stages: usize,
+    ) -> Option<Box<dyn StageProgram<S::Wide>>> {
+        self.stages(slopes, stages)
     }
 }
 

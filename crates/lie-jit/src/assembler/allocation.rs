@@ -3,7 +3,9 @@
 //! Registers of a code are written once. When all of the processor's are taken, the one whose number is needed last is given up (Belady);
 //! it is written to the frame unless it stands in memory anyway, as what was read, what is constant and what was stored do.
 
-use super::operation::{Arithmetic, Layout, Operand, Operation, Place, Program, Vector, called};
+use super::operation::{
+    Arithmetic, Layout, Operand, Operation, Place, Program, Vector, WITHOUT_SIGN, called,
+};
 use super::uses::{Lists, operands};
 use lie_dynamic::{Code, Instruction, Register};
 use std::collections::HashMap;
@@ -243,17 +245,19 @@ impl<'a> Allocation<'a> {
             Instruction::Sub(a, b) => self.arithmetic(index, Arithmetic::Sub, [a, b], result),
             Instruction::Mul(a, b) => self.arithmetic(index, Arithmetic::Mul, [a, b], result),
             Instruction::Div(a, b) => self.arithmetic(index, Arithmetic::Div, [a, b], result),
-            Instruction::Neg(a) => {
-                let left = self.load(a, &[]);
-                let right = Operand::Place(self.constant(-0.0));
+            Instruction::Neg(a) => self.with_bits(Arithmetic::Xor, a, -0.0, result),
+            Instruction::Abs(a) => {
+                self.with_bits(Arithmetic::And, a, f64::from_bits(WITHOUT_SIGN), result);
+            }
+            Instruction::Exchange(distance, a) => {
+                let of = self.load(a, &[]);
                 self.used(a);
                 let to = self.take(&[]);
-                self.do_it(Operation::Arithmetic {
+                self.do_it(Operation::Exchange {
                     result,
-                    what: Arithmetic::Xor,
+                    distance,
                     to,
-                    left,
-                    right,
+                    of,
                 });
                 self.give(result, to);
             }
@@ -289,6 +293,22 @@ impl<'a> Allocation<'a> {
             | Instruction::Stumpff(..)
             | Instruction::Phi(..) => self.call(instruction, result),
         }
+    }
+
+    /// What is done with the bits of a number and those of a constant.
+    fn with_bits(&mut self, what: Arithmetic, a: Register, constant: f64, result: Register) {
+        let left = self.load(a, &[]);
+        let right = Operand::Place(self.constant(constant));
+        self.used(a);
+        let to = self.take(&[]);
+        self.do_it(Operation::Arithmetic {
+            result,
+            what,
+            to,
+            left,
+            right,
+        });
+        self.give(result, to);
     }
 
     fn arithmetic(

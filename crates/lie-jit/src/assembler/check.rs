@@ -2,7 +2,9 @@
 //! instructions of the code alone. Nothing here is taken from how registers were allocated.
 
 use super::operation::called;
-use super::operation::{Arithmetic, Called, Layout, Operand, Operation, Place, Program, Vector};
+use super::operation::{
+    Arithmetic, Called, Layout, Operand, Operation, Place, Program, Vector, WITHOUT_SIGN,
+};
 use super::uses::operands;
 use lie_dynamic::{Code, Instruction, Register, Source};
 use std::collections::{HashMap, HashSet};
@@ -180,8 +182,24 @@ impl<'a> Followed<'a> {
                     {
                         self.are_read(instruction, &[left])?;
                     }
+                    (Instruction::Abs(_), Arithmetic::And) if right == Held::Bits(WITHOUT_SIGN) => {
+                        self.are_read(instruction, &[left])?;
+                    }
                     _ => return None,
                 }
+                self.hold(to, Held::Result(result))
+            }
+            Operation::Exchange {
+                result,
+                distance,
+                to,
+                of,
+            } => {
+                let instruction = self.instruction(result)?;
+                let same = matches!(instruction, Instruction::Exchange(d, _) if *d == distance);
+                let within = usize::from(distance) < self.layout.width.lanes();
+                let of = self.at(of).filter(|_| same && within)?;
+                self.are_read(instruction, &[of])?;
                 self.hold(to, Held::Result(result))
             }
             Operation::Sqrt { result, to, of } => {

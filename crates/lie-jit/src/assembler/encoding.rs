@@ -192,7 +192,9 @@ impl Bytes {
         right: Read,
     ) {
         let prefix = match (width, what) {
-            (Width::One, Arithmetic::Xor) | (Width::Eight | Width::Four, _) => Prefix::Packed,
+            (Width::One, Arithmetic::Xor | Arithmetic::And) | (Width::Eight | Width::Four, _) => {
+                Prefix::Packed
+            }
             (Width::One, _) => Prefix::One,
         };
         let code = match what {
@@ -203,6 +205,8 @@ impl Bytes {
             // AVX-512 has that of numbers in a part that not all processors have; that of integers has the same bits
             Arithmetic::Xor if width == Width::Eight => 0xEF,
             Arithmetic::Xor => 0x57,
+            Arithmetic::And if width == Width::Eight => 0xDB,
+            Arithmetic::And => 0x54,
         };
         let opcode = Opcode::new(prefix, Table::Of0F, code);
         self.vector(width, opcode, to.0, left.0, right);
@@ -213,6 +217,28 @@ impl Bytes {
         let second = if width == Width::One { of.0 } else { 0 };
         let opcode = Opcode::new(of_numbers(width), Table::Of0F, 0x51);
         self.vector(width, opcode, to.0, second, Read::Vector(of));
+    }
+
+    /// The numbers whose places differ by xor with a distance, each in the place of the other; none of a distance that a register does
+    /// not have.
+    pub fn exchange(&mut self, width: Width, to: Vector, of: Vector, distance: u8) -> Option<()> {
+        // neighbours, then pairs of numbers, which are named by two bits each
+        let (code, behind) = match (width, distance) {
+            (Width::Eight, 1) => (0x05, 0b0101_0101),
+            (Width::Eight, 2) => (0x23, 0b10_11_00_01),
+            (Width::Eight, 4) => (0x23, 0b01_00_11_10),
+            (Width::Eight, 6) => (0x23, 0b00_01_10_11),
+            (Width::Four, 1) => (0x05, 0b0101),
+            (Width::Four, 2) => (0x06, 0b0000_0001),
+            _ => return None,
+        };
+        let opcode = Opcode {
+            behind: Some(behind),
+            ..Opcode::new(Prefix::Packed, Table::Of0F3A, code)
+        };
+        let second = if distance == 1 { 0 } else { of.0 };
+        self.vector(width, opcode, to.0, second, Read::Vector(of));
+        Some(())
     }
 
     /// `to` from memory.

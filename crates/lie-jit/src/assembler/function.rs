@@ -12,7 +12,7 @@ const LARGEST_FRAME: u32 = 1 << 18;
 const PAGE: u32 = 4096;
 
 /// Arguments of a function: the table of slices; the vector and the matrix, or of columns the tables of those that are read and
-/// written; of columns how many bytes each has.
+/// written; of columns how many bytes each has, of a code that is repeated how often.
 const ARGUMENTS: [General; 4] = [General::Rdi, General::Rsi, General::Rdx, General::Rcx];
 const TABLE: General = ARGUMENTS[0];
 /// Where slices begin. The last one may have that of the table.
@@ -25,8 +25,8 @@ const BASES: [General; 7] = [
     General::R11,
     TABLE,
 ];
-/// The same along columns.
-const BASES_BESIDE_COLUMNS: [General; 7] = [
+/// The same in a loop.
+const BASES_IN_A_LOOP: [General; 7] = [
     General::R8,
     General::R9,
     General::R10,
@@ -37,11 +37,11 @@ const BASES_BESIDE_COLUMNS: [General; 7] = [
 ];
 /// Where functions of numbers have their argument and their result.
 const FIRST: Vector = Vector(0);
-/// How far along columns.
+/// How far along columns, or how often a code was done.
 const ALONG: General = General::Rbx;
 /// Where a column begins.
 const COLUMN: General = General::Rax;
-/// What a function along columns gives back as it was.
+/// What a function with a loop gives back as it was.
 const KEPT: [General; 4] = [General::Rbx, General::R12, General::R13, General::R14];
 
 struct Writer<'a> {
@@ -59,9 +59,10 @@ struct Writer<'a> {
 pub fn function(program: &Program, layout: Layout) -> Option<Vec<u8>> {
     let mut writer = Writer::new(program, layout)?;
     writer.begin();
-    match layout.columns {
-        None => writer.body()?,
-        Some(columns) => writer.along(columns)?,
+    match (layout.columns, layout.turns) {
+        (None, None) => writer.body()?,
+        (None, Some(slice)) => writer.in_turns(slice)?,
+        (Some(columns), _) => writer.along(columns)?,
     }
     writer.end();
     writer.with_constants()
@@ -87,9 +88,9 @@ impl<'a> Writer<'a> {
         }
         let mut operations = program.operations.iter();
         let calls = operations.any(|operation| matches!(operation, Operation::Call { .. }));
-        let pool = match layout.columns {
-            None => BASES,
-            Some(_) => BASES_BESIDE_COLUMNS,
+        let pool = match layout.has_loop() {
+            false => BASES,
+            true => BASES_IN_A_LOOP,
         };
         if slices.len() > pool.len() {
             return None;
@@ -111,7 +112,7 @@ impl<'a> Writer<'a> {
     }
 
     fn has_frame(&self) -> bool {
-        self.frame > 0 || self.layout.columns.is_some()
+        self.frame > 0 || self.layout.has_loop()
     }
 
     fn begin(&mut self) {
@@ -122,7 +123,7 @@ impl<'a> Writer<'a> {
         let bytes = &mut self.bytes;
         bytes.push(General::Rbp);
         bytes.copy_word(General::Rbp, General::Rsp);
-        if self.layout.columns.is_some() {
+        if self.layout.has_loop() {
             KEPT.into_iter().for_each(|register| bytes.push(register));
         }
         bytes.align(General::Rsp);
@@ -163,7 +164,7 @@ impl<'a> Writer<'a> {
         self.bytes.clear_upper_halves();
         if self.has_frame() {
             let bytes = &mut self.bytes;
-            if self.layout.columns.is_some() {
+            if self.layout.has_loop() {
                 let kept = 8 * KEPT.len() as u8;
                 bytes.address_below(General::Rsp, General::Rbp, kept);
                 KEPT.into_iter()
@@ -184,6 +185,30 @@ impl<'a> Writer<'a> {
         self.body()?;
         self.bytes.add(ALONG, columns.step);
         self.bytes.compare(ALONG, General::Rcx);
+        self.bytes.jump_if_below(start);
+        Some(())
+    }
+
+    /// The loop of a code that is done again and again, at least once: a slice and the vector exchange their places after each time.
+    fn in_turns(&mut self, slice: u8) -> Option<()> {
+        let from = Memory::At(TABLE, 8 * i32::from(slice));
+        let vector = ARGUMENTS[1];
+        self.bytes.zero(ALONG);
+        let start = self.bytes.all.len();
+        self.body()?;
+        self.bytes.copy_word(COLUMN, vector);
+        self.bytes.load_word(vector, from);
+        self.bytes.store_word(from, COLUMN);
+        if self.calls {
+            let kept = self.word(1);
+            self.bytes.store_word(kept, vector);
+        }
+        let base = self.bases.iter().find(|(known, _)| *known == slice);
+        if let Some((_, base)) = base {
+            self.bytes.copy_word(*base, COLUMN);
+        }
+        self.bytes.add(ALONG, 1);
+        self.bytes.compare(ALONG, ARGUMENTS[3]);
         self.bytes.jump_if_below(start);
         Some(())
     }
@@ -261,6 +286,9 @@ impl<'a> Writer<'a> {
                     self.bytes.arithmetic(width, what, to, left, right);
                 }
                 Operation::Sqrt { to, of, .. } => self.bytes.sqrt(width, to, of),
+                Operation::Exchange {
+                    distance, to, of, ..
+                } => self.bytes.exchange(width, to, of, distance)?,
                 Operation::Below {
                     to,
                     test,

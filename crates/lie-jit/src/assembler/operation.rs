@@ -55,6 +55,8 @@ pub struct Layout {
     pub stride: u32,
     /// Of columns the first argument and the vector are a table of columns, which the code is done along.
     pub columns: Option<Columns>,
+    /// The slice that takes turns with the vector, where the code is done again and again.
+    pub turns: Option<u8>,
 }
 
 /// How columns are gone along.
@@ -72,6 +74,7 @@ impl Layout {
         width: Width::One,
         stride: 8,
         columns: None,
+        turns: None,
     };
 
     /// Neighbours of so many lanes.
@@ -80,6 +83,15 @@ impl Layout {
             width,
             stride: 8 * lanes as u32,
             columns: None,
+            turns: None,
+        }
+    }
+
+    /// The same, done again and again, each time from what the time before gave in place of a slice.
+    pub const fn repeated(self, slice: u8) -> Self {
+        Self {
+            turns: Some(slice),
+            ..self
         }
     }
 
@@ -92,6 +104,7 @@ impl Layout {
                 step: width.bytes(),
                 single: true,
             }),
+            turns: None,
         }
     }
 
@@ -104,6 +117,11 @@ impl Layout {
             }),
             ..Self::lanes(width, lanes)
         }
+    }
+
+    /// Whether the code is done more than once in a call.
+    pub fn has_loop(&self) -> bool {
+        self.columns.is_some() || self.turns.is_some()
     }
 
     /// Whether a place has one number, which a load puts into all lanes.
@@ -158,7 +176,12 @@ pub enum Arithmetic {
     Div,
     /// Exclusive or of all bits: with the constant -0 the sign changes.
     Xor,
+    /// The bits that both have.
+    And,
 }
+
+/// All bits but that of the sign.
+pub const WITHOUT_SIGN: u64 = u64::MAX >> 1;
 
 /// A function that is called lane by lane.
 #[derive(Clone, Copy, Debug)]
@@ -201,6 +224,13 @@ pub enum Operation {
     },
     Sqrt {
         result: Register,
+        to: Vector,
+        of: Vector,
+    },
+    /// The numbers of a register whose places differ by xor with a distance, each in the place of the other.
+    Exchange {
+        result: Register,
+        distance: u8,
         to: Vector,
         of: Vector,
     },

@@ -15,6 +15,8 @@ pub fn operands(instruction: &Instruction) -> SmallVec<[Register; 3]> {
         Instruction::Below(a, b, c) => SmallVec::from_slice(&[a, b, c]),
         Instruction::Neg(a)
         | Instruction::Sqrt(a)
+        | Instruction::Abs(a)
+        | Instruction::Exchange(_, a)
         | Instruction::Call(_, a)
         | Instruction::Stumpff(_, a)
         | Instruction::Phi(_, a) => SmallVec::from_slice(&[a]),

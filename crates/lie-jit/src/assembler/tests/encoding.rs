@@ -118,16 +118,18 @@ fn arithmetic(lines: &mut Lines, width: Width) {
         (Arithmetic::Mul, "vmul"),
         (Arithmetic::Div, "vdiv"),
         (Arithmetic::Xor, "vxor"),
+        (Arithmetic::And, "vand"),
     ] {
         let mnemonic = match (what, width) {
             (Arithmetic::Xor, Width::Eight) => "vpxorq".to_owned(),
-            (Arithmetic::Xor, _) => "vxorpd".to_owned(),
+            (Arithmetic::And, Width::Eight) => "vpandq".to_owned(),
+            (Arithmetic::Xor | Arithmetic::And, _) => format!("{stem}pd"),
             _ => format!("{stem}{suffix}"),
         };
         let mut each = |to: Vector, left: Vector, right: Read| {
             let (a, b) = (vector(width, to), vector(width, left));
             let right_text = match (what, width, right) {
-                (Arithmetic::Xor, Width::One, Read::Whole(at)) => {
+                (Arithmetic::Xor | Arithmetic::And, Width::One, Read::Whole(at)) => {
                     format!("xmmword ptr {}", memory(at))
                 }
                 _ => read(width, right),
@@ -227,6 +229,42 @@ fn choices(lines: &mut Lines, width: Width) {
             bytes.sqrt(width, Vector(1), v);
             bytes.sqrt(width, v, Vector(2));
         });
+    }
+}
+
+fn exchanges(lines: &mut Lines, width: Width) {
+    let all: &[(u8, &str, u8)] = match width {
+        Width::Eight => &[
+            (1, "vpermilpd", 0x55),
+            (2, "vshuff64x2", 0xB1),
+            (4, "vshuff64x2", 0x4E),
+            (6, "vshuff64x2", 0x1B),
+        ],
+        Width::Four => &[(1, "vpermilpd", 5), (2, "vperm2f128", 1)],
+        Width::One => &[],
+    };
+    for (distance, mnemonic, number) in all {
+        for v in classes(width) {
+            for (to, of) in [(v, Vector(1)), (Vector(2), v), (v, v)] {
+                let [to_text, of_text] = [to, of].map(|v| vector(width, v));
+                let twice = if *distance == 1 {
+                    of_text
+                } else {
+                    format!("{of_text}, {of_text}")
+                };
+                let line = format!("{mnemonic} {to_text}, {twice}, {number}");
+                lines.add(line, |bytes| {
+                    bytes.exchange(width, to, of, *distance).unwrap();
+                });
+            }
+        }
+    }
+    for distance in [0, 3, 8] {
+        assert!(
+            Bytes::default()
+                .exchange(width, Vector(0), Vector(1), distance)
+                .is_none()
+        );
     }
 }
 
@@ -342,6 +380,7 @@ fn instructions_have_the_bytes_of_gnus_assembler() {
         arithmetic(&mut lines, width);
         moves(&mut lines, width);
         choices(&mut lines, width);
+        exchanges(&mut lines, width);
     }
     general(&mut lines);
     let path = concat!(

@@ -51,7 +51,8 @@ fn code(random: &mut Random, length: u32, calls: bool, matrix: bool) -> Code {
             28..30 => Instruction::Div(a, b),
             30..32 => Instruction::Neg(a),
             32..34 => Instruction::Sqrt(a),
-            34..36 => Instruction::Below(a, b, c),
+            34 => Instruction::Abs(a),
+            35 => Instruction::Below(a, b, c),
             36 => Instruction::Power(a, b),
             37 => Instruction::Atan2(a, b),
             38 => Instruction::Call(Elementary::Exp, a),
@@ -227,7 +228,9 @@ fn changed(program: &Program, at: usize, layout: Layout) -> Vec<Program> {
         } => {
             let other = match what {
                 Arithmetic::Add => Arithmetic::Sub,
-                Arithmetic::Sub | Arithmetic::Div | Arithmetic::Xor => Arithmetic::Add,
+                Arithmetic::Sub | Arithmetic::Div => Arithmetic::Add,
+                Arithmetic::Xor => Arithmetic::And,
+                Arithmetic::And => Arithmetic::Xor,
                 Arithmetic::Mul => Arithmetic::Div,
             };
             for (what, to, left, right) in [
@@ -251,6 +254,25 @@ fn changed(program: &Program, at: usize, layout: Layout) -> Vec<Program> {
             to: beyond,
             of,
         })),
+        Operation::Exchange {
+            result,
+            distance,
+            to,
+            of,
+        } => all.extend([
+            with(Operation::Exchange {
+                result,
+                distance: distance ^ 3,
+                to,
+                of,
+            }),
+            with(Operation::Exchange {
+                result,
+                distance,
+                to,
+                of: beyond,
+            }),
+        ]),
         Operation::Below {
             result,
             test,
