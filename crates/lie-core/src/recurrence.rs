@@ -31,6 +31,18 @@ pub trait Recurrence<S: Scalar> {
         coefficient: &Self::State,
         field: &mut Self::State,
     ) -> Self::Carry;
+    /// Writes the coefficients of the orders 1 to `last` of a solution from a state in one, each times the power of a unit of time, in
+    /// some lanes, and keeps those of the conditions; false where the system has no program of all orders, and nothing is done.
+    fn develop(
+        &mut self,
+        _mu: &Self::State,
+        _unit: S,
+        _last: usize,
+        _rows: &mut [Self::State],
+        _lanes: S::Mask,
+    ) -> bool {
+        false
+    }
     /// The coefficients of an order of the conditions that choose branches, each with its first branch where it is negative,
     /// of the orders since [`Recurrence::begin`].
     fn conditions(&self, _k: usize) -> &[S] {

@@ -121,13 +121,16 @@ impl<S: Scalar, P: Series<S>> Development<S> for TaylorDevelopment<'_, S, P> {
         let mut open = lanes;
         loop {
             let (unit, all) = (self.unit.length, open.all());
-            for k in 1..last {
-                multiply(&field, self.inverses[k] * unit, &mut coefficient);
-                carry = self.recurrence.advance(k, carry, &coefficient, &mut field);
-                copy_lanes(&mut self.rows[k], &coefficient, open, all);
+            let rows = &mut self.rows;
+            if !self.recurrence.develop(mu, unit, last, rows, open) {
+                for k in 1..last {
+                    multiply(&field, self.inverses[k] * unit, &mut coefficient);
+                    carry = self.recurrence.advance(k, carry, &coefficient, &mut field);
+                    copy_lanes(&mut rows[k], &coefficient, open, all);
+                }
+                multiply(&field, self.inverses[last] * unit, &mut coefficient);
+                copy_lanes(&mut rows[last], &coefficient, open, all);
             }
-            multiply(&field, self.inverses[last] * unit, &mut coefficient);
-            copy_lanes(&mut self.rows[last], &coefficient, open, all);
             open = self
                 .unit
                 .settle(&self.pace, &[&self.rows], clock, step, open);

@@ -7,7 +7,7 @@ pub(crate) use values::Values;
 
 use crate::code::Code;
 use crate::engine::ARGUMENTS;
-use crate::recording::{Programs, StageCodes, Step};
+use crate::recording::{Programs, SeriesCodes, StageCodes, Step};
 use elimination::Elimination;
 use lie_codegen::methods::{Choice, Gradient};
 use lie_codegen::plan::{Constants, Function, Fused, Generating, Item, Method, Plan, Solver};
@@ -131,6 +131,8 @@ pub(crate) struct Compiled {
     pub steps: MethodCache<Step>,
     /// Equations as programs.
     pub equations: MethodCache<Programs>,
+    /// Taylor series, by their order.
+    pub series: MethodCache<SeriesCodes, usize>,
     /// Iterations over stages side by side, by their slopes and whether they are more than four.
     pub stages: MethodCache<StageCodes, (StageSlopes, bool)>,
 }
@@ -363,6 +365,7 @@ impl Compiled {
             casimir_degrees,
             steps: MethodCache::new(),
             equations: MethodCache::new(),
+            series: MethodCache::new(),
             stages: MethodCache::new(),
         }
     }

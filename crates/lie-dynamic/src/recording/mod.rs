@@ -5,6 +5,7 @@
 //! operations; the code of a kernel stands in place of its call. The operations and their order are those of the step kernel by
 //! kernel, so the bits are the same. What depends on the step size alone is a program of its own, run once.
 
+mod development;
 mod equation;
 mod record;
 mod recorded;
@@ -25,6 +26,7 @@ use record::written;
 use recorded::Inlined;
 use std::sync::Arc;
 
+pub(crate) use development::{Development, SeriesCodes};
 pub(crate) use equation::{Programs, Running, Write, write};
 pub(crate) use recorded::Recorded;
 pub(crate) use stages::StageCodes;

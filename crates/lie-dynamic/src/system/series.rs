@@ -3,11 +3,14 @@
 use crate::code::Code;
 use crate::compiled::CodeBuilder;
 use crate::engine::ARGUMENTS;
+use crate::recording::Development;
 use crate::system::Dynamic;
 use lie_codegen::plan;
 use lie_core::generic::PowerSeries;
 use lie_runtime::recurrence::MOST_ORDERS;
+use lie_runtime::scalar::Mask;
 use lie_runtime::{GradientRecurrence, GradientSeries, Poisson, Recurrence, Scalar, Series};
+use std::ops::Range;
 
 /// A recurrence in code.
 #[derive(Debug)]
@@ -44,11 +47,10 @@ impl Codes {
     }
 }
 
-/// The recurrence of a system; where the plan has none, the field over truncated series.
-pub struct Coefficients<'a, S: Scalar> {
+/// The recurrence of a system by codes.
+pub(crate) struct ByCodes<'a, S: Scalar> {
     system: &'a Dynamic<S>,
-    codes: Option<&'a Codes>,
-    power: Option<PowerSeries<S, Dynamic<S>>>,
+    codes: &'a Codes,
     /// What the code of an order writes.
     results: Vec<S>,
     kept: Vec<S>,
@@ -62,29 +64,44 @@ pub struct Coefficients<'a, S: Scalar> {
     conditions: Vec<S>,
 }
 
-impl<'a, S: Scalar> Coefficients<'a, S> {
-    fn new(system: &'a Dynamic<S>, codes: Option<&'a Codes>) -> Self {
+impl<'a, S: Scalar> ByCodes<'a, S> {
+    pub(crate) fn new(system: &'a Dynamic<S>, codes: &'a Codes) -> Self {
         let zeros = |count: usize| vec![S::zero(); count];
-        let (pairs, kept, rest) =
-            codes.map_or((0, 0, 0), |codes| (codes.pairs, codes.kept, codes.rest()));
-        let conditions = codes.map_or(0, |codes| codes.conditions);
         Self {
             system,
             codes,
-            power: codes.is_none().then(|| PowerSeries::new(system)),
-            results: zeros(rest + kept.max(2 * pairs)),
-            kept: zeros(kept),
-            left: zeros(MOST_ORDERS * pairs),
-            right: zeros(MOST_ORDERS * pairs),
-            rest: zeros(pairs),
+            results: zeros(codes.rest() + codes.kept.max(2 * codes.pairs)),
+            kept: zeros(codes.kept),
+            left: zeros(MOST_ORDERS * codes.pairs),
+            right: zeros(MOST_ORDERS * codes.pairs),
+            rest: zeros(codes.pairs),
             gradient: system.zero_state(),
-            conditions: zeros(MOST_ORDERS * conditions),
+            conditions: zeros(MOST_ORDERS * codes.conditions),
         }
+    }
+
+    /// The conditions of the first orders, one order after the other.
+    pub(crate) fn conditions(&self, orders: Range<usize>) -> &[S] {
+        let count = self.codes.conditions;
+        &self.conditions[orders.start * count..orders.end * count]
+    }
+
+    pub(crate) fn begin(&mut self, mu: &[S], field: &mut [S]) {
+        let codes = self.codes;
+        self.run(codes.begin, mu, None, field);
+        let kept = &self.results[codes.rest()..][..codes.kept];
+        self.kept.copy_from_slice(kept);
+        self.rest.fill(S::zero());
+    }
+
+    pub(crate) fn advance(&mut self, k: usize, coefficient: &[S], field: &mut [S]) {
+        self.run(self.codes.advance, coefficient, Some(k), field);
+        self.push(k);
     }
 
     /// Runs the code of an order; the entries go to the field and the gradient.
     fn run(&mut self, code: usize, state: &[S], k: Option<usize>, field: &mut [S]) {
-        let Some(codes) = self.codes else { return };
+        let codes = self.codes;
         let order = k.map_or([S::zero(); 2], |k| {
             [S::from_f64(k as f64), S::ratio(1.0, k as f64)]
         });
@@ -108,7 +125,8 @@ impl<'a, S: Scalar> Coefficients<'a, S> {
 
     /// Takes the coefficients of order k of all pairs and sums those of the next, as generated code does: the even and the odd
     /// terms in chains of their own.
-    fn push(&mut self, k: usize, codes: &Codes) {
+    fn push(&mut self, k: usize) {
+        let codes = self.codes;
         let pairs = codes.pairs;
         let (left, right) = self.results[codes.rest()..][..2 * pairs].split_at(pairs);
         self.left[k * pairs..][..pairs].copy_from_slice(left);
@@ -137,45 +155,85 @@ impl<'a, S: Scalar> Coefficients<'a, S> {
     }
 }
 
+/// The recurrence of a system; where the plan has none, the field over truncated series.
+pub struct Coefficients<'a, S: Scalar> {
+    by_codes: Option<ByCodes<'a, S>>,
+    whole: Option<Development<'a, S>>,
+    power: Option<PowerSeries<S, Dynamic<S>>>,
+}
+
+impl<'a, S: Scalar> Coefficients<'a, S> {
+    fn new(system: &'a Dynamic<S>, codes: Option<&'a Codes>) -> Self {
+        Self {
+            by_codes: codes.map(|codes| ByCodes::new(system, codes)),
+            whole: None,
+            power: codes.is_none().then(|| PowerSeries::new(system)),
+        }
+    }
+}
+
 impl<S: Scalar> Recurrence<S> for Coefficients<'_, S> {
     type State = Vec<S>;
     type Carry = ();
 
     fn begin(&mut self, mu: &Vec<S>, field: &mut Vec<S>) {
-        let Some(codes) = self.codes else {
-            if let Some(power) = &mut self.power {
-                let () = power.begin(mu, field);
-            }
-            return;
-        };
-        self.run(codes.begin, mu, None, field);
-        let kept = &self.results[codes.rest()..][..codes.kept];
-        self.kept.copy_from_slice(kept);
-        self.rest.fill(S::zero());
+        match (&mut self.by_codes, &mut self.power) {
+            (Some(by_codes), _) => by_codes.begin(mu, field),
+            (None, Some(power)) => power.begin(mu, field),
+            (None, None) => {}
+        }
     }
 
     fn advance(&mut self, k: usize, (): (), coefficient: &Vec<S>, field: &mut Vec<S>) {
-        let Some(codes) = self.codes else {
-            if let Some(power) = &mut self.power {
-                let () = power.advance(k, (), coefficient, field);
-            }
-            return;
+        match (&mut self.by_codes, &mut self.power) {
+            (Some(by_codes), _) => by_codes.advance(k, coefficient, field),
+            (None, Some(power)) => power.advance(k, (), coefficient, field),
+            (None, None) => {}
+        }
+    }
+
+    fn develop(
+        &mut self,
+        mu: &Vec<S>,
+        unit: S,
+        last: usize,
+        rows: &mut [Vec<S>],
+        lanes: S::Mask,
+    ) -> bool {
+        let (Some(whole), Some(by_codes)) = (&mut self.whole, &mut self.by_codes) else {
+            return false;
         };
-        self.run(codes.advance, coefficient, Some(k), field);
-        self.push(k, codes);
+        let count = by_codes.codes.conditions;
+        let conditions = &mut by_codes.conditions[..last * count];
+        let Some(coefficients) = whole.run(mu, unit, last, conditions) else {
+            return false;
+        };
+        let all = lanes.all();
+        let found = coefficients.chunks_exact(mu.len());
+        for (row, coefficient) in rows[1..].iter_mut().zip(found) {
+            if all {
+                row.copy_from_slice(coefficient);
+                continue;
+            }
+            for (mine, theirs) in row.iter_mut().zip(coefficient) {
+                *mine = S::select(lanes, *theirs, *mine);
+            }
+        }
+        true
     }
 
     fn conditions(&self, k: usize) -> &[S] {
-        let count = self.codes.map_or(0, |codes| codes.conditions);
-        &self.conditions[k * count..][..count]
+        let by_codes = self.by_codes.as_ref();
+        by_codes.map_or(&[], |by_codes| by_codes.conditions(k..k + 1))
     }
 }
 
 impl<S: Scalar> GradientRecurrence<S> for Coefficients<'_, S> {
     fn gradient(&self) -> &Vec<S> {
-        match &self.power {
-            Some(power) => power.gradient(),
-            None => &self.gradient,
+        match (&self.power, &self.by_codes) {
+            (Some(power), _) => power.gradient(),
+            (None, Some(by_codes)) => &by_codes.gradient,
+            (None, None) => unreachable!("a recurrence is by codes or by power series"),
         }
     }
 }
@@ -183,7 +241,11 @@ impl<S: Scalar> GradientRecurrence<S> for Coefficients<'_, S> {
 impl<S: Scalar> Series<S> for Dynamic<S> {
     type Recurrence<'a> = Coefficients<'a, S>;
     fn series(&self) -> Coefficients<'_, S> {
-        Coefficients::new(self, self.values.compiled.taylor.as_ref())
+        let codes = self.values.compiled.taylor.as_ref();
+        Coefficients {
+            whole: codes.and_then(|_| Development::new(self)),
+            ..Coefficients::new(self, codes)
+        }
     }
 }
 
