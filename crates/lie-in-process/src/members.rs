@@ -6,7 +6,7 @@
 
 use lie_codegen::methods::Choice;
 use lie_dynamic::{
-    Declared, Dynamic, Method, PATIENCE, Tolerances, is_compiled_for_lanes, method, method_in_lanes,
+    Declared, Dynamic, Method, Tolerances, is_compiled_for_lanes, method, method_in_lanes,
 };
 use lie_runtime::diagnostics::Forgotten;
 use lie_runtime::driver::{
@@ -187,7 +187,7 @@ impl Members<'_> {
 
     /// Whether all members together make so many steps that programs of the whole pay.
     fn is_long(&self) -> bool {
-        self.steps() > f64::from(PATIENCE)
+        self.steps() > f64::from(self.declared.patience())
     }
 
     /// The steps of all members; none where each run chooses its own.

@@ -4,7 +4,7 @@ use lie_codegen::compile::{compile_spec, with_options};
 use lie_codegen::methods::Choice;
 use lie_codegen::plan::plan;
 use lie_codegen::structure::Structure;
-use lie_dynamic::{Declared, Tolerances};
+use lie_dynamic::{Declared, Engine, Interpreted, Tolerances};
 use lie_in_process::list;
 use lie_in_process::members::{LANES, Member, Members, Watch};
 use lie_jit::Jit;
@@ -136,9 +136,9 @@ fn sweep<'a>(declared: &'a Declared, choice: &'a Choice, save: Save) -> Members<
     }
 }
 
-fn top(choices: &[Choice]) -> Declared {
+fn top(choices: &[Choice], engine: &dyn Engine) -> Declared {
     let model = model("se3_heavy_top");
-    Declared::new(plan(&model, &with_options(&model, choices)), &Jit)
+    Declared::new(plan(&model, &with_options(&model, choices)), engine)
 }
 
 fn choices() -> Vec<Choice> {
@@ -150,7 +150,7 @@ fn choices() -> Vec<Choice> {
 #[test]
 fn parameters_and_rows_of_each_member() {
     let choices = choices();
-    let declared = top(&choices);
+    let declared = top(&choices, &Jit);
     for choice in &choices {
         let saves = [
             (Save::Ends, 1),
@@ -172,7 +172,7 @@ fn parameters_and_rows_of_each_member() {
 #[test]
 fn members_that_fail_fail_as_alone_and_leave_the_others_as_they_are() {
     let choices = choices();
-    let declared = top(&choices);
+    let declared = top(&choices, &Jit);
     for choice in &choices {
         for save in [Save::Ends, Save::Every(1)] {
             let whole = all(&sweep(&declared, choice, save.clone()));
@@ -201,7 +201,7 @@ fn members_that_fail_fail_as_alone_and_leave_the_others_as_they_are() {
 #[test]
 fn a_group_that_fails_late_keeps_its_rows() {
     let choices = [Choice::from_id("midpoint").unwrap()];
-    let declared = top(&choices);
+    let declared = top(&choices, &Jit);
     let mut members = sweep(&declared, &choices[0], Save::Every(1));
     members.options = Options::new(30.0).save(Save::Every(1));
     members.span.1 = 300.0;
@@ -218,7 +218,7 @@ fn a_group_that_fails_late_keeps_its_rows() {
 #[test]
 fn with_a_tolerance_members_are_alone() {
     let [gauss4, dopri5] = ["gauss4", "dopri5"].map(|id| Choice::from_id(id).unwrap());
-    let declared = top(&[gauss4.clone(), dopri5.clone()]);
+    let declared = top(&[gauss4.clone(), dopri5.clone()], &Jit);
     let mut members = sweep(&declared, &gauss4, Save::Ends);
     assert!(members.takes_lanes());
     members.options = Options::tolerance(1e-6);
@@ -227,11 +227,11 @@ fn with_a_tolerance_members_are_alone() {
     assert_eq!(LANES, 8);
 }
 
-/// Members one by one, each by a declaration of its own: so few steps are made kernel by kernel.
+/// Members one by one, by the interpreter, which makes all steps kernel by kernel.
 fn kernel_by_kernel(members: &Members<'_>) -> Vec<Member> {
     let each = members.starts.iter().zip(&members.parameters);
     let run = |(start, parameters): (&Vec<f64>, &Vec<f64>)| {
-        let declared = top(std::slice::from_ref(members.choice));
+        let declared = top(std::slice::from_ref(members.choice), &Interpreted);
         let one = Members {
             declared: &declared,
             parameters: vec![parameters.clone()],
@@ -249,12 +249,18 @@ fn kernel_by_kernel(members: &Members<'_>) -> Vec<Member> {
 
 #[test]
 fn steps_and_equations_that_are_one_program() {
-    for id in ["rk4", "cf4", "splitting4", "compose4(splitting2)", "gauss4"] {
+    for id in [
+        "rk4",
+        "cf4",
+        "splitting4",
+        "compose4(splitting2)",
+        "gauss4",
+        "lie-midpoint",
+        "orbit-energy",
+    ] {
         let choice = Choice::from_id(id).unwrap();
-        let declared = top(std::slice::from_ref(&choice));
+        let declared = top(std::slice::from_ref(&choice), &Jit);
         let mut members = sweep(&declared, &choice, Save::Every(50));
-        let short = members.takes_lanes();
-        assert_eq!(short, id == "rk4" || id == "gauss4", "{id}");
         members.options = Options::new(STEP / 10.0).save(Save::Every(50));
         assert!(members.takes_lanes(), "{id}");
         members.starts[2][0] = f64::NAN;

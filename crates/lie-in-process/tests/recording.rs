@@ -61,7 +61,7 @@ fn on_every_spec() {
     let folder = format!("{}/../../specs", env!("CARGO_MANIFEST_DIR"));
     let files = std::fs::read_dir(folder).unwrap();
     let names = files.map(|file| file.unwrap().file_name().into_string().unwrap());
-    let (mut steps, mut equations, mut apart) = (0, [0; 3], Vec::new());
+    let (mut steps, mut traced, mut apart, mut untraced) = (0, 0, Vec::new(), Vec::new());
     for name in names.filter(|name| name.ends_with(".json") && !name.contains("schema")) {
         let both = Both::new(&name);
         let hurried = both.compiled.clone().without_patience();
@@ -72,18 +72,20 @@ fn on_every_spec() {
             let label = format!("{name} {}", choice.label());
             let claims = method(choice, Tolerances::default()).claims();
             for h in [0.07, -0.07] {
-                let found = end(&hurried, choice, h, &mu, 40);
-                let expected = end(&both.interpreted, choice, h, &mu, 40);
+                let found = end(&hurried, choice, h, &mu, 60);
+                let expected = end(&both.interpreted, choice, h, &mu, 60);
                 assert_eq!(found, expected, "{label}, {h}");
                 // the control: another step size
-                let other = end(&hurried, choice, h * (1.0 + 1e-9), &mu, 40);
+                let other = end(&hurried, choice, h * (1.0 + 1e-9), &mu, 60);
                 assert!(found.0 != other.0 || choice.id() == "exact", "{label}");
             }
             match (hurried.programs(choice), claims.explicit) {
                 (0, true) if claims.own_steps || choice.id() == "exact" => {}
                 (0, true) => apart.push(label),
                 (count, true) => steps += count,
-                (count, false) => equations[count] += 1,
+                (0, false) if claims.fixed_point || claims.own_steps => {}
+                (0, false) => untraced.push(label),
+                (_, false) => traced += 1,
             }
         }
     }
@@ -93,8 +95,10 @@ fn on_every_spec() {
         !exponential && !label.starts_with("so3_quartic_lagrangian")
     });
     assert!(apart.is_empty(), "{apart:#?}");
-    // steps, residuals alone, residuals with Jacobians; docs/back_ends.md quotes them
-    assert_eq!((steps, equations[1], equations[2]), (352, 51, 108));
+    untraced.retain(|label| !label.starts_with("so3_quartic_lagrangian"));
+    // steps that are one program, methods with a solver that have traces, and that have none, nearly all because their steps are too
+    // long; docs/back_ends.md quotes them
+    assert_eq!((steps, traced, untraced.len()), (352, 684, 154));
 }
 
 fn explicit() -> Vec<Choice> {
@@ -103,19 +107,25 @@ fn explicit() -> Vec<Choice> {
         .to_vec()
 }
 
-/// Equations are evaluated several times in a step, and wait for five times as many evaluations.
+/// Traces are taken within a run, and others where the steps change.
 #[test]
-fn equations_within_a_run() {
-    for id in ["gauss4", "gauss6"] {
+fn traces_within_a_run() {
+    for id in [
+        "gauss4",
+        "gauss6",
+        "lie-midpoint",
+        "orbit-energy",
+        "compose4(midpoint)",
+    ] {
         let choice = Choice::from_id(id).unwrap();
         let both = Both::new("se3_heavy_top.json");
         let mu = both.compiled.initial_state().unwrap();
-        let steps = 3 * PATIENCE;
-        let found = end(&both.compiled, &choice, 0.05, &mu, steps);
-        assert_eq!(both.compiled.programs(&choice), 2, "{id}");
+        let found = end(&both.compiled, &choice, 0.05, &mu, 3000);
+        let traces = both.compiled.programs(&choice);
+        assert!((1..=12).contains(&traces), "{id}: {traces}");
         assert_eq!(
             found,
-            end(&both.interpreted, &choice, 0.05, &mu, steps),
+            end(&both.interpreted, &choice, 0.05, &mu, 3000),
             "{id}"
         );
     }

@@ -261,6 +261,8 @@ impl Body<'_, '_> {
                 let a = at(a);
                 self.builder.ins().fabs(a)
             }
+            Instruction::Less(a, b) => self.compare(FloatCC::LessThan, at(a), at(b)),
+            Instruction::LessEqual(a, b) => self.compare(FloatCC::LessThanOrEqual, at(a), at(b)),
             // neighbours in a pair; of single numbers there are none
             Instruction::Exchange(1, a) if self.shape.number.is_vector() => {
                 let a = at(a);
@@ -304,6 +306,19 @@ impl Body<'_, '_> {
         };
         self.registers.push(value);
         Some(())
+    }
+
+    /// 1 where it holds, 0 elsewhere.
+    fn compare(&mut self, condition: FloatCC, left: Value, right: Value) -> Value {
+        let [one, zero] = [1.0, 0.0].map(|value| self.constant(value));
+        let holds = self.builder.ins().fcmp(condition, left, right);
+        if !self.shape.number.is_vector() {
+            return self.builder.ins().select(holds, one, zero);
+        }
+        let flags = MemFlags::new();
+        let builder = &mut self.builder;
+        let holds = builder.ins().bitcast(self.shape.number, flags, holds);
+        builder.ins().bitselect(holds, one, zero)
     }
 
     /// A function of numbers.

@@ -144,6 +144,12 @@ impl<'a> Body<'a> {
             Instruction::Abs(a) => {
                 self.operands(&[a]).f64_abs();
             }
+            Instruction::Less(a, b) => {
+                self.operands(&[a, b]).f64_lt().f64_convert_i32_u();
+            }
+            Instruction::LessEqual(a, b) => {
+                self.operands(&[a, b]).f64_le().f64_convert_i32_u();
+            }
             // of one lane it is the same number
             Instruction::Exchange(_, a) => self.operand(a),
             Instruction::Power(a, b) => self.call("powf", &[a, b]),

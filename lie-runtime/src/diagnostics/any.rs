@@ -157,6 +157,8 @@ pub trait AnyStepper<S, V> {
     fn advance(&mut self, mu: &mut V, steps: u64) -> Result<Stats, (u64, StepFailure)>;
     /// See [`Stepper::estimate`].
     fn estimate(&mut self) -> Option<S>;
+    /// See [`Stepper::carry`].
+    fn carry(&mut self, visit: &mut dyn FnMut(&mut S)) -> bool;
 }
 
 impl<S: Scalar, V: State<S>, T: Stepper<S, State = V>> AnyStepper<S, V> for T {
@@ -186,6 +188,10 @@ impl<S: Scalar, V: State<S>, T: Stepper<S, State = V>> AnyStepper<S, V> for T {
 
     fn estimate(&mut self) -> Option<S> {
         Stepper::estimate(self)
+    }
+
+    fn carry(&mut self, visit: &mut dyn FnMut(&mut S)) -> bool {
+        Stepper::carry(self, visit)
     }
 }
 
@@ -278,5 +284,9 @@ impl<S: Scalar, V: State<S>> Stepper<S> for ForgottenStepper<'_, V, S> {
 
     fn estimate(&mut self) -> Option<S> {
         self.stepper.estimate()
+    }
+
+    fn carry(&mut self, visit: &mut dyn FnMut(&mut S)) -> bool {
+        self.stepper.carry(visit)
     }
 }

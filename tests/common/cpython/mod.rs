@@ -115,6 +115,8 @@ fn function((position, code): (usize, &Code)) -> String {
             Instruction::Neg(a) => format!("-r{a}"),
             Instruction::Sqrt(a) => format!("root(r{a})"),
             Instruction::Abs(a) => format!("abs(r{a})"),
+            Instruction::Less(a, b) => format!("1.0 if r{a} < r{b} else 0.0"),
+            Instruction::LessEqual(a, b) => format!("1.0 if r{a} <= r{b} else 0.0"),
             // of one lane it is the same number
             Instruction::Exchange(_, a) => format!("r{a}"),
             Instruction::Below(a, b, c) => format!("r{b} if r{a} < 0.0 else r{c}"),

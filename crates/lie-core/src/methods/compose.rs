@@ -228,7 +228,7 @@ impl<S: Scalar, T: Stepper<S>> Stages<S, T> {
             total.fixed_point += report.fixed_point;
             total.iterations += report.iterations;
             total.factorizations += report.factorizations;
-            total.residual = Scalar::max(total.residual, report.residual);
+            total.residual = S::larger(total.residual, report.residual);
             total.rejected += report.rejected;
             total.pivoted |= report.pivoted;
             if failed_lanes::<S>(failure.as_ref()).all() {
@@ -251,6 +251,11 @@ fn failed_lanes<S: Scalar>(failure: Option<&StepFailure>) -> S::Mask {
 
 impl<S: Scalar, T: Stepper<S>> Stepper<S> for ComposeStepper<S, T> {
     type State = T::State;
+
+    fn carry(&mut self, visit: &mut dyn FnMut(&mut S)) -> bool {
+        let mut steppers = self.stages.steppers.iter_mut().flatten();
+        steppers.all(|stepper| stepper.carry(visit))
+    }
 
     fn step<K: FactorSink<T::State>>(
         &mut self,

@@ -162,6 +162,13 @@ impl<S: Scalar, E: Equation<S>> ImplicitStepper<S, E> {
 impl<S: Scalar, E: Equation<S>> Stepper<S> for ImplicitStepper<S, E> {
     type State = E::State;
 
+    fn carry(&mut self, visit: &mut dyn FnMut(&mut S)) -> bool {
+        self.last.as_mut_slice().iter_mut().for_each(&mut *visit);
+        self.predictor.carry(visit);
+        self.newton.carry(visit);
+        true
+    }
+
     fn step<K: FactorSink<E::State>>(
         &mut self,
         mu: &mut E::State,

@@ -72,6 +72,10 @@ pub struct MoserVeselovStepper<S: Scalar, E: Equation<S>> {
 impl<S: Scalar, E: Equation<S>> Stepper<S> for MoserVeselovStepper<S, E> {
     type State = E::State;
 
+    fn carry(&mut self, visit: &mut dyn FnMut(&mut S)) -> bool {
+        self.inner.carry(visit)
+    }
+
     fn step<K: FactorSink<E::State>>(
         &mut self,
         mu: &mut E::State,

@@ -145,6 +145,12 @@ pub trait Stepper<S: Scalar> {
     fn estimate(&mut self) -> Option<S> {
         None
     }
+
+    /// Shows every number that a step takes from the steps before, in an order of its own, so that it can be read and replaced: what it
+    /// leaves out, no step depends on. False where not all of it can be shown; then nothing may be replaced.
+    fn carry(&mut self, _visit: &mut dyn FnMut(&mut S)) -> bool {
+        false
+    }
 }
 
 /// A method of integration, as a value with its options.

@@ -95,7 +95,7 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
             before = step;
         }
         let residual = S::select(solved, residual, S::zero());
-        report.residual = report.residual.max(largest(residual));
+        report.residual = S::larger(report.residual, largest(residual));
         solved
     }
 

@@ -23,10 +23,13 @@ impl<S: Scalar> Count<S> {
     /// That of the lane that took most.
     #[inline(always)]
     pub(super) fn most(&self) -> u32 {
-        if S::LANES > 1 {
-            largest(self.lanes) as u32
-        } else {
-            self.all
+        if S::LANES == 1 {
+            return self.all;
+        }
+        match largest(self.lanes) {
+            // what is written down has no values: no lane takes more
+            most if most.is_nan() => self.all,
+            most => most as u32,
         }
     }
 }

@@ -46,6 +46,16 @@ impl<S: Scalar, U: Unknown<S>> Predictor<S, U> {
         }
     }
 
+    /// Shows what is remembered.
+    pub(crate) fn carry(&mut self, visit: &mut dyn FnMut(&mut S)) {
+        for unknown in self.differences.iter_mut().chain([&mut self.next]) {
+            for part in 0..unknown.parts() {
+                unknown.part_mut(part).iter_mut().for_each(&mut *visit);
+            }
+        }
+        visit(&mut self.age);
+    }
+
     /// The lanes in which there is a prediction for a step; it follows the last one in the lanes of a mask.
     #[inline(always)]
     pub(crate) fn ready(&mut self, follows: S::Mask) -> S::Mask {

@@ -106,6 +106,13 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
         self.solve_trying(equation, unknown, scale, attempts, &start)
     }
 
+    /// Shows what is remembered from step to step.
+    pub(crate) fn carry(&mut self, visit: &mut dyn FnMut(&mut S)) {
+        self.fixed.carry(visit);
+        self.chord.carry(visit);
+        visit(&mut self.enough);
+    }
+
     /// What is tried in the next step, to be asked once for each.
     #[inline(always)]
     pub(crate) fn attempts(&mut self) -> Attempts<S::Mask> {

@@ -61,6 +61,18 @@ impl<S: Scalar> Trial<S> {
         }
     }
 
+    /// Shows what is remembered.
+    pub(super) fn carry(&mut self, visit: &mut dyn FnMut(&mut S)) {
+        if !self.tried {
+            return;
+        }
+        let mut resting = S::select(self.resting, S::one(), S::zero());
+        visit(&mut resting);
+        self.resting = S::zero().less(resting);
+        visit(&mut self.left);
+        visit(&mut self.rest);
+    }
+
     /// The lanes that try in this step.
     #[inline(always)]
     pub(super) fn lanes(&mut self) -> S::Mask {

@@ -122,6 +122,17 @@ pub trait Scalar:
     /// The number in lane 0 (of a dual number its value).
     fn to_f64(self) -> f64;
 
+    /// The largest lane as f64, for reports; not a number if any lane is.
+    fn reported(self) -> f64 {
+        (1..Self::LANES).fold(self.lane(0).to_f64(), |largest, index| {
+            Scalar::max(largest, self.lane(index).to_f64())
+        })
+    }
+    /// The larger of two numbers that [`Scalar::reported`] gave.
+    fn larger(one: f64, other: f64) -> f64 {
+        Scalar::max(one, other)
+    }
+
     /// Eight numbers as one.
     fn gather(numbers: [Self; 8]) -> Self::Wide;
     /// The eight numbers, in the order of [`Scalar::gather`].
@@ -179,9 +190,7 @@ pub trait Scalar:
 
 /// The largest lane as f64, for reports; not a number if any lane is.
 pub fn largest<S: Scalar>(value: S) -> f64 {
-    (1..S::LANES).fold(value.lane(0).to_f64(), |largest, index| {
-        Scalar::max(largest, value.lane(index).to_f64())
-    })
+    value.reported()
 }
 
 /// The power of two at or below a positive number, lane by lane; of zero 1.

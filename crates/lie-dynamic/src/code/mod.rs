@@ -69,6 +69,10 @@ pub enum Instruction {
     Atan2(Register, Register),
     /// `b` where `a` is negative, `c` elsewhere.
     Below(Register, Register, Register),
+    /// 1 where `a < b`, 0 elsewhere.
+    Less(Register, Register),
+    /// 1 where `a <= b`, 0 elsewhere.
+    LessEqual(Register, Register),
     /// All Stumpff functions below an index, each in a register of its own.
     Stumpff(u8, Register),
     /// The same of the functions `phi_k`.
@@ -208,6 +212,16 @@ impl Code {
 }
 
 impl Instruction {
+    /// The same with these operands, in their order.
+    pub(crate) fn with_operands(self, operands: [Register; 3]) -> Self {
+        let next = std::cell::Cell::new(0);
+        self.moved(&|_| {
+            let place = next.get();
+            next.set(place + 1);
+            operands[place]
+        })
+    }
+
     /// The same with its operands in other registers.
     pub(crate) fn moved(self, to: &dyn Fn(Register) -> Register) -> Self {
         match self {
@@ -223,6 +237,8 @@ impl Instruction {
             Self::Exchange(distance, a) => Self::Exchange(distance, to(a)),
             Self::Call(function, a) => Self::Call(function, to(a)),
             Self::Below(a, b, c) => Self::Below(to(a), to(b), to(c)),
+            Self::Less(a, b) => Self::Less(to(a), to(b)),
+            Self::LessEqual(a, b) => Self::LessEqual(to(a), to(b)),
             Self::Stumpff(count, a) => Self::Stumpff(count, to(a)),
             Self::Phi(count, a) => Self::Phi(count, to(a)),
         }

@@ -7,7 +7,7 @@ pub(crate) use values::Values;
 
 use crate::code::Code;
 use crate::engine::ARGUMENTS;
-use crate::recording::{Programs, SeriesCodes, StageCodes, Step};
+use crate::recording::{SeriesCodes, StageCodes, Step, Traces};
 use elimination::Elimination;
 use lie_codegen::methods::{Choice, Gradient};
 use lie_codegen::plan::{Constants, Function, Fused, Generating, Item, Method, Plan, Solver};
@@ -129,8 +129,8 @@ pub(crate) struct Compiled {
     pub casimir_degrees: Vec<Option<u32>>,
     /// Steps as one program.
     pub steps: MethodCache<Step>,
-    /// Equations as programs.
-    pub equations: MethodCache<Programs>,
+    /// What steps of methods with a solver do.
+    pub traces: MethodCache<Traces>,
     /// Taylor series, by their order.
     pub series: MethodCache<SeriesCodes, usize>,
     /// Iterations over stages side by side, by their slopes and whether they are more than four.
@@ -364,7 +364,7 @@ impl Compiled {
             family,
             casimir_degrees,
             steps: MethodCache::new(),
-            equations: MethodCache::new(),
+            traces: MethodCache::new(),
             series: MethodCache::new(),
             stages: MethodCache::new(),
         }

@@ -1,7 +1,7 @@
 //! Code run by a loop over its instructions, for every scalar: the reference of all other ways.
 
 use super::machine::{Engine, Frame, Machine, Targets};
-use crate::code::{Code, Instruction, Number, Source};
+use crate::code::{Code, Instruction, Number, Register, Source};
 use lie_core::closed;
 use lie_runtime::Scalar;
 use std::sync::Arc;
@@ -65,6 +65,42 @@ fn load<S: Scalar>(source: &Source, frame: &Frame<'_, S>) -> S {
     }
 }
 
+impl Instruction {
+    /// The number that it gives over a scalar; none where it gives several.
+    #[inline(always)]
+    pub(crate) fn single<S: Scalar>(&self, at: &impl Fn(Register) -> S) -> Option<S> {
+        Some(match *self {
+            Self::Add(a, b) => at(a) + at(b),
+            Self::Sub(a, b) => at(a) - at(b),
+            Self::Mul(a, b) => at(a) * at(b),
+            Self::Div(a, b) => at(a) / at(b),
+            Self::Neg(a) => -at(a),
+            Self::Sqrt(a) => at(a).sqrt(),
+            Self::Abs(a) => at(a).abs(),
+            Self::Exchange(distance, a) => exchanged(at(a), usize::from(distance)),
+            Self::Power(a, b) => at(a).powf(at(b)),
+            Self::Atan2(a, b) => at(a).atan2(at(b)),
+            Self::Call(function, a) => function.apply(at(a)),
+            Self::Below(a, b, c) => S::select(at(a).less(S::zero()), at(b), at(c)),
+            Self::Less(a, b) => S::select(at(a).less(at(b)), S::one(), S::zero()),
+            Self::LessEqual(a, b) => S::select(at(a).less_equal(at(b)), S::one(), S::zero()),
+            Self::Stumpff(..) | Self::Phi(..) => return None,
+        })
+    }
+
+    /// All functions of a family, the first of these.
+    pub(crate) fn family<S: Scalar>(
+        &self,
+        at: &impl Fn(Register) -> S,
+    ) -> [S; closed::MOST_FUNCTIONS] {
+        match *self {
+            Self::Stumpff(count, a) => closed::counted::stumpff(usize::from(count), at(a)),
+            Self::Phi(count, a) => closed::counted::phi(usize::from(count), at(a)),
+            _ => [S::zero(); closed::MOST_FUNCTIONS],
+        }
+    }
+}
+
 /// The lanes of a number with places i and i xor a distance exchanged.
 fn exchanged<S: Scalar>(number: S, distance: usize) -> S {
     let lanes = 0..S::LANES;
@@ -85,36 +121,15 @@ fn run<S: Scalar>(
     let mut next = code.sources.len();
     for instruction in &code.instructions {
         let at = |register: u32| registers[register as usize];
-        let value = match *instruction {
-            Instruction::Add(a, b) => at(a) + at(b),
-            Instruction::Sub(a, b) => at(a) - at(b),
-            Instruction::Mul(a, b) => at(a) * at(b),
-            Instruction::Div(a, b) => at(a) / at(b),
-            Instruction::Neg(a) => -at(a),
-            Instruction::Sqrt(a) => at(a).sqrt(),
-            Instruction::Abs(a) => at(a).abs(),
-            Instruction::Exchange(distance, a) => exchanged(at(a), usize::from(distance)),
-            Instruction::Power(a, b) => at(a).powf(at(b)),
-            Instruction::Atan2(a, b) => at(a).atan2(at(b)),
-            Instruction::Call(function, a) => function.apply(at(a)),
-            Instruction::Below(a, b, c) => S::select(at(a).less(S::zero()), at(b), at(c)),
-            Instruction::Stumpff(count, a) => {
-                let count = usize::from(count);
-                let all = closed::counted::stumpff(count, at(a));
-                registers[next..next + count].copy_from_slice(&all[..count]);
-                next += count;
-                continue;
-            }
-            Instruction::Phi(count, a) => {
-                let count = usize::from(count);
-                let all = closed::counted::phi(count, at(a));
-                registers[next..next + count].copy_from_slice(&all[..count]);
-                next += count;
-                continue;
-            }
-        };
-        registers[next] = value;
-        next += 1;
+        if let Some(value) = instruction.single(&at) {
+            registers[next] = value;
+            next += 1;
+            continue;
+        }
+        let all = instruction.family(&at);
+        let width = instruction.width() as usize;
+        registers[next..next + width].copy_from_slice(&all[..width]);
+        next += width;
     }
     for (target, clear) in targets.iter_mut().zip(code.clear) {
         if let Some(count) = clear {

@@ -5,7 +5,6 @@ mod generating;
 mod gradient;
 mod planned;
 
-use crate::recording::{Recorded, write};
 use crate::system::Dynamic;
 use lie_codegen::methods::{Choice, Gradient, Lift, Retraction, Tensor};
 use lie_codegen::plan::Solver;
@@ -13,17 +12,6 @@ use lie_core::generic;
 use lie_runtime::methods as m;
 use lie_runtime::{Equation, Implicit, Scalar};
 use planned::Planned;
-
-/// How something of the equation of a method is written down.
-macro_rules! written {
-    ($method:ty) => {
-        |system, h, what| {
-            let equation =
-                Implicit::<Recorded, $method>::equation(system, &<$method>::default(), h);
-            write(equation, system, what)
-        }
-    };
-}
 
 macro_rules! equations {
     (
@@ -132,13 +120,7 @@ macro_rules! equations {
                 _method: &m::$name $(<$(m::$argument),+>)?,
                 $h: S,
             ) -> Self::Equation<'a> {
-                Planned::new(
-                    $self,
-                    &Choice::$($choice)+,
-                    $h,
-                    $value,
-                    written!(m::$name $(<$(m::$argument),+>)?),
-                )
+                Planned::new($self, &Choice::$($choice)+, $h, $value)
             }
         }
     };

@@ -3,7 +3,6 @@
 use crate::compiled::elimination::{Blocks, Elimination, Scratch};
 use crate::compiled::{Call, CallArgument, FusedCodes};
 use crate::engine::ARGUMENTS;
-use crate::recording;
 use crate::system::Dynamic;
 use lie_codegen::methods::Choice;
 use lie_codegen::plan::{Chart, Ending, Fused, Guess, Item, Solver};
@@ -35,8 +34,6 @@ pub struct Planned<'a, S: Scalar, U, M> {
     fused: Option<Running<'a, S>>,
     elimination: Option<&'a Elimination>,
     scratch: RefCell<Scratch<S>>,
-    /// Where the equation is not fused, its residual and its Jacobian as programs.
-    programs: Option<recording::Running<S>>,
 }
 
 impl<'a, S, U, M> Planned<'a, S, U, M>
@@ -51,7 +48,6 @@ where
         choice: &Choice,
         h: S,
         generic: Generic<'a, S, U, M>,
-        write: recording::Write,
     ) -> Self {
         let solver = system.values.compiled.solvers.get(choice);
         let (mut fused, mut elimination) = (None, None);
@@ -79,10 +75,6 @@ where
             }
             Some(Solver::Generic(_)) | None => {}
         }
-        let programs = match &fused {
-            Some(_) => None,
-            None => recording::Running::new(system, choice, h, write),
-        };
         Self {
             system,
             h,
@@ -90,7 +82,6 @@ where
             fused,
             elimination,
             scratch: RefCell::default(),
-            programs,
         }
     }
 
@@ -173,12 +164,7 @@ where
     fn set_base(&mut self, mu: &Vec<S>) {
         match &mut self.fused {
             Some(fused) => fused.base.copy_from_slice(mu),
-            None => {
-                self.generic.set_base(mu);
-                if let Some(programs) = &mut self.programs {
-                    programs.set_base(mu);
-                }
-            }
+            None => self.generic.set_base(mu),
         }
     }
 
@@ -233,11 +219,7 @@ where
 
     fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
         let Some(fused) = &mut self.fused else {
-            let programs = self.programs.as_mut();
-            if !programs.is_some_and(|programs| programs.residual(self.system, unknown, residual)) {
-                self.generic.residual(unknown, residual);
-            }
-            return;
+            return self.generic.residual(unknown, residual);
         };
         let (unknown, call) = (unknown.part(0), &fused.codes.residual);
         fused.prepare(self.system, unknown);
@@ -252,12 +234,7 @@ where
         matrix: &mut Self::Matrix,
     ) {
         let Some(fused) = &mut self.fused else {
-            let system = self.system;
-            let programs = self.programs.as_mut();
-            if !programs.is_some_and(|p| p.linearize(system, unknown, residual, matrix)) {
-                self.generic.linearize(unknown, residual, matrix);
-            }
-            return;
+            return self.generic.linearize(unknown, residual, matrix);
         };
         let (unknown, call) = (unknown.part(0), &fused.codes.linearize);
         fused.prepare(self.system, unknown);

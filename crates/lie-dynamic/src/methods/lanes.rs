@@ -1,6 +1,6 @@
 //! Systems of one declaration side by side, each in a lane.
 
-use super::is_compiled_for_lanes;
+use super::{has_equation, is_compiled_for_lanes};
 use crate::compiled::Values;
 use crate::engine::Interpreter;
 use crate::system::Dynamic;
@@ -13,13 +13,16 @@ use std::sync::Arc;
 impl<S: Scalar> Dynamic<S> {
     /// Whether systems of this declaration can be side by side by a method of [`method_in_lanes`](crate::method_in_lanes).
     ///
-    /// Where a velocity is followed along its branch they cannot: each becomes another system. By an explicit method that is not
-    /// compiled for lanes they can where its step is one program.
+    /// Where a velocity is followed along its branch they cannot: each becomes another system. By a method that is not compiled for
+    /// lanes they can where its step is a program.
     pub fn takes_lanes(&self, choice: &Choice) -> bool {
+        let traced = || has_equation(choice) && self.is_traced();
         !self.is_by_legendre()
-            && (is_compiled_for_lanes(choice) || self.step_program(choice).is_some())
+            && (is_compiled_for_lanes(choice) || traced() || self.step_program(choice).is_some())
     }
+}
 
+impl Dynamic<f64> {
     /// Up to eight systems of one declaration as one system over lanes, with the parameters of each. The first fills the lanes
     /// that are left.
     ///
@@ -28,7 +31,7 @@ impl<S: Scalar> Dynamic<S> {
     /// # Panics
     /// There is none, there are more than eight, they are of different declarations, families of different sizes, or they do not
     /// take lanes ([`Dynamic::takes_lanes`]).
-    pub fn in_lanes(systems: &[&Self]) -> Dynamic<S::Wide> {
+    pub fn in_lanes(systems: &[&Self]) -> Dynamic<<f64 as Scalar>::Wide> {
         let first = systems[0];
         let one_declaration = systems.iter().all(|system| {
             Arc::ptr_eq(&system.values.compiled, &first.values.compiled)
@@ -38,12 +41,12 @@ impl<S: Scalar> Dynamic<S> {
         assert!(one_declaration, "the systems are of different declarations");
         assert!(!first.is_by_legendre(), "the system does not take lanes");
         let compiled = &first.values.compiled;
-        let gather = |values: fn(&Self) -> &[S]| -> Vec<S::Wide> {
+        let gather = |values: fn(&Self) -> &[f64]| -> Vec<<f64 as Scalar>::Wide> {
             let of_lane = |lane: usize| values(systems.get(lane).copied().unwrap_or(first));
-            let lanes: [&[S]; 8] = std::array::from_fn(of_lane);
+            let lanes: [&[f64]; 8] = std::array::from_fn(of_lane);
             let entries = 0..lanes[0].len();
             entries
-                .map(|entry| S::gather(lanes.map(|values| values[entry])))
+                .map(|entry| f64::gather(lanes.map(|values| values[entry])))
                 .collect()
         };
         let interpreter = || Arc::new(Interpreter::new(Arc::clone(&compiled.codes)));
@@ -60,6 +63,7 @@ impl<S: Scalar> Dynamic<S> {
             values,
             branch: None,
             family,
+            members: systems.iter().map(|system| (*system).clone()).collect(),
         }
     }
 }

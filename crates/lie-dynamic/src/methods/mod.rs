@@ -2,7 +2,7 @@
 
 mod lanes;
 
-use crate::recording::RecordedMethod;
+use crate::recording::{RecordedMethod, TracedInLanes, TracedMethod};
 use crate::system::Dynamic;
 use lie_codegen::methods::{Choice, Gradient, Lift, Pieces, Retraction, Scheme, Tensor};
 use lie_codegen::structure::lifts::Smallest;
@@ -85,8 +85,17 @@ pub fn at_defaults_over<S: Scalar>(choice: &Choice) -> Method<S> {
 pub fn method(choice: &Choice, tolerances: Tolerances) -> Method {
     match explicit(choice) {
         Some(apart) => Box::new(RecordedMethod::patient(choice, apart)),
-        None => method_over(choice, tolerances),
+        None if has_equation(choice) => Box::new(TracedMethod::new(
+            choice,
+            kernel_by_kernel(choice, tolerances),
+        )),
+        None => kernel_by_kernel(choice, tolerances),
     }
+}
+
+/// The method of a choice without programs of whole steps.
+pub(crate) fn kernel_by_kernel(choice: &Choice, tolerances: Tolerances) -> Method {
+    method_over(choice, tolerances)
 }
 
 /// The same over any scalar. All methods are compiled anew where it is called: over dual numbers that is in `lie-tangents`.
@@ -163,30 +172,77 @@ pub(crate) fn explicit<S: Scalar>(choice: &Choice) -> Option<Method<S>> {
     }
 }
 
-/// The methods that depend on what the system has.
-fn by_system<S: Scalar>(choice: &Choice) -> Option<Method<S>> {
+/// The methods whose steps are equations, or compositions of such; none of others.
+pub(crate) fn implicit<S: Scalar>(choice: &Choice) -> Option<Method<S>> {
+    /// Returns the method of a row that has an equation, if it is the one that is asked for.
+    macro_rules! rows {
+        (
+            {} choices $choices:tt
+            $({ $title:literal $needs:tt $reference:tt
+                $($choice:tt $type:tt $value:tt { $($particular:ident)? $([$($equation:tt)+])* })+
+            })+
+        ) => {
+            $($(rows!($choice $value $([$($equation)+])*);)+)+
+        };
+        ($choice:tt $value:tt) => {};
+        ([$($choice:tt)+] [$name:ident $(::$maker:ident($($given:ident),*))?] $($equation:tt)+) => {
+            if matches!(choice, Choice::$($choice)+) {
+                return Some(Box::new(m::$name $(::$maker($(m::$given),*))?));
+            }
+        };
+    }
+    if let Some(method) = of_one_stage(choice) {
+        return Some(method);
+    }
+    lie_core::for_each_method!(rows! {});
+    match choice {
+        Choice::Compose(order, scheme, base) => {
+            implicit::<S>(base)?;
+            Some(compose(*order, *scheme, base, |base| {
+                implicit(base).unwrap_or_else(|| unreachable!("the base was there before"))
+            }))
+        }
+        _ => None,
+    }
+}
+
+/// Whether [`implicit`] has a method.
+pub(crate) fn has_equation(choice: &Choice) -> bool {
+    implicit::<f64>(choice).is_some()
+}
+
+/// Those that depend on what the system has, with one stage.
+fn of_one_stage<S: Scalar>(choice: &Choice) -> Option<Method<S>> {
     match choice {
         Choice::Isospectral(2) => Some(isospectral2(Claims::from_facts::<m::Isospectral2>())),
         Choice::Collective(2, Lift::Representation) => {
             let claims = Claims::from_facts::<m::Collective2<m::Representation>>();
             Some(isospectral2(claims))
         }
-        Choice::Collective(order, Lift::Smallest) => Some(smallest(*order)),
         _ => None,
+    }
+}
+
+/// The methods that depend on what the system has.
+fn by_system<S: Scalar>(choice: &Choice) -> Option<Method<S>> {
+    match choice {
+        Choice::Collective(order, Lift::Smallest) => Some(smallest(*order)),
+        _ => of_one_stage(choice),
     }
 }
 
 /// The method of a choice over lanes, for systems side by side ([`Dynamic::in_lanes`]) that take it ([`Dynamic::takes_lanes`]).
 ///
-/// Explicit methods: the step is one program, which is compiled for lanes as for numbers. Others: the few that are compiled for
-/// lanes. Each costs the compiler of this crate's users as much as a method over numbers, those with all stages in registers many
-/// times that.
+/// The step is a program, which is compiled for lanes as for numbers, but for series, which choose their own.
 pub fn method_in_lanes(
     choice: &Choice,
     tolerances: Tolerances,
 ) -> Option<Method<<f64 as Scalar>::Wide>> {
     if let Some(method) = compiled_for_lanes(choice, tolerances) {
         return Some(method);
+    }
+    if has_equation(choice) {
+        return Some(Box::new(TracedInLanes::new(choice)));
     }
     let claims = explicit::<f64>(choice)?.claims();
     Some(Box::new(RecordedMethod::at_once(choice, claims)))
@@ -198,9 +254,6 @@ fn compiled_for_lanes(
     tolerances: Tolerances,
 ) -> Option<Method<<f64 as Scalar>::Wide>> {
     Some(match choice {
-        Choice::Midpoint => Box::new(m::ImplicitMidpoint),
-        Choice::Gauss(2) => Box::new(m::Gauss4),
-        Choice::LieMidpoint(Retraction::Exp) => Box::new(m::LieMidpoint::exp()),
         Choice::Taylor => Box::new(m::Taylor::from(tolerances)),
         // kernel by kernel for families, whose steps are loops over their sites
         Choice::Rk4 => Box::new(RecordedMethod::patient(choice, Box::new(m::Rk4))),

@@ -62,8 +62,7 @@ impl<'a, S: Scalar> Development<'a, S> {
         }
         Some(Self {
             system,
-            // a series is about as long as a step
-            wait: Countdown::new(1, system.values.hurry),
+            wait: Countdown::new(system.values.hurry),
             last: 0,
             ready: None,
             coefficients: Vec::new(),
@@ -90,7 +89,7 @@ impl<'a, S: Scalar> Development<'a, S> {
             }
         }
         if self.wait.left > 0 && self.ready.is_none() {
-            let mut wait = std::mem::replace(&mut self.wait, Countdown::new(0, true));
+            let mut wait = std::mem::replace(&mut self.wait, Countdown::new(true));
             let over = wait.is_over(|| self.codes(last).map_or(0, |codes| codes.length()));
             self.wait = wait;
             if over {

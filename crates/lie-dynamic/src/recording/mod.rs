@@ -6,10 +6,12 @@
 //! kernel, so the bits are the same. What depends on the step size alone is a program of its own, run once.
 
 mod development;
-mod equation;
 mod record;
 mod recorded;
 mod stages;
+mod trace;
+mod traced;
+mod traced_lanes;
 
 use crate::code::{Code, Source};
 use crate::compiled::{Compiled, Values};
@@ -27,9 +29,11 @@ use recorded::Inlined;
 use std::sync::Arc;
 
 pub(crate) use development::{Development, SeriesCodes};
-pub(crate) use equation::{Programs, Running, Write, write};
 pub(crate) use recorded::Recorded;
 pub(crate) use stages::StageCodes;
+pub(crate) use trace::Traces;
+pub(crate) use traced::TracedMethod;
+pub(crate) use traced_lanes::TracedInLanes;
 
 /// Steps that a stepper makes kernel by kernel before it compiles a program of the whole; one whose program has more instructions
 /// makes as many steps as that. So many steps gain more than the compilation costs.
@@ -45,16 +49,39 @@ fn source_numbers(count: usize, source: impl Fn(u32) -> Source) -> Vec<Recorded>
 /// A system of these codes that writes down what it does.
 fn recording(compiled: &Arc<Compiled>) -> Dynamic<Recorded> {
     let plan = &compiled.plan;
+    let parameters = source_numbers(plan.parameters.len(), Source::Parameter);
+    let constants = source_numbers(plan.constants.entries.len(), Source::System);
+    inlined(compiled, parameters, constants)
+}
+
+/// The same, of the values of a system.
+fn following<const LANES: usize>(system: &Dynamic<f64>) -> Dynamic<Recorded<LANES>> {
+    let numbers = |values: &[f64], source: fn(u32) -> Source| {
+        let numbers = (0..).zip(values);
+        let numbers = numbers.map(|(place, value)| Recorded::of_value(source(place), *value));
+        numbers.collect()
+    };
+    let parameters = numbers(&system.values.parameters, Source::Parameter);
+    let constants = numbers(&system.values.constants, Source::System);
+    inlined(&system.values.compiled, parameters, constants)
+}
+
+fn inlined<const LANES: usize>(
+    compiled: &Arc<Compiled>,
+    parameters: Vec<Recorded<LANES>>,
+    constants: Vec<Recorded<LANES>>,
+) -> Dynamic<Recorded<LANES>> {
     Dynamic {
         values: Values {
             compiled: Arc::clone(compiled),
             machine: Arc::new(Inlined(Arc::clone(&compiled.codes))),
-            parameters: source_numbers(plan.parameters.len(), Source::Parameter),
-            constants: source_numbers(plan.constants.entries.len(), Source::System),
+            parameters,
+            constants,
             hurry: true,
         },
         branch: None,
         family: None,
+        members: Arc::default(),
     }
 }
 
@@ -94,6 +121,11 @@ impl<S: Scalar> Dynamic<S> {
         self.family.is_none() && !self.is_by_legendre()
     }
 
+    /// Whether steps of methods with a solver are run by traces.
+    pub(crate) fn is_traced(&self) -> bool {
+        !cfg!(target_arch = "wasm32") && self.is_recordable() && self.values.machine.compiles()
+    }
+
     /// Whether steppers compile programs of the whole when they are made: where the engine has these, or nobody waits.
     fn compiles_at_once(&self, known: Option<&Arc<[Code]>>) -> bool {
         let machine = &self.values.machine;
@@ -110,34 +142,28 @@ impl<S: Scalar> Dynamic<S> {
         compiled.steps.get(choice, || Step::new(choice, compiled))
     }
 
-    /// How many programs of the whole the engine runs for a method by now: its step, or the residual of its equation and the
-    /// residual with the Jacobian. 0 where the plan fuses the equation.
+    /// How many programs of the whole there are for a method by now: its step, or the traces of it.
     pub fn programs(&self, choice: &Choice) -> usize {
         let compiled = &self.values.compiled;
         let step = compiled.steps.cached(choice);
-        let equation = compiled.equations.cached(choice);
-        let steps = step.iter().map(|step| &step.codes);
-        let equations = equation.iter().flat_map(|programs| programs.codes());
-        let made = |codes: &&Arc<[Code]>| self.values.machine.compile(codes).is_some();
-        steps.chain(equations).filter(made).count()
+        let step = step.filter(|step| self.values.machine.compile(&step.codes).is_some());
+        let traces = compiled.traces.cached(choice);
+        usize::from(step.is_some()) + traces.map_or(0, |traces| traces.count())
     }
 }
 
 /// How long a stepper waits for its program of the whole.
 struct Countdown {
     left: u32,
-    /// How often it is counted in a step.
-    times: u32,
     /// Whether the program was recorded, so that its length is known.
     recorded: bool,
 }
 
 impl Countdown {
-    /// Counted so many times in a step; `none` where there is nothing to wait for.
-    fn new(times: u32, none: bool) -> Self {
+    /// `none` where there is nothing to wait for.
+    fn new(none: bool) -> Self {
         Self {
-            left: if none { 0 } else { PATIENCE * times },
-            times,
+            left: if none { 0 } else { PATIENCE },
             recorded: none,
         }
     }
@@ -151,7 +177,7 @@ impl Countdown {
         self.left -= 1;
         if self.left == 0 && !self.recorded {
             self.recorded = true;
-            self.left = (record() as u32).saturating_sub(PATIENCE) * self.times;
+            self.left = (record() as u32).saturating_sub(PATIENCE);
         }
         self.left == 0
     }
@@ -226,7 +252,7 @@ impl<S: Scalar> AnyMethod<S, Dynamic<S>> for RecordedMethod<S> {
             system,
             choice: self.choice.clone(),
             step_size: [h],
-            wait: Countdown::new(1, at_once || !system.values.machine.compiles()),
+            wait: Countdown::new(at_once || !system.values.machine.compiles()),
             whole: None,
             apart,
         };

@@ -18,8 +18,18 @@ pub(super) struct Record {
     instructions: Vec<(Instruction, Register)>,
     /// Numbers that were asked whether they are finite.
     pub asked: Vec<Register>,
-    /// Whether something was asked that the values decide.
+    /// Whether something was asked that the values decide, and is not written down.
     pub branched: bool,
+    /// Where values are followed, what was asked of them.
+    guards: Option<Vec<Guard>>,
+}
+
+/// What was asked of a number that is 1 where something holds and 0 elsewhere: whether that is everywhere, or anywhere.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Guard {
+    pub register: Register,
+    pub expected: bool,
+    pub every: bool,
 }
 
 thread_local! {
@@ -43,6 +53,24 @@ impl Record {
             self.sources.push(Some(source));
             next
         })
+    }
+
+    /// Whether values are followed, so that what they decide can be asked.
+    pub fn follows_values(&self) -> bool {
+        self.guards.is_some()
+    }
+
+    /// What was asked; nothing is from now on.
+    pub fn take_guards(&mut self) -> Vec<Guard> {
+        self.guards.as_mut().map(std::mem::take).unwrap_or_default()
+    }
+
+    /// Asks something that values decide.
+    pub fn ask(&mut self, guard: Guard) {
+        match &mut self.guards {
+            Some(guards) => guards.push(guard),
+            None => self.branched = true,
+        }
     }
 
     /// The value of a number that is written out.
@@ -228,6 +256,19 @@ pub(crate) struct Written(Record);
 
 /// Writes down what is done in `run`. None where it gives none, or where values decide what is done.
 pub(crate) fn written<T>(run: impl FnOnce() -> Option<T>) -> Option<(T, Written)> {
+    written_in(Record::default(), run)
+}
+
+/// Writes down what is done in `run` for the values that its numbers have, with what is asked of them.
+pub(crate) fn followed<T>(run: impl FnOnce() -> Option<T>) -> Option<(T, Written)> {
+    let record = Record {
+        guards: Some(Vec::new()),
+        ..Record::default()
+    };
+    written_in(record, run)
+}
+
+fn written_in<T>(record: Record, run: impl FnOnce() -> Option<T>) -> Option<(T, Written)> {
     /// What was there before comes back, whatever happens.
     struct Before(Record);
     impl Drop for Before {
@@ -235,7 +276,7 @@ pub(crate) fn written<T>(run: impl FnOnce() -> Option<T>) -> Option<(T, Written)
             RECORD.replace(std::mem::take(&mut self.0));
         }
     }
-    let before = Before(RECORD.replace(Record::default()));
+    let before = Before(RECORD.replace(record));
     let given = run();
     let record = RECORD.replace(Record::default());
     drop(before);
@@ -245,14 +286,21 @@ pub(crate) fn written<T>(run: impl FnOnce() -> Option<T>) -> Option<(T, Written)
 impl Written {
     /// The numbers of which it was asked whether they are finite.
     pub fn finiteness_tests(&self) -> Vec<Recorded> {
-        self.0.asked.iter().copied().map(Recorded).collect()
+        let asked = self.0.asked.iter();
+        asked
+            .map(|register| Recorded::of_register(*register))
+            .collect()
     }
 
     /// The codes that store these numbers as a vector and a matrix, the second with the results of the first as constants of the
     /// step size.
-    pub fn codes(&self, vector: &[Recorded], matrix: &[Recorded]) -> [Code; 2] {
+    pub fn codes<const LANES: usize>(
+        &self,
+        vector: &[Recorded<LANES>],
+        matrix: &[Recorded<LANES>],
+    ) -> [Code; 2] {
         let [vector, matrix] =
-            [vector, matrix].map(|numbers| numbers.iter().map(|x| x.0).collect::<Vec<_>>());
+            [vector, matrix].map(|numbers| numbers.iter().map(|x| x.register).collect::<Vec<_>>());
         self.0.codes([&vector, &matrix])
     }
 }

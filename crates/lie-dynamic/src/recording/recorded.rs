@@ -1,29 +1,59 @@
 //! A scalar whose arithmetic is written down.
 
-use super::record::with_record;
+use super::record::{Guard, with_record};
 use crate::code::{Code, Instruction, Number, Register, Source};
 use crate::engine::{Frame, Machine, Targets};
 use lie_core::Elementary;
 use lie_runtime::Scalar;
-use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
+use lie_runtime::scalar::Mask;
+use std::ops::{
+    Add, AddAssign, BitAnd, BitOr, Div, DivAssign, Mul, MulAssign, Neg, Not, Sub, SubAssign,
+};
 use std::sync::Arc;
 
-/// A number of the record.
+/// A number of the record, in so many lanes as far as the numeric core asks, with the value that it has where one is followed.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Recorded(pub(super) Register);
+pub(crate) struct Recorded<const LANES: usize = 1> {
+    pub(super) register: Register,
+    value: f64,
+}
 
-impl Recorded {
+impl<const LANES: usize> Recorded<LANES> {
     /// The number of a source.
     pub fn from_source(source: Source) -> Self {
-        Self(with_record(|record| record.source(source)))
+        Self::of_value(source, f64::NAN)
+    }
+
+    /// The number of a source that has this value.
+    pub fn of_value(source: Source, value: f64) -> Self {
+        Self {
+            register: with_record(|record| record.source(source)),
+            value,
+        }
+    }
+
+    /// A number that was written down before.
+    pub(super) fn of_register(register: Register) -> Self {
+        Self {
+            register,
+            value: f64::NAN,
+        }
     }
 
     fn number(number: Number) -> Self {
-        Self::from_source(Source::Number(number))
+        Self::of_value(Source::Number(number), number.value())
     }
 
-    fn result(instruction: Instruction) -> Self {
-        Self(with_record(|record| record.push(instruction)))
+    /// The only number that an instruction gives, of operands with these values.
+    fn result(instruction: Instruction, values: [f64; 3]) -> Self {
+        let [a, b, c] = values;
+        // the operands by their places
+        let of_places = instruction.with_operands([0, 1, 2]);
+        let at = |place: Register| [a, b, c][place as usize];
+        Self {
+            register: with_record(|record| record.push(instruction)),
+            value: of_places.single::<f64>(&at).unwrap_or(f64::NAN),
+        }
     }
 
     /// An answer that depends on the values.
@@ -31,25 +61,152 @@ impl Recorded {
         with_record(|record| record.branched = true);
         answer
     }
+
+    /// A number that is 1 where something holds and 0 elsewhere, as what holds.
+    fn mask(self) -> RecordedMask {
+        RecordedMask::Number(self.register, self.value == 1.0)
+    }
+}
+
+/// Truth values of the record: those that are known, or a number that is 1 where it is true and 0 elsewhere, with what it is where
+/// values are followed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum RecordedMask {
+    Known(bool),
+    Number(Register, bool),
+}
+
+impl RecordedMask {
+    /// As a number.
+    pub(super) fn number<const LANES: usize>(self) -> Recorded<LANES> {
+        match self {
+            Self::Known(true) => Scalar::one(),
+            Self::Known(false) => Scalar::zero(),
+            Self::Number(register, is) => Recorded {
+                register,
+                value: f64::from(u8::from(is)),
+            },
+        }
+    }
+
+    /// Asks whether it is true in every lane, or in any.
+    fn ask(self, every: bool) -> bool {
+        match self {
+            Self::Known(is) => is,
+            Self::Number(register, expected) => {
+                let guard = Guard {
+                    register,
+                    expected,
+                    every,
+                };
+                with_record(|record| record.ask(guard));
+                expected
+            }
+        }
+    }
+}
+
+impl Mask for RecordedMask {
+    fn splat(value: bool) -> Self {
+        Self::Known(value)
+    }
+    fn from_bits(bits: u64) -> Self {
+        Self::Known(bits & 1 == 1)
+    }
+    fn bits(self) -> u64 {
+        match self {
+            Self::Known(is) => u64::from(is) * u64::from(u8::MAX),
+            Self::Number(_, is) => Recorded::<1>::branch(u64::from(is)),
+        }
+    }
+    fn all(self) -> bool {
+        self.ask(true)
+    }
+    fn any(self) -> bool {
+        self.ask(false)
+    }
+}
+
+impl BitAnd for RecordedMask {
+    type Output = Self;
+    fn bitand(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::Known(true), mask) | (mask, Self::Known(true)) => mask,
+            (Self::Known(false), _) | (_, Self::Known(false)) => Self::Known(false),
+            (one, other) if one == other => one,
+            (one, other) => (one.number::<1>() * other.number()).mask(),
+        }
+    }
+}
+
+impl BitOr for RecordedMask {
+    type Output = Self;
+    fn bitor(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::Known(false), mask) | (mask, Self::Known(false)) => mask,
+            (Self::Known(true), _) | (_, Self::Known(true)) => Self::Known(true),
+            (one, other) if one == other => one,
+            (one, other) => {
+                let (one, other) = (one.number::<1>(), other.number());
+                (one + other - one * other).mask()
+            }
+        }
+    }
+}
+
+impl Not for RecordedMask {
+    type Output = Self;
+    fn not(self) -> Self {
+        match self {
+            Self::Known(is) => Self::Known(!is),
+            number => (Recorded::<1>::one() - number.number()).mask(),
+        }
+    }
+}
+
+/// What tells a number that was reported from others that are none: its bits but for the lowest 32, which are its register.
+const REPORTED: u64 = 0x7FF8_5EED << 32;
+
+/// The register of a number that was reported.
+pub(super) fn reported(value: f64) -> Option<Register> {
+    let bits = value.to_bits();
+    (bits & !u64::from(u32::MAX) == REPORTED).then_some(bits as Register)
 }
 
 /// Codes whose instructions are written down one by one.
 pub(crate) struct Inlined(pub Arc<[Code]>);
 
-impl Machine<Recorded> for Inlined {
-    fn run(&self, code: usize, frame: &Frame<'_, Recorded>, mut targets: Targets<'_, Recorded>) {
+impl<const LANES: usize> Machine<Recorded<LANES>> for Inlined {
+    fn run(
+        &self,
+        code: usize,
+        frame: &Frame<'_, Recorded<LANES>>,
+        mut targets: Targets<'_, Recorded<LANES>>,
+    ) {
         let code = &self.0[code];
-        let mut registers = Vec::with_capacity(code.registers as usize);
+        let mut registers: Vec<Recorded<LANES>> = Vec::with_capacity(code.registers as usize);
         for source in &code.sources {
-            registers.push(match source.place() {
-                Some((slice, entry)) => frame.slices()[slice][entry],
-                None => Recorded::from_source(*source),
+            registers.push(match (source.place(), source) {
+                (Some((slice, entry)), _) => frame.slices()[slice][entry],
+                (None, Source::Number(number)) => Recorded::number(*number),
+                (None, other) => Recorded::from_source(*other),
             });
         }
         for instruction in &code.instructions {
-            let moved = instruction.moved(&|register| registers[register as usize].0);
-            let Recorded(first) = Recorded::result(moved);
-            registers.extend((0..moved.width()).map(|part| Recorded(first + part)));
+            let moved = instruction.moved(&|register| registers[register as usize].register);
+            let first = with_record(|record| record.push(moved));
+            let at = |register: Register| registers[register as usize].value;
+            match instruction.single::<f64>(&at) {
+                Some(value) => registers.push(Recorded {
+                    register: first,
+                    value,
+                }),
+                None => {
+                    let values = instruction.family::<f64>(&at);
+                    let parts = (first..first + moved.width()).zip(values);
+                    registers.extend(parts.map(|(register, value)| Recorded { register, value }));
+                }
+            }
         }
         for (target, clear) in targets.iter_mut().zip(code.clear) {
             if let Some(count) = clear {
@@ -64,16 +221,16 @@ impl Machine<Recorded> for Inlined {
 }
 
 /// Whether two numbers are equal depends on their values, unless both are written out.
-impl PartialEq for Recorded {
+impl<const LANES: usize> PartialEq for Recorded<LANES> {
     fn eq(&self, other: &Self) -> bool {
-        match with_record(|record| [record.exact(self.0), record.exact(other.0)]) {
+        match with_record(|record| [record.exact(self.register), record.exact(other.register)]) {
             [Some(one), Some(other)] => one == other,
-            _ => Self::branch(self.0 == other.0),
+            _ => (self.less_equal(*other) & other.less_equal(*self)).all(),
         }
     }
 }
 
-impl Default for Recorded {
+impl<const LANES: usize> Default for Recorded<LANES> {
     fn default() -> Self {
         Self::zero()
     }
@@ -81,13 +238,13 @@ impl Default for Recorded {
 
 macro_rules! operators {
     ($($trait:ident $method:ident $assign:ident $assigned:ident;)+) => {$(
-        impl $trait for Recorded {
+        impl<const LANES: usize> $trait for Recorded<LANES> {
             type Output = Self;
             fn $method(self, other: Self) -> Self {
-                Self::result(Instruction::$trait(self.0, other.0))
+                Self::binary(Instruction::$trait, self, other)
             }
         }
-        impl $assign for Recorded {
+        impl<const LANES: usize> $assign for Recorded<LANES> {
             fn $assigned(&mut self, other: Self) {
                 *self = $trait::$method(*self, other);
             }
@@ -101,27 +258,43 @@ operators! {
     Div div DivAssign div_assign;
 }
 
-impl Neg for Recorded {
+impl<const LANES: usize> Neg for Recorded<LANES> {
     type Output = Self;
     fn neg(self) -> Self {
-        Self::result(Instruction::Neg(self.0))
+        self.unary(Instruction::Neg)
+    }
+}
+
+impl<const LANES: usize> Recorded<LANES> {
+    fn unary(self, instruction: impl FnOnce(Register) -> Instruction) -> Self {
+        let values = [self.value, f64::NAN, f64::NAN];
+        Self::result(instruction(self.register), values)
+    }
+
+    fn binary(
+        instruction: impl FnOnce(Register, Register) -> Instruction,
+        one: Self,
+        other: Self,
+    ) -> Self {
+        let values = [one.value, other.value, f64::NAN];
+        Self::result(instruction(one.register, other.register), values)
     }
 }
 
 macro_rules! functions {
     ($($variant:ident $name:ident $single:ident $from:ident $what:literal $facts:tt)+) => {
         $(fn $name(self) -> Self {
-            Self::result(Instruction::Call(Elementary::$variant, self.0))
+            self.unary(|a| Instruction::Call(Elementary::$variant, a))
         })+
     };
 }
 
-impl Scalar for Recorded {
-    type Lane = Self;
-    type Mask = bool;
+impl<const COUNT: usize> Scalar for Recorded<COUNT> {
+    type Lane = f64;
+    type Mask = RecordedMask;
     /// In whichever lanes it will be run, a number is the same register.
     type Wide = Self;
-    const LANES: usize = 1;
+    const LANES: usize = COUNT;
 
     fn zero() -> Self {
         Self::from_f64(0.0)
@@ -142,17 +315,35 @@ impl Scalar for Recorded {
         Self::from_f64(f64::EPSILON)
     }
 
-    fn splat(lane: Self) -> Self {
-        lane
+    fn splat(lane: f64) -> Self {
+        Self::from_f64(lane)
     }
-    fn lane(self, _index: usize) -> Self {
-        self
+    fn lane(self, _index: usize) -> f64 {
+        Self::branch(self.value)
     }
-    fn with_lane(self, _index: usize, lane: Self) -> Self {
-        lane
+    fn with_lane(self, _index: usize, _lane: f64) -> Self {
+        Self::branch(self)
     }
     fn to_f64(self) -> f64 {
-        Self::branch(f64::NAN)
+        Self::branch(self.value)
+    }
+    /// Something to be told apart, which whoever runs the code replaces by the number that it has there.
+    fn reported(self) -> f64 {
+        with_record(|record| record.branched |= !record.follows_values());
+        f64::from_bits(REPORTED | u64::from(self.register))
+    }
+    fn larger(one: f64, other: f64) -> f64 {
+        let number = |value: f64| match reported(value) {
+            Some(register) => Self {
+                register,
+                value: f64::NAN,
+            },
+            None => Self::from_f64(value),
+        };
+        match (reported(one), reported(other)) {
+            (None, None) => Scalar::max(one, other),
+            _ => number(one).max(number(other)).reported(),
+        }
     }
     fn gather([first, ..]: [Self; 8]) -> Self {
         Self::branch(first)
@@ -161,41 +352,55 @@ impl Scalar for Recorded {
         Self::branch([wide; 8])
     }
     fn exchange<const D: usize>(wide: Self) -> Self {
-        Self::result(Instruction::Exchange(D as u8, wide.0))
+        wide.unary(|a| Instruction::Exchange(D as u8, a))
     }
     fn widen(self) -> Self {
         self
     }
 
     fn abs(self) -> Self {
-        Self::result(Instruction::Abs(self.0))
+        self.unary(Instruction::Abs)
     }
     fn sqrt(self) -> Self {
-        Self::result(Instruction::Sqrt(self.0))
+        self.unary(Instruction::Sqrt)
     }
     lie_core::elementary_functions!(functions);
     fn atan2(self, x: Self) -> Self {
-        Self::result(Instruction::Atan2(self.0, x.0))
+        Self::binary(Instruction::Atan2, self, x)
     }
     fn powf(self, exponent: Self) -> Self {
-        Self::result(Instruction::Power(self.0, exponent.0))
+        Self::binary(Instruction::Power, self, exponent)
     }
 
-    fn max(self, _other: Self) -> Self {
-        Self::branch(self)
+    fn max(self, other: Self) -> Self {
+        let larger = self.less(other) | !other.less_equal(other);
+        Self::select(larger, other, self)
     }
-    fn less(self, _other: Self) -> bool {
-        Self::branch(false)
+    fn less(self, other: Self) -> RecordedMask {
+        Self::binary(Instruction::Less, self, other).mask()
     }
-    fn less_equal(self, _other: Self) -> bool {
-        Self::branch(false)
+    fn less_equal(self, other: Self) -> RecordedMask {
+        Self::binary(Instruction::LessEqual, self, other).mask()
     }
-    /// Taken to be finite; whoever runs the code refuses a step where the number is not.
-    fn finite(self) -> bool {
-        with_record(|record| record.asked.push(self.0));
-        true
+    /// Where values are not followed, taken to be finite; whoever runs the code refuses a step where the number is not.
+    fn finite(self) -> RecordedMask {
+        if with_record(|record| record.follows_values()) {
+            return self.abs().less_equal(Self::from_f64(f64::MAX));
+        }
+        with_record(|record| record.asked.push(self.register));
+        RecordedMask::Known(true)
     }
-    fn select(mask: bool, yes: Self, no: Self) -> Self {
-        if mask { yes } else { no }
+    fn select(mask: RecordedMask, yes: Self, no: Self) -> Self {
+        match mask {
+            RecordedMask::Known(true) => yes,
+            RecordedMask::Known(false) => no,
+            number => {
+                let below = -number.number::<COUNT>();
+                let registers = [below, yes, no].map(|x| x.register);
+                let [a, b, c] = registers;
+                let values = [below, yes, no].map(|x| x.value);
+                Self::result(Instruction::Below(a, b, c), values)
+            }
+        }
     }
 }

@@ -12,6 +12,7 @@ mod traits;
 use crate::code::Code;
 use crate::compiled::{Compiled, Values};
 use crate::engine::{ARGUMENTS, Engine, Interpreter, Machine};
+use crate::recording::PATIENCE;
 use family::{FamilySite, sizes};
 use lie_codegen::plan::{Code as Program, Plan};
 use lie_core::parameter::{ParameterError, all_finite, all_positive};
@@ -20,6 +21,9 @@ use lie_runtime::family::{Family, unit_spheres};
 use lie_symbolic::schedule::Operation;
 use lie_symbolic::symbolic::{self, Symbol};
 use std::sync::Arc;
+
+/// As many steps as gain what an assembler takes.
+const QUICK: u32 = 64;
 
 /// A Lie–Poisson system made at run time, over states on the heap.
 ///
@@ -32,6 +36,8 @@ pub struct Dynamic<S: Scalar> {
     pub(crate) branch: Option<Vec<S>>,
     /// The loops over the sites of a family.
     pub(crate) family: Option<Family<FamilySite<S>>>,
+    /// The systems that this one is, side by side in lanes.
+    pub(crate) members: Arc<[Dynamic<f64>]>,
 }
 
 /// A plan whose codes are ready to run, before its parameters have values.
@@ -54,6 +60,14 @@ impl Declared {
         Self { compiled, machine }
     }
 
+    /// So many steps, at least, pay for programs of the whole.
+    pub fn patience(&self) -> u32 {
+        match self.machine.compiles_quickly() {
+            true => QUICK,
+            false => PATIENCE,
+        }
+    }
+
     /// The system of these parameters, in the order of their names; those that are left out have their defaults. Nothing is
     /// compiled again.
     ///
@@ -71,6 +85,7 @@ impl Declared {
             values,
             branch: None,
             family: None,
+            members: Arc::default(),
         };
         system.with_parameters(parameters)
     }
@@ -130,6 +145,7 @@ impl Dynamic<f64> {
             values,
             branch: None,
             family,
+            members: Arc::default(),
         })
     }
 
@@ -222,6 +238,7 @@ impl<S: Scalar> Dynamic<S> {
             values,
             branch,
             family,
+            members: Arc::default(),
         }
     }
 }

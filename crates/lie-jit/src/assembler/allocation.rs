@@ -249,6 +249,8 @@ impl<'a> Allocation<'a> {
             Instruction::Abs(a) => {
                 self.with_bits(Arithmetic::And, a, f64::from_bits(WITHOUT_SIGN), result);
             }
+            Instruction::Less(a, b) => self.compare(false, [a, b], result),
+            Instruction::LessEqual(a, b) => self.compare(true, [a, b], result),
             Instruction::Exchange(distance, a) => {
                 let of = self.load(a, &[]);
                 self.used(a);
@@ -293,6 +295,24 @@ impl<'a> Allocation<'a> {
             | Instruction::Stumpff(..)
             | Instruction::Phi(..) => self.call(instruction, result),
         }
+    }
+
+    fn compare(&mut self, equal: bool, [a, b]: [Register; 2], result: Register) {
+        let left = self.load(a, &[]);
+        let right = self.load(b, &[left]);
+        let to = self.take(&[left, right]);
+        let one = self.constant(1.0);
+        self.used(a);
+        self.used(b);
+        self.do_it(Operation::Compare {
+            result,
+            equal,
+            to,
+            left,
+            right,
+            one,
+        });
+        self.give(result, to);
     }
 
     /// What is done with the bits of a number and those of a constant.

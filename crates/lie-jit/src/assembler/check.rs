@@ -189,6 +189,29 @@ impl<'a> Followed<'a> {
                 }
                 self.hold(to, Held::Result(result))
             }
+            Operation::Compare {
+                result,
+                equal,
+                to,
+                left,
+                right,
+                one,
+            } => {
+                let instruction = self.instruction(result)?;
+                let is_one = self.read(one)? == Held::Bits(1.0_f64.to_bits());
+                let is_other = ![left, right].contains(&to);
+                let same = match instruction {
+                    Instruction::Less(..) => !equal,
+                    Instruction::LessEqual(..) => equal,
+                    _ => false,
+                };
+                if !(is_one && is_other && same) {
+                    return None;
+                }
+                let read = [self.at(left)?, self.at(right)?];
+                self.are_read(instruction, &read)?;
+                self.hold(to, Held::Result(result))
+            }
             Operation::Exchange {
                 result,
                 distance,

@@ -50,6 +50,9 @@ const MASK: u8 = 1;
 /// Less than, false where a number is none.
 const LESS: u8 = 0x11;
 
+/// The same, or equal.
+const LESS_EQUAL: u8 = 0x12;
+
 /// A vector instruction but for its operands.
 #[derive(Clone, Copy)]
 struct Opcode {
@@ -59,6 +62,8 @@ struct Opcode {
     /// The byte behind the operands, if there is one.
     behind: Option<u8>,
     mask: u8,
+    /// Whether lanes that are not in the mask become 0.
+    clears: bool,
 }
 
 impl Opcode {
@@ -69,6 +74,7 @@ impl Opcode {
             code,
             behind: None,
             mask: 0,
+            clears: false,
         }
     }
 }
@@ -177,7 +183,8 @@ impl Bytes {
         };
         // a load of one number into all lanes says so by its code
         let single = if opcode.code == BROADCAST { 0 } else { single };
-        let third = 2 << 5 | single | (!second & 16) >> 1 | opcode.mask;
+        let clears = u8::from(opcode.clears) << 7;
+        let third = clears | 2 << 5 | single | (!second & 16) >> 1 | opcode.mask;
         self.extend([0x62, first, second_byte, third, opcode.code]);
         self.operands(register, read, unit, opcode.behind);
     }
@@ -217,6 +224,33 @@ impl Bytes {
         let second = if width == Width::One { of.0 } else { 0 };
         let opcode = Opcode::new(of_numbers(width), Table::Of0F, 0x51);
         self.vector(width, opcode, to.0, second, Read::Vector(of));
+    }
+
+    /// `to = one` where `left` is less than `right`, or equal too, 0 elsewhere; `to` is none of the operands.
+    pub fn compare_numbers(
+        &mut self,
+        width: Width,
+        to: Vector,
+        [left, right]: [Vector; 2],
+        equal: bool,
+        one: Read,
+    ) {
+        let compare = Opcode {
+            behind: Some(if equal { LESS_EQUAL } else { LESS }),
+            ..Opcode::new(of_numbers(width), Table::Of0F, 0xC2)
+        };
+        if width == Width::Eight {
+            self.vector(width, compare, MASK, left.0, Read::Vector(right));
+            let load = Opcode {
+                mask: MASK,
+                clears: true,
+                ..Opcode::new(Prefix::Packed, Table::Of0F38, BROADCAST)
+            };
+            self.vector(width, load, to.0, 0, one);
+        } else {
+            self.vector(width, compare, to.0, left.0, Read::Vector(right));
+            self.arithmetic(width, Arithmetic::And, to, to, one);
+        }
     }
 
     /// The numbers whose places differ by xor with a distance, each in the place of the other; none of a distance that a register does

@@ -286,6 +286,18 @@ impl<'a> Writer<'a> {
                     self.bytes.arithmetic(width, what, to, left, right);
                 }
                 Operation::Sqrt { to, of, .. } => self.bytes.sqrt(width, to, of),
+                Operation::Compare {
+                    equal,
+                    to,
+                    left,
+                    right,
+                    one,
+                    ..
+                } => {
+                    let one = self.read(one)?;
+                    self.bytes
+                        .compare_numbers(width, to, [left, right], equal, one);
+                }
                 Operation::Exchange {
                     distance, to, of, ..
                 } => self.bytes.exchange(width, to, of, distance)?,

@@ -227,6 +227,16 @@ pub enum Operation {
         to: Vector,
         of: Vector,
     },
+    /// The number of a place, which is 1, where `left` is less than `right`, or equal too; 0 elsewhere. The register that it gives is
+    /// none of its operands.
+    Compare {
+        result: Register,
+        equal: bool,
+        to: Vector,
+        left: Vector,
+        right: Vector,
+        one: Place,
+    },
     /// The numbers of a register whose places differ by xor with a distance, each in the place of the other.
     Exchange {
         result: Register,

@@ -10,6 +10,8 @@ pub fn operands(instruction: &Instruction) -> SmallVec<[Register; 3]> {
         | Instruction::Sub(a, b)
         | Instruction::Mul(a, b)
         | Instruction::Div(a, b)
+        | Instruction::Less(a, b)
+        | Instruction::LessEqual(a, b)
         | Instruction::Power(a, b)
         | Instruction::Atan2(a, b) => SmallVec::from_slice(&[a, b]),
         Instruction::Below(a, b, c) => SmallVec::from_slice(&[a, b, c]),

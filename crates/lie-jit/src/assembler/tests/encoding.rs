@@ -217,6 +217,29 @@ fn choices(lines: &mut Lines, width: Width) {
                 bytes.below(width, to, [test, then, otherwise], zero);
             });
         }
+        for (equal, (to, [left, right])) in [false, true]
+            .into_iter()
+            .zip([(v, [Vector(1), Vector(2)]), (Vector(1), [v, Vector(2)])])
+        {
+            let [a, b, c] = [to, left, right].map(|of| vector(width, of));
+            let constant = Memory::Constant(0);
+            let (one, kind) = match width {
+                Width::Eight => (Read::Single(constant), "qword"),
+                Width::Four => (Read::Whole(constant), "ymmword"),
+                Width::One => (Read::Whole(constant), "xmmword"),
+            };
+            let one_text = format!("{kind} ptr {}", memory(constant));
+            let number = if equal { "0x12" } else { "0x11" };
+            let line = match width {
+                Width::Eight => format!(
+                    "vcmppd k1, {b}, {c}, {number}; vbroadcastsd {a}{{k1}}{{z}}, {one_text}"
+                ),
+                _ => format!("vcmp{suffix} {a}, {b}, {c}, {number}; vandpd {a}, {a}, {one_text}"),
+            };
+            lines.add(line, |bytes| {
+                bytes.compare_numbers(width, to, [left, right], equal, one);
+            });
+        }
         let (text, suffix) = (vector(width, v), format!("vsqrt{suffix}"));
         let root = match width {
             Width::One => format!("{suffix} xmm1, {text}, {text}; {suffix} {text}, xmm2, xmm2"),

@@ -1,0 +1,310 @@
+//! Steps of methods with a solver as programs. Which operations a step makes is decided by values: how many iterations it takes, whether
+//! it starts from a prediction. A trace is what one step did, with what was asked meanwhile; it is run for the next steps, and counts
+//! where all answers are the same. Elsewhere the method makes the step, and another trace may be taken.
+
+use super::record::{Guard, Written, followed, with_record};
+use super::recorded::reported;
+use super::{PATIENCE, Ready, Recorded, following};
+use crate::code::{Code, Source};
+use crate::methods::implicit;
+use crate::system::Dynamic;
+use lie_codegen::methods::Choice;
+use lie_runtime::Scalar;
+use lie_runtime::methods::StepReport;
+use lie_runtime::newton::NewtonOptions;
+use lie_runtime::scalar::{Mask, largest};
+use std::cell::Cell;
+use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+/// More traces of a step are not taken.
+const MOST: usize = 12;
+/// A trace is taken after so many steps that none was for, at first; for each after it twice as many.
+const FIRST: u32 = 16;
+/// No trace is taken any more.
+const NEVER: u32 = u32::MAX;
+/// For so many steps at most none is tried after one that none was for.
+const LONGEST_REST: u32 = 32;
+
+/// What one step did.
+#[derive(Debug)]
+pub(crate) struct Trace {
+    newton: NewtonOptions,
+    /// The second computes, as a vector, the state at the end, the memory of the stepper and the residual that it reports; as a matrix
+    /// the answers to what is asked in every lane, as one number, and to what is asked of any.
+    codes: Arc<[Code]>,
+    report: StepReport,
+}
+
+/// The traces of a method.
+#[derive(Debug)]
+pub(crate) struct Traces {
+    all: Mutex<Vec<Arc<Trace>>>,
+    /// Steps that none was for since the last one was taken, and how many are waited for.
+    missed: AtomicU32,
+    patience: AtomicU32,
+}
+
+impl Traces {
+    /// None yet; the first is waited for so many steps.
+    fn new(patience: u32) -> Self {
+        Self {
+            all: Mutex::default(),
+            missed: AtomicU32::new(0),
+            patience: AtomicU32::new(patience),
+        }
+    }
+
+    fn all(&self) -> MutexGuard<'_, Vec<Arc<Trace>>> {
+        self.all.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.all().len()
+    }
+
+    /// Counts a step that none was for; whether one is to be taken.
+    pub fn is_due(&self) -> bool {
+        let patience = self.patience.load(Ordering::Relaxed);
+        if patience == NEVER || self.missed.fetch_add(1, Ordering::Relaxed) < patience {
+            return false;
+        }
+        self.missed.store(0, Ordering::Relaxed);
+        let more = self.count() < MOST;
+        let next = if more {
+            patience.saturating_mul(2)
+        } else {
+            NEVER
+        };
+        self.patience.store(next, Ordering::Relaxed);
+        more
+    }
+
+    /// No more are taken: steps are too long, or not all that decides what they do is written down.
+    pub fn give_up(&self) {
+        self.patience.store(NEVER, Ordering::Relaxed);
+    }
+
+    /// Adds one, if it is not there.
+    pub fn add(&self, trace: Trace) {
+        let mut all = self.all();
+        let mut same = all.iter().filter(|known| known.newton == trace.newton);
+        if !same.any(|known| known.codes == trace.codes) {
+            all.push(Arc::new(trace));
+        }
+    }
+}
+
+impl<S: Scalar> Dynamic<S> {
+    /// The traces of a method.
+    pub(super) fn traces(&self, choice: &Choice) -> Arc<Traces> {
+        let patience = match self.compiles_at_once(None) {
+            true => FIRST,
+            false => PATIENCE,
+        };
+        let all = &self.values.compiled.traces;
+        let made = all.get(choice, || Some(Traces::new(patience)));
+        made.unwrap_or_else(|| unreachable!("there are always some"))
+    }
+}
+
+/// 1 in the lanes where the answer to something is the expected one.
+fn answer(guard: &Guard) -> Recorded<8> {
+    let number = Recorded::of_register(guard.register);
+    match guard.expected {
+        true => number,
+        false => Recorded::one() - number,
+    }
+}
+
+/// What became of a trace.
+pub(crate) enum Taken {
+    Trace(Trace),
+    /// The step failed.
+    Failed,
+    /// It is too long, or not all that decides what it does is written down.
+    Refused,
+}
+
+impl Trace {
+    /// Of a step from a state, with this memory.
+    pub fn take(
+        choice: &Choice,
+        system: &Dynamic<f64>,
+        h: f64,
+        newton: &NewtonOptions,
+        [mu, memory]: [&[f64]; 2],
+    ) -> Taken {
+        let Some(method) = implicit::<Recorded<8>>(choice) else {
+            return Taken::Refused;
+        };
+        let arguments = |argument: u8, values: &[f64]| -> Vec<Recorded<8>> {
+            let sources = (0..).map(|place| Source::Argument(argument, place));
+            let numbers = sources.zip(values);
+            numbers
+                .map(|(source, value)| Recorded::of_value(source, *value))
+                .collect()
+        };
+        let failed = Cell::new(false);
+        let taken = followed(|| {
+            let recording = following(system);
+            let h = Recorded::of_value(Source::Step, h);
+            let mut stepper = method.any_stepper(&recording, h, newton);
+            let mut given = arguments(1, memory).into_iter();
+            let whole = stepper.carry(&mut |number| {
+                if let Some(given) = given.next() {
+                    *number = given;
+                }
+            });
+            let mut mu = arguments(0, mu);
+            if !whole {
+                return None;
+            }
+            let stepped = stepper.step(&mut mu);
+            failed.set(stepped.is_err());
+            let report = stepped.ok()?;
+            stepper.carry(&mut |number| mu.push(*number));
+            let residual = reported(report.residual).map(Recorded::of_register);
+            mu.push(residual.unwrap_or_else(|| Recorded::from_f64(report.residual)));
+            Some((mu, answers(), report))
+        });
+        let Some(((vector, matrix, report), written)): Option<(_, Written)> = taken else {
+            return match failed.get() {
+                true => Taken::Failed,
+                false => Taken::Refused,
+            };
+        };
+        Taken::Trace(Self {
+            newton: *newton,
+            codes: Arc::from(written.codes(&vector, &matrix)),
+            report,
+        })
+    }
+}
+
+/// The answers to what was asked: first those that are expected in every lane, as one number, then those that are in any.
+fn answers() -> Vec<Recorded<8>> {
+    let mut guards = with_record(|record| record.take_guards());
+    guards.sort_by_key(|guard| guard.register);
+    guards.dedup();
+    // what is asked of every lane and is true, or of any and is not, each lane has for itself
+    let (each, any): (Vec<_>, Vec<_>) = guards
+        .iter()
+        .partition(|guard: &&Guard| guard.every == guard.expected);
+    let product = each.into_iter().map(answer).reduce(|all, one| all * one);
+    let first = product.unwrap_or_else(Recorded::one);
+    [first]
+        .into_iter()
+        .chain(any.into_iter().map(answer))
+        .collect()
+}
+
+/// A trace that is ready to run.
+struct ReadyTrace<S> {
+    trace: Arc<Trace>,
+    ready: Ready<S>,
+}
+
+/// The steps of a system by traces, and what these carry from step to step.
+pub(super) struct Followed<'a, S: Scalar> {
+    pub system: &'a Dynamic<S>,
+    pub h: [S; 1],
+    traces: Vec<ReadyTrace<S>>,
+    /// How many of the traces of its method it knows, those of other options among them.
+    known: usize,
+    /// For how many steps none is tried after one that none was for, and how many of them are left.
+    rest: u32,
+    resting: u32,
+    /// What the stepper of a method would remember.
+    pub memory: Vec<S>,
+    results: Vec<S>,
+    answers: Vec<S>,
+}
+
+impl<'a, S: Scalar> Followed<'a, S> {
+    pub fn new(system: &'a Dynamic<S>, h: S, memory: Vec<S>) -> Self {
+        let results = vec![S::zero(); system.values.compiled.plan.dimension() + memory.len() + 1];
+        Self {
+            system,
+            h: [h],
+            traces: Vec::new(),
+            known: 0,
+            rest: 0,
+            resting: 0,
+            memory,
+            results,
+            answers: Vec::new(),
+        }
+    }
+
+    /// Takes those that have come since, with these options.
+    pub fn take_from(&mut self, traces: &Traces, newton: &NewtonOptions) {
+        let all = traces.all();
+        let new = all[self.known..].iter();
+        for trace in new.filter(|trace| trace.newton == *newton) {
+            self.add(Arc::clone(trace));
+        }
+        self.known = all.len();
+    }
+
+    fn add(&mut self, trace: Arc<Trace>) {
+        let [h] = self.h;
+        if let Some(ready) = Ready::new(self.system, &trace.codes, h, false) {
+            let answers = trace.codes[1]
+                .stores
+                .iter()
+                .filter(|store| store.target == 1);
+            let count = answers.count().max(self.answers.len());
+            self.answers.resize(count, S::zero());
+            self.traces.push(ReadyTrace { trace, ready });
+            (self.rest, self.resting) = (0, 0);
+        }
+    }
+
+    /// Counts a step; whether none is tried.
+    pub fn rests(&mut self) -> bool {
+        let rests = self.resting > 0;
+        self.resting = self.resting.saturating_sub(1);
+        rests
+    }
+
+    /// Makes a step by the first trace whose answers are the same; none if there is no such one.
+    pub fn step(&mut self, mu: &mut [S]) -> Option<StepReport> {
+        for place in 0..self.traces.len() {
+            let ReadyTrace { trace, ready } = &self.traces[place];
+            let arguments = [&*mu, &self.memory, &[], &[]];
+            let frame = self.system.values.frame(arguments, &ready.of_step, &self.h);
+            let targets = [&mut self.results[..], &mut self.answers[..]];
+            ready.machine.run(1, &frame, targets);
+            let (first, others) = self.answers.split_first()?;
+            let asked = trace.codes[1].stores.len() - self.results.len() - 1;
+            let half = S::ratio(1.0, 2.0);
+            let all = half.less(*first).all();
+            if !all
+                || !others[..asked]
+                    .iter()
+                    .all(|answer| half.less(*answer).any())
+            {
+                continue;
+            }
+            let (state, rest) = self.results.split_at(mu.len());
+            let (memory, residual) = rest.split_at(self.memory.len());
+            mu.copy_from_slice(state);
+            self.memory.copy_from_slice(memory);
+            let report = StepReport {
+                residual: largest(residual[0]),
+                ..trace.report
+            };
+            // those that are taken more often come earlier
+            self.traces.swap(place, place.saturating_sub(1));
+            self.rest = 0;
+            return Some(report);
+        }
+        if !self.traces.is_empty() {
+            self.rest = (2 * self.rest + 1).min(LONGEST_REST);
+            self.resting = self.rest;
+        }
+        None
+    }
+}

@@ -1,0 +1,167 @@
+//! The stepper of a method with a solver that runs its steps by traces, and makes the others kernel by kernel.
+
+use super::trace::{Followed, Taken, Trace, Traces};
+use crate::methods::Method;
+use crate::system::Dynamic;
+use lie_codegen::methods::Choice;
+use lie_runtime::diagnostics::{AnyMethod, AnyStepper, Claims, Forgotten, ForgottenStepper};
+use lie_runtime::methods::{FactorSink, Method as _, StepFailure, StepReport, Stepper};
+use lie_runtime::newton::NewtonOptions;
+use std::sync::Arc;
+
+/// A method whose steps are run by traces.
+pub(crate) struct TracedMethod {
+    choice: Choice,
+    claims: Claims,
+    apart: Method<f64>,
+}
+
+impl TracedMethod {
+    pub fn new(choice: &Choice, apart: Method<f64>) -> Self {
+        Self {
+            choice: choice.clone(),
+            claims: apart.claims(),
+            apart,
+        }
+    }
+}
+
+impl AnyMethod<f64, Dynamic<f64>> for TracedMethod {
+    fn claims(&self) -> Claims {
+        self.claims
+    }
+
+    fn any_stepper<'a>(
+        &self,
+        system: &'a Dynamic<f64>,
+        h: f64,
+        newton: &NewtonOptions,
+    ) -> Box<dyn AnyStepper<f64, Vec<f64>> + 'a> {
+        let apart = Forgotten(self.apart.as_ref()).stepper(system, h, newton);
+        match TracedStepper::new(&self.choice, system, h, newton, apart) {
+            Ok(stepper) => Box::new(stepper),
+            Err(apart) => Box::new(apart),
+        }
+    }
+}
+
+/// The stepper of a [`TracedMethod`].
+pub(super) struct TracedStepper<'a> {
+    choice: Choice,
+    newton: NewtonOptions,
+    known: Arc<Traces>,
+    followed: Followed<'a, f64>,
+    /// What makes the steps that no trace is for, kernel by kernel.
+    apart: ForgottenStepper<'a, Vec<f64>>,
+    /// Whether that has made the last step, so that it remembers what traces do not.
+    is_ahead: bool,
+}
+
+impl<'a> TracedStepper<'a> {
+    /// The stepper as it is where the system has no traces, or it does not show all that it remembers.
+    pub fn new(
+        choice: &Choice,
+        system: &'a Dynamic<f64>,
+        h: f64,
+        newton: &NewtonOptions,
+        mut apart: ForgottenStepper<'a, Vec<f64>>,
+    ) -> Result<Self, ForgottenStepper<'a, Vec<f64>>> {
+        if !system.is_traced() {
+            return Err(apart);
+        }
+        let mut memory = Vec::new();
+        if !Stepper::carry(&mut apart, &mut |number| memory.push(*number)) {
+            return Err(apart);
+        }
+        let known = system.traces(choice);
+        let mut followed = Followed::new(system, h, memory);
+        followed.take_from(&known, newton);
+        Ok(Self {
+            choice: choice.clone(),
+            newton: *newton,
+            known,
+            followed,
+            apart,
+            is_ahead: false,
+        })
+    }
+
+    /// What is remembered, to be read and written.
+    pub fn memory(&mut self) -> &mut [f64] {
+        self.remember();
+        &mut self.followed.memory
+    }
+
+    /// Has the memory where traces take it from.
+    fn remember(&mut self) {
+        if self.is_ahead {
+            let mut places = self.followed.memory.iter_mut();
+            Stepper::carry(&mut self.apart, &mut |number| {
+                if let Some(place) = places.next() {
+                    *place = *number;
+                }
+            });
+            self.is_ahead = false;
+        }
+    }
+
+    /// The same, where the method takes it from.
+    fn give_back(&mut self) {
+        if !self.is_ahead {
+            let mut places = self.followed.memory.iter();
+            Stepper::carry(&mut self.apart, &mut |number| {
+                if let Some(place) = places.next() {
+                    *number = *place;
+                }
+            });
+            self.is_ahead = true;
+        }
+    }
+
+    /// Takes a trace of the step from here.
+    #[cold]
+    fn trace(&mut self, mu: &[f64]) {
+        self.remember();
+        let [h] = self.followed.h;
+        let Followed { system, memory, .. } = &self.followed;
+        match Trace::take(&self.choice, system, h, &self.newton, [mu, memory]) {
+            Taken::Trace(trace) => self.known.add(trace),
+            Taken::Failed => {}
+            Taken::Refused => self.known.give_up(),
+        }
+    }
+
+    /// A step by a trace, if there is one for it.
+    fn by_trace(&mut self, mu: &mut [f64]) -> Option<StepReport> {
+        if self.followed.rests() {
+            return None;
+        }
+        self.remember();
+        let report = self.followed.step(mu);
+        if report.is_none() && self.known.is_due() {
+            self.trace(mu);
+        }
+        if report.is_none() {
+            self.followed.take_from(&self.known, &self.newton);
+        }
+        report
+    }
+}
+
+impl Stepper<f64> for TracedStepper<'_> {
+    type State = Vec<f64>;
+
+    fn step<K: FactorSink<Vec<f64>>>(
+        &mut self,
+        mu: &mut Vec<f64>,
+        sink: &mut K,
+    ) -> Result<StepReport, StepFailure> {
+        if !sink.is_active()
+            && let Some(report) = self.by_trace(mu)
+        {
+            return Ok(report);
+        }
+        self.give_back();
+        Stepper::step(&mut self.apart, mu, sink)
+    }
+}

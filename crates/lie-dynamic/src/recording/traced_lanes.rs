@@ -1,0 +1,171 @@
+//! Systems side by side by traces: where no trace is for all of them, each makes its step alone.
+
+use super::trace::{Followed, Traces};
+use super::traced::TracedStepper;
+use crate::methods::{Method, kernel_by_kernel};
+use crate::system::Dynamic;
+use lie_codegen::methods::Choice;
+use lie_runtime::Scalar;
+use lie_runtime::diagnostics::{AnyMethod, AnyStepper, Claims, Forgotten};
+use lie_runtime::methods::{FactorSink, Method as _, StepFailure, StepReport, Stepper, Tolerances};
+use lie_runtime::newton::NewtonOptions;
+use std::sync::Arc;
+
+type Wide = <f64 as Scalar>::Wide;
+
+/// A method with a solver over systems side by side.
+pub(crate) struct TracedInLanes {
+    choice: Choice,
+    alone: Method<f64>,
+}
+
+impl TracedInLanes {
+    pub fn new(choice: &Choice) -> Self {
+        Self {
+            choice: choice.clone(),
+            alone: kernel_by_kernel(choice, Tolerances::default()),
+        }
+    }
+}
+
+impl AnyMethod<Wide, Dynamic<Wide>> for TracedInLanes {
+    fn claims(&self) -> Claims {
+        self.alone.claims()
+    }
+
+    fn any_stepper<'a>(
+        &self,
+        system: &'a Dynamic<Wide>,
+        h: Wide,
+        newton: &NewtonOptions,
+    ) -> Box<dyn AnyStepper<Wide, Vec<Wide>> + 'a> {
+        let members = (0..).zip(system.members.iter());
+        let mut members: Vec<TracedStepper<'a>> = members
+            .filter_map(|(lane, member)| {
+                let h = h.lane(lane);
+                let apart = Forgotten(self.alone.as_ref()).stepper(member, h, newton);
+                TracedStepper::new(&self.choice, member, h, newton, apart).ok()
+            })
+            .collect();
+        let makes_steps = !members.is_empty() && members.len() == system.members.len();
+        assert!(makes_steps, "the system does not take lanes by this method");
+        let memory = vec![Wide::zero(); members[0].memory().len()];
+        let known = system.traces(&self.choice);
+        let mut followed = Followed::new(system, h, memory);
+        followed.take_from(&known, newton);
+        Box::new(TracedLanes {
+            newton: *newton,
+            state: Vec::new(),
+            known,
+            followed,
+            members,
+            are_ahead: true,
+        })
+    }
+}
+
+/// The stepper of a [`TracedInLanes`].
+struct TracedLanes<'a> {
+    newton: NewtonOptions,
+    known: Arc<Traces>,
+    followed: Followed<'a, Wide>,
+    /// The systems alone, each in its lane; lanes beyond them have the first one.
+    members: Vec<TracedStepper<'a>>,
+    /// A state of one.
+    state: Vec<f64>,
+    /// Whether these have made the last step, so that they remember what all together do not.
+    are_ahead: bool,
+}
+
+impl TracedLanes<'_> {
+    /// Which system is in a lane.
+    fn member(&self, lane: usize) -> usize {
+        if lane < self.members.len() { lane } else { 0 }
+    }
+
+    /// Has the memory of all where traces take it from.
+    fn remember(&mut self) {
+        if !self.are_ahead {
+            return;
+        }
+        for lane in 0..Wide::LANES {
+            let member = self.member(lane);
+            let memory = self.members[member].memory().iter();
+            for (all, one) in self.followed.memory.iter_mut().zip(memory) {
+                *all = all.with_lane(lane, *one);
+            }
+        }
+        self.are_ahead = false;
+    }
+
+    /// The same, where each takes its own from.
+    fn give_back(&mut self) {
+        if self.are_ahead {
+            return;
+        }
+        for (lane, member) in self.members.iter_mut().enumerate() {
+            for (one, all) in member.memory().iter_mut().zip(&self.followed.memory) {
+                *one = all.lane(lane);
+            }
+        }
+        self.are_ahead = true;
+    }
+
+    /// The step of each alone.
+    fn one_by_one(&mut self, mu: &mut [Wide]) -> Result<StepReport, StepFailure> {
+        self.give_back();
+        let (mut total, mut failure) = (StepReport::default(), None::<StepFailure>);
+        for lane in 0..self.members.len() {
+            self.state.clear();
+            self.state.extend(mu.iter().map(|entry| entry.lane(lane)));
+            let report = match Stepper::step(&mut self.members[lane], &mut self.state, &mut ()) {
+                Ok(report) => report,
+                Err(failed) => {
+                    let first = StepFailure { lanes: 0, ..failed };
+                    failure.get_or_insert(first).lanes |= 1 << lane;
+                    continue;
+                }
+            };
+            total = StepReport {
+                iterations: total.iterations.max(report.iterations),
+                evaluations: total.evaluations.max(report.evaluations),
+                residual: Scalar::max(total.residual, report.residual),
+                ..report
+            };
+            let last = self.members.len() - 1;
+            for (entry, value) in mu.iter_mut().zip(&self.state) {
+                *entry = entry.with_lane(lane, *value);
+                if lane == 0 {
+                    for other in last + 1..Wide::LANES {
+                        *entry = entry.with_lane(other, *value);
+                    }
+                }
+            }
+        }
+        failure.map_or(Ok(total), Err)
+    }
+}
+
+impl Stepper<Wide> for TracedLanes<'_> {
+    type State = Vec<Wide>;
+
+    fn step<K: FactorSink<Vec<Wide>>>(
+        &mut self,
+        mu: &mut Vec<Wide>,
+        sink: &mut K,
+    ) -> Result<StepReport, StepFailure> {
+        assert!(
+            !sink.is_active(),
+            "systems side by side show no motion on the group"
+        );
+        if !self.followed.rests() {
+            self.remember();
+            if let Some(report) = self.followed.step(mu) {
+                return Ok(report);
+            }
+        }
+        let outcome = self.one_by_one(mu);
+        self.followed.take_from(&self.known, &self.newton);
+        outcome
+    }
+}
