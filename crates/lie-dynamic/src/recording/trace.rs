@@ -21,6 +21,8 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 const MOST: usize = 12;
 /// A trace is taken after so many steps that none was for, at first; for each after it twice as many.
 const FIRST: u32 = 16;
+/// After so many that could not be written down no more are taken.
+const REFUSALS: u32 = 3;
 /// No trace is taken any more.
 const NEVER: u32 = u32::MAX;
 /// For so many steps at most none is tried after one that none was for.
@@ -43,6 +45,7 @@ pub(crate) struct Traces {
     /// Steps that none was for since the last one was taken, and how many are waited for.
     missed: AtomicU32,
     patience: AtomicU32,
+    refused: AtomicU32,
 }
 
 impl Traces {
@@ -52,6 +55,7 @@ impl Traces {
             all: Mutex::default(),
             missed: AtomicU32::new(0),
             patience: AtomicU32::new(patience),
+            refused: AtomicU32::new(0),
         }
     }
 
@@ -81,9 +85,11 @@ impl Traces {
         more
     }
 
-    /// No more are taken: steps are too long, or not all that decides what they do is written down.
-    pub fn give_up(&self) {
-        self.patience.store(NEVER, Ordering::Relaxed);
+    /// Counts one that could not be written down; after several no more are taken.
+    pub fn refuse(&self) {
+        if self.refused.fetch_add(1, Ordering::Relaxed) + 1 == REFUSALS {
+            self.patience.store(NEVER, Ordering::Relaxed);
+        }
     }
 
     /// Adds one, if it is not there.

@@ -127,7 +127,7 @@ impl<'a> TracedStepper<'a> {
         match Trace::take(&self.choice, system, h, &self.newton, [mu, memory]) {
             Taken::Trace(trace) => self.known.add(trace),
             Taken::Failed => {}
-            Taken::Refused => self.known.give_up(),
+            Taken::Refused => self.known.refuse(),
         }
     }
 
