@@ -1,4 +1,5 @@
 use super::*;
+use crate::generic::diagonals::total;
 use crate::generic::pair::Pair;
 use crate::generic::tableau::gauss_entry;
 
@@ -43,16 +44,17 @@ fn bias(table: Table, h: f64, states: u32, steps: u32) -> [f64; 2] {
             let zero = [Wide::default(); 3];
             let mut stages =
                 StageParallel::<f64, [Wide; 3], 8>::new(h, zero, &NewtonOptions::default());
-            let weights = stages.weights;
+            let weights = stages.table[WEIGHTS];
             if table == Table::Entries {
                 let ahead = |i, j| {
                     let weights = [i, j].map(|k| gauss_weight::<f64>(8, k));
                     gauss_ahead::<f64>(8, i, j) * weights[1] / weights[0]
                 };
-                stages.ratios = diagonals(8, 8, |i, j| h * gauss_entry::<f64>(8, i, j));
-                stages.ahead = diagonals(8, 8, ahead);
-                stages.weights = 1.0.widen();
-                stages.per_weight = 1.0.widen();
+                let entries = diagonals(8, 8, |i, j| h * gauss_entry::<f64>(8, i, j));
+                stages.table[RATIOS].copy_from_slice(&entries);
+                stages.table[AHEAD].copy_from_slice(&diagonals(8, 8, ahead));
+                stages.table[WEIGHTS] = 1.0.widen();
+                stages.table[PER_WEIGHT] = 1.0.widen();
             }
             stages.start(true, &start, &[0.0; 3]);
             let before = square(&stages);
