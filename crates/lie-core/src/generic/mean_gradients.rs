@@ -67,6 +67,11 @@ where
         }
     }
 
+    /// Whether they are the gradients at the stages, as of a quadratic H.
+    pub fn are_at_stages(&self) -> bool {
+        self.blocks.is_none()
+    }
+
     /// The means at all stages of a step.
     #[inline(always)]
     pub fn means<W>(&mut self, wide: &W, at: &At<'_, V>) -> &V
@@ -99,7 +104,7 @@ where
     where
         W: Poisson<S::Wide, State = V, Jacobian = M>,
     {
-        if self.blocks.is_none() {
+        if self.are_at_stages() {
             wide.vector_field(at.points, out);
             return;
         }

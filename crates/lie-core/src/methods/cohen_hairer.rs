@@ -36,7 +36,7 @@ use super::gauss::BY_NEWTON;
 use super::stage_parallel::{Slopes, StageParallelStepper, WideState};
 use super::stepper::Method;
 use crate::equation::Equation as _;
-use crate::generic::{At, CohenHairerStep, MeanGradients};
+use crate::generic::{At, CohenHairerStep, MeanGradients, StageSlopes};
 use crate::newton::NewtonOptions;
 use crate::poisson::{Poisson, Widen};
 use crate::scalar::{Mask as _, Scalar};
@@ -132,6 +132,10 @@ impl<'a, S: Scalar, P: Widen<S> + 'a, const STAGES: usize> Slopes<'a, S, P, STAG
             increments: equation.zero_unknown(),
             equation,
         }
+    }
+
+    fn known(&self) -> Option<StageSlopes> {
+        self.means.are_at_stages().then_some(StageSlopes::Field)
     }
 
     fn equation(system: &'a P, h: S) -> Self::Equation {

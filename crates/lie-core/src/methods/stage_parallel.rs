@@ -21,11 +21,13 @@ pub trait Slopes<'a, S: Scalar, P: Widen<S> + 'a, const STAGES: usize>: Sized {
     /// The equation of a step.
     type Equation: Equation<S, State = P::State, Unknown = Stages<P::State, STAGES>>;
 
-    /// Which slopes they are, where a system may have programs of them.
-    const SLOPES: Option<StageSlopes> = None;
-
     /// For steps of size h.
     fn new(system: &'a P, wide: &P::Widened, h: S) -> Self;
+
+    /// Which slopes they are, where a system may have programs of them.
+    fn known(&self) -> Option<StageSlopes> {
+        None
+    }
 
     /// The equation of a step of size h.
     fn equation(system: &'a P, h: S) -> Self::Equation;
@@ -58,10 +60,13 @@ pub struct Field;
 
 impl<'a, S: Scalar, P: Widen<S> + 'a, const STAGES: usize> Slopes<'a, S, P, STAGES> for Field {
     type Equation = Gauss<'a, S, P, STAGES>;
-    const SLOPES: Option<StageSlopes> = Some(StageSlopes::Field);
 
     fn new(_system: &'a P, _wide: &P::Widened, _h: S) -> Self {
         Self
+    }
+
+    fn known(&self) -> Option<StageSlopes> {
+        Some(StageSlopes::Field)
     }
 
     fn equation(system: &'a P, h: S) -> Self::Equation {
@@ -111,12 +116,13 @@ where
         let wide = system.widen();
         let zero = wide.zero_state();
         let stages = StageParallel::new(h, zero.clone(), newton).with_clock(system.clock());
+        let rule = F::new(system, &wide, h);
         Self {
-            rule: F::new(system, &wide, h),
             system,
             wide,
             step: h,
-            stages: stages.by_programs_of(system, F::SLOPES),
+            stages: stages.by_programs_of(system, rule.known()),
+            rule,
             newton: *newton,
             end: system.zero_state(),
             follows: S::Mask::splat(false),
