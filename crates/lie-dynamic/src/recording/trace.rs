@@ -14,6 +14,7 @@ use lie_runtime::methods::StepReport;
 use lie_runtime::newton::NewtonOptions;
 use lie_runtime::scalar::{Mask, largest};
 use std::cell::Cell;
+use std::ops::Range;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -222,15 +223,18 @@ pub(super) struct Followed<'a, S: Scalar> {
     /// For how many steps none is tried after one that none was for, and how many of them are left.
     rest: u32,
     resting: u32,
-    /// What the stepper of a method would remember.
-    pub memory: Vec<S>,
+    /// What the last trace gave and what the next one gives: a state, what the stepper of a method would remember, and a residual.
+    last: Vec<S>,
     results: Vec<S>,
     answers: Vec<S>,
 }
 
 impl<'a, S: Scalar> Followed<'a, S> {
-    pub fn new(system: &'a Dynamic<S>, h: S, memory: Vec<S>) -> Self {
-        let results = vec![S::zero(); system.values.compiled.plan.dimension() + memory.len() + 1];
+    /// Of a stepper that remembers these numbers.
+    pub fn new(system: &'a Dynamic<S>, h: S, memory: &[S]) -> Self {
+        let size = system.values.compiled.plan.dimension();
+        let mut last = vec![S::zero(); size + memory.len() + 1];
+        last[size..][..memory.len()].copy_from_slice(memory);
         Self {
             system,
             h: [h],
@@ -238,10 +242,25 @@ impl<'a, S: Scalar> Followed<'a, S> {
             known: 0,
             rest: 0,
             resting: 0,
-            memory,
-            results,
+            results: last.clone(),
+            last,
             answers: Vec::new(),
         }
+    }
+
+    fn places(&self) -> Range<usize> {
+        self.system.values.compiled.plan.dimension()..self.last.len() - 1
+    }
+
+    /// What the stepper of a method would remember.
+    pub fn memory(&self) -> &[S] {
+        &self.last[self.places()]
+    }
+
+    /// The same, to be written.
+    pub fn memory_mut(&mut self) -> &mut [S] {
+        let places = self.places();
+        &mut self.last[places]
     }
 
     /// Takes those that have come since, with these options.
@@ -277,9 +296,10 @@ impl<'a, S: Scalar> Followed<'a, S> {
 
     /// Makes a step by the first trace whose answers are the same; none if there is no such one.
     pub fn step(&mut self, mu: &mut [S]) -> Option<StepReport> {
+        let places = self.places();
         for place in 0..self.traces.len() {
             let ReadyTrace { trace, ready } = &self.traces[place];
-            let arguments = [&*mu, &self.memory, &[], &[]];
+            let arguments = [&*mu, &self.last[places.clone()], &[], &[]];
             let frame = self.system.values.frame(arguments, &ready.of_step, &self.h);
             let targets = [&mut self.results[..], &mut self.answers[..]];
             ready.machine.run(1, &frame, targets);
@@ -294,16 +314,15 @@ impl<'a, S: Scalar> Followed<'a, S> {
             {
                 continue;
             }
-            let (state, rest) = self.results.split_at(mu.len());
-            let (memory, residual) = rest.split_at(self.memory.len());
-            mu.copy_from_slice(state);
-            self.memory.copy_from_slice(memory);
+            std::mem::swap(&mut self.last, &mut self.results);
+            mu.copy_from_slice(&self.last[..mu.len()]);
+            let residual = self.last[self.last.len() - 1];
             let report = StepReport {
-                residual: largest(residual[0]),
+                residual: largest(residual),
                 ..trace.report
             };
-            // those that are taken more often come earlier
-            self.traces.swap(place, place.saturating_sub(1));
+            // steps are often like the last one
+            self.traces[..=place].rotate_right(1);
             self.rest = 0;
             return Some(report);
         }

@@ -74,7 +74,7 @@ impl<'a> TracedStepper<'a> {
             return Err(apart);
         }
         let known = system.traces(choice);
-        let mut followed = Followed::new(system, h, memory);
+        let mut followed = Followed::new(system, h, &memory);
         followed.take_from(&known, newton);
         Ok(Self {
             choice: choice.clone(),
@@ -89,13 +89,13 @@ impl<'a> TracedStepper<'a> {
     /// What is remembered, to be read and written.
     pub fn memory(&mut self) -> &mut [f64] {
         self.remember();
-        &mut self.followed.memory
+        self.followed.memory_mut()
     }
 
     /// Has the memory where traces take it from.
     fn remember(&mut self) {
         if self.is_ahead {
-            let mut places = self.followed.memory.iter_mut();
+            let mut places = self.followed.memory_mut().iter_mut();
             Stepper::carry(&mut self.apart, &mut |number| {
                 if let Some(place) = places.next() {
                     *place = *number;
@@ -108,7 +108,7 @@ impl<'a> TracedStepper<'a> {
     /// The same, where the method takes it from.
     fn give_back(&mut self) {
         if !self.is_ahead {
-            let mut places = self.followed.memory.iter();
+            let mut places = self.followed.memory().iter();
             Stepper::carry(&mut self.apart, &mut |number| {
                 if let Some(place) = places.next() {
                     *number = *place;
@@ -123,7 +123,7 @@ impl<'a> TracedStepper<'a> {
     fn trace(&mut self, mu: &[f64]) {
         self.remember();
         let [h] = self.followed.h;
-        let Followed { system, memory, .. } = &self.followed;
+        let (system, memory) = (self.followed.system, self.followed.memory());
         match Trace::take(&self.choice, system, h, &self.newton, [mu, memory]) {
             Taken::Trace(trace) => self.known.add(trace),
             Taken::Failed => {}

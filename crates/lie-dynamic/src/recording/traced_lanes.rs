@@ -51,7 +51,7 @@ impl AnyMethod<Wide, Dynamic<Wide>> for TracedInLanes {
         assert!(makes_steps, "the system does not take lanes by this method");
         let memory = vec![Wide::zero(); members[0].memory().len()];
         let known = system.traces(&self.choice);
-        let mut followed = Followed::new(system, h, memory);
+        let mut followed = Followed::new(system, h, &memory);
         followed.take_from(&known, newton);
         Box::new(TracedLanes {
             newton: *newton,
@@ -91,7 +91,7 @@ impl TracedLanes<'_> {
         for lane in 0..Wide::LANES {
             let member = self.member(lane);
             let memory = self.members[member].memory().iter();
-            for (all, one) in self.followed.memory.iter_mut().zip(memory) {
+            for (all, one) in self.followed.memory_mut().iter_mut().zip(memory) {
                 *all = all.with_lane(lane, *one);
             }
         }
@@ -104,7 +104,7 @@ impl TracedLanes<'_> {
             return;
         }
         for (lane, member) in self.members.iter_mut().enumerate() {
-            for (one, all) in member.memory().iter_mut().zip(&self.followed.memory) {
+            for (one, all) in member.memory().iter_mut().zip(self.followed.memory()) {
                 *one = all.lane(lane);
             }
         }
