@@ -50,6 +50,9 @@ fn choice_of(label: &str) -> Choice {
         (Choice::Collective(order, _), Some("quaternion")) => {
             Choice::Collective(*order, Lift::Quaternion)
         }
+        (Choice::Collective(order, _), Some("unitary")) => {
+            Choice::Collective(*order, Lift::Unitary)
+        }
         (Choice::Collective(order, _), Some("spec")) => Choice::Collective(*order, Lift::Spec),
         (Choice::Collective(order, _), Some("smallest")) => {
             Choice::Collective(*order, Lift::Smallest)
@@ -307,7 +310,10 @@ fn large_algebras() {
     each! { differences, algebra
         so4_manakov ManakovTop ["isospectral4" m::Isospectral4::new(), "moser-veselov" m::MoserVeselov];
         so3_cotangent_group CotangentBody ["euler-arnold2" m::EulerArnold2];
-        su3_quadratic Su3Quadratic ["isospectral4" m::Isospectral4::new()];
+        su3_quadratic Su3Quadratic [
+            "isospectral4" m::Isospectral4::new(), "collective16 --lift unitary" m::Collective16::unitary(),
+            "collective8 --lift smallest" m::Collective8::smallest(),
+        ];
     }
     assert!(differences.0.is_empty(), "{}", differences.0.join("\n"));
 }

@@ -77,9 +77,9 @@ pub use lie_core::{
     InertiaPoisson, IntegrablePoisson, LagrangianPoisson, LiePoisson, Lift, Mask, MatrixGroup,
     MatrixPoisson, Motion, ParameterError, ParameterFault, PieceFlows, Poisson, RealizedPoisson,
     Recurrence, Scalar, SeparablePoisson, Series, Spectrum, SpinPoisson, SquareMatrix, StageMatrix,
-    Stages, State, Unknown, VectorPoisson, Widen, clock, closed, elimination, equation, functions,
-    generating, generic, generic_equations, lagrangian, matrix, methods, newton, parameter, pieces,
-    poisson, recurrence, scalar, state, structure,
+    Stages, State, UnitaryPoisson, Unknown, VectorPoisson, Widen, clock, closed, elimination,
+    equation, functions, generating, generic, generic_equations, lagrangian, matrix, methods,
+    newton, parameter, pieces, poisson, recurrence, scalar, state, structure,
 };
 #[cfg(feature = "macros")]
 pub use lie_macros::lie_poisson;
@@ -138,7 +138,7 @@ pub mod __private_0_1 {
     pub use crate::structure::{
         CollectivePoisson, ColumnPoisson, Columns, CotangentPoisson, Entry, Group, InertiaPoisson,
         MatrixGroup, MatrixPoisson, Motion, Plane, Representation, Spectrum, SpinPoisson,
-        VectorPoisson,
+        UnitaryPoisson, VectorPoisson,
     };
     pub use core::marker::PhantomData;
     pub use lie_core::{__entries as entries, __over_scalars as over_scalars};

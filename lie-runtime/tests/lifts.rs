@@ -1,4 +1,5 @@
-//! Collective methods with their stages evaluated together: over the Hopf map, quaternions and columns of a representation.
+//! Collective methods with their stages evaluated together: over the Hopf map, quaternions, factors of Hermitian matrices and columns
+//! of a representation.
 
 use lie_runtime::ColumnPoisson;
 use lie_runtime::diagnostics::poisson_defect;
@@ -7,7 +8,7 @@ use lie_runtime::generic::{
 };
 use lie_runtime::methods::{
     Collective4, Collective6, Facts, Hopf, ImplicitStepper, ParallelCollective, Quaternion,
-    Representation, StageLift, StepFailure,
+    Representation, StageLift, StepFailure, Unitary,
 };
 use lie_runtime::newton::{FailureReason, Iteration};
 use lie_runtime::prelude::*;
@@ -82,10 +83,26 @@ lie_poisson! {
     hamiltonian = m1^2/(2*I1) + m2^2/(2*I2) + m3^2/(2*I3) + g1/5 + g2/10 + 97*g3/100 + cos(g1)*m2/9;
     methods = [collective16];
 }
+lie_poisson! {
+    /// On u(3), where the trace is a Casimir of its own, with a term that is no polynomial; the gauge removes one.
+    system Threefold;
+    algebra = u(3);
+    state x1, x2, x3, x4, x5, x6, x7, x8, x9;
+    hamiltonian = x1^2/4 + x2^2/6 + x3*x5/4 + x3^2/4 + x4^2/4 + x6^2/7 + x7^2/6 + x8*x9/5 + x7*x1/6 + exp(x9/4)/3;
+    methods = [collective16];
+}
+lie_poisson! {
+    /// On su(2), which is so(3).
+    system Twofold;
+    algebra = su(2);
+    state x1, x2, x3;
+    hamiltonian = x1^2/3 + x2^2/5 + x3^2/7 + exp(x1/3)/2;
+}
 lie_poisson! { spec = "../specs/so4_manakov.json"; }
 lie_poisson! { spec = "../specs/su3_quadratic.json"; }
 lie_poisson! { spec = "../specs/sl2_quadratic.json"; }
 
+const SU3: [f64; 8] = [0.3, -0.2, 0.4, 0.1, 0.5, -0.3, 0.2, 0.6];
 const TOP: [f64; 6] = [0.3, -0.5, 1.2, 0.1, 0.2, 0.97];
 
 fn state<P: Poisson<f64>>(system: &P, values: &[f64]) -> P::State {
@@ -243,6 +260,62 @@ fn both_charts_of_quaternions_give_the_same_step() {
     }
 }
 
+/// On C^2 factors are spinors. On orbits where eigenvalues coincide there are columns that are 0, and a state may be 0.
+#[test]
+fn factors_are_found_over_every_state() {
+    let two = Twofold::new().system().expect("parameters");
+    for start in [
+        [0.3, -0.5, 1.2],
+        [0.0, 0.0, -0.7],
+        [1e-160, 0.0, 1e-170],
+        [0.0; 3],
+    ] {
+        let (mut one, mut other) = (state(&two, &start), state(&two, &start));
+        run(&two, &Collective16::hopf(), &mut one, 0.5, 20);
+        run(&two, &Collective16::unitary(), &mut other, 0.5, 20);
+        let off = distance(one.as_slice(), other.as_slice());
+        println!("{start:?}: {off:e}");
+        assert!(off < 1e-14, "{start:?}: {off:e}");
+    }
+    let three = Threefold::new().system().expect("parameters");
+    let diagonal = |values: [f64; 3]| {
+        let mut mu = vec![0.0; 9];
+        mu[6..].copy_from_slice(&values);
+        state(&three, &mu)
+    };
+    for (start, equal) in [
+        (some(&three), false),
+        (diagonal([0.5, 0.5, -0.8]), true),
+        (diagonal([0.5, -0.8, 0.5]), true),
+        (diagonal([0.5, 0.5 + 1e-16, -0.8]), true),
+        (diagonal([0.5, 0.5, 0.9]), false),
+        (diagonal([0.3, 0.3, 0.3]), true),
+        (diagonal([0.0, 0.0, 0.0]), true),
+        (diagonal([3e200, 1e200, -2e200]), false),
+        (diagonal([3e-200, 1e-200, -2e-200]), false),
+    ] {
+        let mut labels = <Unitary as LinearLift<f64, _>>::zero_labels(&three);
+        let mut point = <Unitary as LinearLift<f64, _>>::zero_point(&three);
+        <Unitary as LinearLift<f64, _>>::lift(&three, &start, &mut labels, &mut point);
+        let mut under = three.zero_state();
+        <Unitary as LinearLift<f64, _>>::project(&three, &labels, &point, &mut under);
+        let size = start
+            .as_slice()
+            .iter()
+            .fold(0.0, |m: f64, x| m.max(x.abs()));
+        let off = distance(under.as_slice(), start.as_slice());
+        println!("{:?}: {off:e}", start.as_slice());
+        assert!(off <= 2e-15 * size, "{off:e} of {size:e}");
+        let last = point.as_slice()[3..6].iter().chain(&point.as_slice()[9..]);
+        assert_eq!(
+            last.clone().all(|x| *x == 0.0),
+            equal,
+            "{:?}",
+            start.as_slice()
+        );
+    }
+}
+
 /// The order as the slope of errors against fine steps, and that the limit is the flow.
 fn order<P: Poisson<f64>, M: Facts + Method<f64, P>>(
     system: &P,
@@ -346,6 +419,22 @@ fn orders_are_those_stated() {
         3.0,
         &[8, 10, 12, 14, 17, 20],
     );
+    let su3 = Su3Quadratic::new().system().expect("parameters");
+    order(
+        &su3,
+        &Collective8::unitary(),
+        &some(&su3),
+        8.0,
+        &[6, 8, 10, 12, 14, 17],
+    );
+    let three = Threefold::new().system().expect("parameters");
+    order(
+        &three,
+        &Collective14::smallest(),
+        &some(&three),
+        4.0,
+        &[4, 5, 6, 7, 8, 9],
+    );
     let spin = Body::new().system().expect("parameters");
     let start = state(&spin, &[0.7, 0.4, 1.1]);
     order(
@@ -406,7 +495,9 @@ fn written_flows_are_the_generic_ones() {
             assert!(off < 1e-9, "{}: {off:e}", system.name());
         }
     }
-    use lie_runtime::generic::{flow_over_columns, flow_over_quaternions, flow_over_spins};
+    use lie_runtime::generic::{
+        flow_over_columns, flow_over_factors, flow_over_quaternions, flow_over_spins,
+    };
     check::<Quaternion, _>(&top, flow_over_quaternions, false);
     check::<Representation, _>(&top, |s, _, p, out| flow_over_columns(s, p, out), false);
     let beside = Beside::new().system().expect("parameters");
@@ -415,6 +506,10 @@ fn written_flows_are_the_generic_ones() {
     check::<Hopf, _>(&body, |s, _, p, out| flow_over_spins(s, p, out), true);
     let vectors = Vectors::new().system().expect("parameters");
     check::<Quaternion, _>(&vectors, flow_over_quaternions, false);
+    let three = Threefold::new().system().expect("parameters");
+    check::<Unitary, _>(&three, flow_over_factors, true);
+    let su3 = Su3Quadratic::new().system().expect("parameters");
+    check::<Unitary, _>(&su3, flow_over_factors, false);
 }
 
 /// How far the executed steps of a walk are from symplectic maps of the points, with the start of each iteration frozen: for each
@@ -555,6 +650,12 @@ fn the_executed_map_is_symplectic_to_round_off() {
     check!(Quaternion, Top, &TOP, [0.01, 0.05, 0.2, 0.5, 0.8, 1.2]);
     check!(Representation, Top, &TOP, [0.05, 0.2, 0.5]);
     check!(
+        Unitary,
+        Threefold,
+        &[0.3, -0.2, 0.4, 0.1, 0.5, -0.3, 0.2, 0.6, -0.1],
+        [0.05, 0.5, 1.5]
+    );
+    check!(
         Quaternion,
         Vectors,
         &[0.3, -0.5, 1.2, 0.1, 0.2, 0.97, 0.3, -0.2, 0.4],
@@ -634,10 +735,39 @@ fn steps_are_poisson_maps() {
         1e-14,
     );
 
+    let three = Threefold::<Dual<f64>>::default()
+        .system()
+        .expect("parameters");
+    let su3 = Su3Quadratic::<Dual<f64>>::default()
+        .system()
+        .expect("parameters");
+    for start in [
+        [0.3, -0.2, 0.4, 0.1, 0.5, -0.3, 0.2, 0.6, -0.1],
+        // two equal eigenvalues, the lower or the higher ones
+        [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.7, 0.7, -0.4],
+        [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.7, -0.4, -0.4],
+    ] {
+        check(
+            &three,
+            &Collective16::unitary(),
+            &start,
+            &[0.1, 1.0, 2.0],
+            3e-14,
+        );
+        check(
+            &su3,
+            &Collective16::unitary(),
+            &start[..8],
+            &[0.1, 1.0, 2.5],
+            3e-14,
+        );
+        check(&su3, &Collective10::smallest(), &start[..8], &[1.0], 3e-14);
+    }
     let control = |found: Result<f64, StepFailure>| assert!(found.expect("solved") > 1e-12);
     let options = NewtonOptions::default();
     control(poisson_defect(&top, &Gauss16, 2.0, &TOP, &options));
     control(poisson_defect(&vectors, &Gauss16, 2.0, &mu, &options));
+    control(poisson_defect(&su3, &Gauss16, 2.5, &SU3, &options));
     control(poisson_defect(
         &body,
         &Gauss16,
@@ -708,6 +838,14 @@ fn orbits_are_kept_and_the_energy_does_not_drift() {
         check(&top, &Isospectral8::new(), &start, 0.4, 10_000),
         check(&body, &Collective8::smallest(), &some(&body), 0.3, 5_000),
         check(&su3, &Isospectral8::new(), &some(&su3), 0.4, 2_000),
+        check(&su3, &Collective8::unitary(), &some(&su3), 1.0, 10_000),
+        check(
+            &su3,
+            &Collective16::smallest(),
+            &state(&su3, &SU3),
+            2.5,
+            5_000,
+        ),
     ] {
         assert!(growth < GROWTH, "{growth}");
     }
@@ -753,6 +891,8 @@ fn a_lane_has_the_digits_of_its_own_run() {
     check!(Top, Collective12::quaternion(), 0.2);
     check!(Top, Isospectral16::new(), 0.4);
     check!(Sl2Quadratic, Isospectral8::new(), 0.1);
+    check!(Threefold, Collective12::unitary(), 0.3);
+    check!(Su3Quadratic, Collective16::smallest(), 0.5);
 }
 
 /// A step that does not contract is refused, and the state stays.

@@ -49,5 +49,5 @@ pub use state::{Stages, State, Unknown};
 pub use structure::{
     ClosedRealization, CollectivePoisson, ColumnPoisson, CotangentPoisson, Group, InertiaPoisson,
     IntegrablePoisson, MatrixGroup, MatrixPoisson, Motion, RealizedPoisson, Spectrum, SpinPoisson,
-    VectorPoisson,
+    UnitaryPoisson, VectorPoisson,
 };

@@ -1,7 +1,9 @@
 //! Structure that some algebras and Hamiltonians have and some methods need: a matrix representation,
 //! factors so(3), the inertia of a rigid body in n dimensions.
 
-use crate::generic::{LinearLift, flow_over_columns, flow_over_quaternions, flow_over_spins};
+use crate::generic::{
+    LinearLift, flow_over_columns, flow_over_factors, flow_over_quaternions, flow_over_spins,
+};
 use crate::matrix::SquareMatrix;
 use crate::poisson::{LiePoisson, Poisson};
 use crate::scalar::Scalar;
@@ -209,6 +211,36 @@ pub trait ColumnPoisson<S: Scalar>: MatrixPoisson<S> {
     #[inline]
     fn column_flow(&self, point: &Self::Columns, out: &mut Self::Columns) {
         flow_over_columns(self, point, out);
+    }
+}
+
+/// A system whose representation is a unitary one on `C^N`: its matrices and the dual ones are those of anti-Hermitian matrices, real
+/// `[[Re, -Im], [Im, Re]]`. A state is `mu_k = (i/2) tr(M rho(e_k))` of the Hermitian matrix `M = -4 i sum mu_k D^k`, and
+/// `M - lambda_min = X X^H` with N - 1 columns X, on which the unitary matrices act from the right.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no unitary representation over the scalar `{S}`",
+    note = "the method needs `matrices` that are anti-Hermitian, `[[Re, -Im], [Im, Re]]`, such as those of su(n) and u(n)"
+)]
+pub trait UnitaryPoisson<S: Scalar>: MatrixPoisson<S> {
+    /// The number N of rows of X.
+    fn degree(&self) -> usize;
+    /// The eigenvalue `lambda_min`, which distinguishes orbits.
+    type Shift: State<S>;
+    /// 0.
+    fn zero_shift(&self) -> Self::Shift;
+    /// The columns of X: the real parts of all of them, then the imaginary ones.
+    type Factor: State<S>;
+    /// Columns, all 0.
+    fn zero_factor(&self) -> Self::Factor;
+    /// Two complex N x N matrices.
+    type Hermitian: State<S>;
+    /// Two matrices, all entries 0.
+    fn zero_hermitian(&self) -> Self::Hermitian;
+    /// The canonical flow of `(H - C) o J` at points, C any function of Casimirs, `X' = -rho(grad (H - C)) X`; see
+    /// [`flow_over_factors`], for which C is 0.
+    #[inline]
+    fn unitary_flow(&self, shift: &Self::Shift, point: &Self::Factor, out: &mut Self::Factor) {
+        flow_over_factors(self, shift, point, out);
     }
 }
 

@@ -169,6 +169,59 @@ impl Source {
         ))
     }
 
+    /// The flow on `C^(N x (N-1))` over a unitary representation: the real parts of the columns, then the imaginary ones.
+    pub fn unitary_flow(&mut self) -> Option<Kernel> {
+        let unitary = self.unitary()?;
+        let representation = self.matrices().cloned()?;
+        let (size, count) = (2 * unitary.degree, unitary.point());
+        let (labels, symbols) = (places(count, 1), places(0, count));
+        let point: Vec<ExprId> = symbols.iter().map(|s| self.graph.symbol(*s)).collect();
+        let (real, imaginary) = point.split_at(count / 2);
+        // columns of both parts, and the rows i X^H/2 beside them
+        let (mut x, mut y) = (Vec::new(), Vec::new());
+        let columns = real.chunks(unitary.degree);
+        for (re, im) in columns.zip(imaginary.chunks(unitary.degree)) {
+            x.extend(re.iter().chain(im).copied());
+            let half = Rational::ONE / Rational::from(2);
+            y.extend(im.iter().map(|value| self.graph.scale(*value, &half)));
+            y.extend(re.iter().map(|value| self.graph.scale(*value, &-&half)));
+        }
+        let mut momenta = self.momenta_of(&representation, (&x, &y), size);
+        let shift = self.graph.symbol(labels[0]);
+        for (momentum, trace) in momenta.iter_mut().zip(traces(&representation)) {
+            let constant = self.graph.scale(shift, &trace);
+            *momentum = self.graph.add(*momentum, constant);
+        }
+        let gradient = self.in_gauge(Self::gradient_of_h);
+        let gradient = self.at_point(&gradient, &momenta);
+        let mut terms: Vec<Vec<ExprId>> = vec![Vec::new(); x.len()];
+        for (xi, matrix) in gradient.iter().zip(&representation.matrices) {
+            for (a, row) in matrix.iter().enumerate() {
+                for (b, entry) in row.iter().enumerate().filter(|(_, entry)| !entry.is_zero()) {
+                    let value = self.graph.scale(*xi, &-entry);
+                    for j in (0..x.len()).step_by(size) {
+                        terms[j + a].push(self.graph.mul(value, x[j + b]));
+                    }
+                }
+            }
+        }
+        let moved: Vec<ExprId> = terms.iter().map(|terms| self.graph.sum(terms)).collect();
+        let part = |of: usize| {
+            let columns = moved.chunks(size);
+            columns.flat_map(move |column| &column[of * unitary.degree..][..unitary.degree])
+        };
+        let flow: Vec<ExprId> = part(0).chain(part(1)).copied().collect();
+        let formula = "`X' = -rho(grad (H - C)) X` at `(i/2) tr rho(e_k) (shift + X X^H)`, C a function of Casimirs";
+        let arguments = vec![argument("shift", &labels), argument("point", &symbols)];
+        Some(Kernel::vector(
+            &self.graph,
+            "unitary_flow",
+            formula,
+            arguments,
+            &flow,
+        ))
+    }
+
     /// `J_k = sum_j y_j rho_k x_j`, of columns of a size.
     fn momenta_of(
         &mut self,
@@ -193,6 +246,16 @@ impl Source {
         }
         momenta
     }
+}
+
+/// `(i/2) tr rho(e_k)` of anti-Hermitian matrices, written as real ones.
+fn traces(representation: &Representation) -> impl Iterator<Item = Rational> {
+    let degree = representation.dimension / 2;
+    let half = Rational::ONE / Rational::from(2);
+    representation.matrices.iter().map(move |matrix| {
+        let sum = (0..degree).fold(Rational::ZERO, |sum, a| &sum + &matrix[a][degree + a]);
+        &sum * &half
+    })
 }
 
 /// Points of `T*V^r`.

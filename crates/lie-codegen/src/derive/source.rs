@@ -12,6 +12,7 @@ use crate::structure::inertia::Body;
 use crate::structure::integrable::Motion;
 use crate::structure::separable::Piece;
 use crate::structure::spins::Spin;
+use crate::structure::unitary::Unitary;
 use crate::structure::vectors::Vectors;
 use lie_core::Clock;
 use lie_symbolic::symbolic::{ExprId, Graph};
@@ -126,6 +127,11 @@ impl Source {
     /// The parts of so(3) with vectors.
     pub fn vectors(&self) -> Option<&Vectors> {
         self.lie()?.vectors.as_ref()
+    }
+
+    /// The unitary representation that the declared matrices are.
+    pub fn unitary(&self) -> Option<Unitary> {
+        self.lie()?.unitary
     }
 
     /// The free rigid body that the system is.

@@ -3,7 +3,7 @@
 use super::{CATALOGUE, Choice, Lift, Pieces, Retraction, Scheme, Tensor};
 use crate::model::{Bracket, Descent, Discrete, Model};
 use crate::structure::{
-    Structure, found, inertia, integrable, lifts, matrices, separable, spins, vectors,
+    Structure, found, inertia, integrable, lifts, matrices, separable, spins, unitary, vectors,
 };
 use lie_syntax::diagnostic::Kind;
 
@@ -61,6 +61,7 @@ pub fn refusal(structure: &Structure, choice: &Choice) -> Option<(String, String
         Choice::Exact => integrable::refusal(structure),
         Choice::Taylor | Choice::LieTaylor => expression(model).or_else(|| own_joints(structure)),
         Choice::Collective(order, Lift::Quaternion) => vectors::refusal(structure, *order),
+        Choice::Collective(order, Lift::Unitary) => unitary::refusal(structure, *order),
         Choice::Collective(order, Lift::Smallest) => lifts::refusal(structure, *order),
         Choice::EulerArnold2 => cotangent(model),
         Choice::SphericalMidpoint => spins::refusal(structure, None),

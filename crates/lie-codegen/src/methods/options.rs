@@ -60,6 +60,8 @@ named! {
         Spec = "spec",
         /// `T*H`, H the quaternions, for so(3) with vectors.
         Quaternion = "quaternion",
+        /// `C^(N x (N-1))`, for anti-Hermitian matrices of N complex rows.
+        Unitary = "unitary",
         /// The smallest linear space that there is.
         Smallest = "smallest",
     }

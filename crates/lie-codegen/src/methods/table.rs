@@ -14,7 +14,7 @@ const REDUCTIVE: &str =
     "a matrix representation closed under (abc + cba)/2, up to matrices that commute with it";
 const COLLECTIVE: &str = "a matrix representation closed under (abc + cba)/2, up to matrices that commute with it; with --lift hopf a direct sum of algebras so(3)";
 
-const LINEAR: &str = "a direct sum of algebras so(3) (hopf), so(3) with vectors such as se(3) (quaternion), else a matrix representation closed under (abc + cba)/2, up to matrices that commute with it";
+const LINEAR: &str = "a direct sum of algebras so(3) (hopf), so(3) with vectors such as se(3) (quaternion), anti-Hermitian matrices such as those of su(n) and u(n) (unitary), else a matrix representation closed under (abc + cba)/2, up to matrices that commute with it";
 const SPINS: &str = "a direct sum of algebras so(3)";
 const EXPRESSION: &str = "a Hamiltonian with an expression";
 const SUM: &str = "H of functions of commuting coordinates and of Casimirs of subalgebras, or quadratic; for --pieces coordinate H = sum f_i(x_i)";

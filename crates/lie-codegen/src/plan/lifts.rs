@@ -2,7 +2,7 @@
 
 use super::function::Function;
 use super::planner::Planner;
-use super::structure::{Structure, Vectors};
+use super::structure::{Structure, Unitary, Vectors};
 use crate::methods::{Choice, Lift};
 use crate::structure::lifts::Smallest;
 
@@ -18,7 +18,8 @@ impl Structure {
             .representation
             .iter()
             .filter_map(|found| found.flow.as_ref());
-        spins.chain(vectors).chain(columns)
+        let factors = self.unitary.iter().filter_map(|found| found.flow.as_ref());
+        spins.chain(vectors).chain(factors).chain(columns)
     }
 }
 
@@ -28,6 +29,7 @@ impl Planner<'_> {
         let smallest = match self.structure.smallest {
             Some(Smallest::Hopf) => Some(Lift::Hopf),
             Some(Smallest::Quaternion) => Some(Lift::Quaternion),
+            Some(Smallest::Unitary) => Some(Lift::Unitary),
             Some(Smallest::Representation) => Some(Lift::Representation),
             None => None,
         };
@@ -47,9 +49,19 @@ impl Planner<'_> {
         let kernel = match lift {
             Lift::Hopf => self.source.spinor_flow(),
             Lift::Quaternion => self.source.quaternion_flow(),
+            Lift::Unitary => self.source.unitary_flow(),
             _ => self.source.column_flow(),
         }?;
         Some(self.function(&kernel))
+    }
+
+    pub(super) fn unitary(&mut self) -> Option<Unitary> {
+        let unitary = self.source.unitary()?;
+        Some(Unitary {
+            degree: unitary.degree,
+            point: unitary.point(),
+            flow: self.flow_on(Lift::Unitary),
+        })
     }
 
     pub(super) fn vectors(&mut self) -> Option<Vectors> {

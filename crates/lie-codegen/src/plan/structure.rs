@@ -10,6 +10,7 @@ use crate::structure::inertia::Body;
 use crate::structure::integrable::Motion;
 use crate::structure::lifts::Smallest;
 use crate::structure::spectrum;
+use crate::structure::unitary::is_skew;
 use crate::structure::vectors::Component;
 use lie_symbolic::exact::Rational;
 use lie_symbolic::symbolic::ExprId;
@@ -30,6 +31,8 @@ pub struct Structure {
     pub motion: Option<Motion>,
     /// The parts of so(3) with vectors.
     pub vectors: Option<Vectors>,
+    /// The unitary representation that the matrices are.
+    pub unitary: Option<Unitary>,
     /// The smallest linear symplectic space over the system.
     pub smallest: Option<Smallest>,
     /// The inertia of a free rigid body in four dimensions or more.
@@ -111,6 +114,17 @@ pub struct Vectors {
     pub flow: Option<Function>,
 }
 
+/// A unitary representation.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Unitary {
+    /// The number of complex rows.
+    pub degree: usize,
+    /// The number of coordinates of a point.
+    pub point: usize,
+    /// The flow of points, where a method that is asked for needs it.
+    pub flow: Option<Function>,
+}
+
 /// The inertia of a free rigid body.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Inertia {
@@ -147,6 +161,7 @@ impl Planner<'_> {
             spins,
             motion: self.source.motion(),
             vectors,
+            unitary: self.unitary(),
             smallest: self.structure.smallest,
             inertia,
             momenta: self.source.momenta(),
@@ -228,12 +243,4 @@ impl Planner<'_> {
         let program = kernel.program(&mut self.source.graph);
         self.code_of_system(&program)
     }
-}
-
-fn is_skew(matrix: &[Vec<Rational>]) -> bool {
-    matrix.iter().enumerate().all(|(i, row)| {
-        row.iter()
-            .enumerate()
-            .all(|(j, entry)| (entry + &matrix[j][i]).is_zero())
-    })
 }

@@ -137,6 +137,13 @@ impl fmt::Display for Structure {
             let found: Vec<[usize; 3]> = vectors.vectors.iter().map(places).collect();
             writeln!(f, "rotations {:?}, vectors {found:?}", vectors.rotation)?;
         }
+        if let Some(unitary) = &self.unitary {
+            writeln!(
+                f,
+                "unitary representation of {} complex rows",
+                unitary.degree
+            )?;
+        }
         if let Some(smallest) = &self.smallest {
             let space = smallest.description();
             writeln!(f, "smallest linear space over it: {space}")?;

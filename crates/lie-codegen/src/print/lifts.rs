@@ -46,6 +46,43 @@ impl Printer<'_> {
         })
     }
 
+    pub(super) fn unitary_poisson(&self) -> Option<TokenStream> {
+        let unitary = self.plan.structure.unitary.as_ref()?;
+        let system = self.system_name();
+        let flow = unitary.flow.as_ref();
+        let flow = flow.map(|f| self.flow_on(f, &quote! { Self::Factor }, unitary.point));
+        let [degree, count, entries] =
+            [unitary.degree, unitary.point, 4 * unitary.degree.pow(2)].map(index);
+        Some(quote! {
+            #[allow(non_snake_case, clippy::many_single_char_names)]
+            impl<S: ::lie_runtime::Scalar> ::lie_runtime::UnitaryPoisson<S> for #system<S> {
+                fn degree(&self) -> usize {
+                    #degree
+                }
+
+                type Shift = ::lie_runtime::__private::SVector<S, 1>;
+
+                fn zero_shift(&self) -> Self::Shift {
+                    Self::Shift::repeat(S::zero())
+                }
+
+                type Factor = ::lie_runtime::__private::SVector<S, #count>;
+
+                fn zero_factor(&self) -> Self::Factor {
+                    Self::Factor::repeat(S::zero())
+                }
+
+                type Hermitian = ::lie_runtime::__private::SVector<S, #entries>;
+
+                fn zero_hermitian(&self) -> Self::Hermitian {
+                    Self::Hermitian::repeat(S::zero())
+                }
+
+                #flow
+            }
+        })
+    }
+
     /// The flow of points on a linear space.
     pub(super) fn flow_on(
         &self,
@@ -57,11 +94,12 @@ impl Printer<'_> {
         let name = ident(function.name);
         let arguments = function.arguments.iter().map(|a| {
             let name = self.argument_if(a.name, function.reads(a));
-            if a.name == "point" {
-                quote! { #name: &#point }
-            } else {
-                quote! { #name: &Self::Labels }
-            }
+            let of = match a.name {
+                "point" => point.clone(),
+                "shift" => quote! { Self::Shift },
+                _ => quote! { Self::Labels },
+            };
+            quote! { #name: &#of }
         });
         let body = self.system_body(function, &["out"], Some(size));
         let out = self.argument("out");
@@ -132,6 +170,7 @@ impl Printer<'_> {
         let lift = ident(match self.plan.structure.smallest? {
             Smallest::Hopf => "Hopf",
             Smallest::Quaternion => "Quaternion",
+            Smallest::Unitary => "Unitary",
             Smallest::Representation => "Representation",
         });
         Some(quote! {

@@ -20,7 +20,8 @@ impl Printer<'_> {
         let cotangent = self.cotangent_poisson();
         let group = self.matrix_group();
         let (vectors, collective) = (self.vector_poisson(), self.collective_poisson());
-        quote! { #group #matrices #spins #integrable #vectors #collective #inertia #cotangent }
+        let unitary = self.unitary_poisson();
+        quote! { #group #matrices #spins #integrable #vectors #unitary #collective #inertia #cotangent }
     }
 
     fn matrix_poisson(&self) -> Option<TokenStream> {

@@ -5,6 +5,7 @@ use lie_symbolic::exact::Rational;
 use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 
 use super::spins::Spin;
+use super::unitary::{Unitary, forms};
 use super::vectors::{Component, Vectors};
 use super::{Structure, matrices};
 
@@ -15,6 +16,8 @@ pub enum Smallest {
     Hopf,
     /// `T*H` for a rotation group with vectors.
     Quaternion,
+    /// `C^(N x (N-1))` over a unitary representation on `C^N`.
+    Unitary,
     /// `T*V^r` of the representation.
     Representation,
 }
@@ -25,6 +28,7 @@ impl Smallest {
         match self {
             Self::Hopf => "T*R^2 for each spin",
             Self::Quaternion => "T*H, H the quaternions",
+            Self::Unitary => "factors of a Hermitian matrix",
             Self::Representation => "columns of the representation",
         }
     }
@@ -35,6 +39,7 @@ pub fn smallest(
     model: &Model,
     spins: Option<&[Spin]>,
     vectors: Option<&Vectors>,
+    unitary: Option<Unitary>,
 ) -> Option<Smallest> {
     if spins.is_some() {
         Some(Smallest::Hopf)
@@ -42,8 +47,12 @@ pub fn smallest(
         Some(Smallest::Quaternion)
     } else {
         let representation = model.bracket.representation()?;
-        representation.columns.as_ref()?;
-        Some(Smallest::Representation)
+        let columns = representation.columns.as_ref()?;
+        let count = 2 * representation.dimension * columns.indices.len();
+        Some(match unitary {
+            Some(unitary) if unitary.point() < count => Smallest::Unitary,
+            _ => Smallest::Representation,
+        })
     }
 }
 
@@ -73,24 +82,23 @@ pub(super) fn nearest(structure: &Structure, order: u32) -> String {
     }
 }
 
-/// A quadratic Casimir `sum_i a_i b_i`, by its factors in the arena.
+/// A quadratic Casimir `sum_i a_i b_i`, by its factors in the arena, multiples of coordinates.
 type Pairing = Vec<(ExprId, ExprId)>;
+
+/// What quadratic Casimirs are known from: spins, vectors, or a unitary representation.
+type Parts<'a> = (Option<&'a [Spin]>, Option<&'a Vectors>, Option<Unitary>);
 
 /// H without a function of Casimirs, as short as that makes its gradient: `None` where nothing is to be removed.
 ///
 /// It moves the same states, but another point over them: the field on the space is shorter, and its motion slower. The
 /// multiple of each quadratic Casimir is the coefficient of one of its terms in H. Of those that remove most, it is that
 /// which leaves the others smallest at the default parameters.
-pub fn gauge(
-    model: &Model,
-    (spins, vectors): (Option<&[Spin]>, Option<&Vectors>),
-    graph: &mut Graph,
-) -> Option<ExprId> {
+pub fn gauge(model: &Model, parts: Parts<'_>, graph: &mut Graph) -> Option<ExprId> {
     let hamiltonian = model.energy.expression()?.value;
     let n = model.dimension();
     let start = graph.normal(hamiltonian);
     let mut value = start;
-    for pairing in pairings((spins, vectors), graph) {
+    for pairing in pairings(model, parts, graph) {
         let slopes: Vec<ExprId> = pairing
             .iter()
             .map(|pair| coefficient(graph, value, *pair))
@@ -105,8 +113,6 @@ pub fn gauge(
                 .map(|(a, b)| graph.product(&[slope, *a, *b]))
                 .collect();
             let casimir = graph.sum(&terms);
-            let factor = if pairing[0].0 == pairing[0].1 { 2 } else { 1 };
-            let casimir = graph.scale(casimir, &Rational::new(1, factor)?);
             let candidate = graph.sub(value, casimir);
             let candidate = graph.normal(candidate);
             let spread = slopes
@@ -125,9 +131,11 @@ pub fn gauge(
     (value != start).then_some(value)
 }
 
-/// The quadratic Casimirs that are known: squares of spins, products of vectors, and the momentum along a single one.
+/// The quadratic Casimirs that are known: squares of spins, products of vectors, and the momentum along a single one; sums of
+/// squares of eigenvalues.
 fn pairings(
-    (spins, vectors): (Option<&[Spin]>, Option<&Vectors>),
+    model: &Model,
+    (spins, vectors, unitary): Parts<'_>,
     graph: &mut Graph,
 ) -> Vec<Pairing> {
     let symbol = |graph: &mut Graph, k: usize| graph.symbol(Symbol::Coordinate(k));
@@ -142,7 +150,9 @@ fn pairings(
         return pairs.collect();
     }
     let Some(found) = vectors else {
-        return Vec::new();
+        let representation = unitary.and_then(|_| model.bracket.representation());
+        let forms = representation.map(forms).unwrap_or_default();
+        return forms.iter().map(|form| products(form, graph)).collect();
     };
     let mut rows: Vec<Vec<ExprId>> = Vec::new();
     for vector in &found.vectors {
@@ -165,9 +175,28 @@ fn pairings(
     all
 }
 
-/// The second derivative of a function by two coordinates or multiples of them, each 1 in these.
+/// The terms of a quadratic form.
+fn products(form: &[Vec<Rational>], graph: &mut Graph) -> Pairing {
+    let mut pairs = Vec::new();
+    for (k, row) in form.iter().enumerate() {
+        for (l, value) in row
+            .iter()
+            .enumerate()
+            .skip(k)
+            .filter(|(_, value)| !value.is_zero())
+        {
+            let [x, y] = [k, l].map(|k| graph.symbol(Symbol::Coordinate(k)));
+            let twice = if k == l { 1 } else { 2 };
+            pairs.push((x, graph.scale(y, &(value * &Rational::from(twice)))));
+        }
+    }
+    pairs
+}
+
+/// The coefficient in a function of the product of two coordinates or multiples of them, each 1 in these.
 fn coefficient(graph: &mut Graph, value: ExprId, (a, b): (ExprId, ExprId)) -> ExprId {
     let mut slope = value;
+    let mut symbols = Vec::new();
     for factor in [a, b] {
         let (scale, base) = graph.coefficient(factor);
         let found = graph.symbols(base).into_iter().next();
@@ -176,6 +205,10 @@ fn coefficient(graph: &mut Graph, value: ExprId, (a, b): (ExprId, ExprId)) -> Ex
         };
         slope = graph.derivative(slope, symbol);
         slope = graph.scale(slope, &(Rational::ONE / scale));
+        symbols.push(symbol);
+    }
+    if symbols[0] == symbols[1] {
+        slope = graph.scale(slope, &(Rational::ONE / Rational::from(2)));
     }
     slope
 }

@@ -18,6 +18,7 @@ pub mod separable;
 pub mod smoothness;
 pub mod spectrum;
 pub mod spins;
+pub mod unitary;
 pub mod vectors;
 
 use std::ops::Deref;
@@ -61,6 +62,8 @@ pub struct Structure {
     pub spins: Option<Vec<spins::Spin>>,
     /// The parts of so(3) with vectors.
     pub vectors: Option<vectors::Vectors>,
+    /// The unitary representation that the declared matrices are.
+    pub unitary: Option<unitary::Unitary>,
     /// The smallest linear symplectic space over the system.
     pub smallest: Option<lifts::Smallest>,
     /// H without a function of Casimirs, where that makes it shorter on a space over g*.
@@ -107,6 +110,7 @@ pub fn structure(mut model: Model, effort: Effort) -> Structure {
     let (casimirs, search) = completion::completed(&model, effort, &mut graph);
     model.graph = graph;
     let (spins, vectors) = (spins::spins(&model), vectors::vectors(&model));
+    let unitary = unitary::unitary(&model);
     let (few, many) = (spins.as_deref(), vectors.as_ref());
     let separable = separable(&model);
     let pieces = separable.as_ref().and_then(|found| {
@@ -134,13 +138,13 @@ pub fn structure(mut model: Model, effort: Effort) -> Structure {
         Effort::Deep => Some(motions::DEEP),
     };
     let motions = motions.map(|work| motions::find(&model, &casimirs, work));
-    let smallest = lifts::smallest(&model, few, many);
+    let smallest = lifts::smallest(&model, few, many, unitary);
     let group = group::group(&model);
     let (body, gauged) = match model.is_lie_poisson() && model.family.is_none() {
         true => {
             let mut graph = model.graph.clone();
             let body = inertia::body(&model, few, &mut graph);
-            let gauged = lifts::gauge(&model, (few, many), &mut graph);
+            let gauged = lifts::gauge(&model, (few, many, unitary), &mut graph);
             model.graph = graph;
             (body, gauged)
         }
@@ -155,6 +159,7 @@ pub fn structure(mut model: Model, effort: Effort) -> Structure {
         group,
         spins,
         vectors,
+        unitary,
         smallest,
         gauged,
         body,

@@ -91,6 +91,7 @@ mod stage_parallel;
 mod stage_work;
 mod tableau;
 mod tensor;
+mod unitary;
 mod words;
 
 pub use crate::methods::equations::*;
@@ -147,4 +148,5 @@ pub use stage_parallel::{Iterated, StageParallel};
 pub use stage_work::At;
 pub use tableau::{MOST_STAGES, Tableau, gauss_ahead, gauss_ratio, gauss_tableau, gauss_weight};
 pub use tensor::{MeanTensor, MidpointTensor, PoissonTensor, TensorFacts};
+pub use unitary::{factor_of, flow_of_factor, flow_over_factors, momentum_of_factor};
 pub use words::Words;

@@ -43,6 +43,19 @@
 //!   `q -> g q, P -> g P` and with `P -> P + s q`, by which two points over a state differ; after each step P is made
 //!   orthogonal to q, along which it would drift.
 //!
+//! * [`Collective16::unitary`](ParallelCollective::unitary) and its kin lift over a unitary representation on `C^N`, such as those
+//!   of su(N) and u(N), to `C^(N x (N-1))`. A state is `mu_k = (i/2) tr(M rho(e_k))` of a Hermitian matrix M in the span of
+//!   `i rho`, and with its lowest eigenvalue
+//!
+//!   ```math
+//!   M = \lambda_{\min} + X X^H, \qquad J_k(X) = \tfrac{i}{2}\, \mathrm{tr}\, \rho(e_k) (\lambda_{\min} + X X^H), \qquad
+//!   X' = -\rho(\nabla H(J)) X
+//!   ```
+//!
+//!   Unitary matrices from the right lead from a factor X of `M - lambda_min` to all others and commute with Gauss methods,
+//!   which keep `X^H X`: so the spectrum of M stays, and points do not grow. The label `lambda_min` is a Casimir. For N = 2 it is
+//!   the Hopf map. Rows beside the columns, as over `T*V`, are not needed: su(3) has 12 coordinates in the place of 36.
+//!
 //! From order 8 on the stages are evaluated together on the points, and two things are chosen so that the iteration is short:
 //! from H the compiler takes a multiple of a quadratic Casimir where its gradient loses terms by that, which moves other points over the
 //! same states; and over a representation V it takes as few columns and rows, points of `T*V^r`, as determine the momentum.
@@ -59,7 +72,8 @@
 //! depends on the point. That J generates symplectic maps, with which Gauss methods commute, is not enough: there
 //! need not be enough of them to move one point over mu to any other.
 //!
-//! Needs: see [`MatrixPoisson`](crate::MatrixPoisson) and [`SpinPoisson`](crate::SpinPoisson); gradient
+//! Needs: see [`MatrixPoisson`](crate::MatrixPoisson), [`UnitaryPoisson`](crate::UnitaryPoisson) and
+//! [`SpinPoisson`](crate::SpinPoisson); gradient
 //! and Hessian of H.
 //!
 //! References: R. I. McLachlan, K. Modin, O. Verdier, "Collective symplectic integrators", Nonlinearity 27
@@ -87,7 +101,12 @@ pub struct Hopf;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Quaternion;
 
-/// The smallest lift of a system: the Hopf map, else quaternions, else the declared representation.
+/// The lift to `C^(N x (N-1))` over a unitary representation on `C^N`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Unitary;
+
+/// The smallest lift of a system: the Hopf map, else quaternions, else that over a unitary representation, else columns of the
+/// declared one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Smallest;
 
@@ -172,8 +191,8 @@ impl<const STAGES: usize> ParallelCollective<Hopf, STAGES> {
 }
 
 impl<const STAGES: usize> ParallelCollective<Smallest, STAGES> {
-    /// Over the smallest space that there is: by the Hopf map for sums of so(3), by quaternions for so(3) with vectors, else
-    /// the columns of the declared representation.
+    /// Over the smallest space that there is: by the Hopf map for sums of so(3), by quaternions for so(3) with vectors, by
+    /// factors of a Hermitian matrix for su(n) and u(n), else the columns of the declared representation.
     pub const fn smallest() -> Self {
         Self { lift: Smallest }
     }
@@ -183,6 +202,13 @@ impl<const STAGES: usize> ParallelCollective<Quaternion, STAGES> {
     /// Over so(3)* with vectors by quaternions.
     pub const fn quaternion() -> Self {
         Self { lift: Quaternion }
+    }
+}
+
+impl<const STAGES: usize> ParallelCollective<Unitary, STAGES> {
+    /// Over a unitary representation by factors of a Hermitian matrix.
+    pub const fn unitary() -> Self {
+        Self { lift: Unitary }
     }
 }
 

@@ -170,26 +170,31 @@ macro_rules! for_each_method {
                 [Collective(8, Lift::Smallest)] [Collective8<Smallest>] [Collective8::smallest()] { smallest }
                 [Collective(8, Lift::Hopf)] [Collective8<Hopf>] [Collective8::hopf()] {}
                 [Collective(8, Lift::Quaternion)] [Collective8<Quaternion>] [Collective8::quaternion()] {}
+                [Collective(8, Lift::Unitary)] [Collective8<Unitary>] [Collective8::unitary()] {}
                 [Collective(8, Lift::Representation)] [Collective8<Representation>] [Collective8::representation()] {} }
             { "stage-parallel collective symplectic" LINEAR COLL
                 [Collective(10, Lift::Smallest)] [Collective10<Smallest>] [Collective10::smallest()] { smallest }
                 [Collective(10, Lift::Hopf)] [Collective10<Hopf>] [Collective10::hopf()] {}
                 [Collective(10, Lift::Quaternion)] [Collective10<Quaternion>] [Collective10::quaternion()] {}
+                [Collective(10, Lift::Unitary)] [Collective10<Unitary>] [Collective10::unitary()] {}
                 [Collective(10, Lift::Representation)] [Collective10<Representation>] [Collective10::representation()] {} }
             { "stage-parallel collective symplectic" LINEAR COLL
                 [Collective(12, Lift::Smallest)] [Collective12<Smallest>] [Collective12::smallest()] { smallest }
                 [Collective(12, Lift::Hopf)] [Collective12<Hopf>] [Collective12::hopf()] {}
                 [Collective(12, Lift::Quaternion)] [Collective12<Quaternion>] [Collective12::quaternion()] {}
+                [Collective(12, Lift::Unitary)] [Collective12<Unitary>] [Collective12::unitary()] {}
                 [Collective(12, Lift::Representation)] [Collective12<Representation>] [Collective12::representation()] {} }
             { "stage-parallel collective symplectic" LINEAR COLL
                 [Collective(14, Lift::Smallest)] [Collective14<Smallest>] [Collective14::smallest()] { smallest }
                 [Collective(14, Lift::Hopf)] [Collective14<Hopf>] [Collective14::hopf()] {}
                 [Collective(14, Lift::Quaternion)] [Collective14<Quaternion>] [Collective14::quaternion()] {}
+                [Collective(14, Lift::Unitary)] [Collective14<Unitary>] [Collective14::unitary()] {}
                 [Collective(14, Lift::Representation)] [Collective14<Representation>] [Collective14::representation()] {} }
             { "stage-parallel collective symplectic" LINEAR COLL
                 [Collective(16, Lift::Smallest)] [Collective16<Smallest>] [Collective16::smallest()] { smallest }
                 [Collective(16, Lift::Hopf)] [Collective16<Hopf>] [Collective16::hopf()] {}
                 [Collective(16, Lift::Quaternion)] [Collective16<Quaternion>] [Collective16::quaternion()] {}
+                [Collective(16, Lift::Unitary)] [Collective16<Unitary>] [Collective16::unitary()] {}
                 [Collective(16, Lift::Representation)] [Collective16<Representation>] [Collective16::representation()] {} }
             { "isospectral symplectic Runge–Kutta" REDUCTIVE MODIN
                 [Isospectral(2)] [Isospectral2] [Isospectral2::new()] { [momenta2 Reductive MatrixMomenta 1] [momenta2_cayley Closed same LieMidpoint<Cayley>] } }

@@ -17,7 +17,7 @@
 //! | [`CohenHairer`] | collocation with mean gradients, `$s$` stages | `$2s$` |
 //! | [`Isospectral2`], [`Isospectral4`], [`Isospectral6`] | Gauss on `T*V` of a representation V, reduced to g*; also [`Collective`] | 2, 4, 6 |
 //! | [`Collective::hopf`] | Gauss on `T*R^2` by the Hopf map, reduced to so(3)* | 2, 4, 6 |
-//! | [`ParallelCollective`], [`ParallelIsospectral`] | Gauss on the points of such spaces, of `T*H` for so(3) with vectors | 8, 10, …, 16 |
+//! | [`ParallelCollective`], [`ParallelIsospectral`] | Gauss on the points of such spaces, of `T*H` for so(3) with vectors, of `C^(N x (N-1))` for su(N) and u(N) | 8, 10, …, 16 |
 //! | [`SphericalMidpoint`] | `$\mu_1 = \mu + h f(w)$`, w the midpoint on the sphere of each spin | 2 |
 //! | [`Variational2`], [`Variational4`], [`Variational6`] | `$F^+(g) = \mu, \quad \mu_1 = F^-(g)$` of a discrete Lagrangian `$l_d(g)$` | 2, 4, 6 |
 //! | [`DiscreteEulerPoincare`] | the same with a declared `$l_d$` | at least 1 |
@@ -122,7 +122,7 @@ pub use cohen_hairer::{
 pub use collective::{
     Collective, Collective2, Collective4, Collective6, Collective8, Collective10, Collective12,
     Collective14, Collective16, Given, Hopf, ParallelCollective, Quaternion, Reduced,
-    Representation, Smallest,
+    Representation, Smallest, Unitary,
 };
 pub use commutator_free::{CommutatorFree4, CommutatorFreeStepper};
 pub use compose::{Compose, Compose4, Compose6, Compose8, ComposeStepper};

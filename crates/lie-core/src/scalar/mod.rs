@@ -193,6 +193,18 @@ pub fn largest<S: Scalar>(value: S) -> f64 {
     value.reported()
 }
 
+/// A number without its derivatives.
+#[inline]
+pub fn frozen<S: Scalar>(number: S) -> S {
+    if S::DERIVATIVES == 0 {
+        return number;
+    }
+    (0..S::LANES).fold(S::zero(), |frozen, index| {
+        let value = number.lane(index).to_f64();
+        frozen.with_lane(index, S::Lane::from_f64(value))
+    })
+}
+
 /// The power of two at or below a positive number, lane by lane; of zero 1.
 pub fn power_of_two<S: Scalar>(number: S) -> S {
     const EXPONENT: u64 = 0x7ff << 52;

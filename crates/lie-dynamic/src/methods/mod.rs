@@ -273,6 +273,7 @@ fn smallest<S: Scalar>(order: u32) -> Method<S> {
         over(match system.plan().structure.smallest {
             Some(Smallest::Hopf) => Lift::Hopf,
             Some(Smallest::Quaternion) => Lift::Quaternion,
+            Some(Smallest::Unitary) => Lift::Unitary,
             Some(Smallest::Representation) | None => Lift::Representation,
         })
     };

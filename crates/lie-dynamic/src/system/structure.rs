@@ -6,11 +6,13 @@ use crate::system::{Dynamic, names};
 use lie_codegen::plan::{self, Function, Plan};
 use lie_codegen::structure::integrable::Motion;
 use lie_core::family::LateMatrix;
-use lie_core::generic::{flow_over_columns, flow_over_quaternions, flow_over_spins};
+use lie_core::generic::{
+    flow_over_columns, flow_over_factors, flow_over_quaternions, flow_over_spins,
+};
 use lie_core::structure::{Columns, Entry, Group, Plane, Representation};
 use lie_runtime::{
     ColumnPoisson, CotangentPoisson, InertiaPoisson, IntegrablePoisson, MatrixGroup, MatrixPoisson,
-    Scalar, Spectrum, SpinPoisson, VectorPoisson,
+    Scalar, Spectrum, SpinPoisson, UnitaryPoisson, VectorPoisson,
 };
 use lie_symbolic::exact::Rational;
 
@@ -40,6 +42,9 @@ pub struct Codes {
     spinor_flow: Option<usize>,
     column_flow: Option<usize>,
     quaternion_flow: Option<usize>,
+    degree: usize,
+    factor: usize,
+    unitary_flow: Option<usize>,
 }
 
 /// The nonzero entries of a matrix.
@@ -101,6 +106,10 @@ impl Codes {
         let column_flow = points(of_columns, flow, making);
         let flow = vectors.and_then(|vectors| vectors.flow.as_ref());
         let quaternion_flow = points(8, flow, making);
+        let unitary = structure.unitary.as_ref();
+        let factor = unitary.map_or(0, |known| known.point);
+        let flow = unitary.and_then(|unitary| unitary.flow.as_ref());
+        let unitary_flow = points(factor, flow, making);
         Self {
             spins: spins
                 .map(|spins| spins.coordinates.clone())
@@ -161,6 +170,9 @@ impl Codes {
             spinor_flow,
             column_flow,
             quaternion_flow,
+            degree: unitary.map_or(0, |known| known.degree),
+            factor,
+            unitary_flow,
         }
     }
 
@@ -289,6 +301,31 @@ impl<S: Scalar> VectorPoisson<S> for Dynamic<S> {
         match self.values.compiled.structure.quaternion_flow {
             Some(code) => self.values.call(code, [labels, point], out, &mut []),
             None => flow_over_quaternions(self, labels, point, out),
+        }
+    }
+}
+
+impl<S: Scalar> UnitaryPoisson<S> for Dynamic<S> {
+    type Shift = Vec<S>;
+    type Factor = Vec<S>;
+    type Hermitian = Vec<S>;
+
+    fn degree(&self) -> usize {
+        self.values.compiled.structure.degree
+    }
+    fn zero_shift(&self) -> Vec<S> {
+        vec![S::zero()]
+    }
+    fn zero_factor(&self) -> Vec<S> {
+        vec![S::zero(); self.values.compiled.structure.factor]
+    }
+    fn zero_hermitian(&self) -> Vec<S> {
+        vec![S::zero(); 4 * self.values.compiled.structure.degree.pow(2)]
+    }
+    fn unitary_flow(&self, shift: &Vec<S>, point: &Vec<S>, out: &mut Vec<S>) {
+        match self.values.compiled.structure.unitary_flow {
+            Some(code) => self.values.call(code, [shift, point], out, &mut []),
+            None => flow_over_factors(self, shift, point, out),
         }
     }
 }

@@ -1,0 +1,89 @@
+//! Unitary representations on `C^N`, by anti-Hermitian matrices that are written as real ones, `[[Re, -Im], [Im, Re]]`.
+
+use super::Structure;
+use crate::algebra::Representation;
+use crate::model::Model;
+use lie_symbolic::exact::Rational;
+
+type Matrix = Vec<Vec<Rational>>;
+
+/// A unitary representation that carries collective methods.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Unitary {
+    /// The number N.
+    pub degree: usize,
+}
+
+impl Unitary {
+    /// The number of real coordinates of a point, N - 1 columns of `C^N`.
+    pub fn point(self) -> usize {
+        2 * self.degree * (self.degree - 1)
+    }
+}
+
+/// The unitary representation that the declared matrices are; `None` where they are none, or carry no collective methods.
+///
+/// That they represent the algebra, and the dual matrices, is known. The matrices and the dual ones are antisymmetric and commute
+/// with the imaginary unit, exactly: then `J_k = (i/2) tr(X^H rho_k X)` has the brackets of the coordinates, and each state is
+/// one of a Hermitian matrix.
+pub fn unitary(model: &Model) -> Option<Unitary> {
+    let representation = model.bracket.representation()?;
+    let dual = representation.dual.as_ref()?;
+    let size = representation.dimension;
+    if model.family.is_some() || size < 4 || !size.is_multiple_of(2) {
+        return None;
+    }
+    let degree = size / 2;
+    let mut all = representation.matrices.iter().chain(dual);
+    let anti_hermitian = all.all(|matrix| is_skew(matrix) && is_complex(matrix, degree));
+    anti_hermitian.then_some(Unitary { degree })
+}
+
+/// Whether a matrix is antisymmetric.
+pub fn is_skew(matrix: &Matrix) -> bool {
+    let entries = |i: usize| matrix[i].iter().enumerate();
+    (0..matrix.len()).all(|i| entries(i).all(|(j, entry)| (entry + &matrix[j][i]).is_zero()))
+}
+
+/// Whether a real matrix is `[[Re, -Im], [Im, Re]]` with so many rows in a block.
+fn is_complex(matrix: &Matrix, degree: usize) -> bool {
+    let places = (0..degree).flat_map(|a| (0..degree).map(move |b| (a, b)));
+    places.into_iter().all(|(a, b)| {
+        matrix[a][b] == matrix[degree + a][degree + b]
+            && (&matrix[degree + a][b] + &matrix[a][degree + b]).is_zero()
+    })
+}
+
+/// The quadratic Casimirs `sum g_kl mu_k mu_l` that are known: the sum of the squares of the eigenvalues of the Hermitian matrix of
+/// a state, up to a factor, and the square of its trace, where that is not 0.
+pub fn forms(representation: &Representation) -> Vec<Matrix> {
+    let Some(dual) = &representation.dual else {
+        return Vec::new();
+    };
+    let degree = representation.dimension / 2;
+    let by_pairs = |value: &dyn Fn(&Matrix, &Matrix) -> Rational| -> Matrix {
+        let row = |a: &Matrix| dual.iter().map(|b| value(a, b)).collect();
+        dual.iter().map(row).collect()
+    };
+    // -tr(A B) of antisymmetric matrices
+    let product = |a: &Matrix, b: &Matrix| {
+        let pairs = a.iter().flatten().zip(b.iter().flatten());
+        pairs.fold(Rational::ZERO, |sum, (x, y)| &sum + &(x * y))
+    };
+    let trace = |a: &Matrix| (0..degree).fold(Rational::ZERO, |sum, k| &sum + &a[degree + k][k]);
+    let mut forms = vec![by_pairs(&product)];
+    if dual.iter().any(|matrix| !trace(matrix).is_zero()) {
+        forms.push(by_pairs(&|a, b| &trace(a) * &trace(b)));
+    }
+    forms
+}
+
+/// Why the lift over a unitary representation does not apply, with the nearest method that does.
+pub fn refusal(structure: &Structure, order: u32) -> Option<(String, String)> {
+    if structure.unitary.is_some() {
+        return None;
+    }
+    let reason = "the lift `unitary` needs matrices that are anti-Hermitian, written as real ones [[Re, -Im], [Im, Re]], and \
+                  closed under (abc + cba)/2 up to matrices that commute with them, such as those of su(n) and u(n)";
+    Some((reason.into(), super::lifts::nearest(structure, order)))
+}
