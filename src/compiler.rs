@@ -28,7 +28,7 @@ pub fn load_with(path: &Path, effort: Effort) -> Result<Spec, Failure> {
     let folder = path.parent();
     match lie_codegen::compile::compile_spec_in(&source.text, folder, effort) {
         Ok(model) => {
-            let spec = Spec { source, model };
+            let spec = Spec::new(source, model);
             Inputs::of_spec(path, &spec).spare_from_stdout()?;
             Ok(spec)
         }

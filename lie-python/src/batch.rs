@@ -4,7 +4,7 @@ use crate::arguments;
 use crate::declaration::Declaration;
 use crate::errors::of_system;
 use crate::progress::Progress;
-use crate::talk::{Outcome, converse};
+use crate::talk::{Outcome, Who, converse};
 use lie_codegen::structure::Structure;
 use lie_in_process::draw::{Draw, Spread, keeps_norm};
 use lie_in_process::ensemble::{Cast, Ensemble};
@@ -76,7 +76,7 @@ pub fn ensemble<'py>(
             "with a tolerance each member has a step of its own: give at=[…] in place of every";
         return Err(PyTypeError::new_err(text));
     }
-    let work = declaration.work(py, &plan.method, None)?;
+    let compiled = declaration.work(py, &plan.method, None)?;
     let rows = |array: &PyReadonlyArray2<'py, f64>| -> Vec<Vec<f64>> {
         let rows = array.as_array();
         rows.rows().into_iter().map(|row| row.to_vec()).collect()
@@ -100,7 +100,8 @@ pub fn ensemble<'py>(
         members.extend(found?);
         Ok(())
     };
-    let outcome = py.detach(|| converse(&work, ensemble, progress, take))?;
+    let asked = (&compiled.work, Who::Apart);
+    let outcome = py.detach(|| converse(asked, ensemble, progress, take))?;
     match outcome {
         Outcome {
             interrupted: Some(error),

@@ -1,7 +1,8 @@
 //! A checked declaration, and what is compiled of it. The compiler works without the interpreter's lock.
 
 use crate::errors::{Mistakes, method_error};
-use crate::talk::attended;
+use crate::kept::Kept;
+use crate::talk::{Who, attended};
 use lie_codegen::compile::{compile_spec, compile_spec_in};
 use lie_codegen::methods::Choice;
 use lie_codegen::program::{Chart, Purpose};
@@ -17,7 +18,14 @@ use lie_runtime::family::STATISTICS;
 use pyo3::exceptions::{PyMemoryError, PyValueError};
 use pyo3::prelude::*;
 use std::collections::HashMap;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
+use std::time::Duration;
+
+/// What a lock is of, also where a thread has panicked.
+pub fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
 
 /// What is asked of a declaration often.
 pub struct Facts {
@@ -32,6 +40,8 @@ pub struct Facts {
     /// The place of the time in the state, where the Hamiltonian depends on it.
     pub time: Option<usize>,
     pub parameters: Vec<(String, f64)>,
+    /// The values of the parameters where none are given.
+    pub defaults: Vec<f64>,
     pub casimirs: Vec<String>,
     pub run: HashMap<String, Vec<String>>,
 }
@@ -68,21 +78,49 @@ impl Facts {
             parameters: parameters
                 .map(|p| (p.name.clone(), p.default_value))
                 .collect(),
+            defaults: model.defaults(),
             casimirs: casimirs.collect(),
             run: run.collect(),
         }
     }
 }
 
-/// What runs a method: its label, the form of the group element, the work.
-type Compiled = (String, Option<Chart>, Arc<Work>);
+/// A run of less than this is brief: making a thread for it is much of its time.
+const BRIEF: Duration = Duration::from_millis(10);
+
+/// What runs a method, compiled.
+pub struct Compiled {
+    label: String,
+    /// The form of the group element.
+    chart: Option<Chart>,
+    pub work: Arc<Work>,
+    /// Whether the last run was brief.
+    brief: AtomicBool,
+}
+
+impl Compiled {
+    /// Who makes the next run.
+    pub fn who(&self) -> Who {
+        match self.brief.load(Ordering::Relaxed) {
+            true => Who::Here,
+            false => Who::Apart,
+        }
+    }
+
+    /// Learns how long a run took.
+    pub fn took(&self, time: Duration) {
+        self.brief.store(time < BRIEF, Ordering::Relaxed);
+    }
+}
 
 /// A checked declaration.
 pub struct Declaration {
     spec: Arc<Spec>,
     pub facts: Facts,
     /// What runs a method, by its label and the form of the group element.
-    compiled: Mutex<Vec<Compiled>>,
+    compiled: Mutex<Vec<Arc<Compiled>>>,
+    /// What calls with these options come to.
+    pub kept: Mutex<Kept>,
     /// The system without fused code for any method; none where H calls functions of Rust.
     plain: OnceLock<Option<Declared>>,
 }
@@ -90,13 +128,10 @@ pub struct Declaration {
 impl Declaration {
     pub fn new(py: Python<'_>, text: String) -> PyResult<Self> {
         let checked = attended(py, move || match compile_spec(&text) {
-            Ok(model) => Ok(Spec {
-                source: Arc::new(Source {
-                    path: model.name.clone(),
-                    text,
-                }),
-                model,
-            }),
+            Ok(model) => {
+                let path = model.name.clone();
+                Ok(Spec::new(Arc::new(Source { path, text }), model))
+            }
             Err(diagnostics) => Err(Mistakes::new(&text, &diagnostics)),
         });
         let spec = checked?.map_err(|mistakes| mistakes.raise(py))?;
@@ -104,6 +139,7 @@ impl Declaration {
             facts: Facts::of(&spec.model),
             spec: Arc::new(spec),
             compiled: Mutex::default(),
+            kept: Mutex::default(),
             plain: OnceLock::new(),
         })
     }
@@ -162,14 +198,11 @@ impl Declaration {
         py: Python<'_>,
         choice: &Choice,
         chart: Option<Chart>,
-    ) -> PyResult<Arc<Work>> {
-        fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-            mutex.lock().unwrap_or_else(PoisonError::into_inner)
-        }
+    ) -> PyResult<Arc<Compiled>> {
         let label = choice.label();
-        let same = |(known, of, _): &&(String, Option<Chart>, _)| *known == label && *of == chart;
-        if let Some((.., work)) = lock(&self.compiled).iter().find(same) {
-            return Ok(Arc::clone(work));
+        let same = |known: &&Arc<Compiled>| known.label == label && known.chart == chart;
+        if let Some(compiled) = lock(&self.compiled).iter().find(same) {
+            return Ok(Arc::clone(compiled));
         }
         let purpose = chart.map_or(Purpose::Run, Purpose::OnGroup);
         let (spec, choice) = (self.spec(), choice.clone());
@@ -182,9 +215,14 @@ impl Declaration {
             let help = "`lie run` has it; or take another method, see System.methods()";
             return Err(method_error(py, &text, help));
         };
-        let work = Arc::new(work);
-        lock(&self.compiled).push((label, chart, Arc::clone(&work)));
-        Ok(work)
+        let compiled = Arc::new(Compiled {
+            label,
+            chart,
+            work: Arc::new(work),
+            brief: AtomicBool::new(false),
+        });
+        lock(&self.compiled).push(Arc::clone(&compiled));
+        Ok(compiled)
     }
 
     /// The system without code for any method.

@@ -6,6 +6,7 @@ mod bench;
 mod declaration;
 mod errors;
 mod evaluate;
+mod kept;
 mod progress;
 mod report;
 mod stress;
@@ -21,7 +22,7 @@ use lie_runtime::Poisson as _;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyTuple};
 use std::collections::HashMap;
 
 /// A checked declaration, as the package sees it.
@@ -202,15 +203,31 @@ impl Core {
         self.0.with_model(py, |model| report::latex(model, &lines))
     }
 
-    /// One trajectory: times, states, energies and Casimirs; the method and its step; what ended it early.
+    /// One trajectory. The options in the order of `run` are those of the request but for the start: a call with the same is known.
     fn run<'py>(
         &self,
         py: Python<'py>,
         asked: &Bound<'py, PyDict>,
+        options: &Bound<'py, PyTuple>,
         progress: Option<Py<PyAny>>,
-    ) -> PyResult<(trajectory::Rows<'py>, Bound<'py, PyDict>)> {
+    ) -> PyResult<trajectory::Made<'py>> {
         let request = arguments::request(&self.0, asked)?;
-        trajectory::run(py, &self.0, &request, progress)
+        trajectory::run(py, &self.0, (&request, options), progress)
+    }
+
+    /// The same of options that are known, from a start that needs no second look; none where one of these is not so.
+    fn again<'py>(
+        &self,
+        py: Python<'py>,
+        options: &Bound<'py, PyTuple>,
+        x0: &Bound<'py, PyAny>,
+        named: &Bound<'py, PyDict>,
+    ) -> PyResult<Option<trajectory::Made<'py>>> {
+        let Some((prepared, start)) = kept::again(&self.0, options, x0, named) else {
+            return Ok(None);
+        };
+        let run = prepared.plan.run(start);
+        trajectory::of_prepared(py, &self.0, (&prepared, run), None).map(Some)
     }
 
     /// The states of that trajectory at times between its start and its end, in its order.

@@ -7,7 +7,7 @@ use crate::progress::Progress;
 use lie_codegen::methods::Choice;
 use lie_codegen::program::Purpose;
 use lie_codegen::structure::Structure;
-use lie_in_process::converse::{Last, Listener};
+use lie_in_process::converse::{self, Last, Listener, converse_here};
 use lie_in_process::families::Limit;
 use lie_in_process::message::Message;
 use lie_in_process::request::{Front, Request, method};
@@ -122,7 +122,8 @@ impl<'a> Subject<'a> {
                 M::record(&mut results, found);
                 Ok(())
             };
-            let outcome = converse(&work, request, Progress::new("", progress), take)?;
+            let asked = (&work, Who::Apart);
+            let outcome = converse(asked, request, Progress::new("", progress), take)?;
             let whole = outcome.whole(model)?;
             Ok(measurement.end(results, model, &labels, whole))
         })
@@ -281,9 +282,18 @@ impl<F, T: FnMut(F) -> io::Result<()>> Listener<F> for Ears<T> {
     }
 }
 
+/// Who answers a question.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Who {
+    /// The thread that asks: of work that was brief when it was done last.
+    Here,
+    /// Another thread, which is left behind where it does not hear Ctrl-C.
+    Apart,
+}
+
 /// Has a question answered, without the interpreter's lock, and looks for Ctrl-C meanwhile. `take` gets what is found.
 pub fn converse<Q: Question>(
-    work: &Arc<Work>,
+    (work, who): (&Arc<Work>, Who),
     question: Q,
     progress: Progress,
     take: impl FnMut(Q::Found) -> io::Result<()>,
@@ -294,7 +304,10 @@ pub fn converse<Q: Question>(
         looked: Instant::now(),
         interrupted: None,
     };
-    let last = lie_in_process::converse::converse(work, question, Some(GRACE), &mut ears)?;
+    let last = match who {
+        Who::Here => converse_here(work, question, &mut ears),
+        Who::Apart => converse::converse(work, question, Some(GRACE), &mut ears)?,
+    };
     let end = match last {
         Last::Said(end) => end,
         Last::NotTaken(error) => return Err(of_system(error)),

@@ -1,29 +1,42 @@
 //! One trajectory.
 
 use crate::arguments;
-use crate::declaration::Declaration;
+use crate::declaration::{Declaration, lock};
 use crate::errors::of_system;
+use crate::kept::Prepared;
 use crate::progress::Progress;
-use crate::talk::{Outcome, converse};
+use crate::talk::{Outcome, Who, converse};
 use lie_codegen::program::Chart;
 use lie_in_process::memory;
 use lie_in_process::report::signs;
 use lie_in_process::request::{Plan, Request};
 use lie_program::protocol::{Columns, End, Found, Obstacle, Run, Stop, Times};
 use lie_runtime::driver::Pace;
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
+use numpy::ndarray::Array2;
+use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyString, PyTuple};
 use std::io;
+use std::sync::Arc;
+use std::time::Instant;
 
-/// A run, as Python takes it.
-pub type Rows<'py> = (
+/// A run, as Python takes it: times, states, energies and Casimirs; the method, its step and how many there were; the span; and
+/// what is not of every run.
+pub type Made<'py> = (
     Bound<'py, PyArray1<f64>>,
     Bound<'py, PyArray2<f64>>,
     Bound<'py, PyArray1<f64>>,
     Bound<'py, PyArray2<f64>>,
+    Py<PyString>,
+    f64,
+    u64,
+    (f64, f64),
+    Option<Bound<'py, PyDict>>,
 );
+
+/// A step of more iterations may be long, whatever those before took.
+const ITERATIONS: u32 = 500;
 
 /// What is heard of a run.
 #[derive(Default)]
@@ -117,10 +130,10 @@ enum Ended {
 fn make(
     py: Python<'_>,
     declaration: &Declaration,
-    (plan, run): (&Plan, Run),
+    (prepared, run): (&Prepared, Run),
     progress: Option<Py<PyAny>>,
 ) -> PyResult<(Heard, Ended)> {
-    let work = declaration.work(py, &plan.method, plan.chart)?;
+    let Prepared { plan, compiled, .. } = prepared;
     let (dimension, casimirs) = (run.start.initial.len(), declaration.facts.casimirs.len());
     let mut heard = Heard::default();
     if let Pace::Step(step) = plan.pace.0 {
@@ -131,8 +144,18 @@ fn make(
         heard.rows = Some(rows);
     }
     let progress = Progress::new("steps", progress);
+    let begun = Instant::now();
     let take = |found| heard.record(found, plan);
-    let outcome = py.detach(|| converse(&work, run, progress, take))?;
+    let who = match plan.newton.max_iterations <= ITERATIONS {
+        true => compiled.who(),
+        false => Who::Apart,
+    };
+    let asked = (&compiled.work, who);
+    let outcome = py.detach(|| converse(asked, run, progress, take))?;
+    // a step over many sites may be longer than one over few
+    if !declaration.facts.family {
+        compiled.took(begun.elapsed());
+    }
     let Outcome { end, interrupted } = outcome;
     if let Some(error) = interrupted {
         return Err(error);
@@ -152,6 +175,21 @@ fn make(
     }
 }
 
+/// What a request comes to.
+fn prepare(
+    py: Python<'_>,
+    declaration: &Declaration,
+    request: &Request,
+) -> PyResult<(Prepared, Run)> {
+    let (plan, run) = arguments::checked(py, declaration, request, arguments::run)?;
+    let prepared = Prepared {
+        compiled: declaration.work(py, &plan.method, plan.chart)?,
+        label: PyString::new(py, &plan.method.label()).unbind(),
+        plan,
+    };
+    Ok((prepared, run))
+}
+
 /// The states of a run at times in its order, which is made again up to there: with a step until the last of them, with a
 /// tolerance, from whose span the step is chosen, until its end. Fewer where it stops early.
 pub fn at<'py>(
@@ -160,66 +198,96 @@ pub fn at<'py>(
     request: &Request,
     times: Vec<f64>,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    let (mut plan, mut run) = arguments::checked(py, declaration, request, arguments::run)?;
-    plan.times = match plan.pace.0 {
+    let (mut prepared, mut run) = prepare(py, declaration, request)?;
+    prepared.plan.times = match prepared.plan.pace.0 {
         Pace::Tolerance(_) => Times::Within {
-            end: plan.end(),
+            end: prepared.plan.end(),
             times,
         },
         Pace::Step(_) => Times::At(times),
     };
-    run.times = plan.times.clone();
+    run.times = prepared.plan.times.clone();
     let dimension = run.start.initial.len();
-    let (heard, _) = make(py, declaration, (&plan, run), None)?;
-    let rows = heard.times.len();
-    heard.states.into_pyarray(py).reshape([rows, dimension])
+    let (heard, _) = make(py, declaration, (&prepared, run), None)?;
+    Ok(by_rows(py, heard.states, (heard.times.len(), dimension)))
 }
 
-/// Times, states, energies and Casimirs; the method and its step; what ended it early.
+/// A run of a request, and what is kept of it for a call with the same options.
 pub fn run<'py>(
     py: Python<'py>,
     declaration: &Declaration,
-    request: &Request,
+    (request, options): (&Request, &Bound<'py, PyTuple>),
     progress: Option<Py<PyAny>>,
-) -> PyResult<(Rows<'py>, Bound<'py, PyDict>)> {
-    let (plan, run) = arguments::checked(py, declaration, request, arguments::run)?;
+) -> PyResult<Made<'py>> {
+    let (prepared, run) = prepare(py, declaration, request)?;
+    let prepared = Arc::new(prepared);
+    let made = of_prepared(py, declaration, (&prepared, run), progress)?;
+    // the start of a family is not only a list of numbers
+    if !declaration.facts.family {
+        lock(&declaration.kept).keep(options, prepared);
+    }
+    Ok(made)
+}
+
+/// A run whose options were checked.
+pub fn of_prepared<'py>(
+    py: Python<'py>,
+    declaration: &Declaration,
+    (prepared, run): (&Prepared, Run),
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Made<'py>> {
+    let plan = &prepared.plan;
     let note = declaration.with_model(py, |model| signs::note(model, std::iter::once(&run.start)));
     let (dimension, casimirs) = (run.start.initial.len(), declaration.facts.casimirs.len());
-    let (mut heard, ended) = make(py, declaration, (&plan, run), progress)?;
-    let found = PyDict::new(py);
+    let (mut heard, ended) = make(py, declaration, (prepared, run), progress)?;
+    let more = PyDict::new(py);
     let mut end = plan.end();
     if let Ended::Stopped(stop) = ended {
         heard.steps = stop.step - 1;
         end = stop.time;
-        found.set_item("step_number", stop.step)?;
-        found.set_item("time", stop.time)?;
-        found.set_item("why", stop.reason)?;
-        found.set_item("remedy", stop.remedy)?;
+        more.set_item("step_number", stop.step)?;
+        more.set_item("time", stop.time)?;
+        more.set_item("why", stop.reason)?;
+        more.set_item("remedy", stop.remedy)?;
     }
-    found.set_item("span", (plan.from, end))?;
     let (Pace::Step(given) | Pace::Tolerance(given)) = plan.pace.0;
-    found.set_item("method", plan.method.label())?;
-    found.set_item("step", heard.smallest.or(heard.step).unwrap_or(given))?;
-    found.set_item("steps", heard.steps)?;
-    found.set_item("note", note)?;
+    if let Some(note) = note {
+        more.set_item("note", note)?;
+    }
     if let Some((error, missed)) = heard.assessed {
-        found.set_item("error", error)?;
-        found.set_item("missed", missed)?;
-        found.set_item("tolerance", given)?;
+        more.set_item("error", error)?;
+        more.set_item("missed", missed)?;
+        more.set_item("tolerance", given)?;
     }
     if let Some(time) = heard.lost {
-        found.set_item("lost", time)?;
+        more.set_item("lost", time)?;
     }
     if let Some(chart) = plan.chart {
-        found.set_item("quaternion", chart == Chart::Quaternion)?;
-        found.set_item("group", heard.elements.into_pyarray(py))?;
+        more.set_item("quaternion", chart == Chart::Quaternion)?;
+        more.set_item("group", heard.elements.into_pyarray(py))?;
     }
     let rows = heard.times.len();
-    let arrays = (
+    Ok((
         heard.times.into_pyarray(py),
-        heard.states.into_pyarray(py).reshape([rows, dimension])?,
+        by_rows(py, heard.states, (rows, dimension)),
         heard.energies.into_pyarray(py),
-        heard.casimirs.into_pyarray(py).reshape([rows, casimirs])?,
-    );
-    Ok((arrays, found))
+        by_rows(py, heard.casimirs, (rows, casimirs)),
+        prepared.label.clone_ref(py),
+        heard.smallest.or(heard.step).unwrap_or(given),
+        heard.steps,
+        (plan.from, end),
+        (!more.is_empty()).then_some(more),
+    ))
+}
+
+/// Numbers row by row as an array.
+fn by_rows<'py>(
+    py: Python<'py>,
+    numbers: Vec<f64>,
+    shape: (usize, usize),
+) -> Bound<'py, PyArray2<f64>> {
+    let array = Array2::from_shape_vec(shape, numbers);
+    array
+        .expect("as many numbers as rows have")
+        .into_pyarray(py)
 }

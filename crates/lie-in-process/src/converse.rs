@@ -1,12 +1,13 @@
-//! Conversations with work in this process: a thread answers, and its words come by a channel.
+//! Conversations with work in this process: a thread answers, and its words come by a channel; or who asks does the work.
 
 use std::io;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::time::{Duration, Instant};
 
 use lie_program::protocol::{End, Message, Progress};
-use lie_program::session::{Interruption, attend};
+use lie_program::session::{Interruption, Output, attend};
 
 use crate::{Question, Work};
 
@@ -87,5 +88,60 @@ pub fn converse<Q: Question>(
     match served.join() {
         Ok(()) => Ok(heard),
         Err(_) => Ok(Last::Said(None)),
+    }
+}
+
+/// Has a question answered by the thread that asks, for work that is known to be brief: a thread takes longer to make than many a run.
+/// It is asked to end early only where it says how far it is.
+pub fn converse_here<Q: Question>(
+    work: &Work,
+    question: Q,
+    listener: &mut dyn Listener<Q::Found>,
+) -> Last {
+    let interruption = Interruption::default();
+    let mut heard = Heard {
+        listener,
+        interruption: interruption.clone(),
+        end: None,
+        not_taken: None,
+    };
+    let attended = catch_unwind(AssertUnwindSafe(|| {
+        attend(&mut heard, interruption, |session| {
+            question.put(work, session)
+        });
+    }));
+    match (attended, heard.not_taken) {
+        (Err(_), _) => Last::Said(None),
+        (Ok(()), Some(error)) => Last::NotTaken(error),
+        (Ok(()), None) => Last::Said(heard.end),
+    }
+}
+
+/// Hands on what is said at once.
+struct Heard<'l, F> {
+    listener: &'l mut dyn Listener<F>,
+    interruption: Interruption,
+    end: Option<End>,
+    not_taken: Option<io::Error>,
+}
+
+impl<F> Output<F> for Heard<'_, F> {
+    fn say(&mut self, message: Message<F>) -> io::Result<()> {
+        match message {
+            Message::Found(found) => {
+                if let Err(error) = self.listener.found(found) {
+                    self.not_taken = Some(error);
+                    return Err(io::ErrorKind::BrokenPipe.into());
+                }
+            }
+            Message::Progress(progress) => {
+                self.listener.progress(&progress);
+                if self.listener.stops() {
+                    self.interruption.set();
+                }
+            }
+            Message::End(end) => self.end = Some(end),
+        }
+        Ok(())
     }
 }

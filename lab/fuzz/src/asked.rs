@@ -32,12 +32,13 @@ const FAMILY: &str = r#"{
 const FEW: f64 = 100.0;
 
 static SYSTEMS: LazyLock<Vec<Spec>> = LazyLock::new(|| {
-    let spec = |text: &&str| Spec {
-        source: Arc::new(Source {
+    let spec = |text: &&str| {
+        let source = Source {
             path: folder().join("spec.json").display().to_string(),
             text: (*text).to_owned(),
-        }),
-        model: compile_spec(text).expect("a spec that is right"),
+        };
+        let model = compile_spec(text).expect("a spec that is right");
+        Spec::new(Arc::new(source), model)
     };
     SPECS.iter().map(spec).collect()
 });

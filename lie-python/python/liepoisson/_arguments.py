@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import functools
 import operator
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Union
@@ -91,6 +92,8 @@ def number(value: Number, what: str) -> float:
         except ValueError as error:
             raise ValueError(f"{what}: {error}; give a number, or text such as '1/7'") from None
     try:
+        if type(value) is float or type(value) is int:
+            return float(value)
         if np.ndim(value) == 0 and not isinstance(value, (bool, np.bool_)):
             return float(value)
     except OverflowError:
@@ -126,6 +129,9 @@ def heard(progress: Progress | None) -> Progress | None:
     )
 
 
+_is_word = functools.cache(_core.is_word)
+
+
 def asked(options: Mapping[str, Any]) -> dict[str, Any]:
     """The arguments that are given, as the core takes them: numbers, words, exact constants as text."""
     return {name: _value(name, value) for name, value in options.items() if value is not None}
@@ -140,11 +146,11 @@ def _value(name: str, value: Any) -> Any:
         raise TypeError(f"{name} must be True or False, not {value!r}")
     if isinstance(value, str):
         return str(value)
-    if _core.is_word(name):
+    if _is_word(name):
         raise TypeError(f"{name} is text, not {value!r}")
     if name in ("at", "x0"):
         what = "a time of at" if name == "at" else "an entry of x0"
-        entries = np.atleast_1d(value).tolist()
+        entries = value if type(value) is list else np.atleast_1d(value).tolist()
         return [entry if isinstance(entry, str) else number(entry, what) for entry in entries]
     return number(value, name)
 

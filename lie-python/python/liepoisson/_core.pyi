@@ -9,6 +9,11 @@ __version__: str
 
 Array: TypeAlias = npt.NDArray[np.float64]
 
+#: Times, states, energies, Casimirs; method, step, steps; the span; what is not of every run.
+Made: TypeAlias = tuple[
+    Array, Array, Array, Array, str, float, int, tuple[float, float], dict[str, Any] | None
+]
+
 class Core:
     text: str
     name: str
@@ -53,8 +58,12 @@ class Core:
     def latex(self, lines: list[str]) -> str: ...
     def parameter_names(self) -> list[str]: ...
     def run(
-        self, asked: dict[str, Any], progress: Callable[[int, int, str], object] | None
-    ) -> tuple[tuple[Array, Array, Array, Array], dict[str, Any]]: ...
+        self,
+        asked: dict[str, Any],
+        options: tuple[Any, ...],
+        progress: Callable[[int, int, str], object] | None,
+    ) -> Made: ...
+    def again(self, options: tuple[Any, ...], x0: Any, named: dict[str, Any]) -> Made | None: ...
     def at(self, asked: dict[str, Any], times: list[float]) -> Array: ...
     def evaluate(self, kernel: str, parameters: list[float], states: Array) -> Array: ...
     def ensemble(

@@ -45,6 +45,12 @@ class Declared:
                 )
             text = json.dumps(declaration, indent=2, ensure_ascii=False, default=plain)
         self._core = _core.Core(text)
+        values = self._core.parameters
+        self._defaults = {name: values[name] for name in self._core.parameter_names()}
+        #: The places of the coordinates that users see, where these are not all.
+        self._seen: list[int] | None = None
+        if not self._core.family and len(self._core.shown()) < len(self._core.coordinates):
+            self._seen = self._core.shown()
 
     # a system is its text: other processes compile it again
     def __reduce__(self) -> tuple[object, ...]:
@@ -79,8 +85,7 @@ class Declared:
     @property
     def parameters(self) -> dict[str, float]:
         """The parameters with their defaults."""
-        values = self._core.parameters
-        return {name: values[name] for name in self._core.parameter_names()}
+        return dict(self._defaults)
 
     @property
     def casimirs(self) -> list[str]:
@@ -98,9 +103,8 @@ class Declared:
 
     def _visible(self, mu: Array) -> Array:
         """States without what carries the time."""
-        shown = self._core.shown()
-        whole = self._core.family or len(shown) == mu.shape[-1]
-        return mu if whole else mu[..., shown]
+        seen = self._seen
+        return mu if seen is None or len(seen) == mu.shape[-1] else mu[..., seen]
 
     def __repr__(self) -> str:
         if self._core.family:
@@ -164,7 +168,7 @@ class Declared:
     ) -> dict[str, Any]:
         """What a call asks for; what it leaves out, the declaration says."""
         others = dict(named)
-        spelled(options, others, self.parameters)
+        spelled(options, others, self._defaults)
         method = options.pop("method", None)
         if method is not None and not isinstance(method, str):
             raise TypeError(f"the method is its id as text, such as 'lie-midpoint', not {method!r}")

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -11,6 +11,9 @@ from ._again import Again
 from ._arguments import Array, among
 from ._pictures import image, new_figure, page, shown, table
 from ._sites import Sites
+
+if TYPE_CHECKING:
+    from ._system import System
 
 __all__ = ["Ensemble", "Solution"]
 
@@ -35,35 +38,50 @@ class Solution:
     ``method``, ``step``, ``steps``: what was done.
     """
 
-    def __init__(
-        self,
-        name: str,
-        coordinates: Sequence[str],
-        t: Array,
-        mu: Array,
-        energy: Array,
-        casimirs: Mapping[str, Array],
-        method: str,
-        step: float,
-        steps: int,
-    ) -> None:
-        self.name = name
-        self.coordinates = list(coordinates)
-        self.t = t
-        self.mu = mu
-        self.energy = energy
-        self.casimirs = dict(casimirs)
-        self.method = method
-        self.step = step
-        self.steps = steps
-        self._sites: Sites | None = None
-        self._again: Again | None = None
-        # whether H depends on the time: the energy is no constant then
-        self._driven = False
+    def __init__(self, system: System, made: tuple[Any, ...], call: Any) -> None:
+        self.t: Array
+        self.energy: Array
+        self.method: str
+        self.step: float
+        self.steps: int
+        self.t, mu, self.energy, casimirs, self.method, self.step, self.steps, self._span, _ = made
+        self.mu: Array = system._visible(mu)
+        # what is seldom looked at is made of these when it is
+        self._system = system
+        self._call = call
+        self._casimirs: Array = casimirs
         #: The error at the end relative to the state, where it was asked for; not a number where it cannot be told.
         self.error: float | None = None
         #: The group element at each row, shape (m, s, s) or (m, 4), where it was asked for.
         self.group: Array | None = None
+
+    @cached_property
+    def name(self) -> str:
+        """The name of the system."""
+        return self._system.name
+
+    @cached_property
+    def coordinates(self) -> list[str]:
+        """The names of the columns of ``mu``, of a family those of all sites."""
+        core = self._system._core
+        if core.family:
+            return core.names_of_sites(self._again.asked["parameters"])
+        return self._system.coordinates
+
+    @cached_property
+    def casimirs(self) -> dict[str, Array]:
+        """The Casimirs by name, each of shape (m,)."""
+        names = self._system.casimirs
+        return {name: self._casimirs[:, place] for place, name in enumerate(names)}
+
+    @cached_property
+    def _again(self) -> Again:
+        return self._system._again(self._call, self._span)
+
+    @cached_property
+    def _sites(self) -> Sites | None:
+        family = self._system._core.family
+        return Sites(self._system, self._again.asked["parameters"]) if family else None
 
     def __getitem__(self, name: str) -> Array:
         if not isinstance(name, str):
@@ -100,10 +118,6 @@ class Solution:
 
         Errors: :class:`ValueError` for a time outside the run.
         """
-        if self._again is None:
-            raise AttributeError(
-                f"{self.name}: only what `run` returns has states between its rows"
-            )
         return self._again.at(times)
 
     def _curve(self) -> tuple[Array, Array]:
@@ -111,7 +125,7 @@ class Solution:
         rows, width = len(self.t), self.mu.shape[1]
         parts = -(-_POINTS // max(rows - 1, 1))
         few = rows > 1 and parts > 1 and self.steps <= _MOST_STEPS
-        if self._again is None or not few or parts * rows * width > _NUMBERS:
+        if not few or parts * rows * width > _NUMBERS:
             return self.t, self.mu
         places = np.arange((rows - 1) * parts + 1) / parts
         times = np.interp(places, np.arange(rows), self.t)
@@ -134,7 +148,9 @@ class Solution:
 
     def _invariants(self) -> list[tuple[str, Array]]:
         """What ought to be constant, by name."""
-        energy = [] if self._driven else [("energy", self.energy)]
+        # where H depends on the time the energy is no constant
+        driven = self._system._core.time() is not None
+        energy = [] if driven else [("energy", self.energy)]
         return [*energy, *self.casimirs.items()]
 
     @property

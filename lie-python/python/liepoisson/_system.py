@@ -20,12 +20,17 @@ from ._measure import asked_of, measured, stressed, verified
 from ._members import drawn, members_of, table_of
 from ._notebook import page_of
 from ._shares import Work, gathered
-from ._sites import Sites
 from ._solution import Ensemble, Solution
 from ._stress import Stress
 from ._verification import Verification
 
 __all__ = ["System", "load"]
+
+#: The options of `run`, in the order in which the core compares them with those of calls before.
+_OPTIONS = (
+    "method", "h", "tol", "t0", "t", "every", "at", "group", "rtol", "atol", "iteration", "newton_tolerance",
+    "max_iterations", "converge", "assess",
+)  # fmt: skip
 
 
 class System(Declared):
@@ -86,53 +91,57 @@ class System(Declared):
         Errors: :class:`MethodError` for a method that does not apply, :class:`IntegrationError` with ``partial`` for a
         run that stopped early, :class:`ValueError` and :class:`TypeError` for arguments.
         """
-        options = {
-            "method": method, "h": h, "tol": tol, "t0": t0, "t": t, "x0": x0, "every": every, "at": at, "group": group,
-            "rtol": rtol, "atol": atol, "iteration": iteration, "newton_tolerance": newton_tolerance,
-            "max_iterations": max_iterations, "converge": converge, "assess": assess,
-        }  # fmt: skip
-        asked = self._asked(options, parameters, named)
-        values = asked["parameters"]
-        (t_rows, mu, energy, casimirs), found = self._core.run(asked, heard(progress))
-        columns = {name: casimirs[:, index] for index, name in enumerate(self.casimirs)}
-        family = self._core.family
-        names = self._core.names_of_sites(values) if family else self.coordinates
-        solution = Solution(
-            self.name,
-            names,
-            t_rows,
-            self._visible(mu),
-            energy,
-            columns,
-            found["method"],
-            found["step"],
-            found["steps"],
-        )
-        solution._sites = Sites(self, values) if family else None
-        solution._again = Again(self, asked, found["span"])
-        solution._driven = self._core.time() is not None
+        options = (
+            method, h, tol, t0, t, every, at, group, rtol, atol, iteration, newton_tolerance, max_iterations, converge, assess,
+        )  # fmt: skip
+        call: Any
+        made = None
+        if progress is None and parameters is None:
+            made = self._core.again(options, x0, named)
+        if made is None:
+            call = self._asked({"x0": x0, **dict(zip(_OPTIONS, options))}, parameters, named)
+            made = self._core.run(call, options, heard(progress))
+        else:
+            # lists and arrays may change before it is looked at
+            start = x0 if x0 is None else x0.copy() if isinstance(x0, np.ndarray) else list(x0)
+            call = (options, list(at) if at else None, start, named)
+        solution = Solution(self, made, call)
+        if made[-1] is not None:
+            self._more(solution, made[-1])
+        return solution
+
+    def _again(self, call: Any, span: tuple[float, float]) -> Again:
+        """What makes a run once more."""
+        if isinstance(call, tuple):
+            options, at, x0, named = call
+            asked = {"x0": x0, **dict(zip(_OPTIONS, options)), "at": at}
+            call = self._asked(asked, None, named)
+        return Again(self, call, span)
+
+    def _more(self, solution: Solution, found: dict[str, Any]) -> None:
+        """What is not of every run: the group element, warnings, what ended it early."""
         if "group" in found:
-            elements = np.asarray(found["group"]).reshape(len(t_rows), -1)
+            elements = np.asarray(found["group"]).reshape(len(solution.t), -1)
             size = round(elements.shape[1] ** 0.5)
             solution.group = elements if found["quaternion"] else elements.reshape(-1, size, size)
-        if found["note"] is not None:
-            warnings.warn(found["note"], stacklevel=2)
+        if "note" in found:
+            warnings.warn(found["note"], stacklevel=3)
         error = found.get("error")
         solution.error = error
         if error is not None and found["missed"]:
             text = (
                 f"the error at the end is about {error:.1e} of the state, more than the tolerance {found['tolerance']:g}: "
-                f"errors grow on this orbit, or {found['method']} cannot keep it"
+                f"errors grow on this orbit, or {solution.method} cannot keep it"
                 if np.isfinite(error)
                 else "the error at the end is not known: the second run, which would tell it, failed, or chooses its own steps"
             )
-            warnings.warn(text, stacklevel=2)
+            warnings.warn(text, stacklevel=3)
         elif "lost" in found:
             text = (
                 f"from t = {found['lost']:.6f} on no step is short enough for the tolerance: there is a singularity or a joint "
                 "of H; assess=True says by how much the end is off"
             )
-            warnings.warn(text, stacklevel=2)
+            warnings.warn(text, stacklevel=3)
         if "why" in found:
             number, time = found["step_number"], found["time"]
             message = (
@@ -140,7 +149,6 @@ class System(Declared):
                 f"  help: {found['remedy']}; the rows so far are in `partial`"
             )
             raise IntegrationError(message, solution, number, time)
-        return solution
 
     def ensemble(
         self,

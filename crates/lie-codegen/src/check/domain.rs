@@ -44,55 +44,90 @@ pub fn initial_domain(model: &Model, origin: Option<Origin>) -> Option<Diagnosti
 /// The first thing that is not finite at a state: a coordinate, the Hamiltonian, a component of
 /// its gradient, a Casimir, a bracket of a general Poisson matrix.
 pub fn fault(model: &Model, mu: &[f64], parameters: &[f64]) -> Option<Fault> {
-    if let Some(i) = mu.iter().position(|value| !value.is_finite()) {
-        let message = format!("`{}` is not finite", model.coordinates[i].text);
-        return Some(Fault {
-            coordinate: Some(i),
-            message,
-        });
-    }
-    if let Some(fault) = outside_the_group(model, mu) {
-        return Some(fault);
-    }
-    let mut scratch: Graph = model.graph.clone();
-    let xi = match &model.energy {
-        Energy::Legendre(lagrangian, _) => {
-            match velocity(&mut scratch, lagrangian.value, mu, parameters) {
-                Some(xi) => xi,
-                None => return Some(no_velocity()),
-            }
+    Domain::of(model).fault(model, mu, parameters)
+}
+
+/// What must be finite, derived once for many states.
+pub struct Domain {
+    graph: Graph,
+    /// The functions with their names.
+    functions: Vec<(ExprId, String)>,
+    /// All that they are made of: children come before parents.
+    parts: Vec<ExprId>,
+}
+
+impl Domain {
+    /// Of a model.
+    pub fn of(model: &Model) -> Self {
+        let mut graph: Graph = model.graph.clone();
+        let mut functions = functions(model, &mut graph);
+        // what a function of the user is at a state is known at run time
+        functions.retain(|(id, _)| graph.own_functions(*id).is_empty());
+        let roots: Vec<ExprId> = functions.iter().map(|(id, _)| *id).collect();
+        Self {
+            parts: graph.dependencies(&roots),
+            graph,
+            functions,
         }
-        _ => Vec::new(),
-    };
-    let value = |symbol| match symbol {
-        Symbol::Coordinate(i) => mu[i],
-        Symbol::Parameter(p) => parameters[p],
-        Symbol::Input(i) => xi.get(i).copied().unwrap_or(f64::NAN),
-        _ => f64::NAN,
-    };
-    let mut functions = functions(model, &mut scratch);
-    // what a function of the user is at a state is known at run time
-    functions.retain(|(id, _)| scratch.own_functions(*id).is_empty());
-    let roots: Vec<ExprId> = functions.iter().map(|(id, _)| *id).collect();
-    let values = scratch.evaluate_all(&roots, &value);
-    let bad = values.iter().position(|v| !v.is_finite())?;
-    let (root, what) = &functions[bad];
-    let origin = first_part(&mut scratch, *root, &value);
-    let symbols = scratch.symbols(origin);
-    let coordinate = symbols.into_iter().find_map(|symbol| match symbol {
-        Symbol::Coordinate(i) => Some(i),
-        _ => None,
-    });
-    let shown = scratch.display(origin, &|symbol| model.symbol_name(symbol));
-    let because = if shown.chars().count() <= 80 {
-        format!(" because of `{shown}`")
-    } else {
-        String::new()
-    };
-    Some(Fault {
-        coordinate,
-        message: format!("{what} is not finite{because}"),
-    })
+    }
+
+    /// The first thing that is not finite at a state, see [`fault`]. The model is that of this domain.
+    pub fn fault(&self, model: &Model, mu: &[f64], parameters: &[f64]) -> Option<Fault> {
+        if let Some(i) = mu.iter().position(|value| !value.is_finite()) {
+            let message = format!("`{}` is not finite", model.coordinates[i].text);
+            return Some(Fault {
+                coordinate: Some(i),
+                message,
+            });
+        }
+        if let Some(fault) = outside_the_group(model, mu) {
+            return Some(fault);
+        }
+        let xi = match &model.energy {
+            Energy::Legendre(lagrangian, _) => {
+                let mut scratch = self.graph.clone();
+                match velocity(&mut scratch, lagrangian.value, mu, parameters) {
+                    Some(xi) => xi,
+                    None => return Some(no_velocity()),
+                }
+            }
+            _ => Vec::new(),
+        };
+        let value = |symbol| match symbol {
+            Symbol::Coordinate(i) => mu[i],
+            Symbol::Parameter(p) => parameters[p],
+            Symbol::Input(i) => xi.get(i).copied().unwrap_or(f64::NAN),
+            _ => f64::NAN,
+        };
+        let (root, what) = self.first_not_finite(&value)?;
+        let mut scratch = self.graph.clone();
+        let origin = first_part(&mut scratch, *root, &value);
+        let symbols = scratch.symbols(origin);
+        let coordinate = symbols.into_iter().find_map(|symbol| match symbol {
+            Symbol::Coordinate(i) => Some(i),
+            _ => None,
+        });
+        let shown = scratch.display(origin, &|symbol| model.symbol_name(symbol));
+        let because = if shown.chars().count() <= 80 {
+            format!(" because of `{shown}`")
+        } else {
+            String::new()
+        };
+        Some(Fault {
+            coordinate,
+            message: format!("{what} is not finite{because}"),
+        })
+    }
+
+    fn first_not_finite(&self, value: &dyn Fn(Symbol) -> f64) -> Option<&(ExprId, String)> {
+        let mut values = vec![f64::NAN; self.parts.last().map_or(0, |last| last.index() + 1)];
+        for &part in &self.parts {
+            let known = |child: ExprId| values[child.index()];
+            values[part.index()] = self.graph.evaluate_node(part, &known, value);
+        }
+        let mut functions = self.functions.iter();
+        functions.find(|(root, _)| !values[root.index()].is_finite())
+    }
 }
 
 fn no_velocity() -> Fault {

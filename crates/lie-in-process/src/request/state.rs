@@ -1,6 +1,5 @@
 //! Parameters and the initial state.
 
-use lie_codegen::check::domain;
 use lie_syntax::diagnostic::Kind;
 use lie_syntax::front::names::normalised;
 use lie_syntax::suggest::did_you_mean;
@@ -73,8 +72,7 @@ impl Planner<'_> {
             self.mistakes.push(message.help(FINITE));
             return None;
         }
-        let fault = domain::fault(model, &state, parameters);
-        if let Some(fault) = fault {
+        if let Some(fault) = self.spec.fault(&state, parameters) {
             let text = format!("{} at this initial state", fault.message);
             let message = Message::new(Kind::Domain, text).at_place(place.clone());
             let help = "start at a state where it is defined, or change the parameters";
@@ -240,8 +238,7 @@ impl Planner<'_> {
     /// Whether H, its gradient and the Casimirs have values there. The defaults were checked with
     /// the spec; flags may have moved away from them.
     fn in_domain(&mut self, parameters: &[f64], state: &[f64]) -> bool {
-        let model = &self.spec.model;
-        let Some(fault) = domain::fault(model, state, parameters) else {
+        let Some(fault) = self.spec.fault(state, parameters) else {
             return true;
         };
         let flag = match self.request.initial {
