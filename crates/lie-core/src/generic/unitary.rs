@@ -1,6 +1,7 @@
 //! Points of `C^(N x (N-1))` over a unitary representation on `C^N`: factors X of the Hermitian matrix `X X^H` of a state, up to a
 //! multiple of the unit matrix, which is the label of an orbit.
 
+use super::StageSlopes;
 use super::lifts::LinearLift;
 use crate::methods::Unitary;
 use crate::scalar::{Mask, Scalar, frozen, power_of_two};
@@ -312,6 +313,7 @@ impl<S: Scalar, P: UnitaryPoisson<S>> LinearLift<S, P> for Unitary {
     type Point = P::Factor;
     type Labels = P::Shift;
     const GROWS: bool = false;
+    const SLOPES: Option<StageSlopes> = Some(StageSlopes::Unitary);
 
     fn zero_point(system: &P) -> P::Factor {
         system.zero_factor()

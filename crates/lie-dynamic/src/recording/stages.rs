@@ -7,7 +7,7 @@ use crate::compiled::Compiled;
 use crate::engine::ARGUMENTS;
 use crate::system::Dynamic;
 use lie_core::generic::{At, LinearLift, STAGE_TABLE, StageProgram, StageSlopes, StageStep};
-use lie_core::methods::{Hopf, Quaternion, Representation};
+use lie_core::methods::{Hopf, Quaternion, Representation, Unitary};
 use lie_runtime::{Poisson, Scalar, State, Widen};
 use std::fmt;
 use std::ops::Range;
@@ -111,6 +111,7 @@ impl StageCodes {
             StageSlopes::Hopf => of_lift::<Hopf>,
             StageSlopes::Quaternion => of_lift::<Quaternion>,
             StageSlopes::Representation => of_lift::<Representation>,
+            StageSlopes::Unitary => of_lift::<Unitary>,
         };
         let codes = |what| -> Option<Arc<[Code]>> {
             let ([vector, changes], written): ([Vec<Recorded>; 2], Written) =

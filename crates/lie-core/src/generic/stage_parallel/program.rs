@@ -28,6 +28,8 @@ pub enum StageSlopes {
     Quaternion,
     /// The flow over columns of the declared representation.
     Representation,
+    /// The flow over factors of a Hermitian matrix.
+    Unitary,
 }
 
 /// The iteration of [`StageParallel`](super::StageParallel) for one system: every program does the operations of [`StageStep`] in their
