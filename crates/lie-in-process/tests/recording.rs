@@ -101,6 +101,49 @@ fn on_every_spec() {
     assert_eq!((steps, traced, untraced.len()), (352, 684, 154));
 }
 
+/// States that do not follow, a step that fails and others behind it: answers that differ from those of the traces.
+#[test]
+fn traces_are_not_run_where_a_step_is_another_one() {
+    for id in [
+        "midpoint",
+        "gauss4",
+        "lie-midpoint",
+        "generating4",
+        "orbit-energy",
+    ] {
+        let choice = Choice::from_id(id).unwrap();
+        let both = Both::new("se3_heavy_top.json");
+        let mu = both.compiled.initial_state().unwrap();
+        let run = |system: &Dynamic<f64>| {
+            let mut stepper = stepper(system, &choice, 0.05);
+            let (mut now, mut all) = (mu.clone(), Vec::new());
+            for step in 0..400 {
+                match step {
+                    150 => now = mu.iter().map(|x| 0.5 - x).collect(),
+                    200 => now[0] *= 1.0 + 1e-15,
+                    250 => now = vec![f64::NAN; now.len()],
+                    251 => now = mu.clone(),
+                    300 => now = mu.iter().map(|x| 1e3 * x).collect(),
+                    310 => now = vec![0.0; now.len()],
+                    320 => now = mu.clone(),
+                    _ => {}
+                }
+                let report = format!("{:?}", stepper.step(&mut now));
+                let bits: Vec<u64> = now.iter().map(|x| x.to_bits()).collect();
+                all.push((bits, report));
+            }
+            all
+        };
+        let (found, expected) = (run(&both.compiled), run(&both.interpreted));
+        assert!(both.compiled.programs(&choice) > 0, "{id}");
+        let failed = |(_, report): &&(Vec<u64>, String)| report.starts_with("Err");
+        assert!(expected.iter().filter(failed).count() > 0, "{id}");
+        for (step, (found, expected)) in found.iter().zip(&expected).enumerate() {
+            assert_eq!(found, expected, "{id}, step {step}");
+        }
+    }
+}
+
 fn explicit() -> Vec<Choice> {
     ["rk4", "rkmk4", "cf4", "splitting2", "splitting6"]
         .map(|id| Choice::from_id(id).unwrap())

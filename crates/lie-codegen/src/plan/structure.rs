@@ -175,7 +175,7 @@ impl Planner<'_> {
             size: group.size,
             matrices: group.matrices.clone(),
             closed: group.closed,
-            orthogonal: group.matrices.iter().all(|matrix| is_skew(matrix)),
+            orthogonal: group.matrices.iter().all(is_skew),
             right: group.right,
         })
     }
@@ -190,7 +190,7 @@ impl Planner<'_> {
             size: representation.dimension,
             matrices: representation.matrices.clone(),
             dual: dual.clone(),
-            skew: all.all(|matrix| is_skew(matrix)),
+            skew: all.all(is_skew),
             column: points.as_ref().map_or(0, |points| points.size),
             point: points.as_ref().map_or(0, Points::count),
             columns: points.map(|points| points.columns),

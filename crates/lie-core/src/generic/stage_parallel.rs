@@ -1,5 +1,6 @@
 //! Gauss collocation with its stages side by side in one number, by fixed-point iteration.
 
+mod estimate;
 mod map;
 pub(super) mod program;
 mod state;
@@ -15,7 +16,7 @@ use self::program::{AHEAD, PER_UNIT, PER_WEIGHT, RATIOS, StageSlopes, TABLE, WEI
 use super::diagonals::{diagonals, product};
 use super::stage_ending::most;
 use super::stage_work::{At, Work};
-use super::tableau::{gauss_ahead, gauss_legendre, gauss_ratio, gauss_weight};
+use super::tableau::{gauss_ahead, gauss_ratio, gauss_weight};
 use crate::clock::{Clock, holds};
 use crate::newton::{Convergence, Iteration, NewtonOptions};
 #[cfg(feature = "std")]
@@ -35,12 +36,6 @@ const UNKNOWN: (f64, f64) = (1.0, 2.0);
 
 /// A start that is no better than the field at the state is improved by so many half iterations.
 const APPROACH: u32 = 12;
-
-/// Coefficients of the slopes that shrink more slowly than by so much from one degree to the next tell no error.
-const SHRINKS: f64 = 0.8;
-
-/// Coefficients of so many units of round-off are round-off.
-const UNSEEN: f64 = 256.0;
 
 /// The stages of a step of Gauss collocation for `y' = f(y)`, all in one number of type [`Scalar::Wide`].
 ///
@@ -370,55 +365,6 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
     pub fn advance(&mut self) {
         let increments = self.work.increments.as_slice();
         program::advance::<S>(self.base.as_mut_slice(), increments);
-    }
-
-    /// The error of the step that was made, relative to the size of its end, by the stages: with the coefficients L_k of h F in
-    /// Legendre polynomials, each the largest of all coordinates, it is about
-    ///
-    /// ```text
-    /// e = L_s^2/max_k L_k,    L_s = max(L_(s-1), L_(s-2)) sqrt(max(L_(s-1), L_(s-2))/max(L_(s-3), L_(s-4)))
-    /// ```
-    ///
-    /// because both the defect of the polynomial and the test function that meets it begin with degree s (superconvergence). It
-    /// is ten to thirty times too large on smooth orbits. Where the coefficients do not shrink, as across a kink, the last of
-    /// them are the error.
-    pub fn estimate(&mut self) -> S {
-        let Self {
-            legendre,
-            work,
-            base,
-            ..
-        } = self;
-        let table = legendre.get_or_insert_with(|| {
-            diagonals(STAGES, STAGES, |k, j| gauss_legendre::<S>(STAGES, k, j))
-        });
-        let table = *table;
-        let (mut largest, mut size) = (S::Wide::zero(), S::Wide::zero());
-        let entries = work.increments.as_slice().iter().zip(base.as_slice());
-        for (k, (&increments, &y)) in entries.enumerate() {
-            if holds(self.clock, k) {
-                continue;
-            }
-            let per_unit = match &self.momenta {
-                Some((entries, per_unit)) if entries.contains(&k) => *per_unit,
-                _ => S::one(),
-            };
-            let coefficients = product::<S, STAGES>(&table, increments);
-            largest = largest.max(coefficients.magnitude() * per_unit.widen());
-            size = size.max(y.magnitude() * per_unit.widen());
-        }
-        let coefficients = S::scatter(largest);
-        let [size, ..] = S::scatter(size);
-        let pair = |last: usize| coefficients[last].max(coefficients[last.saturating_sub(1)]);
-        let most = coefficients.iter().fold(S::zero(), |most, &c| most.max(c));
-        let (high, low) = (pair(STAGES - 1), pair(STAGES.saturating_sub(3)));
-        let ratio = (high / low).sqrt();
-        let shrinks = ratio.less(S::from_f64(SHRINKS));
-        let unseen = high.less_equal(S::epsilon() * S::from_f64(UNSEEN) * most);
-        let next = S::select(shrinks, high * ratio, high);
-        let error = next / most * (next / size);
-        let error = S::select(shrinks | unseen, error, high / size);
-        S::select(most.less_equal(S::zero()), S::zero(), error)
     }
 
     /// Writes the base, in one place of its numbers.

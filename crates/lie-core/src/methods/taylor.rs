@@ -126,10 +126,10 @@ impl<S: Scalar, P: Series<S>> Development<S> for TaylorDevelopment<'_, S, P> {
                 for k in 1..last {
                     multiply(&field, self.inverses[k] * unit, &mut coefficient);
                     carry = self.recurrence.advance(k, carry, &coefficient, &mut field);
-                    copy_lanes(&mut rows[k], &coefficient, open, all);
+                    copy_lanes(&mut self.rows[k], &coefficient, open, all);
                 }
                 multiply(&field, self.inverses[last] * unit, &mut coefficient);
-                copy_lanes(&mut rows[last], &coefficient, open, all);
+                copy_lanes(&mut self.rows[last], &coefficient, open, all);
             }
             open = self
                 .unit

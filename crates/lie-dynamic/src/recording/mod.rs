@@ -6,6 +6,7 @@
 //! kernel, so the bits are the same. What depends on the step size alone is a program of its own, run once.
 
 mod development;
+mod mask;
 mod record;
 mod recorded;
 mod stages;
