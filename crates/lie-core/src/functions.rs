@@ -5,14 +5,15 @@
 //! lanes, dual numbers and series, the names of the grammar, the calculus of the compiler, and what compiled code calls.
 //! Outside of this module a function has its rigorous bounds and, on purpose, the rules of the judge.
 
-use crate::scalar::Scalar;
+use crate::scalar::{Primitive, Scalar, elementary};
 use core::marker::PhantomData;
 
 /// Hands the rows to a macro.
 ///
 /// A row is the variant of [`Elementary`], the name (of the method, in the grammar, and in `libm`), the name in `libm`
-/// for single precision, where the values of double precision come from (`libm`, or `angle` for functions of small angles
-/// that are polynomials of ours), and what the function is; then, in braces, the facts:
+/// for single precision, where the values of double precision come from (`libm`; `program` for a straight line of arithmetic of ours,
+/// [`Elementary::program`]; `angle` for such programs of angles, which are shorter where all are small), and what the function is; then, in
+/// braces, the facts:
 ///
 /// * `rule`: its differential equation, a call of a method of [`Rules`]
 /// * `domain`: where it is real and finite, a [`Domain`]
@@ -22,9 +23,9 @@ use core::marker::PhantomData;
 macro_rules! elementary_functions {
     ($rows:ident) => {
         $rows! {
-            Exp exp expf libm "the exponential"
+            Exp exp expf program "the exponential"
                 { rule: exponential(), domain: Everywhere, odd: false, exact: [0 => 1] }
-            Log log logf libm "the natural logarithm"
+            Log log logf program "the natural logarithm"
                 { rule: inverse(Quadratic::Argument), domain: Positive, odd: false, exact: [1 => 0] }
             Sin sin sinf angle "the sine of an angle in radians"
                 { rule: sine(Curve::Circle), domain: Everywhere, odd: true, exact: [0 => 0] }
@@ -203,6 +204,15 @@ pub trait Rules: Sized {
 /// What the formulas of some rules are made of.
 pub type Value<R> = <<R as Rules>::Words as Words>::Value;
 
+macro_rules! program {
+    (libm $name:ident $x:ident) => {
+        None
+    };
+    ($from:ident $name:ident $x:ident) => {
+        Some(elementary::$name($x))
+    };
+}
+
 macro_rules! define {
     ($($variant:ident $name:ident $single:ident $from:ident $what:literal {
         rule: $rule:ident $form:tt, domain: $domain:ident, odd: $odd:literal, exact: [$($at:literal => $is:literal),*]
@@ -240,6 +250,14 @@ macro_rules! define {
             pub fn evaluate(self, x: f64) -> f64 {
                 match self {
                     $(Self::$variant => libm::$name(x),)+
+                }
+            }
+            /// The function as a straight line of arithmetic, of those that are one: of numbers of double precision the bits of
+            /// [`Elementary::apply`].
+            #[inline]
+            pub fn program<P: Primitive>(self, x: P) -> Option<P> {
+                match self {
+                    $(Self::$variant => program!($from $name x),)+
                 }
             }
             /// What its differential equation gives.

@@ -1,15 +1,21 @@
-//! Elementary functions of small angles, inlined, over one number or lanes alike.
+//! The elementary functions as programs: straight lines of arithmetic, over one number, lanes or instructions alike.
 //!
-//! Steps turn by small angles: up to pi/4 they are polynomials or a quotient of polynomials here, beyond that those of
-//! `libm`. Each is the same sequence of operations whatever the scalar, so that lanes have the bits of one number.
+//! Each is the same sequence of operations whatever it is made over, so that lanes and machine code have the bits of one number. What few
+//! arguments ask for (results that are subnormal or overflow, angles beyond 400,000, what is not a number) is left to `libm`,
+//! by [`Primitive::rare`].
 //!
-//! Sine and cosine are those of `libm`, bit for bit (S. Moshier's and Sun's coefficients as in fdlibm's `k_sin.c` and
-//! `k_cos.c`); the tangent is the quotient of S. Moshier's Cephes library (`tan.c`), with an error below 1.4 units in the
-//! last place: 17 operations instead of 40; up to 1/16 a polynomial of 12 operations, without a division.
+//! - Sine and cosine: reduction by multiples of pi/2 in three parts (W. J. Cody and W. Waite, *Software Manual for the Elementary
+//!   Functions*, 1980), whose rest is a sum of two numbers, then the polynomials of S. Moshier and Sun as in fdlibm's `k_sin.c` and
+//!   `k_cos.c`. Up to pi/4 they are those of `libm` bit for bit.
+//! - The exponential: a power of two times a minimax polynomial of degree 12, whose leading sum keeps its rounding error.
+//! - The logarithm: that of fdlibm's `e_log.c`, bit for bit.
+//! - The tangent up to pi/4: the quotient of S. Moshier's Cephes library (`tan.c`), with an error below 1.4 units in the last place; up to
+//!   1/16 a polynomial, without a division.
+//!
+//! Where all angles are small, one number and lanes of printed code leave out what would change nothing.
 
-#[cfg(any(feature = "lanes", test))]
-use super::Mask;
-use super::Scalar;
+use super::{Primitive, Scalar};
+use crate::functions::Elementary;
 
 /// Angles up to this are small: the double below pi/4.
 const SMALL: f64 = core::f64::consts::FRAC_PI_4;
@@ -17,6 +23,10 @@ const SMALL: f64 = core::f64::consts::FRAC_PI_4;
 const VERY_SMALL: f64 = 1.0 / 16.0;
 /// The sine of an angle below this is the angle.
 const TINY: f64 = 1.0 / 134_217_728.0;
+/// Angles up to this have fewer than 2^18 quarters of a turn.
+const LARGE: f64 = 4e5;
+/// A number whose last bit counts ones: the sum with another one is rounded to an integer, which stands in its last bits.
+const INTEGERS: f64 = 6_755_399_441_055_744.0;
 
 /// The lanes in which an angle is small.
 #[inline(always)]
@@ -26,18 +36,17 @@ pub(super) fn is_small<S: Scalar>(x: S) -> S::Mask {
 
 /// Coefficients, highest first.
 #[inline(always)]
-fn polynomial<S: Scalar, const N: usize>(x: S, coefficients: [f64; N]) -> S {
-    let mut value = S::from_f64(coefficients[0]);
+fn polynomial<P: Primitive, const N: usize>(x: P, coefficients: [f64; N]) -> P {
+    let mut value = P::number(coefficients[0]);
     for &coefficient in &coefficients[1..] {
-        value = value * x + S::from_f64(coefficient);
+        value = value * x + P::number(coefficient);
     }
     value
 }
 
-/// The sine of a small angle.
+/// What the sine adds to an angle up to pi/4 and a little beyond, whose square is z.
 #[inline(always)]
-pub(super) fn sin<S: Scalar>(x: S) -> S {
-    let z = x * x;
+fn sine_rest<P: Primitive>(x: P, z: P) -> P {
     let low = polynomial(
         z,
         [
@@ -48,14 +57,12 @@ pub(super) fn sin<S: Scalar>(x: S) -> S {
     );
     let high = polynomial(z, [1.589_690_995_211_55e-10, -2.505_076_025_340_686_3e-8]);
     let r = low + z * (z * z) * high;
-    let sine = x + z * x * (S::from_f64(-0.166_666_666_666_666_32) + z * r);
-    S::select(x.abs().less(S::from_f64(TINY)), x, sine)
+    z * x * (P::number(-0.166_666_666_666_666_32) + z * r)
 }
 
-/// The cosine of a small angle.
+/// `1 - z/2`, what its rounding left, and what the cosine of an angle whose square is z adds to these.
 #[inline(always)]
-pub(super) fn cos<S: Scalar>(x: S) -> S {
-    let z = x * x;
+fn cosine_parts<P: Primitive>(z: P) -> [P; 3] {
     let w = z * z;
     let low = polynomial(
         z,
@@ -74,22 +81,190 @@ pub(super) fn cos<S: Scalar>(x: S) -> S {
         ],
     );
     let r = z * low + w * w * high;
-    let half = S::from_f64(0.5) * z;
-    let rest = S::one() - half;
-    rest + (((S::one() - rest) - half) + z * r)
+    let half = P::number(0.5) * z;
+    let one = P::number(1.0);
+    let rest = one - half;
+    [rest, (one - rest) - half, z * r]
 }
 
-/// The tangent of a small angle.
-#[cfg(any(feature = "lanes", test))]
-#[inline(always)]
-pub(super) fn tan<S: Scalar>(x: S) -> S {
-    let very = is_very_small(x);
-    let value = tan_polynomial(x);
-    if very.all() {
-        value
-    } else {
-        S::select(very, value, tan_quotient(x))
+/// The functions of small angles.
+pub(super) mod small {
+    use super::super::{Primitive, Scalar};
+    use super::{TINY, cosine_parts, sine_rest};
+
+    #[inline(always)]
+    pub fn sin<S: Scalar + Primitive>(x: S) -> S {
+        let sine = x + sine_rest(x, x * x);
+        S::select(x.abs().less(S::from_f64(TINY)), x, sine)
     }
+
+    #[inline(always)]
+    pub fn cos<P: Primitive>(x: P) -> P {
+        let [rest, left, r] = cosine_parts(x * x);
+        rest + (left + r)
+    }
+
+    #[inline(always)]
+    pub fn sin_cos<S: Scalar + Primitive>(x: S) -> (S, S) {
+        (sin(x), cos(x))
+    }
+
+    /// The tangent by a division only where one is needed.
+    #[cfg(any(feature = "lanes", test))]
+    #[inline(always)]
+    pub fn tan<S: Scalar + Primitive>(x: S) -> S {
+        use super::super::Mask;
+        let very = super::is_very_small(x);
+        let value = super::tan_polynomial(x);
+        if very.all() {
+            value
+        } else {
+            S::select(very, value, super::tan_quotient(x))
+        }
+    }
+}
+
+/// The sine of an angle in radians.
+#[inline]
+pub fn sin<P: Primitive>(x: P) -> P {
+    sin_cos(x).0
+}
+
+/// The cosine of an angle in radians.
+#[inline]
+pub fn cos<P: Primitive>(x: P) -> P {
+    sin_cos(x).1
+}
+
+/// Sine and cosine of an angle in radians.
+#[inline(always)]
+pub fn sin_cos<P: Primitive>(x: P) -> (P, P) {
+    let size = x.size();
+    let test = P::number(LARGE) - size;
+    // the number of quarter turns, in the last bits too
+    let turns = size * P::number(core::f64::consts::FRAC_2_PI) + P::number(INTEGERS);
+    let n = turns - P::number(INTEGERS);
+    // pi/2 in three parts; those of 35 bits have exact products with n, and the first difference is exact
+    let first = size - n * P::number(1.570_796_326_792_333_3);
+    let second = n * P::number(2.563_344_151_583_955_8e-12);
+    let difference = first - second;
+    let left = (first - difference) - second;
+    let third = n * P::number(1.056_299_906_698_742_8e-23) - left;
+    let y = difference - third;
+    let rest = (difference - y) - third;
+
+    let z = y * y;
+    let half = P::number(0.5) * z;
+    let sine = y + (sine_rest(y, z) + (rest - half * rest));
+    let [one, left, r] = cosine_parts(z);
+    let cosine = one + (left + (r - y * rest));
+
+    // bit 0 of the turns exchanges sine and cosine, bit 1 has the sign
+    let odd = turns.left(63);
+    let is_odd = odd.or(P::number(1.0));
+    let half_turns = turns.left(62);
+    let value = P::blend(is_odd, cosine, sine).xor(half_turns.xor(x).sign());
+    let other = P::blend(is_odd, sine, cosine).xor(half_turns.xor(odd).sign());
+    (
+        P::rare(Elementary::Sin, x, test, value),
+        P::rare(Elementary::Cos, x, test, other),
+    )
+}
+
+/// The exponential.
+#[inline]
+pub fn exp<P: Primitive>(x: P) -> P {
+    const BIAS: f64 = 1023.0;
+    // powers of two beyond are subnormal or overflow
+    let test = P::number(708.0) - x.size();
+    let power = x * P::number(core::f64::consts::LOG2_E) + P::number(INTEGERS + BIAS);
+    let n = power - P::number(INTEGERS + BIAS);
+    // log(2) in two parts; the products with the first and the difference are exact
+    let high = x - n * P::number(6.931_471_803_691_238e-1);
+    let low = n * P::number(1.908_214_929_270_587_7e-10);
+    let r = high - low;
+    let z = r * r;
+    // the polynomial of degree 10 for (exp(r) - 1 - r)/r^2 in which r^2 times the error is least, 2^-64
+    let even = polynomial(
+        z,
+        [
+            2.092_694_137_009_959e-9,
+            2.755_723_336_414_553_7e-7,
+            2.480_158_737_374_138e-5,
+            1.388_888_888_885_843_4e-3,
+            4.166_666_666_666_673e-2,
+            0.5,
+        ],
+    );
+    let odd = polynomial(
+        z,
+        [
+            2.511_228_839_746_035_6e-8,
+            2.755_723_409_939_445_3e-6,
+            1.984_126_989_719_445_3e-4,
+            8.333_333_333_316_685e-3,
+            1.666_666_666_666_668_5e-1,
+        ],
+    );
+    let square = z * (even + r * odd);
+    let one = P::number(1.0);
+    let sum = one + high;
+    let left = (one - sum) + high;
+    let value = sum + (left + (square - low));
+    P::rare(Elementary::Exp, x, test, value * power.left(52))
+}
+
+/// The natural logarithm.
+#[inline]
+pub fn log<P: Primitive>(x: P) -> P {
+    // the high word of sqrt(1/2)
+    const ROOT: u64 = 0x3fe6_a09e << 32;
+    const ONE: u64 = 0x3ff0_0000 << 32;
+    const MANTISSA: u64 = (1 << 52) - 1;
+    const TWO_TO_52: f64 = 4_503_599_627_370_496.0;
+    // not below the least normal number, and finite
+    let test = (x - P::number(f64::MIN_POSITIVE)) * (P::number(f64::MAX) - x);
+    // x = 2^k (1 + f) with sqrt(1/2) < 1 + f < sqrt(2)
+    let moved = x.plus(P::from_word(ONE - ROOT));
+    let exponent = moved.right(52).or(P::number(TWO_TO_52));
+    let k = exponent - P::number(TWO_TO_52 + 1023.0);
+    let mantissa = moved.and(P::from_word(MANTISSA));
+    let f = mantissa.plus(P::from_word(ROOT)) - P::number(1.0);
+    let half_square = P::number(0.5) * f * f;
+    let s = f / (P::number(2.0) + f);
+    let z = s * s;
+    let w = z * z;
+    let even = polynomial(
+        w,
+        [
+            1.531_383_769_920_937_3e-1,
+            2.222_219_843_214_978_4e-1,
+            3.999_999_999_940_942e-1,
+        ],
+    );
+    let odd = polynomial(
+        w,
+        [
+            1.479_819_860_511_658_6e-1,
+            1.818_357_216_161_805e-1,
+            2.857_142_874_366_239e-1,
+            6.666_666_666_666_735e-1,
+        ],
+    );
+    let r = z * odd + w * even;
+    let value = s * (half_square + r) + k * P::number(1.908_214_929_270_587_7e-10) - half_square
+        + f
+        + k * P::number(6.931_471_803_691_238e-1);
+    P::rare(Elementary::Log, x, test, value)
+}
+
+/// The tangent of an angle in radians.
+#[inline]
+pub fn tan<P: Primitive>(x: P) -> P {
+    let size = x.size();
+    let beyond = P::number(VERY_SMALL) - size;
+    let value = P::blend(beyond, tan_quotient(x), tan_polynomial(x));
+    P::rare(Elementary::Tan, x, P::number(SMALL) - size, value)
 }
 
 /// The lanes in which the tangent is a polynomial.
@@ -100,7 +275,7 @@ fn is_very_small<S: Scalar>(x: S) -> S::Mask {
 
 /// The minimax polynomial of that degree for `|x| <= 1/16`, with a relative error of 2^-55.
 #[inline(always)]
-fn tan_polynomial<S: Scalar>(x: S) -> S {
+fn tan_polynomial<P: Primitive>(x: P) -> P {
     let z = x * x;
     let slope = polynomial(
         z,
@@ -115,7 +290,7 @@ fn tan_polynomial<S: Scalar>(x: S) -> S {
 }
 
 #[inline(always)]
-fn tan_quotient<S: Scalar>(x: S) -> S {
+fn tan_quotient<P: Primitive>(x: P) -> P {
     let z = x * x;
     let numerator = polynomial(
         z,
@@ -138,22 +313,23 @@ fn tan_quotient<S: Scalar>(x: S) -> S {
     x + x * (z * numerator / denominator)
 }
 
-/// Functions of one number, which are those of `libm` beyond small angles.
+/// Functions of one number, which do what the programs do where it changes something.
 pub(super) mod one {
     macro_rules! function {
-        ($name:ident) => {
+        ($name:ident $result:ty) => {
             #[inline]
-            pub(in super::super) fn $name(x: f64) -> f64 {
+            pub(in super::super) fn $name(x: f64) -> $result {
                 if super::is_small(x) {
-                    super::$name(x)
+                    super::small::$name(x)
                 } else {
-                    libm::$name(x)
+                    super::$name(x)
                 }
             }
         };
     }
-    function!(sin);
-    function!(cos);
+    function!(sin f64);
+    function!(cos f64);
+    function!(sin_cos(f64, f64));
 
     #[inline(always)]
     pub(in super::super) fn tan(x: f64) -> f64 {
@@ -176,48 +352,4 @@ pub(super) mod one {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Angles of all sizes up to pi/4, and those where something may change.
-    fn angles() -> impl Iterator<Item = f64> {
-        let even = (0..20_000).map(|k| SMALL * f64::from(k) / 19_999.0);
-        let small = (0..200).map(|k| 0.7 * 0.8_f64.powi(k));
-        let edges = [TINY, SMALL, VERY_SMALL, f64::MIN_POSITIVE, 5e-324, 0.0].into_iter();
-        even.chain(small).chain(edges).flat_map(|x| [x, -x])
-    }
-
-    #[test]
-    fn sines_and_cosines_are_those_of_libm() {
-        for x in angles() {
-            assert!(is_small(x));
-            assert_eq!(sin(x).to_bits(), libm::sin(x).to_bits(), "sin {x:e}");
-            assert_eq!(cos(x).to_bits(), libm::cos(x).to_bits(), "cos {x:e}");
-        }
-    }
-
-    #[test]
-    fn tangents_err_by_little_more_than_a_unit_in_the_last_place() {
-        let mut worst = 0.0;
-        for x in angles() {
-            let (value, expected) = (tan(x), libm::tan(x));
-            assert_eq!(value.is_sign_negative(), x.is_sign_negative());
-            let unit = f64::from_bits(expected.abs().to_bits() + 1) - expected.abs();
-            worst = f64::max(worst, (value - expected).abs() / unit);
-        }
-        // libm's own is within one unit
-        assert!(worst <= 1.0, "{worst}");
-    }
-
-    #[test]
-    fn large_angles_are_those_of_libm() {
-        for x in [0.79, 3.0, -1e5, 1e300] {
-            assert_eq!(one::sin(x), libm::sin(x));
-            assert_eq!(one::cos(x), libm::cos(x));
-            assert_eq!(one::tan(x), libm::tan(x));
-        }
-        for x in [f64::NAN, f64::INFINITY] {
-            assert!(one::tan(x).is_nan() && one::sin(x).is_nan() && one::cos(x).is_nan());
-        }
-    }
-}
+mod tests;

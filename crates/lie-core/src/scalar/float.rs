@@ -2,15 +2,20 @@
 
 use super::{Scalar, elementary};
 
-/// The elementary functions in double precision: those of small angles are ours.
+/// The elementary functions in double precision.
 macro_rules! double {
     (libm $name:ident) => { libm::$name };
+    (program $name:ident) => { elementary::$name };
     (angle $name:ident) => { elementary::one::$name };
     ($($variant:ident $name:ident $single:ident $from:ident $what:literal $facts:tt)+) => {
         $(#[inline]
         fn $name(self) -> Self {
             double!($from $name)(self)
         })+
+        #[inline]
+        fn sin_cos(self) -> (Self, Self) {
+            elementary::one::sin_cos(self)
+        }
     };
 }
 

@@ -1,8 +1,9 @@
 //! SIMD lanes over the vectors of the `wide` crate.
 //!
-//! Arithmetic and square roots are the vector's, which round like the scalar ones; elementary
-//! functions are those of one lane, lane by lane, because the vector's own differ in the last bits; where all angles are
-//! small, the operations of one lane are made in all lanes at once.
+//! Arithmetic and square roots are the vector's, which round like the scalar ones. Elementary functions that are programs are done in
+//! all lanes at once, the others lane by lane, because the vector's own differ in the last bits.
+
+mod primitive;
 
 use super::{Mask, Scalar, elementary};
 use core::fmt;
@@ -41,23 +42,33 @@ macro_rules! by_lanes {
     };
 }
 
-/// Elementary functions, of which some are polynomials of small angles in all lanes.
+/// Elementary functions, the programs among them in all lanes at once.
 macro_rules! at_once {
     (libm $name:ident) => {
         by_lanes!($name);
     };
-    (angle $name:ident) => {
+    (program $name:ident) => {
         #[inline]
         fn $name(self) -> Self {
+            elementary::$name(self)
+        }
+    };
+    (angle $name:ident) => {
+        at_once!(angle $name -> Self);
+    };
+    (angle $name:ident -> $result:ty) => {
+        #[inline]
+        fn $name(self) -> $result {
             if elementary::is_small(self).all() {
-                elementary::$name(self)
+                elementary::small::$name(self)
             } else {
-                self.map(<Self::Lane as Scalar>::$name)
+                elementary::$name(self)
             }
         }
     };
     ($($variant:ident $name:ident $single:ident $from:ident $what:literal $facts:tt)+) => {
         $(at_once!($from $name);)+
+        at_once!(angle sin_cos -> (Self, Self));
     };
 }
 

@@ -1,17 +1,18 @@
 //! The scalar of all numeric code: `f64`, `f32`, SIMD lanes and dual numbers behind one trait.
 //!
-//! Elementary functions come from the `libm` crate in every scalar, lane by lane, but for sine, cosine and tangent of
-//! small angles, which are polynomials in all lanes at once; nothing is contracted to a fused multiply-add: the same
-//! input gives the same bits on every machine, and a lane gives the bits of the scalar run.
+//! Exponential, logarithm, sine, cosine and tangent are programs of ours, which all lanes do at once; other elementary functions come
+//! from the `libm` crate, lane by lane. Nothing is contracted to a fused multiply-add: the same input gives the same bits on every
+//! machine, and a lane gives the bits of the scalar run.
 
 mod dual;
-mod elementary;
+pub(crate) mod elementary;
 mod float;
 #[cfg(feature = "lanes")]
 mod lanes;
 mod mask;
 mod pack;
 mod partial;
+mod primitive;
 #[cfg(feature = "lanes")]
 mod registers;
 mod truncated;
@@ -22,6 +23,7 @@ pub use lanes::{F32x8, F64x4, F64x8, Mask32x8, Mask64x4, Mask64x8};
 pub use mask::Mask;
 pub use pack::{Pack, PackMask};
 pub use partial::{declared_derivative, partial};
+pub use primitive::Primitive;
 pub use truncated::Truncated;
 
 use core::fmt::Debug;
