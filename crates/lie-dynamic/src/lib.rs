@@ -38,7 +38,7 @@ mod methods;
 mod recording;
 mod system;
 
-pub use code::{Code, Instruction, Number, Register, Source, Store};
+pub use code::{Bitwise, Code, Instruction, Number, Register, Source, Store};
 pub use engine::{
     BINARY, Binary, Engine, Frame, Interpreted, Interpreter, Lengths, Machine, SLICES, Targets,
     UNARY, Unary, in_turns, phi, place_by_place, stumpff,

@@ -10,7 +10,8 @@ use cranelift_codegen::settings::{self, Configurable};
 use cranelift_frontend::{FunctionBuilder, FunctionBuilderContext};
 use cranelift_jit::{JITBuilder, JITModule};
 use cranelift_module::{FuncId, Linkage, Module, default_libcall_names};
-use lie_dynamic::{Code, Instruction, Number, Source};
+use lie_dynamic::{Bitwise, Code, Instruction, Number, Source};
+use lie_runtime::Elementary;
 use std::collections::HashMap;
 
 /// Bytes of a number, and of a pointer on every processor that is supported.
@@ -282,7 +283,7 @@ impl Body<'_, '_> {
                 let arguments = [at(a)];
                 self.function(&functions::name(function.name()), Kind::Unary, &arguments)?
             }
-            Instruction::Below(a, b, c) => {
+            Instruction::Below(a, b, c) | Instruction::Blend(a, b, c) => {
                 let (a, b, c) = (at(a), at(b), at(c));
                 let zero = self.constant(0.0);
                 let negative = self.builder.ins().fcmp(FloatCC::LessThan, a, zero);
@@ -294,6 +295,30 @@ impl Body<'_, '_> {
                 } else {
                     self.builder.ins().select(negative, b, c)
                 }
+            }
+            Instruction::Bits(what, a, b) => {
+                let [a, b] = [at(a), at(b)].map(|number| self.word_of(number));
+                let ins = self.builder.ins();
+                let word = match what {
+                    Bitwise::And => ins.band(a, b),
+                    Bitwise::Or => ins.bor(a, b),
+                    Bitwise::Xor => ins.bxor(a, b),
+                    Bitwise::Plus => ins.iadd(a, b),
+                };
+                self.number_of(word)
+            }
+            Instruction::Shift(places, a) => {
+                let (a, by) = (at(a), i64::from(places.unsigned_abs()));
+                let word = self.word_of(a);
+                let word = match places < 0 {
+                    true => self.builder.ins().ushr_imm(word, by),
+                    false => self.builder.ins().ishl_imm(word, by),
+                };
+                self.number_of(word)
+            }
+            Instruction::Rare(function, a, b, c) => {
+                let [a, b, c] = [at(a), at(b), at(c)];
+                self.rare(function, [a, b, c])?
             }
             Instruction::Stumpff(count, a) => {
                 let a = at(a);
@@ -319,6 +344,55 @@ impl Body<'_, '_> {
         let builder = &mut self.builder;
         let holds = builder.ins().bitcast(self.shape.number, flags, holds);
         builder.ins().bitselect(holds, one, zero)
+    }
+
+    /// The bits of a number, or of both.
+    fn word_of(&mut self, number: Value) -> Value {
+        let word = self.word_type();
+        self.builder.ins().bitcast(word, MemFlags::new(), number)
+    }
+
+    fn number_of(&mut self, word: Value) -> Value {
+        let number = self.shape.number;
+        self.builder.ins().bitcast(number, MemFlags::new(), word)
+    }
+
+    fn word_type(&self) -> Type {
+        match self.shape.number.is_vector() {
+            true => types::I64X2,
+            false => types::I64,
+        }
+    }
+
+    /// `usual` where the test is 0 or above, elsewhere the function.
+    fn rare(&mut self, function: Elementary, [x, test, usual]: [Value; 3]) -> Option<Value> {
+        let zero = self.constant(0.0);
+        let compared = self
+            .builder
+            .ins()
+            .fcmp(FloatCC::GreaterThanOrEqual, test, zero);
+        let all = match self.shape.number.is_vector() {
+            true => self.builder.ins().vall_true(compared),
+            false => compared,
+        };
+        let [beyond, then] = [(); 2].map(|()| self.builder.create_block());
+        let result = self.builder.append_block_param(then, self.shape.number);
+        self.builder.set_cold_block(beyond);
+        self.builder
+            .ins()
+            .brif(all, then, &[usual.into()], beyond, &[]);
+        self.builder.switch_to_block(beyond);
+        self.builder.seal_block(beyond);
+        let name = functions::name(function.name());
+        let mut value = self.function(&name, Kind::Unary, &[x])?;
+        if self.shape.number.is_vector() {
+            let mask = self.number_of(compared);
+            value = self.builder.ins().bitselect(mask, usual, value);
+        }
+        self.builder.ins().jump(then, &[value.into()]);
+        self.builder.switch_to_block(then);
+        self.builder.seal_block(then);
+        Some(result)
     }
 
     /// A function of numbers.

@@ -6,6 +6,7 @@ use crate::lanes::LANES;
 use crate::memory::{Memory, Place};
 use crate::registers::Registers;
 use lie_dynamic::Code;
+use std::borrow::Cow;
 
 /// Codes with more instructions than this are not for Cranelift, whose time grows faster than they are long.
 const LONGEST: usize = 20_000;
@@ -35,6 +36,7 @@ pub enum Purpose {
 
 /// The function of a code; none where it is too long.
 pub fn make(code: &Code, purpose: Purpose, registers: Registers) -> Option<Made> {
+    let code = &code.expanded();
     own(code, purpose, registers).or_else(|| by_cranelift(code, purpose))
 }
 
@@ -75,10 +77,13 @@ fn by_cranelift(code: &Code, purpose: Purpose) -> Option<Made> {
 /// The functions of codes over numbers: of each its memory and its place there; none of those that are too long. None where
 /// something fails.
 pub fn over_numbers(codes: &[Code], registers: Registers) -> Option<Functions> {
+    let codes: Vec<_> = codes.iter().map(Code::expanded).collect();
+    let codes = &codes[..];
     let mut functions = own_over_numbers(codes, registers);
     let others = functions.places.iter().zip(codes);
-    let is_left =
-        |(place, code): (&Option<_>, &Code)| place.is_none() && code.instructions.len() <= LONGEST;
+    let is_left = |(place, code): (&Option<_>, &Cow<'_, Code>)| {
+        place.is_none() && code.instructions.len() <= LONGEST
+    };
     if !others.clone().any(is_left) {
         return Some(functions);
     }
@@ -109,6 +114,7 @@ mod with_assembler {
     use crate::memory::{Memory, Place};
     use crate::registers::Registers;
     use lie_dynamic::Code;
+    use std::borrow::Cow;
 
     fn width(registers: Registers) -> Option<Width> {
         match registers {
@@ -150,7 +156,7 @@ mod with_assembler {
     }
 
     /// The functions of codes over numbers by the assembler, as far as they are for it.
-    pub fn own_over_numbers(codes: &[Code], registers: Registers) -> Functions {
+    pub fn own_over_numbers(codes: &[Cow<'_, Code>], registers: Registers) -> Functions {
         let mut places = vec![None; codes.len()];
         let mut all = Vec::new();
         for (place, code) in places.iter_mut().zip(codes) {
@@ -180,7 +186,7 @@ fn own(_code: &Code, _purpose: Purpose, _registers: Registers) -> Option<Made> {
 }
 
 #[cfg(not(all(unix, target_arch = "x86_64")))]
-fn own_over_numbers(codes: &[Code], _registers: Registers) -> Functions {
+fn own_over_numbers(codes: &[Cow<'_, Code>], _registers: Registers) -> Functions {
     Functions {
         memories: Vec::new(),
         places: vec![None; codes.len()],

@@ -1,8 +1,8 @@
 //! From a code to the body of a function.
 
 use crate::module::Imports;
-use lie_dynamic::{Code, Instruction, Register, SLICES};
-use wasm_encoder::{Function, Ieee64, InstructionSink, MemArg, MemArgTarget, ValType};
+use lie_dynamic::{Bitwise, Code, Instruction, Register, SLICES};
+use wasm_encoder::{BlockType, Function, Ieee64, InstructionSink, MemArg, MemArgTarget, ValType};
 
 /// Bytes of a number, and of an address.
 const NUMBER: u32 = 8;
@@ -155,9 +155,39 @@ impl<'a> Body<'a> {
             Instruction::Power(a, b) => self.call("powf", &[a, b]),
             Instruction::Atan2(a, b) => self.call("atan2", &[a, b]),
             Instruction::Call(function, a) => self.call(function.name(), &[a]),
-            Instruction::Below(a, b, c) => {
+            Instruction::Below(a, b, c) | Instruction::Blend(a, b, c) => {
                 let out = self.operands(&[b, c, a]);
                 out.f64_const(Ieee64::from(0.0)).f64_lt().select();
+            }
+            Instruction::Bits(what, a, b) => {
+                for register in [a, b] {
+                    self.operand(register);
+                    self.out.i64_reinterpret_f64();
+                }
+                let out = &mut self.out;
+                match what {
+                    Bitwise::And => out.i64_and(),
+                    Bitwise::Or => out.i64_or(),
+                    Bitwise::Xor => out.i64_xor(),
+                    Bitwise::Plus => out.i64_add(),
+                }
+                .f64_reinterpret_i64();
+            }
+            Instruction::Shift(places, a) => {
+                let out = self.operands(&[a]).i64_reinterpret_f64();
+                let out = out.i64_const(i64::from(places.unsigned_abs()));
+                match places < 0 {
+                    true => out.i64_shr_u(),
+                    false => out.i64_shl(),
+                }
+                .f64_reinterpret_i64();
+            }
+            Instruction::Rare(function, a, b, c) => {
+                let out = self.operands(&[b]).f64_const(Ieee64::from(0.0)).f64_ge();
+                out.if_(BlockType::Result(ValType::F64));
+                self.operands(&[c]).else_();
+                self.call(function.name(), &[a]);
+                self.out.end();
             }
             Instruction::Stumpff(count, a) => return self.family("stumpff", count, a),
             Instruction::Phi(count, a) => return self.family("phi", count, a),

@@ -1,8 +1,9 @@
 //! WebAssembly for the codes of [`lie_dynamic`]: the bytes of a module, for whoever has something that runs them.
 //!
 //! One function for each code, with the operations in their order: the digits are those of the interpreter. WebAssembly rounds
-//! each operation as IEEE 754 says, and has no fused multiply-add and no elementary functions. These are imports of the module,
-//! and the host gives it those of the numeric core ([`Import::host`]).
+//! each operation as IEEE 754 says, and has no fused multiply-add and no elementary functions. Those that are programs are written out in
+//! its own instructions. The others are imports of the module, and so is what few arguments of a program ask for; the host gives it those of
+//! the numeric core ([`Import::host`]).
 //!
 //! # The module
 //!

@@ -106,12 +106,13 @@ fn imported(imports: &[Import]) -> wasm::ImportSection {
 
 /// The module of codes.
 pub fn module(codes: &[Code]) -> Module {
+    let codes: Vec<_> = codes.iter().map(Code::expanded).collect();
     let compiled: Vec<bool> = codes.iter().map(|code| code.registers <= LONGEST).collect();
     let mut imports = Imports::default();
     let mut bodies = wasm::CodeSection::new();
     let mut functions = wasm::FunctionSection::new();
     let mut names = Vec::new();
-    let short = compiled.iter().zip(codes).enumerate();
+    let short = compiled.iter().zip(&codes).enumerate();
     for (position, (_, code)) in short.filter(|(_, (compiled, _))| **compiled) {
         bodies.function(&body::function(code, &mut imports));
         functions.function(Type::Kernel as u32);

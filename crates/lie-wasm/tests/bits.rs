@@ -12,8 +12,8 @@ use lie_codegen::compile::{compile_spec, with_options};
 use lie_codegen::methods::{Choice, applicability};
 use lie_codegen::plan::plan;
 use lie_dynamic::{
-    Code, Declared, Dynamic, Engine, Frame, Instruction, Interpreted, Interpreter, Machine, Number,
-    SLICES, Source, Store,
+    Bitwise, Code, Declared, Dynamic, Engine, Frame, Instruction, Interpreted, Interpreter,
+    Machine, Number, SLICES, Source, Store,
 };
 use lie_jit::{Jit, JitWith, Registers};
 use lie_runtime::Elementary;
@@ -309,7 +309,10 @@ fn every_lane_has_its_own_bits() {
 
 /// Every instruction once, with numbers of every kind, zeros to clear and entries that stay.
 fn every_instruction() -> Code {
-    use Instruction::{Add, Atan2, Below, Call, Div, Mul, Neg, Phi, Power, Sqrt, Stumpff, Sub};
+    use Instruction::{
+        Add, Atan2, Below, Bits, Blend, Call, Div, Mul, Neg, Phi, Power, Rare, Shift, Sqrt,
+        Stumpff, Sub,
+    };
     let numbers = [
         Number::Exact(0.5),
         Number::Ratio(1.0, 3.0),
@@ -342,6 +345,16 @@ fn every_instruction() -> Code {
         Stumpff(5, 3),
         Phi(3, 4),
         Stumpff(2, 3),
+        Blend(3, 4, 5),
+        Blend(2, 4, 0),
+        Bits(Bitwise::And, 3, 4),
+        Bits(Bitwise::Or, 3, 0),
+        Bits(Bitwise::Xor, 4, 1),
+        Bits(Bitwise::Plus, 3, 5),
+        Shift(62, 3),
+        Shift(-7, 4),
+        Rare(Elementary::Sinh, 3, 4, 5),
+        Rare(Elementary::Exp, 3, 0, 4),
     ];
     instructions.extend(Elementary::ALL.iter().map(|&function| Call(function, 15)));
     let results: u32 = instructions.iter().map(Instruction::width).sum();

@@ -4,9 +4,10 @@
 //! are those of the numeric core, which the process asks for.
 
 use lie_dynamic::{
-    BINARY, Code, Engine, Frame, Instruction, Interpreted, Lengths, Machine, Number, Source,
-    Targets, UNARY, phi, stumpff,
+    BINARY, Bitwise, Code, Engine, Frame, Instruction, Interpreted, Lengths, Machine, Number,
+    Source, Targets, UNARY, phi, stumpff,
 };
+use std::borrow::Cow;
 use std::fmt::Write as _;
 use std::io::{BufRead as _, BufReader, Write as _};
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
@@ -66,7 +67,8 @@ impl Process {
             .unwrap();
         let mut asks = child.stdin.take().unwrap();
         let says = BufReader::new(child.stdout.take().unwrap());
-        let functions: String = (0..).zip(codes.iter()).map(function).collect();
+        let expanded: Vec<_> = codes.iter().map(Code::expanded).collect();
+        let functions: String = (0..).zip(&expanded).map(function).collect();
         write!(asks, "{}\n{functions}", functions.lines().count()).unwrap();
         Self {
             codes: Arc::clone(codes),
@@ -90,7 +92,7 @@ fn exact(number: f64) -> String {
 }
 
 /// A code as a function of the slices of a frame, with a list of what it stores.
-fn function((position, code): (usize, &Code)) -> String {
+fn function((position, code): (usize, &Cow<'_, Code>)) -> String {
     let mut text = format!("def code_{position}(s):\n");
     for (register, source) in code.sources.iter().enumerate() {
         let value = match (source.place(), source) {
@@ -119,7 +121,26 @@ fn function((position, code): (usize, &Code)) -> String {
             Instruction::LessEqual(a, b) => format!("1.0 if r{a} <= r{b} else 0.0"),
             // of one lane it is the same number
             Instruction::Exchange(_, a) => format!("r{a}"),
-            Instruction::Below(a, b, c) => format!("r{b} if r{a} < 0.0 else r{c}"),
+            Instruction::Below(a, b, c) | Instruction::Blend(a, b, c) => {
+                format!("r{b} if r{a} < 0.0 else r{c}")
+            }
+            Instruction::Bits(what, a, b) => {
+                let what = match what {
+                    Bitwise::And => '&',
+                    Bitwise::Or => '|',
+                    Bitwise::Xor => '^',
+                    Bitwise::Plus => '+',
+                };
+                format!("bits((word(r{a}) {what} word(r{b})) % 2**64)")
+            }
+            Instruction::Shift(places, a) => {
+                let what = if places < 0 { ">>" } else { "<<" };
+                format!("bits((word(r{a}) {what} {}) % 2**64)", places.abs())
+            }
+            Instruction::Rare(function, a, b, c) => {
+                let beyond = format!("asked('{}', r{a})[0]", function.name());
+                format!("r{c} if r{b} >= 0.0 else {beyond}")
+            }
             Instruction::Power(a, b) => format!("asked('powf', r{a}, r{b})[0]"),
             Instruction::Atan2(a, b) => format!("asked('atan2', r{a}, r{b})[0]"),
             Instruction::Call(function, a) => format!("asked('{}', r{a})[0]", function.name()),

@@ -7,8 +7,12 @@ def bits(word):
     return struct.unpack("<d", struct.pack("<Q", word))[0]
 
 
+def word(number):
+    return struct.unpack("<Q", struct.pack("<d", number))[0]
+
+
 def digits(numbers):
-    return " ".join(str(struct.unpack("<Q", struct.pack("<d", x))[0]) for x in numbers)
+    return " ".join(str(word(x)) for x in numbers)
 
 
 def numbers(text):

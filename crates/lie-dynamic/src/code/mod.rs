@@ -1,5 +1,6 @@
 //! Programs of a plan as code over registers.
 
+mod expansion;
 mod halves;
 mod lowering;
 
@@ -42,8 +43,36 @@ pub enum Number {
     Parts(f64, f64),
 }
 
+/// What is done with the bits of two numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Bitwise {
+    /// The bits that both have.
+    And,
+    /// The bits that one of them has.
+    Or,
+    /// The bits in which they differ.
+    Xor,
+    /// The sum of both words, modulo 2^64.
+    Plus,
+}
+
+impl Bitwise {
+    /// It is done with these words.
+    pub const fn of(self, a: u64, b: u64) -> u64 {
+        match self {
+            Self::And => a & b,
+            Self::Or => a | b,
+            Self::Xor => a ^ b,
+            Self::Plus => a.wrapping_add(b),
+        }
+    }
+}
+
 /// What is done, with the registers of the operands; results go to the registers in order.
-#[derive(Clone, Copy, Debug, PartialEq)]
+///
+/// What is said of bits is said of those of double precision: the instructions from `Blend` on are what [`Code::expanded`] writes
+/// elementary functions out in, for one number and for lanes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Instruction {
     /// `a + b`
     Add(Register, Register),
@@ -77,6 +106,14 @@ pub enum Instruction {
     Stumpff(u8, Register),
     /// The same of the functions `phi_k`.
     Phi(u8, Register),
+    /// The same as `Below`, without a jump.
+    Blend(Register, Register, Register),
+    /// The bits of both.
+    Bits(Bitwise, Register, Register),
+    /// The bits so many places to the left, or to the right where that is negative; zeros come in.
+    Shift(i8, Register),
+    /// `c` where `b` is 0 or above, the function of `a` elsewhere, which seldom is.
+    Rare(Elementary, Register, Register, Register),
 }
 
 impl Instruction {
@@ -241,6 +278,19 @@ impl Instruction {
             Self::LessEqual(a, b) => Self::LessEqual(to(a), to(b)),
             Self::Stumpff(count, a) => Self::Stumpff(count, to(a)),
             Self::Phi(count, a) => Self::Phi(count, to(a)),
+            Self::Blend(a, b, c) => Self::Blend(to(a), to(b), to(c)),
+            Self::Bits(what, a, b) => Self::Bits(what, to(a), to(b)),
+            Self::Shift(places, a) => Self::Shift(places, to(a)),
+            Self::Rare(function, a, b, c) => Self::Rare(function, to(a), to(b), to(c)),
+        }
+    }
+
+    /// The word with its bits moved so many places.
+    pub const fn shifted(word: u64, places: i8) -> u64 {
+        if places < 0 {
+            word >> places.unsigned_abs()
+        } else {
+            word << places
         }
     }
 }

@@ -3,7 +3,7 @@
 use super::machine::{Engine, Frame, Machine, Targets};
 use crate::code::{Code, Instruction, Number, Register, Source};
 use lie_core::closed;
-use lie_runtime::Scalar;
+use lie_runtime::{Mask, Scalar};
 use std::sync::Arc;
 
 /// The engine of the interpreter.
@@ -81,7 +81,18 @@ impl Instruction {
             Self::Power(a, b) => at(a).powf(at(b)),
             Self::Atan2(a, b) => at(a).atan2(at(b)),
             Self::Call(function, a) => function.apply(at(a)),
-            Self::Below(a, b, c) => S::select(at(a).less(S::zero()), at(b), at(c)),
+            Self::Below(a, b, c) | Self::Blend(a, b, c) => {
+                S::select(at(a).less(S::zero()), at(b), at(c))
+            }
+            Self::Bits(what, a, b) => words([at(a), at(b)], |a, b| what.of(a, b)),
+            Self::Shift(places, a) => words([at(a); 2], |a, _| Self::shifted(a, places)),
+            Self::Rare(function, a, b, c) => {
+                let is_usual = S::zero().less_equal(at(b));
+                match is_usual.all() {
+                    true => at(c),
+                    false => S::select(is_usual, at(c), function.apply(at(a))),
+                }
+            }
             Self::Less(a, b) => S::select(at(a).less(at(b)), S::one(), S::zero()),
             Self::LessEqual(a, b) => S::select(at(a).less_equal(at(b)), S::one(), S::zero()),
             Self::Stumpff(..) | Self::Phi(..) => return None,
@@ -106,6 +117,16 @@ fn exchanged<S: Scalar>(number: S, distance: usize) -> S {
     let lanes = 0..S::LANES;
     lanes.fold(number, |all, lane| {
         all.with_lane(lane, number.lane(lane ^ distance))
+    })
+}
+
+/// Something done with the words of bits of double precision, lane by lane.
+#[inline(never)]
+fn words<S: Scalar>([a, b]: [S; 2], with: impl Fn(u64, u64) -> u64) -> S {
+    let word = |x: S, lane: usize| x.lane(lane).to_f64().to_bits();
+    (0..S::LANES).fold(S::zero(), |all, lane| {
+        let word = with(word(a, lane), word(b, lane));
+        all.with_lane(lane, S::Lane::from_f64(f64::from_bits(word)))
     })
 }
 

@@ -7,6 +7,7 @@
 
 mod development;
 mod mask;
+mod program;
 mod record;
 mod recorded;
 mod stages;
@@ -30,6 +31,7 @@ use recorded::Inlined;
 use std::sync::Arc;
 
 pub(crate) use development::{Development, SeriesCodes};
+pub(crate) use program::program;
 pub(crate) use recorded::Recorded;
 pub(crate) use stages::StageCodes;
 pub(crate) use trace::Traces;

@@ -169,12 +169,20 @@ impl<const LANES: usize> Neg for Recorded<LANES> {
 }
 
 impl<const LANES: usize> Recorded<LANES> {
-    fn unary(self, instruction: impl FnOnce(Register) -> Instruction) -> Self {
+    pub(super) fn unary(self, instruction: impl FnOnce(Register) -> Instruction) -> Self {
         let values = [self.value, f64::NAN, f64::NAN];
         Self::result(instruction(self.register), values)
     }
 
-    fn binary(
+    pub(super) fn ternary(
+        instruction: impl FnOnce(Register, Register, Register) -> Instruction,
+        operands: [Self; 3],
+    ) -> Self {
+        let [a, b, c] = operands.map(|operand| operand.register);
+        Self::result(instruction(a, b, c), operands.map(|operand| operand.value))
+    }
+
+    pub(super) fn binary(
         instruction: impl FnOnce(Register, Register) -> Instruction,
         one: Self,
         other: Self,
@@ -299,10 +307,7 @@ impl<const COUNT: usize> Scalar for Recorded<COUNT> {
             RecordedMask::Known(false) => no,
             number => {
                 let below = -number.number::<COUNT>();
-                let registers = [below, yes, no].map(|x| x.register);
-                let [a, b, c] = registers;
-                let values = [below, yes, no].map(|x| x.value);
-                Self::result(Instruction::Below(a, b, c), values)
+                Self::ternary(Instruction::Below, [below, yes, no])
             }
         }
     }

@@ -4,10 +4,11 @@
 //! it is written to the frame unless it stands in memory anyway, as what was read, what is constant and what was stored do.
 
 use super::operation::{
-    Arithmetic, Layout, Operand, Operation, Place, Program, Vector, WITHOUT_SIGN, called,
+    Arithmetic, Layout, Operand, Operation, Place, Program, Vector, WITHOUT_SIGN, called, unary,
 };
 use super::uses::{Lists, operands};
 use lie_dynamic::{Code, Instruction, Register};
+use lie_runtime::Elementary;
 use std::collections::HashMap;
 
 struct Allocation<'a> {
@@ -245,6 +246,9 @@ impl<'a> Allocation<'a> {
             Instruction::Sub(a, b) => self.arithmetic(index, Arithmetic::Sub, [a, b], result),
             Instruction::Mul(a, b) => self.arithmetic(index, Arithmetic::Mul, [a, b], result),
             Instruction::Div(a, b) => self.arithmetic(index, Arithmetic::Div, [a, b], result),
+            Instruction::Bits(what, a, b) => {
+                self.arithmetic(index, Arithmetic::of_bits(what), [a, b], result);
+            }
             Instruction::Neg(a) => self.with_bits(Arithmetic::Xor, a, -0.0, result),
             Instruction::Abs(a) => {
                 self.with_bits(Arithmetic::And, a, f64::from_bits(WITHOUT_SIGN), result);
@@ -270,7 +274,20 @@ impl<'a> Allocation<'a> {
                 self.do_it(Operation::Sqrt { result, to, of });
                 self.give(result, to);
             }
-            Instruction::Below(a, b, c) => {
+            Instruction::Shift(places, a) => {
+                let of = self.load(a, &[]);
+                self.used(a);
+                let to = self.take(&[]);
+                self.do_it(Operation::Shift {
+                    result,
+                    to,
+                    of,
+                    places,
+                });
+                self.give(result, to);
+            }
+            Instruction::Rare(function, a, b, c) => self.rare(function, [a, b, c], result),
+            Instruction::Below(a, b, c) | Instruction::Blend(a, b, c) => {
                 let test = self.load(a, &[]);
                 let then = self.load(b, &[test]);
                 let otherwise = self.load(c, &[test, then]);
@@ -279,8 +296,10 @@ impl<'a> Allocation<'a> {
                 for operand in [a, b, c] {
                     self.used(operand);
                 }
+                let jumps = matches!(instruction, Instruction::Below(..));
                 self.do_it(Operation::Below {
                     result,
+                    jumps,
                     to,
                     test,
                     zero,
@@ -338,7 +357,7 @@ impl<'a> Allocation<'a> {
         [mut a, mut b]: [Register; 2],
         result: Register,
     ) {
-        let commutes = matches!(what, Arithmetic::Add | Arithmetic::Mul);
+        let commutes = !matches!(what, Arithmetic::Sub | Arithmetic::Div);
         let is_in_memory = |register: Register| self.vector[register as usize].is_none();
         let only_now = |register: Register| !self.is_used_after(register, index);
         // what comes from memory stands on the right, of two what is needed no more
@@ -351,7 +370,7 @@ impl<'a> Allocation<'a> {
         let right = match (self.vector[b as usize], self.home[b as usize]) {
             (Some(vector), _) => Operand::Vector(vector),
             (None, Some(place))
-                if self.layout.is_operand(place)
+                if self.layout.is_operand_of(what, place)
                     && (self.free == 0 || !self.is_used_after(b, index)) =>
             {
                 Operand::Place(place)
@@ -376,6 +395,38 @@ impl<'a> Allocation<'a> {
             self.used(b);
         }
         self.give(result, to);
+    }
+
+    /// A function that is seldom called: the result stays in the register of what it usually is.
+    fn rare(&mut self, function: Elementary, [a, b, c]: [Register; 3], result: Register) {
+        let x = self.load(a, &[]);
+        let test = self.load(b, &[x]);
+        let value = self.load(c, &[x, test]);
+        let scratch = self.take(&[x, test, value]);
+        self.free |= 1 << scratch.0;
+        let zero = self.constant(0.0);
+        for operand in [a, b, c] {
+            self.used(operand);
+        }
+        if self.vector[c as usize].is_some() {
+            self.give_up(value);
+        }
+        self.free &= !(1 << value.0);
+        let all = u32::MAX >> (32 - self.layout.width.registers());
+        let kept = !self.free & all & !(1 << value.0);
+        self.program.shared = self.program.shared.max(3);
+        self.program.kept = self.program.kept.max(kept.count_ones());
+        self.do_it(Operation::Rare {
+            result,
+            value,
+            test,
+            zero,
+            x,
+            scratch,
+            function: unary(function).expect("every elementary function can be called"),
+            kept,
+        });
+        self.give(result, value);
     }
 
     fn call(&mut self, instruction: &Instruction, result: Register) {

@@ -22,6 +22,19 @@ pub unsafe extern "sysv64" fn unary(f: Unary, lanes: usize, numbers: *mut f64) {
     }
 }
 
+/// A function of one number, of the lanes whose test is not 0 or above; what it usually is stays in the others.
+///
+/// # Safety
+/// The same with three of each lane: the numbers, the tests, and what it usually is.
+pub unsafe extern "sysv64" fn rare(f: Unary, lanes: usize, numbers: *mut f64) {
+    // SAFETY: as above
+    let (numbers, others) = unsafe { shared(numbers, 3 * lanes) }.split_at_mut(lanes);
+    let (tests, usual) = others.split_at(lanes);
+    for ((x, test), usual) in numbers.iter_mut().zip(tests).zip(usual) {
+        *x = if *test >= 0.0 { *usual } else { f(*x) };
+    }
+}
+
 /// A function of two numbers, of each lane.
 ///
 /// # Safety

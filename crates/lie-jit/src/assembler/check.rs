@@ -1,9 +1,9 @@
 //! A program is followed, operation by operation, before it becomes machine code: what every register and every place holds, by the
 //! instructions of the code alone. Nothing here is taken from how registers were allocated.
 
-use super::operation::called;
 use super::operation::{
-    Arithmetic, Called, Layout, Operand, Operation, Place, Program, Vector, WITHOUT_SIGN,
+    Arithmetic, Called, Layout, Operand, Operation, Place, Program, Vector, WITHOUT_SIGN, called,
+    unary,
 };
 use super::uses::operands;
 use lie_dynamic::{Code, Instruction, Register, Source};
@@ -131,10 +131,10 @@ impl<'a> Followed<'a> {
         Some(())
     }
 
-    fn operand(&self, operand: Operand) -> Option<Held> {
+    fn operand(&self, what: Arithmetic, operand: Operand) -> Option<Held> {
         match operand {
             Operand::Vector(vector) => self.at(vector),
-            Operand::Place(place) if self.layout.is_operand(place) => self.read(place),
+            Operand::Place(place) if self.layout.is_operand_of(what, place) => self.read(place),
             Operand::Place(_) => None,
         }
     }
@@ -146,7 +146,10 @@ impl<'a> Followed<'a> {
             .map(|operand| self.meant(operand))
             .collect();
         let meant = meant?;
-        let commutes = matches!(instruction, Instruction::Add(..) | Instruction::Mul(..));
+        let commutes = matches!(
+            instruction,
+            Instruction::Add(..) | Instruction::Mul(..) | Instruction::Bits(..)
+        );
         let turned = commutes && found.iter().rev().eq(&meant);
         (found == meant || turned).then_some(())
     }
@@ -169,12 +172,15 @@ impl<'a> Followed<'a> {
                 right,
             } => {
                 let instruction = self.instruction(result)?;
-                let (left, right) = (self.at(left)?, self.operand(right)?);
+                let (left, right) = (self.at(left)?, self.operand(what, right)?);
                 match (instruction, what) {
                     (Instruction::Add(..), Arithmetic::Add)
                     | (Instruction::Sub(..), Arithmetic::Sub)
                     | (Instruction::Mul(..), Arithmetic::Mul)
                     | (Instruction::Div(..), Arithmetic::Div) => {
+                        self.are_read(instruction, &[left, right])?;
+                    }
+                    (Instruction::Bits(meant, ..), _) if Arithmetic::of_bits(*meant) == what => {
                         self.are_read(instruction, &[left, right])?;
                     }
                     (Instruction::Neg(_), Arithmetic::Xor)
@@ -232,8 +238,21 @@ impl<'a> Followed<'a> {
                 self.are_read(instruction, &[of])?;
                 self.hold(to, Held::Result(result))
             }
+            Operation::Shift {
+                result,
+                to,
+                of,
+                places,
+            } => {
+                let instruction = self.instruction(result)?;
+                let is_same = matches!(instruction, Instruction::Shift(by, _) if *by == places);
+                let of = self.at(of).filter(|_| is_same)?;
+                self.are_read(instruction, &[of])?;
+                self.hold(to, Held::Result(result))
+            }
             Operation::Below {
                 result,
+                jumps: _,
                 to,
                 test,
                 zero,
@@ -241,19 +260,57 @@ impl<'a> Followed<'a> {
                 otherwise,
             } => {
                 let instruction = self.instruction(result)?;
-                let is_zero = self.layout.is_operand(zero)
-                    && self.read(zero)? == Held::Bits(0.0_f64.to_bits());
                 let is_other = ![test, then, otherwise].contains(&to);
-                let is_choice = matches!(instruction, Instruction::Below(..));
-                if !(is_zero && is_other && is_choice) {
+                let is_choice =
+                    matches!(instruction, Instruction::Below(..) | Instruction::Blend(..));
+                if !(self.is_zero(zero) && is_other && is_choice) {
                     return None;
                 }
                 let read = [self.at(test)?, self.at(then)?, self.at(otherwise)?];
                 self.are_read(instruction, &read)?;
                 self.hold(to, Held::Result(result))
             }
+            Operation::Rare {
+                result,
+                value,
+                test,
+                zero,
+                x,
+                scratch,
+                function,
+                kept,
+            } => {
+                let instruction = self.instruction(result)?;
+                let is_same = matches!(instruction, Instruction::Rare(of, ..)
+                    if std::ptr::fn_addr_eq(unary(*of)?, function));
+                self.at_exists(scratch)?;
+                let read = [self.at(x)?, self.at(test)?, self.at(value)?];
+                let is_kept = |vector: Vector| kept & (1 << vector.0) != 0;
+                let has_places = kept.count_ones() <= self.program.kept && self.program.shared >= 3;
+                let is_scratch = ![value, x].contains(&scratch) && !is_kept(scratch);
+                if !(is_same && self.is_zero(zero) && has_places && is_scratch) || is_kept(value) {
+                    return None;
+                }
+                self.are_read(instruction, &read)?;
+                for (place, held) in self.vectors.iter_mut().enumerate() {
+                    if !is_kept(Vector(place as u8)) {
+                        *held = None;
+                    }
+                }
+                self.shared.fill(None);
+                self.hold(value, Held::Result(result))
+            }
             Operation::Call { result, called } => self.call(result, called),
         }
+    }
+
+    fn at_exists(&self, vector: Vector) -> Option<()> {
+        (usize::from(vector.0) < self.vectors.len()).then_some(())
+    }
+
+    /// Whether a place has the number 0 for all lanes.
+    fn is_zero(&self, place: Place) -> bool {
+        self.layout.is_operand(place) && self.read(place) == Some(Held::Bits(0))
     }
 
     fn call(&mut self, result: Register, found: Called) -> Option<()> {

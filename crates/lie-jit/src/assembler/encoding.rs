@@ -49,6 +49,12 @@ const MASK: u8 = 1;
 
 /// Less than, false where a number is none.
 const LESS: u8 = 0x11;
+/// Less than, true where a number is none.
+const NOT_AT_OR_ABOVE: u8 = 0x19;
+
+/// Jumps where a result is not 0, and where a comparison found less, or no number.
+const NOT_ZERO: u8 = 0x85;
+const BELOW: u8 = 0x82;
 
 /// The same, or equal.
 const LESS_EQUAL: u8 = 0x12;
@@ -199,21 +205,22 @@ impl Bytes {
         right: Read,
     ) {
         let prefix = match (width, what) {
-            (Width::One, Arithmetic::Xor | Arithmetic::And) | (Width::Eight | Width::Four, _) => {
-                Prefix::Packed
-            }
-            (Width::One, _) => Prefix::One,
+            (Width::One, _) if !what.is_of_bits() => Prefix::One,
+            _ => Prefix::Packed,
         };
         let code = match what {
             Arithmetic::Add => 0x58,
             Arithmetic::Mul => 0x59,
             Arithmetic::Sub => 0x5C,
             Arithmetic::Div => 0x5E,
-            // AVX-512 has that of numbers in a part that not all processors have; that of integers has the same bits
+            // AVX-512 has those of numbers in a part that not all processors have; those of integers have the same bits
             Arithmetic::Xor if width == Width::Eight => 0xEF,
-            Arithmetic::Xor => 0x57,
             Arithmetic::And if width == Width::Eight => 0xDB,
+            Arithmetic::Or if width == Width::Eight => 0xEB,
+            Arithmetic::Xor => 0x57,
             Arithmetic::And => 0x54,
+            Arithmetic::Or => 0x56,
+            Arithmetic::Plus => 0xD4,
         };
         let opcode = Opcode::new(prefix, Table::Of0F, code);
         self.vector(width, opcode, to.0, left.0, right);
@@ -275,6 +282,66 @@ impl Bytes {
         Some(())
     }
 
+    /// `to` has the bits of `of` so many places to the left, or to the right where that is negative.
+    pub fn shift(&mut self, width: Width, to: Vector, of: Vector, places: i8) {
+        const LEFT: u8 = 6;
+        const RIGHT: u8 = 2;
+        let opcode = Opcode {
+            behind: Some(places.unsigned_abs()),
+            ..Opcode::new(Prefix::Packed, Table::Of0F, 0x73)
+        };
+        let direction = if places < 0 { RIGHT } else { LEFT };
+        self.vector(width, opcode, direction, to.0, Read::Vector(of));
+    }
+
+    /// Goes elsewhere where some number of `test` is not at or above 0; the place of the distance.
+    pub fn jump_unless_all_above(
+        &mut self,
+        width: Width,
+        test: Vector,
+        zero: Read,
+        scratch: Vector,
+    ) -> usize {
+        let compare = Opcode {
+            behind: Some(NOT_AT_OR_ABOVE),
+            ..Opcode::new(Prefix::Packed, Table::Of0F, 0xC2)
+        };
+        let condition = match width {
+            Width::Eight => {
+                self.vector(width, compare, MASK, test.0, zero);
+                // kortestw k1, k1
+                self.extend([0xC5, 0xF8, 0x98, 0xC0 | MASK << 3 | MASK]);
+                NOT_ZERO
+            }
+            Width::Four => {
+                self.vector(width, compare, scratch.0, test.0, zero);
+                let any = Opcode::new(Prefix::Packed, Table::Of0F38, 0x17);
+                self.vector(width, any, scratch.0, 0, Read::Vector(scratch));
+                NOT_ZERO
+            }
+            Width::One => {
+                let compare = Opcode::new(Prefix::Packed, Table::Of0F, 0x2E);
+                self.vector(width, compare, test.0, 0, zero);
+                BELOW
+            }
+        };
+        self.extend([0x0F, condition, 0, 0, 0, 0]);
+        self.all.len() - 4
+    }
+
+    /// A jump whose distance is at a place comes here.
+    pub fn land(&mut self, place: usize) {
+        let distance = (self.all.len() - place - 4) as i32;
+        self.all[place..place + 4].copy_from_slice(&distance.to_le_bytes());
+    }
+
+    /// Goes to a place before this one.
+    pub fn jump_back(&mut self, to: usize) {
+        self.extend([0xE9]);
+        let distance = to as i64 - (self.all.len() as i64 + 4);
+        self.extend((distance as i32).to_le_bytes());
+    }
+
     /// `to` from memory.
     pub fn load(&mut self, width: Width, to: Vector, from: Read) {
         let opcode = match from {
@@ -320,11 +387,12 @@ impl Bytes {
     pub fn below(
         &mut self,
         width: Width,
+        jumps: bool,
         to: Vector,
         [test, then, otherwise]: [Vector; 3],
         zero: Read,
     ) {
-        if width == Width::One {
+        if width == Width::One && jumps {
             self.below_of_number(to, [test, then, otherwise]);
             return;
         }

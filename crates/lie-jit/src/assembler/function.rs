@@ -1,5 +1,6 @@
 //! A program as a function: where its slices are, its frame, its loop along columns, the functions that it calls.
 
+use super::asides::Aside;
 use super::calls::{binary, phi, stumpff, unary};
 use super::encoding::{Bytes, General, Memory, Read};
 use super::operation::{
@@ -36,7 +37,7 @@ const BASES_IN_A_LOOP: [General; 7] = [
     General::R14,
 ];
 /// Where functions of numbers have their argument and their result.
-const FIRST: Vector = Vector(0);
+pub(super) const FIRST: Vector = Vector(0);
 /// How far along columns, or how often a code was done.
 const ALONG: General = General::Rbx;
 /// Where a column begins.
@@ -44,15 +45,17 @@ const COLUMN: General = General::Rax;
 /// What a function with a loop gives back as it was.
 const KEPT: [General; 4] = [General::Rbx, General::R12, General::R13, General::R14];
 
-struct Writer<'a> {
-    bytes: Bytes,
-    program: &'a Program,
-    layout: Layout,
+pub struct Writer<'a> {
+    pub(super) bytes: Bytes,
+    pub(super) program: &'a Program,
+    pub(super) layout: Layout,
     /// The slices that are read, each with the register of its beginning.
     bases: Vec<(u8, General)>,
     calls: bool,
     /// Bytes of the frame.
     frame: u32,
+    /// What is seldom done, behind the end.
+    pub(super) asides: Vec<Aside>,
 }
 
 /// The bytes of a function with its constants; none where it has more slices or a larger frame than registers and stack are for.
@@ -65,6 +68,7 @@ pub fn function(program: &Program, layout: Layout) -> Option<Vec<u8>> {
         (Some(columns), _) => writer.along(columns)?,
     }
     writer.end();
+    writer.asides()?;
     writer.with_constants()
 }
 
@@ -87,7 +91,8 @@ impl<'a> Writer<'a> {
             }
         }
         let mut operations = program.operations.iter();
-        let calls = operations.any(|operation| matches!(operation, Operation::Call { .. }));
+        let calls = operations
+            .any(|operation| matches!(operation, Operation::Call { .. } | Operation::Rare { .. }));
         let pool = match layout.has_loop() {
             false => BASES,
             true => BASES_IN_A_LOOP,
@@ -97,6 +102,7 @@ impl<'a> Writer<'a> {
         }
         let words = if calls { 8 * ARGUMENTS.len() as u32 } else { 0 };
         let places = program.shared.checked_add(program.slots)?;
+        let places = places.checked_add(program.kept)?;
         let frame = places
             .checked_mul(layout.width.bytes())?
             .checked_add(words)?;
@@ -108,6 +114,7 @@ impl<'a> Writer<'a> {
             layout,
             calls,
             frame,
+            asides: Vec::new(),
         })
     }
 
@@ -148,7 +155,7 @@ impl<'a> Writer<'a> {
 
     /// Where arguments are kept over calls.
     fn word(&self, place: u32) -> Memory {
-        let places = self.program.shared + self.program.slots;
+        let places = self.program.shared + self.program.slots + self.program.kept;
         let offset = places * self.layout.width.bytes() + 8 * place;
         Memory::At(General::Rsp, offset as i32)
     }
@@ -301,7 +308,31 @@ impl<'a> Writer<'a> {
                 Operation::Exchange {
                     distance, to, of, ..
                 } => self.bytes.exchange(width, to, of, distance)?,
+                Operation::Shift { to, of, places, .. } => self.bytes.shift(width, to, of, places),
+                Operation::Rare {
+                    value,
+                    test,
+                    zero,
+                    x,
+                    scratch,
+                    function,
+                    kept,
+                    ..
+                } => {
+                    let zero = self.read(zero)?;
+                    let jump = self.bytes.jump_unless_all_above(width, test, zero, scratch);
+                    self.asides.push(Aside {
+                        jump,
+                        back: self.bytes.all.len(),
+                        value,
+                        x,
+                        test,
+                        function,
+                        kept,
+                    });
+                }
                 Operation::Below {
+                    jumps,
                     to,
                     test,
                     zero,
@@ -310,7 +341,8 @@ impl<'a> Writer<'a> {
                     ..
                 } => {
                     let zero = self.read(zero)?;
-                    self.bytes.below(width, to, [test, then, otherwise], zero);
+                    let operands = [test, then, otherwise];
+                    self.bytes.below(width, jumps, to, operands, zero);
                 }
                 Operation::Call { called, .. } => self.call(place, called),
             }
@@ -356,6 +388,11 @@ impl<'a> Writer<'a> {
             }
             _ => self.call_of_lanes(called),
         }
+        self.load_arguments();
+    }
+
+    /// What a function that is called does not leave as it was.
+    pub(super) fn load_arguments(&mut self) {
         for (place, argument) in (0..).zip(ARGUMENTS) {
             let from = self.word(place);
             self.bytes.load_word(argument, from);
@@ -369,7 +406,7 @@ impl<'a> Writer<'a> {
     }
 
     /// A function of the numbers in the first registers, whose result is in the first one and is shared.
-    fn call_of_numbers(&mut self, function: u64) {
+    pub(super) fn call_of_numbers(&mut self, function: u64) {
         self.bytes.word_constant(General::Rax, function);
         self.bytes.call(General::Rax);
         let shared = Memory::At(General::Rsp, 0);
@@ -384,6 +421,11 @@ impl<'a> Writer<'a> {
             Called::Stumpff(count) => (stumpff as *const () as u64, u64::from(count)),
             Called::Phi(count) => (phi as *const () as u64, u64::from(count)),
         };
+        self.call_helper(helper, argument);
+    }
+
+    /// One of ours, with its first argument, the number of lanes and what is shared.
+    pub(super) fn call_helper(&mut self, helper: u64, argument: u64) {
         let bytes = &mut self.bytes;
         bytes.clear_upper_halves();
         bytes.word_constant(General::Rdi, argument);

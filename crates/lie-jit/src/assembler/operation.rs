@@ -1,6 +1,7 @@
 //! What machine code does, one operation after the other, over registers that exist and places in memory.
 
-use lie_dynamic::{Binary, Instruction, Register, Unary};
+use lie_dynamic::{Binary, Bitwise, Instruction, Register, Unary};
+use lie_runtime::Elementary;
 
 /// How wide the registers are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -139,6 +140,12 @@ impl Layout {
     pub fn is_operand(&self, place: Place) -> bool {
         self.width == Width::Eight || !self.is_single(place)
     }
+
+    /// The same of some arithmetic: with bits of one number two numbers are read, which constants alone have.
+    pub fn is_operand_of(&self, what: Arithmetic, place: Place) -> bool {
+        let has_two = self.width != Width::One || matches!(place, Place::Constant(_));
+        self.is_operand(place) && (has_two || !what.is_of_bits())
+    }
 }
 
 /// A register of the processor.
@@ -178,6 +185,27 @@ pub enum Arithmetic {
     Xor,
     /// The bits that both have.
     And,
+    /// The bits that one has.
+    Or,
+    /// The sum of both words.
+    Plus,
+}
+
+impl Arithmetic {
+    /// Whether it is done with bits, of which a register of one number has those of two.
+    pub const fn is_of_bits(self) -> bool {
+        matches!(self, Self::Xor | Self::And | Self::Or | Self::Plus)
+    }
+
+    /// What is done with bits.
+    pub const fn of_bits(what: Bitwise) -> Self {
+        match what {
+            Bitwise::And => Self::And,
+            Bitwise::Or => Self::Or,
+            Bitwise::Xor => Self::Xor,
+            Bitwise::Plus => Self::Plus,
+        }
+    }
 }
 
 /// All bits but that of the sign.
@@ -244,15 +272,35 @@ pub enum Operation {
         to: Vector,
         of: Vector,
     },
+    /// The bits so many places to the left, or to the right where that is negative.
+    Shift {
+        result: Register,
+        to: Vector,
+        of: Vector,
+        places: i8,
+    },
     /// `then` where `test` is below the number of a place, which is 0, `otherwise` elsewhere. The register that it gives is none
-    /// of its operands.
+    /// of its operands. Of one number it may be a jump.
     Below {
         result: Register,
+        jumps: bool,
         to: Vector,
         test: Vector,
         zero: Place,
         then: Vector,
         otherwise: Vector,
+    },
+    /// `value` becomes the function of `x` where `test` is not at or above the number of a place, which is 0. Of registers those
+    /// of `kept` are kept, by their bits.
+    Rare {
+        result: Register,
+        value: Vector,
+        test: Vector,
+        zero: Place,
+        x: Vector,
+        scratch: Vector,
+        function: Unary,
+        kept: u32,
     },
     /// Calls a function with what is shared, which has its results from `result` on; registers are lost.
     Call {
@@ -271,20 +319,25 @@ pub struct Program {
     pub slots: u32,
     /// Places that functions share.
     pub shared: u32,
+    /// Places for registers that are kept where a function is seldom called.
+    pub kept: u32,
+}
+
+/// An elementary function as it is called.
+pub fn unary(function: Elementary) -> Option<Unary> {
+    let mut all = lie_dynamic::UNARY.iter();
+    let found = all.find(|(known, _)| *known == function.name());
+    found.map(|(_, f)| *f)
 }
 
 /// The function that an instruction calls, if it does.
 pub fn called(instruction: &Instruction) -> Option<Called> {
-    let unary = |name: &str| {
-        let mut all = lie_dynamic::UNARY.iter();
-        all.find(|(known, _)| *known == name).map(|(_, f)| *f)
-    };
     let binary = |name: &str| {
         let mut all = lie_dynamic::BINARY.iter();
         all.find(|(known, _)| *known == name).map(|(_, f)| *f)
     };
     match instruction {
-        Instruction::Call(function, _) => unary(function.name()).map(Called::Unary),
+        Instruction::Call(function, _) => unary(*function).map(Called::Unary),
         Instruction::Power(..) => binary("powf").map(Called::Binary),
         Instruction::Atan2(..) => binary("atan2").map(Called::Binary),
         Instruction::Stumpff(count, _) => Some(Called::Stumpff(*count)),

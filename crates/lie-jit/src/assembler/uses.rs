@@ -13,15 +13,19 @@ pub fn operands(instruction: &Instruction) -> SmallVec<[Register; 3]> {
         | Instruction::Less(a, b)
         | Instruction::LessEqual(a, b)
         | Instruction::Power(a, b)
-        | Instruction::Atan2(a, b) => SmallVec::from_slice(&[a, b]),
-        Instruction::Below(a, b, c) => SmallVec::from_slice(&[a, b, c]),
+        | Instruction::Atan2(a, b)
+        | Instruction::Bits(_, a, b) => SmallVec::from_slice(&[a, b]),
+        Instruction::Below(a, b, c)
+        | Instruction::Blend(a, b, c)
+        | Instruction::Rare(_, a, b, c) => SmallVec::from_slice(&[a, b, c]),
         Instruction::Neg(a)
         | Instruction::Sqrt(a)
         | Instruction::Abs(a)
         | Instruction::Exchange(_, a)
         | Instruction::Call(_, a)
         | Instruction::Stumpff(_, a)
-        | Instruction::Phi(_, a) => SmallVec::from_slice(&[a]),
+        | Instruction::Phi(_, a)
+        | Instruction::Shift(_, a) => SmallVec::from_slice(&[a]),
     }
 }
 

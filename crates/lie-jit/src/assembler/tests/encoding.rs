@@ -119,17 +119,19 @@ fn arithmetic(lines: &mut Lines, width: Width) {
         (Arithmetic::Div, "vdiv"),
         (Arithmetic::Xor, "vxor"),
         (Arithmetic::And, "vand"),
+        (Arithmetic::Or, "vor"),
+        (Arithmetic::Plus, "vpaddq"),
     ] {
         let mnemonic = match (what, width) {
-            (Arithmetic::Xor, Width::Eight) => "vpxorq".to_owned(),
-            (Arithmetic::And, Width::Eight) => "vpandq".to_owned(),
-            (Arithmetic::Xor | Arithmetic::And, _) => format!("{stem}pd"),
+            (Arithmetic::Plus, _) => stem.to_owned(),
+            (_, Width::Eight) if what.is_of_bits() => stem.replacen('v', "vp", 1) + "q",
+            _ if what.is_of_bits() => format!("{stem}pd"),
             _ => format!("{stem}{suffix}"),
         };
         let mut each = |to: Vector, left: Vector, right: Read| {
             let (a, b) = (vector(width, to), vector(width, left));
-            let right_text = match (what, width, right) {
-                (Arithmetic::Xor | Arithmetic::And, Width::One, Read::Whole(at)) => {
+            let right_text = match (width, right) {
+                (Width::One, Read::Whole(at)) if what.is_of_bits() => {
                     format!("xmmword ptr {}", memory(at))
                 }
                 _ => read(width, right),
@@ -214,7 +216,40 @@ fn choices(lines: &mut Lines, width: Width) {
                 ),
             };
             lines.add(line, |bytes| {
-                bytes.below(width, to, [test, then, otherwise], zero);
+                bytes.below(width, true, to, [test, then, otherwise], zero);
+            });
+            if width == Width::One {
+                let line =
+                    format!("vcmpsd {a}, {b}, {zero_text}, 0x11; vblendvpd {a}, {d}, {c}, {a}");
+                lines.add(line, |bytes| {
+                    bytes.below(width, false, to, [test, then, otherwise], zero);
+                });
+            }
+            let line = match width {
+                Width::Eight => {
+                    format!(
+                        "vcmppd k1, {b}, {zero_text}, 0x19; kortestw k1, k1; {{disp32}} jne .+6"
+                    )
+                }
+                Width::Four => {
+                    format!(
+                        "vcmppd {a}, {b}, {zero_text}, 0x19; vptest {a}, {a}; {{disp32}} jne .+6"
+                    )
+                }
+                Width::One => format!("vucomisd {b}, {zero_text}; {{disp32}} jb .+6"),
+            };
+            lines.add(line, |bytes| {
+                bytes.jump_unless_all_above(width, test, zero, to);
+            });
+        }
+        let (of, suffixes) = (vector(width, v), ["vpsllq", "vpsrlq"]);
+        for (places, shift) in [(52, suffixes[0]), (63, suffixes[0]), (-52, suffixes[1])] {
+            let [one, two] = [1, 2].map(|of| vector(width, Vector(of)));
+            let by = i8::abs(places);
+            let line = format!("{shift} {one}, {of}, {by}; {shift} {of}, {two}, {by}");
+            lines.add(line, |bytes| {
+                bytes.shift(width, Vector(1), v, places);
+                bytes.shift(width, v, Vector(2), places);
             });
         }
         for (equal, (to, [left, right])) in [false, true]
@@ -356,6 +391,10 @@ fn general(lines: &mut Lines) {
     lines.add("vzeroupper; {disp32} jb .-3".to_owned(), |bytes| {
         bytes.clear_upper_halves();
         bytes.jump_if_below(0);
+    });
+    lines.add("vzeroupper; {disp32} jmp .-3".to_owned(), |bytes| {
+        bytes.clear_upper_halves();
+        bytes.jump_back(0);
     });
 }
 

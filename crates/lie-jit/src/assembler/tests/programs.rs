@@ -10,7 +10,8 @@ use crate::assembler::operation::{
 use crate::assembler::{allocation, check, function};
 use crate::{Jit, Registers};
 use lie_dynamic::{
-    Code, Engine, Frame, Instruction, Interpreted, Interpreter, Machine, Number, Source, Store,
+    Bitwise, Code, Engine, Frame, Instruction, Interpreted, Interpreter, Machine, Number, Source,
+    Store,
 };
 use lie_runtime::{Elementary, Scalar};
 use random::Random;
@@ -44,7 +45,9 @@ fn code(random: &mut Random, length: u32, calls: bool, matrix: bool) -> Code {
     let mut instructions = Vec::new();
     for _ in 0..length {
         let [a, b, c] = [(); 3].map(|()| below(random, registers));
-        let instruction = match below(random, if calls { 40 } else { 36 }) {
+        // bits of numbers that are none are not said
+        let [d, e] = [(); 2].map(|()| below(random, sources.len() as u32));
+        let instruction = match below(random, if calls { 46 } else { 41 }) {
             0..10 => Instruction::Add(a, b),
             10..18 => Instruction::Sub(a, b),
             18..28 => Instruction::Mul(a, b),
@@ -55,9 +58,14 @@ fn code(random: &mut Random, length: u32, calls: bool, matrix: bool) -> Code {
             32..34 => Instruction::Sqrt(a),
             34 => Instruction::Abs(a),
             35 => Instruction::Below(a, b, c),
-            36 => Instruction::Power(a, b),
-            37 => Instruction::Atan2(a, b),
-            38 => Instruction::Call(Elementary::Exp, a),
+            36 | 37 => Instruction::Blend(a, b, c),
+            38 => Instruction::Bits(Bitwise::And, d, e),
+            39 => Instruction::Bits(Bitwise::Xor, d, e),
+            40 => Instruction::Shift(if a % 2 == 0 { 3 } else { -3 }, d),
+            41 => Instruction::Power(a, b),
+            42 => Instruction::Atan2(a, b),
+            43 => Instruction::Call(Elementary::Sinh, a),
+            44 => Instruction::Rare(Elementary::Sinh, a, b, c),
             _ => Instruction::Stumpff(4, a),
         };
         registers += instruction.width();
@@ -232,7 +240,7 @@ fn changed(program: &Program, at: usize, layout: Layout) -> Vec<Program> {
                 Arithmetic::Add => Arithmetic::Sub,
                 Arithmetic::Sub | Arithmetic::Div => Arithmetic::Add,
                 Arithmetic::Xor => Arithmetic::And,
-                Arithmetic::And => Arithmetic::Xor,
+                Arithmetic::And | Arithmetic::Or | Arithmetic::Plus => Arithmetic::Xor,
                 Arithmetic::Mul => Arithmetic::Div,
             };
             for (what, to, left, right) in [
@@ -300,8 +308,65 @@ fn changed(program: &Program, at: usize, layout: Layout) -> Vec<Program> {
                 of: beyond,
             }),
         ]),
+        Operation::Shift {
+            result,
+            to,
+            of,
+            places,
+        } => {
+            for (places, to, of) in [
+                (-places, to, of),
+                (places, beyond, of),
+                (places, to, beyond),
+            ] {
+                all.push(with(Operation::Shift {
+                    result,
+                    to,
+                    of,
+                    places,
+                }));
+            }
+        }
+        Operation::Rare {
+            result,
+            value,
+            test,
+            zero,
+            x,
+            scratch,
+            function,
+            kept,
+        } => {
+            let other = lie_dynamic::UNARY[0].1;
+            let with_value = kept | 1 << value.0;
+            let with_scratch = kept | 1 << scratch.0;
+            for (function, scratch, kept) in [
+                (other, scratch, kept),
+                (function, x, kept),
+                (function, value, kept),
+                (function, beyond, kept),
+                (function, scratch, with_value),
+                (function, scratch, with_scratch),
+            ] {
+                all.push(with(Operation::Rare {
+                    result,
+                    value,
+                    test,
+                    zero,
+                    x,
+                    scratch,
+                    function,
+                    kept,
+                }));
+            }
+            // a register that is needed later and is not kept
+            let mut fewer = program.clone();
+            fewer.kept = 0;
+            all.extend((kept != 0).then_some(fewer));
+        }
         Operation::Below {
             result,
+            jumps,
             test,
             zero,
             then,
@@ -309,6 +374,7 @@ fn changed(program: &Program, at: usize, layout: Layout) -> Vec<Program> {
             ..
         } => all.push(with(Operation::Below {
             result,
+            jumps,
             to: then,
             test,
             zero,
