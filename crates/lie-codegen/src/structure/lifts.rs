@@ -83,7 +83,11 @@ pub(super) fn nearest(structure: &Structure, order: u32) -> String {
 }
 
 /// A quadratic Casimir `sum_i a_i b_i`, by its factors in the arena, multiples of coordinates.
-type Pairing = Vec<(ExprId, ExprId)>;
+struct Pairing {
+    pairs: Vec<(ExprId, ExprId)>,
+    /// Whether each product is a square, or is there in both orders.
+    symmetric: bool,
+}
 
 /// What quadratic Casimirs are known from: spins, vectors, or a unitary representation.
 type Parts<'a> = (Option<&'a [Spin]>, Option<&'a Vectors>, Option<Unitary>);
@@ -100,6 +104,7 @@ pub fn gauge(model: &Model, parts: Parts<'_>, graph: &mut Graph) -> Option<ExprI
     let mut value = start;
     for pairing in pairings(model, parts, graph) {
         let slopes: Vec<ExprId> = pairing
+            .pairs
             .iter()
             .map(|pair| coefficient(graph, value, *pair))
             .collect();
@@ -109,10 +114,13 @@ pub fn gauge(model: &Model, parts: Parts<'_>, graph: &mut Graph) -> Option<ExprI
                 continue;
             };
             let terms: Vec<ExprId> = pairing
+                .pairs
                 .iter()
                 .map(|(a, b)| graph.product(&[slope, *a, *b]))
                 .collect();
             let casimir = graph.sum(&terms);
+            let factor = if pairing.symmetric { 2 } else { 1 };
+            let casimir = graph.scale(casimir, &Rational::new(1, factor)?);
             let candidate = graph.sub(value, casimir);
             let candidate = graph.normal(candidate);
             let spread = slopes
@@ -145,7 +153,10 @@ fn pairings(
                 let x = symbol(graph, *k);
                 (x, x)
             };
-            spin.coordinates.iter().map(pair).collect()
+            Pairing {
+                pairs: spin.coordinates.iter().map(pair).collect(),
+                symmetric: true,
+            }
         });
         return pairs.collect();
     }
@@ -164,13 +175,19 @@ fn pairings(
     }
     let mut all = Vec::new();
     for (a, first) in rows.iter().enumerate() {
-        for second in &rows[a..] {
-            all.push(first.iter().copied().zip(second.iter().copied()).collect());
+        for (b, second) in rows.iter().enumerate().skip(a) {
+            all.push(Pairing {
+                pairs: first.iter().copied().zip(second.iter().copied()).collect(),
+                symmetric: a == b,
+            });
         }
     }
     if let [vector] = rows.as_slice() {
         let rotation = found.rotation.map(|k| symbol(graph, k));
-        all.push(rotation.into_iter().zip(vector.iter().copied()).collect());
+        all.push(Pairing {
+            pairs: rotation.into_iter().zip(vector.iter().copied()).collect(),
+            symmetric: false,
+        });
     }
     all
 }
@@ -179,24 +196,20 @@ fn pairings(
 fn products(form: &[Vec<Rational>], graph: &mut Graph) -> Pairing {
     let mut pairs = Vec::new();
     for (k, row) in form.iter().enumerate() {
-        for (l, value) in row
-            .iter()
-            .enumerate()
-            .skip(k)
-            .filter(|(_, value)| !value.is_zero())
-        {
+        for (l, value) in row.iter().enumerate().filter(|(_, v)| !v.is_zero()) {
             let [x, y] = [k, l].map(|k| graph.symbol(Symbol::Coordinate(k)));
-            let twice = if k == l { 1 } else { 2 };
-            pairs.push((x, graph.scale(y, &(value * &Rational::from(twice)))));
+            pairs.push((x, graph.scale(y, value)));
         }
     }
-    pairs
+    Pairing {
+        pairs,
+        symmetric: true,
+    }
 }
 
-/// The coefficient in a function of the product of two coordinates or multiples of them, each 1 in these.
+/// The second derivative of a function by two coordinates or multiples of them, each 1 in these.
 fn coefficient(graph: &mut Graph, value: ExprId, (a, b): (ExprId, ExprId)) -> ExprId {
     let mut slope = value;
-    let mut symbols = Vec::new();
     for factor in [a, b] {
         let (scale, base) = graph.coefficient(factor);
         let found = graph.symbols(base).into_iter().next();
@@ -205,10 +218,6 @@ fn coefficient(graph: &mut Graph, value: ExprId, (a, b): (ExprId, ExprId)) -> Ex
         };
         slope = graph.derivative(slope, symbol);
         slope = graph.scale(slope, &(Rational::ONE / scale));
-        symbols.push(symbol);
-    }
-    if symbols[0] == symbols[1] {
-        slope = graph.scale(slope, &(Rational::ONE / Rational::from(2)));
     }
     slope
 }
