@@ -28,6 +28,7 @@ use wasmi_engine::Wasmi;
 
 lie_runtime::lie_poisson! { spec = "tests/data/declarations/pass/realization.json"; }
 lie_runtime::lie_poisson! { spec = "tests/data/declarations/pass/realization_with_start.json"; }
+lie_runtime::lie_poisson! { spec = "tests/data/u3_nonpolynomial.json"; }
 
 const STATES: usize = 50;
 
@@ -368,6 +369,27 @@ fn realizations() {
         "collective2 --lift spec" m::Collective2::given(), "collective4 --lift spec" m::Collective4::given(),
         "collective6 --lift spec" m::Collective6::given(),
     ]);
+    assert!(differences.0.is_empty(), "{}", differences.0.join("\n"));
+}
+
+/// The flow on factors of Hermitian matrices, as it is written out, and the start over a state.
+#[test]
+fn flows_over_a_unitary_representation() {
+    const SPEC: &str = "tests/data/u3_nonpolynomial.json";
+    let mut differences = Differences::default();
+    let (printed, start) = (Threefold::new().system().unwrap(), start_of(SPEC));
+    let expected = trajectory(&printed, &m::Collective16::unitary(), &start).unwrap();
+    let machine_code = machine_code();
+    let machine_code = machine_code.iter().map(|engine| engine as &dyn Engine);
+    for engine in machine_code.chain([&Interpreted as &dyn Engine, &Wasmi, &CPython]) {
+        let system = made(SPEC, &["collective16"], engine);
+        for lift in [Lift::Unitary, Lift::Smallest] {
+            let method = method(&Choice::Collective(16, lift), Default::default());
+            let found = trajectory(&system, method.as_ref(), &start).unwrap();
+            let name = format!("{} {}", engine.name(), lift.name());
+            differences.compare(&name, &expected, &found);
+        }
+    }
     assert!(differences.0.is_empty(), "{}", differences.0.join("\n"));
 }
 

@@ -87,3 +87,65 @@ pub fn refusal(structure: &Structure, order: u32) -> Option<(String, String)> {
                   closed under (abc + cba)/2 up to matrices that commute with them, such as those of su(n) and u(n)";
     Some((reason.into(), super::lifts::nearest(structure, order)))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Unitary;
+    use crate::algebra::known::{self, Integers};
+    use crate::compile::compile_spec;
+    use crate::structure::lifts::Smallest;
+
+    /// The degree that is found, and the smallest space.
+    fn found(matrices: &[Integers]) -> (Option<usize>, Option<Smallest>) {
+        let names: Vec<String> = (0..matrices.len()).map(|i| format!("E{i}")).collect();
+        let state: Vec<String> = (0..matrices.len()).map(|i| format!("x{i}")).collect();
+        let entries = names.iter().zip(matrices);
+        let entries: Vec<String> = entries.map(|(e, m)| format!("\"{e}\": {m:?}")).collect();
+        let spec = format!(
+            r#"{{"format": 1, "name": "Any", "state": {state:?}, "hamiltonian": "x0^2", "algebra":
+                {{"basis": {names:?}, "matrices": {{{}}}}}}}"#,
+            entries.join(", ")
+        );
+        let structure = compile_spec(&spec).expect("a sound spec");
+        (
+            structure.unitary.map(|Unitary { degree }| degree),
+            structure.smallest,
+        )
+    }
+
+    /// Rows and columns in another order.
+    fn reordered(matrices: &[Integers], order: &[usize]) -> Vec<Integers> {
+        let entry = |m: &Integers, a: usize, b: usize| m[order[a]][order[b]];
+        let places = 0..order.len();
+        let matrix = |m: &Integers| {
+            let row = |a| places.clone().map(|b| entry(m, a, b)).collect();
+            places.clone().map(row).collect()
+        };
+        matrices.iter().map(matrix).collect()
+    }
+
+    #[test]
+    fn unitary_representations_are_found_in_any_basis() {
+        let su3 = known::su(3);
+        let imaginary_unit: Integers = (0..6)
+            .map(|a| {
+                (0..6)
+                    .map(|b| i64::from(a == b + 3) - i64::from(b == a + 3))
+                    .collect()
+            })
+            .collect();
+        let u3: Vec<Integers> = su3.iter().cloned().chain([imaginary_unit]).collect();
+        let smallest = Some(Smallest::Unitary);
+        assert_eq!(found(&su3), (Some(3), smallest));
+        assert_eq!(found(&known::mixed(&su3, 5)), (Some(3), smallest));
+        assert_eq!(found(&known::mixed(&u3, 7)), (Some(3), smallest));
+        assert_eq!(found(&known::mixed(&known::su(2), 5)), (Some(2), smallest));
+        assert_eq!(found(&known::su(2)), (Some(2), Some(Smallest::Hopf)));
+        // the parts beside each other, which it does not see
+        let beside = reordered(&su3, &[0, 3, 1, 4, 2, 5]);
+        let columns = Some(Smallest::Representation);
+        assert_eq!(found(&beside), (None, columns));
+        assert_eq!(found(&known::sp(2)), (None, columns));
+        assert_eq!(found(&known::so(4)), (None, columns));
+    }
+}
