@@ -200,9 +200,11 @@ impl<S: Scalar> Ready<S> {
         let machine = system.values.machine.compile(codes);
         let machine = machine.or_else(|| interpret.then(interpreter))?;
         let mut of_step = vec![S::zero(); codes[0].stores.len()];
-        let scalars = [h];
-        let frame = system.values.frame([&[]; ARGUMENTS], &[], &scalars);
-        machine.run(0, &frame, [&mut of_step, &mut []]);
+        if !of_step.is_empty() {
+            let scalars = [h];
+            let frame = system.values.frame([&[]; ARGUMENTS], &[], &scalars);
+            machine.run(0, &frame, [&mut of_step, &mut []]);
+        }
         Some(Self { machine, of_step })
     }
 }

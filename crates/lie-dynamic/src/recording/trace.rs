@@ -13,7 +13,7 @@ use lie_runtime::Scalar;
 use lie_runtime::methods::StepReport;
 use lie_runtime::newton::NewtonOptions;
 use lie_runtime::scalar::{Mask, largest};
-use std::cell::Cell;
+use std::cell::{Cell, OnceCell};
 use std::ops::Range;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -207,10 +207,10 @@ fn answers() -> Vec<Recorded<8>> {
         .collect()
 }
 
-/// A trace that is ready to run.
+/// A trace that is made ready when it is first tried; `None` where the engine makes no machine.
 struct ReadyTrace<S> {
     trace: Arc<Trace>,
-    ready: Ready<S>,
+    ready: OnceCell<Option<Ready<S>>>,
 }
 
 /// The steps of a system by traces, and what these carry from step to step.
@@ -274,17 +274,18 @@ impl<'a, S: Scalar> Followed<'a, S> {
     }
 
     fn add(&mut self, trace: Arc<Trace>) {
-        let [h] = self.h;
-        if let Some(ready) = Ready::new(self.system, &trace.codes, h, false) {
-            let answers = trace.codes[1]
-                .stores
-                .iter()
-                .filter(|store| store.target == 1);
-            let count = answers.count().max(self.answers.len());
-            self.answers.resize(count, S::zero());
-            self.traces.push(ReadyTrace { trace, ready });
-            (self.rest, self.resting) = (0, 0);
-        }
+        let stores = trace.codes[1].stores.iter();
+        let answers = stores.filter(|store| store.target == 1).count();
+        self.answers
+            .resize(answers.max(self.answers.len()), S::zero());
+        let ready = OnceCell::new();
+        self.traces.push(ReadyTrace { trace, ready });
+        (self.rest, self.resting) = (0, 0);
+    }
+
+    /// Tries none for so many steps.
+    pub fn rest(&mut self, steps: u32) {
+        self.resting = steps;
     }
 
     /// Counts a step; whether none is tried.
@@ -299,6 +300,11 @@ impl<'a, S: Scalar> Followed<'a, S> {
         let places = self.places();
         for place in 0..self.traces.len() {
             let ReadyTrace { trace, ready } = &self.traces[place];
+            let [h] = self.h;
+            let made = ready.get_or_init(|| Ready::new(self.system, &trace.codes, h, false));
+            let Some(ready) = made else {
+                continue;
+            };
             let arguments = [&*mu, &self.last[places.clone()], &[], &[]];
             let frame = self.system.values.frame(arguments, &ready.of_step, &self.h);
             let targets = [&mut self.results[..], &mut self.answers[..]];

@@ -9,6 +9,9 @@ use lie_runtime::methods::{FactorSink, Method as _, StepFailure, StepReport, Ste
 use lie_runtime::newton::NewtonOptions;
 use std::sync::Arc;
 
+/// So many steps at the beginning of a run are made kernel by kernel: one that has no more is not to wait for traces.
+const BEGINNING: u32 = 4;
+
 /// A method whose steps are run by traces.
 pub(crate) struct TracedMethod {
     choice: Choice,
@@ -39,7 +42,10 @@ impl AnyMethod<f64, Dynamic<f64>> for TracedMethod {
     ) -> Box<dyn AnyStepper<f64, Vec<f64>> + 'a> {
         let apart = Forgotten(self.apart.as_ref()).stepper(system, h, newton);
         match TracedStepper::new(&self.choice, system, h, newton, apart) {
-            Ok(stepper) => Box::new(stepper),
+            Ok(mut stepper) => {
+                stepper.followed.rest(BEGINNING);
+                Box::new(stepper)
+            }
             Err(apart) => Box::new(apart),
         }
     }
