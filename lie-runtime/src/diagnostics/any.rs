@@ -2,8 +2,8 @@
 
 use crate::driver::Stats;
 use crate::methods::{
-    FactorSink, Facts, Method, Preserves, Retraction, RungeKutta, Stage, StepFailure, StepReport,
-    Stepper,
+    FactorSink, Facts, Method, Preserves, Projection, Retraction, RungeKutta, Stage, StepFailure,
+    StepReport, Stepper,
 };
 use crate::newton::NewtonOptions;
 use crate::poisson::Poisson;
@@ -159,6 +159,8 @@ pub trait AnyStepper<S, V> {
     fn estimate(&mut self) -> Option<S>;
     /// See [`Stepper::carry`].
     fn carry(&mut self, visit: &mut dyn FnMut(&mut S)) -> bool;
+    /// See [`Stepper::keep`].
+    fn keep(&mut self, projection: Projection<S, V>) -> Option<Projection<S, V>>;
 }
 
 impl<S: Scalar, V: State<S>, T: Stepper<S, State = V>> AnyStepper<S, V> for T {
@@ -192,6 +194,10 @@ impl<S: Scalar, V: State<S>, T: Stepper<S, State = V>> AnyStepper<S, V> for T {
 
     fn carry(&mut self, visit: &mut dyn FnMut(&mut S)) -> bool {
         Stepper::carry(self, visit)
+    }
+
+    fn keep(&mut self, projection: Projection<S, V>) -> Option<Projection<S, V>> {
+        Stepper::keep(self, projection)
     }
 }
 
@@ -288,5 +294,9 @@ impl<S: Scalar, V: State<S>> Stepper<S> for ForgottenStepper<'_, V, S> {
 
     fn carry(&mut self, visit: &mut dyn FnMut(&mut S)) -> bool {
         self.stepper.carry(visit)
+    }
+
+    fn keep(&mut self, projection: Projection<S, V>) -> Option<Projection<S, V>> {
+        self.stepper.keep(projection)
     }
 }

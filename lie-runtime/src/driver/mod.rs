@@ -9,6 +9,7 @@ mod error;
 mod grid;
 mod group_matrix;
 mod joints;
+mod kept;
 mod milestone;
 mod observer;
 mod options;
@@ -23,6 +24,7 @@ mod stats;
 mod trial;
 mod watch;
 
+pub use crate::methods::Keep;
 pub use error::{SolveError, StepError};
 pub use grid::{Grid, Place};
 pub use milestone::{Division, MILESTONE, Milestone};

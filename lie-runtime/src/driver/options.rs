@@ -1,5 +1,6 @@
 //! Step size, what is saved, and the solver.
 
+use crate::methods::{Keep, Unkept};
 use crate::newton::NewtonOptions;
 use thiserror::Error;
 
@@ -34,6 +35,8 @@ pub struct Options {
     pub save: Save,
     /// The solver of implicit methods.
     pub newton: NewtonOptions,
+    /// What a projection behind each step keeps: nothing by default.
+    pub keep: Keep,
     /// A second run tells the error at the end of one with at most so many steps: none by default.
     pub assess: u64,
 }
@@ -54,6 +57,7 @@ impl Options {
             pace,
             save: Save::Every(1),
             newton: NewtonOptions::default(),
+            keep: Keep::NOTHING,
             assess: 0,
         }
     }
@@ -67,6 +71,13 @@ impl Options {
             assess: u64::MAX,
             ..self
         }
+    }
+
+    /// The same with a [`Projection`](crate::methods::Projection) behind each step, those of adaptive methods included, and before
+    /// each saved state. Meant for explicit methods: one that is a Poisson map or symmetric is neither any more.
+    #[must_use]
+    pub fn keep(self, keep: Keep) -> Self {
+        Self { keep, ..self }
     }
 
     /// The same with another choice of saved states.
@@ -137,6 +148,9 @@ pub enum OptionError {
         /// The end.
         end: f64,
     },
+    /// What is to be kept cannot be.
+    #[error("the run cannot keep this: {0}")]
+    Keep(Unkept),
     /// A milestone of another run.
     #[error("the milestone is not one of this run: {0}")]
     Milestone(&'static str),

@@ -4,6 +4,7 @@ use super::assess::Ended;
 use super::course::{Beginning, Course};
 use super::error::{SolveError, StepError};
 use super::grid::Grid;
+use super::kept::Kept;
 use super::milestone::Milestone;
 use super::observer::{Observer, Recorder};
 use super::options::{OptionError, Options};
@@ -129,13 +130,14 @@ fn run<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
     if expected != found {
         return Err(OptionError::StateLength { expected, found }.into());
     }
+    let method = Kept::new(problem, method, options.keep)?;
     let (step, settled) = settle(problem, &method, options)?;
     let tolerance = settled.as_ref().map(|settled| settled.chosen.tolerance);
     if let Some(settled) = &settled {
         observer.chosen(&settled.chosen);
     }
     let grid = Grid::new(problem.span, step)?;
-    let divides = settled.is_some() && Course::<M>::may_divide::<S, P>(&method);
+    let divides = settled.is_some() && Course::<Kept<S, M>>::may_divide::<S, P>(&method);
     let newton = settled
         .as_ref()
         .map_or(options.newton, |settled| settled.newton(step));

@@ -20,6 +20,7 @@
 use super::explicit::direction;
 use super::facts::{Facts, Preserves};
 use super::implicit::clear;
+use super::projection::Projection;
 use super::stepper::{FactorSink, Method, RungeKutta, Stage, StepFailure, StepReport, Stepper};
 use crate::clock::holds;
 use crate::newton::{FailureReason, NewtonOptions};
@@ -115,6 +116,7 @@ impl<S: Scalar, P: Poisson<S>> Method<S, P> for Dopri5 {
             slopes: core::array::from_fn(|_| zero.clone()),
             current: zero.clone(),
             point: zero,
+            projection: None,
         }
     }
 }
@@ -133,6 +135,7 @@ pub struct Dopri5Stepper<'a, S: Scalar, P: Poisson<S>> {
     slopes: [P::State; 7],
     current: P::State,
     point: P::State,
+    projection: Option<Projection<S, P::State>>,
 }
 
 impl<S: Scalar, P: Poisson<S>> Dopri5Stepper<'_, S, P> {
@@ -340,7 +343,14 @@ impl<S: Scalar, P: Poisson<S>> Stepper<S> for Dopri5Stepper<'_, S, P> {
             }
             self.current.assign_where(accepted, &self.point);
             let [first, .., end] = &mut self.slopes;
+            // of the state before its projection, from which it differs by the error of the step
             first.assign_where(accepted, end);
+            if let Some(projection) = &mut self.projection {
+                let lost = projection.bring_back(self.system, accepted, &mut self.current);
+                if lost.any() {
+                    progress.fail(FailureReason::OffLevel, lost);
+                }
+            }
             progress.active = progress.active & !(accepted & last);
         }
         if progress.active.any() {
@@ -354,6 +364,11 @@ impl<S: Scalar, P: Poisson<S>> Stepper<S> for Dopri5Stepper<'_, S, P> {
             None => Ok(report),
             Some(failure) => Err(StepFailure { report, ..failure }),
         }
+    }
+
+    fn keep(&mut self, projection: Projection<S, P::State>) -> Option<Projection<S, P::State>> {
+        self.projection = Some(projection);
+        None
     }
 }
 

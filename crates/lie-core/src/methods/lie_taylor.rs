@@ -27,6 +27,7 @@ use super::development::{Pace, Rows, by_series, copy_lanes, multiply, sum};
 use super::facts::{Facts, Preserves};
 use super::implicit::clear;
 use super::joints::Joints;
+use super::projection::Projection;
 use super::series_stepper::{Developed, Development, SeriesStepper};
 use super::stepper::{FactorSink, Method, Retraction};
 use super::time_unit::TimeUnit;
@@ -285,6 +286,15 @@ where
         self.increment(time);
         let (xi, mu) = (&self.coefficient, &self.rows[0]);
         coadjoint_action_in(self.system, xi, mu, out, &mut self.scratch);
+    }
+
+    fn bring_back(
+        &self,
+        projection: &mut Projection<S, P::State>,
+        lanes: S::Mask,
+        mu: &mut P::State,
+    ) -> S::Mask {
+        projection.bring_back(self.system, lanes, mu)
     }
 
     /// By `exp(-xi(from))`, then `exp(xi(to))`.

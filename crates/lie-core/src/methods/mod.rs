@@ -33,7 +33,7 @@
 //! Every method is made by `new()`, at the defaults of the command line; a choice has a constructor of its own name, as
 //! [`LieMidpoint::cayley`] has.
 //!
-//! [`Rk4`] and [`Dopri5`] keep no structure: they are there to compare with. What a method keeps is data,
+//! [`Rk4`] and [`Dopri5`] keep no structure: they are there to compare with. A [`Projection`] keeps energy and Casimirs of any method. What a method keeps is data,
 //! see [`Facts`].
 #![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
 
@@ -95,6 +95,7 @@ pub mod mean_value;
 pub mod midpoint;
 pub mod moser_veselov;
 pub mod orbit_energy;
+pub mod projection;
 mod realized;
 pub mod rk4;
 pub mod rkmk;
@@ -151,6 +152,7 @@ pub use mean_value::MeanValue;
 pub use midpoint::ImplicitMidpoint;
 pub use moser_veselov::{MoserVeselov, MoserVeselovStepper};
 pub use orbit_energy::OrbitEnergy;
+pub use projection::{Keep, Levels, MOST_LEVELS, Projection, Unkept};
 pub use realized::RealizedStepper;
 pub use rk4::{Rk4, Rk4Stepper};
 pub use rkmk::{Rkmk2, Rkmk3, Rkmk4, Rkmk6, RkmkStepper};

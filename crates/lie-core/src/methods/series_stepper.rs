@@ -1,6 +1,7 @@
 //! The stepper of methods by series: as many series as a step of the grid takes, and no more than it needs.
 
 use super::implicit::equal_lanes;
+use super::projection::Projection;
 use super::stepper::{FactorSink, StepFailure, StepReport, Stepper};
 use crate::clock::Clock;
 use crate::newton::FailureReason;
@@ -48,6 +49,13 @@ pub trait Development<S: Scalar> {
     fn develop(&mut self, mu: &Self::State, step: S, lanes: [S::Mask; 2]) -> Developed<S>;
     /// The state at a time from where the development began, negative for steps backwards.
     fn state(&mut self, time: S, out: &mut Self::State);
+    /// Brings a state back onto levels in some lanes; returns those in which that fails.
+    fn bring_back(
+        &self,
+        projection: &mut Projection<S, Self::State>,
+        lanes: S::Mask,
+        mu: &mut Self::State,
+    ) -> S::Mask;
     /// How the group element moves between two such times, in some lanes.
     fn push_factors<K: FactorSink<Self::State>>(
         &mut self,
@@ -72,6 +80,7 @@ pub struct SeriesStepper<S: Scalar, D: Development<S>> {
     joint: S::Mask,
     current: D::State,
     point: D::State,
+    projection: Option<Projection<S, D::State>>,
 }
 
 impl<S: Scalar, D: Development<S>> SeriesStepper<S, D> {
@@ -85,6 +94,7 @@ impl<S: Scalar, D: Development<S>> SeriesStepper<S, D> {
             joint: S::Mask::splat(false),
             current: zero.clone(),
             point: zero,
+            projection: None,
         }
     }
 
@@ -183,6 +193,13 @@ impl<S: Scalar, D: Development<S>> Stepper<S> for SeriesStepper<S, D> {
             }
             self.place = S::select(active, place, from);
             self.current.assign_where(active, &self.point);
+            if let Some(projection) = &mut self.projection {
+                let lost = self
+                    .development
+                    .bring_back(projection, active, &mut self.current);
+                failures.add(FailureReason::OffLevel, lost, report);
+                active = active & !lost;
+            }
             covered = S::select(active, covered + size, covered);
             active = active & !last;
         }
@@ -192,5 +209,10 @@ impl<S: Scalar, D: Development<S>> Stepper<S> for SeriesStepper<S, D> {
             None => Ok(report),
             Some(failure) => Err(StepFailure { report, ..failure }),
         }
+    }
+
+    fn keep(&mut self, projection: Projection<S, D::State>) -> Option<Projection<S, D::State>> {
+        self.projection = Some(projection);
+        None
     }
 }

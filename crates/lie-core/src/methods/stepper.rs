@@ -1,6 +1,7 @@
 //! What a method is to the driver: it makes steppers, which advance one step.
 
 use super::facts::Facts;
+use super::projection::Projection;
 use crate::newton::{Failure, FailureReason, NewtonOptions, NewtonReport};
 use crate::poisson::Poisson;
 use crate::scalar::Scalar;
@@ -150,6 +151,15 @@ pub trait Stepper<S: Scalar> {
     /// leaves out, no step depends on. False where not all of it can be shown; then nothing may be replaced.
     fn carry(&mut self, _visit: &mut dyn FnMut(&mut S)) -> bool {
         false
+    }
+
+    /// Takes a projection for the ends of steps that it chooses itself. Gives it back where it chooses none: a step is one step
+    /// then, and whoever asks projects behind it.
+    fn keep(
+        &mut self,
+        projection: Projection<S, Self::State>,
+    ) -> Option<Projection<S, Self::State>> {
+        Some(projection)
     }
 }
 

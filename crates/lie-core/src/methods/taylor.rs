@@ -29,6 +29,7 @@ use super::explicit::direction;
 use super::facts::{Facts, Preserves};
 use super::implicit::clear;
 use super::joints::Joints;
+use super::projection::Projection;
 use super::series_stepper::{Developed, Development, SeriesStepper};
 use super::stepper::{FactorSink, Method, RungeKutta, Stage};
 use super::time_unit::TimeUnit;
@@ -152,6 +153,15 @@ impl<S: Scalar, P: Series<S>> Development<S> for TaylorDevelopment<'_, S, P> {
     #[inline(always)]
     fn state(&mut self, time: S, out: &mut P::State) {
         sum(&self.rows, self.pace.order, time * self.unit.inverse, out);
+    }
+
+    fn bring_back(
+        &self,
+        projection: &mut Projection<S, P::State>,
+        lanes: S::Mask,
+        mu: &mut P::State,
+    ) -> S::Mask {
+        projection.bring_back(self.system, lanes, mu)
     }
 
     /// By `h grad H` at the nodes of the Gauss method between the two times.

@@ -58,6 +58,10 @@ pub enum FailureReason {
     /// The motion comes back to a joint of the branches of H at once, from either side.
     #[error("the motion does not leave a joint, where branches of the Hamiltonian meet")]
     OnJoint,
+    /// Energy and Casimirs cannot be brought back to their values at the start, see
+    /// [`Projection`](crate::methods::Projection).
+    #[error("the state cannot be brought back onto the levels of what is kept")]
+    OffLevel,
 }
 
 impl FailureReason {
@@ -91,6 +95,9 @@ impl FailureReason {
             }
             Self::OnJoint => {
                 "make the branches equal where they meet, or round the corner off: `sqrt(x^2 + a^2)` for `abs(x)`"
+            }
+            Self::OffLevel => {
+                "take a smaller step or tolerance; beside an equilibrium, where the gradients of energy and Casimirs depend on each other, keep less"
             }
             Self::TooManySteps => {
                 "loosen rtol and atol, take a smaller grid step, or an implicit method"
