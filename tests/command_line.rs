@@ -38,6 +38,13 @@ fn every_mistake_of_the_command_line_is_an_option_error() {
         ("run BODY --rtol 1e-3", "--rtol"),
         ("run BODY --method dopri5 --rtol 0", "--rtol"),
         ("run BODY --method dopri5 --atol -1", "--atol"),
+        ("run BODY --keep energy", "--keep"),
+        ("run BODY --method gauss4 --keep energy", "--keep"),
+        ("run BODY --method splitting2 --keep casimirs", "--keep"),
+        ("run BODY --method rkmk4 --keep energy", "--keep"),
+        ("run BODY --method exact --keep energy", "--keep"),
+        ("run BODY --method rk4 --keep momentum", "--keep"),
+        ("run BODY --method rk4 --keep energy,", "--keep"),
         ("run BODY --iteration secant", "--iteration"),
         ("run BODY --method rk4 --iteration newton", "--iteration"),
         (

@@ -259,6 +259,24 @@ def test_series_are_as_exact_as_those_of_the_command() -> None:
         body().run("rk4", rtol=1e-8, x0=START)
 
 
+def test_what_is_kept_by_a_projection_is_kept_to_round_off() -> None:
+    kept = body().run("dopri5", h=1, t=200, x0=START, keep=["energy", "casimirs"])
+    assert max(kept.drift.values()) < 1e-14, kept.drift
+    plain = body().run("dopri5", h=1, t=200, x0=START)
+    assert plain.drift["energy"] > 1e-9 < plain.drift["C1"], plain.drift
+    between = kept.at([0.3, 77.7])
+    energy = 0.5 * np.sum(between**2 / np.array([2, 1, 2 / 3]), axis=1)
+    assert np.abs(energy - kept.energy[0]).max() < 1e-14
+    energy_alone = body().run("taylor", h=1, t=200, x0=START, rtol=1e-6, keep="energy")
+    assert energy_alone.drift["energy"] < 1e-14 and energy_alone.drift["C1"] > 1e-9
+    many = body().ensemble([START, START], "rk4", h=0.1, t=200, keep="energy,casimirs")
+    assert np.abs(np.sum(many.mu**2, axis=1) - np.sum(np.square(START))).max() < 1e-14
+    with pytest.raises(lp.MethodError, match="solves equations"):
+        body().run("gauss4", h=0.1, t=1, x0=START, keep="energy")
+    with pytest.raises(ValueError, match="nothing that can be kept"):
+        body().run("rk4", h=0.1, t=1, x0=START, keep=["momentum"])
+
+
 def test_time_runs_backwards_without_a_step() -> None:
     run = body().run("gauss4", t=-1, x0=START)
     assert run.t[-1] == -1 and run.step == -0.01

@@ -1,7 +1,7 @@
 use super::protocol::{Choice, Columns, Message, Start, Times};
 use super::*;
 use lie_runtime::driver::Pace;
-use lie_runtime::methods::{Dopri5, Rk4};
+use lie_runtime::methods::{Dopri5, Keep, Rk4};
 use lie_runtime::newton::NewtonOptions;
 use lie_runtime::{ParameterFault, State};
 use nalgebra::{SMatrix, SVector};
@@ -84,6 +84,7 @@ fn request(method: &str, step: f64, times: Times, initial: &[f64]) -> Run {
         times,
         tolerances: Tolerances::default(),
         newton: NewtonOptions::default(),
+        keep: Keep::NOTHING,
         assess: 0,
         from_milestone: None,
         milestones: Milestones::None,

@@ -146,6 +146,10 @@ def _value(name: str, value: Any) -> Any:
         raise TypeError(f"{name} must be True or False, not {value!r}")
     if isinstance(value, str):
         return str(value)
+    if name == "keep" and isinstance(value, (list, tuple, set, frozenset)):
+        if not all(isinstance(word, str) for word in value):
+            raise TypeError(f"keep lists words such as 'energy' and 'casimirs', not {value!r}")
+        return ",".join(value)
     if _is_word(name):
         raise TypeError(f"{name} is text, not {value!r}")
     if name in ("at", "x0"):

@@ -29,7 +29,7 @@ __all__ = ["System", "load"]
 #: The options of `run`, in the order in which the core compares them with those of calls before.
 _OPTIONS = (
     "method", "h", "tol", "t0", "t", "every", "at", "group", "rtol", "atol", "iteration", "newton_tolerance",
-    "max_iterations", "converge", "assess",
+    "max_iterations", "converge", "keep", "assess",
 )  # fmt: skip
 
 
@@ -61,6 +61,7 @@ class System(Declared):
         newton_tolerance: float | None = None,
         max_iterations: int | None = None,
         converge: str | None = None,
+        keep: str | Sequence[str] | None = None,
         assess: bool = False,
         group: str | None = None,
         progress: Progress | None = None,
@@ -77,6 +78,9 @@ class System(Declared):
         "tolerance") are for the solver of implicit methods. ``group="matrix"`` or ``"quaternion"`` follows the group element
         from the identity on (``run.group``).
 
+        ``keep=["energy", "casimirs"]``, or one of them, brings the state back behind each step of taylor, dopri5 or rk4 to the
+        values at the start: they are kept to round-off. The steps are no Poisson maps for that.
+
         ``assess=True`` makes a second run with other steps, which takes 1.25 times as long, and tells by how much the end is off:
         ``run.error``.
 
@@ -91,8 +95,10 @@ class System(Declared):
         Errors: :class:`MethodError` for a method that does not apply, :class:`IntegrationError` with ``partial`` for a
         run that stopped early, :class:`ValueError` and :class:`TypeError` for arguments.
         """
+        if isinstance(keep, (list, tuple, set, frozenset)):
+            keep = list(keep)
         options = (
-            method, h, tol, t0, t, every, at, group, rtol, atol, iteration, newton_tolerance, max_iterations, converge, assess,
+            method, h, tol, t0, t, every, at, group, rtol, atol, iteration, newton_tolerance, max_iterations, converge, keep, assess,
         )  # fmt: skip
         call: Any
         made = None
@@ -174,6 +180,7 @@ class System(Declared):
         newton_tolerance: float | None = None,
         max_iterations: int | None = None,
         converge: str | None = None,
+        keep: str | Sequence[str] | None = None,
         progress: Progress | None = None,
         parameters: Mapping[str, Any] | None = None,
         **named: Any,
@@ -214,7 +221,7 @@ class System(Declared):
         own = {
             "method": method, "h": h, "tol": tol, "t0": t0, "t": t, "x0": x0, "every": every, "at": at,
             "rtol": rtol, "atol": atol, "iteration": iteration, "newton_tolerance": newton_tolerance,
-            "max_iterations": max_iterations, "converge": converge,
+            "max_iterations": max_iterations, "converge": converge, "keep": keep,
         }  # fmt: skip
         others = dict(named)
         spelled(own, others, self.parameters)

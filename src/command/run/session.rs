@@ -15,7 +15,7 @@ use super::keeper::{Keeper, Unwritten};
 use super::layout::Layout;
 use super::picture::{Form, Picture, rounded};
 use super::reception::{Received, Reception};
-use super::said::{missed, of_tolerance, stopped_text, title, word};
+use super::said::{missed, of_projection, of_tolerance, stopped_text, title, word};
 use super::summary::{self, Drift, Steps};
 use super::tally::{MOST_LINES, Tally};
 use super::{impossible, outputs};
@@ -109,6 +109,12 @@ impl Session<'_> {
             _ => Ok(()),
         };
         if !self.flags.quiet {
+            let several = self.several.labels.is_some();
+            for plan in self.several.plans.iter().filter(|_| several) {
+                if let Some(note) = of_projection(self.spec, plan.keep) {
+                    render::say(&folded(&format!("{}: {note}", plan.method.title())));
+                }
+            }
             render::say_all(&folded(&tally.text(clock.elapsed())));
         }
         [written, drawn, kept].into_iter().fold(ended, also)
@@ -247,7 +253,8 @@ impl Session<'_> {
         let (work, drift) = (&received.work, &received.drift);
         tally.record(member.plan, number, received);
         if self.several.labels.is_none() {
-            for note in of_tolerance(plan, received) {
+            let notes = of_projection(self.spec, plan.keep).into_iter();
+            for note in notes.chain(of_tolerance(plan, received)) {
                 render::say(&folded(&note));
             }
             let title = title(self.spec, plan, received.smallest());

@@ -7,6 +7,7 @@
 
 mod cast;
 mod front;
+mod keep;
 mod measured;
 pub mod method;
 mod npy;
@@ -162,6 +163,9 @@ request! {
     /// that a Poisson map is one to round-off; default of collective and isospectral methods), or tolerance (with --tol: as
     /// far as that asks, in about half of the evaluations; what the method preserves is preserved as far)
     word converge "converge" "NAME";
+    /// Brings the state back behind each step of taylor, dopri5 or rk4 to the values that energy and Casimirs have at the start:
+    /// energy, casimirs or energy,casimirs. They are kept to round-off; the steps are no Poisson maps for that
+    word keep "keep" "WHAT";
 }
 
 #[cfg(test)]

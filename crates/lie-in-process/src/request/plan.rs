@@ -5,6 +5,7 @@ use lie_codegen::program::Chart;
 use lie_codegen::structure::group;
 use lie_program::protocol::{Milestones, Run, Start, Times, Tolerances};
 use lie_runtime::driver::Pace;
+use lie_runtime::methods::Keep;
 use lie_runtime::newton::NewtonOptions;
 
 use super::{OptionValue, Request, method};
@@ -39,6 +40,8 @@ pub struct Plan {
     pub tolerances: Tolerances,
     /// The solver of an implicit method.
     pub newton: NewtonOptions,
+    /// What a projection behind each step keeps.
+    pub keep: Keep,
     /// Whether a second run tells the error at the end.
     pub assess: bool,
 }
@@ -54,6 +57,7 @@ impl Plan {
             times: self.times.clone(),
             tolerances: self.tolerances,
             newton: self.newton,
+            keep: self.keep,
             assess: if self.assess { u64::MAX } else { 0 },
             from_milestone: None,
             milestones: Milestones::None,
@@ -116,6 +120,7 @@ pub(super) fn planned(spec: &Spec, request: &Request) -> Planned {
     let overall = pace.as_ref().map(|(pace, _)| *pace);
     let tolerances = solved.map(|method| planner.tolerances(method, overall));
     let newton = solved.map(|method| planner.newton(method, overall));
+    let keep = solved.map(|method| planner.kept(method));
     let chart = planner.chart();
     let picked = planner.picks();
     let plan = match (method, pace, from.zip(times)) {
@@ -128,6 +133,7 @@ pub(super) fn planned(spec: &Spec, request: &Request) -> Planned {
             chart,
             tolerances: tolerances.unwrap_or_default(),
             newton: newton.unwrap_or_default(),
+            keep: keep.unwrap_or_default(),
             assess: request.assess,
         }),
         _ => None,

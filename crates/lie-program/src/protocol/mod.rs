@@ -15,6 +15,7 @@ mod words;
 
 use crate::listen;
 use lie_runtime::driver::{Chosen, Options, Pace, Save, Stats};
+use lie_runtime::methods::Keep;
 pub use lie_runtime::methods::Tolerances;
 use lie_runtime::newton::NewtonOptions;
 pub use milestone::{Milestone, Milestones};
@@ -57,6 +58,9 @@ pub struct Run {
     /// The solver of an implicit method.
     #[serde(with = "words::NewtonFields")]
     pub newton: NewtonOptions,
+    /// What a projection behind each step keeps.
+    #[serde(default, with = "words::KeepFields")]
+    pub keep: Keep,
     /// A second run tells the error at the end of one with at most so many steps.
     #[serde(default)]
     pub assess: u64,
@@ -93,6 +97,7 @@ impl Run {
             pace: self.pace,
             save,
             newton: self.newton,
+            keep: self.keep,
             assess: self.assess,
         }
     }

@@ -12,6 +12,7 @@ fn run(times: Times) -> Run {
         times,
         tolerances: Tolerances::both(1e-8),
         newton: NewtonOptions::fixed_point(),
+        keep: Keep::ENERGY,
         assess: 0,
         from_milestone: None,
         milestones: Milestones::Every(5000),

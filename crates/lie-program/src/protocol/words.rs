@@ -2,7 +2,7 @@
 
 use super::number;
 use lie_runtime::driver::Pace;
-use lie_runtime::methods::Tolerances;
+use lie_runtime::methods::{Keep, Tolerances};
 use lie_runtime::newton::{Convergence, Iteration, NewtonOptions};
 use serde::{Deserialize, Serialize};
 
@@ -45,6 +45,14 @@ pub(super) struct NewtonFields {
     max_iterations: u32,
     #[serde(with = "ConvergenceInWords")]
     convergence: Convergence,
+}
+
+/// The fields of [`Keep`].
+#[derive(Deserialize, Serialize)]
+#[serde(remote = "Keep", deny_unknown_fields)]
+pub(super) struct KeepFields {
+    energy: bool,
+    casimirs: bool,
 }
 
 /// The fields of [`Tolerances`].

@@ -210,6 +210,8 @@ objects! {
         "max-iterations" max_iterations: Option<Constant>,
         /// What has converged where stages that are evaluated together end: `state`, `map` or `tolerance`.
         "converge" converge: Option<String>,
+        /// What explicit methods keep by a projection behind each step: `energy`, `casimirs`, or both with a comma.
+        "keep" keep: Option<String>,
     }
 }
 
