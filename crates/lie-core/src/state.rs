@@ -90,7 +90,7 @@ pub trait Unknown<S: Scalar>: Clone {
     /// Takes the entries of `other` in the lanes of the mask and keeps its own in the rest.
     #[inline]
     fn assign_where(&mut self, mask: S::Mask, other: &Self) {
-        let all = mask.all();
+        let all = mask.surely_all();
         for part in 0..self.parts() {
             if all {
                 self.part_mut(part).copy_from_slice(other.part(part));
@@ -104,7 +104,7 @@ pub trait Unknown<S: Scalar>: Clone {
     /// Subtracts `other` in the lanes of the mask.
     #[inline]
     fn subtract_where(&mut self, mask: S::Mask, other: &Self) {
-        let all = mask.all();
+        let all = mask.surely_all();
         for part in 0..self.parts() {
             for (mine, &theirs) in self.part_mut(part).iter_mut().zip(other.part(part)) {
                 let difference = *mine - theirs;

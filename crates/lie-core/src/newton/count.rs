@@ -1,6 +1,6 @@
 //! Iterations of all lanes.
 
-use crate::scalar::{Scalar, largest};
+use crate::scalar::Scalar;
 
 /// Iterations, lane by lane where there are several.
 #[derive(Default)]
@@ -23,13 +23,12 @@ impl<S: Scalar> Count<S> {
     /// That of the lane that took most.
     #[inline(always)]
     pub(super) fn most(&self) -> u32 {
-        if S::LANES == 1 {
-            return self.all;
-        }
-        match largest(self.lanes) {
-            // what is written down has no values: no lane takes more
-            most if most.is_nan() => self.all,
-            most => most as u32,
-        }
+        self.lanes.counted(self.all, false)
+    }
+
+    /// The same, of iterations without a Jacobian.
+    #[inline(always)]
+    pub(super) fn most_without_jacobian(&self) -> u32 {
+        self.lanes.counted(self.all, true)
     }
 }

@@ -158,7 +158,7 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
             let counts = (&mut report, &mut count);
             let trying = (fixed, predicted, sizes);
             let solved = self.by_fixed_point(equation, unknown, scale, trying, counts);
-            report.fixed_point = count.most();
+            report.fixed_point = count.most_without_jacobian();
             lanes = !solved;
             if lanes.any() {
                 let left = fixed & lanes;
@@ -211,7 +211,7 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
         let failed = self.iterate(equation, unknown, scale, (iteration, lanes, shows), counts);
         report.iterations = count.most();
         if iteration == Iteration::FixedPoint {
-            report.fixed_point = report.iterations;
+            report.fixed_point = count.most_without_jacobian();
         }
         match failed {
             None => Ok(report),
@@ -248,7 +248,7 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
             let update = &mut self.workspace.update;
             equation.residual(unknown, update);
             let step = equation.norm(update);
-            residual = S::select(active, step, S::zero());
+            residual = S::select(active, step, residual);
             unknown.subtract_where(active, update);
             let index = count.add(active);
             if index % REVIEW == 1 {
@@ -304,7 +304,7 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
             count.add(active);
             report.factorizations += outcome.factorizations;
             report.pivoted |= outcome.pivoted.bits();
-            residual = S::select(active, outcome.residual, S::zero());
+            residual = S::select(active, outcome.residual, residual);
 
             let sound = outcome.update.finite() & !outcome.singular;
             if !(sound | !active).all() {

@@ -25,6 +25,14 @@ pub trait Mask:
     fn all(self) -> bool;
     /// True in some lane.
     fn any(self) -> bool;
+    /// True in every lane, as far as that is known: where `false` does no harm but takes longer.
+    fn surely_all(self) -> bool {
+        self.all()
+    }
+    /// True in no lane, likewise.
+    fn surely_none(self) -> bool {
+        !self.any()
+    }
     /// True in one lane.
     fn lane(self, index: usize) -> bool {
         self.bits() >> index & 1 == 1

@@ -130,6 +130,14 @@ pub trait Scalar:
             Scalar::max(largest, self.lane(index).to_f64())
         })
     }
+    /// How many iterations the lane took that took most, where each lane took so many, `all` were made, and they were `plain`, without a
+    /// Jacobian, or not.
+    fn counted(self, all: u32, _plain: bool) -> u32 {
+        match Self::LANES {
+            1 => all,
+            _ => self.reported() as u32,
+        }
+    }
     /// The larger of two numbers that [`Scalar::reported`] gave.
     fn larger(one: f64, other: f64) -> f64 {
         Scalar::max(one, other)

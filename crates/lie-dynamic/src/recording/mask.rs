@@ -64,6 +64,12 @@ impl Mask for RecordedMask {
     fn any(self) -> bool {
         self.ask(false)
     }
+    fn surely_all(self) -> bool {
+        self == Self::Known(true)
+    }
+    fn surely_none(self) -> bool {
+        self == Self::Known(false)
+    }
 }
 
 impl BitAnd for RecordedMask {

@@ -20,6 +20,8 @@ pub(super) struct Record {
     pub asked: Vec<Register>,
     /// Whether something was asked that the values decide, and is not written down.
     pub branched: bool,
+    /// By how many iterations lanes took fewer than all together, in each solution, with a Jacobian or in all, and without one.
+    pub missing: [Vec<Register>; 2],
     /// Where values are followed, what was asked of them.
     guards: Option<Vec<Guard>>,
 }

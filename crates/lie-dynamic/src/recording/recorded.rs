@@ -243,6 +243,11 @@ impl<const COUNT: usize> Scalar for Recorded<COUNT> {
         with_record(|record| record.branched |= !record.follows_values());
         f64::from_bits(REPORTED | u64::from(self.register))
     }
+    fn counted(self, all: u32, plain: bool) -> u32 {
+        let missing = Self::from_f64(f64::from(all)) - self;
+        with_record(|record| record.missing[usize::from(plain)].push(missing.register));
+        all
+    }
     fn larger(one: f64, other: f64) -> f64 {
         let number = |value: f64| match reported(value) {
             Some(register) => Self {

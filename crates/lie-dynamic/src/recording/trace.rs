@@ -29,12 +29,15 @@ const NEVER: u32 = u32::MAX;
 /// For so many steps at most none is tried after one that none was for.
 const LONGEST_REST: u32 = 32;
 
+/// How many numbers a report has: a residual, and by how many iterations fewer than its own, of all and of those without a Jacobian.
+const REPORTED: usize = 3;
+
 /// What one step did.
 #[derive(Debug)]
 pub(crate) struct Trace {
     newton: NewtonOptions,
-    /// The second computes, as a vector, the state at the end, the memory of the stepper and the residual that it reports; as a matrix
-    /// the answers to what is asked in every lane, as one number, and to what is asked of any.
+    /// The second computes, as a vector, the state at the end, the memory of the stepper, and [what it reports](REPORTED); as a matrix
+    /// whether the answers to all that is asked are the expected ones.
     codes: Arc<[Code]>,
     report: StepReport,
 }
@@ -174,9 +177,10 @@ impl Trace {
             stepper.carry(&mut |number| mu.push(*number));
             let residual = reported(report.residual).map(Recorded::of_register);
             mu.push(residual.unwrap_or_else(|| Recorded::from_f64(report.residual)));
-            Some((mu, answers(), report))
+            mu.extend(missing());
+            Some((mu, [answers()], report))
         });
-        let Some(((vector, matrix, report), written)): Option<(_, Written)> = taken else {
+        let Some(((vector, answers, report), written)): Option<(_, Written)> = taken else {
             return match failed.get() {
                 true => Taken::Failed,
                 false => Taken::Refused,
@@ -184,27 +188,48 @@ impl Trace {
         };
         Taken::Trace(Self {
             newton: *newton,
-            codes: Arc::from(written.codes(&vector, &matrix)),
+            codes: Arc::from(written.codes(&vector, &answers)),
             report,
         })
     }
 }
 
-/// The answers to what was asked: first those that are expected in every lane, as one number, then those that are in any.
-fn answers() -> Vec<Recorded<8>> {
+impl Trace {
+    /// The report of a step that gave these numbers.
+    fn report<S: Scalar>(&self, numbers: &[S]) -> StepReport {
+        // of the lane that misses least
+        let fewer = |number: S| (-largest(-number)) as u32;
+        let [all, plain] = [numbers[1], numbers[2]].map(fewer);
+        StepReport {
+            residual: largest(numbers[0]),
+            iterations: self.report.iterations - all,
+            evaluations: self.report.evaluations - all,
+            fixed_point: self.report.fixed_point - plain,
+            ..self.report
+        }
+    }
+}
+
+/// 1 in the lanes where all answers are the expected ones.
+///
+/// Nothing is said of what was asked of all lanes and is false in some, or asked of any and is true: lanes have the bits that they have
+/// beside any others, so that each may go the way that one of the others would have to go.
+fn answers() -> Recorded<8> {
     let mut guards = with_record(|record| record.take_guards());
     guards.sort_by_key(|guard| guard.register);
     guards.dedup();
-    // what is asked of every lane and is true, or of any and is not, each lane has for itself
-    let (each, any): (Vec<_>, Vec<_>) = guards
-        .iter()
-        .partition(|guard: &&Guard| guard.every == guard.expected);
-    let product = each.into_iter().map(answer).reduce(|all, one| all * one);
-    let first = product.unwrap_or_else(Recorded::one);
-    [first]
-        .into_iter()
-        .chain(any.into_iter().map(answer))
-        .collect()
+    let each = guards.iter().filter(|guard| guard.every == guard.expected);
+    let product = each.map(answer).reduce(|all, one| all * one);
+    product.unwrap_or_else(Recorded::one)
+}
+
+/// By how many iterations a lane took fewer than were made: of all, and of those without a Jacobian.
+fn missing() -> [Recorded<8>; 2] {
+    let missing = with_record(|record| std::mem::take(&mut record.missing));
+    missing.map(|all| {
+        let all = all.into_iter().map(Recorded::of_register);
+        all.fold(Recorded::zero(), |sum, one| sum + one)
+    })
 }
 
 /// A trace that is made ready when it is first tried; `None` where the engine makes no machine.
@@ -223,17 +248,16 @@ pub(super) struct Followed<'a, S: Scalar> {
     /// For how many steps none is tried after one that none was for, and how many of them are left.
     rest: u32,
     resting: u32,
-    /// What the last trace gave and what the next one gives: a state, what the stepper of a method would remember, and a residual.
+    /// What the last trace gave and what the next one gives: a state, what the stepper of a method would remember, and a report.
     last: Vec<S>,
     results: Vec<S>,
-    answers: Vec<S>,
 }
 
 impl<'a, S: Scalar> Followed<'a, S> {
     /// Of a stepper that remembers these numbers.
     pub fn new(system: &'a Dynamic<S>, h: S, memory: &[S]) -> Self {
         let size = system.values.compiled.plan.dimension();
-        let mut last = vec![S::zero(); size + memory.len() + 1];
+        let mut last = vec![S::zero(); size + memory.len() + REPORTED];
         last[size..][..memory.len()].copy_from_slice(memory);
         Self {
             system,
@@ -244,12 +268,11 @@ impl<'a, S: Scalar> Followed<'a, S> {
             resting: 0,
             results: last.clone(),
             last,
-            answers: Vec::new(),
         }
     }
 
     fn places(&self) -> Range<usize> {
-        self.system.values.compiled.plan.dimension()..self.last.len() - 1
+        self.system.values.compiled.plan.dimension()..self.last.len() - REPORTED
     }
 
     /// What the stepper of a method would remember.
@@ -274,10 +297,6 @@ impl<'a, S: Scalar> Followed<'a, S> {
     }
 
     fn add(&mut self, trace: Arc<Trace>) {
-        let stores = trace.codes[1].stores.iter();
-        let answers = stores.filter(|store| store.target == 1).count();
-        self.answers
-            .resize(answers.max(self.answers.len()), S::zero());
         let ready = OnceCell::new();
         self.traces.push(ReadyTrace { trace, ready });
         (self.rest, self.resting) = (0, 0);
@@ -307,26 +326,15 @@ impl<'a, S: Scalar> Followed<'a, S> {
             };
             let arguments = [&*mu, &self.last[places.clone()], &[], &[]];
             let frame = self.system.values.frame(arguments, &ready.of_step, &self.h);
-            let targets = [&mut self.results[..], &mut self.answers[..]];
+            let mut answers = [S::zero()];
+            let targets = [&mut self.results[..], &mut answers[..]];
             ready.machine.run(1, &frame, targets);
-            let (first, others) = self.answers.split_first()?;
-            let asked = trace.codes[1].stores.len() - self.results.len() - 1;
-            let half = S::ratio(1.0, 2.0);
-            let all = half.less(*first).all();
-            if !all
-                || !others[..asked]
-                    .iter()
-                    .all(|answer| half.less(*answer).any())
-            {
+            if !S::ratio(1.0, 2.0).less(answers[0]).all() {
                 continue;
             }
             std::mem::swap(&mut self.last, &mut self.results);
             mu.copy_from_slice(&self.last[..mu.len()]);
-            let residual = self.last[self.last.len() - 1];
-            let report = StepReport {
-                residual: largest(residual),
-                ..trace.report
-            };
+            let report = trace.report(&self.last[places.end..]);
             // steps are often like the last one
             self.traces[..=place].rotate_right(1);
             self.rest = 0;
