@@ -141,34 +141,68 @@ pub fn cos<P: Primitive>(x: P) -> P {
 pub fn sin_cos<P: Primitive>(x: P) -> (P, P) {
     let size = x.size();
     let test = P::number(LARGE) - size;
-    // the number of quarter turns, in the last bits too
-    let turns = size * P::number(core::f64::consts::FRAC_2_PI) + P::number(INTEGERS);
-    let n = turns - P::number(INTEGERS);
-    // pi/2 in three parts; those of 35 bits have exact products with n, and the first difference is exact
-    let first = size - n * P::number(1.570_796_326_792_333_3);
-    let second = n * P::number(2.563_344_151_583_955_8e-12);
-    let difference = first - second;
-    let left = (first - difference) - second;
-    let third = n * P::number(1.056_299_906_698_742_8e-23) - left;
-    let y = difference - third;
-    let rest = (difference - y) - third;
-
-    let z = y * y;
-    let half = P::number(0.5) * z;
-    let sine = y + (sine_rest(y, z) + (rest - half * rest));
-    let [one, left, r] = cosine_parts(z);
-    let cosine = one + (left + (r - y * rest));
-
-    // bit 0 of the turns exchanges sine and cosine, bit 1 has the sign
-    let odd = turns.left(63);
-    let is_odd = odd.or(P::number(1.0));
-    let half_turns = turns.left(62);
-    let value = P::blend(is_odd, cosine, sine).xor(half_turns.xor(x).sign());
-    let other = P::blend(is_odd, sine, cosine).xor(half_turns.xor(odd).sign());
+    let reduced = Reduced::new(size);
+    let (sine, cosine) = (reduced.sine(), reduced.cosine());
+    let is_odd = reduced.turns.left(63).or(P::number(1.0));
+    let value = P::blend(is_odd, cosine, sine).xor(reduced.sign_of_sine(x));
+    let other = P::blend(is_odd, sine, cosine).xor(reduced.sign_of_cosine());
     (
         P::rare(Elementary::Sin, x, test, value),
         P::rare(Elementary::Cos, x, test, other),
     )
+}
+
+/// An angle up to 400,000 less quarters of a turn.
+#[derive(Clone, Copy)]
+struct Reduced<P> {
+    /// The number of quarters, in the last bits: bit 0 exchanges sine and cosine, bit 1 has the sign.
+    turns: P,
+    /// What is left, from -pi/4 to pi/4 and a little beyond, is a sum.
+    angle: P,
+    rest: P,
+}
+
+impl<P: Primitive> Reduced<P> {
+    #[inline(always)]
+    fn new(size: P) -> Self {
+        let turns = size * P::number(core::f64::consts::FRAC_2_PI) + P::number(INTEGERS);
+        let n = turns - P::number(INTEGERS);
+        // pi/2 in three parts; those of 35 bits have exact products with n, and the first difference is exact
+        let first = size - n * P::number(1.570_796_326_792_333_3);
+        let second = n * P::number(2.563_344_151_583_955_8e-12);
+        let difference = first - second;
+        let left = (first - difference) - second;
+        let third = n * P::number(1.056_299_906_698_742_8e-23) - left;
+        let angle = difference - third;
+        Self {
+            turns,
+            angle,
+            rest: (difference - angle) - third,
+        }
+    }
+
+    #[inline(always)]
+    fn sine(self) -> P {
+        let z = self.angle * self.angle;
+        let half = P::number(0.5) * z;
+        self.angle + (sine_rest(self.angle, z) + (self.rest - half * self.rest))
+    }
+
+    #[inline(always)]
+    fn cosine(self) -> P {
+        let [one, left, r] = cosine_parts(self.angle * self.angle);
+        one + (left + (r - self.angle * self.rest))
+    }
+
+    #[inline(always)]
+    fn sign_of_sine(self, x: P) -> P {
+        self.turns.left(62).xor(x).sign()
+    }
+
+    #[inline(always)]
+    fn sign_of_cosine(self) -> P {
+        self.turns.left(62).xor(self.turns.left(63)).sign()
+    }
 }
 
 /// The exponential.
@@ -315,21 +349,51 @@ fn tan_quotient<P: Primitive>(x: P) -> P {
 
 /// Functions of one number, which do what the programs do where it changes something.
 pub(super) mod one {
-    macro_rules! function {
-        ($name:ident $result:ty) => {
-            #[inline]
-            pub(in super::super) fn $name(x: f64) -> $result {
-                if super::is_small(x) {
-                    super::small::$name(x)
-                } else {
-                    super::$name(x)
-                }
-            }
+    use super::super::Primitive;
+    use super::{LARGE, Reduced, is_small, small};
+
+    /// Sine or cosine; of both polynomials the one that is needed.
+    #[inline(always)]
+    fn sine_or_cosine(x: f64, is_cosine: bool, beyond: fn(f64) -> f64) -> f64 {
+        let size = x.size();
+        if size > LARGE || size.is_nan() {
+            return beyond(x);
+        }
+        let reduced = Reduced::new(size);
+        let is_odd = reduced.turns.to_bits() & 1 == 1;
+        let value = match is_odd == is_cosine {
+            true => reduced.sine(),
+            false => reduced.cosine(),
         };
+        value.xor(match is_cosine {
+            true => reduced.sign_of_cosine(),
+            false => reduced.sign_of_sine(x),
+        })
     }
-    function!(sin f64);
-    function!(cos f64);
-    function!(sin_cos(f64, f64));
+
+    #[inline]
+    pub(in super::super) fn sin(x: f64) -> f64 {
+        match is_small(x) {
+            true => small::sin(x),
+            false => sine_or_cosine(x, false, libm::sin),
+        }
+    }
+
+    #[inline]
+    pub(in super::super) fn cos(x: f64) -> f64 {
+        match is_small(x) {
+            true => small::cos(x),
+            false => sine_or_cosine(x, true, libm::cos),
+        }
+    }
+
+    #[inline]
+    pub(in super::super) fn sin_cos(x: f64) -> (f64, f64) {
+        match is_small(x) {
+            true => small::sin_cos(x),
+            false => super::sin_cos(x),
+        }
+    }
 
     #[inline(always)]
     pub(in super::super) fn tan(x: f64) -> f64 {
