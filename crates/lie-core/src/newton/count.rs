@@ -1,6 +1,6 @@
 //! Iterations of all lanes.
 
-use crate::scalar::Scalar;
+use crate::scalar::{Counted, Scalar};
 
 /// Iterations, lane by lane where there are several.
 #[derive(Default)]
@@ -22,13 +22,7 @@ impl<S: Scalar> Count<S> {
 
     /// That of the lane that took most.
     #[inline(always)]
-    pub(super) fn most(&self) -> u32 {
-        self.lanes.counted(self.all, false)
-    }
-
-    /// The same, of iterations without a Jacobian.
-    #[inline(always)]
-    pub(super) fn most_without_jacobian(&self) -> u32 {
-        self.lanes.counted(self.all, true)
+    pub(super) fn most(&self, what: Counted) -> u32 {
+        self.lanes.counted(self.all, what)
     }
 }

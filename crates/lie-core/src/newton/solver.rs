@@ -10,7 +10,7 @@ use super::sizes::Sizes;
 use super::trial::Trial;
 use super::update::{self, Workspace};
 use crate::equation::Equation;
-use crate::scalar::{Mask, Scalar, largest};
+use crate::scalar::{Counted, Mask, Scalar, largest};
 use crate::state::Unknown;
 
 /// A number is halved so often at most: the smallest entries have come to rest by then, or never do.
@@ -158,7 +158,7 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
             let counts = (&mut report, &mut count);
             let trying = (fixed, predicted, sizes);
             let solved = self.by_fixed_point(equation, unknown, scale, trying, counts);
-            report.fixed_point = count.most_without_jacobian();
+            report.fixed_point = count.most(Counted::WithoutJacobian);
             lanes = !solved;
             if lanes.any() {
                 let left = fixed & lanes;
@@ -186,7 +186,7 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
             let counts = (report, count);
             return self.by_newton(equation, unknown, scale, (lanes, shows), counts);
         }
-        report.iterations = count.most();
+        report.iterations = count.most(Counted::Iterations);
         Ok(report)
     }
 
@@ -209,9 +209,9 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
         };
         let counts = (&mut report, &mut count);
         let failed = self.iterate(equation, unknown, scale, (iteration, lanes, shows), counts);
-        report.iterations = count.most();
+        report.iterations = count.most(Counted::Iterations);
         if iteration == Iteration::FixedPoint {
-            report.fixed_point = count.most_without_jacobian();
+            report.fixed_point = count.most(Counted::WithoutJacobian);
         }
         match failed {
             None => Ok(report),
@@ -289,7 +289,7 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
         let mut convergence = Convergence::new(iteration, self.options.tolerance);
         let mut settling = Settling::new(iteration);
         let mut active = lanes;
-        let mut failed = None;
+        let (mut failed, mut factored) = (None, Count::<S>::default());
         let [mut residual, mut first] = [S::zero(); 2];
         let mut size = scale;
         for index in 0..self.options.max_iterations {
@@ -302,7 +302,9 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
                 &mut self.workspace,
             );
             count.add(active);
-            report.factorizations += outcome.factorizations;
+            for _ in 0..outcome.factorizations {
+                factored.add(active);
+            }
             report.pivoted |= outcome.pivoted.bits();
             residual = S::select(active, outcome.residual, residual);
 
@@ -331,6 +333,7 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
             }
         }
         report.residual = largest(residual);
+        report.factorizations += factored.most(Counted::Factorizations);
         active = active & !settling.ending();
         if active.any() {
             leave(&mut failed, active, convergence.growing());

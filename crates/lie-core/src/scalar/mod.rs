@@ -130,9 +130,8 @@ pub trait Scalar:
             Scalar::max(largest, self.lane(index).to_f64())
         })
     }
-    /// How many iterations the lane took that took most, where each lane took so many, `all` were made, and they were `plain`, without a
-    /// Jacobian, or not.
-    fn counted(self, all: u32, _plain: bool) -> u32 {
+    /// How much of something the lane took that took most, where each lane took so much, and `all` was made.
+    fn counted(self, all: u32, _what: Counted) -> u32 {
         match Self::LANES {
             1 => all,
             _ => self.reported() as u32,
@@ -196,6 +195,17 @@ pub trait Scalar:
     fn finite(self) -> Self::Mask;
     /// `yes` in the lanes where the mask is true, `no` in the others.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
+}
+
+/// What a solver counts in each lane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Counted {
+    /// Iterations of all kinds.
+    Iterations,
+    /// Those among them without a Jacobian.
+    WithoutJacobian,
+    /// Jacobians that were factored.
+    Factorizations,
 }
 
 /// The largest lane as f64, for reports; not a number if any lane is.

@@ -2,6 +2,8 @@
 
 use super::Recorded;
 use crate::code::{Code, Instruction, Number, Register, Source, Store};
+#[cfg(doc)]
+use lie_runtime::scalar::Counted;
 use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
 
@@ -20,8 +22,8 @@ pub(super) struct Record {
     pub asked: Vec<Register>,
     /// Whether something was asked that the values decide, and is not written down.
     pub branched: bool,
-    /// By how many iterations lanes took fewer than all together, in each solution, with a Jacobian or in all, and without one.
-    pub missing: [Vec<Register>; 2],
+    /// By how much lanes took less than all together, of each thing that is [counted](Counted), each time.
+    pub missing: [Vec<Register>; 3],
     /// Where values are followed, what was asked of them.
     guards: Option<Vec<Guard>>,
 }

@@ -6,7 +6,7 @@ use crate::code::{Code, Instruction, Number, Register, Source};
 use crate::engine::{Frame, Machine, Targets};
 use lie_core::Elementary;
 use lie_runtime::Scalar;
-use lie_runtime::scalar::Mask;
+use lie_runtime::scalar::{Counted, Mask};
 use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 use std::sync::Arc;
 
@@ -243,9 +243,9 @@ impl<const COUNT: usize> Scalar for Recorded<COUNT> {
         with_record(|record| record.branched |= !record.follows_values());
         f64::from_bits(REPORTED | u64::from(self.register))
     }
-    fn counted(self, all: u32, plain: bool) -> u32 {
+    fn counted(self, all: u32, what: Counted) -> u32 {
         let missing = Self::from_f64(f64::from(all)) - self;
-        with_record(|record| record.missing[usize::from(plain)].push(missing.register));
+        with_record(|record| record.missing[what as usize].push(missing.register));
         all
     }
     fn larger(one: f64, other: f64) -> f64 {

@@ -12,6 +12,8 @@ use lie_codegen::methods::Choice;
 use lie_runtime::Scalar;
 use lie_runtime::methods::StepReport;
 use lie_runtime::newton::NewtonOptions;
+#[cfg(doc)]
+use lie_runtime::scalar::Counted;
 use lie_runtime::scalar::{Mask, largest};
 use std::cell::{Cell, OnceCell};
 use std::ops::Range;
@@ -29,8 +31,8 @@ const NEVER: u32 = u32::MAX;
 /// For so many steps at most none is tried after one that none was for.
 const LONGEST_REST: u32 = 32;
 
-/// How many numbers a report has: a residual, and by how many iterations fewer than its own, of all and of those without a Jacobian.
-const REPORTED: usize = 3;
+/// How many numbers a report has: a residual, and by how much less than its own of each thing that is [counted](Counted).
+const REPORTED: usize = 4;
 
 /// What one step did.
 #[derive(Debug)]
@@ -199,12 +201,13 @@ impl Trace {
     fn report<S: Scalar>(&self, numbers: &[S]) -> StepReport {
         // of the lane that misses least
         let fewer = |number: S| (-largest(-number)) as u32;
-        let [all, plain] = [numbers[1], numbers[2]].map(fewer);
+        let [all, plain, factored] = [1, 2, 3].map(|what| fewer(numbers[what]));
         StepReport {
             residual: largest(numbers[0]),
             iterations: self.report.iterations - all,
             evaluations: self.report.evaluations - all,
             fixed_point: self.report.fixed_point - plain,
+            factorizations: self.report.factorizations - factored,
             ..self.report
         }
     }
@@ -223,8 +226,8 @@ fn answers() -> Recorded<8> {
     product.unwrap_or_else(Recorded::one)
 }
 
-/// By how many iterations a lane took fewer than were made: of all, and of those without a Jacobian.
-fn missing() -> [Recorded<8>; 2] {
+/// By how much a lane took less than was made, of each thing that is counted.
+fn missing() -> [Recorded<8>; 3] {
     let missing = with_record(|record| std::mem::take(&mut record.missing));
     missing.map(|all| {
         let all = all.into_iter().map(Recorded::of_register);
