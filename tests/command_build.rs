@@ -589,6 +589,33 @@ fn a_project_is_written_into_an_empty_folder() {
     assert_eq!(lie(&format!("{call} --plan")).code, Some(2));
 }
 
+/// The project integrates as the spec's `run` says, with its tolerances and what it keeps.
+#[test]
+fn a_project_has_the_options_of_the_run() {
+    let folder = folder();
+    let spec = folder.path().join("kept.json");
+    let text = std::fs::read_to_string("specs/so3_free_rigid_body.json").unwrap();
+    let mut text: serde_json::Value = serde_json::from_str(&text).unwrap();
+    text["run"] = serde_json::json!({
+        "method": "dopri5", "step": 0.5, "until": 1, "rtol": 1e-4, "keep": "energy,casimirs"
+    });
+    std::fs::write(&spec, text.to_string()).unwrap();
+    let place = folder.path().join("project");
+    lie(&format!(
+        "expand {} --project {}",
+        spec.display(),
+        place.display()
+    ))
+    .ok();
+    let main = std::fs::read_to_string(place.join("src/main.rs")).unwrap();
+    for part in [
+        "Dopri5::from(Tolerances { rtol: 0.0001, atol: 1e-9 })",
+        ".keep(Keep { energy: true, casimirs: true })",
+    ] {
+        assert!(main.contains(part), "{main}");
+    }
+}
+
 /// What it computes has the bits of `lie run`.
 #[test]
 #[ignore = "a minute, it builds the runtime again: .ci/nightly runs it"]

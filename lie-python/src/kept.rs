@@ -83,6 +83,9 @@ impl Kept {
 
     /// Keeps a call, if its options can be compared.
     pub fn keep(&mut self, options: &Bound<'_, PyTuple>, prepared: Arc<Prepared>) {
+        if self.find(options).is_some() {
+            return;
+        }
         let given = options.iter_borrowed().map(|value| Given::new(&value));
         if let Some(given) = given.collect() {
             self.0.truncate(CALLS - 1);

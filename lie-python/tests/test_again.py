@@ -38,6 +38,17 @@ def known(system: lp.System, options: dict[str, Any]) -> bool:
     return system._core.again(values, None, {}) is not None
 
 
+def test_words_of_the_command_are_remembered_as_arguments() -> None:
+    for words in ({"step": 0.05, "until": 3}, {"until": 2}, {"step": 0.2}, {"initial": [0.1, 0.2, 0.3]}):
+        system, fresh = (lp.System({**BODY, "run": {"step": 0.01, "until": 1}}) for _ in range(2))
+        system.run("rk4", **words)
+        again, first = system.run("rk4"), fresh.run("rk4")
+        assert (again.step, again.t[-1]) == (first.step, first.t[-1]) == (0.01, 1)
+        assert np.array_equal(again.mu, first.mu)
+        once, more = (system.run("rk4", **words) for _ in range(2))
+        assert np.array_equal(once.mu, more.mu) and not np.array_equal(once.mu[-1], first.mu[-1])
+
+
 @pytest.mark.parametrize("options", OPTIONS)
 @pytest.mark.parametrize("start", range(len(STARTS)))
 def test_the_bits_are_those_of_the_first_call(options: dict[str, Any], start: int) -> None:

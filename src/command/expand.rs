@@ -92,6 +92,8 @@ fn project(
         span: (plan.from, plan.end()),
         pace: number,
         by_tolerance: matches!(plan.pace.0, Pace::Tolerance(_)),
+        tolerances: plan.tolerances,
+        keep: plan.keep,
     };
     let main = program::integrates(&spec.model, &plan.method, &numbers);
     let system = compile::expand(&spec.model, &choices);

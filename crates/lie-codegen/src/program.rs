@@ -8,6 +8,7 @@ use crate::compile::generate;
 use crate::methods::{Choice, Lift, Scheme, Tensor};
 use crate::print::format;
 use crate::structure::Structure;
+use lie_core::methods::{Keep, Tolerances};
 
 /// What a program is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -107,6 +108,10 @@ pub struct Numbers<'n> {
     pub pace: f64,
     /// Whether it is a tolerance.
     pub by_tolerance: bool,
+    /// Those of a method that chooses its own steps.
+    pub tolerances: Tolerances,
+    /// What a projection behind each step keeps.
+    pub keep: Keep,
 }
 
 /// The text of a program that integrates the system of its module `system` by a method and writes the rows as CSV: for people
@@ -118,6 +123,8 @@ pub fn integrates(structure: &Structure, choice: &Choice, numbers: &Numbers<'_>)
         span: (start, end),
         pace,
         by_tolerance,
+        tolerances,
+        keep: Keep { energy, casimirs },
     } = *numbers;
     let name = &structure.name;
     let title = choice.title();
@@ -135,7 +142,22 @@ pub fn integrates(structure: &Structure, choice: &Choice, numbers: &Numbers<'_>)
         .fold(method, |text, (loose, close)| text.replace(loose, close));
     let method = method.replace("::lie_runtime::methods::", "");
     let method = method.replace(" as::", " as ::");
+    let own_steps = match choice {
+        _ if tolerances == Tolerances::default() => None,
+        Choice::Dopri5 => Some("Dopri5"),
+        Choice::Taylor => Some("Taylor"),
+        Choice::LieTaylor => Some("LieTaylor"),
+        _ => None,
+    };
+    let Tolerances { rtol, atol } = tolerances;
+    let method = own_steps.map_or(method, |name| {
+        format!("{name}::from(Tolerances {{ rtol: {rtol:?}, atol: {atol:?} }})")
+    });
     let paced = if by_tolerance { "tolerance" } else { "new" };
+    let kept = match energy || casimirs {
+        true => format!(".keep(Keep {{ energy: {energy}, casimirs: {casimirs} }})"),
+        false => String::new(),
+    };
     format!(
         "//! {name}, {title}: writes rows of t, state and invariants as CSV.
 
@@ -155,7 +177,7 @@ const SPAN: (f64, f64) = ({start:?}, {end:?});
 fn main() -> Result<(), Box<dyn Error>> {{
     let system = system::{name}::from_values(&PARAMETERS).system()?;
     let problem = Problem::new(system, START, SPAN);
-    let solution = solve(&problem, {method}, &Options::{paced}({pace:?}))?;
+    let solution = solve(&problem, {method}, &Options::{paced}({pace:?}){kept})?;
     solution.write_csv(std::io::stdout().lock())?;
     Ok(())
 }}

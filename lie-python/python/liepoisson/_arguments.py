@@ -149,7 +149,7 @@ def _value(name: str, value: Any) -> Any:
     if name == "keep" and isinstance(value, (list, tuple, set, frozenset)):
         if not all(isinstance(word, str) for word in value):
             raise TypeError(f"keep lists words such as 'energy' and 'casimirs', not {value!r}")
-        return ",".join(value)
+        return ",".join(sorted(value))
     if _is_word(name):
         raise TypeError(f"{name} is text, not {value!r}")
     if name in ("at", "x0"):

@@ -100,6 +100,11 @@ class System(Declared):
         options = (
             method, h, tol, t0, t, every, at, group, rtol, atol, iteration, newton_tolerance, max_iterations, converge, keep, assess,
         )  # fmt: skip
+        if named:
+            # what is remembered goes by the names of its arguments
+            own = {"x0": x0, **dict(zip(_OPTIONS, options))}
+            spelled(own, named, self._defaults)
+            x0, options = own["x0"], tuple(own[name] for name in _OPTIONS)
         call: Any
         made = None
         if progress is None and parameters is None:

@@ -38,6 +38,13 @@ impl<S: Scalar, M> Kept<S, M> {
     }
 }
 
+impl<S, M> Kept<S, M> {
+    /// Whether levels are kept.
+    pub(super) fn keeps(&self) -> bool {
+        self.levels.is_some()
+    }
+}
+
 impl<S, M: Facts> Facts for Kept<S, M> {
     const ID: &'static str = M::ID;
     const ORDER: u32 = M::ORDER;
@@ -132,5 +139,9 @@ impl<S: Scalar, P: Poisson<S>, T: Stepper<S, State = P::State>> Stepper<S>
 
     fn estimate(&mut self) -> Option<S> {
         self.stepper.estimate()
+    }
+
+    fn carry(&mut self, visit: &mut dyn FnMut(&mut S)) -> bool {
+        self.stepper.carry(visit)
     }
 }

@@ -59,7 +59,7 @@ pub struct Assessed {
     /// The tolerance that was asked for, if one was.
     pub tolerance: Option<f64>,
     /// The error at the end relative to the state, by a second run; none where that failed or was ended, and of a method that
-    /// chooses its own steps without a tolerance.
+    /// chooses its own steps without a tolerance, or with levels that are kept.
     pub error: Option<f64>,
 }
 
