@@ -1,5 +1,5 @@
-//! Many trajectories of one declaration: members of an ensemble or of a sweep, eight at a time in lanes by explicit methods, whose
-//! step is one program, and by the methods that are compiled for lanes.
+//! Many trajectories of one declaration: members of an ensemble or of a sweep, eight at a time in lanes by methods whose step is a
+//! program, and by Taylor series.
 //!
 //! Every lane has the bits of the member run alone, so that nobody can tell which members were side by side. A member that
 //! fails is run again alone, and says what it says alone; the others of its group are run again without it.

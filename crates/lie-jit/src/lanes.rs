@@ -78,7 +78,8 @@ impl Machine<Wide> for Lanes {
         [one, other]: [&mut [Wide]; 2],
     ) {
         let made = self.repeated[code].get_or_init(|| self.compiled_to_repeat(code));
-        let Some((function, _)) = made.as_ref().filter(|_| count > 0) else {
+        let whole = self.codes[code].clear == [None, None];
+        let Some((function, _)) = made.as_ref().filter(|_| whole && count > 0) else {
             return in_turns(count, [one, other], |from, to| {
                 self.run(code, &frame.with_second(from), [to, &mut []]);
             });

@@ -12,7 +12,7 @@ use super::sizes::Sizes;
 use super::solver::Newton;
 use super::update::Workspace;
 use crate::equation::Equation;
-use crate::scalar::{Mask, Scalar, largest};
+use crate::scalar::{Mask, Scalar};
 use crate::state::Unknown;
 
 /// At most so many iterations follow the one with a Jacobian of its own, and their updates shrink by this factor until they
@@ -44,7 +44,8 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
         unknown.subtract_where(lanes, update);
         count.add(lanes);
         let solved = sizes.small_lanes(update, unknown, self.enough) & safe;
-        report.residual = largest(S::select(solved, residual, S::zero()));
+        count.saw(lanes, residual);
+        report.residual = count.residual();
         if (solved | !lanes).all() {
             return solved;
         }
@@ -75,13 +76,12 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
         let Workspace {
             update, factors, ..
         } = &mut self.workspace;
-        let mut residual = S::zero();
         for _ in 0..CHORDS {
             if !active.any() {
                 break;
             }
             equation.residual(unknown, update);
-            residual = S::select(active, equation.norm(update), residual);
+            count.saw(active, equation.norm(update));
             equation.solve(factors, update);
             unknown.subtract_where(active, update);
             count.add(active);
@@ -94,8 +94,7 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
             active = active & !converged & (fast | settled);
             before = step;
         }
-        let residual = S::select(solved, residual, S::zero());
-        report.residual = S::larger(report.residual, largest(residual));
+        report.residual = count.residual();
         solved
     }
 

@@ -1,12 +1,14 @@
 //! Iterations of all lanes.
 
-use crate::scalar::{Counted, Scalar};
+use crate::scalar::{Counted, Scalar, largest};
 
 /// Iterations, lane by lane where there are several.
 #[derive(Default)]
 pub(super) struct Count<S> {
     all: u32,
     lanes: S,
+    /// The largest entry of the residual when it was last evaluated, lane by lane.
+    residual: S,
 }
 
 impl<S: Scalar> Count<S> {
@@ -18,6 +20,18 @@ impl<S: Scalar> Count<S> {
             self.lanes += S::select(active, S::one(), S::zero());
         }
         self.all
+    }
+
+    /// Takes the residual of some lanes.
+    #[inline(always)]
+    pub(super) fn saw(&mut self, active: S::Mask, residual: S) {
+        self.residual = S::select(active, residual, self.residual);
+    }
+
+    /// The largest residual of all lanes.
+    #[inline(always)]
+    pub(super) fn residual(&self) -> f64 {
+        largest(self.residual)
     }
 
     /// That of the lane that took most.

@@ -123,9 +123,6 @@ impl<S: Scalar, U: Unknown<S>> Predictor<S, U> {
     #[inline(always)]
     pub(crate) fn record(&mut self, unknown: &U) {
         self.age += S::one();
-        if self.age.less(S::one()).all() {
-            return;
-        }
         for part in 0..unknown.parts() {
             let values = unknown.part(part);
             let next = self.next.part_mut(part);

@@ -10,7 +10,7 @@ use super::sizes::Sizes;
 use super::trial::Trial;
 use super::update::{self, Workspace};
 use crate::equation::Equation;
-use crate::scalar::{Counted, Mask, Scalar, largest};
+use crate::scalar::{Counted, Mask, Scalar};
 use crate::state::Unknown;
 
 /// A number is halved so often at most: the smallest entries have come to rest by then, or never do.
@@ -242,13 +242,12 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
         let mut settling = Settling::new(Iteration::FixedPoint);
         let mut active = lanes;
         let mut solved = S::Mask::splat(false);
-        let mut residual = S::zero();
         let mut size = scale;
         while active.any() {
             let update = &mut self.workspace.update;
             equation.residual(unknown, update);
             let step = equation.norm(update);
-            residual = S::select(active, step, residual);
+            count.saw(active, step);
             unknown.subtract_where(active, update);
             let index = count.add(active);
             if index % REVIEW == 1 {
@@ -269,7 +268,7 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
                 active = active & (keeps | rests & S::Mask::splat(index < LONGEST));
             }
         }
-        report.residual = largest(residual);
+        report.residual = count.residual();
         solved
     }
 
@@ -290,7 +289,7 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
         let mut settling = Settling::new(iteration);
         let mut active = lanes;
         let (mut failed, mut factored) = (None, Count::<S>::default());
-        let [mut residual, mut first] = [S::zero(); 2];
+        let mut first = S::zero();
         let mut size = scale;
         for index in 0..self.options.max_iterations {
             let outcome = update::compute(
@@ -306,7 +305,7 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
                 factored.add(active);
             }
             report.pivoted |= outcome.pivoted.bits();
-            residual = S::select(active, outcome.residual, residual);
+            count.saw(active, outcome.residual);
 
             let sound = outcome.update.finite() & !outcome.singular;
             if !(sound | !active).all() {
@@ -332,7 +331,7 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
                 break;
             }
         }
-        report.residual = largest(residual);
+        report.residual = count.residual();
         report.factorizations += factored.most(Counted::Factorizations);
         active = active & !settling.ending();
         if active.any() {

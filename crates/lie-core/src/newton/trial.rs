@@ -93,7 +93,7 @@ impl<S: Scalar> Trial<S> {
 
     #[cold]
     fn count_down(&mut self) {
-        self.left -= S::one();
+        self.left = S::select(self.resting, self.left - S::one(), self.left);
         self.resting = self.resting & S::zero().less(self.left);
     }
 

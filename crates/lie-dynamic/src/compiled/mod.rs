@@ -130,7 +130,7 @@ pub(crate) struct Compiled {
     /// Steps as one program.
     pub steps: MethodCache<Step>,
     /// What steps of methods with a solver do.
-    pub traces: MethodCache<Traces>,
+    pub traces: MethodCache<Traces, (Choice, String)>,
     /// Taylor series, by their order.
     pub series: MethodCache<SeriesCodes, usize>,
     /// Iterations over stages side by side, by their slopes and whether they are more than four.
@@ -159,6 +159,13 @@ impl<T, K: Clone + Eq + Hash> MethodCache<T, K> {
         let made = make().map(Arc::new);
         all.insert(choice.clone(), made.clone());
         made
+    }
+
+    /// All whose keys are such.
+    pub fn all_of(&self, is: impl Fn(&K) -> bool) -> Vec<Arc<T>> {
+        let all = self.all();
+        let found = all.iter().filter(|(key, _)| is(key));
+        found.filter_map(|(_, value)| value.clone()).collect()
     }
 
     /// That of a method where it was asked for before.

@@ -1,13 +1,17 @@
 //! All orders of a Taylor series as one program: the recurrence of the plan, its sums and what is between.
 
 use super::record::{Written, written};
-use super::{Countdown, Ready, Recorded, recording, source_numbers};
+use super::{Countdown, PATIENCE, Ready, Recorded, recording, source_numbers};
 use crate::code::{Code, Source};
 use crate::compiled::Compiled;
 use crate::system::Dynamic;
 use crate::system::series::ByCodes;
 use lie_runtime::Scalar;
 use std::sync::Arc;
+
+/// Where programs are made quickly, so many series are made before, and one for so many instructions.
+const QUICK: u32 = 64;
+const INSTRUCTIONS: u32 = 16;
 
 /// The program of all orders up to one.
 #[derive(Debug)]
@@ -62,7 +66,14 @@ impl<'a, S: Scalar> Development<'a, S> {
         }
         Some(Self {
             system,
-            wait: Countdown::new(system.values.hurry),
+            wait: match (
+                system.values.hurry,
+                system.values.machine.compiles_quickly(),
+            ) {
+                (true, _) => Countdown::new(0, 1),
+                (_, true) => Countdown::new(QUICK, INSTRUCTIONS),
+                (_, false) => Countdown::new(PATIENCE, 1),
+            },
             last: 0,
             ready: None,
             coefficients: Vec::new(),
@@ -89,7 +100,7 @@ impl<'a, S: Scalar> Development<'a, S> {
             }
         }
         if self.wait.left > 0 && self.ready.is_none() {
-            let mut wait = std::mem::replace(&mut self.wait, Countdown::new(true));
+            let mut wait = std::mem::replace(&mut self.wait, Countdown::new(0, 1));
             let over = wait.is_over(|| self.codes(last).map_or(0, |codes| codes.length()));
             self.wait = wait;
             if over {

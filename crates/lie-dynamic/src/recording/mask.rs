@@ -65,7 +65,10 @@ impl Mask for RecordedMask {
         self.ask(false)
     }
     fn surely_all(self) -> bool {
-        self == Self::Known(true)
+        match self {
+            Self::Known(is) => is,
+            Self::Number(register, _) => with_record(|record| record.is_checked(register)),
+        }
     }
     fn surely_none(self) -> bool {
         self == Self::Known(false)

@@ -1,8 +1,8 @@
-//! Steps and equations as one program. A step of an explicit method runs as one program: its kernels and the sums between them.
-//! So do the residual and the Jacobian of an equation that the plan does not fuse.
+//! Steps as programs. A step of an explicit method is one program, its kernels and the sums between them; of a method with a solver
+//! there are traces ([`trace`]); an iteration over stages side by side ([`stages`]) and a Taylor series ([`development`]) are programs too.
 //!
-//! Nobody writes these programs. The method makes one step, or the equation computes its residual, over a scalar that records its
-//! operations; the code of a kernel stands in place of its call. The operations and their order are those of the step kernel by
+//! Nobody writes these programs. The method makes one step over a scalar that records its operations; the code of a kernel stands in
+//! place of its call. The operations and their order are those of the step kernel by
 //! kernel, so the bits are the same. What depends on the step size alone is a program of its own, run once.
 
 mod development;
@@ -150,24 +150,29 @@ impl<S: Scalar> Dynamic<S> {
         let compiled = &self.values.compiled;
         let step = compiled.steps.cached(choice);
         let step = step.filter(|step| self.values.machine.compile(&step.codes).is_some());
-        let traces = compiled.traces.cached(choice);
-        usize::from(step.is_some()) + traces.map_or(0, |traces| traces.count())
+        let traces = compiled.traces.all_of(|(known, _)| known == choice);
+        let traces = traces.iter().map(|traces| traces.count());
+        usize::from(step.is_some()) + traces.sum::<usize>()
     }
 }
 
 /// How long a stepper waits for its program of the whole.
 struct Countdown {
     left: u32,
+    patience: u32,
+    each: u32,
     /// Whether the program was recorded, so that its length is known.
     recorded: bool,
 }
 
 impl Countdown {
-    /// `none` where there is nothing to wait for.
-    fn new(none: bool) -> Self {
+    /// For so many steps at first, 0 where there is nothing to wait for, and then as many as the program has of these instructions.
+    fn new(patience: u32, each: u32) -> Self {
         Self {
-            left: if none { 0 } else { PATIENCE },
-            recorded: none,
+            patience,
+            each,
+            left: patience,
+            recorded: patience == 0,
         }
     }
 
@@ -180,7 +185,7 @@ impl Countdown {
         self.left -= 1;
         if self.left == 0 && !self.recorded {
             self.recorded = true;
-            self.left = (record() as u32).saturating_sub(PATIENCE);
+            self.left = (record() as u32 / self.each).saturating_sub(self.patience);
         }
         self.left == 0
     }
@@ -257,7 +262,10 @@ impl<S: Scalar> AnyMethod<S, Dynamic<S>> for RecordedMethod<S> {
             system,
             choice: self.choice.clone(),
             step_size: [h],
-            wait: Countdown::new(at_once || !system.values.machine.compiles()),
+            wait: match at_once || !system.values.machine.compiles() {
+                true => Countdown::new(0, 1),
+                false => Countdown::new(PATIENCE, 1),
+            },
             whole: None,
             apart,
         };

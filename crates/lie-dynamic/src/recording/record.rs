@@ -69,6 +69,17 @@ impl Record {
         self.guards.as_mut().map(std::mem::take).unwrap_or_default()
     }
 
+    /// Whether a number was asked whether it is 1 in every lane, and is.
+    pub fn is_checked(&self, register: Register) -> bool {
+        let checked = Guard {
+            register,
+            expected: true,
+            every: true,
+        };
+        let guards = self.guards.as_deref().unwrap_or_default();
+        guards.contains(&checked)
+    }
+
     /// Asks something that values decide.
     pub fn ask(&mut self, guard: Guard) {
         match &mut self.guards {

@@ -1,6 +1,6 @@
 //! Steps of methods with a solver as programs. Which operations a step makes is decided by values: how many iterations it takes, whether
 //! it starts from a prediction. A trace is what one step did, with what was asked meanwhile; it is run for the next steps, and counts
-//! where all answers are the same. Elsewhere the method makes the step, and another trace may be taken.
+//! where all answers that skip something are the same. Elsewhere the method makes the step, and another trace may be taken.
 
 use super::record::{Guard, Written, followed, with_record};
 use super::recorded::reported;
@@ -17,7 +17,7 @@ use lie_runtime::scalar::Counted;
 use lie_runtime::scalar::{Mask, largest};
 use std::cell::{Cell, OnceCell};
 use std::ops::Range;
-use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// More traces of a step are not taken.
@@ -26,8 +26,6 @@ const MOST: usize = 12;
 const FIRST: u32 = 16;
 /// After so many that could not be written down no more are taken.
 const REFUSALS: u32 = 3;
-/// No trace is taken any more.
-const NEVER: u32 = u32::MAX;
 /// For so many steps at most none is tried after one that none was for.
 const LONGEST_REST: u32 = 32;
 
@@ -37,21 +35,29 @@ const REPORTED: usize = 4;
 /// What one step did.
 #[derive(Debug)]
 pub(crate) struct Trace {
-    newton: NewtonOptions,
     /// The second computes, as a vector, the state at the end, the memory of the stepper, and [what it reports](REPORTED); as a matrix
     /// whether the answers to all that is asked are the expected ones.
     codes: Arc<[Code]>,
     report: StepReport,
 }
 
-/// The traces of a method.
+/// The traces of a method with some options of its solver.
 #[derive(Debug)]
 pub(crate) struct Traces {
     all: Mutex<Vec<Arc<Trace>>>,
+    waiting: Mutex<Waiting>,
+    /// Whether more are taken.
+    open: AtomicBool,
+}
+
+/// When the next trace is taken.
+#[derive(Debug)]
+struct Waiting {
     /// Steps that none was for since the last one was taken, and how many are waited for.
-    missed: AtomicU32,
-    patience: AtomicU32,
-    refused: AtomicU32,
+    missed: u32,
+    patience: u32,
+    /// Those that could not be written down.
+    refused: u32,
 }
 
 impl Traces {
@@ -59,14 +65,21 @@ impl Traces {
     fn new(patience: u32) -> Self {
         Self {
             all: Mutex::default(),
-            missed: AtomicU32::new(0),
-            patience: AtomicU32::new(patience),
-            refused: AtomicU32::new(0),
+            waiting: Mutex::new(Waiting {
+                missed: 0,
+                patience,
+                refused: 0,
+            }),
+            open: AtomicBool::new(true),
         }
     }
 
     fn all(&self) -> MutexGuard<'_, Vec<Arc<Trace>>> {
         self.all.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn waiting(&self) -> MutexGuard<'_, Waiting> {
+        self.waiting.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// How many there are.
@@ -76,47 +89,51 @@ impl Traces {
 
     /// Counts a step that none was for; whether one is to be taken.
     pub fn is_due(&self) -> bool {
-        let patience = self.patience.load(Ordering::Relaxed);
-        if patience == NEVER || self.missed.fetch_add(1, Ordering::Relaxed) < patience {
+        if !self.open.load(Ordering::Relaxed) {
             return false;
         }
-        self.missed.store(0, Ordering::Relaxed);
-        let more = self.count() < MOST;
-        let next = if more {
-            patience.saturating_mul(2)
-        } else {
-            NEVER
-        };
-        self.patience.store(next, Ordering::Relaxed);
-        more
+        let mut waiting = self.waiting();
+        waiting.missed += 1;
+        let due = waiting.missed > waiting.patience;
+        if due {
+            waiting.missed = 0;
+            waiting.patience = waiting.patience.saturating_mul(2);
+        }
+        due
     }
 
     /// Counts one that could not be written down; after several no more are taken.
     pub fn refuse(&self) {
-        if self.refused.fetch_add(1, Ordering::Relaxed) + 1 == REFUSALS {
-            self.patience.store(NEVER, Ordering::Relaxed);
+        let mut waiting = self.waiting();
+        waiting.refused += 1;
+        if waiting.refused >= REFUSALS {
+            self.open.store(false, Ordering::Relaxed);
         }
     }
 
     /// Adds one, if it is not there.
     pub fn add(&self, trace: Trace) {
         let mut all = self.all();
-        let mut same = all.iter().filter(|known| known.newton == trace.newton);
-        if !same.any(|known| known.codes == trace.codes) {
+        if !all.iter().any(|known| known.codes == trace.codes) {
             all.push(Arc::new(trace));
+        }
+        if all.len() >= MOST {
+            self.open.store(false, Ordering::Relaxed);
         }
     }
 }
 
 impl<S: Scalar> Dynamic<S> {
     /// The traces of a method.
-    pub(super) fn traces(&self, choice: &Choice) -> Arc<Traces> {
+    pub(super) fn traces(&self, choice: &Choice, newton: &NewtonOptions) -> Arc<Traces> {
         let patience = match self.compiles_at_once(None) {
             true => FIRST,
             false => PATIENCE,
         };
         let all = &self.values.compiled.traces;
-        let made = all.get(choice, || Some(Traces::new(patience)));
+        // options have numbers, which are no keys
+        let key = (choice.clone(), format!("{newton:?}"));
+        let made = all.get(&key, || Some(Traces::new(patience)));
         made.unwrap_or_else(|| unreachable!("there are always some"))
     }
 }
@@ -140,6 +157,21 @@ pub(crate) enum Taken {
 }
 
 impl Trace {
+    /// The report of a step that gave these numbers.
+    fn report<S: Scalar>(&self, numbers: &[S]) -> StepReport {
+        // of the lane that misses least
+        let fewer = |number: S| (-largest(-number)) as u32;
+        let [all, plain, factored] = [1, 2, 3].map(|what| fewer(numbers[what]));
+        StepReport {
+            residual: largest(numbers[0]),
+            iterations: self.report.iterations.saturating_sub(all),
+            evaluations: self.report.evaluations.saturating_sub(all),
+            fixed_point: self.report.fixed_point.saturating_sub(plain),
+            factorizations: self.report.factorizations.saturating_sub(factored),
+            ..self.report
+        }
+    }
+
     /// Of a step from a state, with this memory.
     pub fn take(
         choice: &Choice,
@@ -189,27 +221,9 @@ impl Trace {
             };
         };
         Taken::Trace(Self {
-            newton: *newton,
             codes: Arc::from(written.codes(&vector, &answers)),
             report,
         })
-    }
-}
-
-impl Trace {
-    /// The report of a step that gave these numbers.
-    fn report<S: Scalar>(&self, numbers: &[S]) -> StepReport {
-        // of the lane that misses least
-        let fewer = |number: S| (-largest(-number)) as u32;
-        let [all, plain, factored] = [1, 2, 3].map(|what| fewer(numbers[what]));
-        StepReport {
-            residual: largest(numbers[0]),
-            iterations: self.report.iterations - all,
-            evaluations: self.report.evaluations - all,
-            fixed_point: self.report.fixed_point - plain,
-            factorizations: self.report.factorizations - factored,
-            ..self.report
-        }
     }
 }
 
@@ -246,7 +260,7 @@ pub(super) struct Followed<'a, S: Scalar> {
     pub system: &'a Dynamic<S>,
     pub h: [S; 1],
     traces: Vec<ReadyTrace<S>>,
-    /// How many of the traces of its method it knows, those of other options among them.
+    /// How many of the traces of its method it knows.
     known: usize,
     /// For how many steps none is tried after one that none was for, and how many of them are left.
     rest: u32,
@@ -289,11 +303,10 @@ impl<'a, S: Scalar> Followed<'a, S> {
         &mut self.last[places]
     }
 
-    /// Takes those that have come since, with these options.
-    pub fn take_from(&mut self, traces: &Traces, newton: &NewtonOptions) {
+    /// Takes those that have come since.
+    pub fn take_from(&mut self, traces: &Traces) {
         let all = traces.all();
-        let new = all[self.known..].iter();
-        for trace in new.filter(|trace| trace.newton == *newton) {
+        for trace in &all[self.known..] {
             self.add(Arc::clone(trace));
         }
         self.known = all.len();
@@ -317,7 +330,7 @@ impl<'a, S: Scalar> Followed<'a, S> {
         rests
     }
 
-    /// Makes a step by the first trace whose answers are the same; none if there is no such one.
+    /// Makes a step by the first trace that is for it; none if there is no such one.
     pub fn step(&mut self, mu: &mut [S]) -> Option<StepReport> {
         let places = self.places();
         for place in 0..self.traces.len() {
@@ -338,9 +351,11 @@ impl<'a, S: Scalar> Followed<'a, S> {
             std::mem::swap(&mut self.last, &mut self.results);
             mu.copy_from_slice(&self.last[..mu.len()]);
             let report = trace.report(&self.last[places.end..]);
-            // steps are often like the last one
-            self.traces[..=place].rotate_right(1);
-            self.rest = 0;
+            // steps are often like the last one; one that took fewer iterations may have a trace of its own
+            if report.iterations == trace.report.iterations {
+                self.traces[..=place].rotate_right(1);
+            }
+            self.rest /= 2;
             return Some(report);
         }
         if !self.traces.is_empty() {

@@ -79,9 +79,9 @@ impl<'a> TracedStepper<'a> {
         if !Stepper::carry(&mut apart, &mut |number| memory.push(*number)) {
             return Err(apart);
         }
-        let known = system.traces(choice);
+        let known = system.traces(choice, newton);
         let mut followed = Followed::new(system, h, &memory);
-        followed.take_from(&known, newton);
+        followed.take_from(&known);
         Ok(Self {
             choice: choice.clone(),
             newton: *newton,
@@ -148,7 +148,7 @@ impl<'a> TracedStepper<'a> {
             self.trace(mu);
         }
         if report.is_none() {
-            self.followed.take_from(&self.known, &self.newton);
+            self.followed.take_from(&self.known);
         }
         report
     }

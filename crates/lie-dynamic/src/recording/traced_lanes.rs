@@ -50,11 +50,10 @@ impl AnyMethod<Wide, Dynamic<Wide>> for TracedInLanes {
         let makes_steps = !members.is_empty() && members.len() == system.members.len();
         assert!(makes_steps, "the system does not take lanes by this method");
         let memory = vec![Wide::zero(); members[0].memory().len()];
-        let known = system.traces(&self.choice);
+        let known = system.traces(&self.choice, newton);
         let mut followed = Followed::new(system, h, &memory);
-        followed.take_from(&known, newton);
+        followed.take_from(&known);
         Box::new(TracedLanes {
-            newton: *newton,
             state: Vec::new(),
             known,
             followed,
@@ -66,7 +65,6 @@ impl AnyMethod<Wide, Dynamic<Wide>> for TracedInLanes {
 
 /// The stepper of a [`TracedInLanes`].
 struct TracedLanes<'a> {
-    newton: NewtonOptions,
     known: Arc<Traces>,
     followed: Followed<'a, Wide>,
     /// The systems alone, each in its lane; lanes beyond them have the first one.
@@ -158,14 +156,15 @@ impl Stepper<Wide> for TracedLanes<'_> {
             !sink.is_active(),
             "systems side by side show no motion on the group"
         );
-        if !self.followed.rests() {
-            self.remember();
-            if let Some(report) = self.followed.step(mu) {
-                return Ok(report);
-            }
+        if self.followed.rests() {
+            return self.one_by_one(mu);
+        }
+        self.remember();
+        if let Some(report) = self.followed.step(mu) {
+            return Ok(report);
         }
         let outcome = self.one_by_one(mu);
-        self.followed.take_from(&self.known, &self.newton);
+        self.followed.take_from(&self.known);
         outcome
     }
 }
