@@ -205,5 +205,5 @@ fn an_explicit_method_has_short_code() {
     let lines = |choices: &[Choice]| expand(&model, choices).lines().count();
     let (short, whole) = (lines(&[Choice::Rk4]), lines(&[]));
     println!("{short} lines for rk4, {whole} for all methods");
-    assert!(short <= 570 && whole > short + 150, "{short} {whole}");
+    assert!(short <= 590 && whole > short + 150, "{short} {whole}");
 }
