@@ -265,6 +265,8 @@ pub(super) struct Followed<'a, S: Scalar> {
     /// For how many steps none is tried after one that none was for, and how many of them are left.
     rest: u32,
     resting: u32,
+    /// Whether the trace of the last step made iterations that it did not need.
+    is_long: bool,
     /// What the last trace gave and what the next one gives: a state, what the stepper of a method would remember, and a report.
     last: Vec<S>,
     results: Vec<S>,
@@ -283,6 +285,7 @@ impl<'a, S: Scalar> Followed<'a, S> {
             known: 0,
             rest: 0,
             resting: 0,
+            is_long: false,
             results: last.clone(),
             last,
         }
@@ -314,8 +317,13 @@ impl<'a, S: Scalar> Followed<'a, S> {
 
     fn add(&mut self, trace: Arc<Trace>) {
         let ready = OnceCell::new();
-        self.traces.push(ReadyTrace { trace, ready });
+        self.traces.insert(0, ReadyTrace { trace, ready });
         (self.rest, self.resting) = (0, 0);
+    }
+
+    /// Whether the trace of the last step made iterations that it did not need; asked once for each.
+    pub fn was_long(&mut self) -> bool {
+        std::mem::take(&mut self.is_long)
     }
 
     /// Tries none for so many steps.
@@ -351,9 +359,11 @@ impl<'a, S: Scalar> Followed<'a, S> {
             std::mem::swap(&mut self.last, &mut self.results);
             mu.copy_from_slice(&self.last[..mu.len()]);
             let report = trace.report(&self.last[places.end..]);
-            // steps are often like the last one; one that took fewer iterations may have a trace of its own
-            if report.iterations == trace.report.iterations {
-                self.traces[..=place].rotate_right(1);
+            // steps are often like the last one; one that took fewer iterations is to have a trace of its own, which comes earlier
+            self.is_long = report.iterations < trace.report.iterations;
+            match self.is_long {
+                false => self.traces[..=place].rotate_right(1),
+                true => self.traces[place..].rotate_left(1),
             }
             self.rest /= 2;
             return Some(report);

@@ -143,6 +143,10 @@ impl<'a> TracedStepper<'a> {
             return None;
         }
         self.remember();
+        if self.followed.was_long() && self.known.is_due() {
+            self.trace(mu);
+            self.followed.take_from(&self.known);
+        }
         let report = self.followed.step(mu);
         if report.is_none() && self.known.is_due() {
             self.trace(mu);
