@@ -14,7 +14,7 @@ use lie_in_process::request::{Front, Request, method};
 use lie_in_process::spec::Spec;
 use lie_in_process::{Question, Work};
 use lie_program::protocol::{self, End, Obstacle, Start};
-use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError, PyValueError};
+use pyo3::exceptions::{PyKeyboardInterrupt, PyMemoryError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use std::io;
 use std::sync::Arc;
@@ -157,6 +157,16 @@ fn not_here(py: Python<'_>, command: &str) -> PyErr {
     method_error(py, text, &help)
 }
 
+/// Why there is no thread: mostly for want of memory for its stack.
+fn no_thread(error: io::Error) -> PyErr {
+    match error.kind() {
+        io::ErrorKind::WouldBlock | io::ErrorKind::OutOfMemory => {
+            PyMemoryError::new_err("there is no memory for a thread")
+        }
+        _ => error.into(),
+    }
+}
+
 /// Has something done by a thread of its own, without the interpreter's lock, while this one looks for Ctrl-C. That leaves the
 /// thread behind, which ends by itself.
 pub fn attended<R: Send + 'static>(
@@ -168,7 +178,10 @@ pub fn attended<R: Send + 'static>(
         // nobody waits for it after Ctrl-C
         let _ = sender.send(work());
     };
-    let thread = std::thread::Builder::new().stack_size(STACK).spawn(work)?;
+    let thread = std::thread::Builder::new()
+        .stack_size(STACK)
+        .spawn(work)
+        .map_err(no_thread)?;
     py.detach(move || {
         loop {
             match done.recv_timeout(PAUSE) {
@@ -306,7 +319,9 @@ pub fn converse<Q: Question>(
     };
     let last = match who {
         Who::Here => converse_here(work, question, &mut ears),
-        Who::Apart => converse::converse(work, question, Some(GRACE), &mut ears)?,
+        Who::Apart => {
+            converse::converse(work, question, Some(GRACE), &mut ears).map_err(no_thread)?
+        }
     };
     let end = match last {
         Last::Said(end) => end,
