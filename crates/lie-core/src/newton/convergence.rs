@@ -140,7 +140,7 @@ impl<S: Scalar> Settling<S> {
         (update, unknown): (&U, &U),
     ) -> S::Mask {
         self.ending = self.ending | converged;
-        if !self.quadratic && self.ending.surely_none() {
+        if !self.quadratic && !self.ending.any() {
             return self.ending;
         }
         let step = sizes.relative(update, unknown);

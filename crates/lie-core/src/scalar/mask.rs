@@ -29,10 +29,6 @@ pub trait Mask:
     fn surely_all(self) -> bool {
         self.all()
     }
-    /// True in no lane, likewise.
-    fn surely_none(self) -> bool {
-        !self.any()
-    }
     /// True in one lane.
     fn lane(self, index: usize) -> bool {
         self.bits() >> index & 1 == 1

@@ -70,9 +70,6 @@ impl Mask for RecordedMask {
             Self::Number(register, _) => with_record(|record| record.is_checked(register)),
         }
     }
-    fn surely_none(self) -> bool {
-        self == Self::Known(false)
-    }
 }
 
 impl BitAnd for RecordedMask {
