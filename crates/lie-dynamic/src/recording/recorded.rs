@@ -312,7 +312,7 @@ impl<const COUNT: usize> Scalar for Recorded<COUNT> {
             RecordedMask::Known(false) => no,
             number => {
                 let below = -number.number::<COUNT>();
-                Self::ternary(Instruction::Below, [below, yes, no])
+                Self::ternary(Instruction::Blend, [below, yes, no])
             }
         }
     }
