@@ -144,6 +144,40 @@ fn traces_are_not_run_where_a_step_is_another_one() {
     }
 }
 
+/// A declaration that lives long keeps the traces of some sets of options alone, and the others make the same steps.
+#[test]
+fn options_of_the_solver_do_not_pile_up() {
+    let choice = Choice::from_id("midpoint").unwrap();
+    let both = Both::new("so3_free_rigid_body.json");
+    let mu = both.compiled.initial_state().unwrap();
+    let run = |system: &Dynamic<f64>, tolerance: f64| {
+        let newton = NewtonOptions {
+            tolerance,
+            ..NewtonOptions::default()
+        };
+        let method = method(&choice, Tolerances::default());
+        let (mut stepper, mut mu) = (method.any_stepper(system, 0.05, &newton), mu.clone());
+        for _ in 0..60 {
+            stepper.step(&mut mu).unwrap();
+        }
+        mu
+    };
+    let mut counts = Vec::new();
+    for set in 0..24 {
+        let tolerance = 1.0 + f64::from(set);
+        assert_eq!(
+            run(&both.compiled, tolerance),
+            run(&both.interpreted, tolerance)
+        );
+        counts.push(both.compiled.programs(&choice));
+    }
+    assert!(
+        counts[15] > counts[7] && counts[7] > counts[0] && counts[0] > 0,
+        "{counts:?}"
+    );
+    assert_eq!(counts[15], counts[23], "{counts:?}");
+}
+
 fn explicit() -> Vec<Choice> {
     ["rk4", "rkmk4", "cf4", "splitting2", "splitting6"]
         .map(|id| Choice::from_id(id).unwrap())

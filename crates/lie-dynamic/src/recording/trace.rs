@@ -24,6 +24,8 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 const MOST: usize = 12;
 /// A trace is taken after so many steps that none was for, at first; for each after it twice as many.
 const FIRST: u32 = 16;
+/// So many sets of options of a solver have traces: more are not kept for the life of a declaration.
+const OPTIONS: usize = 16;
 /// After so many that could not be written down no more are taken.
 const REFUSALS: u32 = 3;
 /// For so many steps at most none is tried after one that none was for.
@@ -133,6 +135,11 @@ impl<S: Scalar> Dynamic<S> {
         let all = &self.values.compiled.traces;
         // options have numbers, which are no keys
         let key = (choice.clone(), format!("{newton:?}"));
+        if all.cached(&key).is_none() && all.all_of(|(known, _)| known == choice).len() >= OPTIONS {
+            let none = Traces::new(patience);
+            none.open.store(false, Ordering::Relaxed);
+            return Arc::new(none);
+        }
         let made = all.get(&key, || Some(Traces::new(patience)));
         made.unwrap_or_else(|| unreachable!("there are always some"))
     }
