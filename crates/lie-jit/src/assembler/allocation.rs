@@ -256,35 +256,23 @@ impl<'a> Allocation<'a> {
             Instruction::Less(a, b) => self.compare(false, [a, b], result),
             Instruction::LessEqual(a, b) => self.compare(true, [a, b], result),
             Instruction::Exchange(distance, a) => {
-                let of = self.load(a, &[]);
-                self.used(a);
-                let to = self.take(&[]);
-                self.do_it(Operation::Exchange {
+                self.of_one(a, result, |to, of| Operation::Exchange {
                     result,
                     distance,
                     to,
                     of,
                 });
-                self.give(result, to);
             }
             Instruction::Sqrt(a) => {
-                let of = self.load(a, &[]);
-                self.used(a);
-                let to = self.take(&[]);
-                self.do_it(Operation::Sqrt { result, to, of });
-                self.give(result, to);
+                self.of_one(a, result, |to, of| Operation::Sqrt { result, to, of });
             }
             Instruction::Shift(places, a) => {
-                let of = self.load(a, &[]);
-                self.used(a);
-                let to = self.take(&[]);
-                self.do_it(Operation::Shift {
+                self.of_one(a, result, |to, of| Operation::Shift {
                     result,
                     to,
                     of,
                     places,
                 });
-                self.give(result, to);
             }
             Instruction::Rare(function, a, b, c) => self.rare(function, [a, b, c], result),
             Instruction::Below(a, b, c) | Instruction::Blend(a, b, c) => {
@@ -314,6 +302,20 @@ impl<'a> Allocation<'a> {
             | Instruction::Stumpff(..)
             | Instruction::Phi(..) => self.call(instruction, result),
         }
+    }
+
+    /// What is made of one number, in a register.
+    fn of_one(
+        &mut self,
+        a: Register,
+        result: Register,
+        operation: impl FnOnce(Vector, Vector) -> Operation,
+    ) {
+        let of = self.load(a, &[]);
+        self.used(a);
+        let to = self.take(&[]);
+        self.do_it(operation(to, of));
+        self.give(result, to);
     }
 
     fn compare(&mut self, equal: bool, [a, b]: [Register; 2], result: Register) {
