@@ -264,6 +264,7 @@ impl Body<'_, '_> {
             }
             Instruction::Less(a, b) => self.compare(FloatCC::LessThan, at(a), at(b)),
             Instruction::LessEqual(a, b) => self.compare(FloatCC::LessThanOrEqual, at(a), at(b)),
+            Instruction::Larger(a, b) => self.larger(at(a), at(b)),
             // neighbours in a pair; of single numbers there are none
             Instruction::Exchange(1, a) if self.shape.number.is_vector() => {
                 let a = at(a);
@@ -287,14 +288,7 @@ impl Body<'_, '_> {
                 let (a, b, c) = (at(a), at(b), at(c));
                 let zero = self.constant(0.0);
                 let negative = self.builder.ins().fcmp(FloatCC::LessThan, a, zero);
-                if self.shape.number.is_vector() {
-                    let flags = MemFlags::new();
-                    let builder = &mut self.builder;
-                    let negative = builder.ins().bitcast(self.shape.number, flags, negative);
-                    builder.ins().bitselect(negative, b, c)
-                } else {
-                    self.builder.ins().select(negative, b, c)
-                }
+                self.choose(negative, b, c)
             }
             Instruction::Bits(what, a, b) => {
                 let [a, b] = [at(a), at(b)].map(|number| self.word_of(number));
@@ -337,13 +331,27 @@ impl Body<'_, '_> {
     fn compare(&mut self, condition: FloatCC, left: Value, right: Value) -> Value {
         let [one, zero] = [1.0, 0.0].map(|value| self.constant(value));
         let holds = self.builder.ins().fcmp(condition, left, right);
-        if !self.shape.number.is_vector() {
-            return self.builder.ins().select(holds, one, zero);
+        self.choose(holds, one, zero)
+    }
+
+    /// One number where a comparison holds, another one elsewhere.
+    fn choose(&mut self, holds: Value, yes: Value, no: Value) -> Value {
+        let number = self.shape.number;
+        if !number.is_vector() {
+            return self.builder.ins().select(holds, yes, no);
         }
-        let flags = MemFlags::new();
-        let builder = &mut self.builder;
-        let holds = builder.ins().bitcast(self.shape.number, flags, holds);
-        builder.ins().bitselect(holds, one, zero)
+        let ins = self.builder.ins();
+        let holds = ins.bitcast(number, MemFlags::new(), holds);
+        self.builder.ins().bitselect(holds, yes, no)
+    }
+
+    /// The larger one, the left where they are equal, no number where one is none.
+    fn larger(&mut self, left: Value, right: Value) -> Value {
+        let less = FloatCC::LessThan;
+        let [less, is_none] = [(less, left), (FloatCC::Unordered, right)]
+            .map(|(condition, with)| self.builder.ins().fcmp(condition, with, right));
+        let is_right = self.builder.ins().bor(less, is_none);
+        self.choose(is_right, right, left)
     }
 
     /// The bits of a number, or of both.

@@ -150,6 +150,10 @@ impl<'a> Body<'a> {
             Instruction::LessEqual(a, b) => {
                 self.operands(&[a, b]).f64_le().f64_convert_i32_u();
             }
+            Instruction::Larger(a, b) => {
+                self.operands(&[b, a, a, b]).f64_lt();
+                self.operands(&[b, b]).f64_ne().i32_or().select();
+            }
             // of one lane it is the same number
             Instruction::Exchange(_, a) => self.operand(a),
             Instruction::Power(a, b) => self.call("powf", &[a, b]),

@@ -102,6 +102,8 @@ pub enum Instruction {
     Less(Register, Register),
     /// 1 where `a <= b`, 0 elsewhere.
     LessEqual(Register, Register),
+    /// The larger of two, the first where they are equal; no number where one is none.
+    Larger(Register, Register),
     /// All Stumpff functions below an index, each in a register of its own.
     Stumpff(u8, Register),
     /// The same of the functions `phi_k`.
@@ -276,6 +278,7 @@ impl Instruction {
             Self::Below(a, b, c) => Self::Below(to(a), to(b), to(c)),
             Self::Less(a, b) => Self::Less(to(a), to(b)),
             Self::LessEqual(a, b) => Self::LessEqual(to(a), to(b)),
+            Self::Larger(a, b) => Self::Larger(to(a), to(b)),
             Self::Stumpff(count, a) => Self::Stumpff(count, to(a)),
             Self::Phi(count, a) => Self::Phi(count, to(a)),
             Self::Blend(a, b, c) => Self::Blend(to(a), to(b), to(c)),

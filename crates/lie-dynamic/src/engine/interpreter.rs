@@ -95,6 +95,7 @@ impl Instruction {
             }
             Self::Less(a, b) => S::select(at(a).less(at(b)), S::one(), S::zero()),
             Self::LessEqual(a, b) => S::select(at(a).less_equal(at(b)), S::one(), S::zero()),
+            Self::Larger(a, b) => at(a).max(at(b)),
             Self::Stumpff(..) | Self::Phi(..) => return None,
         })
     }

@@ -289,8 +289,7 @@ impl<const COUNT: usize> Scalar for Recorded<COUNT> {
     }
 
     fn max(self, other: Self) -> Self {
-        let larger = self.less(other) | !other.less_equal(other);
-        Self::select(larger, other, self)
+        Self::binary(Instruction::Larger, self, other)
     }
     fn less(self, other: Self) -> RecordedMask {
         Self::binary(Instruction::Less, self, other).mask()

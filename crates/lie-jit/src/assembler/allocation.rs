@@ -255,6 +255,14 @@ impl<'a> Allocation<'a> {
             }
             Instruction::Less(a, b) => self.compare(false, [a, b], result),
             Instruction::LessEqual(a, b) => self.compare(true, [a, b], result),
+            Instruction::Larger(a, b) => {
+                self.of_two([a, b], result, |to, [left, right]| Operation::Larger {
+                    result,
+                    to,
+                    left,
+                    right,
+                });
+            }
             Instruction::Exchange(distance, a) => {
                 self.of_one(a, result, |to, of| Operation::Exchange {
                     result,
@@ -318,14 +326,25 @@ impl<'a> Allocation<'a> {
         self.give(result, to);
     }
 
-    fn compare(&mut self, equal: bool, [a, b]: [Register; 2], result: Register) {
+    /// What is made of two numbers in registers, in another one.
+    fn of_two(
+        &mut self,
+        [a, b]: [Register; 2],
+        result: Register,
+        operation: impl FnOnce(Vector, [Vector; 2]) -> Operation,
+    ) {
         let left = self.load(a, &[]);
         let right = self.load(b, &[left]);
         let to = self.take(&[left, right]);
-        let one = self.constant(1.0);
         self.used(a);
         self.used(b);
-        self.do_it(Operation::Compare {
+        self.do_it(operation(to, [left, right]));
+        self.give(result, to);
+    }
+
+    fn compare(&mut self, equal: bool, operands: [Register; 2], result: Register) {
+        let one = self.constant(1.0);
+        self.of_two(operands, result, |to, [left, right]| Operation::Compare {
             result,
             equal,
             to,
@@ -333,7 +352,6 @@ impl<'a> Allocation<'a> {
             right,
             one,
         });
-        self.give(result, to);
     }
 
     /// What is done with the bits of a number and those of a constant.

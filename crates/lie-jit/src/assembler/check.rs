@@ -218,6 +218,21 @@ impl<'a> Followed<'a> {
                 self.are_read(instruction, &read)?;
                 self.hold(to, Held::Result(result))
             }
+            Operation::Larger {
+                result,
+                to,
+                left,
+                right,
+            } => {
+                let instruction = self.instruction(result)?;
+                let is_other = ![left, right].contains(&to);
+                if !(is_other && matches!(instruction, Instruction::Larger(..))) {
+                    return None;
+                }
+                let read = [self.at(left)?, self.at(right)?];
+                self.are_read(instruction, &read)?;
+                self.hold(to, Held::Result(result))
+            }
             Operation::Exchange {
                 result,
                 distance,

@@ -58,6 +58,8 @@ const BELOW: u8 = 0x82;
 
 /// The same, or equal.
 const LESS_EQUAL: u8 = 0x12;
+/// Where a number is none.
+const UNORDERED: u8 = 0x03;
 
 /// A vector instruction but for its operands.
 #[derive(Clone, Copy)]
@@ -260,6 +262,35 @@ impl Bytes {
         }
     }
 
+    /// `to` is the larger one, `left` where they are equal, no number where one is none; `to` is none of the operands.
+    pub fn larger(&mut self, width: Width, to: Vector, [left, right]: [Vector; 2]) {
+        let compare = Opcode {
+            behind: Some(UNORDERED),
+            ..Opcode::new(of_numbers(width), Table::Of0F, 0xC2)
+        };
+        let mask = if width == Width::Eight { MASK } else { to.0 };
+        self.vector(width, compare, mask, right.0, Read::Vector(right));
+        // the processor gives the second of two where one is no number, and where they are equal
+        self.choose(width, to, [right, left]);
+        let larger = Opcode::new(of_numbers(width), Table::Of0F, 0x5F);
+        self.vector(width, larger, to.0, right.0, Read::Vector(to));
+    }
+
+    /// `to = then` in the lanes of the mask, which AVX2 has in `to`, `otherwise` elsewhere.
+    fn choose(&mut self, width: Width, to: Vector, [then, otherwise]: [Vector; 2]) {
+        let choose = match width {
+            Width::Eight => Opcode {
+                mask: MASK,
+                ..Opcode::new(Prefix::Packed, Table::Of0F38, 0x65)
+            },
+            Width::Four | Width::One => Opcode {
+                behind: Some(to.0 << 4),
+                ..Opcode::new(Prefix::Packed, Table::Of0F3A, 0x4B)
+            },
+        };
+        self.vector(width, choose, to.0, otherwise.0, Read::Vector(then));
+    }
+
     /// The numbers whose places differ by xor with a distance, each in the place of the other; none of a distance that a register does
     /// not have.
     pub fn exchange(&mut self, width: Width, to: Vector, of: Vector, distance: u8) -> Option<()> {
@@ -400,21 +431,9 @@ impl Bytes {
             behind: Some(LESS),
             ..Opcode::new(of_numbers(width), Table::Of0F, 0xC2)
         };
-        if width == Width::Eight {
-            self.vector(width, compare, MASK, test.0, zero);
-            let choose = Opcode {
-                mask: MASK,
-                ..Opcode::new(Prefix::Packed, Table::Of0F38, 0x65)
-            };
-            self.vector(width, choose, to.0, otherwise.0, Read::Vector(then));
-        } else {
-            self.vector(width, compare, to.0, test.0, zero);
-            let choose = Opcode {
-                behind: Some(to.0 << 4),
-                ..Opcode::new(Prefix::Packed, Table::Of0F3A, 0x4B)
-            };
-            self.vector(width, choose, to.0, otherwise.0, Read::Vector(then));
-        }
+        let mask = if width == Width::Eight { MASK } else { to.0 };
+        self.vector(width, compare, mask, test.0, zero);
+        self.choose(width, to, [then, otherwise]);
     }
 }
 

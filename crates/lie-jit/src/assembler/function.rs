@@ -305,6 +305,9 @@ impl<'a> Writer<'a> {
                     self.bytes
                         .compare_numbers(width, to, [left, right], equal, one);
                 }
+                Operation::Larger {
+                    to, left, right, ..
+                } => self.bytes.larger(width, to, [left, right]),
                 Operation::Exchange {
                     distance, to, of, ..
                 } => self.bytes.exchange(width, to, of, distance)?,

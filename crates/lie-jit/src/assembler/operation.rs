@@ -265,6 +265,13 @@ pub enum Operation {
         right: Vector,
         one: Place,
     },
+    /// The larger one, as [`Instruction::Larger`] says. The register that it gives is none of its operands.
+    Larger {
+        result: Register,
+        to: Vector,
+        left: Vector,
+        right: Vector,
+    },
     /// The numbers of a register whose places differ by xor with a distance, each in the place of the other.
     Exchange {
         result: Register,

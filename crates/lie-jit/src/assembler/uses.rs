@@ -12,6 +12,7 @@ pub fn operands(instruction: &Instruction) -> SmallVec<[Register; 3]> {
         | Instruction::Div(a, b)
         | Instruction::Less(a, b)
         | Instruction::LessEqual(a, b)
+        | Instruction::Larger(a, b)
         | Instruction::Power(a, b)
         | Instruction::Atan2(a, b)
         | Instruction::Bits(_, a, b) => SmallVec::from_slice(&[a, b]),

@@ -275,6 +275,21 @@ fn choices(lines: &mut Lines, width: Width) {
                 bytes.compare_numbers(width, to, [left, right], equal, one);
             });
         }
+        for (to, operands) in [
+            (v, [Vector(1), Vector(2)]),
+            (Vector(1), [v, Vector(2)]),
+            (Vector(2), [Vector(1), v]),
+        ] {
+            let [left, right] = operands;
+            let [a, b, c] = [to, left, right].map(|of| vector(width, of));
+            let chosen = match width {
+                Width::Eight => format!("vcmppd k1, {c}, {c}, 3; vblendmpd {a}{{k1}}, {b}, {c}"),
+                _ => format!("vcmp{suffix} {a}, {c}, {c}, 3; vblendvpd {a}, {b}, {c}, {a}"),
+            };
+            lines.add(format!("{chosen}; vmax{suffix} {a}, {c}, {a}"), |bytes| {
+                bytes.larger(width, to, operands);
+            });
+        }
         let (text, suffix) = (vector(width, v), format!("vsqrt{suffix}"));
         let root = match width {
             Width::One => format!("{suffix} xmm1, {text}, {text}; {suffix} {text}, xmm2, xmm2"),

@@ -51,7 +51,8 @@ fn code(random: &mut Random, length: u32, calls: bool, matrix: bool) -> Code {
             0..10 => Instruction::Add(a, b),
             10..18 => Instruction::Sub(a, b),
             18..28 => Instruction::Mul(a, b),
-            28 => Instruction::Div(a, b),
+            28 if a % 2 == 0 => Instruction::Div(a, b),
+            28 => Instruction::Larger(a, b),
             29 if a % 2 == 0 => Instruction::Less(a, b),
             29 => Instruction::LessEqual(a, b),
             30..32 => Instruction::Neg(a),
@@ -287,6 +288,25 @@ fn changed(program: &Program, at: usize, layout: Layout) -> Vec<Program> {
                 left,
                 right,
                 one,
+            }),
+        ]),
+        Operation::Larger {
+            result,
+            left,
+            right,
+            to,
+        } => all.extend([
+            with(Operation::Larger {
+                result,
+                left: right,
+                right: left,
+                to,
+            }),
+            with(Operation::Larger {
+                result,
+                left,
+                right,
+                to: right,
             }),
         ]),
         Operation::Exchange {
