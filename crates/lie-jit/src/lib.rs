@@ -18,7 +18,9 @@ mod registers;
 
 use columns::ColumnKernels;
 use lanes::{Lanes, Wide};
-use lie_dynamic::{Code, Engine, Frame, Interpreted, Lengths, Machine, Targets, place_by_place};
+use lie_dynamic::{
+    Code, Engine, Frame, Interpreted, Lengths, Machine, SLICES, Targets, place_by_place,
+};
 use lie_runtime::Scalar;
 use make::Purpose;
 use memory::{Function, Memory};
@@ -175,7 +177,10 @@ impl Entry {
         let [vector, matrix] = targets;
         vector[..self.clear[0]].fill(S::zero());
         matrix[..self.clear[1]].fill(S::zero());
-        let mut table = frame.slices().map(|slice| slice.as_ptr().cast::<f64>());
+        let mut table = [std::ptr::null(); SLICES];
+        for (to, slice) in table.iter_mut().zip(frame.slices()) {
+            *to = slice.as_ptr().cast::<f64>();
+        }
         let mut vector = vector.as_mut_ptr().cast::<f64>();
         let mut matrix = matrix.as_mut_ptr().cast::<f64>();
         let lanes = size_of::<S>() / size_of::<f64>();

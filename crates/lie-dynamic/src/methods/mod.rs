@@ -83,14 +83,16 @@ pub fn at_defaults_over<S: Scalar>(choice: &Choice) -> Method<S> {
 ///
 /// Of double precision, so that all methods are compiled once, here, and not with every crate that asks for one.
 pub fn method(choice: &Choice, tolerances: Tolerances) -> Method {
-    match explicit(choice) {
-        Some(apart) => Box::new(RecordedMethod::patient(choice, apart)),
-        None if has_equation(choice) => Box::new(TracedMethod::new(
-            choice,
-            kernel_by_kernel(choice, tolerances),
-        )),
-        None => kernel_by_kernel(choice, tolerances),
+    if let Some(apart) = explicit(choice) {
+        return Box::new(RecordedMethod::patient(choice, apart));
     }
+    if !has_equation(choice) {
+        return kernel_by_kernel(choice, tolerances);
+    }
+    composition(choice, move |base| Some(method(base, tolerances))).unwrap_or_else(|| {
+        let apart = kernel_by_kernel(choice, tolerances);
+        Box::new(TracedMethod::new(choice, apart))
+    })
 }
 
 /// The method of a choice without programs of whole steps.
@@ -129,12 +131,8 @@ pub fn method_over<S: Scalar>(choice: &Choice, tolerances: Tolerances) -> Method
         ($choice:tt $value:tt compose) => {};
     }
     lie_core::for_each_method!(rows! {});
-    if let Choice::Compose(order, scheme, base) = choice {
-        return compose(*order, *scheme, base, move |base| {
-            method_over(base, tolerances)
-        });
-    }
-    unreachable!("{choice:?} is not made of the list of methods")
+    composition(choice, move |base| Some(method_over(base, tolerances)))
+        .unwrap_or_else(|| unreachable!("{choice:?} is not made of the list of methods"))
 }
 
 /// The methods without a solver whose steps depend on mu alone.
@@ -161,18 +159,10 @@ pub(crate) fn explicit<S: Scalar>(choice: &Choice) -> Option<Method<S>> {
         ($choice:tt $value:tt $($particular:ident)?) => {};
     }
     lie_core::for_each_method!(rows! {});
-    match choice {
-        Choice::Compose(order, scheme, base) => {
-            explicit::<S>(base)?;
-            Some(compose(*order, *scheme, base, |base| {
-                explicit(base).unwrap_or_else(|| unreachable!("the base was there before"))
-            }))
-        }
-        _ => None,
-    }
+    composition(choice, explicit)
 }
 
-/// The methods whose steps are equations, or compositions of such; none of others.
+/// The methods whose steps are equations; none of others.
 pub(crate) fn implicit<S: Scalar>(choice: &Choice) -> Option<Method<S>> {
     /// Returns the method of a row that has an equation, if it is the one that is asked for.
     macro_rules! rows {
@@ -195,20 +185,12 @@ pub(crate) fn implicit<S: Scalar>(choice: &Choice) -> Option<Method<S>> {
         return Some(method);
     }
     lie_core::for_each_method!(rows! {});
-    match choice {
-        Choice::Compose(order, scheme, base) => {
-            implicit::<S>(base)?;
-            Some(compose(*order, *scheme, base, |base| {
-                implicit(base).unwrap_or_else(|| unreachable!("the base was there before"))
-            }))
-        }
-        _ => None,
-    }
+    None
 }
 
-/// Whether [`implicit`] has a method.
+/// Whether [`implicit`] has a method, or the base of a composition.
 pub(crate) fn has_equation(choice: &Choice) -> bool {
-    implicit::<f64>(choice).is_some()
+    implicit::<f64>(choice.solved()).is_some()
 }
 
 /// Those that depend on what the system has, with one stage.
@@ -242,7 +224,10 @@ pub fn method_in_lanes(
         return Some(method);
     }
     if has_equation(choice) {
-        return Some(Box::new(TracedInLanes::new(choice)));
+        let traced = |choice: &Choice| -> Option<Method<<f64 as Scalar>::Wide>> {
+            Some(Box::new(TracedInLanes::new(choice)))
+        };
+        return composition(choice, traced).or_else(|| traced(choice));
     }
     let claims = explicit::<f64>(choice)?.claims();
     Some(Box::new(RecordedMethod::at_once(choice, claims)))
@@ -297,30 +282,31 @@ fn isospectral2<S: Scalar>(claims: Claims) -> Method<S> {
     })
 }
 
-/// A composition of steps of its base, which `make` makes.
-fn compose<S: Scalar>(
-    order: u32,
-    scheme: Scheme,
-    base: &Choice,
-    make: impl Fn(&Choice) -> Method<S> + 'static,
-) -> Method<S> {
+/// The composition of a choice, of steps of its base, which `make` makes; none of another method, nor where that makes none.
+fn composition<S: Scalar>(
+    choice: &Choice,
+    make: impl Fn(&Choice) -> Option<Method<S>> + 'static,
+) -> Option<Method<S>> {
+    let Choice::Compose(order, scheme, base) = choice.clone() else {
+        return None;
+    };
     let claims = Claims {
         order,
-        ..make(base).claims()
+        ..make(&base)?.claims()
     };
-    let base = base.clone();
     let choose = move |_: &Dynamic<S>| -> Method<S> {
-        let base = Base(make(&base));
+        let base = make(&base).unwrap_or_else(|| unreachable!("the base was there before"));
+        let base = Base(base);
         match order {
             4 => Box::new(m::Compose4::new(base).scheme(scheme)),
             6 => Box::new(m::Compose6::new(base).scheme(scheme)),
             _ => Box::new(m::Compose8::new(base).scheme(scheme)),
         }
     };
-    Box::new(WithClaims {
+    Some(Box::new(WithClaims {
         claims,
         choose: Box::new(choose),
-    })
+    }))
 }
 
 fn splitting<S: Scalar, const ORDER: u32>(

@@ -150,7 +150,10 @@ impl<S: Scalar> Dynamic<S> {
         let compiled = &self.values.compiled;
         let step = compiled.steps.cached(choice);
         let step = step.filter(|step| self.values.machine.compile(&step.codes).is_some());
-        let traces = compiled.traces.all_of(|(known, _)| known == choice);
+        // a composition has those of its base
+        let traces = compiled
+            .traces
+            .all_of(|(known, _)| known == choice.solved());
         let traces = traces.iter().map(|traces| traces.count());
         usize::from(step.is_some()) + traces.sum::<usize>()
     }
