@@ -1,6 +1,6 @@
 //! Truth values of what is written down.
 
-use super::record::{Guard, with_record};
+use super::record::with_record;
 use super::recorded::Recorded;
 use crate::code::Register;
 use lie_runtime::Scalar;
@@ -33,12 +33,7 @@ impl RecordedMask {
         match self {
             Self::Known(is) => is,
             Self::Number(register, expected) => {
-                let guard = Guard {
-                    register,
-                    expected,
-                    every,
-                };
-                with_record(|record| record.ask(guard));
+                with_record(|record| record.ask(register, expected, every));
                 expected
             }
         }

@@ -6,6 +6,7 @@
 //! kernel, so the bits are the same. What depends on the step size alone is a program of its own, run once.
 
 mod development;
+mod followed;
 mod mask;
 mod program;
 mod record;
@@ -14,6 +15,8 @@ mod stages;
 mod trace;
 mod traced;
 mod traced_lanes;
+mod traces;
+mod tree;
 
 use crate::code::{Code, Source};
 use crate::compiled::{Compiled, Values};
@@ -34,9 +37,9 @@ pub(crate) use development::{Development, SeriesCodes};
 pub(crate) use program::program;
 pub(crate) use recorded::Recorded;
 pub(crate) use stages::StageCodes;
-pub(crate) use trace::Traces;
 pub(crate) use traced::TracedMethod;
 pub(crate) use traced_lanes::TracedInLanes;
+pub(crate) use traces::Traces;
 
 /// Steps that a stepper makes kernel by kernel before it compiles a program of the whole; one whose program has more instructions
 /// makes as many steps as that. So many steps gain more than the compilation costs.

@@ -11,7 +11,7 @@ use std::collections::HashMap;
 const LONGEST: usize = 20_000;
 
 /// What is written down. Numbers go by their order of coming into being.
-#[derive(Default)]
+#[derive(Debug, Default)]
 pub(super) struct Record {
     /// For each number its source, or none of a result.
     sources: Vec<Option<Source>>,
@@ -32,6 +32,8 @@ pub(super) struct Record {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Guard {
     pub register: Register,
+    /// How many numbers there were.
+    pub at: Register,
     pub expected: bool,
     pub every: bool,
 }
@@ -71,17 +73,18 @@ impl Record {
 
     /// Whether a number was asked whether it is 1 in every lane, and is.
     pub fn is_checked(&self, register: Register) -> bool {
-        let checked = Guard {
-            register,
-            expected: true,
-            every: true,
-        };
-        let guards = self.guards.as_deref().unwrap_or_default();
-        guards.contains(&checked)
+        let mut guards = self.guards.iter().flatten();
+        guards.any(|guard| guard.register == register && guard.expected && guard.every)
     }
 
-    /// Asks something that values decide.
-    pub fn ask(&mut self, guard: Guard) {
+    /// Asks of a number whether it is 1 in every lane, or in any, which values decide; as expected it is.
+    pub fn ask(&mut self, register: Register, expected: bool, every: bool) {
+        let guard = Guard {
+            register,
+            at: self.sources.len() as Register,
+            expected,
+            every,
+        };
         match &mut self.guards {
             Some(guards) => guards.push(guard),
             None => self.branched = true,
@@ -99,9 +102,13 @@ impl Record {
     /// The first number that the instruction gives.
     pub fn push(&mut self, instruction: Instruction) -> Register {
         self.branched |= self.instructions.len() == LONGEST;
-        if self.branched {
-            return 0;
+        match self.branched {
+            true => 0,
+            false => self.write(instruction),
         }
+    }
+
+    fn write(&mut self, instruction: Instruction) -> Register {
         let first = self.sources.len() as Register;
         self.instructions.push((instruction, first));
         let count = instruction.width() as usize;
@@ -139,6 +146,70 @@ impl Record {
         let both = needed.iter().zip(&varies);
         both.map(|(needed, varies)| needed.get().then(|| varies.get()))
             .collect()
+    }
+
+    /// The results that were there when there were so many numbers, and are needed after it for these; without those that depend on no
+    /// argument.
+    fn crossing(&self, at: Register, stored: &[Register]) -> Vec<Register> {
+        let needed = self.needed(stored);
+        let found = RefCell::new(Vec::new());
+        let take = |number: Register| {
+            let place = number as usize;
+            if number < at && self.sources[place].is_none() && needed[place] == Some(true) {
+                found.borrow_mut().push(number);
+            }
+            number
+        };
+        for number in stored {
+            take(*number);
+        }
+        let later = self.instructions.iter();
+        for (instruction, first) in later.skip_while(|(_, first)| *first < at) {
+            let numbers = *first as usize..(first + instruction.width()) as usize;
+            if needed[numbers].iter().any(Option::is_some) {
+                instruction.moved(&take);
+            }
+        }
+        found.into_inner()
+    }
+
+    /// The same with some results from sources.
+    fn given(&self, given: &[(Register, Source)]) -> Self {
+        let mut sources = self.sources.clone();
+        for (number, source) in given {
+            sources[*number as usize] = Some(*source);
+        }
+        let is_needed = |(instruction, first): &&(Instruction, Register)| {
+            let numbers = *first as usize..(first + instruction.width()) as usize;
+            sources[numbers].contains(&None)
+        };
+        let instructions = self.instructions.iter().filter(is_needed);
+        Self {
+            instructions: instructions.copied().collect(),
+            known: self.known.clone(),
+            sources,
+            ..Self::default()
+        }
+    }
+
+    /// 1 in the lanes where all answers are the expected ones.
+    fn answers(&mut self, guards: &[Guard]) -> Register {
+        let one = self.source(Source::Number(Number::Exact(1.0)));
+        let mut guards = guards.to_vec();
+        guards.sort_by_key(|guard| guard.register);
+        guards.dedup_by_key(|guard| (guard.register, guard.expected));
+        let mut product = None;
+        for guard in guards {
+            let number = match guard.expected {
+                true => guard.register,
+                false => self.write(Instruction::Sub(one, guard.register)),
+            };
+            product = Some(match product {
+                Some(all) => self.write(Instruction::Mul(all, number)),
+                None => number,
+            });
+        }
+        product.unwrap_or(one)
     }
 
     /// The codes that store these numbers, without what they do not need: first what depends on no argument and is run once for
@@ -267,6 +338,7 @@ fn key(source: Source) -> (u8, u64, u64) {
 }
 
 /// What was written down.
+#[derive(Debug)]
 pub(crate) struct Written(Record);
 
 /// Writes down what is done in `run`. None where it gives none, or where values decide what is done.
@@ -299,6 +371,26 @@ fn written_in<T>(record: Record, run: impl FnOnce() -> Option<T>) -> Option<(T, 
 }
 
 impl Written {
+    /// The codes of a part of it, which has some results from sources: the second stores these as a vector, as a matrix whether the
+    /// answers to what was asked are the expected ones, and another number.
+    pub fn part(
+        &self,
+        given: &[(Register, Source)],
+        vector: &[Register],
+        guards: &[Guard],
+        asked: Option<Register>,
+    ) -> [Code; 2] {
+        let mut record = self.0.given(given);
+        let answers = record.answers(guards);
+        let matrix: Vec<Register> = [answers].into_iter().chain(asked).collect();
+        record.codes([vector, &matrix])
+    }
+
+    /// The results that were there when there were so many numbers, and are needed after it for these.
+    pub fn crossing(&self, at: Register, stored: &[Register]) -> Vec<Register> {
+        self.0.crossing(at, stored)
+    }
+
     /// The numbers of which it was asked whether they are finite.
     pub fn finiteness_tests(&self) -> Vec<Recorded> {
         let asked = self.0.asked.iter();

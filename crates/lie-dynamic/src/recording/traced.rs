@@ -1,6 +1,8 @@
 //! The stepper of a method with a solver that runs its steps by traces, and makes the others kernel by kernel.
 
-use super::trace::{Followed, Taken, Trace, Traces};
+use super::followed::Followed;
+use super::trace::{Taken, Trace};
+use super::traces::Traces;
 use crate::methods::Method;
 use crate::system::Dynamic;
 use lie_codegen::methods::Choice;

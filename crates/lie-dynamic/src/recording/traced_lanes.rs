@@ -1,7 +1,8 @@
 //! Systems side by side by traces: where no trace is for all of them, each makes its step alone.
 
-use super::trace::{Followed, Traces};
+use super::followed::Followed;
 use super::traced::TracedStepper;
+use super::traces::Traces;
 use crate::methods::{Method, kernel_by_kernel};
 use crate::system::Dynamic;
 use lie_codegen::methods::Choice;

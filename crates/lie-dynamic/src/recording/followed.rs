@@ -1,0 +1,170 @@
+//! Steps that are run by traces, and what these carry from step to step.
+
+use super::Ready;
+use super::trace::REPORTED;
+use super::traces::Traces;
+use super::tree::{Next, Tree};
+use crate::system::Dynamic;
+use lie_runtime::Scalar;
+use lie_runtime::methods::StepReport;
+use lie_runtime::scalar::{Mask, largest};
+use std::cell::OnceCell;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// For so many steps at most none is tried after one that none was for.
+const LONGEST_REST: u32 = 32;
+
+/// The steps of a system by traces, and what these carry from step to step.
+pub(super) struct Followed<'a, S: Scalar> {
+    pub system: &'a Dynamic<S>,
+    pub h: [S; 1],
+    tree: Arc<Tree>,
+    /// Each part is made ready when it is reached; `None` where the engine makes no machine.
+    ready: Vec<OnceCell<Option<Ready<S>>>>,
+    /// What the parts of a step have given to later ones.
+    between: Vec<S>,
+    /// For how many steps none is tried after one that none was for, and how many of them are left.
+    rest: u32,
+    resting: u32,
+    /// Whether the trace of the last step made iterations that it did not need.
+    is_long: bool,
+    /// What the last trace gave and what the next one gives: a state, what the stepper of a method would remember, and a report.
+    last: Vec<S>,
+    results: Vec<S>,
+}
+
+impl<'a, S: Scalar> Followed<'a, S> {
+    /// Of a stepper that remembers these numbers.
+    pub fn new(system: &'a Dynamic<S>, h: S, memory: &[S]) -> Self {
+        let size = system.values.compiled.plan.dimension();
+        let mut last = vec![S::zero(); size + memory.len() + REPORTED];
+        last[size..][..memory.len()].copy_from_slice(memory);
+        Self {
+            system,
+            h: [h],
+            tree: Arc::default(),
+            ready: Vec::new(),
+            between: Vec::new(),
+            rest: 0,
+            resting: 0,
+            is_long: false,
+            results: last.clone(),
+            last,
+        }
+    }
+
+    fn places(&self) -> Range<usize> {
+        self.system.values.compiled.plan.dimension()..self.last.len() - REPORTED
+    }
+
+    /// What the stepper of a method would remember.
+    pub fn memory(&self) -> &[S] {
+        &self.last[self.places()]
+    }
+
+    /// The same, to be written.
+    pub fn memory_mut(&mut self) -> &mut [S] {
+        let places = self.places();
+        &mut self.last[places]
+    }
+
+    /// Takes those that have come since.
+    pub fn take_from(&mut self, traces: &Traces) {
+        let tree = traces.tree();
+        if Arc::ptr_eq(&tree, &self.tree) {
+            return;
+        }
+        self.ready = tree.parts.iter().map(|_| OnceCell::new()).collect();
+        self.between.resize(tree.between, S::zero());
+        self.tree = tree;
+        (self.rest, self.resting) = (0, 0);
+    }
+
+    /// Whether the trace of the last step made iterations that it did not need; asked once for each.
+    pub fn was_long(&mut self) -> bool {
+        std::mem::take(&mut self.is_long)
+    }
+
+    /// Tries none for so many steps.
+    pub fn rest(&mut self, steps: u32) {
+        self.resting = steps;
+    }
+
+    /// Counts a step; whether none is tried.
+    pub fn rests(&mut self) -> bool {
+        let rests = self.resting > 0;
+        self.resting = self.resting.saturating_sub(1);
+        rests
+    }
+
+    /// Makes a step by the trace that is for it; none if there is no such one.
+    pub fn step(&mut self, mu: &mut [S]) -> Option<StepReport> {
+        let made = self.follow(mu);
+        match made {
+            Some(_) => self.rest /= 2,
+            None if self.ready.is_empty() => {}
+            None => {
+                self.rest = (2 * self.rest + 1).min(LONGEST_REST);
+                self.resting = self.rest;
+            }
+        }
+        made
+    }
+
+    fn follow(&mut self, mu: &mut [S]) -> Option<StepReport> {
+        let (places, tree) = (self.places(), &self.tree);
+        let mut part = tree.parts.first()?;
+        let mut ready = self.ready.first()?;
+        loop {
+            let [h] = self.h;
+            let made = ready.get_or_init(|| Ready::new(self.system, &part.codes, h, false));
+            let (ready_part, memory) = (made.as_ref()?, &self.last[places.clone()]);
+            let (before, to) = match part.next {
+                Next::End(_) => (&self.between[..], &mut self.results[..]),
+                Next::Question { from, .. } => {
+                    let (before, to) = self.between.split_at_mut(from);
+                    (&*before, to)
+                }
+            };
+            let arguments = [&*mu, memory, before, &[]];
+            let values = &self.system.values;
+            let frame = values.frame(arguments, &ready_part.of_step, &self.h);
+            let mut answers = [S::zero(); 2];
+            ready_part.machine.run(1, &frame, [to, &mut answers]);
+            let [expected, asked] = answers.map(|answer| S::ratio(1.0, 2.0).less(answer));
+            if !expected.all() {
+                return None;
+            }
+            match &part.next {
+                Next::Question { every, parts, .. } => {
+                    let is = if *every { asked.all() } else { asked.any() };
+                    let place = parts[usize::from(is)];
+                    (part, ready) = (&tree.parts[place], &self.ready[place]);
+                }
+                Next::End(most) => {
+                    std::mem::swap(&mut self.last, &mut self.results);
+                    mu.copy_from_slice(&self.last[..mu.len()]);
+                    let report = reported(most, &self.last[places.end..]);
+                    self.is_long = report.iterations < most.iterations;
+                    return Some(report);
+                }
+            }
+        }
+    }
+}
+
+/// The report of a step that gave these numbers, by a trace that made at most so much.
+fn reported<S: Scalar>(most: &StepReport, numbers: &[S]) -> StepReport {
+    // of the lane that misses least
+    let fewer = |number: S| (-largest(-number)) as u32;
+    let [all, plain, factored] = [1, 2, 3].map(|what| fewer(numbers[what]));
+    StepReport {
+        residual: largest(numbers[0]),
+        iterations: most.iterations.saturating_sub(all),
+        evaluations: most.evaluations.saturating_sub(all),
+        fixed_point: most.fixed_point.saturating_sub(plain),
+        factorizations: most.factorizations.saturating_sub(factored),
+        ..*most
+    }
+}

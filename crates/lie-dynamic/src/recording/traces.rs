@@ -1,0 +1,135 @@
+//! The traces of a method that there are by now, and when another one is taken.
+
+use super::PATIENCE;
+use super::trace::Trace;
+use super::tree::Tree;
+use crate::system::Dynamic;
+use lie_codegen::methods::Choice;
+use lie_runtime::Scalar;
+use lie_runtime::newton::NewtonOptions;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+/// More traces of a step are not taken.
+const MOST: usize = 16;
+/// A trace is taken after so many steps that none was for, at first; for each after it twice as many.
+const FIRST: u32 = 16;
+/// So many sets of options of a solver have traces: more are not kept for the life of a declaration.
+const OPTIONS: usize = 16;
+/// After so many that could not be written down no more are taken.
+const REFUSALS: u32 = 3;
+
+/// The traces of a method with some options of its solver.
+#[derive(Debug)]
+pub(crate) struct Traces {
+    known: Mutex<Known>,
+    waiting: Mutex<Waiting>,
+    /// Whether more are taken.
+    open: AtomicBool,
+}
+
+/// Those there are, and the same as one tree.
+#[derive(Debug, Default)]
+struct Known {
+    all: Vec<Trace>,
+    tree: Arc<Tree>,
+}
+
+/// When the next trace is taken.
+#[derive(Debug)]
+struct Waiting {
+    /// Steps that none was for since the last one was taken, and how many are waited for.
+    missed: u32,
+    patience: u32,
+    /// Those that could not be written down.
+    refused: u32,
+}
+
+impl Traces {
+    /// None yet; the first is waited for so many steps.
+    fn new(patience: u32) -> Self {
+        Self {
+            known: Mutex::default(),
+            waiting: Mutex::new(Waiting {
+                missed: 0,
+                patience,
+                refused: 0,
+            }),
+            open: AtomicBool::new(true),
+        }
+    }
+
+    fn known(&self) -> MutexGuard<'_, Known> {
+        self.known.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// All that there are by now.
+    pub(super) fn tree(&self) -> Arc<Tree> {
+        Arc::clone(&self.known().tree)
+    }
+
+    fn waiting(&self) -> MutexGuard<'_, Waiting> {
+        self.waiting.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.known().all.len()
+    }
+
+    /// Counts a step that none was for; whether one is to be taken.
+    pub fn is_due(&self) -> bool {
+        if !self.open.load(Ordering::Relaxed) {
+            return false;
+        }
+        let mut waiting = self.waiting();
+        waiting.missed += 1;
+        let due = waiting.missed > waiting.patience;
+        if due {
+            waiting.missed = 0;
+            waiting.patience = waiting.patience.saturating_mul(2);
+        }
+        due
+    }
+
+    /// Counts one that could not be written down; after several no more are taken.
+    pub fn refuse(&self) {
+        let mut waiting = self.waiting();
+        waiting.refused += 1;
+        if waiting.refused >= REFUSALS {
+            self.open.store(false, Ordering::Relaxed);
+        }
+    }
+
+    /// Adds one, if it is not there.
+    pub fn add(&self, trace: Trace) {
+        let mut known = self.known();
+        if known.all.iter().all(|other| trace.parts_from(other)) {
+            known.all.push(trace);
+            known.tree = Arc::new(Tree::new(&known.all, &known.tree));
+        }
+        if known.all.len() >= MOST {
+            self.open.store(false, Ordering::Relaxed);
+        }
+    }
+}
+
+impl<S: Scalar> Dynamic<S> {
+    /// The traces of a method.
+    pub(super) fn traces(&self, choice: &Choice, newton: &NewtonOptions) -> Arc<Traces> {
+        let patience = match self.compiles_at_once(None) {
+            true => FIRST,
+            false => PATIENCE,
+        };
+        let all = &self.values.compiled.traces;
+        // options have numbers, which are no keys
+        let key = (choice.clone(), format!("{newton:?}"));
+        if all.cached(&key).is_none() && all.all_of(|(known, _)| known == choice).len() >= OPTIONS {
+            let none = Traces::new(patience);
+            none.open.store(false, Ordering::Relaxed);
+            return Arc::new(none);
+        }
+        let made = all.get(&key, || Some(Traces::new(patience)));
+        made.unwrap_or_else(|| unreachable!("there are always some"))
+    }
+}
