@@ -129,8 +129,8 @@ pub(crate) struct Compiled {
     pub casimir_degrees: Vec<Option<u32>>,
     /// Steps as one program.
     pub steps: MethodCache<Step>,
-    /// What steps of methods with a solver do.
-    pub traces: MethodCache<Traces, (Choice, String)>,
+    /// What steps of methods with a solver do, for one number alone or for lanes, by the options of the solver.
+    pub traces: MethodCache<Traces, ((Choice, bool), String)>,
     /// Taylor series, by their order.
     pub series: MethodCache<SeriesCodes, usize>,
     /// Iterations over stages side by side, by their slopes and whether they are more than four.

@@ -1,7 +1,7 @@
 //! Steps that are run by traces, and what these carry from step to step.
 
 use super::Ready;
-use super::trace::REPORTED;
+use super::trace::{REPORTED, Taken};
 use super::traces::Traces;
 use super::tree::{Next, Tree};
 use crate::system::Dynamic;
@@ -29,6 +29,8 @@ pub(super) struct Followed<'a, S: Scalar> {
     resting: u32,
     /// Whether the trace of the last step made iterations that it did not need.
     is_long: bool,
+    /// The first lane that the last one was not for that was tried in vain.
+    missed: usize,
     /// What the last trace gave and what the next one gives: a state, what the stepper of a method would remember, and a report.
     last: Vec<S>,
     results: Vec<S>,
@@ -49,6 +51,7 @@ impl<'a, S: Scalar> Followed<'a, S> {
             rest: 0,
             resting: 0,
             is_long: false,
+            missed: 0,
             results: last.clone(),
             last,
         }
@@ -81,9 +84,9 @@ impl<'a, S: Scalar> Followed<'a, S> {
         (self.rest, self.resting) = (0, 0);
     }
 
-    /// Whether the trace of the last step made iterations that it did not need; asked once for each.
-    pub fn was_long(&mut self) -> bool {
-        std::mem::take(&mut self.is_long)
+    /// The first lane that the last trace was not for that was tried in vain.
+    pub fn missed(&self) -> usize {
+        self.missed
     }
 
     /// Tries none for so many steps.
@@ -98,18 +101,32 @@ impl<'a, S: Scalar> Followed<'a, S> {
         rests
     }
 
-    /// Makes a step by the trace that is for it; none if there is no such one.
-    pub fn step(&mut self, mu: &mut [S]) -> Option<StepReport> {
-        let made = self.follow(mu);
-        match made {
-            Some(_) => self.rest /= 2,
-            None if self.ready.is_empty() => {}
-            None => {
-                self.rest = (2 * self.rest + 1).min(LONGEST_REST);
-                self.resting = self.rest;
-            }
+    /// Makes a step by the trace that is for it, none if there is no such one. Where that is due `take` takes another one of the step.
+    pub fn step(
+        &mut self,
+        known: &Traces,
+        mu: &mut [S],
+        take: impl Fn(&Self, &[S]) -> Taken,
+    ) -> Option<StepReport> {
+        // steps are often like the last one
+        if std::mem::take(&mut self.is_long) && known.is_due() {
+            known.add(take(self, mu));
+            self.take_from(known);
         }
-        made
+        let made = self.follow(mu);
+        if made.is_some() {
+            self.rest /= 2;
+            return made;
+        }
+        if !self.ready.is_empty() {
+            self.rest = (2 * self.rest + 1).min(LONGEST_REST);
+            self.resting = self.rest;
+        }
+        if known.is_due() {
+            known.add(take(self, mu));
+        }
+        self.take_from(known);
+        None
     }
 
     fn follow(&mut self, mu: &mut [S]) -> Option<StepReport> {
@@ -134,6 +151,7 @@ impl<'a, S: Scalar> Followed<'a, S> {
             ready_part.machine.run(1, &frame, [to, &mut answers]);
             let [expected, asked] = answers.map(|answer| S::ratio(1.0, 2.0).less(answer));
             if !expected.all() {
+                self.missed = (!expected).bits().trailing_zeros() as usize;
                 return None;
             }
             match &part.next {

@@ -16,6 +16,16 @@ pub(crate) enum RecordedMask {
 }
 
 impl RecordedMask {
+    /// The same, known where the record is only for one answer.
+    pub(super) fn settled(self) -> Self {
+        match self {
+            Self::Number(register, _) => {
+                with_record(|record| record.answer(register)).map_or(self, Self::Known)
+            }
+            known => known,
+        }
+    }
+
     /// As a number.
     pub(super) fn number<const LANES: usize>(self) -> Recorded<LANES> {
         match self {
@@ -30,7 +40,7 @@ impl RecordedMask {
 
     /// Asks whether it is true in every lane, or in any.
     fn ask(self, every: bool) -> bool {
-        match self {
+        match self.settled() {
             Self::Known(is) => is,
             Self::Number(register, expected) => {
                 with_record(|record| record.ask(register, expected, every));
@@ -60,17 +70,14 @@ impl Mask for RecordedMask {
         self.ask(false)
     }
     fn surely_all(self) -> bool {
-        match self {
-            Self::Known(is) => is,
-            Self::Number(register, _) => with_record(|record| record.is_checked(register)),
-        }
+        self.settled() == Self::Known(true)
     }
 }
 
 impl BitAnd for RecordedMask {
     type Output = Self;
     fn bitand(self, other: Self) -> Self {
-        match (self, other) {
+        match (self.settled(), other.settled()) {
             (Self::Known(true), mask) | (mask, Self::Known(true)) => mask,
             (Self::Known(false), _) | (_, Self::Known(false)) => Self::Known(false),
             (one, other) if one == other => one,
@@ -82,7 +89,7 @@ impl BitAnd for RecordedMask {
 impl BitOr for RecordedMask {
     type Output = Self;
     fn bitor(self, other: Self) -> Self {
-        match (self, other) {
+        match (self.settled(), other.settled()) {
             (Self::Known(false), mask) | (mask, Self::Known(false)) => mask,
             (Self::Known(true), _) | (_, Self::Known(true)) => Self::Known(true),
             (one, other) if one == other => one,
@@ -97,7 +104,7 @@ impl BitOr for RecordedMask {
 impl Not for RecordedMask {
     type Output = Self;
     fn not(self) -> Self {
-        match self {
+        match self.settled() {
             Self::Known(is) => Self::Known(!is),
             number => (Recorded::<1>::one() - number.number()).mask(),
         }

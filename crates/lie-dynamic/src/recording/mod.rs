@@ -156,7 +156,7 @@ impl<S: Scalar> Dynamic<S> {
         // a composition has those of its base
         let traces = compiled
             .traces
-            .all_of(|(known, _)| known == choice.solved());
+            .all_of(|((known, _), _)| known == choice.solved());
         let traces = traces.iter().map(|traces| traces.count());
         usize::from(step.is_some()) + traces.sum::<usize>()
     }

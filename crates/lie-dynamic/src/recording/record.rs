@@ -18,6 +18,8 @@ pub(super) struct Record {
     known: HashMap<(u8, u64, u64), Register>,
     /// Each with the first number that it gives.
     instructions: Vec<(Instruction, Register)>,
+    /// The same: what was done before is not done again.
+    done: HashMap<Instruction, Register>,
     /// Numbers that were asked whether they are finite.
     pub asked: Vec<Register>,
     /// Whether something was asked that the values decide, and is not written down.
@@ -26,6 +28,10 @@ pub(super) struct Record {
     pub missing: [Vec<Register>; 3],
     /// Where values are followed, what was asked of them.
     guards: Option<Vec<Guard>>,
+    /// Whether that is for one number alone, not for lanes.
+    single: bool,
+    /// The answers that every lane has wherever the record is for it.
+    answers: HashMap<Register, bool>,
 }
 
 /// What was asked of a number that is 1 where something holds and 0 elsewhere: whether that is everywhere, or anywhere.
@@ -36,6 +42,10 @@ pub(super) struct Guard {
     pub at: Register,
     pub expected: bool,
     pub every: bool,
+    /// Whether the record is only for what has this answer. Nothing is said of what was asked of all lanes and is false in some, or
+    /// asked of any and is true: lanes have the bits that they have beside any others, so that each may go the way that one of the
+    /// others would have to go.
+    pub is_condition: bool,
 }
 
 thread_local! {
@@ -71,23 +81,28 @@ impl Record {
         self.guards.as_mut().map(std::mem::take).unwrap_or_default()
     }
 
-    /// Whether a number was asked whether it is 1 in every lane, and is.
-    pub fn is_checked(&self, register: Register) -> bool {
-        let mut guards = self.guards.iter().flatten();
-        guards.any(|guard| guard.register == register && guard.expected && guard.every)
+    /// What is known of a number that is 1 where something holds and 0 elsewhere.
+    pub fn answer(&self, number: Register) -> Option<bool> {
+        self.answers.get(&number).copied()
     }
 
-    /// Asks of a number whether it is 1 in every lane, or in any, which values decide; as expected it is.
+    /// Asks of such a number whether it is 1 in every lane, or in any, which values decide; as expected it is.
     pub fn ask(&mut self, register: Register, expected: bool, every: bool) {
-        let guard = Guard {
+        let at = self.sources.len() as Register;
+        let Some(guards) = &mut self.guards else {
+            self.branched = true;
+            return;
+        };
+        let is_condition = self.single || every == expected;
+        guards.push(Guard {
             register,
-            at: self.sources.len() as Register,
+            at,
             expected,
             every,
-        };
-        match &mut self.guards {
-            Some(guards) => guards.push(guard),
-            None => self.branched = true,
+            is_condition,
+        });
+        if is_condition {
+            self.answers.insert(register, expected);
         }
     }
 
@@ -110,6 +125,10 @@ impl Record {
 
     fn write(&mut self, instruction: Instruction) -> Register {
         let first = self.sources.len() as Register;
+        if let Some(known) = self.done.get(&instruction) {
+            return *known;
+        }
+        self.done.insert(instruction, first);
         self.instructions.push((instruction, first));
         let count = instruction.width() as usize;
         self.sources.extend(std::iter::repeat_n(None, count));
@@ -346,10 +365,12 @@ pub(crate) fn written<T>(run: impl FnOnce() -> Option<T>) -> Option<(T, Written)
     written_in(Record::default(), run)
 }
 
-/// Writes down what is done in `run` for the values that its numbers have, with what is asked of them.
-pub(crate) fn followed<T>(run: impl FnOnce() -> Option<T>) -> Option<(T, Written)> {
+/// Writes down what is done in `run` for the values that its numbers have, with what is asked of them: for one number alone, or for
+/// lanes.
+pub(crate) fn followed<T>(single: bool, run: impl FnOnce() -> Option<T>) -> Option<(T, Written)> {
     let record = Record {
         guards: Some(Vec::new()),
+        single,
         ..Record::default()
     };
     written_in(record, run)

@@ -306,7 +306,7 @@ impl<const COUNT: usize> Scalar for Recorded<COUNT> {
         RecordedMask::Known(true)
     }
     fn select(mask: RecordedMask, yes: Self, no: Self) -> Self {
-        match mask {
+        match mask.settled() {
             RecordedMask::Known(true) => yes,
             RecordedMask::Known(false) => no,
             number => {

@@ -40,13 +40,14 @@ pub(crate) enum Taken {
 }
 
 impl Trace {
-    /// Of a step from a state, with this memory.
+    /// Of a step from a state, with this memory; for one number alone, or for lanes.
     pub fn take(
         choice: &Choice,
         system: &Dynamic<f64>,
         h: f64,
         newton: &NewtonOptions,
         [mu, memory]: [&[f64]; 2],
+        single: bool,
     ) -> Taken {
         let Some(method) = implicit::<Recorded<8>>(choice) else {
             return Taken::Refused;
@@ -59,7 +60,7 @@ impl Trace {
                 .collect()
         };
         let failed = Cell::new(false);
-        let taken = followed(|| {
+        let taken = followed(single, || {
             let recording = following(system);
             let h = Recorded::of_value(Source::Step, h);
             let mut stepper = method.any_stepper(&recording, h, newton);
@@ -102,12 +103,9 @@ impl Trace {
     pub fn parting(&self, other: &Self) -> Option<usize> {
         let mut pairs = self.guards.iter().zip(&other.guards);
         let place = pairs.position(|(one, other)| one != other)?;
-        let [one, other] = [self.guards[place], other.guards[place]];
-        let turned = Guard {
-            expected: !other.expected,
-            ..other
-        };
-        (one == turned).then_some(place)
+        let [one, other] = [self, other].map(|trace| trace.guards[place]);
+        let asked = |guard: Guard| (guard.register, guard.at, guard.every);
+        (asked(one) == asked(other)).then_some(place)
     }
 
     /// Whether something was asked that has another answer in the other trace.

@@ -126,37 +126,24 @@ impl<'a> TracedStepper<'a> {
         }
     }
 
-    /// Takes a trace of the step from here.
-    #[cold]
-    fn trace(&mut self, mu: &[f64]) {
-        self.remember();
-        let [h] = self.followed.h;
-        let (system, memory) = (self.followed.system, self.followed.memory());
-        match Trace::take(&self.choice, system, h, &self.newton, [mu, memory]) {
-            Taken::Trace(trace) => self.known.add(trace),
-            Taken::Failed => {}
-            Taken::Refused => self.known.refuse(),
-        }
-    }
-
     /// A step by a trace, if there is one for it.
     fn by_trace(&mut self, mu: &mut [f64]) -> Option<StepReport> {
         if self.followed.rests() {
             return None;
         }
         self.remember();
-        if self.followed.was_long() && self.known.is_due() {
-            self.trace(mu);
-            self.followed.take_from(&self.known);
-        }
-        let report = self.followed.step(mu);
-        if report.is_none() && self.known.is_due() {
-            self.trace(mu);
-        }
-        if report.is_none() {
-            self.followed.take_from(&self.known);
-        }
-        report
+        let Self { choice, newton, .. } = self;
+        self.followed.step(&self.known, mu, |followed, mu| {
+            let ([h], memory) = (followed.h, followed.memory());
+            Trace::take(choice, followed.system, h, newton, [mu, memory], true)
+        })
+    }
+
+    /// A trace for lanes of the step of this system from a state with this memory.
+    pub fn trace_for_lanes(&self, state: &[f64], memory: &[f64]) -> Taken {
+        let ([h], system) = (self.followed.h, self.followed.system);
+        let from = [state, memory];
+        Trace::take(&self.choice, system, h, &self.newton, from, false)
     }
 }
 

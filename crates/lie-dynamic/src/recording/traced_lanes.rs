@@ -110,6 +110,23 @@ impl TracedLanes<'_> {
         self.are_ahead = true;
     }
 
+    /// A step of all by a trace, if there is one for it.
+    fn by_trace(&mut self, mu: &mut [Wide]) -> Option<StepReport> {
+        if self.followed.rests() {
+            return None;
+        }
+        self.remember();
+        let members = &self.members;
+        self.followed.step(&self.known, mu, |followed, mu| {
+            let lane = followed.missed();
+            let of_lane = |numbers: &[Wide]| -> Vec<f64> {
+                numbers.iter().map(|number| number.lane(lane)).collect()
+            };
+            let member = members.get(lane).unwrap_or(&members[0]);
+            member.trace_for_lanes(&of_lane(mu), &of_lane(followed.memory()))
+        })
+    }
+
     /// The step of each alone.
     fn one_by_one(&mut self, mu: &mut [Wide]) -> Result<StepReport, StepFailure> {
         self.give_back();
@@ -157,15 +174,9 @@ impl Stepper<Wide> for TracedLanes<'_> {
             !sink.is_active(),
             "systems side by side show no motion on the group"
         );
-        if self.followed.rests() {
-            return self.one_by_one(mu);
+        match self.by_trace(mu) {
+            Some(report) => Ok(report),
+            None => self.one_by_one(mu),
         }
-        self.remember();
-        if let Some(report) = self.followed.step(mu) {
-            return Ok(report);
-        }
-        let outcome = self.one_by_one(mu);
-        self.followed.take_from(&self.known);
-        outcome
     }
 }

@@ -1,7 +1,7 @@
 //! The traces of a method that there are by now, and when another one is taken.
 
 use super::PATIENCE;
-use super::trace::Trace;
+use super::trace::{Taken, Trace};
 use super::tree::Tree;
 use crate::system::Dynamic;
 use lie_codegen::methods::Choice;
@@ -11,9 +11,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// More traces of a step are not taken.
-const MOST: usize = 16;
-/// A trace is taken after so many steps that none was for, at first; for each after it twice as many.
+const MOST: usize = 24;
+/// A trace is taken after so many steps that none was for, at first; for each after it twice as many, up to so many times as many: they
+/// cost as much as a few hundred steps kernel by kernel lose.
 const FIRST: u32 = 16;
+const LONGER: u32 = 16;
 /// So many sets of options of a solver have traces: more are not kept for the life of a declaration.
 const OPTIONS: usize = 16;
 /// After so many that could not be written down no more are taken.
@@ -41,6 +43,7 @@ struct Waiting {
     /// Steps that none was for since the last one was taken, and how many are waited for.
     missed: u32,
     patience: u32,
+    longest: u32,
     /// Those that could not be written down.
     refused: u32,
 }
@@ -53,6 +56,7 @@ impl Traces {
             waiting: Mutex::new(Waiting {
                 missed: 0,
                 patience,
+                longest: LONGER * patience,
                 refused: 0,
             }),
             open: AtomicBool::new(true),
@@ -87,28 +91,30 @@ impl Traces {
         let due = waiting.missed > waiting.patience;
         if due {
             waiting.missed = 0;
-            waiting.patience = waiting.patience.saturating_mul(2);
+            waiting.patience = (2 * waiting.patience).min(waiting.longest);
         }
         due
     }
 
-    /// Counts one that could not be written down; after several no more are taken.
-    pub fn refuse(&self) {
-        let mut waiting = self.waiting();
-        waiting.refused += 1;
-        if waiting.refused >= REFUSALS {
-            self.open.store(false, Ordering::Relaxed);
-        }
-    }
-
-    /// Adds one, if it is not there.
-    pub fn add(&self, trace: Trace) {
-        let mut known = self.known();
-        if known.all.iter().all(|other| trace.parts_from(other)) {
-            known.all.push(trace);
-            known.tree = Arc::new(Tree::new(&known.all, &known.tree));
-        }
-        if known.all.len() >= MOST {
+    /// Adds one, if it is not there. After several that could not be written down no more are taken.
+    pub fn add(&self, taken: Taken) {
+        let full = match taken {
+            Taken::Failed => false,
+            Taken::Refused => {
+                let mut waiting = self.waiting();
+                waiting.refused += 1;
+                waiting.refused >= REFUSALS
+            }
+            Taken::Trace(trace) => {
+                let mut known = self.known();
+                if known.all.iter().all(|other| trace.parts_from(other)) {
+                    known.all.push(trace);
+                    known.tree = Arc::new(Tree::new(&known.all, &known.tree));
+                }
+                known.all.len() >= MOST
+            }
+        };
+        if full {
             self.open.store(false, Ordering::Relaxed);
         }
     }
@@ -123,8 +129,9 @@ impl<S: Scalar> Dynamic<S> {
         };
         let all = &self.values.compiled.traces;
         // options have numbers, which are no keys
-        let key = (choice.clone(), format!("{newton:?}"));
-        if all.cached(&key).is_none() && all.all_of(|(known, _)| known == choice).len() >= OPTIONS {
+        let kind = (choice.clone(), S::LANES == 1);
+        let key = (kind.clone(), format!("{newton:?}"));
+        if all.cached(&key).is_none() && all.all_of(|(known, _)| *known == kind).len() >= OPTIONS {
             let none = Traces::new(patience);
             none.open.store(false, Ordering::Relaxed);
             return Arc::new(none);

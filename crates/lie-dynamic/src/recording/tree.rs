@@ -103,10 +103,7 @@ impl Tree {
         let sources = (0..).zip(given);
         let sources = sources.map(|(place, number)| (*number, Source::Argument(BETWEEN, place)));
         let sources: Vec<(Register, Source)> = sources.collect();
-        // Nothing is said of what was asked of all lanes and is false in some, or asked of any and is true: lanes have the bits that
-        // they have beside any others, so that each may go the way that one of the others would have to go.
-        let conditions = conditions.iter();
-        let conditions = conditions.filter(|guard| guard.every == guard.expected);
+        let conditions = conditions.iter().filter(|guard| guard.is_condition);
         let conditions: Vec<Guard> = conditions.copied().collect();
         let asked = question.map(|question| question.register);
         let codes = trace.written.part(&sources, gives, &conditions, asked);
