@@ -12,11 +12,26 @@ OURS = "lie-poisson"
 FUSED = "lie-poisson, --fma"
 """The same program with multiplications and additions contracted, as g++ and heyoka contract them."""
 
-PICKED = "gauss16"
-"""What `lie run --tol` picks."""
+PYTHON = "lie-poisson from Python"
+"""`System.run` of the installed package: one call for each run, with a row for each step."""
 
-STOPPED = "gauss16, converge tolerance"
-"""The same, its iteration as exact as the tolerance asks."""
+LOOSE = 1e-4
+"""From this tolerance on `--tol` picks gauss8, below it gauss16."""
+
+
+def picked(rows, ending=""):
+    """What `--tol` picks, its iteration by default to round-off."""
+    for row in rows:
+        if row["by"] == "tolerance":
+            loose = float(row["setting"].removeprefix("tol ")) >= 0.99 * LOOSE
+            if row["method"] == ("gauss8" if loose else "gauss16") + ending:
+                yield row
+
+
+def stopped(rows):
+    """The same, its iteration as exact as the tolerance asks."""
+    return picked(rows, ", converge tolerance")
+
 
 
 def integrates(row):
@@ -65,15 +80,16 @@ def table(case, targets):
             lines.append((name, f"| {mark}{name}{mark} | {cells} |"))
 
     line("lie-poisson, the fastest", [row for row in ours if integrates(row)], "**")
-    picked = [row for row in ours if row["method"] == PICKED and row["by"] == "tolerance"]
-    line("lie-poisson, `--tol` alone", picked, "**")
-    stopped = [row for row in ours if row["method"] == STOPPED and row["by"] == "tolerance"]
-    line("lie-poisson, `--tol` and `--converge tolerance`", stopped, "**")
+    line("lie-poisson, `--tol` alone", list(picked(ours)), "**")
+    line("lie-poisson, `--tol` and `--converge tolerance`", list(stopped(ours)), "**")
+    called = [row for row in rows if row["peer"] == PYTHON]
+    for name in sorted({row["method"] for row in called}):
+        line(f"from Python, `{name}`", [row for row in called if row["method"] == name], "**")
     fused = [row for row in rows if row["peer"] == FUSED and integrates(row)]
     line("lie-poisson with `--fma`, the fastest", fused, "**")
     line("lie-poisson, the fastest Poisson map", [row for row in ours if is_poisson(row)], "**")
     line("lie-poisson with `--fma`, the fastest Poisson map", [row for row in fused if is_poisson(row)], "**")
-    peers = sorted({row["peer"] for row in rows} - {OURS, FUSED})
+    peers = sorted({row["peer"] for row in rows} - {OURS, FUSED, PYTHON})
     for peer in peers:
         line(peer, [row for row in rows if row["peer"] == peer])
     for name in sorted({(row["method"], row["by"]) for row in ours}):
@@ -91,13 +107,13 @@ def summary(results):
     """How many times longer others take than lie-poisson, and than it by `--tol` alone and as a Poisson map to round-off."""
     lines = ["| case | error | lie-poisson, µs | heyoka | Boost.odeint | the best of three crates | SciPy | heyoka to `--tol` alone | "
              "heyoka to `--tol` and `--converge tolerance` | heyoka to a Poisson map to round-off | heyoka to `--fma` | "
-             "heyoka to a Poisson map with `--fma` |", "|" + "---|" * 12]
+             "heyoka to a Poisson map with `--fma` | heyoka to Python's `run(tol=)` | heyoka to the same with `converge=\"tolerance\"` |",
+             "|" + "---|" * 14]
     for name, case in results["cases"].items():
         rows = case["rows"]
         ours = [row for row in rows if row["peer"] == OURS and integrates(row)]
         of = lambda *peers: [row for row in rows if row["peer"] in peers]
-        picked = [row for row in ours if row["method"] == PICKED and row["by"] == "tolerance"]
-        stopped = [row for row in ours if row["method"] == STOPPED and row["by"] == "tolerance"]
+        called = lambda name: [row for row in of(PYTHON) if row["method"] == name]
         poisson = [row for row in ours if is_poisson(row)]
         fused = [row for row in of(FUSED) if integrates(row)]
         for target in case["targets"]:
@@ -113,8 +129,9 @@ def summary(results):
                 return f"{ratio:.2g}" if ratio < 100 else f"{round(ratio, -1):.0f}"
 
             cells = [times(heyoka, ours), times(of("Boost.odeint"), ours), times(of(*CRATES), ours),
-                     times(of("SciPy"), ours), times(heyoka, picked), times(heyoka, stopped), times(heyoka, poisson),
-                     times(heyoka, fused), times(heyoka, [row for row in fused if is_poisson(row)])]
+                     times(of("SciPy"), ours), times(heyoka, list(picked(ours))), times(heyoka, list(stopped(ours))),
+                     times(heyoka, poisson), times(heyoka, fused), times(heyoka, [row for row in fused if is_poisson(row)]),
+                     times(heyoka, called("run(tol=)")), times(heyoka, called("run(tol=, converge=\"tolerance\")"))]
             lines.append(f"| {name} | {short(target)} | {microseconds(best['seconds'])} `{best['method']}` | "
                          + " | ".join(cells) + " |")
     return "\n".join(lines)
@@ -124,7 +141,7 @@ def settings(case, targets):
     """How the fastest of each peer came about."""
     lines = ["| error | who | method | setting | steps | error | energy | Casimirs | spread |", "|" + "---|" * 9]
     for target in targets:
-        for peer in sorted({row["peer"] for row in case["rows"]}, key=lambda p: (p not in (OURS, FUSED), p)):
+        for peer in sorted({row["peer"] for row in case["rows"]}, key=lambda p: (p not in (OURS, FUSED, PYTHON), p)):
             row = fastest([row for row in case["rows"] if row["peer"] == peer and integrates(row)], target)
             if row:
                 drift = row["drift"] or [None, None]

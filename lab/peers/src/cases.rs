@@ -82,7 +82,9 @@ const COARSE: f64 = 1.25;
 macro_rules! common {
     ($ours:ident, $quick:expr) => {
         let (all, default) = (solvers($quick), [NewtonOptions::default()]);
+        $ours.by_tolerance("gauss8", Gauss8, NewtonOptions::default());
         $ours.by_tolerance("gauss16", Gauss16, NewtonOptions::default());
+        $ours.by_tolerance("gauss8, converge tolerance", Gauss8, to_the_tolerance());
         $ours.by_tolerance("gauss16, converge tolerance", Gauss16, to_the_tolerance());
         $ours.by_steps("gauss16", Gauss16, FINE, &all);
         $ours.by_steps("gauss12", Gauss12, FINE, &all);
