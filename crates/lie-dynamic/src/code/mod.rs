@@ -119,6 +119,11 @@ pub enum Instruction {
 }
 
 impl Instruction {
+    /// Whether it gives all functions of a family below an index.
+    pub(crate) fn is_family(&self) -> bool {
+        matches!(self, Self::Stumpff(..) | Self::Phi(..))
+    }
+
     /// How many registers it writes.
     pub fn width(&self) -> u32 {
         match self {

@@ -95,7 +95,14 @@ impl<const LANES: usize> Machine<Recorded<LANES>> for Inlined {
                 (None, other) => Recorded::from_source(*other),
             });
         }
+        let follows_values = with_record(|record| record.follows_values());
         for instruction in &code.instructions {
+            if follows_values && instruction.is_family() {
+                // which of the sums it is can be asked
+                let all = instruction.family(&|register| registers[register as usize]);
+                registers.extend(&all[..instruction.width() as usize]);
+                continue;
+            }
             let moved = instruction.moved(&|register| registers[register as usize].register);
             let first = with_record(|record| record.push(moved));
             let at = |register: Register| registers[register as usize].value;
@@ -236,7 +243,8 @@ impl<const COUNT: usize> Scalar for Recorded<COUNT> {
         Self::branch(self)
     }
     fn to_f64(self) -> f64 {
-        Self::branch(self.value)
+        let exact = with_record(|record| record.exact(self.register));
+        exact.unwrap_or_else(|| Self::branch(self.value))
     }
     /// Something to be told apart, which whoever runs the code replaces by the number that it has there.
     fn reported(self) -> f64 {
