@@ -96,6 +96,7 @@ fn on_every_spec() {
     });
     assert!(apart.is_empty(), "{apart:#?}");
     untraced.retain(|label| !label.starts_with("so3_quartic_lagrangian"));
+    println!("without traces: {untraced:#?}");
     // steps that are one program, methods with a solver that have traces, and that have none, nearly all because their steps are too
     // long; docs/back_ends.md quotes them
     assert_eq!((steps, traced, untraced.len()), (352, 808, 30));
