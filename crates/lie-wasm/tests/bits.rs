@@ -310,8 +310,8 @@ fn every_lane_has_its_own_bits() {
 /// Every instruction once, with numbers of every kind, zeros to clear and entries that stay.
 fn every_instruction() -> Code {
     use Instruction::{
-        Add, Atan2, Below, Bits, Blend, Call, Div, Mul, Neg, Phi, Power, Rare, Shift, Sqrt,
-        Stumpff, Sub,
+        Abs, Add, Atan2, Below, Bits, Blend, Call, Div, Larger, Less, LessEqual, Mul, Neg, Phi,
+        Power, Rare, Shift, Sqrt, Stumpff, Sub,
     };
     let numbers = [
         Number::Exact(0.5),
@@ -357,6 +357,12 @@ fn every_instruction() -> Code {
         Rare(Elementary::Exp, 3, 0, 4),
     ];
     instructions.extend(Elementary::ALL.iter().map(|&function| Call(function, 15)));
+    instructions.extend([Abs(4), Less(3, 4), LessEqual(4, 4)]);
+    let results = instructions.iter().map(Instruction::width);
+    let negative = sources.len() as u32 + results.sum::<u32>();
+    let none = negative + 1;
+    instructions.extend([Neg(15), Sqrt(negative), Larger(3, 4), Larger(4, 3)]);
+    instructions.extend([Larger(3, none), Larger(none, 3), Larger(negative, negative)]);
     let results: u32 = instructions.iter().map(Instruction::width).sum();
     let registers = sources.len() as u32 + results;
     let stores = (0..registers).map(|register| Store {

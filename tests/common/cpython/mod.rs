@@ -119,6 +119,9 @@ fn function((position, code): (usize, &Cow<'_, Code>)) -> String {
             Instruction::Abs(a) => format!("abs(r{a})"),
             Instruction::Less(a, b) => format!("1.0 if r{a} < r{b} else 0.0"),
             Instruction::LessEqual(a, b) => format!("1.0 if r{a} <= r{b} else 0.0"),
+            Instruction::Larger(a, b) => {
+                format!("r{b} if r{a} < r{b} or r{b} != r{b} else r{a}")
+            }
             // of one lane it is the same number
             Instruction::Exchange(_, a) => format!("r{a}"),
             Instruction::Below(a, b, c) | Instruction::Blend(a, b, c) => {
