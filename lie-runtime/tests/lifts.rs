@@ -536,7 +536,7 @@ where
         dual_labels.as_mut_slice()[k] = Dual::constant_of(*label).widen();
     }
     let zero = <L as LinearLift<W, P::Widened>>::zero_point(&wide);
-    let mut stages = StageParallel::<f64, _, 8>::new(h, zero, options);
+    let mut stages = StageParallel::<f64, _>::new(8, h, zero, options);
     let mut slope = point.clone();
     <L as LinearLift<f64, P>>::flow(system, &labels, &point, &mut slope);
     stages.start(true, point.as_slice(), slope.as_slice());
@@ -573,7 +573,7 @@ where
             for (direction, column) in derivative.iter_mut().enumerate() {
                 let zero = <L as LinearLift<X, D::Widened>>::zero_point(&wide_dual);
                 let step = Dual::constant_of(h);
-                let mut stages = StageParallel::<Dual<f64>, _, 8>::new(step, zero, &exactly);
+                let mut stages = StageParallel::<Dual<f64>, _>::new(8, step, zero, &exactly);
                 stages.set_increments_where(true, |stage, k| Dual::constant_of(start[k][stage]));
                 let mut end: Vec<Dual<f64>> = base
                     .iter()

@@ -138,6 +138,85 @@ pub fn newton_update<S: Scalar, E: Equation<S> + ?Sized>(
     (residual, safe)
 }
 
+/// A borrowed equation, whose type may be forgotten: what solves it is compiled for its unknown alone.
+impl<S: Scalar, E: Equation<S> + ?Sized> Equation<S> for &mut E {
+    type State = E::State;
+    type Unknown = E::Unknown;
+    type Matrix = E::Matrix;
+
+    fn zero_unknown(&self) -> Self::Unknown {
+        (**self).zero_unknown()
+    }
+    fn zero_matrix(&self) -> Self::Matrix {
+        (**self).zero_matrix()
+    }
+    fn set_base(&mut self, mu: &Self::State) {
+        (**self).set_base(mu);
+    }
+    fn scale(&self, mu: &Self::State) -> S {
+        (**self).scale(mu)
+    }
+    fn clock(&self) -> Option<Clock> {
+        (**self).clock()
+    }
+    fn norm(&self, unknown: &Self::Unknown) -> S {
+        (**self).norm(unknown)
+    }
+    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+        (**self).initial_guess(unknown);
+    }
+    fn leave_out(&self, unknown: &mut Self::Unknown) {
+        (**self).leave_out(unknown);
+    }
+    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
+        (**self).residual(unknown, residual);
+    }
+    fn linearize(
+        &mut self,
+        unknown: &Self::Unknown,
+        residual: &mut Self::Unknown,
+        matrix: &mut Self::Matrix,
+    ) {
+        (**self).linearize(unknown, residual, matrix);
+    }
+    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
+        (**self).factor(matrix)
+    }
+    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
+        (**self).solve(factors, residual);
+    }
+    fn newton_update(
+        &mut self,
+        unknown: &Self::Unknown,
+        update: &mut Self::Unknown,
+        factors: &mut Self::Matrix,
+    ) -> (S, S::Mask) {
+        (**self).newton_update(unknown, update, factors)
+    }
+    fn jacobian_cost(&self) -> f64 {
+        (**self).jacobian_cost()
+    }
+    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
+        (**self).result(unknown, mu);
+    }
+    fn resolved(&mut self, unknown: &Self::Unknown, end: &Self::State) -> S::Mask {
+        (**self).resolved(unknown, end)
+    }
+    fn within_chart(&mut self, unknown: &Self::Unknown) -> S::Mask {
+        (**self).within_chart(unknown)
+    }
+    fn group_factor(
+        &mut self,
+        unknown: &Self::Unknown,
+        xi: &mut Self::State,
+    ) -> Option<Retraction> {
+        (**self).group_factor(unknown, xi)
+    }
+    fn velocity(&mut self, unknown: &Self::Unknown, stage: usize, xi: &mut Self::State) -> usize {
+        (**self).velocity(unknown, stage, xi)
+    }
+}
+
 /// The equation of one step of the implicit method M for a system.
 ///
 /// The generated code returns a fused equation for the methods that the declaration asks for, and

@@ -6,10 +6,13 @@ use crate::scalar::Scalar;
 
 /// A matrix for products: entry `a_(i, i xor d)` in place i of diagonal d where d is even; where it is odd, that entry in place
 /// `i xor 1`. 0 where there is no such row or column.
+///
+/// The entry is asked for once, and not in 64 copies of it: this is made with a stepper.
+#[inline(never)]
 pub(super) fn diagonals<S: Scalar>(
     rows: usize,
     columns: usize,
-    entry: impl Fn(usize, usize) -> S,
+    entry: &dyn Fn(usize, usize) -> S,
 ) -> [S::Wide; 8] {
     from_fn(|d| {
         S::gather(from_fn(|place| {
@@ -20,33 +23,33 @@ pub(super) fn diagonals<S: Scalar>(
     })
 }
 
-/// The product of a matrix, given by its diagonals, with the numbers of one entry at all stages.
+/// The product of a matrix, given by its diagonals, with the numbers of one entry at all stages, which are in the first 4 or 8 places.
 ///
 /// The sum over the odd diagonals is taken with neighbours exchanged and put right by one exchange, so that a product
 /// moves numbers within a register four times.
 #[inline(always)]
-pub(super) fn product<S: Scalar, const STAGES: usize>(
+pub(super) fn product<S: Scalar, const PLACES: usize>(
     diagonals: &[S::Wide],
     entry: S::Wide,
 ) -> S::Wide {
     let [even, odd] = [0, 1].map(|d| diagonals[d] * entry);
-    finish::<S, STAGES>(diagonals, entry, even, odd)
+    finish::<S, PLACES>(diagonals, entry, even, odd)
 }
 
 /// A number and a product: a term that needs no move takes the number up while the others are moved.
 #[inline(always)]
-pub(super) fn product_from<S: Scalar, const STAGES: usize>(
+pub(super) fn product_from<S: Scalar, const PLACES: usize>(
     start: S::Wide,
     diagonals: &[S::Wide],
     entry: S::Wide,
 ) -> S::Wide {
     let even = start + diagonals[0] * entry;
-    finish::<S, STAGES>(diagonals, entry, even, diagonals[1] * entry)
+    finish::<S, PLACES>(diagonals, entry, even, diagonals[1] * entry)
 }
 
 /// The terms of the first two diagonals and those of the rest.
 #[inline(always)]
-fn finish<S: Scalar, const STAGES: usize>(
+fn finish<S: Scalar, const PLACES: usize>(
     diagonals: &[S::Wide],
     entry: S::Wide,
     even: S::Wide,
@@ -54,7 +57,7 @@ fn finish<S: Scalar, const STAGES: usize>(
 ) -> S::Wide {
     let two = S::exchange::<2>(entry);
     let (mut even, mut odd) = (even + diagonals[2] * two, odd + diagonals[3] * two);
-    if STAGES > 4 {
+    if PLACES > 4 {
         let (four, six) = (S::exchange::<4>(entry), S::exchange::<6>(entry));
         even += diagonals[4] * four + diagonals[6] * six;
         odd += diagonals[5] * four + diagonals[7] * six;

@@ -141,8 +141,8 @@ impl<S: Scalar> Block<S> {
             weight * lagrange(&tableau.c, i, half + offset) / tableau.b[i]
         };
         Self {
-            curve: diagonals(BLOCK, STAGES, curve),
-            means: diagonals(STAGES, BLOCK, mean),
+            curve: diagonals(BLOCK, STAGES, &curve),
+            means: diagonals(STAGES, BLOCK, &mean),
         }
     }
 }

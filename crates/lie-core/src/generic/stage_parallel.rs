@@ -13,7 +13,7 @@ use core::ops::Range;
 #[cfg(feature = "std")]
 use self::program::StageProgram;
 use self::program::{AHEAD, PER_UNIT, PER_WEIGHT, RATIOS, StageSlopes, TABLE, WEIGHTS};
-use super::diagonals::{diagonals, product};
+use super::diagonals::diagonals;
 use super::stage_ending::most;
 use super::stage_work::{At, Work};
 use super::tableau::{gauss_ahead, gauss_ratio, gauss_weight};
@@ -22,7 +22,7 @@ use crate::newton::{Convergence, Iteration, NewtonOptions};
 #[cfg(feature = "std")]
 use crate::poisson::Widen;
 use crate::scalar::{Mask, Scalar, largest, power_of_two};
-use crate::state::{Stages, State};
+use crate::state::State;
 
 /// An iteration whose changes are at rest, but shrank slowly, goes on for so many iterations: in its slowest direction the
 /// error is larger than the changes.
@@ -45,7 +45,9 @@ const APPROACH: u32 = 12;
 /// one, from `f(y)`. It converges linearly, by a factor proportional to h. How many iterations a step takes changes
 /// little from step to step, so most of them are made without a look at the changes.
 #[derive(Debug)]
-pub struct StageParallel<S: Scalar, V, const STAGES: usize> {
+pub struct StageParallel<S: Scalar, V> {
+    /// How many there are.
+    stages: usize,
     /// By their [places](program): `a_ij/b_j`, the matrix that continues the polynomial of a step, `h b_i` in place i and 0 in the places
     /// without a stage, `1/|h b_i|` likewise, so that places without a stage do not count, and one over the unit of the momenta.
     table: [S::Wide; TABLE],
@@ -89,26 +91,27 @@ pub struct Iterated<S: Scalar> {
     pub converged: S::Mask,
 }
 
-impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAGES> {
-    /// Steps of size h; `zero` is any vector of the right size.
-    pub fn new(h: S, zero: V, options: &NewtonOptions) -> Self {
-        let stages = |entry: &dyn Fn(S) -> S| {
+impl<S: Scalar, V: State<S::Wide>> StageParallel<S, V> {
+    /// Steps of size h with so many stages, at most 8; `zero` is any vector of the right size.
+    pub fn new(stages: usize, h: S, zero: V, options: &NewtonOptions) -> Self {
+        let at_stages = |entry: &dyn Fn(S) -> S| {
             S::gather(from_fn(|i| {
-                if i < STAGES {
-                    entry(h * gauss_weight::<S>(STAGES, i))
+                if i < stages {
+                    entry(h * gauss_weight::<S>(stages, i))
                 } else {
                     S::zero()
                 }
             }))
         };
         let mut table = [S::Wide::one(); TABLE];
-        let ratios = diagonals(STAGES, STAGES, |i, j| gauss_ratio::<S>(STAGES, i, j));
-        let ahead = diagonals(STAGES, STAGES, |i, j| gauss_ahead::<S>(STAGES, i, j));
+        let ratios = diagonals(stages, stages, &|i, j| gauss_ratio::<S>(stages, i, j));
+        let ahead = diagonals(stages, stages, &|i, j| gauss_ahead::<S>(stages, i, j));
         table[RATIOS].copy_from_slice(&ratios);
         table[AHEAD].copy_from_slice(&ahead);
-        table[WEIGHTS] = stages(&|weight| weight);
-        table[PER_WEIGHT] = stages(&|weight| S::one() / weight.abs());
+        table[WEIGHTS] = at_stages(&|weight| weight);
+        table[PER_WEIGHT] = at_stages(&|weight| S::one() / weight.abs());
         Self {
+            stages,
             table,
             legendre: None,
             #[cfg(feature = "std")]
@@ -139,6 +142,11 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
         }
     }
 
+    /// How many stages there are.
+    pub fn count(&self) -> usize {
+        self.stages
+    }
+
     /// With entries that carry the time.
     pub(crate) fn with_clock(mut self, clock: Option<Clock>) -> Self {
         self.clock = clock;
@@ -158,7 +166,7 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
         system: &P,
         slopes: Option<StageSlopes>,
     ) -> Self {
-        let program = |slopes| system.stage_program(slopes, STAGES);
+        let program = |slopes| system.stage_program(slopes, self.stages);
         self.program = slopes.and_then(program);
         self
     }
@@ -240,7 +248,7 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
         let half = S::ratio(1.0, 2.0);
         for _ in 0..APPROACH {
             self.work
-                .evaluate::<S, STAGES>(&self.table, &self.base, &mut field);
+                .evaluate::<S>(self.stages, &self.table, &self.base, &mut field);
             let increments = self.work.increments.as_mut_slice().iter_mut();
             for (increment, &next) in increments.zip(self.work.next.as_slice()) {
                 let (old, new) = (S::scatter(*increment), S::scatter(next));
@@ -258,9 +266,11 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
             program.go_on(&self.table, self.work.both());
             return self.work.exchange();
         }
-        for increments in self.work.increments.as_mut_slice() {
-            *increments = product::<S, STAGES>(&self.table[AHEAD], *increments);
-        }
+        program::go_on::<S>(
+            self.stages,
+            self.work.increments.as_mut_slice(),
+            &self.table,
+        );
     }
 
     /// Iterates until what the options say has converged. Sizes are sums of magnitudes. `field` gives the next slopes.
@@ -297,7 +307,7 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
             work.exchange();
             return change;
         }
-        work.evaluate::<S, STAGES>(&self.table, &self.base, field);
+        work.evaluate::<S>(self.stages, &self.table, &self.base, field);
         if let Some(clock) = self.clock {
             work.replace_entries::<S>(&[clock.momentum, clock.time], ended);
         }
@@ -318,7 +328,7 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
             return;
         }
         for _ in 0..count {
-            work.evaluate::<S, STAGES>(&self.table, &self.base, field);
+            work.evaluate::<S>(self.stages, &self.table, &self.base, field);
             work.increments.copy_from(&work.next);
         }
     }
@@ -386,7 +396,7 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
     pub fn stages(&mut self, base: &[S]) -> At<'_, V> {
         self.set_base(S::Mask::splat(true), base);
         self.work
-            .set_points::<S, STAGES>(&self.table[RATIOS], &self.base);
+            .set_points::<S>(self.stages, &self.table[RATIOS], &self.base);
         At {
             base: &self.base,
             increments: &self.work.increments,
@@ -395,10 +405,10 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
     }
 
     /// The increments `D_i` of the stages.
-    pub fn increments<U: State<S>>(&self, out: &mut Stages<U, STAGES>) {
+    pub fn increments<U: State<S>>(&self, out: &mut [U]) {
         for (k, &increments) in self.work.increments.as_slice().iter().enumerate() {
             let entries = S::scatter(increments);
-            for (out, &entry) in out.0.iter_mut().zip(&entries) {
+            for (out, &entry) in out.iter_mut().zip(&entries) {
                 out.as_mut_slice()[k] = entry;
             }
         }
@@ -408,7 +418,7 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
     pub fn set_increments_where(&mut self, mask: S::Mask, increment: impl Fn(usize, usize) -> S) {
         for (k, increments) in self.work.increments.as_mut_slice().iter_mut().enumerate() {
             let mut entries = S::scatter(*increments);
-            for (i, entry) in entries.iter_mut().enumerate().take(STAGES) {
+            for (i, entry) in entries.iter_mut().enumerate().take(self.stages) {
                 *entry = S::select(mask, increment(i, k), *entry);
             }
             *increments = S::gather(entries);

@@ -59,32 +59,41 @@ impl<V> Work<V> {
         core::mem::swap(&mut self.increments, &mut self.next);
     }
 
-    /// The points of the stages.
+    /// The points of so many stages.
     #[inline(always)]
-    pub(super) fn set_points<S: Scalar, const STAGES: usize>(
-        &mut self,
-        ratios: &[S::Wide],
-        base: &V,
-    ) where
+    pub(super) fn set_points<S: Scalar>(&mut self, stages: usize, ratios: &[S::Wide], base: &V)
+    where
+        V: State<S::Wide>,
+    {
+        match stages {
+            ..5 => self.set_points_with::<S, 4>(ratios, base),
+            _ => self.set_points_with::<S, 8>(ratios, base),
+        }
+    }
+
+    #[inline(always)]
+    fn set_points_with<S: Scalar, const PLACES: usize>(&mut self, ratios: &[S::Wide], base: &V)
+    where
         V: State<S::Wide>,
     {
         let entries = self.points.as_mut_slice().iter_mut().zip(base.as_slice());
         for ((point, y), increments) in entries.zip(self.increments.as_slice()) {
-            *point = product_from::<S, STAGES>(*y, ratios, *increments);
+            *point = product_from::<S, PLACES>(*y, ratios, *increments);
         }
     }
 
     /// The next increments: `h b_i`, the weights, times the field at the points of the stages.
     #[inline(always)]
-    pub(super) fn evaluate<S: Scalar, const STAGES: usize>(
+    pub(super) fn evaluate<S: Scalar>(
         &mut self,
+        stages: usize,
         table: &[S::Wide],
         base: &V,
         field: &mut impl FnMut(At<'_, V>, &mut V),
     ) where
         V: State<S::Wide>,
     {
-        self.set_points::<S, STAGES>(&table[RATIOS], base);
+        self.set_points::<S>(stages, &table[RATIOS], base);
         let weights = table[WEIGHTS];
         let at = At {
             base,

@@ -33,8 +33,8 @@
 
 use super::facts::{Facts, Preserves};
 use super::gauss::BY_NEWTON;
-use super::stage_parallel::{Slopes, StageParallelStepper, WideState};
-use super::stepper::Method;
+use super::stage_parallel::{Slopes, StageParallelStepper, WideState, solve};
+use super::stepper::{Method, StepFailure, StepReport};
 use crate::equation::Equation as _;
 use crate::generic::{At, CohenHairerStep, MeanGradients, StageSlopes};
 use crate::newton::NewtonOptions;
@@ -89,17 +89,30 @@ impl<const STAGES: usize> Facts for CohenHairer<STAGES> {
     const PRESERVES: Preserves = Preserves::ENERGY;
 }
 
+/// A step by Newton's iteration.
+fn by_newton<S: Scalar, P: Poisson<S>, const STAGES: usize>(
+    system: &P,
+    h: S,
+    options: &NewtonOptions,
+    mu: &mut P::State,
+    show: &mut dyn FnMut(&[P::State]),
+) -> Result<StepReport, StepFailure> {
+    let equation = &mut CohenHairerStep::<S, P, STAGES>::new(system, h);
+    solve((equation, system.zero_state()), options, mu, show)
+}
+
 /// Methods whose stages are evaluated together.
 macro_rules! stage_parallel {
     ($($stages:literal)+) => {$(
         impl<S: Scalar, P: Widen<S>> Method<S, P> for CohenHairer<$stages> {
             type Stepper<'a>
-                = StageParallelStepper<'a, S, P, MeanField<'a, S, P, $stages>, $stages>
+                = StageParallelStepper<'a, S, P, MeanField<'a, S, P, $stages>>
             where
                 P: 'a;
 
             fn stepper<'a>(&self, system: &'a P, h: S, newton: &NewtonOptions) -> Self::Stepper<'a> {
-                StageParallelStepper::new(system, h, newton)
+                let rule = ($stages, by_newton::<S, P, $stages> as _);
+                StageParallelStepper::new(rule, system, h, newton)
             }
         }
     )+};
@@ -120,11 +133,9 @@ pub struct MeanField<'a, S: Scalar, P: Widen<S>, const STAGES: usize> {
     increments: Stages<P::State, STAGES>,
 }
 
-impl<'a, S: Scalar, P: Widen<S> + 'a, const STAGES: usize> Slopes<'a, S, P, STAGES>
+impl<'a, S: Scalar, P: Widen<S> + 'a, const STAGES: usize> Slopes<'a, S, P>
     for MeanField<'a, S, P, STAGES>
 {
-    type Equation = CohenHairerStep<'a, S, P, STAGES>;
-
     fn new(system: &'a P, wide: &P::Widened, h: S) -> Self {
         let equation = CohenHairerStep::new(system, h);
         Self {
@@ -136,10 +147,6 @@ impl<'a, S: Scalar, P: Widen<S> + 'a, const STAGES: usize> Slopes<'a, S, P, STAG
 
     fn known(&self) -> Option<StageSlopes> {
         self.means.are_at_stages().then_some(StageSlopes::Field)
-    }
-
-    fn equation(system: &'a P, h: S) -> Self::Equation {
-        CohenHairerStep::new(system, h)
     }
 
     #[inline(always)]
@@ -160,12 +167,12 @@ impl<'a, S: Scalar, P: Widen<S> + 'a, const STAGES: usize> Slopes<'a, S, P, STAG
         &mut self,
         mu: &P::State,
         end: &P::State,
-        increments: impl FnOnce(&mut Stages<P::State, STAGES>),
+        increments: impl FnOnce(&mut [P::State]),
     ) -> S::Mask {
         if !self.equation.may_be_unresolved() {
             return S::Mask::splat(true);
         }
-        increments(&mut self.increments);
+        increments(&mut self.increments.0);
         self.equation.set_base(mu);
         self.equation.resolved(&self.increments, end)
     }

@@ -244,12 +244,12 @@ where
     L: StageLift<S, P>,
 {
     type Stepper<'a>
-        = LiftedStepper<'a, S, P, L, STAGES>
+        = LiftedStepper<'a, S, P, L>
     where
         P: 'a;
 
     fn stepper<'a>(&self, system: &'a P, h: S, newton: &NewtonOptions) -> Self::Stepper<'a> {
-        LiftedStepper::new(system, h, newton)
+        LiftedStepper::new(STAGES, system, h, newton)
     }
 }
 

@@ -24,10 +24,11 @@
 #![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
 
 use super::facts::{Facts, Preserves};
-use super::stage_parallel::{Field, StageParallelStepper};
-use super::stepper::Method;
+use super::stage_parallel::{Field, StageParallelStepper, solve};
+use super::stepper::{Method, StepFailure, StepReport};
+use crate::generic::Gauss;
 use crate::newton::NewtonOptions;
-use crate::poisson::Widen;
+use crate::poisson::{Poisson, Widen};
 use crate::scalar::Scalar;
 
 /// The most stages of a Gauss method that is solved by Newton's iteration from the start, and has an equation for it.
@@ -50,12 +51,24 @@ macro_rules! gauss {
     };
 }
 
+/// A step by Newton's iteration.
+fn by_newton<S: Scalar, P: Poisson<S>, const STAGES: usize>(
+    system: &P,
+    h: S,
+    options: &NewtonOptions,
+    mu: &mut P::State,
+    show: &mut dyn FnMut(&[P::State]),
+) -> Result<StepReport, StepFailure> {
+    let equation = &mut Gauss::<S, P, STAGES>::new(system, h);
+    solve((equation, system.zero_state()), options, mu, show)
+}
+
 /// A method whose stages are evaluated together.
 macro_rules! stage_parallel {
     ($name:ident, $stages:literal) => {
         impl<S: Scalar, P: Widen<S>> Method<S, P> for $name {
             type Stepper<'a>
-                = StageParallelStepper<'a, S, P, Field, $stages>
+                = StageParallelStepper<'a, S, P, Field>
             where
                 P: 'a;
 
@@ -65,7 +78,8 @@ macro_rules! stage_parallel {
                 h: S,
                 newton: &NewtonOptions,
             ) -> Self::Stepper<'a> {
-                StageParallelStepper::new(system, h, newton)
+                let rule = ($stages, by_newton::<S, P, $stages> as _);
+                StageParallelStepper::new(rule, system, h, newton)
             }
         }
     };

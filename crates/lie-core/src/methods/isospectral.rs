@@ -124,11 +124,11 @@ where
     P::Widened: ColumnPoisson<S::Wide>,
 {
     type Stepper<'a>
-        = LiftedStepper<'a, S, P, Representation, STAGES>
+        = LiftedStepper<'a, S, P, Representation>
     where
         P: 'a;
 
     fn stepper<'a>(&self, system: &'a P, h: S, newton: &NewtonOptions) -> Self::Stepper<'a> {
-        LiftedStepper::new(system, h, newton)
+        LiftedStepper::new(STAGES, system, h, newton)
     }
 }

@@ -43,7 +43,7 @@ where
 ///
 /// The point is kept from step to step where the state is the one that the last step led to; the step depends on the state
 /// alone, because moving the point over its state commutes with it.
-pub struct LiftedStepper<'a, S, P, L, const STAGES: usize>
+pub struct LiftedStepper<'a, S, P, L>
 where
     S: Scalar,
     P: LiePoisson<S> + Widen<S>,
@@ -53,7 +53,7 @@ where
     system: &'a P,
     wide: P::Widened,
     step: S,
-    stages: StageParallel<S, WidePoint<S, P, L>, STAGES>,
+    stages: StageParallel<S, WidePoint<S, P, L>>,
     /// A point over the state at which the last chain of steps began.
     point: <L as LinearLift<S, P>>::Point,
     labels: <L as LinearLift<S, P>>::Labels,
@@ -66,19 +66,19 @@ where
     follows: S::Mask,
 }
 
-impl<'a, S, P, L, const STAGES: usize> LiftedStepper<'a, S, P, L, STAGES>
+impl<'a, S, P, L> LiftedStepper<'a, S, P, L>
 where
     S: Scalar,
     P: LiePoisson<S> + Widen<S>,
     P::Widened: LiePoisson<S::Wide>,
     L: StageLift<S, P>,
 {
-    pub(super) fn new(system: &'a P, h: S, newton: &NewtonOptions) -> Self {
+    pub(super) fn new(stages: usize, system: &'a P, h: S, newton: &NewtonOptions) -> Self {
         let wide = system.widen();
         let newton = newton.for_a_poisson_map();
         let point = <L as LinearLift<S, P>>::zero_point(system);
         Self {
-            stages: StageParallel::new(h, L::zero_point(&wide), &newton)
+            stages: StageParallel::new(stages, h, L::zero_point(&wide), &newton)
                 .with_clock(<L as LinearLift<S, P>>::clock(system))
                 .with_momenta(<L as LinearLift<S, P>>::momenta(system))
                 .by_programs_of(system, <L as LinearLift<S, P>>::SLOPES),
@@ -153,11 +153,12 @@ where
         self.wide.gradient(&self.momenta, &mut gradient);
         self.stages.set_base(S::Mask::splat(true), end.as_slice());
         let xi = self.system.zero_state();
-        push_velocities::<S, _, _, _, STAGES>(self.step, &gradient, xi, failed, sink);
+        let count = self.stages.count();
+        push_velocities(count, self.step, &gradient, xi, failed, sink);
     }
 }
 
-impl<S, P, L, const STAGES: usize> Stepper<S> for LiftedStepper<'_, S, P, L, STAGES>
+impl<S, P, L> Stepper<S> for LiftedStepper<'_, S, P, L>
 where
     S: Scalar,
     P: LiePoisson<S> + Widen<S>,

@@ -3,7 +3,8 @@
 use super::implicit::{ImplicitStepper, clear, equal_lanes};
 use super::stepper::{FactorSink, RungeKutta, Stage, StepFailure, StepReport, Stepper};
 use crate::equation::Equation;
-use crate::generic::{At, Gauss, StageParallel, StageSlopes};
+use crate::generic::{At, StageParallel, StageSlopes};
+use crate::matrix::SquareMatrix;
 use crate::newton::{FailureReason, Iteration, NewtonOptions};
 use crate::poisson::{Poisson, Widen};
 use crate::scalar::{Mask, Scalar};
@@ -16,11 +17,8 @@ pub const MOST_UNKNOWNS: usize = 256;
 /// The state of the system over eight numbers.
 pub type WideState<S, P> = <<P as Widen<S>>::Widened as Poisson<<S as Scalar>::Wide>>::State;
 
-/// How the slopes at the stages of a collocation method come about, and the same method by Newton's iteration.
-pub trait Slopes<'a, S: Scalar, P: Widen<S> + 'a, const STAGES: usize>: Sized {
-    /// The equation of a step.
-    type Equation: Equation<S, State = P::State, Unknown = Stages<P::State, STAGES>>;
-
+/// How the slopes at the stages of a collocation method come about.
+pub trait Slopes<'a, S: Scalar, P: Widen<S> + 'a>: Sized {
     /// For steps of size h.
     fn new(system: &'a P, wide: &P::Widened, h: S) -> Self;
 
@@ -28,9 +26,6 @@ pub trait Slopes<'a, S: Scalar, P: Widen<S> + 'a, const STAGES: usize>: Sized {
     fn known(&self) -> Option<StageSlopes> {
         None
     }
-
-    /// The equation of a step of size h.
-    fn equation(system: &'a P, h: S) -> Self::Equation;
 
     /// The next slopes, from the stages of a step.
     fn next(&mut self, wide: &P::Widened, at: At<'_, WideState<S, P>>, out: &mut WideState<S, P>);
@@ -48,29 +43,54 @@ pub trait Slopes<'a, S: Scalar, P: Widen<S> + 'a, const STAGES: usize>: Sized {
         &mut self,
         _mu: &P::State,
         _end: &P::State,
-        _increments: impl FnOnce(&mut Stages<P::State, STAGES>),
+        _increments: impl FnOnce(&mut [P::State]),
     ) -> S::Mask {
         S::Mask::splat(true)
     }
+}
+
+/// A step of a method by Newton's iteration: of a size, from a state, which becomes its end. The increments of the stages are shown.
+pub(super) type ByNewton<S, P> = fn(
+    &P,
+    S,
+    &NewtonOptions,
+    &mut <P as Poisson<S>>::State,
+    &mut dyn FnMut(&[<P as Poisson<S>>::State]),
+) -> Result<StepReport, StepFailure>;
+
+/// An equation for the increments of so many stages.
+type OfStages<'e, S, V, M, const STAGES: usize> =
+    &'e mut dyn Equation<S, State = V, Unknown = Stages<V, STAGES>, Matrix = M>;
+
+/// A step by Newton's iteration with the equation of a method; `zero` is any state of the right size.
+pub(super) fn solve<S, V, M, const STAGES: usize>(
+    (equation, zero): (OfStages<'_, S, V, M, STAGES>, V),
+    options: &NewtonOptions,
+    mu: &mut V,
+    show: &mut dyn FnMut(&[V]),
+) -> Result<StepReport, StepFailure>
+where
+    S: Scalar,
+    V: State<S>,
+    M: SquareMatrix<S>,
+{
+    let mut stepper = ImplicitStepper::new(equation, zero, options);
+    let outcome = stepper.step(mu, &mut ());
+    show(&stepper.unknown().0);
+    outcome
 }
 
 /// `F_i = f(Y_i)`: Gauss collocation.
 #[derive(Clone, Copy, Debug)]
 pub struct Field;
 
-impl<'a, S: Scalar, P: Widen<S> + 'a, const STAGES: usize> Slopes<'a, S, P, STAGES> for Field {
-    type Equation = Gauss<'a, S, P, STAGES>;
-
+impl<'a, S: Scalar, P: Widen<S> + 'a> Slopes<'a, S, P> for Field {
     fn new(_system: &'a P, _wide: &P::Widened, _h: S) -> Self {
         Self
     }
 
     fn known(&self) -> Option<StageSlopes> {
         Some(StageSlopes::Field)
-    }
-
-    fn equation(system: &'a P, h: S) -> Self::Equation {
-        Gauss::new(system, h)
     }
 
     #[inline(always)]
@@ -92,13 +112,14 @@ impl<'a, S: Scalar, P: Widen<S> + 'a, const STAGES: usize> Slopes<'a, S, P, STAG
 /// is solved by Newton's iteration, and refused where that has more than 256 unknowns.
 ///
 /// The iteration starts from the polynomial of the last step where the state is the one that step led to.
-pub struct StageParallelStepper<'a, S: Scalar, P: Widen<S>, F, const STAGES: usize> {
+pub struct StageParallelStepper<'a, S: Scalar, P: Widen<S>, F> {
     system: &'a P,
     wide: P::Widened,
     rule: F,
     step: S,
-    stages: StageParallel<S, WideState<S, P>, STAGES>,
+    stages: StageParallel<S, WideState<S, P>>,
     newton: NewtonOptions,
+    by_newton: ByNewton<S, P>,
     /// The state at which the last step ended, in the lanes where one did.
     end: P::State,
     follows: S::Mask,
@@ -106,16 +127,22 @@ pub struct StageParallelStepper<'a, S: Scalar, P: Widen<S>, F, const STAGES: usi
     wide_scratch: WideState<S, P>,
 }
 
-impl<'a, S, P, F, const STAGES: usize> StageParallelStepper<'a, S, P, F, STAGES>
+impl<'a, S, P, F> StageParallelStepper<'a, S, P, F>
 where
     S: Scalar,
     P: Widen<S>,
-    F: Slopes<'a, S, P, STAGES>,
+    F: Slopes<'a, S, P>,
 {
-    pub(super) fn new(system: &'a P, h: S, newton: &NewtonOptions) -> Self {
+    /// With so many stages, and their steps by Newton's iteration.
+    pub(super) fn new(
+        (stages, by_newton): (usize, ByNewton<S, P>),
+        system: &'a P,
+        h: S,
+        newton: &NewtonOptions,
+    ) -> Self {
         let wide = system.widen();
         let zero = wide.zero_state();
-        let stages = StageParallel::new(h, zero.clone(), newton).with_clock(system.clock());
+        let stages = StageParallel::new(stages, h, zero.clone(), newton).with_clock(system.clock());
         let rule = F::new(system, &wide, h);
         Self {
             system,
@@ -124,6 +151,7 @@ where
             stages: stages.by_programs_of(system, rule.known()),
             rule,
             newton: *newton,
+            by_newton,
             end: system.zero_state(),
             follows: S::Mask::splat(false),
             next: system.zero_state(),
@@ -142,7 +170,7 @@ where
 
     /// Whether a step can be solved by Newton's iteration.
     fn has_newton(&self) -> bool {
-        STAGES * self.system.dimension() <= MOST_UNKNOWNS && self.system.has_jacobian()
+        self.stages.count() * self.system.dimension() <= MOST_UNKNOWNS && self.system.has_jacobian()
     }
 
     /// The step by Newton's iteration, in the lanes that are left.
@@ -154,7 +182,6 @@ where
         left: S::Mask,
         report: &mut StepReport,
     ) -> Option<StepFailure> {
-        let equation = F::equation(self.system, self.step);
         let options = NewtonOptions {
             iteration: match self.newton.iteration {
                 Iteration::Automatic => Iteration::Newton,
@@ -162,9 +189,12 @@ where
             },
             ..self.newton
         };
-        let mut stepper = ImplicitStepper::new(equation, self.system.zero_state(), &options);
         let mut end = mu.clone();
-        let outcome = stepper.step(&mut end, &mut ());
+        let stages = &mut self.stages;
+        let outcome =
+            (self.by_newton)(self.system, self.step, &options, &mut end, &mut |unknown| {
+                stages.set_increments_where(left, |stage, k| unknown[stage].as_slice()[k]);
+            });
         let (solved, failure) = match outcome {
             Ok(solved) => (solved, None),
             Err(failure) => (failure.report, Some(failure)),
@@ -175,9 +205,6 @@ where
         report.residual = solved.residual;
         report.pivoted = solved.pivoted & left.bits();
         self.next.assign_where(left, &end);
-        let unknown = stepper.unknown();
-        self.stages
-            .set_increments_where(left, |stage, k| unknown.0[stage].as_slice()[k]);
         self.stages.set_base(left, end.as_slice());
         failure
             .map(|failure| StepFailure {
@@ -199,15 +226,16 @@ where
         self.stages
             .set_base(S::Mask::splat(true), self.next.as_slice());
         let xi = self.system.zero_state();
-        push_velocities::<S, _, _, _, STAGES>(self.step, &self.wide_scratch, xi, failed, sink);
+        let count = self.stages.count();
+        push_velocities(count, self.step, &self.wide_scratch, xi, failed, sink);
     }
 }
 
-impl<'a, S, P, F, const STAGES: usize> Stepper<S> for StageParallelStepper<'a, S, P, F, STAGES>
+impl<'a, S, P, F> Stepper<S> for StageParallelStepper<'a, S, P, F>
 where
     S: Scalar,
     P: Widen<S>,
-    F: Slopes<'a, S, P, STAGES>,
+    F: Slopes<'a, S, P>,
 {
     type State = P::State;
 
@@ -261,7 +289,7 @@ where
         let solved = !S::Mask::from_bits(failure.map_or(0, |failure| failure.lanes));
         let finite = self.next.finite();
         let stages = &self.stages;
-        let increments = |out: &mut Stages<P::State, STAGES>| stages.increments(out);
+        let increments = |out: &mut [P::State]| stages.increments(out);
         let resolved = self.rule.resolved(mu, &self.next, increments);
         for (bad, reason) in [
             (solved & !finite, FailureReason::NotFinite),
@@ -291,8 +319,9 @@ where
     }
 }
 
-/// Gives away h times the gradients at the stages, one stage after the other; `xi` is any state of the right size.
-pub(super) fn push_velocities<S, V, W, K, const STAGES: usize>(
+/// Gives away h times the gradients at so many stages, one stage after the other; `xi` is any state of the right size.
+pub(super) fn push_velocities<S, V, W, K>(
+    count: usize,
     step: S,
     gradients: &W,
     mut xi: V,
@@ -304,13 +333,12 @@ pub(super) fn push_velocities<S, V, W, K, const STAGES: usize>(
     W: State<S::Wide>,
     K: FactorSink<V>,
 {
-    for index in 0..STAGES {
+    for index in 0..count {
         let entries = xi.as_mut_slice().iter_mut();
         for (entry, &gradients) in entries.zip(gradients.as_slice()) {
             *entry = step * S::scatter(gradients)[index];
         }
         clear(&mut xi, failed);
-        let count = STAGES;
         sink.push_velocity(RungeKutta::Gauss, Stage { index, count }, &xi);
     }
 }

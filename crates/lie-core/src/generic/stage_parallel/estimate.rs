@@ -13,7 +13,7 @@ const SHRINKS: f64 = 0.8;
 /// Coefficients of so many units of round-off are round-off.
 const UNSEEN: f64 = 256.0;
 
-impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAGES> {
+impl<S: Scalar, V: State<S::Wide>> StageParallel<S, V> {
     /// The error of the step that was made, relative to the size of its end, by the stages: with the coefficients L_k of h F in
     /// Legendre polynomials, each the largest of all coordinates, it is about
     ///
@@ -26,13 +26,15 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
     /// them are the error.
     pub fn estimate(&mut self) -> S {
         let Self {
+            stages,
             legendre,
             work,
             base,
             ..
         } = self;
+        let stages = *stages;
         let table = legendre.get_or_insert_with(|| {
-            diagonals(STAGES, STAGES, |k, j| gauss_legendre::<S>(STAGES, k, j))
+            diagonals(stages, stages, &|k, j| gauss_legendre::<S>(stages, k, j))
         });
         let table = *table;
         let (mut largest, mut size) = (S::Wide::zero(), S::Wide::zero());
@@ -45,7 +47,10 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
                 Some((entries, per_unit)) if entries.contains(&k) => *per_unit,
                 _ => S::one(),
             };
-            let coefficients = product::<S, STAGES>(&table, increments);
+            let coefficients = match stages {
+                ..5 => product::<S, 4>(&table, increments),
+                _ => product::<S, 8>(&table, increments),
+            };
             largest = largest.max(coefficients.magnitude() * per_unit.widen());
             size = size.max(y.magnitude() * per_unit.widen());
         }
@@ -53,7 +58,7 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
         let [size, ..] = S::scatter(size);
         let pair = |last: usize| coefficients[last].max(coefficients[last.saturating_sub(1)]);
         let most = coefficients.iter().fold(S::zero(), |most, &c| most.max(c));
-        let (high, low) = (pair(STAGES - 1), pair(STAGES.saturating_sub(3)));
+        let (high, low) = (pair(stages - 1), pair(stages.saturating_sub(3)));
         let ratio = (high / low).sqrt();
         let shrinks = ratio.less(S::from_f64(SHRINKS));
         let unseen = high.less_equal(S::epsilon() * S::from_f64(UNSEEN) * most);

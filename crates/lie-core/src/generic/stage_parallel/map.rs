@@ -10,7 +10,7 @@ use crate::state::State;
 /// Changes up to so many units of round-off are at rest where they have shrunk quickly.
 const CALM: f64 = 4.0;
 
-impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAGES> {
+impl<S: Scalar, V: State<S::Wide>> StageParallel<S, V> {
     /// Until the derivative of the increments by the base has converged too.
     ///
     /// With the start frozen, that derivative starts from nothing, and iterates by the same contraction as an error of

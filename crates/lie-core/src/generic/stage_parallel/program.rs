@@ -65,19 +65,6 @@ impl StageStep {
         (base, increments): (&V, V),
         table: &[S::Wide],
         momenta: Option<Range<usize>>,
-        field: impl FnMut(At<'_, V>, &mut V),
-    ) -> (V, S::Wide) {
-        match self.stages {
-            ..5 => self.look_with::<S, V, 4>((base, increments), table, momenta, field),
-            _ => self.look_with::<S, V, 8>((base, increments), table, momenta, field),
-        }
-    }
-
-    fn look_with<S: Scalar, V: State<S::Wide>, const STAGES: usize>(
-        &self,
-        (base, increments): (&V, V),
-        table: &[S::Wide],
-        momenta: Option<Range<usize>>,
         mut field: impl FnMut(At<'_, V>, &mut V),
     ) -> (V, S::Wide) {
         let mut work = Work {
@@ -87,7 +74,7 @@ impl StageStep {
         };
         let momenta = momenta.map(|entries| (entries, table[PER_UNIT]));
         let none = <S::Mask as crate::scalar::Mask>::splat(false);
-        work.evaluate::<S, STAGES>(table, base, &mut field);
+        work.evaluate::<S>(self.stages, table, base, &mut field);
         if let Some(clock) = self.clock {
             work.replace_entries::<S>(&[clock.momentum, clock.time], none);
         }
@@ -97,13 +84,24 @@ impl StageStep {
 
     /// The increments from which the next step starts.
     pub fn go_on<S: Scalar, V: State<S::Wide>>(&self, mut increments: V, table: &[S::Wide]) -> V {
-        for entry in increments.as_mut_slice() {
-            *entry = match self.stages {
-                ..5 => product::<S, 4>(&table[AHEAD], *entry),
-                _ => product::<S, 8>(&table[AHEAD], *entry),
-            };
-        }
+        go_on::<S>(self.stages, increments.as_mut_slice(), table);
         increments
+    }
+}
+
+/// Continues the polynomial of a step with so many stages.
+#[inline(always)]
+pub(super) fn go_on<S: Scalar>(stages: usize, increments: &mut [S::Wide], table: &[S::Wide]) {
+    match stages {
+        ..5 => go_on_with::<S, 4>(increments, &table[AHEAD]),
+        _ => go_on_with::<S, 8>(increments, &table[AHEAD]),
+    }
+}
+
+#[inline(always)]
+fn go_on_with<S: Scalar, const PLACES: usize>(increments: &mut [S::Wide], ahead: &[S::Wide]) {
+    for entry in increments {
+        *entry = product::<S, PLACES>(ahead, *entry);
     }
 }
 

@@ -11,7 +11,7 @@ use crate::state::State;
 const SLOW: (f64, f64) = (1.0, 4.0);
 const PART: (f64, f64) = (1.0, 32.0);
 
-impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAGES> {
+impl<S: Scalar, V: State<S::Wide>> StageParallel<S, V> {
     /// Until the error of the increments is below the tolerance of the options, or changes have come to rest at round-off.
     ///
     /// The first change, which is looked at now and then, tells changes that dropped to round-off from those that shrink slowly

@@ -22,7 +22,7 @@ enum Table {
 }
 
 /// The square of the momentum, in pairs.
-fn square(stages: &StageParallel<f64, [Wide; 3], 8>) -> Pair {
+fn square(stages: &StageParallel<f64, [Wide; 3]>) -> Pair {
     let mut m = [0.0; 3];
     stages.base_into(&mut m);
     let squares = m.map(|entry| Pair::new(entry).times(Pair::new(entry)));
@@ -43,16 +43,16 @@ fn bias(table: Table, h: f64, states: u32, steps: u32) -> [f64; 2] {
             let start = [0.3 + 0.7 * next().abs(), next(), next()];
             let zero = [Wide::default(); 3];
             let mut stages =
-                StageParallel::<f64, [Wide; 3], 8>::new(h, zero, &NewtonOptions::default());
+                StageParallel::<f64, [Wide; 3]>::new(8, h, zero, &NewtonOptions::default());
             let weights = stages.table[WEIGHTS];
             if table == Table::Entries {
                 let ahead = |i, j| {
                     let weights = [i, j].map(|k| gauss_weight::<f64>(8, k));
                     gauss_ahead::<f64>(8, i, j) * weights[1] / weights[0]
                 };
-                let entries = diagonals(8, 8, |i, j| h * gauss_entry::<f64>(8, i, j));
+                let entries = diagonals(8, 8, &|i, j| h * gauss_entry::<f64>(8, i, j));
                 stages.table[RATIOS].copy_from_slice(&entries);
-                stages.table[AHEAD].copy_from_slice(&diagonals(8, 8, ahead));
+                stages.table[AHEAD].copy_from_slice(&diagonals(8, 8, &ahead));
                 stages.table[WEIGHTS] = 1.0.widen();
                 stages.table[PER_WEIGHT] = 1.0.widen();
             }
@@ -104,7 +104,7 @@ fn round_off_of_invariants_walks_for_long() {
 
 /// How many of 100 steps of a rotation at a rate of one about an axis are solved, and the part of the squared length that
 /// those lose.
-fn turn<const STAGES: usize>(axis: [f64; 3], h: f64, options: &NewtonOptions) -> (u32, f64) {
+fn turn(count: usize, axis: [f64; 3], h: f64, options: &NewtonOptions) -> (u32, f64) {
     let cross = |y: &[Wide; 3], out: &mut [Wide; 3]| {
         let [a, b, c] = axis.map(Scalar::widen);
         *out = [
@@ -114,7 +114,7 @@ fn turn<const STAGES: usize>(axis: [f64; 3], h: f64, options: &NewtonOptions) ->
         ];
     };
     let start = [0.6, 0.48, 0.64];
-    let mut stages = StageParallel::<f64, [Wide; 3], STAGES>::new(h, [Wide::default(); 3], options);
+    let mut stages = StageParallel::<f64, [Wide; 3]>::new(count, h, [Wide::default(); 3], options);
     stages.start(true, &start, &[0.0; 3]);
     let mut solved = 0;
     while solved < 100 {
@@ -156,12 +156,12 @@ fn solved_steps_keep_invariants() {
                 0.8 * angle.sin(),
                 if k % 2 == 0 { 0.6 } else { -0.6 },
             ];
-            let (eight, four) = (turn::<8>(axis, h, &options), turn::<4>(axis, h, &options));
+            let (eight, four) = (turn(8, axis, h, &options), turn(4, axis, h, &options));
             for ((steps, lost), accepted) in [eight, four].into_iter().zip(&mut accepted) {
                 assert!(lost < 1e-13, "h = {h}: {lost:e} after {steps} steps");
                 *accepted += u32::from(steps == 100);
             }
-            early_lost = early_lost.max(turn::<8>(axis, h, &early).1);
+            early_lost = early_lost.max(turn(8, axis, h, &early).1);
         }
         println!("{convergence:?}: {accepted:?} of 30");
         assert!(accepted[0] >= 16 && accepted[1] >= 10, "{accepted:?}");
@@ -176,7 +176,7 @@ fn the_end_of_an_iteration_has_no_scale() {
     let iterations = |scale: f64| {
         let options = NewtonOptions::default();
         let zero = [Wide::default(); 3];
-        let mut stages = StageParallel::<f64, [Wide; 3], 8>::new(0.9 / scale, zero, &options);
+        let mut stages = StageParallel::<f64, [Wide; 3]>::new(8, 0.9 / scale, zero, &options);
         stages.start(true, &[0.8, 0.1, 0.6].map(|y| y * scale), &[0.0; 3]);
         let mut end = [0.0; 3];
         let counts: Vec<u32> = (0..20)
