@@ -62,8 +62,12 @@ fn upwards<S: Scalar>(count: usize, x: S, first: &[S]) -> All<S> {
     all
 }
 
-fn select<S: Scalar>(mask: S::Mask, yes: All<S>, no: All<S>) -> All<S> {
-    core::array::from_fn(|k| S::select(mask, yes[k], no[k]))
+/// Replaces the values below the count in the lanes of a mask.
+#[inline(never)]
+fn replace<S: Scalar>(count: usize, mask: S::Mask, values: &mut All<S>, by: &All<S>) {
+    for (value, &by) in values[..count].iter_mut().zip(by) {
+        *value = S::select(mask, by, *value);
+    }
 }
 
 /// The Stumpff functions `S_k(w)`, k below the count, which is at most [`MOST_FUNCTIONS`].
@@ -82,7 +86,8 @@ pub fn stumpff<S: Scalar>(count: usize, w: S) -> All<S> {
         None => beyond(count, w),
     };
     for (bound, terms) in ranges[..=last.unwrap_or(2)].iter().rev() {
-        values = select(within(*bound), stumpff_downwards(count, *terms, -w), values);
+        let sums = stumpff_downwards(count, *terms, -w);
+        replace(count, within(*bound), &mut values, &sums);
     }
     values
 }
@@ -105,14 +110,16 @@ fn beyond<S: Scalar>(count: usize, w: S) -> All<S> {
 #[inline(never)]
 pub fn phi<S: Scalar>(count: usize, z: S) -> All<S> {
     let near = z.abs().less_equal(S::from_f64(NEAR));
-    let values = phi_downwards(count, PHI_TERMS, z);
+    let sums = phi_downwards(count, PHI_TERMS, z);
     if near.all() {
-        return values;
+        return sums;
     }
     let summed = z.abs().less_equal(S::from_f64(PHI_FAR));
-    let mut further = phi_downwards(count, PHI_FAR_TERMS, z);
+    let mut values = phi_downwards(count, PHI_FAR_TERMS, z);
     if !summed.all() {
-        further = select(summed, further, upwards(count, z, &[z.exp()]));
+        let further = core::mem::replace(&mut values, upwards(count, z, &[z.exp()]));
+        replace(count, summed, &mut values, &further);
     }
-    select(near, values, further)
+    replace(count, near, &mut values, &sums);
+    values
 }

@@ -36,6 +36,8 @@ const NEAR: f64 = 1024.0;
 const FOLLOW: f64 = 0.125;
 
 /// The velocity of a momentum: `l'(out) = mu`.
+// once for all that ask for it
+#[inline(never)]
 pub fn velocity<S: Scalar, P: LagrangianPoisson<S>>(system: &P, mu: &P::State, out: &mut P::State) {
     let branch = system.branch();
     let from = if branch.is_some() {

@@ -142,6 +142,7 @@ impl<S: Scalar> Scalar for Dual<S> {
     type Wide = Dual<S::Wide>;
     const LANES: usize = S::LANES;
     const DERIVATIVES: u32 = S::DERIVATIVES + 1;
+    const LOOPS: bool = S::LOOPS;
 
     fn zero() -> Self {
         Self::constant_of(S::zero())

@@ -83,6 +83,9 @@ pub trait Scalar:
     /// How many derivatives along directions the number carries: 0 of plain numbers, one more with
     /// each [`Dual`].
     const DERIVATIVES: u32 = 0;
+    /// Whether a kernel of a system may be a loop over it: an iteration that a value ends, or one over sites. Not over a scalar that
+    /// writes straight programs down; what only such systems need is not compiled for it.
+    const LOOPS: bool = true;
 
     /// 0 in every lane.
     fn zero() -> Self;

@@ -65,6 +65,7 @@ impl<S: Scalar> Scalar for Pack<S> {
     type Wide = Pack<Self>;
     const LANES: usize = 8 * S::LANES;
     const DERIVATIVES: u32 = S::DERIVATIVES;
+    const LOOPS: bool = S::LOOPS;
 
     fn zero() -> Self {
         Self([S::zero(); 8])

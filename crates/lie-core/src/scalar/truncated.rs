@@ -259,6 +259,7 @@ impl<S: Scalar> Scalar for Truncated<S> {
     type Wide = Pack<Self>;
     const LANES: usize = S::LANES;
     const DERIVATIVES: u32 = S::DERIVATIVES;
+    const LOOPS: bool = S::LOOPS;
 
     fn zero() -> Self {
         Self::constant_of(S::zero())

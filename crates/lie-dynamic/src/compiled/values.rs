@@ -77,17 +77,21 @@ impl<S: Scalar> Values<S> {
         &self.compiled.kernels
     }
 
-    /// The same as other scalars: by this machine, or by the interpreter.
+    /// The interpreter of the codes. It is compiled for every scalar for which it is asked.
+    pub fn interpreter<T: Scalar>(&self) -> Arc<dyn Machine<T>> {
+        Arc::new(Interpreter::new(Arc::clone(&self.compiled.codes)))
+    }
+
+    /// The same as other scalars, by this machine.
     pub fn with_scalar<T: Scalar>(
         &self,
         constant: impl Fn(S) -> T,
-        machine: Option<Arc<dyn Machine<T>>>,
+        machine: Arc<dyn Machine<T>>,
     ) -> Values<T> {
         let all = |values: &[S]| values.iter().map(|value| constant(*value)).collect();
-        let interpreter = || Arc::new(Interpreter::new(Arc::clone(&self.compiled.codes)));
         Values {
             compiled: Arc::clone(&self.compiled),
-            machine: machine.unwrap_or_else(|| interpreter()),
+            machine,
             parameters: all(&self.parameters),
             constants: all(&self.constants),
             hurry: self.hurry,

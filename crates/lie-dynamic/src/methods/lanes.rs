@@ -2,7 +2,6 @@
 
 use super::{has_equation, is_compiled_for_lanes};
 use crate::compiled::Values;
-use crate::engine::Interpreter;
 use crate::system::Dynamic;
 use crate::system::family::FamilySite;
 use lie_codegen::methods::Choice;
@@ -49,10 +48,12 @@ impl Dynamic<f64> {
                 .map(|entry| f64::gather(lanes.map(|values| values[entry])))
                 .collect()
         };
-        let interpreter = || Arc::new(Interpreter::new(Arc::clone(&compiled.codes)));
         let values = Values {
             compiled: Arc::clone(compiled),
-            machine: first.values.machine.wide().unwrap_or_else(|| interpreter()),
+            machine: match first.values.machine.wide() {
+                Some(machine) => machine,
+                None => first.values.interpreter(),
+            },
             parameters: gather(|system| &system.values.parameters),
             constants: gather(|system| &system.values.constants),
             hurry: first.values.hurry,

@@ -213,6 +213,7 @@ impl<const COUNT: usize> Scalar for Recorded<COUNT> {
     /// In whichever lanes it will be run, a number is the same register.
     type Wide = Self;
     const LANES: usize = COUNT;
+    const LOOPS: bool = false;
 
     fn zero() -> Self {
         Self::from_f64(0.0)

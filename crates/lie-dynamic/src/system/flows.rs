@@ -4,6 +4,7 @@ use crate::code::Code;
 use crate::compiled::CodeBuilder;
 use crate::system::Dynamic;
 use crate::system::family::FamilySite;
+use crate::system::traits::without_loops;
 use lie_codegen::derive::{Shape, Update};
 use lie_codegen::plan::{Flow, Found, Function, Plan};
 use lie_core::family::FamilyFlows;
@@ -277,7 +278,8 @@ macro_rules! any {
     ($flows:expr, $some:ident => $value:expr) => {
         match $flows {
             AnyFlows::System($some) => $value,
-            AnyFlows::Family($some) => $value,
+            AnyFlows::Family($some) if S::LOOPS => $value,
+            AnyFlows::Family(_) => without_loops(),
         }
     };
 }
@@ -319,8 +321,8 @@ impl<S: Scalar> FoundPoisson<S> for Dynamic<S> {
     type Found<'a> = AnyFlows<'a, S>;
     fn found(&self) -> AnyFlows<'_, S> {
         match &self.family {
-            Some(family) => AnyFlows::Family(family.found()),
-            None => AnyFlows::System(Flows::new(self, true)),
+            Some(family) if S::LOOPS => AnyFlows::Family(family.found()),
+            _ => AnyFlows::System(Flows::new(self, true)),
         }
     }
 }

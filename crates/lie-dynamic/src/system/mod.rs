@@ -223,17 +223,19 @@ impl<S: Scalar> Dynamic<S> {
         self.family.as_ref().map(Family::sizes)
     }
 
-    /// The same with its constants as other scalars.
+    /// The same with its constants as other scalars, by this machine.
     pub(crate) fn with_scalar<T: Scalar>(
         &self,
         constant: impl Fn(S) -> T,
-        machine: Option<Arc<dyn Machine<T>>>,
+        machine: Arc<dyn Machine<T>>,
     ) -> Dynamic<T> {
         let branch = self.branch.as_deref();
         let branch = branch.map(|values| values.iter().map(|value| constant(*value)).collect());
         let values = self.values.with_scalar(constant, machine);
-        let family = self.sizes();
-        let family = family.map(|sizes| Family::new(FamilySite::new(values.clone()), sizes));
+        let family = match self.sizes() {
+            Some(sizes) if T::LOOPS => Some(Family::new(FamilySite::new(values.clone()), sizes)),
+            _ => None,
+        };
         Dynamic {
             values,
             branch,

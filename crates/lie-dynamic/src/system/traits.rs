@@ -18,6 +18,11 @@ pub(crate) fn require(place: Place) -> usize {
     place
 }
 
+/// A kernel that is a loop was asked for over a scalar without any.
+pub(crate) fn without_loops() -> ! {
+    unreachable!("what is written down has no loops within a kernel")
+}
+
 impl<S: Scalar> Poisson<S> for Dynamic<S> {
     type State = Vec<S>;
     type Jacobian = LateMatrix<S>;
@@ -69,10 +74,10 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
         self.values.compiled.plan.system.clock
     }
     fn following(&self, mu: &Vec<S>) -> Option<Self> {
-        if !self.is_by_legendre() {
-            return None;
+        if S::LOOPS && self.is_by_legendre() {
+            return self.on_branch(&legendre::follow(self, mu)?);
         }
-        self.on_branch(&legendre::follow(self, mu)?)
+        None
     }
     fn on_branch(&self, gradient: &Vec<S>) -> Option<Self> {
         let mut following = self.clone();
@@ -89,11 +94,16 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
         LateMatrix::new(Poisson::<S>::dimension(self))
     }
     fn hamiltonian(&self, mu: &Vec<S>) -> S {
-        if let Some(family) = &self.family {
+        if S::LOOPS
+            && let Some(family) = &self.family
+        {
             return family.hamiltonian(mu);
         }
         let Some(code) = self.values.kernels().hamiltonian else {
-            return legendre::hamiltonian(self, mu);
+            return match S::LOOPS {
+                true => legendre::hamiltonian(self, mu),
+                false => without_loops(),
+            };
         };
         let mut value = [S::zero()];
         self.values.call(code, [mu, &[]], &mut value, &mut []);
@@ -108,28 +118,35 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
         value[0]
     }
     fn gradient(&self, mu: &Vec<S>, out: &mut Vec<S>) {
-        if let Some(family) = &self.family {
+        if S::LOOPS
+            && let Some(family) = &self.family
+        {
             return family.gradient(mu, out);
         }
         match self.values.kernels().gradient {
             Some(code) => self.values.call(code, [mu, &[]], out, &mut []),
-            None => legendre::velocity(self, mu, out),
+            None if S::LOOPS => legendre::velocity(self, mu, out),
+            None => without_loops(),
         }
     }
     fn hessian(&self, mu: &Vec<S>, out: &mut LateMatrix<S>) {
-        if let Some(family) = &self.family {
+        if S::LOOPS
+            && let Some(family) = &self.family
+        {
             return family.hessian(mu, out);
         }
         match self.values.kernels().hessian {
             Some(code) => self
                 .values
                 .call(code, [mu, &[]], &mut [], out.as_mut_slice()),
-            None if self.is_by_legendre() => legendre::hessian(self, mu, out),
+            None if S::LOOPS && self.is_by_legendre() => legendre::hessian(self, mu, out),
             None => generic::hessian_by_duals(self, mu, out),
         }
     }
     fn poisson_matrix(&self, mu: &Vec<S>, out: &mut LateMatrix<S>) {
-        if let Some(family) = &self.family {
+        if S::LOOPS
+            && let Some(family) = &self.family
+        {
             return family.poisson_matrix(mu, out);
         }
         let code = require(self.values.kernels().poisson_matrix);
@@ -145,7 +162,9 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
         }
     }
     fn vector_field(&self, mu: &Vec<S>, out: &mut Vec<S>) {
-        if let Some(family) = &self.family {
+        if S::LOOPS
+            && let Some(family) = &self.family
+        {
             return family.vector_field(mu, out);
         }
         match self.values.kernels().vector_field {
@@ -154,7 +173,9 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
         }
     }
     fn jacobian(&self, mu: &Vec<S>, out: &mut LateMatrix<S>) {
-        if let Some(family) = &self.family {
+        if S::LOOPS
+            && let Some(family) = &self.family
+        {
             return family.jacobian(mu, out);
         }
         match self.values.kernels().jacobian {
@@ -185,7 +206,9 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
         }
     }
     fn casimirs(&self, mu: &Vec<S>, out: &mut [S]) {
-        if let Some(family) = &self.family {
+        if S::LOOPS
+            && let Some(family) = &self.family
+        {
             return family.casimirs(mu, out);
         }
         if let Some(code) = self.values.kernels().casimirs {
@@ -193,7 +216,9 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
         }
     }
     fn casimir_gradient(&self, index: usize, mu: &Vec<S>, out: &mut Vec<S>) {
-        if let Some(family) = &self.family {
+        if S::LOOPS
+            && let Some(family) = &self.family
+        {
             return family.casimir_gradient(index, mu, out);
         }
         match self.values.kernels().casimir_gradients[index] {
@@ -209,7 +234,9 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
 
 impl<S: Scalar> LiePoisson<S> for Dynamic<S> {
     fn ad(&self, xi: &Vec<S>, eta: &Vec<S>, out: &mut Vec<S>) {
-        if let Some(family) = &self.family {
+        if S::LOOPS
+            && let Some(family) = &self.family
+        {
             return family.ad(xi, eta, out);
         }
         match self.values.kernels().ad {
@@ -218,7 +245,9 @@ impl<S: Scalar> LiePoisson<S> for Dynamic<S> {
         }
     }
     fn ad_star(&self, xi: &Vec<S>, mu: &Vec<S>, out: &mut Vec<S>) {
-        if let Some(family) = &self.family {
+        if S::LOOPS
+            && let Some(family) = &self.family
+        {
             return family.ad_star(xi, mu, out);
         }
         match self.values.kernels().ad_star {
@@ -227,7 +256,9 @@ impl<S: Scalar> LiePoisson<S> for Dynamic<S> {
         }
     }
     fn ad_star_matrix(&self, xi: &Vec<S>, out: &mut LateMatrix<S>) {
-        if let Some(family) = &self.family {
+        if S::LOOPS
+            && let Some(family) = &self.family
+        {
             return family.ad_star_matrix(xi, out);
         }
         match self.values.kernels().ad_star_matrix {
@@ -286,14 +317,16 @@ impl<S: Scalar> CayleyPoisson<S> for Dynamic<S> {
 impl<S: Scalar> Lift<S> for Dynamic<S> {
     type Lifted = Dynamic<Dual<S>>;
     fn lift(&self) -> Self::Lifted {
-        self.with_scalar(Dual::constant_of, None)
+        self.with_scalar(Dual::constant_of, self.values.interpreter())
     }
 }
 
 impl<S: Scalar> Widen<S> for Dynamic<S> {
     type Widened = Dynamic<S::Wide>;
     fn widen(&self) -> Self::Widened {
-        self.with_scalar(S::widen, self.values.machine.wide())
+        let machine = self.values.machine.wide();
+        let machine = machine.unwrap_or_else(|| self.values.interpreter());
+        self.with_scalar(S::widen, machine)
     }
     fn stage_program(
         &self,
@@ -307,6 +340,6 @@ impl<S: Scalar> Widen<S> for Dynamic<S> {
 impl<S: Scalar> Expand<S> for Dynamic<S> {
     type Expanded = Dynamic<Truncated<S>>;
     fn expand(&self) -> Self::Expanded {
-        self.with_scalar(Truncated::constant_of, None)
+        self.with_scalar(Truncated::constant_of, self.values.interpreter())
     }
 }

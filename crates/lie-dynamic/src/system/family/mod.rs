@@ -65,7 +65,7 @@ impl<S: Scalar> FamilySite<S> {
     /// A site of a family with these values.
     pub(crate) fn new(values: Values<S>) -> Self {
         let wide = values.machine.wide();
-        let wide = wide.map(|machine| values.with_scalar(S::widen, Some(machine)));
+        let wide = wide.map(|machine| values.with_scalar(S::widen, machine));
         Self { values, wide }
     }
 
@@ -186,13 +186,15 @@ impl<S: Scalar> Sites<S> for FamilySite<S> {
     }
 
     fn widen(&self) -> Self::Widened {
-        FamilySite::new(
-            self.values
-                .with_scalar(S::widen, self.values.machine.wide()),
-        )
+        let machine = self.values.machine.wide();
+        let machine = machine.unwrap_or_else(|| self.values.interpreter());
+        FamilySite::new(self.values.with_scalar(S::widen, machine))
     }
     fn lift(&self) -> Self::Lifted {
-        FamilySite::new(self.values.with_scalar(Dual::constant_of, None))
+        FamilySite::new(
+            self.values
+                .with_scalar(Dual::constant_of, self.values.interpreter()),
+        )
     }
 
     fn fields(&self, stretch: &Stretch<'_, S>, weights: &FewOf<S>, out: &mut [S]) {
