@@ -23,19 +23,6 @@ macro_rules! equations {
         $($(equations!(@row $choice $type $([$($equation)+])*);)+)+
     };
     (@row $choice:tt $type:tt) => {};
-    // a Lagrangian has no plan
-    (@row $choice:tt $type:tt [$key:ident Lagrangian $($equation:tt)+]) => {
-        lie_core::generic_equation!([S: Scalar] Dynamic<S>, S, $type, $($equation)+);
-    };
-    (@row $choice:tt $type:tt [$key:ident ClosedLagrangian $($equation:tt)+]) => {
-        lie_core::generic_equation!([S: Scalar] Dynamic<S>, S, $type, $($equation)+);
-    };
-    (@row $choice:tt $type:tt [$key:ident DiscreteLagrangian $($equation:tt)+]) => {
-        lie_core::generic_equation!([S: Scalar] Dynamic<S>, S, $type, $($equation)+);
-    };
-    (@row $choice:tt $type:tt [$key:ident ClosedDiscreteLagrangian $($equation:tt)+]) => {
-        lie_core::generic_equation!([S: Scalar] Dynamic<S>, S, $type, $($equation)+);
-    };
     (@row $choice:tt $type:tt [$key:ident $carrier:ident same $($other:tt)+]) => {
         lie_core::generic_equation!([S: Scalar] Dynamic<S>, S, $type, same $($other)+);
     };
