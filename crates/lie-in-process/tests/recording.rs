@@ -8,6 +8,9 @@ use lie_in_process::list;
 use lie_jit::Jit;
 use lie_runtime::diagnostics::AnyStepper;
 use lie_runtime::newton::NewtonOptions;
+use std::num::NonZero;
+use std::sync::Mutex;
+use std::thread;
 
 /// A declaration of the project, run by machine code and by the interpreter, which makes all steps kernel by kernel.
 struct Both {
@@ -39,34 +42,53 @@ fn stepper<'a>(
     method.any_stepper(system, h, &NewtonOptions::default())
 }
 
-/// The state after some steps, and how the last one ended.
-fn end(
-    system: &Dynamic<f64>,
-    choice: &Choice,
-    h: f64,
-    mu: &[f64],
-    steps: u32,
-) -> (Vec<u64>, String) {
+/// A state after some steps, and how the last of them ended.
+type End = (Vec<u64>, String);
+
+/// The states after these numbers of steps, which grow, of one run.
+fn ends(system: &Dynamic<f64>, choice: &Choice, h: f64, mu: &[f64], after: &[u32]) -> Vec<End> {
     let mut stepper = stepper(system, choice, h);
-    let mut mu = mu.to_vec();
-    let mut last = String::new();
-    for _ in 0..steps {
-        last = format!("{:?}", stepper.step(&mut mu));
-    }
-    (mu.iter().map(|x| x.to_bits()).collect(), last)
+    let (mut mu, mut made, mut last) = (mu.to_vec(), 0, String::new());
+    let end = |&steps: &u32| {
+        while made < steps {
+            last = format!("{:?}", stepper.step(&mut mu));
+            made += 1;
+        }
+        (mu.iter().map(|x| x.to_bits()).collect(), last.clone())
+    };
+    after.iter().map(end).collect()
 }
 
-#[test]
-fn on_every_spec() {
-    let folder = format!("{}/../../specs", env!("CARGO_MANIFEST_DIR"));
-    let files = std::fs::read_dir(folder).unwrap();
-    let names = files.map(|file| file.unwrap().file_name().into_string().unwrap());
-    let (mut steps, mut traced, mut apart, mut untraced) = (0, 0, Vec::new(), Vec::new());
-    for name in names.filter(|name| name.ends_with(".json") && !name.contains("schema")) {
-        let both = Both::new(&name);
+/// The state after so many steps.
+fn end(system: &Dynamic<f64>, choice: &Choice, h: f64, mu: &[f64], steps: u32) -> End {
+    ends(system, choice, h, mu, &[steps]).remove(0)
+}
+
+/// What was found of the methods on some declarations.
+#[derive(Default)]
+struct Tally {
+    /// Programs of steps, and methods with a solver that have traces.
+    steps: usize,
+    traced: usize,
+    /// The methods without either: those without a solver, and those with one.
+    apart: Vec<String>,
+    untraced: Vec<String>,
+}
+
+impl Tally {
+    fn add(&mut self, other: Self) {
+        self.steps += other.steps;
+        self.traced += other.traced;
+        self.apart.extend(other.apart);
+        self.untraced.extend(other.untraced);
+    }
+
+    /// Takes the methods on one declaration.
+    fn take(&mut self, name: &str) {
+        let both = Both::new(name);
         let hurried = both.compiled.clone().without_patience();
         let Some(mu) = hurried.initial_state() else {
-            continue;
+            return;
         };
         for choice in &both.choices {
             let label = format!("{name} {}", choice.label());
@@ -81,14 +103,48 @@ fn on_every_spec() {
             }
             match (hurried.programs(choice), claims.explicit) {
                 (0, true) if claims.own_steps || choice.id() == "exact" => {}
-                (0, true) => apart.push(label),
-                (count, true) => steps += count,
+                (0, true) => self.apart.push(label),
+                (count, true) => self.steps += count,
                 (0, false) if claims.fixed_point || claims.own_steps => {}
-                (0, false) => untraced.push(label),
-                (_, false) => traced += 1,
+                (0, false) => self.untraced.push(label),
+                (_, false) => self.traced += 1,
             }
         }
     }
+}
+
+#[test]
+fn on_every_spec() {
+    let folder = format!("{}/../../specs", env!("CARGO_MANIFEST_DIR"));
+    let files = std::fs::read_dir(folder).unwrap();
+    let names = files.map(|file| file.unwrap().file_name().into_string().unwrap());
+    let names = names.filter(|name| name.ends_with(".json") && !name.contains("schema"));
+    let left = Mutex::new(names.collect::<Vec<_>>());
+    let work = || {
+        let mut tally = Tally::default();
+        loop {
+            // a statement of its own, so that the others do not wait
+            let next = left.lock().unwrap().pop();
+            match next {
+                Some(name) => tally.take(&name),
+                None => return tally,
+            }
+        }
+    };
+    let mut all = Tally::default();
+    thread::scope(|scope| {
+        let threads = thread::available_parallelism().map_or(1, NonZero::get);
+        let workers: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
+        for worker in workers {
+            all.add(worker.join().unwrap());
+        }
+    });
+    let Tally {
+        steps,
+        traced,
+        mut apart,
+        mut untraced,
+    } = all;
     // the exponential of su(3) is a series that ends by the size of its terms; the quartic Lagrangian's velocity is iterated for
     apart.retain(|label| {
         let exponential = label.starts_with("su3_quadratic") && !label.ends_with("rk4");
@@ -214,12 +270,12 @@ fn within_a_run() {
     let both = Both::new("se3_heavy_top.json");
     let mu = both.compiled.initial_state().unwrap();
     for choice in explicit() {
-        for steps in [PATIENCE - 1, PATIENCE, PATIENCE + 1, PATIENCE + 100] {
+        let after = [PATIENCE - 1, PATIENCE, PATIENCE + 1, PATIENCE + 100];
+        let expected = ends(&both.interpreted, &choice, 0.01, &mu, &after);
+        for (steps, expected) in after.into_iter().zip(expected) {
             // a declaration of its own, which knows no programs yet
             let both = Both::new("se3_heavy_top.json");
-            let system = &both.compiled;
-            let found = end(system, &choice, 0.01, &mu, steps);
-            let expected = end(&both.interpreted, &choice, 0.01, &mu, steps);
+            let found = end(&both.compiled, &choice, 0.01, &mu, steps);
             assert_eq!(found, expected, "{} {steps}", choice.label());
         }
     }
