@@ -17,6 +17,7 @@ use crate::matrix::SquareMatrix;
 use crate::scalar::{Dual, Scalar};
 use crate::state::State;
 use crate::structure::Spectrum;
+use core::ops::Range;
 
 /// A Hamiltonian system `mu' = f(mu) = Pi(mu) grad H(mu)` on a Poisson manifold with n coordinates.
 ///
@@ -37,6 +38,11 @@ pub trait Poisson<S: Scalar>: Sized {
     fn name(&self) -> &str;
     /// The name of a coordinate.
     fn coordinate(&self, index: usize) -> &str;
+    /// How many rows and columns of sites there are, of a family: its coordinates are those of its sites, and their names are too
+    /// many to be told unless somebody asks.
+    fn sites(&self) -> Option<[usize; 2]> {
+        None
+    }
     /// The number of Casimirs that [`Poisson::casimirs`] writes.
     fn casimir_count(&self) -> usize {
         0
@@ -130,6 +136,21 @@ pub trait Poisson<S: Scalar>: Sized {
     /// The vector field `f(mu) = Pi(mu) grad H(mu)`.
     fn vector_field(&self, mu: &Self::State, out: &mut Self::State) {
         generic::vector_field(self, mu, out);
+    }
+    /// The vector field at a state whose entries `before` sets, and of whose slopes `after` makes something: of all at once, or of a
+    /// system whose parts depend on a few others part by part, while these are in the cache.
+    #[inline(always)]
+    fn vector_field_by_parts(
+        &self,
+        mu: &mut Self::State,
+        out: &mut Self::State,
+        mut before: impl FnMut(&mut [S], Range<usize>),
+        mut after: impl FnMut(&mut [S], Range<usize>),
+    ) {
+        let all = 0..mu.as_slice().len();
+        before(mu.as_mut_slice(), all.clone());
+        self.vector_field(mu, out);
+        after(out.as_mut_slice(), all);
     }
     /// The Jacobian of the vector field: `out_ij = df_i/dmu_j`.
     fn jacobian(&self, mu: &Self::State, out: &mut Self::Jacobian);

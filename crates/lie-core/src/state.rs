@@ -131,6 +131,11 @@ pub trait State<S: Scalar>: Unknown<S> {
     fn copy_from(&mut self, other: &Self) {
         self.as_mut_slice().copy_from_slice(other.as_slice());
     }
+    /// Takes over the coordinates of another state, which is left with any: without a copy where they are on the heap.
+    #[inline(always)]
+    fn take_over(&mut self, other: &mut Self) {
+        self.copy_from(other);
+    }
     /// Moves the coordinates out, to be given back, without allocating; which ones are left is not specified.
     fn take(&mut self) -> Self;
     /// Sets every coordinate.
@@ -148,7 +153,7 @@ pub trait State<S: Scalar>: Unknown<S> {
 }
 
 macro_rules! one_part {
-    ($type:ty, [$($generics:tt)*], $slice:expr, $slice_mut:expr, $take:expr) => {
+    ($type:ty, [$($generics:tt)*], $slice:expr, $slice_mut:expr, $take:expr, $take_over:expr) => {
         impl<S: Scalar, $($generics)*> Unknown<S> for $type {
             #[inline(always)]
             fn parts(&self) -> usize {
@@ -174,6 +179,10 @@ macro_rules! one_part {
                 $slice_mut(self)
             }
             #[inline(always)]
+            fn take_over(&mut self, other: &mut Self) {
+                $take_over(self, other)
+            }
+            #[inline(always)]
             fn take(&mut self) -> Self {
                 $take(self)
             }
@@ -182,15 +191,16 @@ macro_rules! one_part {
 }
 
 #[cfg(any(feature = "nalgebra", test))]
-one_part!(SVector<S, N>, [const N: usize], SVector::as_slice, SVector::as_mut_slice, |state: &mut Self| *state);
-one_part!([S; N], [const N: usize], <[S; N]>::as_slice, <[S; N]>::as_mut_slice, |state: &mut Self| *state);
+one_part!(SVector<S, N>, [const N: usize], SVector::as_slice, SVector::as_mut_slice, |state: &mut Self| *state, |to: &mut Self, from: &mut Self| *to = *from);
+one_part!([S; N], [const N: usize], <[S; N]>::as_slice, <[S; N]>::as_mut_slice, |state: &mut Self| *state, |to: &mut Self, from: &mut Self| *to = *from);
 #[cfg(feature = "std")]
 one_part!(
     std::vec::Vec<S>,
     [],
     std::vec::Vec::as_slice,
     std::vec::Vec::as_mut_slice,
-    core::mem::take
+    core::mem::take,
+    core::mem::swap
 );
 
 /// The unknowns of a method with several stages, one part per stage.

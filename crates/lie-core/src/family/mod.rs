@@ -20,6 +20,7 @@ mod energy;
 mod exchange;
 mod initial;
 mod matrix;
+mod parts;
 mod shape;
 mod sites;
 mod splitting;

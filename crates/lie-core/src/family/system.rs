@@ -4,17 +4,11 @@ use super::{LateMatrix, Sites};
 use crate::parameter::{ParameterError, ParameterFault};
 use crate::poisson::{LiePoisson, Poisson, Widen};
 use crate::scalar::Scalar;
+use core::ops::Range;
 use std::format;
 use std::string::String;
 use std::sync::OnceLock;
 use std::vec::Vec;
-
-/// The names of coordinates and Casimirs.
-#[derive(Clone, Debug, PartialEq)]
-struct Names {
-    coordinates: Vec<String>,
-    casimirs: Vec<String>,
-}
 
 /// A family of sites as a system; see the [module's text](super).
 ///
@@ -23,8 +17,9 @@ struct Names {
 pub struct Family<K> {
     kernels: K,
     sizes: [usize; 2],
-    /// Made when somebody asks for one: a large family is integrated without.
-    names: OnceLock<Names>,
+    /// The names of the coordinates, made when somebody asks for one: a large family is integrated without.
+    coordinates: OnceLock<Vec<String>>,
+    casimirs: OnceLock<Vec<String>>,
 }
 
 /// The number of sites along one axis, from the value of a parameter.
@@ -53,7 +48,8 @@ impl<K> Family<K> {
         Self {
             kernels,
             sizes,
-            names: OnceLock::new(),
+            coordinates: OnceLock::new(),
+            casimirs: OnceLock::new(),
         }
     }
 
@@ -75,11 +71,11 @@ impl<K> Family<K> {
         self.sizes[0] * self.sizes[1]
     }
 
-    fn names<S: Scalar>(&self) -> &Names
+    fn coordinate_names<S: Scalar>(&self) -> &[String]
     where
         K: Sites<S>,
     {
-        self.names.get_or_init(|| {
+        self.coordinates.get_or_init(|| {
             let [rows, columns] = self.sizes;
             let coordinates = 0..self.kernels.dimension();
             let named = |name: &str, site: usize| match rows {
@@ -88,14 +84,20 @@ impl<K> Family<K> {
             };
             let all = coordinates.map(|k| self.kernels.coordinate(k));
             let all = all.flat_map(|name| (0..self.count()).map(move |site| named(name, site)));
+            all.collect()
+        })
+    }
+
+    fn casimir_names<S: Scalar>(&self) -> &[String]
+    where
+        K: Sites<S>,
+    {
+        self.casimirs.get_or_init(|| {
             let casimirs = (0..3 * self.kernels.casimir_count()).map(|index| {
                 let name = self.kernels.casimir_name(index / 3);
                 format!("{name}_{}", STATISTICS[index % 3])
             });
-            Names {
-                coordinates: all.collect(),
-                casimirs: casimirs.collect(),
-            }
+            casimirs.collect()
         })
     }
 
@@ -144,13 +146,16 @@ where
         self.kernels.name()
     }
     fn coordinate(&self, index: usize) -> &str {
-        &self.names().coordinates[index]
+        &self.coordinate_names()[index]
+    }
+    fn sites(&self) -> Option<[usize; 2]> {
+        Some(self.sizes)
     }
     fn casimir_count(&self) -> usize {
         3 * self.kernels.casimir_count()
     }
     fn casimir_name(&self, index: usize) -> &str {
-        &self.names().casimirs[index]
+        &self.casimir_names()[index]
     }
     fn casimir_degree(&self, index: usize) -> Option<u32> {
         self.kernels
@@ -201,18 +206,18 @@ where
         let [rows, columns] = self.sizes;
         for row in 0..rows {
             let inner = self.inner::<S>(row);
-            for column in (0..inner.start).chain(inner.end..columns) {
-                let site = row * columns + column;
-                let slope = self.slope(mu, [row, column], &weights);
-                let field = self.kernels.ad_star(&slope, &self.site(mu, site));
-                self.set_site(out, site, field.as_ref());
-            }
-            if inner.is_empty() {
-                continue;
-            }
-            let stretch = self.stretch(mu, row, inner);
-            self.kernels.fields(&stretch, &weights, out);
+            self.field_of_row(mu, (row, 0..columns), inner, &weights, out);
         }
+    }
+
+    fn vector_field_by_parts(
+        &self,
+        mu: &mut Vec<S>,
+        out: &mut Vec<S>,
+        before: impl FnMut(&mut [S], Range<usize>),
+        after: impl FnMut(&mut [S], Range<usize>),
+    ) {
+        self.field_by_parts(mu, out, before, after);
     }
 
     fn jacobian(&self, mu: &Vec<S>, out: &mut LateMatrix<S>) {

@@ -145,7 +145,7 @@ pub use stage_momenta::{MatrixMomenta, QuaternionMomenta, StageMap, StageMomenta
 pub use stage_parallel::program::StageProgram;
 pub use stage_parallel::program::{StageSlopes, StageStep, TABLE as STAGE_TABLE};
 pub use stage_parallel::{Iterated, StageParallel};
-pub use stage_work::At;
+pub use stage_work::{At, Open, Rule};
 pub use tableau::{MOST_STAGES, Tableau, gauss_ahead, gauss_ratio, gauss_tableau, gauss_weight};
 pub use tensor::{MeanTensor, MidpointTensor, PoissonTensor, TensorFacts};
 pub use unitary::{factor_of, flow_of_factor, flow_over_factors, momentum_of_factor};

@@ -15,7 +15,7 @@ use self::program::StageProgram;
 use self::program::{AHEAD, PER_UNIT, PER_WEIGHT, RATIOS, StageSlopes, TABLE, WEIGHTS};
 use super::diagonals::diagonals;
 use super::stage_ending::most;
-use super::stage_work::{At, Work};
+use super::stage_work::{At, Rule, Work};
 use super::tableau::{gauss_ahead, gauss_ratio, gauss_weight};
 use crate::clock::{Clock, holds};
 use crate::newton::{Convergence, Iteration, NewtonOptions};
@@ -276,6 +276,12 @@ impl<S: Scalar, V: State<S::Wide>> StageParallel<S, V> {
     /// Iterates until what the options say has converged. Sizes are sums of magnitudes. `field` gives the next slopes.
     #[inline(always)]
     pub fn iterate(&mut self, field: impl FnMut(At<'_, V>, &mut V)) -> Iterated<S> {
+        self.iterate_by(field)
+    }
+
+    /// The same by a rule for the increments.
+    #[inline(always)]
+    pub fn iterate_by(&mut self, field: impl Rule<S, V>) -> Iterated<S> {
         match self.options.convergence {
             Convergence::Map => self.iterate_map(field),
             Convergence::State | Convergence::Claimed | Convergence::Tolerance => {
@@ -295,12 +301,7 @@ impl<S: Scalar, V: State<S::Wide>> StageParallel<S, V> {
 
     /// Iterates once; the changes of the slopes. The lanes that have ended keep their increments.
     #[inline(always)]
-    fn look(
-        &mut self,
-        work: &mut Work<V>,
-        ended: S::Mask,
-        field: &mut impl FnMut(At<'_, V>, &mut V),
-    ) -> S::Wide {
+    fn look(&mut self, work: &mut Work<V>, ended: S::Mask, field: &mut impl Rule<S, V>) -> S::Wide {
         #[cfg(feature = "std")]
         if let Some(program) = &mut self.program {
             let change = program.look(&self.table, self.base.as_slice(), work.both());
@@ -318,7 +319,7 @@ impl<S: Scalar, V: State<S::Wide>> StageParallel<S, V> {
 
     /// Iterates so many times without a look at the changes.
     #[inline(always)]
-    fn blind(&mut self, work: &mut Work<V>, count: u32, field: &mut impl FnMut(At<'_, V>, &mut V)) {
+    fn blind(&mut self, work: &mut Work<V>, count: u32, field: &mut impl Rule<S, V>) {
         #[cfg(feature = "std")]
         if let Some(program) = &mut self.program {
             program.iterate(count, &self.table, self.base.as_slice(), work.both());
@@ -329,7 +330,7 @@ impl<S: Scalar, V: State<S::Wide>> StageParallel<S, V> {
         }
         for _ in 0..count {
             work.evaluate::<S>(self.stages, &self.table, &self.base, field);
-            work.increments.copy_from(&work.next);
+            work.increments.take_over(&mut work.next);
         }
     }
 

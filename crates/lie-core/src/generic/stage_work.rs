@@ -5,6 +5,7 @@ use core::ops::Range;
 
 use super::diagonals::product_from;
 use super::stage_parallel::program::{RATIOS, WEIGHTS};
+use crate::poisson::Poisson;
 use crate::scalar::Scalar;
 use crate::state::State;
 
@@ -26,6 +27,108 @@ pub struct At<'a, V> {
     pub increments: &'a V,
     /// `Y_i = y + sum_j (a_ij/b_j) D_j`
     pub points: &'a V,
+}
+
+/// The stages of a step before their points are there.
+#[derive(Debug)]
+pub struct Open<'a, S: Scalar, V> {
+    stages: usize,
+    ratios: &'a [S::Wide],
+    weights: S::Wide,
+    base: &'a V,
+    increments: &'a V,
+    points: &'a mut V,
+}
+
+impl<'a, S: Scalar, V: State<S::Wide>> Open<'a, S, V> {
+    /// The next increments by what gives the slopes at the points of the stages.
+    #[inline(always)]
+    pub fn at_points(self, slopes: impl FnOnce(At<'_, V>, &mut V), next: &mut V) {
+        let all = 0..self.points.as_slice().len();
+        let Self {
+            base, increments, ..
+        } = self;
+        let points = self.points;
+        set_points::<S>(
+            self.stages,
+            self.ratios,
+            [base, increments].map(V::as_slice),
+            points.as_mut_slice(),
+            all,
+        );
+        let at = At {
+            base,
+            increments,
+            points,
+        };
+        slopes(at, next);
+        for next in next.as_mut_slice() {
+            *next *= self.weights;
+        }
+    }
+
+    /// The next increments by the field of a system, which may take the points part by part: of many sites those of a few stay in
+    /// the cache until their slopes are there.
+    #[inline(always)]
+    pub fn by_parts<P: Poisson<S::Wide, State = V>>(self, system: &P, next: &mut V) {
+        let (stages, ratios, weights) = (self.stages, self.ratios, self.weights);
+        let from = [self.base, self.increments].map(V::as_slice);
+        let before = |points: &mut [S::Wide], entries| {
+            set_points::<S>(stages, ratios, from, points, entries);
+        };
+        let after = |next: &mut [S::Wide], entries: Range<usize>| {
+            next[entries].iter_mut().for_each(|next| *next *= weights);
+        };
+        system.vector_field_by_parts(self.points, next, before, after);
+    }
+}
+
+/// Sets some entries of the points of so many stages, from the base and the increments.
+#[inline(always)]
+fn set_points<S: Scalar>(
+    stages: usize,
+    ratios: &[S::Wide],
+    from: [&[S::Wide]; 2],
+    points: &mut [S::Wide],
+    entries: Range<usize>,
+) {
+    match stages {
+        ..5 => set_points_with::<S, 4>(ratios, from, points, entries),
+        _ => set_points_with::<S, 8>(ratios, from, points, entries),
+    }
+}
+
+#[inline(always)]
+fn set_points_with<S: Scalar, const PLACES: usize>(
+    ratios: &[S::Wide],
+    [base, increments]: [&[S::Wide]; 2],
+    points: &mut [S::Wide],
+    entries: Range<usize>,
+) {
+    let from = base[entries.clone()]
+        .iter()
+        .zip(&increments[entries.clone()]);
+    for (point, (y, increments)) in points[entries].iter_mut().zip(from) {
+        *point = product_from::<S, PLACES>(*y, ratios, *increments);
+    }
+}
+
+/// What gives the next increments of the stages of a step; a function gives the slopes at their points.
+pub trait Rule<S: Scalar, V> {
+    /// The next increments: `h b_i` times the slopes.
+    fn increments(&mut self, stages: Open<'_, S, V>, next: &mut V);
+}
+
+impl<S, V, F> Rule<S, V> for F
+where
+    S: Scalar,
+    V: State<S::Wide>,
+    F: FnMut(At<'_, V>, &mut V),
+{
+    #[inline(always)]
+    fn increments(&mut self, stages: Open<'_, S, V>, next: &mut V) {
+        stages.at_points(self, next);
+    }
 }
 
 impl<V> Work<V> {
@@ -60,26 +163,13 @@ impl<V> Work<V> {
     }
 
     /// The points of so many stages.
-    #[inline(always)]
     pub(super) fn set_points<S: Scalar>(&mut self, stages: usize, ratios: &[S::Wide], base: &V)
     where
         V: State<S::Wide>,
     {
-        match stages {
-            ..5 => self.set_points_with::<S, 4>(ratios, base),
-            _ => self.set_points_with::<S, 8>(ratios, base),
-        }
-    }
-
-    #[inline(always)]
-    fn set_points_with<S: Scalar, const PLACES: usize>(&mut self, ratios: &[S::Wide], base: &V)
-    where
-        V: State<S::Wide>,
-    {
-        let entries = self.points.as_mut_slice().iter_mut().zip(base.as_slice());
-        for ((point, y), increments) in entries.zip(self.increments.as_slice()) {
-            *point = product_from::<S, PLACES>(*y, ratios, *increments);
-        }
+        let (from, points) = ([base, &self.increments], self.points.as_mut_slice());
+        let all = 0..points.len();
+        set_points::<S>(stages, ratios, from.map(V::as_slice), points, all);
     }
 
     /// The next increments: `h b_i`, the weights, times the field at the points of the stages.
@@ -89,21 +179,19 @@ impl<V> Work<V> {
         stages: usize,
         table: &[S::Wide],
         base: &V,
-        field: &mut impl FnMut(At<'_, V>, &mut V),
+        rule: &mut impl Rule<S, V>,
     ) where
         V: State<S::Wide>,
     {
-        self.set_points::<S>(stages, &table[RATIOS], base);
-        let weights = table[WEIGHTS];
-        let at = At {
+        let stages = Open {
+            stages,
+            ratios: &table[RATIOS],
+            weights: table[WEIGHTS],
             base,
             increments: &self.increments,
-            points: &self.points,
+            points: &mut self.points,
         };
-        field(at, &mut self.next);
-        for next in self.next.as_mut_slice() {
-            *next *= weights;
-        }
+        rule.increments(stages, &mut self.next);
     }
 
     /// Takes over the next increments of some entries, which then do not count as changes.

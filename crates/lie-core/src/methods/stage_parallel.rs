@@ -3,7 +3,7 @@
 use super::implicit::{ImplicitStepper, clear, equal_lanes};
 use super::stepper::{FactorSink, RungeKutta, Stage, StepFailure, StepReport, Stepper};
 use crate::equation::Equation;
-use crate::generic::{At, StageParallel, StageSlopes};
+use crate::generic::{At, Open, Rule, StageParallel, StageSlopes};
 use crate::matrix::SquareMatrix;
 use crate::newton::{FailureReason, Iteration, NewtonOptions};
 use crate::poisson::{Poisson, Widen};
@@ -29,6 +29,17 @@ pub trait Slopes<'a, S: Scalar, P: Widen<S> + 'a>: Sized {
 
     /// The next slopes, from the stages of a step.
     fn next(&mut self, wide: &P::Widened, at: At<'_, WideState<S, P>>, out: &mut WideState<S, P>);
+
+    /// The next increments: `h b_i` times those slopes.
+    #[inline(always)]
+    fn increments(
+        &mut self,
+        wide: &P::Widened,
+        stages: Open<'_, S, WideState<S, P>>,
+        out: &mut WideState<S, P>,
+    ) {
+        stages.at_points(|at, out| self.next(wide, at, out), out);
+    }
 
     /// The directions in the algebra at the stages: `grad H`, or a mean of it.
     fn directions(
@@ -98,6 +109,16 @@ impl<'a, S: Scalar, P: Widen<S> + 'a> Slopes<'a, S, P> for Field {
         wide.vector_field(at.points, out);
     }
 
+    #[inline(always)]
+    fn increments(
+        &mut self,
+        wide: &P::Widened,
+        stages: Open<'_, S, WideState<S, P>>,
+        out: &mut WideState<S, P>,
+    ) {
+        stages.by_parts(wide, out);
+    }
+
     fn directions(
         &mut self,
         wide: &P::Widened,
@@ -105,6 +126,24 @@ impl<'a, S: Scalar, P: Widen<S> + 'a> Slopes<'a, S, P> for Field {
         out: &mut WideState<S, P>,
     ) {
         wide.gradient(at.points, out);
+    }
+}
+
+/// The slopes of a system.
+struct Ruled<'r, S: Scalar, P: Widen<S>, F> {
+    wide: &'r P::Widened,
+    rule: &'r mut F,
+}
+
+impl<'a, S, P, F> Rule<S, WideState<S, P>> for Ruled<'_, S, P, F>
+where
+    S: Scalar,
+    P: Widen<S> + 'a,
+    F: Slopes<'a, S, P>,
+{
+    #[inline(always)]
+    fn increments(&mut self, stages: Open<'_, S, WideState<S, P>>, next: &mut WideState<S, P>) {
+        self.rule.increments(self.wide, stages, next);
     }
 }
 
@@ -265,7 +304,7 @@ where
         let mut left = S::Mask::splat(true);
         if self.by_fixed_point() {
             let (wide, rule) = (&self.wide, &mut self.rule);
-            let solved = self.stages.iterate(|at, next| rule.next(wide, at, next));
+            let solved = self.stages.iterate_by(Ruled::<S, P, F> { wide, rule });
             self.stages.advance();
             self.stages.base_into(self.next.as_mut_slice());
             report.evaluations += solved.iterations;

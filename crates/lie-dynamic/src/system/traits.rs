@@ -9,6 +9,7 @@ use lie_runtime::scalar::Truncated;
 use lie_runtime::{
     CayleyPoisson, Dual, Expand, LiePoisson, Lift, Poisson, Scalar, Spectrum, Widen,
 };
+use std::ops::Range;
 
 /// The place of a kernel that every system has.
 pub(crate) fn require(place: Place) -> usize {
@@ -41,6 +42,9 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
             return Poisson::<S>::coordinate(family, index);
         }
         &self.values.compiled.plan.names.coordinates[index]
+    }
+    fn sites(&self) -> Option<[usize; 2]> {
+        self.sizes()
     }
     fn casimir_count(&self) -> usize {
         if let Some(family) = &self.family {
@@ -83,6 +87,21 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
         let mut following = self.clone();
         following.branch = self.is_by_legendre().then(|| gradient.clone());
         following.branch.is_some().then_some(following)
+    }
+    fn vector_field_by_parts(
+        &self,
+        mu: &mut Vec<S>,
+        out: &mut Vec<S>,
+        mut before: impl FnMut(&mut [S], Range<usize>),
+        mut after: impl FnMut(&mut [S], Range<usize>),
+    ) {
+        if let Some(family) = &self.family {
+            return family.vector_field_by_parts(mu, out, before, after);
+        }
+        let all = 0..mu.len();
+        before(mu, all.clone());
+        self.vector_field(mu, out);
+        after(out, all);
     }
     fn has_jacobian(&self) -> bool {
         self.family.is_none()

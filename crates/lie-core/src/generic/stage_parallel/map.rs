@@ -2,7 +2,7 @@
 
 use super::{BEYOND, Iterated, StageParallel};
 use crate::generic::stage_ending::{are_below, most};
-use crate::generic::stage_work::At;
+use crate::generic::stage_work::Rule;
 use crate::newton::rest::{REVIEW, Reviews, STAGNATION, dropped, is_quick};
 use crate::scalar::{Mask, Scalar};
 use crate::state::State;
@@ -19,7 +19,7 @@ impl<S: Scalar, V: State<S::Wide>> StageParallel<S, V> {
     /// many iterations as the last step that showed one. Where changes do not shrink quickly, the last one is looked at: the rate of changes
     /// that turn while they shrink may have been taken for a smaller one, and then the iteration goes on until they are at rest.
     #[inline(always)]
-    pub(super) fn iterate_map(&mut self, mut field: impl FnMut(At<'_, V>, &mut V)) -> Iterated<S> {
+    pub(super) fn iterate_map(&mut self, mut field: impl Rule<S, V>) -> Iterated<S> {
         let unit = self.size() * S::epsilon();
         let bound = unit * S::from_f64(STAGNATION);
         let mut work = self.work.take::<S>();

@@ -2,7 +2,7 @@
 
 use super::{BEYOND, FRESH, Iterated, StageParallel};
 use crate::generic::stage_ending::{Ending, are_below, most};
-use crate::generic::stage_work::At;
+use crate::generic::stage_work::Rule;
 use crate::newton::rest::{REVIEW, Reviews};
 use crate::scalar::{Mask, Scalar};
 use crate::state::State;
@@ -18,10 +18,7 @@ impl<S: Scalar, V: State<S::Wide>> StageParallel<S, V> {
     /// and may have any ratio. The latter end by their reviews. Where changes shrink slowly, some iterations more are made for the
     /// entries that are smaller than the state.
     #[inline(always)]
-    pub(super) fn iterate_state(
-        &mut self,
-        mut field: impl FnMut(At<'_, V>, &mut V),
-    ) -> Iterated<S> {
+    pub(super) fn iterate_state(&mut self, mut field: impl Rule<S, V>) -> Iterated<S> {
         let ending = Ending::new(self.size(), self.rate, &self.options);
         let (quiet, stale) = (self.least_quiet(), !self.age.less(S::from_f64(FRESH)));
         let done = u32::from(quiet > 0 && stale.any());
@@ -113,7 +110,7 @@ impl<S: Scalar, V: State<S::Wide>> StageParallel<S, V> {
     /// Iterates once, to see the first change of a step in some lanes.
     #[cold]
     #[inline(never)]
-    fn begin(&mut self, lanes: S::Mask, field: &mut impl FnMut(At<'_, V>, &mut V)) {
+    fn begin(&mut self, lanes: S::Mask, field: &mut impl Rule<S, V>) {
         let mut work = self.work.take::<S>();
         let change = self.look(&mut work, S::Mask::splat(false), field);
         self.work = work;

@@ -1,0 +1,269 @@
+//! The vector field a few sites at a time.
+
+use super::sites::Sums;
+use super::{Family, Sites};
+use crate::scalar::Scalar;
+use core::ops::Range;
+use std::vec::Vec;
+
+/// Sites whose slopes are computed one behind the other: with eight stages each they and what they are computed from fit into the
+/// cache.
+const PART: usize = 128;
+
+impl<K> Family<K> {
+    /// The vector field on some columns of a row, `inner` being those of the row that have all neighbours.
+    #[inline]
+    pub(super) fn field_of_row<S: Scalar>(
+        &self,
+        mu: &[S],
+        (row, part): (usize, Range<usize>),
+        inner: Range<usize>,
+        weights: &Sums<K, S>,
+        out: &mut [S],
+    ) where
+        K: Sites<S>,
+    {
+        let [_, columns] = self.sizes();
+        let at_ends = [0..inner.start, inner.end..columns];
+        let outer = at_ends.map(|end| end.start.max(part.start)..end.end.min(part.end));
+        for column in outer.into_iter().flatten() {
+            let site = row * columns + column;
+            let slope = self.slope(mu, [row, column], weights);
+            let field = self.kernels().ad_star(&slope, &self.site(mu, site));
+            self.set_site(out, site, field.as_ref());
+        }
+        let inner = inner.start.max(part.start)..inner.end.min(part.end);
+        if !inner.is_empty() {
+            let stretch = self.stretch(mu, row, inner);
+            self.kernels().fields(&stretch, weights, out);
+        }
+    }
+
+    /// How far before and behind a site those are on which its slope depends, where nothing wraps around: the neighbours of the
+    /// sites whose summands it is in.
+    fn reach<S: Scalar>(&self) -> usize
+    where
+        K: Sites<S>,
+    {
+        let [rows, columns] = self.sizes();
+        let offsets = self.kernels().offsets().iter();
+        let farthest = |axis: usize| {
+            let distances = offsets.clone().map(|offset| offset[axis].unsigned_abs());
+            distances.max().unwrap_or(0)
+        };
+        match rows {
+            1 => 2 * farthest(1),
+            _ => (2 * farthest(0) + 1) * columns,
+        }
+    }
+
+    /// The vector field at a state whose entries `before` sets, while those of `after` are computed: first the sites that depend
+    /// on some before and behind them, then those at the ends.
+    pub(super) fn field_by_parts<S: Scalar>(
+        &self,
+        mu: &mut Vec<S>,
+        out: &mut [S],
+        mut before: impl FnMut(&mut [S], Range<usize>),
+        mut after: impl FnMut(&mut [S], Range<usize>),
+    ) where
+        K: Sites<S>,
+    {
+        let (count, [rows, columns]) = (self.count(), self.sizes());
+        let of_sites = |sites: &Range<usize>, done: &mut dyn FnMut(Range<usize>)| {
+            let coordinates = 0..self.kernels().dimension();
+            coordinates.for_each(|k| done(k * count + sites.start..k * count + sites.end));
+        };
+        let mut set = 0;
+        let mut set_to = |end: usize, mu: &mut Vec<S>| {
+            if set < end {
+                of_sites(&(set..end), &mut |entries| before(mu, entries));
+                set = end;
+            }
+        };
+        let local = match self.kernels().has_mean_field() {
+            // every site depends on all
+            true => count,
+            false => self.reach(),
+        };
+        let is_local = |sites: &Range<usize>| local <= sites.start && sites.end + local <= count;
+        for at_ends in [false, true] {
+            if at_ends {
+                set_to(count, mu);
+            }
+            let weights = match at_ends || !self.kernels().has_mean_field() {
+                true => self.weights(mu),
+                false => continue,
+            };
+            for row in 0..rows {
+                let inner = self.inner::<S>(row);
+                for start in (0..columns).step_by(PART) {
+                    let part = start..columns.min(start + PART);
+                    let sites = row * columns + part.start..row * columns + part.end;
+                    if is_local(&sites) == at_ends {
+                        continue;
+                    }
+                    if !at_ends {
+                        set_to(sites.end + local, mu);
+                    }
+                    self.field_of_row(mu, (row, part), inner.clone(), &weights, out);
+                    of_sites(&sites, &mut |entries| after(out, entries));
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::family::{Around, Fixed, Site, Term, unit_spheres};
+    use crate::family::{Span, Sums};
+    use crate::poisson::Poisson;
+    use core::cell::Cell;
+
+    /// Sites with one coordinate coupled to the four around them by made-up functions, or all to all.
+    #[derive(Clone)]
+    struct Net {
+        mean_field: bool,
+        offsets: [[isize; 2]; 5],
+    }
+
+    impl Net {
+        fn new(lattice: bool, mean_field: bool) -> Self {
+            let down = isize::from(lattice);
+            Self {
+                mean_field,
+                offsets: [[0, 0], [0, -1], [0, 1], [-down, 0], [down, 0]],
+            }
+        }
+    }
+
+    impl<S: Scalar> Sites<S> for Net {
+        type Site = Fixed<1>;
+        type Around = Fixed<5>;
+        type Sums = Fixed<1>;
+        type Widened = Self;
+        type Lifted = Self;
+
+        fn name(&self) -> &str {
+            "Net"
+        }
+        fn dimension(&self) -> usize {
+            1
+        }
+        fn coordinate(&self, _index: usize) -> &str {
+            "x"
+        }
+        fn offsets(&self) -> &[[isize; 2]] {
+            &self.offsets
+        }
+        fn count(&self) -> usize {
+            1
+        }
+        fn term(&self, _index: usize) -> Term<'_> {
+            Term {
+                slots: &[0, 1, 2, 3, 4],
+                spans: [Span::All; 2],
+            }
+        }
+        fn has_mean_field(&self) -> bool {
+            self.mean_field
+        }
+        fn degree(&self) -> Option<u32> {
+            None
+        }
+        fn casimir_count(&self) -> usize {
+            0
+        }
+        fn casimir_name(&self, _index: usize) -> &str {
+            ""
+        }
+        fn casimir_degree(&self, _index: usize) -> Option<u32> {
+            None
+        }
+        fn field(&self, at: &Around<Self, S>, weights: &Sums<Self, S>) -> Site<Self, S> {
+            let [x, left, right, up, down] = *at;
+            [x * (left - right) + up * down + weights[0]]
+        }
+        fn slope(
+            &self,
+            _term: usize,
+            slot: usize,
+            at: &Around<Self, S>,
+            weights: &Sums<Self, S>,
+        ) -> Site<Self, S> {
+            [at[slot] * at[(slot + 1) % 5] + weights[0]]
+        }
+        fn summands(&self, at: &Around<Self, S>) -> Sums<Self, S> {
+            [at[0] * at[2]]
+        }
+        fn energy(&self, totals: &Sums<Self, S>) -> S {
+            totals[0]
+        }
+        fn weights(&self, totals: &Sums<Self, S>) -> Sums<Self, S> {
+            *totals
+        }
+        fn ad(&self, xi: &Site<Self, S>, _eta: &Site<Self, S>) -> Site<Self, S> {
+            *xi
+        }
+        fn ad_star(&self, xi: &Site<Self, S>, mu: &Site<Self, S>) -> Site<Self, S> {
+            [xi[0] * mu[0]]
+        }
+        fn casimir(&self, _index: usize, _mu: &Site<Self, S>) -> S {
+            S::zero()
+        }
+        fn casimir_gradient(&self, _index: usize, mu: &Site<Self, S>) -> Site<Self, S> {
+            *mu
+        }
+        fn widen(&self) -> Self {
+            self.clone()
+        }
+        fn lift(&self) -> Self {
+            self.clone()
+        }
+    }
+
+    /// Compares slopes that come part by part with those of the whole, from a state whose entries are not numbers before they are
+    /// asked for. How many entries were there when the first slopes were.
+    fn compare(net: Net, sizes: [usize; 2]) -> usize {
+        let family = Family::new(net, sizes);
+        let mu: Vec<f64> = unit_spheres(family.count(), 1, 5);
+        let mu: Vec<f64> = mu.iter().zip(1..).map(|(x, k)| x / f64::from(k)).collect();
+        let (mut whole, mut parts) = (mu.clone(), std::vec![f64::NAN; mu.len()]);
+        family.vector_field(&mu, &mut whole);
+        let (mut late, mut times) = (parts.clone(), std::vec![0; mu.len()]);
+        let (there, mut first) = (Cell::new(0), None);
+        let before = |state: &mut [f64], entries: Range<usize>| {
+            there.set(there.get() + entries.len());
+            state[entries.clone()].copy_from_slice(&mu[entries]);
+        };
+        let after = |slopes: &mut [f64], entries: Range<usize>| {
+            first.get_or_insert(there.get());
+            for entry in entries {
+                times[entry] += 1;
+                slopes[entry] *= 2.0;
+            }
+        };
+        family.vector_field_by_parts(&mut late, &mut parts, before, after);
+        assert_eq!((&late, there.get()), (&mu, mu.len()), "each is set once");
+        assert!(times.iter().all(|times| *times == 1), "{times:?}");
+        let doubled = whole.iter().map(|slope| (2.0 * slope).to_bits());
+        assert!(doubled.eq(parts.iter().map(|slope| slope.to_bits())));
+        first.expect("there are slopes")
+    }
+
+    #[test]
+    fn slopes_that_come_part_by_part_are_those_of_the_whole() {
+        for n in [1, 2, 3, 7, 127, 128, 129, 132, 260, 1000] {
+            let there = compare(Net::new(false, false), [1, n]);
+            assert_eq!(there < n, n > 258, "{n}: {there}");
+            assert_eq!(compare(Net::new(false, true), [1, n]), n);
+        }
+        for [rows, columns] in [[2, 2], [3, 5], [6, 9], [7, 300], [20, 11], [40, 130]] {
+            let count = rows * columns;
+            let there = compare(Net::new(true, false), [rows, columns]);
+            assert_eq!(there < count, rows > 6, "{rows} {columns}: {there}");
+            assert_eq!(compare(Net::new(true, true), [rows, columns]), count);
+        }
+    }
+}
