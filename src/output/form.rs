@@ -1,8 +1,11 @@
 //! The forms of the output that are text.
 
+use std::borrow::Cow;
 use std::io::Write as _;
 
 use lie_in_process::request::Labels;
+
+use super::Names;
 
 /// What the rows of all runs have in common.
 #[derive(Clone, Debug, Default)]
@@ -10,7 +13,7 @@ pub struct Header {
     /// Name of the system.
     pub system: String,
     /// `t`, the state, `energy`, the Casimirs.
-    pub columns: Vec<String>,
+    pub columns: Names,
     /// What tells runs apart; nothing for one run alone.
     pub labels: Option<Labels>,
 }
@@ -59,14 +62,19 @@ pub struct Csv {
 
 impl Form for Csv {
     fn begin(&mut self, header: &Header, out: &mut Vec<u8>) {
-        let mut names: Vec<&str> = Vec::new();
         if let Some(labels) = &header.labels {
-            names.push(&labels.run);
-            names.extend(labels.method.as_deref());
-            names.extend(labels.parameters.iter().map(String::as_str));
+            let method = labels.method.iter();
+            for name in std::iter::once(&labels.run)
+                .chain(method)
+                .chain(&labels.parameters)
+            {
+                let _ = write!(out, "{name},");
+            }
         }
-        names.extend(header.columns.iter().map(String::as_str));
-        out.extend_from_slice(names.join(",").as_bytes());
+        for (place, name) in header.columns.iter().enumerate() {
+            out.extend_from_slice(if place > 0 { b"," } else { b"" });
+            out.extend_from_slice(name.as_bytes());
+        }
         out.push(b'\n');
     }
 
@@ -104,15 +112,26 @@ impl Json {
     fn text(text: &str) -> String {
         serde_json::Value::from(text).to_string()
     }
+
+    /// The names of columns as a list.
+    fn list(names: &Names, out: &mut Vec<u8>) {
+        out.push(b'[');
+        for (place, name) in names.iter().enumerate() {
+            let comma = if place > 0 { "," } else { "" };
+            let _ = write!(out, "{comma}{}", Self::text(&name));
+        }
+        out.push(b']');
+    }
 }
 
 impl Form for Json {
     fn begin(&mut self, header: &Header, out: &mut Vec<u8>) {
-        let columns = serde_json::Value::from(header.columns.clone());
         let _ = write!(out, "{{\"system\":{},", Self::text(&header.system));
         self.several = header.labels.is_some();
         if self.several {
-            let _ = write!(out, "\"columns\":{columns},\"runs\":[");
+            out.extend_from_slice(b"\"columns\":");
+            Self::list(&header.columns, out);
+            out.extend_from_slice(b",\"runs\":[");
         }
     }
 
@@ -137,8 +156,8 @@ impl Form for Json {
                 out.push(b'}');
             }
             None => {
-                let columns = serde_json::Value::from(header.columns.clone());
-                let _ = write!(out, ",\"columns\":{columns}");
+                out.extend_from_slice(b",\"columns\":");
+                Self::list(&header.columns, out);
             }
         }
         out.extend_from_slice(b",\"rows\":[");
@@ -176,7 +195,7 @@ pub struct JsonLines {
 
 impl Form for JsonLines {
     fn begin(&mut self, header: &Header, _out: &mut Vec<u8>) {
-        let key = |name: &String| format!("{}:", Json::text(name));
+        let key = |name: Cow<'_, str>| format!("{}:", Json::text(&name));
         self.keys = header.columns.iter().map(key).collect();
     }
 

@@ -64,6 +64,7 @@ impl Form for Npy {
 
     fn row(&mut self, row: &[f64], out: &mut Vec<u8>) {
         let numbers = self.prefix.iter().chain(row);
+        out.reserve((self.prefix.len() + row.len()) * size_of::<f64>());
         numbers.for_each(|value| out.extend_from_slice(&value.to_le_bytes()));
     }
 

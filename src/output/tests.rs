@@ -7,7 +7,7 @@ use super::*;
 fn header() -> Header {
     Header {
         system: "Rigid\"Body".to_owned(),
-        columns: ["t", "x", "energy"].map(str::to_owned).to_vec(),
+        columns: ["t", "x", "energy"].into_iter().collect(),
         labels: None,
     }
 }

@@ -1,6 +1,6 @@
 //! The rows of a run as they come, with progress, and the wish to stop.
 
-use crate::protocol::{Columns, End, Found, Milestone, Milestones, Rows};
+use crate::protocol::{Columns, Coordinates, End, Found, Milestone, Milestones, Rows};
 use crate::session::Session;
 use core::ops::ControlFlow;
 use lie_runtime::driver::{self, Assessed, Chosen, Motion, Observer, Progress, Reconstruction};
@@ -138,6 +138,7 @@ impl<'s, 'o> RowWriter<'s, 'o> {
         }
         system.casimirs(mu, &mut self.casimirs);
         let energy = system.energy(mu);
+        self.block.numbers.reserve(self.block.width);
         for numbers in [&[time], mu.as_slice(), &[energy], &self.casimirs, element] {
             self.block.numbers.extend_from_slice(numbers);
         }
@@ -148,10 +149,15 @@ impl<'s, 'o> RowWriter<'s, 'o> {
     }
 
     fn announce<P: Poisson<f64>>(&mut self, system: &P, element: usize) {
-        let coordinates = (0..system.dimension()).map(|k| system.coordinate(k).to_owned());
+        let dimension = system.dimension();
+        let names = || (0..dimension).map(|k| system.coordinate(k).to_owned());
+        let coordinates = match system.sites() {
+            Some(_) => Coordinates::OfSites(dimension),
+            None => Coordinates::Named(names().collect()),
+        };
         let casimirs = (0..system.casimir_count()).map(|k| system.casimir_name(k).to_owned());
         let columns = Columns {
-            coordinates: coordinates.collect(),
+            coordinates,
             casimirs: casimirs.collect(),
             element,
         };

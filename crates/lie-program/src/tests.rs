@@ -1,4 +1,4 @@
-use super::protocol::{Choice, Columns, Message, Start, Times};
+use super::protocol::{Choice, Columns, Coordinates, Message, Start, Times};
 use super::*;
 use lie_runtime::driver::Pace;
 use lie_runtime::methods::{Dopri5, Keep, Rk4};
@@ -161,7 +161,11 @@ fn rows_are_time_state_energy() {
     let columns = heard.columns.expect("columns");
     assert_eq!(
         (columns.coordinates, columns.casimirs.len(), columns.element),
-        (vec!["q".to_owned(), "p".to_owned()], 0, 0)
+        (
+            Coordinates::Named(vec!["q".to_owned(), "p".to_owned()]),
+            0,
+            0
+        )
     );
     let times = heard.rows.iter().map(|row| row[0]).collect::<Vec<_>>();
     assert_eq!(times, [0.0, 0.5, 1.0, 1.5, 2.0]);

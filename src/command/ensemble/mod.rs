@@ -276,7 +276,7 @@ fn record(
         members,
         share,
         parameters: asked.swept.clone(),
-        columns: layout.coordinates().to_vec(),
+        columns: layout.coordinates(),
         times: ensemble::times(&asked.plan, ends),
         rows: !ends,
         reduce: reduce.collect(),

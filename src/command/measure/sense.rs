@@ -70,7 +70,8 @@ pub fn measure(arguments: &args::Bench, bed: &Bed) -> Result<Measure, Failure> {
 /// `NAME=VALUE`.
 fn surface(text: &str, bed: &Bed) -> Result<Plane, Message> {
     let layout = bed.layout();
-    let names = || layout.coordinates().iter().map(String::as_str);
+    let coordinates = layout.coordinates();
+    let names = || coordinates.iter().map(String::as_str);
     let given = OptionValue::flag("--section", text);
     let Some(equals) = text.find('=') else {
         let example = names().next().unwrap_or("x").to_owned();
@@ -108,7 +109,7 @@ fn surface(text: &str, bed: &Bed) -> Result<Plane, Message> {
 /// The name of a coordinate by its place in the state.
 pub fn coordinate(bed: &Bed, place: usize) -> String {
     match bed.spec.model.family {
-        Some(_) => bed.layout().coordinates()[place].clone(),
+        Some(_) => bed.layout().columns.get(1 + place).into_owned(),
         None => bed.spec.model.coordinates[place].text.clone(),
     }
 }

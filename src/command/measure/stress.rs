@@ -1,5 +1,7 @@
 //! `lie stress`: methods at the limits of steps, parameters and states, and through a long run.
 
+use std::borrow::Cow;
+
 use lie_codegen::program::Purpose;
 use lie_in_process::list;
 use lie_in_process::request::OptionValue;
@@ -78,7 +80,9 @@ pub fn run(arguments: &args::Stress) -> Result<u8, Failure> {
     let labels: Vec<String> = bed.choices.iter().map(|choice| choice.label()).collect();
     let parameters = bed.spec.model.parameters.iter();
     let parameters = parameters.map(|parameter| parameter.name.clone());
-    let names: Vec<String> = parameters.chain(bed.layout().columns).collect();
+    let columns = bed.layout().columns;
+    let columns = columns.iter().map(Cow::into_owned);
+    let names: Vec<String> = parameters.chain(columns).collect();
     results.sort(&labels, &names);
     let wanted = !results.cells.is_empty();
     let table = || csv(&results);

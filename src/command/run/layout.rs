@@ -7,12 +7,14 @@ use std::collections::BTreeMap;
 use lie_codegen::model::{Family, Parameter};
 use lie_codegen::program::{Chart, columns};
 use lie_codegen::structure::{Structure, group};
-use lie_program::protocol::Columns;
+use lie_program::protocol::{Columns, Coordinates};
+
+use crate::output::Names;
 
 /// The columns that are shown.
 pub struct Layout {
     /// Their names: the time, the coordinates, the energy, the Casimirs, the entries of the group element.
-    pub columns: Vec<String>,
+    pub columns: Names,
     /// How many coordinates are shown: those that carry the time are not.
     pub states: usize,
     /// The columns, of those that are shown, that ought to be constant. The energy of a system that depends on
@@ -34,8 +36,8 @@ impl Layout {
     }
 
     /// The names of the coordinates.
-    pub fn coordinates(&self) -> &[String] {
-        &self.columns[1..=self.states]
+    pub fn coordinates(&self) -> Vec<String> {
+        self.columns.made(1..1 + self.states)
     }
 
     /// The columns of a system, with those of a group element.
@@ -63,19 +65,17 @@ impl Layout {
         let value = |p: &Parameter| values.get(&p.name).copied().unwrap_or(p.default_value);
         let parameters: Vec<f64> = parameters.map(value).collect();
         let [rows, columns] = family.sites(&parameters).unwrap_or([1, 1]);
-        let named = |name: &str, site: usize| match rows {
-            1 => format!("{name}[{site}]"),
-            _ => format!("{name}[{}][{}]", site / columns, site % columns),
-        };
-        let mut names = vec!["t".to_owned()];
+        let mut names = Names::default();
+        names.push("t");
         for name in &model.coordinates {
-            names.extend((0..rows * columns).map(|site| named(&name.text, site)));
+            names.push_sites(&name.text, [rows, columns]);
         }
         let states = names.len() - 1;
-        names.push("energy".to_owned());
+        names.push("energy");
         for casimir in &model.casimirs {
-            let statistics = lie_runtime::family::STATISTICS.iter();
-            names.extend(statistics.map(|what| format!("{}_{what}", casimir.name)));
+            for what in lie_runtime::family::STATISTICS {
+                names.push(format!("{}_{what}", casimir.name));
+            }
         }
         Self {
             invariants: states + 1..names.len(),
@@ -85,27 +85,65 @@ impl Layout {
     }
 
     /// Where the columns that are shown stand in the rows of a program; none where it does not have them.
-    pub fn places(&self, columns: &Columns) -> Option<Vec<usize>> {
-        let (states, rest) = self.columns[1..].split_at(self.states);
-        let (casimirs, element) = rest[1..].split_at(self.invariants.end - self.states - 2);
-        // a large family is not searched name by name
-        if states == columns.coordinates && casimirs == columns.casimirs && element.is_empty() {
-            return (columns.element == 0).then(|| (0..columns.width()).collect());
-        }
-        if element.len() != columns.element {
+    pub fn places(&self, columns: &Columns) -> Option<Places> {
+        let casimirs = 2 + self.states..self.invariants.end;
+        let casimirs = self.columns.made(casimirs);
+        if self.columns.len() - self.invariants.end != columns.element {
             return None;
         }
+        let known = match &columns.coordinates {
+            // the order of a family is that of its sites
+            Coordinates::OfSites(count) => {
+                let same = *count == self.states && casimirs == columns.casimirs;
+                return same.then(|| Places::All(columns.width()));
+            }
+            Coordinates::Named(known) => known,
+        };
         let place = |names: &[String], name: &String| names.iter().position(|known| known == name);
         let mut places = vec![0];
-        for name in states {
-            places.push(columns.coordinates() + place(&columns.coordinates, name)?);
+        for name in &self.coordinates() {
+            places.push(columns.coordinates() + place(known, name)?);
         }
         places.push(columns.energy());
-        for name in casimirs {
+        for name in &casimirs {
             places.push(columns.casimirs() + place(&columns.casimirs, name)?);
         }
         places.extend(columns.element()..columns.width());
-        Some(places)
+        Some(match places.iter().copied().eq(0..columns.width()) {
+            true => Places::All(columns.width()),
+            false => Places::Some(places),
+        })
+    }
+}
+
+/// Where the columns that are shown stand in the rows of a program.
+#[derive(Debug, PartialEq)]
+pub enum Places {
+    /// They are all of them, in their order.
+    All(usize),
+    /// These.
+    Some(Vec<usize>),
+}
+
+impl Places {
+    /// How many columns are shown.
+    pub fn len(&self) -> usize {
+        match self {
+            Self::All(count) => *count,
+            Self::Some(places) => places.len(),
+        }
+    }
+
+    /// Of rows of this width what is shown.
+    pub fn shown(&self, numbers: Vec<f64>, width: usize) -> Vec<f64> {
+        match self {
+            Self::All(_) => numbers,
+            Self::Some(places) => {
+                let rows = numbers.chunks_exact(width);
+                rows.flat_map(|row| places.iter().map(|&place| row[place]))
+                    .collect()
+            }
+        }
     }
 }
 
@@ -134,19 +172,31 @@ mod tests {
         text.split_whitespace().map(str::to_owned).collect()
     }
 
+    fn named(text: &str) -> Coordinates {
+        Coordinates::Named(names(text))
+    }
+
     #[test]
     fn columns_are_found_by_their_names() {
         let layout = Layout {
-            columns: names("t x y energy C D q0 q1"),
+            columns: names("t x y energy C D q0 q1").into_iter().collect(),
             states: 2,
             invariants: 3..6,
         };
         let columns = Columns {
-            coordinates: names("y clock x"),
+            coordinates: named("y clock x"),
             casimirs: names("D C"),
             element: 2,
         };
-        assert_eq!(layout.places(&columns), Some(vec![0, 3, 1, 4, 6, 5, 7, 8]));
+        let places = vec![0, 3, 1, 4, 6, 5, 7, 8];
+        assert_eq!(layout.places(&columns), Some(Places::Some(places)));
+        let of_sites = |count| Columns {
+            coordinates: Coordinates::OfSites(count),
+            casimirs: names("C D"),
+            element: 2,
+        };
+        assert_eq!(layout.places(&of_sites(2)), Some(Places::All(8)));
+        assert_eq!(layout.places(&of_sites(3)), None);
         for wrong in [
             Columns {
                 element: 1,
@@ -157,7 +207,7 @@ mod tests {
                 ..columns.clone()
             },
             Columns {
-                coordinates: names("x clock"),
+                coordinates: named("x clock"),
                 ..columns
             },
         ] {

@@ -8,7 +8,7 @@ use lie_runtime::driver::Pace;
 
 use super::checkpoint::Place;
 use super::keeper::Keeper;
-use super::layout::Layout;
+use super::layout::{Layout, Places};
 use super::picture::Picture;
 use super::summary::Drift;
 use crate::compiler::Spec;
@@ -26,7 +26,7 @@ pub struct Reception<'a, 'p> {
     received: Received,
     layout: Layout,
     /// Where the columns that are shown stand in a row of the program, and how wide that is.
-    places: Vec<usize>,
+    places: Places,
     width: usize,
     /// Whether the first row is only there for the others to be compared with.
     hidden: bool,
@@ -77,7 +77,7 @@ impl<'a, 'p> Reception<'a, 'p> {
             Pace::Step(step) => step,
             Pace::Tolerance(_) => f64::NAN,
         };
-        let mut drift = Drift::new(&layout.columns[layout.invariants.clone()]);
+        let mut drift = Drift::new(&layout.columns.made(layout.invariants.clone()));
         for casimir in model.casimirs.iter().filter(|c| c.multivalued) {
             drift.leave_out(&casimir.name);
         }
@@ -96,7 +96,7 @@ impl<'a, 'p> Reception<'a, 'p> {
                 assessed: None,
             },
             layout,
-            places: Vec::new(),
+            places: Places::All(0),
             width: 0,
             hidden: !shows_start(plan),
         }
@@ -166,8 +166,8 @@ impl<'a, 'p> Reception<'a, 'p> {
                 let text = "rows come before their columns, or with others";
                 return Err(io::Error::new(io::ErrorKind::InvalidData, text));
             }
-            Found::Rows(rows) => self.push(&rows.numbers)?,
-            Found::Between(rows) => self.between(&rows.numbers),
+            Found::Rows(rows) => self.push(rows.numbers)?,
+            Found::Between(rows) => self.between(rows.numbers),
             Found::Milestone(milestone) => {
                 if let Some(keeper) = &mut self.keeper {
                     keeper.keep(*milestone, self.rows, &self.received)?;
@@ -178,24 +178,17 @@ impl<'a, 'p> Reception<'a, 'p> {
         Ok(())
     }
 
-    /// The columns that are shown.
-    fn shown(&self, numbers: &[f64]) -> Vec<f64> {
-        let rows = numbers.chunks_exact(self.width);
-        rows.flat_map(|row| self.places.iter().map(|&place| row[place]))
-            .collect()
-    }
-
     /// Draws states between rows, of which nothing else is wanted.
-    fn between(&mut self, numbers: &[f64]) {
-        let shown = self.shown(numbers);
+    fn between(&mut self, numbers: Vec<f64>) {
+        let shown = self.places.shown(numbers, self.width);
         if let Some(picture) = &mut self.picture {
             let rows = shown.chunks_exact(self.places.len());
             rows.for_each(|row| picture.between(row));
         }
     }
 
-    fn push(&mut self, numbers: &[f64]) -> io::Result<()> {
-        let shown = self.shown(numbers);
+    fn push(&mut self, numbers: Vec<f64>) -> io::Result<()> {
+        let shown = self.places.shown(numbers, self.width);
         let columns = self.places.len();
         for row in shown.chunks_exact(columns) {
             let invariants = &self.layout.invariants;

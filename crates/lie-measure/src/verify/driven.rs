@@ -5,7 +5,7 @@
 use super::outside;
 use crate::facts::{Finding, Ground, Subject, spoiled};
 use lie_program::RowWriter;
-use lie_program::protocol::{Found, Message};
+use lie_program::protocol::{Coordinates, Found, Message};
 use lie_program::session::Session;
 use lie_runtime::diagnostics::{AnyMethod, Forgotten};
 use lie_runtime::driver::{
@@ -272,8 +272,15 @@ fn rows<P: Poisson<f64>>(system: &P, said: Vec<Message<Found>>) -> Vec<Row> {
     for message in said {
         match message {
             Message::Found(Found::Columns(columns)) => {
-                let mut names = columns.coordinates.iter().enumerate();
-                named = names.all(|(place, name)| system.coordinate(place) == name);
+                named = match &columns.coordinates {
+                    Coordinates::Named(names) => {
+                        let mut names = names.iter().enumerate();
+                        names.all(|(place, name)| system.coordinate(place) == name)
+                    }
+                    Coordinates::OfSites(count) => {
+                        system.sites().is_some() && *count == system.dimension()
+                    }
+                };
             }
             Message::Found(Found::Rows(rows)) if named => {
                 all.extend(rows.numbers.chunks(rows.width).map(<[f64]>::to_vec));

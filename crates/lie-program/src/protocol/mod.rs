@@ -237,12 +237,43 @@ impl From<&Chosen> for Choice {
     }
 }
 
+/// The coordinates of rows.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Coordinates {
+    /// Their names.
+    Named(Vec<String>),
+    /// So many: those of the sites of a family, in its order. There may be millions, whose names would take more memory than they.
+    OfSites(usize),
+}
+
+impl Default for Coordinates {
+    fn default() -> Self {
+        Self::Named(Vec::new())
+    }
+}
+
+impl Coordinates {
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Named(names) => names.len(),
+            Self::OfSites(count) => *count,
+        }
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+}
+
 /// The numbers of a row: the time, the coordinates, the energy, the Casimirs, the group element.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Columns {
-    /// The names of the coordinates.
-    pub coordinates: Vec<String>,
+    /// The coordinates.
+    pub coordinates: Coordinates,
     /// The names of the Casimirs.
     pub casimirs: Vec<String>,
     /// The number of entries of the group element, where a method reconstructs it.

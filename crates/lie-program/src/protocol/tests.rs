@@ -64,10 +64,15 @@ fn what_is_not_known_is_refused() {
 fn columns_have_their_places() {
     let names = |text: &str| text.split(' ').map(str::to_owned).collect::<Vec<_>>();
     let columns = Columns {
-        coordinates: names("x y z"),
+        coordinates: Coordinates::Named(names("x y z")),
         casimirs: names("C D"),
         element: 9,
     };
     assert_eq!((columns.energy(), columns.casimirs()), (4, 5));
     assert_eq!((columns.element(), columns.width()), (7, 16));
+    let of_sites = Columns {
+        coordinates: Coordinates::OfSites(3),
+        ..columns.clone()
+    };
+    assert_eq!((of_sites.energy(), of_sites.width()), (4, 16));
 }

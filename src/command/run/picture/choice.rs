@@ -220,7 +220,7 @@ fn axes(
     match rest.split().as_slice() {
         [x, y] => Ok([coordinate(layout, x)?, coordinate(layout, y)?]),
         _ => {
-            let names = &layout.columns[1..=2];
+            let names = layout.columns.made(1..3);
             let message = rest.wrong("a phase portrait has two coordinates");
             Err(message.help(format!(
                 "write it like `--picture phase:{}`",

@@ -180,7 +180,8 @@ impl<'a> Picture<'a> {
     }
 
     fn first(&self, kind: Kind, plan: &Plan, start: &Start) -> Drawn {
-        let (name, columns) = (&*self.spec.model.name, &self.layout.columns);
+        let names = &self.layout.columns;
+        let (name, columns) = (&*self.spec.model.name, names.made(0..names.len()));
         let (own, element) = columns.split_at(self.layout.invariants.end);
         let phase = |[x, y]: [usize; 2]| {
             let names = [columns[1 + x].clone(), columns[1 + y].clone()];
@@ -291,13 +292,13 @@ impl<'a> Picture<'a> {
                 (phase.to_svg(), None)
             }
             Drawn::Section(mut phase, section) => {
-                let coordinate = &self.layout.columns[1 + section.coordinate()];
-                phase.subtitle(&format!("{}; {line}", section.words(coordinate)));
+                let coordinate = self.layout.columns.get(1 + section.coordinate());
+                phase.subtitle(&format!("{}; {line}", section.words(&coordinate)));
                 let note = section.note(phase.dots());
                 (phase.to_svg(), note)
             }
             Drawn::Orbit(curves, system) => {
-                let names = [1, 2, 3].map(|k| self.layout.columns[k].clone());
+                let names = [1, 2, 3].map(|k| self.layout.columns.get(k).into_owned());
                 let mut view = View::new(name, &line, names, curves);
                 let energy = |point: &Point| energy(&system, point);
                 let surface = |point: &Point| casimir(&system, point);
