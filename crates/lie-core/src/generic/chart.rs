@@ -53,6 +53,9 @@ pub fn cayley_chart_of_step<S: Scalar, P: CayleyPoisson<S>>(
     h: S,
     m: &P::State,
 ) -> S::Mask {
+    if matches!(system.spectrum(), Spectrum::Imaginary) {
+        return S::Mask::splat(true);
+    }
     let mut xi = system.zero_state();
     direction(system, h, m, &mut xi);
     cayley_chart(system, &xi)

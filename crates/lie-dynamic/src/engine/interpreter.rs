@@ -24,8 +24,11 @@ impl Engine for Interpreted {
 #[derive(Clone, Debug)]
 pub struct Interpreter(Arc<[Code]>);
 
-/// Up to so many registers need no memory from the heap.
+/// Up to so many registers need no memory from the heap: room for the least of these that is enough is made, for small scalars.
 const FEW: usize = 128;
+const SOME: usize = 512;
+const MANY: usize = 2048;
+const SMALL: usize = 16;
 
 impl Interpreter {
     /// Ready to run these.
@@ -38,12 +41,24 @@ impl<S: Scalar> Machine<S> for Interpreter {
     fn run(&self, code: usize, frame: &Frame<'_, S>, targets: Targets<'_, S>) {
         let code = &self.0[code];
         let count = code.registers as usize;
-        if count <= FEW {
-            run(code, frame, &mut [S::zero(); FEW], targets);
-        } else {
-            run(code, frame, &mut vec![S::zero(); count], targets);
+        let is_small = size_of::<S>() <= SMALL;
+        match count {
+            ..=FEW => run_on_stack::<S, FEW>(code, frame, targets),
+            ..=SOME if is_small => run_on_stack::<S, SOME>(code, frame, targets),
+            ..=MANY if is_small => run_on_stack::<S, MANY>(code, frame, targets),
+            _ => run(code, frame, &mut vec![S::zero(); count], targets),
         }
     }
+}
+
+/// With so many registers, which take room on the stack while it runs alone.
+#[inline(never)]
+fn run_on_stack<S: Scalar, const REGISTERS: usize>(
+    code: &Code,
+    frame: &Frame<'_, S>,
+    targets: Targets<'_, S>,
+) {
+    run(code, frame, &mut [S::zero(); REGISTERS], targets);
 }
 
 impl Number {

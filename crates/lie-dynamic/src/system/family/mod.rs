@@ -13,7 +13,7 @@ use lie_codegen::plan;
 use lie_core::family::{Shape, Sites, Stretch, Term, size};
 use lie_core::parameter::ParameterError;
 use lie_runtime::{Dual, Scalar};
-use smallvec::SmallVec;
+use smallvec::{SmallVec, smallvec};
 
 /// As many as there are: few need no memory from the heap.
 #[derive(Clone, Copy, Debug)]
@@ -34,6 +34,9 @@ type FewOf<T> = <Few as Shape>::Of<T>;
 fn zeros<S: Scalar>(count: usize) -> FewOf<S> {
     Few::make(count, |_| S::zero())
 }
+
+/// So many summands of a stretch need no memory from the heap.
+const MANY: usize = 512;
 
 /// So many sites move along a flow at a time where the machine has lanes.
 const EIGHT: usize = 8;
@@ -204,7 +207,7 @@ impl<S: Scalar> Sites<S> for FamilySite<S> {
 
     fn sum(&self, stretch: &Stretch<'_, S>) -> FewOf<S> {
         let (count, places) = (self.count(), stretch.len());
-        let mut summands = vec![S::zero(); count * places];
+        let mut summands: SmallVec<[S; MANY]> = smallvec![S::zero(); count * places];
         let mut to: FewOf<&mut [S]> = summands.chunks_exact_mut(places.max(1)).collect();
         self.along(self.codes().summands, stretch, &[], &mut to);
         drop(to);
