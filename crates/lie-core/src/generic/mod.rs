@@ -67,6 +67,7 @@ mod free_body;
 mod galerkin;
 mod gauss;
 mod generating;
+mod hermitian;
 mod inverse_tangent;
 mod kernels;
 mod lifts;

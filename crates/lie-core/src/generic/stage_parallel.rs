@@ -3,6 +3,7 @@
 mod estimate;
 mod map;
 pub(super) mod program;
+mod start;
 mod state;
 #[cfg(test)]
 mod tests;
@@ -33,9 +34,6 @@ const FRESH: f64 = 16.0;
 
 /// Where no rate is known, a change counts as what is left after it.
 const UNKNOWN: (f64, f64) = (1.0, 2.0);
-
-/// A start that is no better than the field at the state is improved by so many half iterations.
-const APPROACH: u32 = 12;
 
 /// The stages of a step of Gauss collocation for `y' = f(y)`, all in one number of type [`Scalar::Wide`].
 ///
@@ -221,43 +219,6 @@ impl<S: Scalar, V: State<S::Wide>> StageParallel<S, V> {
         }
     }
 
-    /// Starts from a base, with a slope that is the same at all stages, in the lanes of a mask.
-    pub fn start(&mut self, mask: S::Mask, base: &[S], slope: &[S]) {
-        self.set_base(mask, base);
-        let weights = S::scatter(self.table[WEIGHTS]);
-        let increments = self.work.increments.as_mut_slice().iter_mut();
-        for (increments, &slope) in increments.zip(slope) {
-            let old = S::scatter(*increments);
-            let entry = |i: usize| S::select(mask, weights[i] * slope, old[i]);
-            *increments = S::gather(from_fn(entry));
-        }
-        self.forget(mask);
-    }
-
-    /// Sets the base of the next step in the lanes of a mask.
-    pub fn set_base(&mut self, mask: S::Mask, base: &[S]) {
-        for (wide, &entry) in self.base.as_mut_slice().iter_mut().zip(base) {
-            let [old, ..] = S::scatter(*wide);
-            *wide = S::select(mask, entry, old).widen();
-        }
-    }
-
-    /// Takes half of the way that the iteration would go, several times, in the lanes of a mask: where it contracts at all, that
-    /// leads from a bad start to a good one.
-    pub fn approach(&mut self, mask: S::Mask, mut field: impl FnMut(At<'_, V>, &mut V)) {
-        let half = S::ratio(1.0, 2.0);
-        for _ in 0..APPROACH {
-            self.work
-                .evaluate::<S>(self.stages, &self.table, &self.base, &mut field);
-            let increments = self.work.increments.as_mut_slice().iter_mut();
-            for (increment, &next) in increments.zip(self.work.next.as_slice()) {
-                let (old, new) = (S::scatter(*increment), S::scatter(next));
-                let middle = |i: usize| half * (old[i] + new[i]);
-                *increment = S::gather(from_fn(|i| S::select(mask, middle(i), old[i])));
-            }
-        }
-    }
-
     /// Starts from the polynomial of the last step.
     #[inline(always)]
     pub fn go_on(&mut self) {
@@ -412,17 +373,6 @@ impl<S: Scalar, V: State<S::Wide>> StageParallel<S, V> {
             for (out, &entry) in out.iter_mut().zip(&entries) {
                 out.as_mut_slice()[k] = entry;
             }
-        }
-    }
-
-    /// Replaces the increments by given ones, in the lanes of a mask.
-    pub fn set_increments_where(&mut self, mask: S::Mask, increment: impl Fn(usize, usize) -> S) {
-        for (k, increments) in self.work.increments.as_mut_slice().iter_mut().enumerate() {
-            let mut entries = S::scatter(*increments);
-            for (i, entry) in entries.iter_mut().enumerate().take(self.stages) {
-                *entry = S::select(mask, increment(i, k), *entry);
-            }
-            *increments = S::gather(entries);
         }
     }
 }

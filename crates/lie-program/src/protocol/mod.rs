@@ -8,12 +8,14 @@
 //! When the input ends, a program stops at the next step and keeps what it has; one that does not come to that
 //! ends soon after. So no program outlives the command that started it, however that one was ended.
 
+mod columns;
 mod milestone;
 pub mod number;
 mod times;
 mod words;
 
 use crate::listen;
+pub use columns::{Columns, Coordinates};
 use lie_runtime::driver::{Chosen, Options, Pace, Save, Stats};
 use lie_runtime::methods::Keep;
 pub use lie_runtime::methods::Tolerances;
@@ -234,76 +236,6 @@ impl From<&Chosen> for Choice {
             step: chosen.step,
             at_round_off: chosen.at_round_off,
         }
-    }
-}
-
-/// The coordinates of rows.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub enum Coordinates {
-    /// Their names.
-    Named(Vec<String>),
-    /// So many: those of the sites of a family, in its order. There may be millions, whose names would take more memory than they.
-    OfSites(usize),
-}
-
-impl Default for Coordinates {
-    fn default() -> Self {
-        Self::Named(Vec::new())
-    }
-}
-
-impl Coordinates {
-    /// How many there are.
-    pub fn len(&self) -> usize {
-        match self {
-            Self::Named(names) => names.len(),
-            Self::OfSites(count) => *count,
-        }
-    }
-
-    /// Whether there are none.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-}
-
-/// The numbers of a row: the time, the coordinates, the energy, the Casimirs, the group element.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
-#[serde(deny_unknown_fields)]
-pub struct Columns {
-    /// The coordinates.
-    pub coordinates: Coordinates,
-    /// The names of the Casimirs.
-    pub casimirs: Vec<String>,
-    /// The number of entries of the group element, where a method reconstructs it.
-    pub element: usize,
-}
-
-impl Columns {
-    /// How many numbers a row has.
-    pub fn width(&self) -> usize {
-        self.casimirs() + self.casimirs.len() + self.element
-    }
-
-    /// The place of the first coordinate; the time stands before it.
-    pub fn coordinates(&self) -> usize {
-        1
-    }
-
-    /// The place of the energy.
-    pub fn energy(&self) -> usize {
-        self.coordinates() + self.coordinates.len()
-    }
-
-    /// The place of the first Casimir.
-    pub fn casimirs(&self) -> usize {
-        self.energy() + 1
-    }
-
-    /// The place of the first entry of the group element.
-    pub fn element(&self) -> usize {
-        self.casimirs() + self.casimirs.len()
     }
 }
 
