@@ -30,6 +30,7 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
+mod cache;
 mod code;
 mod compiled;
 mod engine;
@@ -38,6 +39,7 @@ mod methods;
 mod recording;
 mod system;
 
+pub use cache::Cache;
 pub use code::{Bitwise, Code, Instruction, Number, Register, Source, Store};
 pub use engine::{
     BINARY, Binary, Engine, Frame, Interpreted, Interpreter, Lengths, Machine, SLICES, Targets,

@@ -4,7 +4,7 @@ use crate::columns::ColumnKernels;
 use crate::make::{Purpose, make};
 use crate::memory::{Memory, Repeated};
 use crate::registers::Registers;
-use crate::{Entry, Others};
+use crate::{Entry, Others, SameCodes};
 use lie_dynamic::{Code, Frame, Interpreter, Lengths, Machine, Targets, in_turns};
 use lie_runtime::Scalar;
 use std::sync::{Arc, OnceLock};
@@ -43,7 +43,7 @@ impl Lanes {
             codes: Arc::clone(codes),
             registers,
             column_kernels: ColumnKernels::new(codes.len()),
-            others: Others::new(),
+            others: Others::default(),
             interpreted: Interpreter::new(Arc::clone(codes)),
         }
     }
@@ -105,12 +105,12 @@ impl Machine<Wide> for Lanes {
     }
 
     fn has_compiled(&self, codes: &Arc<[Code]>) -> bool {
-        self.others.has_compiled(codes)
+        self.others.has_tried(&SameCodes(Arc::clone(codes)))
     }
 
     fn compile(&self, codes: &Arc<[Code]>) -> Option<Arc<dyn Machine<Wide>>> {
         let make = || Some(Self::new(codes, self.registers));
-        Some(self.others.get_or_compile(codes, make)?)
+        Some(self.others.get(&SameCodes(Arc::clone(codes)), make)?)
     }
 
     fn run_columns(

@@ -19,13 +19,14 @@ mod registers;
 use columns::ColumnKernels;
 use lanes::{Lanes, Wide};
 use lie_dynamic::{
-    Code, Engine, Frame, Interpreted, Lengths, Machine, SLICES, Targets, place_by_place,
+    Cache, Code, Engine, Frame, Interpreted, Lengths, Machine, SLICES, Targets, place_by_place,
 };
 use lie_runtime::Scalar;
 use make::Purpose;
 use memory::{Function, Memory};
 pub use registers::Registers;
-use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
+use std::hash::{Hash, Hasher};
+use std::sync::{Arc, OnceLock};
 
 /// The engine of machine code, in the widest registers of this processor. Where it is none that Cranelift knows, codes are
 /// interpreted.
@@ -97,39 +98,24 @@ struct Compiled {
     _memories: Vec<Memory>,
 }
 
-/// Machines for other codes than those of a plan, each with the codes that it was made of.
-struct Others<M>(Mutex<Vec<Made<M>>>);
+/// Machines for other codes than those of a plan.
+type Others<M> = Cache<M, SameCodes>;
 
-type Made<M> = (Arc<[Code]>, Option<Arc<M>>);
+/// Codes that are told apart by their place in memory, which they keep while they are known.
+#[derive(Clone)]
+struct SameCodes(Arc<[Code]>);
 
-impl<M> Others<M> {
-    fn new() -> Self {
-        Self(Mutex::new(Vec::new()))
+impl PartialEq for SameCodes {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
     }
+}
 
-    fn all(&self) -> MutexGuard<'_, Vec<Made<M>>> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
-    }
+impl Eq for SameCodes {}
 
-    fn has_compiled(&self, codes: &Arc<[Code]>) -> bool {
-        self.all()
-            .iter()
-            .any(|(known, _)| Arc::ptr_eq(known, codes))
-    }
-
-    /// The machine of these codes, made where it is asked for the first time.
-    fn get_or_compile(
-        &self,
-        codes: &Arc<[Code]>,
-        make: impl FnOnce() -> Option<M>,
-    ) -> Option<Arc<M>> {
-        let mut all = self.all();
-        if let Some((_, machine)) = all.iter().find(|(known, _)| Arc::ptr_eq(known, codes)) {
-            return machine.clone();
-        }
-        let machine = make().map(Arc::new);
-        all.push((Arc::clone(codes), machine.clone()));
-        machine
+impl Hash for SameCodes {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        Arc::as_ptr(&self.0).cast::<Code>().hash(state);
     }
 }
 
@@ -152,7 +138,7 @@ impl Compiled {
             registers,
             wide: OnceLock::new(),
             column_kernels: ColumnKernels::new(codes.len()),
-            others: Others::new(),
+            others: Others::default(),
             _memories: made.memories,
         })
     }
@@ -239,12 +225,12 @@ impl Machine<f64> for Compiled {
     }
 
     fn has_compiled(&self, codes: &Arc<[Code]>) -> bool {
-        self.others.has_compiled(codes)
+        self.others.has_tried(&SameCodes(Arc::clone(codes)))
     }
 
     fn compile(&self, codes: &Arc<[Code]>) -> Option<Arc<dyn Machine<f64>>> {
         let make = || Self::new(codes, Interpreted.machine(codes), self.registers);
-        Some(self.others.get_or_compile(codes, make)?)
+        Some(self.others.get(&SameCodes(Arc::clone(codes)), make)?)
     }
 
     fn wide(&self) -> Option<Arc<dyn Machine<Wide>>> {

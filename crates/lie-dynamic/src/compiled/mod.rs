@@ -5,6 +5,7 @@ mod values;
 
 pub(crate) use values::Values;
 
+use crate::cache::Cache;
 use crate::code::Code;
 use crate::engine::ARGUMENTS;
 use crate::recording::{SeriesCodes, StageCodes, Step, Traces};
@@ -14,8 +15,7 @@ use lie_codegen::plan::{Constants, Function, Fused, Generating, Item, Method, Pl
 use lie_core::generic::StageSlopes;
 use smallvec::SmallVec;
 use std::collections::HashMap;
-use std::hash::Hash;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::Arc;
 
 /// A code by its place; none where the plan has no such kernel.
 pub(crate) type Place = Option<usize>;
@@ -128,50 +128,13 @@ pub(crate) struct Compiled {
     pub family: Option<crate::system::family::Codes>,
     pub casimir_degrees: Vec<Option<u32>>,
     /// Steps as one program.
-    pub steps: MethodCache<Step>,
+    pub steps: Cache<Step, Choice>,
     /// What steps of methods with a solver do, for one number alone or for lanes, by the options of the solver.
-    pub traces: MethodCache<Traces, ((Choice, bool), String)>,
+    pub traces: Cache<Traces, ((Choice, bool), String)>,
     /// Taylor series, by their order.
-    pub series: MethodCache<SeriesCodes, usize>,
+    pub series: Cache<SeriesCodes, usize>,
     /// Iterations over stages side by side, by their slopes and whether they are more than four.
-    pub stages: MethodCache<StageCodes, (StageSlopes, bool)>,
-}
-
-/// What was made for each method; `None` where there is none.
-#[derive(Debug)]
-pub(crate) struct MethodCache<T, K = Choice>(Mutex<HashMap<K, Option<Arc<T>>>>);
-
-impl<T, K: Clone + Eq + Hash> MethodCache<T, K> {
-    fn new() -> Self {
-        Self(Mutex::new(HashMap::new()))
-    }
-
-    fn all(&self) -> MutexGuard<'_, HashMap<K, Option<Arc<T>>>> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    /// That of a method, made where it is asked for the first time.
-    pub fn get(&self, choice: &K, make: impl FnOnce() -> Option<T>) -> Option<Arc<T>> {
-        let mut all = self.all();
-        if let Some(known) = all.get(choice) {
-            return known.clone();
-        }
-        let made = make().map(Arc::new);
-        all.insert(choice.clone(), made.clone());
-        made
-    }
-
-    /// All whose keys are such.
-    pub fn all_of(&self, is: impl Fn(&K) -> bool) -> Vec<Arc<T>> {
-        let all = self.all();
-        let found = all.iter().filter(|(key, _)| is(key));
-        found.filter_map(|(_, value)| value.clone()).collect()
-    }
-
-    /// That of a method where it was asked for before.
-    pub fn cached(&self, choice: &K) -> Option<Arc<T>> {
-        self.all().get(choice).cloned().flatten()
-    }
+    pub stages: Cache<StageCodes, (StageSlopes, bool)>,
 }
 
 /// Codes in the making.
@@ -370,10 +333,10 @@ impl Compiled {
             realization,
             family,
             casimir_degrees,
-            steps: MethodCache::new(),
-            traces: MethodCache::new(),
-            series: MethodCache::new(),
-            stages: MethodCache::new(),
+            steps: Cache::default(),
+            traces: Cache::default(),
+            series: Cache::default(),
+            stages: Cache::default(),
         }
     }
 }
