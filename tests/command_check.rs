@@ -146,6 +146,39 @@ fn expand_prints_rust_with_fused_code_on_demand() {
         .error("method", "command line: --method");
 }
 
+/// A lift is of the declared algebra, which is not blamed for the time that makes it larger.
+#[test]
+fn lifts_are_refused_because_of_the_time_where_that_is_why() {
+    let folder = folder();
+    let text = std::fs::read_to_string("specs/su3_quadratic.json").expect("a spec");
+    let mut spec: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    let plain = spec["hamiltonian"].as_str().expect("text").to_owned();
+    let first = spec["state"][0].as_str().expect("a name").to_owned();
+    let path = folder.path().join("driven.json");
+    spec["hamiltonian"] = format!("{plain} + cos(t)*{first}").into();
+    spec.as_object_mut().expect("an object").remove("$schema");
+    std::fs::write(&path, spec.to_string()).expect("written");
+    for method in [
+        "collective4 --lift unitary",
+        "collective4 --lift quaternion",
+        "collective4 --lift representation",
+        "collective4 --lift hopf",
+        "collective4",
+        "isospectral4",
+    ] {
+        let call = format!("run {} --until 1 --step 0.1 --method", path.display());
+        let mut call: Vec<&str> = call.split(' ').collect();
+        call.push(method);
+        let run = common::Run::from(common::command(call).output().expect("lie starts"));
+        let run = run.error("method", "command line: --method");
+        let said = run.stderr.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(said.contains("the time makes that larger"), "{said}");
+        assert!(said.contains("compose4(lie-midpoint)"), "{said}");
+    }
+    // the control: without the time the lift applies
+    lie("run specs/su3_quadratic.json --until 1 --step 0.1 --quiet --method collective4 --lift unitary").ok();
+}
+
 /// The unit beside the time is a Casimir that nobody has to find; what the time or the group element rules out is
 /// not blamed on the algebra.
 #[test]

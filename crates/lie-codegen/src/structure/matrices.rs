@@ -19,8 +19,11 @@ pub fn refusal(structure: &Structure, order: u32) -> Option<(String, String)> {
         None => {
             let spins = structure.spins.is_some();
             let hopf = format!(", or `collective{order} --lift hopf`");
+            let reason = super::lifts::made_larger(structure).unwrap_or_else(|| {
+                "it needs a matrix representation, and the algebra declares no `matrices`".into()
+            });
             Some((
-                "it needs a matrix representation, and the algebra declares no `matrices`".into(),
+                reason,
                 nearest(if spins && order < 8 { &hopf } else { "" }),
             ))
         }

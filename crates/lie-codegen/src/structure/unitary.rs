@@ -83,6 +83,9 @@ pub fn refusal(structure: &Structure, order: u32) -> Option<(String, String)> {
     if structure.unitary.is_some() {
         return None;
     }
+    if let Some(reason) = super::lifts::made_larger(structure) {
+        return Some((reason, super::lifts::nearest(structure, order)));
+    }
     let reason = "the lift `unitary` needs matrices that are anti-Hermitian, written as real ones [[Re, -Im], [Im, Re]], and \
                   closed under (abc + cba)/2 up to matrices that commute with them, such as those of su(n) and u(n)";
     Some((reason.into(), super::lifts::nearest(structure, order)))

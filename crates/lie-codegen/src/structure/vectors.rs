@@ -157,6 +157,9 @@ pub fn refusal(structure: &Structure, order: u32) -> Option<(String, String)> {
     if structure.vectors.is_some() {
         return None;
     }
+    if let Some(reason) = super::lifts::made_larger(structure) {
+        return Some((reason, super::lifts::nearest(structure, order)));
+    }
     let reason = "the lift `quaternion` needs so(3) with vectors that commute, such as se(3), in a basis with \
                   [J1, J2] = c J3, [J1, P2] = c P3 and cyclic permutations";
     Some((reason.into(), super::lifts::nearest(structure, order)))
