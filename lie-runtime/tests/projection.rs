@@ -2,8 +2,8 @@
 
 use lie_runtime::diagnostics::order_of_convergence;
 use lie_runtime::driver::{IntegrateError, OptionError, integrate};
-use lie_runtime::methods::{Method, Unkept};
-use lie_runtime::newton::FailureReason;
+use lie_runtime::methods::{Levels, Method, Projection, Stepper, Unkept};
+use lie_runtime::newton::{FailureReason, NewtonOptions};
 use lie_runtime::prelude::*;
 use lie_runtime::{Poisson, Scalar, State};
 
@@ -13,6 +13,16 @@ lie_poisson! {
     algebra = so(3);
     state x, y, z;
     hamiltonian = x^2/4 + y^2/2 + 3*z^2/4;
+    methods = [taylor];
+}
+
+lie_poisson! {
+    /// A free rigid body on the unit sphere, whose declared Casimir is a square: its gradient is zero there.
+    pub system Squared;
+    algebra = so(3);
+    state x, y, z;
+    hamiltonian = x^2/4 + y^2/2 + 3*z^2/4;
+    casimir C = (x^2 + y^2 + z^2 - 1)^2;
     methods = [taylor];
 }
 
@@ -291,11 +301,98 @@ fn an_equilibrium_stays_and_a_level_that_is_too_far_is_an_error() {
         match body(start, h) {
             Err(IntegrateError::Step(error)) => {
                 assert_eq!(error.failure.reason, FailureReason::OffLevel, "{error}");
-                assert!(error.to_string().contains("keep less"), "{error}");
+                assert!(error.to_string().contains("a smaller step"), "{error}");
             }
             other => panic!("h = {h}: {other:?}"),
         }
     }
+}
+
+#[test]
+fn a_casimir_whose_gradient_is_zero_on_its_level_is_kept() {
+    for start in [[0.6, 0.0, 0.8], [0.6, 0.48, 0.64]] {
+        for h in [0.3, 0.1, 0.01] {
+            let length = |keep| {
+                let problem = Problem::new(
+                    Squared::<f64>::new().system().expect("sound"),
+                    start,
+                    (0.0, 200.0 * h),
+                );
+                let options = Options::new(h).save(Save::Ends).keep(keep);
+                let solution = solve(&problem, Rk4, &options).expect("it is kept");
+                let end = solution.mu.last().expect("an end");
+                (end.iter().map(|x| x * x).sum::<f64>() - 1.0).abs()
+            };
+            let (kept, plain) = (length(Keep::CASIMIRS), length(Keep::NOTHING));
+            println!("h = {h}: {kept:e}, {plain:e}");
+            // the square of this is round-off of the terms of C
+            assert!(kept < 1e-14, "h = {h}: {kept:e}");
+            assert!(h < 0.1 || plain > 1e-8, "the control: {plain:e}");
+        }
+    }
+}
+
+#[test]
+fn where_gradients_depend_on_each_other_the_remedy_is_to_keep_less() {
+    let system = Body::<f64>::new().system().expect("sound");
+    let back = |keep, far: [f64; 3]| {
+        let start = [0.3, 1.0, 0.2].into();
+        let levels = Levels::at(&system, &start, keep).expect("they can be kept");
+        let mut projection = Projection::new(&system, levels);
+        let mut mu = far.into();
+        let lost = projection.bring_back(&system, true, &mut mu);
+        (lost, projection.reason(lost))
+    };
+    // energy and Casimir have the same direction there
+    let (lost, reason) = back(Keep::ALL, [0.0, 1.1, 0.0]);
+    assert_eq!((lost, reason), (true, FailureReason::DependentLevels));
+    assert!(reason.remedy().contains("keep less"), "{reason}");
+    assert!(!FailureReason::OffLevel.remedy().contains("keep less"));
+    for less in [Keep::ENERGY, Keep::CASIMIRS] {
+        assert!(!back(less, [0.0, 1.1, 0.0]).0, "{less:?}");
+    }
+    // both gradients are zero at the origin, from which no level but its own is reached
+    assert_eq!(
+        back(Keep::CASIMIRS, [0.0; 3]),
+        (true, FailureReason::DependentLevels)
+    );
+    // a projection that was lost says nothing of the next one
+    assert!(!back(Keep::ALL, [0.3, 1.1, 0.2]).0);
+}
+
+/// A method with steps of its own comes back behind each of them, not behind those of the grid: what an error of the energy does to
+/// the phase is not done.
+#[test]
+fn methods_with_steps_of_their_own_come_back_behind_each() {
+    fn check<M: Method<f64, TopSystem>>(method: impl Fn() -> M) {
+        let (system, mu0) = top();
+        let levels = Levels::at(&system, &mu0, Keep::ALL).expect("they can be kept");
+        let projection = || Projection::new(&system, levels);
+        let method = method();
+        let mut stepper = method.stepper(&system, LONG, &NewtonOptions::default());
+        let mut behind = mu0;
+        stepper.step(&mut behind, &mut ()).expect("it is solved");
+        assert!(!projection().bring_back(&system, true, &mut behind));
+        let mut stepper = method.stepper(&system, LONG, &NewtonOptions::default());
+        let left = stepper.keep(projection());
+        assert!(left.is_none(), "{} leaves the projection to others", M::ID);
+        let mut within = mu0;
+        stepper.step(&mut within, &mut ()).expect("it is solved");
+        let moved = system.hamiltonian(&within) - system.hamiltonian(&mu0);
+        assert!(moved.abs() < 1e-14, "{}: {moved:e}", M::ID);
+        let apart = difference(within.as_slice(), behind.as_slice());
+        assert!(apart > 1e-9, "{}: {apart:e}", M::ID);
+    }
+    /// One step of the grid, many of the methods.
+    const LONG: f64 = 50.0;
+    check(|| DOPRI5);
+    check(|| Taylor::with_tolerance(1e-6));
+    // one with steps of the grid leaves it to the driver
+    let (system, mu0) = top();
+    let levels = Levels::at(&system, &mu0, Keep::ALL).expect("they can be kept");
+    let mut stepper = Rk4.stepper(&system, 0.1, &NewtonOptions::default());
+    let left = stepper.keep(Projection::new(&system, levels));
+    assert!(left.is_some());
 }
 
 #[test]

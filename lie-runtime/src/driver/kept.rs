@@ -6,7 +6,7 @@ use crate::methods::{
     FactorSink, Facts, Keep, Levels, Method, Preserves, Projection, StepFailure, StepReport,
     Stepper,
 };
-use crate::newton::{FailureReason, NewtonOptions};
+use crate::newton::NewtonOptions;
 use crate::poisson::Poisson;
 use crate::scalar::{Mask, Scalar};
 use crate::state::{State, Unknown as _};
@@ -126,7 +126,7 @@ impl<S: Scalar, P: Poisson<S>, T: Stepper<S, State = P::State>> Stepper<S>
         mu.assign_where(lost, &behind.before);
         Err(match stepped {
             Ok(report) => StepFailure {
-                reason: FailureReason::OffLevel,
+                reason: behind.projection.reason(lost),
                 lanes: lost.bits(),
                 report,
             },

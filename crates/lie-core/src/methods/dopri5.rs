@@ -348,7 +348,7 @@ impl<S: Scalar, P: Poisson<S>> Stepper<S> for Dopri5Stepper<'_, S, P> {
             if let Some(projection) = &mut self.projection {
                 let lost = projection.bring_back(self.system, accepted, &mut self.current);
                 if lost.any() {
-                    progress.fail(FailureReason::OffLevel, lost);
+                    progress.fail(projection.reason(lost), lost);
                 }
             }
             progress.active = progress.active & !(accepted & last);

@@ -12,7 +12,9 @@
 //!
 //! The correction is as small as the error of the step, so that the order of the method stays. It is no Poisson map and has no
 //! adjoint: a method that is one or is symmetric loses that. Where gradients depend on each other, as those of energy and
-//! Casimirs do at an equilibrium, the later one is left alone as long as its value is right, and the step fails where it is not.
+//! Casimirs do at an equilibrium, the later one is left alone as long as its value is right, and the step fails where it is not
+//! ([`FailureReason::DependentLevels`]). A function that has its smallest or largest value there, such as the square of another
+//! that is zero, is approached by half of the way or more in each correction.
 //!
 //! Needs: H, the Casimirs and their gradients; at most [`MOST_LEVELS`] of them. The energy of a Hamiltonian that depends on the
 //! time is no constant.
@@ -24,6 +26,7 @@
 #![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
 
 use crate::clock::holds;
+use crate::newton::FailureReason;
 use crate::poisson::Poisson;
 use crate::scalar::{Mask, Scalar};
 use crate::state::State;
@@ -31,9 +34,14 @@ use thiserror::Error;
 
 /// So many functions can be kept.
 pub const MOST_LEVELS: usize = 8;
-/// Corrections after which a state is given up. Where the gradients become dependent at the level set itself each is worth two
-/// bits of the error.
-const CORRECTIONS: u32 = 40;
+/// Corrections after which a state is given up. Where the gradients become dependent or vanish at the level set itself each is worth
+/// two bits of the error or a little more.
+const CORRECTIONS: u32 = 64;
+/// A correction that leaves more of the error, in units of round-off, does not lead to the level. It leaves 1/2 at a double root of
+/// a function, whose gradient is zero there, and 2/3 at a triple one.
+const SHRINKS: f64 = 0.75;
+/// A gradient of which the others leave so much of the square of its length depends on them.
+const DEPENDENT: f64 = 1e-6;
 /// An error of so many units of round-off that does not shrink any more is round-off.
 const ROUND_OFF: f64 = 64.0;
 /// The size of a function that is zero with all its terms.
@@ -169,6 +177,8 @@ pub struct Projection<S, V> {
     /// How far the functions are from their levels, and the sizes of their terms.
     off: [S; MOST_LEVELS],
     sizes: [S; MOST_LEVELS],
+    /// The bits of the lanes in whose corrections a gradient whose function was off its level depended on the others, or was zero.
+    dependent: u64,
     point: V,
     corrected: V,
 }
@@ -181,6 +191,7 @@ impl<S: Scalar, V: State<S>> Projection<S, V> {
             gradients: core::array::from_fn(used),
             off: [S::zero(); MOST_LEVELS],
             sizes: [S::one(); MOST_LEVELS],
+            dependent: 0,
             point: system.zero_state(),
             corrected: system.zero_state(),
             levels,
@@ -188,7 +199,7 @@ impl<S: Scalar, V: State<S>> Projection<S, V> {
     }
 
     /// Brings a state back in some lanes. Returns those in which it cannot be: the level set is too far, or gradients depend on
-    /// each other there; the state is untouched in these.
+    /// each other there ([`reason`](Self::reason)); the state is untouched in these.
     pub fn bring_back<P: Poisson<S, State = V>>(
         &mut self,
         system: &P,
@@ -198,10 +209,11 @@ impl<S: Scalar, V: State<S>> Projection<S, V> {
         self.point.copy_from(mu);
         self.differentiate(system);
         let (mut active, mut lost) = (lanes, S::Mask::splat(false));
+        self.dependent = 0;
         let mut before = S::from_f64(f64::INFINITY);
         for correction in 0..CORRECTIONS {
             let off = self.measure(system);
-            let smaller = off.less_equal(before * S::from_f64(0.5));
+            let smaller = off.less_equal(before * S::from_f64(SHRINKS));
             let at_round_off = off.less_equal(S::from_f64(ROUND_OFF)) & !smaller;
             let there = off.less_equal(S::one()) | at_round_off;
             lost = lost | (active & !there & !smaller);
@@ -218,6 +230,14 @@ impl<S: Scalar, V: State<S>> Projection<S, V> {
         lost = lost | active;
         mu.assign_where(lanes & !lost, &self.point);
         lost
+    }
+
+    /// Why the last state could not be brought back in a lane of these.
+    pub fn reason(&self, lost: S::Mask) -> FailureReason {
+        match lost.bits() & self.dependent {
+            0 => FailureReason::OffLevel,
+            _ => FailureReason::DependentLevels,
+        }
     }
 
     /// Computes the gradients at the point, and from them how large the terms of the functions are.
@@ -274,6 +294,10 @@ impl<S: Scalar, V: State<S>> Projection<S, V> {
             }
             let size = dot(gradient, gradient);
             let dependent = size.less_equal(S::epsilon() * whole);
+            let round_off = S::from_f64(ROUND_OFF) * S::epsilon() * self.sizes[index];
+            let is_off = !self.off[index].abs().less_equal(round_off);
+            let nearly = size.less_equal(S::from_f64(DEPENDENT) * whole);
+            self.dependent |= (lanes & nearly & is_off).bits();
             inverses[index] = S::select(dependent, S::zero(), S::one() / size);
             lengths[index] = left * inverses[index];
             self.corrected.axpy(-lengths[index], gradient);

@@ -197,7 +197,7 @@ impl<S: Scalar, D: Development<S>> Stepper<S> for SeriesStepper<S, D> {
                 let lost = self
                     .development
                     .bring_back(projection, active, &mut self.current);
-                failures.add(FailureReason::OffLevel, lost, report);
+                failures.add(projection.reason(lost), lost, report);
                 active = active & !lost;
             }
             covered = S::select(active, covered + size, covered);

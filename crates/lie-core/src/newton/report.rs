@@ -62,6 +62,11 @@ pub enum FailureReason {
     /// [`Projection`](crate::methods::Projection).
     #[error("the state cannot be brought back onto the levels of what is kept")]
     OffLevel,
+    /// Nor can they where their gradients depend on each other or vanish.
+    #[error(
+        "the gradients of what is kept vanish or depend on each other where the state is to be brought back"
+    )]
+    DependentLevels,
 }
 
 impl FailureReason {
@@ -96,8 +101,9 @@ impl FailureReason {
             Self::OnJoint => {
                 "make the branches equal where they meet, or round the corner off: `sqrt(x^2 + a^2)` for `abs(x)`"
             }
-            Self::OffLevel => {
-                "take a smaller step or tolerance; beside an equilibrium, where the gradients of energy and Casimirs depend on each other, keep less"
+            Self::OffLevel => "take a smaller step or tolerance",
+            Self::DependentLevels => {
+                "keep less: beside an equilibrium, where the gradients of energy and Casimirs depend on each other, no step is small enough"
             }
             Self::TooManySteps => {
                 "loosen rtol and atol, take a smaller grid step, or an implicit method"
