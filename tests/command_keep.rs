@@ -3,7 +3,8 @@
 
 mod common;
 
-use common::lie;
+use common::{folder, lie, spec};
+use serde_json::Value;
 
 const TOP: &str = "run specs/se3_heavy_top.json --until 20 --step 0.1";
 
@@ -39,6 +40,90 @@ fn the_command_keeps_and_says_so() {
         "{}",
         several.stderr
     );
+}
+
+#[test]
+fn files_say_what_was_kept() {
+    let kept = ["energy", "length2", "vertical_momentum"];
+    let run = |flags: &str| {
+        let run = lie(&format!("{TOP} --quiet --format json --method rk4 {flags}"));
+        serde_json::from_str::<Value>(&run.ok().stdout).expect("JSON")
+    };
+    let json = run("--keep energy,casimirs");
+    assert_eq!(json["kept"], serde_json::json!(kept));
+    let columns = json["columns"].as_array().expect("columns");
+    assert!(kept.iter().all(|name| columns.contains(&(*name).into())));
+    assert_eq!(run("--keep energy")["kept"], serde_json::json!(["energy"]));
+    assert_eq!(run("").get("kept"), None, "nothing was");
+    let several = run("--method dopri5 --keep casimirs");
+    for run in several["runs"].as_array().expect("runs") {
+        assert_eq!(run["kept"], serde_json::json!(kept[1..]));
+    }
+}
+
+#[test]
+fn ensembles_keep_and_say_so() {
+    let folder = folder();
+    let out = folder.path().join("all.npy");
+    let ensemble = |flags: &str| {
+        let call = format!(
+            "ensemble specs/se3_heavy_top.json --members 4 --method rk4 --step 0.1 --until 20 {flags} --out {}",
+            out.display()
+        );
+        let run = lie(&call).ok();
+        let text = std::fs::read_to_string(format!("{}.json", out.display()));
+        let record: Value = serde_json::from_str(&text.expect("a record")).expect("JSON");
+        (run.stderr, record)
+    };
+    let (said, record) = ensemble("--keep energy,casimirs");
+    assert!(
+        said.contains("kept by a projection behind each step"),
+        "{said}"
+    );
+    let kept = serde_json::json!(["energy", "length2", "vertical_momentum"]);
+    assert_eq!(record["kept"], kept);
+    let (said, record) = ensemble("");
+    assert!(!said.contains("projection"), "{said}");
+    assert_eq!(record.get("kept"), None);
+    // what the spec asks for too
+    let path = spec(folder.path(), |spec| {
+        spec["run"] =
+            serde_json::json!({"method": "rk4", "step": 0.1, "until": 1, "keep": "energy"});
+    });
+    let call = format!(
+        "ensemble {} --members 2 --out {}",
+        path.display(),
+        out.display()
+    );
+    let said = lie(&call).ok().stderr;
+    assert!(said.contains("energy kept by a projection"), "{said}");
+}
+
+#[test]
+fn a_tolerance_picks_a_method_that_keeps_where_that_is_asked_for() {
+    let top = lie("run specs/se3_heavy_top.json --until 20 --tol 1e-6 --keep energy,casimirs").ok();
+    for text in ["taylor was picked", "something is to be kept", "kept by a"] {
+        assert!(top.stderr.contains(text), "{text}: {}", top.stderr);
+    }
+    let folder = folder();
+    let path = spec(folder.path(), |spec| {
+        spec["run"] =
+            serde_json::json!({"method": "dopri5", "step": 0.1, "until": 5, "keep": "casimirs"});
+    });
+    let path = path.display();
+    let of_spec = lie(&format!("run {path} --tol 1e-6")).ok();
+    for text in [
+        "taylor was picked in place of dopri5, which the spec names",
+        "kept by a projection",
+    ] {
+        assert!(of_spec.stderr.contains(text), "{text}: {}", of_spec.stderr);
+    }
+    // one that was named has options of its own
+    let named = lie(&format!("run {path} --tol 1e-6 --method gauss8")).ok();
+    assert!(!named.stderr.contains("projection"), "{}", named.stderr);
+    let chain = "run tests/data/families/heisenberg_chain.json --param N=16 --until 1 --tol 1e-4";
+    let chain = lie(&format!("{chain} --keep energy")).ok();
+    assert!(chain.stderr.contains("rk4 was picked"), "{}", chain.stderr);
 }
 
 #[test]

@@ -259,6 +259,14 @@ impl Core {
         )
     }
 
+    /// The names of what a projection behind each step of a trajectory keeps.
+    fn kept(&self, py: Python<'_>, asked: &Bound<'_, PyDict>) -> PyResult<Vec<String>> {
+        let request = arguments::request(&self.0, asked)?;
+        arguments::checked(py, &self.0, &request, |spec, request| {
+            Ok(request::plan(spec, request)?.kept(spec))
+        })
+    }
+
     /// Many trajectories: the times, the states of members by rows, and why some ended early: member, time, reason.
     fn ensemble<'py>(
         &self,

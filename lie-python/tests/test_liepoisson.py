@@ -269,7 +269,14 @@ def test_what_is_kept_by_a_projection_is_kept_to_round_off() -> None:
     assert np.abs(energy - kept.energy[0]).max() < 1e-14
     energy_alone = body().run("taylor", h=1, t=200, x0=START, rtol=1e-6, keep="energy")
     assert energy_alone.drift["energy"] < 1e-14 and energy_alone.drift["C1"] > 1e-9
+    assert kept.kept == ("energy", "C1") and "energy, C1 kept by a projection" in repr(kept)
+    assert energy_alone.kept == ("energy",)
+    assert plain.kept == () and "projection" not in repr(plain)
+    picked = body().run(tol=1e-6, t=10, x0=START, keep="casimirs")
+    assert (picked.method, picked.kept) == ("taylor", ("C1",))
     many = body().ensemble([START, START], "rk4", h=0.1, t=200, keep="energy,casimirs")
+    assert many.kept == ("energy", "C1") and "kept by a projection" in repr(many)
+    assert body().ensemble([START], "rk4", h=0.1, t=1).kept == ()
     assert np.abs(np.sum(many.mu**2, axis=1) - np.sum(np.square(START))).max() < 1e-14
     with pytest.raises(lp.MethodError, match="solves equations"):
         body().run("gauss4", h=0.1, t=1, x0=START, keep="energy")

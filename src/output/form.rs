@@ -29,6 +29,8 @@ pub struct Run {
     pub step: f64,
     /// The values of the parameters that have several.
     pub parameters: Vec<f64>,
+    /// The names of what a projection behind each step keeps.
+    pub kept: Vec<String>,
 }
 
 /// One form of output; it appends to a buffer, which takes everything.
@@ -144,6 +146,9 @@ impl Form for Json {
         self.opened = true;
         let _ = write!(out, "\"method\":{},\"step\":", Self::text(&run.method));
         json_number(run.step, out);
+        if !run.kept.is_empty() {
+            let _ = write!(out, ",\"kept\":{}", serde_json::json!(run.kept));
+        }
         match &header.labels {
             Some(labels) => {
                 out.extend_from_slice(b",\"parameters\":{");

@@ -48,6 +48,9 @@ pub struct Record {
     pub system: String,
     /// The method with its options.
     pub method: String,
+    /// The names of what a projection behind each step keeps.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub kept: Vec<String>,
     /// A digest of the spec, and of the files that it reads.
     pub spec: String,
     /// What was asked for, by option; of a file its digest.

@@ -75,6 +75,14 @@ class Solution:
         return {name: self._casimirs[:, place] for place, name in enumerate(names)}
 
     @cached_property
+    def kept(self) -> tuple[str, ...]:
+        """What a projection behind each step kept: ``energy`` and Casimirs by name, as ``keep`` asked for.
+
+        Such steps are no Poisson maps.
+        """
+        return tuple(self._system._core.kept(self._again.asked))
+
+    @cached_property
     def _again(self) -> Again:
         return self._system._again(self._call, self._span)
 
@@ -175,9 +183,10 @@ class Solution:
             f"{name} {value:.1e}{absolute[name]}" for name, value in self.drift.items()
         )
         end = f"t = {self.t[-1]:g}" if len(self.t) else "nothing"
+        kept = f"; {', '.join(self.kept)} kept by a projection" if self.kept else ""
         errors = f"; largest relative error: {drift}" if drift else ""
         return (
-            f"<{self.name}, {self.method}, step {self.step:g}: {len(self.t)} rows to {end}{errors}>"
+            f"<{self.name}, {self.method}, step {self.step:g}: {len(self.t)} rows to {end}{kept}{errors}>"
         )
 
     def plot(self, *, show: bool = False) -> Any:
@@ -238,19 +247,28 @@ class Ensemble:
 
     ``mu``: the final states, shape (m, n), or with ``every`` or ``at`` all that were saved, shape (m, rows, n); what a failed
     member did not reach is not a number. ``t``: the times of the rows, shape (rows,). ``failures``: (member, time, reason).
+    ``kept``: what a projection behind each step kept, by name; such steps are no Poisson maps.
     """
 
-    def __init__(self, mu: Array, t: Array, failures: list[tuple[int, float, str]]) -> None:
+    def __init__(
+        self,
+        mu: Array,
+        t: Array,
+        failures: list[tuple[int, float, str]],
+        kept: tuple[str, ...] = (),
+    ) -> None:
         self.mu = mu
         self.t = t
         self.failures = failures
+        self.kept = kept
 
     def __len__(self) -> int:
         return len(self.mu)
 
     def __repr__(self) -> str:
         rows = f" at {len(self.t)} times" if self.mu.ndim == 3 else ""
-        return f"<{len(self.mu)} members{rows}, {len(self.failures)} failed>"
+        kept = f", {', '.join(self.kept)} kept by a projection" if self.kept else ""
+        return f"<{len(self.mu)} members{rows}, {len(self.failures)} failed{kept}>"
 
     def _repr_html_(self) -> str:
         rows = [

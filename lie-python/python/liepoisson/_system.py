@@ -79,7 +79,7 @@ class System(Declared):
         from the identity on (``run.group``).
 
         ``keep=["energy", "casimirs"]``, or one of them, brings the state back behind each step of taylor, dopri5 or rk4 to the
-        values at the start: they are kept to round-off. The steps are no Poisson maps for that.
+        values at the start: they are kept to round-off. The steps are no Poisson maps for that, and ``run.kept`` says what was.
 
         ``assess=True`` makes a second run with other steps, which takes 1.25 times as long, and tells by how much the end is off:
         ``run.error``.
@@ -257,11 +257,12 @@ class System(Declared):
         if note is not None:
             warnings.warn(note, stacklevel=2)
         states = self._visible(states)
+        kept = tuple(self._core.kept(asked))
         if every is None and at is None:
             # where none came to its end there is no row
             ends = states[:, -1] if len(rows) else np.full((len(starts), states.shape[2]), np.nan)
-            return Ensemble(ends, rows, failures)
-        return Ensemble(states, rows, failures)
+            return Ensemble(ends, rows, failures, kept)
+        return Ensemble(states, rows, failures, kept)
 
     def function(
         self, name: str, /, parameters: Mapping[str, Number] | None = None, **named: Number

@@ -31,6 +31,7 @@ use super::fold::folded;
 use super::run::bar::Bar;
 use super::run::layout::Layout;
 use super::run::outputs::writing_failed;
+use super::run::said::of_projection;
 use crate::build::talk::{Outcome, fault, talk_here};
 use crate::build::{self, Key};
 use crate::compiler::{self, Spec};
@@ -69,7 +70,7 @@ pub fn run(flags: &args::Ensemble) -> Result<u8, Failure> {
     let methods = std::slice::from_ref(&asked.plan.method);
     let work = Work::new(&spec.model, methods, Purpose::Run, clock::processor);
     let work = Arc::new(work.ok_or_else(|| not_here(&spec))?);
-    let title = title(&spec, &asked);
+    let (title, kept) = (title(&spec, &asked), of_projection(&spec, &asked.plan));
     let threads = flags.threads.or_else(|| available_parallelism().ok());
     let ensemble = Ensemble {
         ends: !record.rows,
@@ -115,6 +116,9 @@ pub fn run(flags: &args::Ensemble) -> Result<u8, Failure> {
             Share::WHOLE => String::new(),
             Share { number, of } => format!(", share {number} of {of}"),
         };
+        if let Some(kept) = kept {
+            render::say(&folded(&kept));
+        }
         let time = clock.elapsed().as_secs_f64();
         render::say(&folded(&format!("{title}: {count}{of}, in {time:.2} s")));
     }
@@ -271,6 +275,7 @@ fn record(
         complete: false,
         system: model.name.clone(),
         method: asked.plan.method.label(),
+        kept: asked.plan.kept(spec),
         spec: digest_of_spec(&flags.spec, spec)?,
         asked: options(flags, asked)?,
         members,

@@ -7,7 +7,7 @@ pub mod layout;
 pub mod outputs;
 pub mod picture;
 mod reception;
-mod said;
+pub mod said;
 mod session;
 mod summary;
 mod tally;

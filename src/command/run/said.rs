@@ -4,7 +4,6 @@ use lie_in_process::request::Plan;
 use lie_in_process::words::counted;
 use lie_program::protocol::Stop;
 use lie_runtime::driver::Pace;
-use lie_runtime::methods::Keep;
 use lie_runtime::newton::Convergence;
 
 use super::reception::Received;
@@ -56,12 +55,8 @@ pub fn of_tolerance(plan: &Plan, received: &Received) -> Vec<String> {
 }
 
 /// What was kept by a projection, and what that is not.
-pub fn of_projection(spec: &Spec, keep: Keep) -> Option<String> {
-    let casimirs = spec.model.casimirs.iter().filter(|_| keep.casimirs);
-    let mut kept: Vec<&str> = casimirs.map(|casimir| casimir.name.as_str()).collect();
-    if keep.energy {
-        kept.insert(0, "energy");
-    }
+pub fn of_projection(spec: &Spec, plan: &Plan) -> Option<String> {
+    let kept = plan.kept(spec);
     (!kept.is_empty()).then(|| {
         format!(
             "{} kept by a projection behind each step, which is no Poisson map",

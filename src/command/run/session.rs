@@ -111,7 +111,7 @@ impl Session<'_> {
         if !self.flags.quiet {
             let several = self.several.labels.is_some();
             for plan in self.several.plans.iter().filter(|_| several) {
-                if let Some(note) = of_projection(self.spec, plan.keep) {
+                if let Some(note) = of_projection(self.spec, plan) {
                     render::say(&folded(&format!("{}: {note}", plan.method.title())));
                 }
             }
@@ -174,6 +174,7 @@ impl Session<'_> {
             },
             parameters: member.parameters.clone(),
             step: f64::NAN,
+            kept: plan.kept(self.spec),
         };
         let layout = Layout::new(&self.spec.model, plan.chart, &member.start.parameters);
         if let Some(picture) = &mut picture {
@@ -231,12 +232,15 @@ impl Session<'_> {
         let replaced = of_spec.map_or(String::new(), |(method, _)| {
             format!(" in place of {}, which the spec names", method.trim())
         });
-        let text = format!(
-            "{} was picked{replaced}: it applies to every system, has order {}, and keeps quadratic Casimirs and a quadratic \
-             energy to round-off; --method chooses another",
-            plan.method.id(),
-            plan.method.entry().map_or(0, |entry| entry.order)
-        );
+        let why = match plan.kept(self.spec).is_empty() {
+            true => format!(
+                "it applies to every system, has order {}, and keeps quadratic Casimirs and a quadratic energy to round-off",
+                plan.method.entry().map_or(0, |entry| entry.order)
+            ),
+            false => "something is to be kept, and it is explicit, as a projection behind its steps needs".to_owned(),
+        };
+        let id = plan.method.id();
+        let text = format!("{id} was picked{replaced}: {why}; --method chooses another");
         render::say(&folded(&text));
     }
 
@@ -253,7 +257,7 @@ impl Session<'_> {
         let (work, drift) = (&received.work, &received.drift);
         tally.record(member.plan, number, received);
         if self.several.labels.is_none() {
-            let notes = of_projection(self.spec, plan.keep).into_iter();
+            let notes = of_projection(self.spec, plan).into_iter();
             for note in notes.chain(of_tolerance(plan, received)) {
                 render::say(&folded(&note));
             }

@@ -3,14 +3,45 @@
 use lie_codegen::methods::Choice;
 use lie_runtime::methods::{Keep, MOST_LEVELS};
 
-use super::OptionValue;
-use super::plan::Planner;
+use super::plan::{Plan, Planner};
+use super::{OptionValue, method};
 use crate::message::Message;
+use crate::spec::Spec;
+
+/// The methods that are taken with a tolerance where something is to be kept, the first of them that applies.
+const KEEPING: [&str; 2] = ["taylor", "rk4"];
+
+impl Plan {
+    /// The names of what a projection behind each step keeps: `energy` and Casimirs, as columns have them.
+    pub fn kept(&self, spec: &Spec) -> Vec<String> {
+        let casimirs = spec.model.casimirs.iter().filter(|_| self.keep.casimirs);
+        let energy = self.keep.energy.then(|| "energy".to_owned());
+        let casimirs = casimirs.map(|casimir| casimir.name.clone());
+        energy.into_iter().chain(casimirs).collect()
+    }
+}
 
 impl Planner<'_> {
+    /// What is to be kept. Where a tolerance picks the method, what the spec says of it holds for that too.
+    fn asked_to_keep(&self) -> Option<OptionValue> {
+        let of_spec = || self.in_spec("keep").into_iter().next();
+        self.method_option("keep")
+            .or_else(|| of_spec().filter(|_| self.picks()))
+    }
+
+    /// The method that a tolerance picks where something is to be kept.
+    pub(super) fn keeping(&self) -> Option<&'static str> {
+        self.asked_to_keep()?;
+        let front = self.request.front;
+        KEEPING.into_iter().find(|id| {
+            let method = method::labelled(id, front);
+            method.is_ok_and(|choice| method::applies(choice, &self.spec.model).is_ok())
+        })
+    }
+
     /// What is kept behind each step of a method.
     pub(super) fn kept(&mut self, choice: &Choice) -> Keep {
-        let Some(given) = self.method_option("keep") else {
+        let Some(given) = self.asked_to_keep() else {
             return Keep::NOTHING;
         };
         if let Some((why, help)) = self.keeps_otherwise(choice) {

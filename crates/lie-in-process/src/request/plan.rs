@@ -264,7 +264,10 @@ impl<'a> Planner<'a> {
         }
         let model = &self.spec.model;
         let discrete = model.energy.lagrangian().and_then(|l| l.discrete);
-        let usual = if picks && self.is_loose() {
+        let keeping = self.keeping().filter(|_| picks);
+        let usual = if let Some(keeping) = keeping {
+            keeping
+        } else if picks && self.is_loose() {
             OF_LOOSE_TOLERANCE
         } else if picks || model.family.is_some() {
             OF_TOLERANCE
