@@ -157,6 +157,8 @@ pub trait AnyStepper<S, V> {
     fn advance(&mut self, mu: &mut V, steps: u64) -> Result<Stats, (u64, StepFailure)>;
     /// See [`Stepper::estimate`].
     fn estimate(&mut self) -> Option<S>;
+    /// See [`Stepper::set_step`].
+    fn set_step(&mut self, h: S) -> bool;
     /// See [`Stepper::carry`].
     fn carry(&mut self, visit: &mut dyn FnMut(&mut S)) -> bool;
     /// See [`Stepper::keep`].
@@ -190,6 +192,10 @@ impl<S: Scalar, V: State<S>, T: Stepper<S, State = V>> AnyStepper<S, V> for T {
 
     fn estimate(&mut self) -> Option<S> {
         Stepper::estimate(self)
+    }
+
+    fn set_step(&mut self, h: S) -> bool {
+        Stepper::set_step(self, h)
     }
 
     fn carry(&mut self, visit: &mut dyn FnMut(&mut S)) -> bool {
@@ -255,6 +261,9 @@ impl<S: Scalar, P: Poisson<S>> Facts for Forgotten<'_, P, S> {
     fn own_steps(&self) -> bool {
         self.0.claims().own_steps
     }
+    fn symmetric(&self) -> bool {
+        self.0.claims().symmetric
+    }
 }
 
 impl<S: Scalar, P: Poisson<S>> Method<S, P> for Forgotten<'_, P, S> {
@@ -290,6 +299,10 @@ impl<S: Scalar, V: State<S>> Stepper<S> for ForgottenStepper<'_, V, S> {
 
     fn estimate(&mut self) -> Option<S> {
         self.stepper.estimate()
+    }
+
+    fn set_step(&mut self, h: S) -> bool {
+        self.stepper.set_step(h)
     }
 
     fn carry(&mut self, visit: &mut dyn FnMut(&mut S)) -> bool {

@@ -1,6 +1,7 @@
 //! The error at the end of a run, by a second one.
 
 use super::course::{Beginning, Course};
+use super::density::Density;
 use super::grid::Grid;
 use super::observer::{Observer, Progress};
 use super::options::Save;
@@ -28,6 +29,8 @@ pub(super) struct Ended<'a, S: Scalar, P: Poisson<S>, M> {
     pub(super) tolerance: Option<f64>,
     /// The size of the last steps.
     pub(super) step: f64,
+    /// The first step counts where they follow the motion: all others change with it.
+    pub(super) density: Density,
     pub(super) end: &'a P::State,
 }
 
@@ -42,7 +45,11 @@ impl<S: Scalar, P: Poisson<S>, M: Method<S, P>> Ended<'_, S, P, M> {
             return Some(0.0);
         }
         let mut mu = self.problem.start();
-        let own = ((end - start) / self.step).round();
+        let follows = self.density == Density::Reversible;
+        let own = match follows {
+            true => (end - start) / self.step,
+            false => ((end - start) / self.step).round(),
+        };
         let (steps, left) = if self.method.own_steps() {
             let by = self.problem.system.norm(&mu) * S::from_f64(CHANGE * self.tolerance?);
             let clock = self.problem.system.clock();
@@ -51,6 +58,8 @@ impl<S: Scalar, P: Poisson<S>, M: Method<S, P>> Ended<'_, S, P, M> {
                 *entry += by * S::from_f64((1.0 + 1.7 * k as f64).cos());
             }
             (own, 0.0)
+        } else if follows {
+            (own / SHORTER, SHORTER.powi(self.method.order() as i32))
         } else {
             let steps = (own / SHORTER).ceil();
             (steps, (own / steps).powi(self.method.order() as i32))
@@ -58,7 +67,9 @@ impl<S: Scalar, P: Poisson<S>, M: Method<S, P>> Ended<'_, S, P, M> {
         let step = (end - start) / steps;
         let grid = Grid::new((start, end), step).ok()?;
         let divides = Course::<M>::may_divide::<S, P>(self.method);
-        let mut course = Course::new(grid, self.method, self.newton).dividing(divides);
+        let mut course = Course::new(grid, self.method, self.newton)
+            .dividing(divides && !follows)
+            .following(self.density);
         let mut last = Last {
             state: mu.clone(),
             observer,

@@ -1,25 +1,25 @@
 //! The loop over the grid.
 
 use super::by_stages::Begun;
-use super::checks::{check_domain, check_start, smaller};
+use super::checks::check_start;
 use super::curve::Curve;
-use super::error::StepError;
-use super::grid::{Grid, Place, Row, Rows};
+use super::density::{Control, Density, Growth};
+use super::grid::{Grid, Place};
 use super::joints::Joints;
 use super::milestone::{MILESTONE, Milestone, gradient};
 use super::observer::{MotionSink, Observer, Progress};
 use super::options::Save;
 use super::problem::set_time;
+use super::rows::{Row, Rows};
 use super::solve::IntegrateError;
 use super::stats::{Stats, Status};
 use super::trial::Trial;
 use super::watch::{Change, From, Guard, Verdict};
-use crate::methods::{Method, StepFailure, StepReport, Stepper};
-use crate::newton::{FailureReason, NewtonOptions};
+use crate::methods::{Method, Stepper};
+use crate::newton::NewtonOptions;
 use crate::poisson::Poisson;
 use crate::scalar::Scalar;
 use crate::state::State;
-use core::iter::Peekable;
 
 /// Why a stepper was left.
 pub(super) enum Left<P> {
@@ -73,6 +73,9 @@ pub(super) struct Course<'r, M> {
     pub(super) by_stages: bool,
     /// Jacobians that were factored, and steps since the last division for which some were.
     pub(super) slow: (u64, u64),
+    /// Whether steps follow the motion, and what says their size then.
+    pub(super) follows: bool,
+    pub(super) control: Option<Control>,
 }
 
 impl<'r, M> Course<'r, M> {
@@ -87,6 +90,12 @@ impl<'r, M> Course<'r, M> {
     /// Divides steps where need be.
     pub(super) fn dividing(mut self, divides: bool) -> Self {
         self.divides = divides;
+        self
+    }
+
+    /// Has steps follow the motion.
+    pub(super) fn following(mut self, density: Density) -> Self {
+        self.follows = density == Density::Reversible;
         self
     }
 
@@ -113,6 +122,8 @@ impl<'r, M> Course<'r, M> {
             divides: false,
             by_stages: false,
             slow: (0, 0),
+            follows: false,
+            control: None,
         }
     }
 
@@ -146,13 +157,16 @@ impl<'r, M> Course<'r, M> {
             }
             None => system.following(&mu),
         };
-        let (mut grid, mut rows) = (self.grid, self.rows_left(save)?);
-        let mut size = self.size();
-        let mut between = mu.clone();
         let system = followed.as_ref().unwrap_or(first);
         if taken_up.is_none() {
             check_start(system, &mu).map_err(|failure| self.failed(failure))?;
+            if self.follows {
+                self.begin_control(system, &mu)?;
+            }
         }
+        let (mut grid, mut rows) = (self.grid, self.rows_left(save)?);
+        let mut size = self.size();
+        let mut between = mu.clone();
         observer.start(system, self.progress(), &mu);
         let mut begun = begun.filter(|_| followed.is_none());
         let mut curve = match observer.draws() {
@@ -173,15 +187,20 @@ impl<'r, M> Course<'r, M> {
                 }
             };
             let left = left?;
-            if self.size() != size {
+            if self.size() != size && !self.follows {
                 size = self.size();
                 observer.shortened(self.progress(), size);
             }
-            if self.grid != grid {
+            if self.grid != grid && !self.follows {
                 (grid, rows) = (self.grid, self.rows_left(save)?);
             }
             match left {
-                Left::Over(status) => return Ok((mu, status)),
+                Left::Over(status) => {
+                    if let Some(factor) = guard.as_ref().and_then(Guard::uneven) {
+                        observer.uneven(factor);
+                    }
+                    return Ok((mu, status));
+                }
                 Left::Branch(next) => followed = Some(next),
                 Left::Divided => {}
                 Left::Milestone => {
@@ -203,7 +222,7 @@ impl<'r, M> Course<'r, M> {
         system: &'s P,
         begun: Option<Begun<M::Stepper<'s>, P::State>>,
         (mu, between): &mut (&mut P::State, &mut P::State),
-        (rows, curve): (&mut Peekable<Rows>, &mut Option<Curve<P::State>>),
+        (rows, curve): (&mut Rows, &mut Option<Curve<P::State>>),
         guard: &mut Option<Guard<'_, S, P, M>>,
         observer: &mut O,
     ) -> Result<Left<P>, IntegrateError>
@@ -220,6 +239,7 @@ impl<'r, M> Course<'r, M> {
             None => (self.method.stepper(system, size, &newton), None),
         };
         let mut joints = Joints::of(system);
+        let mut growth = self.follows.then(|| Growth::new(system));
         loop {
             if self.index == self.milestone && self.done == 0 {
                 return Ok(Left::Milestone);
@@ -317,6 +337,13 @@ impl<'r, M> Course<'r, M> {
                 }
             }
             self.index += 1;
+            if let Some(growth) = &mut growth {
+                let size = S::from_f64(self.steer(growth, system, mu)?);
+                rows.relocate(&self.grid);
+                if !stepper.set_step(size) {
+                    stepper = self.method.stepper(system, size, &newton);
+                }
+            }
             let looked = observer.step(system, self.progress(), mu);
             if looked.is_break() {
                 return Ok(Left::Over(Status::Stopped));
@@ -340,14 +367,15 @@ impl<'r, M> Course<'r, M> {
     }
 
     /// The rows that have not been shown.
-    fn rows_left(&self, save: &Save) -> Result<Peekable<Rows>, IntegrateError> {
-        let mut rows = self.grid.rows(save)?.from(self.index).peekable();
+    fn rows_left(&self, save: &Save) -> Result<Rows, IntegrateError> {
+        let mut rows = self.grid.rows(save)?.from(self.index);
         let sign = self.step.signum();
         let is_shown = |row: &Row| {
             let shown = self
                 .shown
                 .is_some_and(|shown| (row.time - shown) * sign <= 0.0);
-            shown || row.place.index() < self.index
+            let behind = self.follows && self.grid.is_behind(row.time);
+            shown || behind || row.place.index() < self.index
         };
         while rows.next_if(is_shown).is_some() {}
         Ok(rows)
@@ -369,50 +397,5 @@ impl<'r, M> Course<'r, M> {
             steps: self.grid.steps(),
             time: self.grid.time(self.index),
         }
-    }
-
-    /// The error of the step that comes next.
-    fn failed(&self, failure: StepFailure) -> Box<StepError> {
-        let mut stats = self.stats;
-        stats.add_failure(&failure.report);
-        Box::new(StepError {
-            step: self.index + 1,
-            time: self.grid.time(self.index),
-            failure,
-            stats,
-            works: None,
-        })
-    }
-
-    /// The same of a step of h from a state: where it left its chart, with one that does not.
-    pub(super) fn stopped<S: Scalar, P: Poisson<S>>(
-        &self,
-        system: &P,
-        failure: StepFailure,
-        h: f64,
-        mu: &P::State,
-    ) -> IntegrateError
-    where
-        M: Method<S, P>,
-    {
-        let left = failure.reason == FailureReason::OutsideChart;
-        let works = left.then(|| smaller(system, self.method, &self.newton, h, mu));
-        let error = StepError {
-            works: works.flatten(),
-            ..*self.failed(failure)
-        };
-        IntegrateError::from(Box::new(error))
-    }
-
-    /// Counts a step that ended at a state.
-    pub(super) fn arrived<S: Scalar, P: Poisson<S>>(
-        &mut self,
-        system: &P,
-        mu: &P::State,
-        report: StepReport,
-    ) -> Result<(), Box<StepError>> {
-        check_domain(system, mu, report).map_err(|failure| self.failed(failure))?;
-        self.stats.add(&report);
-        Ok(())
     }
 }

@@ -10,14 +10,14 @@
 //! Where the motion on the group is followed, its angle `h |xi|` counts too.
 
 use super::course::Course;
-use super::grid::{Grid, Place, Row, Rows};
+use super::grid::{Grid, Place};
 use super::joints::Joints;
 use super::observer::Observer;
+use super::rows::{Row, Rows};
 use crate::methods::Method;
 use crate::poisson::Poisson;
 use crate::scalar::{Scalar, largest};
 use crate::state::State;
-use core::iter::Peekable;
 
 /// Runs of so many steps are shown by these alone.
 const MOST_STEPS: u64 = 10_000;
@@ -194,7 +194,7 @@ impl<M> Course<'_, M> {
     /// What is shown next of the step that begins here: a row, which is kept, or a state between rows.
     pub(super) fn due<V>(
         &self,
-        rows: &mut Peekable<Rows>,
+        rows: &mut Rows,
         curve: &mut Option<Curve<V>>,
     ) -> Option<(Row, bool)> {
         if self.done > 0 {

@@ -1,25 +1,25 @@
 //! The grid of times, and where on it a saved time lies.
 
-use super::options::{OptionError, Save};
+use super::options::OptionError;
 
 /// `T/h` within this distance of an integer is that integer. Where f64 does not resolve as much,
 /// beyond some millions of steps, two units of round-off count instead.
-const TOLERANCE: f64 = 1e-9;
+pub(super) const TOLERANCE: f64 = 1e-9;
 /// Beyond this, counts are no longer exact in f64.
-const MAX_STEPS: f64 = 9_007_199_254_740_992.0;
+pub(super) const MAX_STEPS: f64 = 9_007_199_254_740_992.0;
 
 /// Times `t_k = t0 + k h`, k from 0 to a last one; the end may lie off the grid beyond it. From a point on h may be another.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grid {
-    start: f64,
-    end: f64,
-    step: f64,
-    steps: u64,
-    end_place: Place,
+    pub(super) start: f64,
+    pub(super) end: f64,
+    pub(super) step: f64,
+    pub(super) steps: u64,
+    pub(super) end_place: Place,
     /// The point from which on the step is this one, and its time.
     from: (u64, f64),
     /// Whether it was another one before.
-    changed: bool,
+    pub(super) changed: bool,
 }
 
 /// Where a time lies relative to the grid.
@@ -38,13 +38,6 @@ impl Place {
             Self::On(index) | Self::After(index, _) => index,
         }
     }
-}
-
-/// A state to be saved: where and under which time.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Row {
-    pub(super) place: Place,
-    pub(super) time: f64,
 }
 
 impl Grid {
@@ -94,6 +87,27 @@ impl Grid {
         }
     }
 
+    /// The same from a point on with another step, which need not lead to the end.
+    pub(super) fn from_here_on(self, (index, time): (u64, f64), step: f64) -> Self {
+        let grid = Self {
+            step,
+            from: (index, time),
+            changed: false,
+            ..self
+        };
+        let end_place = grid.locate(self.end);
+        Self {
+            end_place,
+            steps: end_place.index(),
+            ..grid
+        }
+    }
+
+    /// Whether a time lies before the point from which on the step is this one.
+    pub(super) fn is_behind(&self, time: f64) -> bool {
+        (time - self.from.1) / self.step < -TOLERANCE
+    }
+
     /// The point from which on the step is another one than before, and its time.
     pub(super) fn change(&self) -> Option<(u64, f64)> {
         self.changed.then_some(self.from)
@@ -139,144 +153,17 @@ impl Grid {
             return Place::On(first + nearest.max(0.0) as u64);
         }
         if count < 0.0 {
-            return Place::On(first.saturating_sub(1));
+            return Place::On(first.saturating_sub(u64::from(self.changed)));
         }
         let before = first + count.floor() as u64;
         Place::After(before, time - self.time(before))
-    }
-
-    /// The states that a choice saves, in order of the run.
-    pub(super) fn rows(&self, save: &Save) -> Result<Rows, OptionError> {
-        let kind = match save {
-            Save::Every(0) => return Err(OptionError::Interval),
-            Save::Every(every) => Kind::Every(*every),
-            Save::Ends => Kind::Every(u64::MAX),
-            Save::Interval(interval) => {
-                let ratio = interval / self.step;
-                let rows = (self.end - self.start) / interval;
-                if !(ratio.is_finite() && ratio > 0.0 && rows < MAX_STEPS) {
-                    return Err(OptionError::Interval);
-                }
-                Kind::Interval(*interval)
-            }
-            Save::At(times) => Kind::At(self.sorted(times)?.into_iter()),
-        };
-        Ok(Rows {
-            grid: *self,
-            kind,
-            next: Some(0),
-        })
-    }
-
-    fn sorted(&self, times: &[f64]) -> Result<Vec<f64>, OptionError> {
-        let slack = TOLERANCE * self.step.abs();
-        let (low, high) = (
-            self.start.min(self.end) - slack,
-            self.start.max(self.end) + slack,
-        );
-        // which was looked at before the step changed
-        for &time in times.iter().filter(|_| !self.changed) {
-            if !(low <= time && time <= high) {
-                return Err(OptionError::SavedTime {
-                    time,
-                    start: self.start,
-                    end: self.end,
-                });
-            }
-        }
-        let mut times = times.to_vec();
-        times.sort_by(f64::total_cmp);
-        if self.step < 0.0 {
-            times.reverse();
-        }
-        Ok(times)
-    }
-
-    fn end_row(&self) -> Row {
-        match self.end_place {
-            Place::On(index) => Row {
-                place: self.end_place,
-                time: self.time(index),
-            },
-            Place::After(..) => Row {
-                place: self.end_place,
-                time: self.end,
-            },
-        }
-    }
-}
-
-/// Iterator over the rows of a run.
-#[derive(Clone, Debug)]
-pub(super) struct Rows {
-    grid: Grid,
-    kind: Kind,
-    /// Number of the next row; none after the end.
-    next: Option<u64>,
-}
-
-#[derive(Clone, Debug)]
-enum Kind {
-    Every(u64),
-    Interval(f64),
-    At(std::vec::IntoIter<f64>),
-}
-
-impl Rows {
-    /// Those from a grid point on, possibly behind some before it.
-    pub(super) fn from(mut self, index: u64) -> Self {
-        if let (Kind::Every(every), Some(next)) = (&self.kind, &mut self.next) {
-            *next = index.div_ceil(*every);
-        }
-        self
-    }
-}
-
-impl Iterator for Rows {
-    type Item = Row;
-
-    fn next(&mut self) -> Option<Row> {
-        let grid = self.grid;
-        let number = self.next?;
-        let row = match &mut self.kind {
-            Kind::At(times) => {
-                return times.next().map(|time| Row {
-                    place: grid.locate(time),
-                    time,
-                });
-            }
-            Kind::Every(every) => {
-                let index = number.saturating_mul(*every);
-                let row = Row {
-                    place: Place::On(index),
-                    time: grid.time(index),
-                };
-                (index <= grid.steps).then_some(row)
-            }
-            Kind::Interval(interval) => {
-                let time = grid.start + number as f64 * *interval;
-                let place = grid.locate(time);
-                let before_end = match (place, grid.end_place) {
-                    (Place::On(index), Place::After(end, _)) => index <= end,
-                    (Place::On(index), Place::On(end)) => index < end,
-                    (Place::After(index, _), Place::On(end)) => index < end,
-                    (Place::After(index, here), Place::After(end, there)) => {
-                        index < end || (index == end && here.abs() < there.abs())
-                    }
-                };
-                before_end.then_some(Row { place, time })
-            }
-        };
-        // the end closes every list, once
-        let end = grid.end_row();
-        let row = row.unwrap_or(end);
-        self.next = (row.place != end.place).then_some(number + 1);
-        Some(row)
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::options::Save;
+    use super::super::rows::Row;
     use super::*;
 
     fn times(span: (f64, f64), step: f64, save: &Save) -> Vec<f64> {

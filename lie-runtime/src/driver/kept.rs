@@ -63,6 +63,10 @@ impl<S, M: Facts> Facts for Kept<S, M> {
     fn own_steps(&self) -> bool {
         self.method.own_steps()
     }
+    /// A projection looks at the start of the run alone, and no step of -h undoes it.
+    fn symmetric(&self) -> bool {
+        self.levels.is_none() && self.method.symmetric()
+    }
 }
 
 impl<S: Scalar, P: Poisson<S>, M: Method<S, P>> Method<S, P> for Kept<S, M> {
@@ -139,6 +143,10 @@ impl<S: Scalar, P: Poisson<S>, T: Stepper<S, State = P::State>> Stepper<S>
 
     fn estimate(&mut self) -> Option<S> {
         self.stepper.estimate()
+    }
+
+    fn set_step(&mut self, h: S) -> bool {
+        self.stepper.set_step(h)
     }
 
     fn carry(&mut self, visit: &mut dyn FnMut(&mut S)) -> bool {

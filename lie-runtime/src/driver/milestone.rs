@@ -6,6 +6,7 @@
 //! that try iterations without a Jacobian would try them again after each.
 
 use super::course::Course;
+use super::density::Control;
 use super::options::OptionError;
 use super::stats::Stats;
 use super::watch::{Guard, MOST_PARTS, Watched};
@@ -40,7 +41,7 @@ pub struct Milestone<V> {
     pub division: Division,
 }
 
-/// How a run with a tolerance divides its steps.
+/// How a run with a tolerance divides its steps, or how they follow the motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Division {
     /// In so many parts each is made.
@@ -51,6 +52,8 @@ pub struct Division {
     pub slow: (u64, u64),
     /// What is known of the errors of steps, where they are looked at.
     pub watched: Option<Watched>,
+    /// What says the size of steps, where these follow the motion.
+    pub control: Option<Control>,
 }
 
 impl<M> Course<'_, M> {
@@ -76,6 +79,7 @@ impl<M> Course<'_, M> {
                     .map(|(index, time)| (index, time, self.grid.steps() - index)),
                 slow: self.slow,
                 watched: guard.map(|guard| guard.watch.watched()),
+                control: self.control,
             },
         }
     }
@@ -96,9 +100,14 @@ impl<M> Course<'_, M> {
         let Milestone {
             index, division, ..
         } = *milestone;
-        let grid = match division.shortened {
-            None => self.grid,
-            Some((first, time, steps)) => self.grid.going_on_with((first, time), steps),
+        let grid = match (division.control, division.shortened) {
+            (Some(control), _) => (self.grid).from_here_on((index, milestone.time), control.step()),
+            (None, None) => self.grid,
+            (None, Some((first, time, steps))) => self.grid.going_on_with((first, time), steps),
+        };
+        let steered = match division.control {
+            Some(control) => self.follows && control.is_of(self.step) && milestone.time.is_finite(),
+            None => !self.follows,
         };
         let beyond = division.shortened.is_some_and(|(first, time, steps)| {
             !self.divides || first > index || !time.is_finite() || steps > UNCOUNTED
@@ -113,6 +122,7 @@ impl<M> Course<'_, M> {
         } else if !(1..=MOST_PARTS).contains(&division.parts)
             || (division.parts > 1 && !self.divides)
             || division.watched.is_some() != guard.is_some()
+            || !steered
             || division.watched.is_some_and(|watched| watched.left == 0)
         {
             "its steps are divided otherwise"
@@ -125,6 +135,7 @@ impl<M> Course<'_, M> {
             self.grid = grid;
             (self.index, self.milestone) = (index, index + MILESTONE);
             (self.parts, self.slow) = (division.parts, division.slow);
+            self.control = division.control;
             self.stats = milestone.stats;
             if let (Some(guard), Some(watched)) = (guard, division.watched) {
                 guard.watch.restore(watched);

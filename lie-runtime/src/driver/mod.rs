@@ -1,10 +1,12 @@
 //! From a problem to a solution: the loop over the time grid, what is saved, and observers.
 
+mod arrival;
 mod assess;
 mod by_stages;
 mod checks;
 mod course;
 mod curve;
+mod density;
 mod error;
 mod grid;
 mod group_matrix;
@@ -17,6 +19,7 @@ pub mod pace;
 mod problem;
 mod pulse;
 pub mod reconstruction;
+mod rows;
 mod shorter;
 mod solution;
 mod solve;
@@ -25,6 +28,7 @@ mod trial;
 mod watch;
 
 pub use crate::methods::Keep;
+pub use density::{Control, Density};
 pub use error::{SolveError, StepError};
 pub use grid::{Grid, Place};
 pub use milestone::{Division, MILESTONE, Milestone};

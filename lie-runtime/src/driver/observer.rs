@@ -41,6 +41,11 @@ pub trait Observer<S: Scalar, P: Poisson<S>> {
     fn lost(&mut self, progress: Progress) {
         let _ = progress;
     }
+    /// Sees at the end that the steps which the tolerance allows differ by this factor along the run: ones that follow the motion, as with
+    /// [`Options::reversible`](super::Options::reversible) or by [`Taylor`](crate::methods::Taylor), are faster.
+    fn uneven(&mut self, factor: f64) {
+        let _ = factor;
+    }
     /// Sees the steps of the run that tells the error of the one before, and may end it.
     fn compared(&mut self, progress: Progress) -> ControlFlow<()> {
         let _ = progress;
@@ -154,6 +159,9 @@ impl<S: Scalar, P: Poisson<S>, O: Observer<S, P>> Observer<S, P> for &mut O {
     fn lost(&mut self, progress: Progress) {
         (**self).lost(progress);
     }
+    fn uneven(&mut self, factor: f64) {
+        (**self).uneven(factor);
+    }
     fn compared(&mut self, progress: Progress) -> ControlFlow<()> {
         (**self).compared(progress)
     }
@@ -207,6 +215,10 @@ impl<S: Scalar, P: Poisson<S>, A: Observer<S, P>, B: Observer<S, P>> Observer<S,
     fn lost(&mut self, progress: Progress) {
         self.0.lost(progress);
         self.1.lost(progress);
+    }
+    fn uneven(&mut self, factor: f64) {
+        self.0.uneven(factor);
+        self.1.uneven(factor);
     }
     fn compared(&mut self, progress: Progress) -> ControlFlow<()> {
         let first = self.0.compared(progress);
@@ -284,6 +296,10 @@ impl<S: Scalar, P: Poisson<S>> Observer<S, P> for Recorder<S, P::State> {
 
     fn lost(&mut self, progress: Progress) {
         self.solution.lost = Some(progress.time);
+    }
+
+    fn uneven(&mut self, factor: f64) {
+        self.solution.uneven = Some(factor);
     }
 
     fn assessed(&mut self, assessed: &Assessed) {

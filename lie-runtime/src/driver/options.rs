@@ -1,5 +1,6 @@
 //! Step size, what is saved, and the solver.
 
+use super::density::Density;
 use crate::methods::{Keep, Unkept};
 use crate::newton::NewtonOptions;
 use thiserror::Error;
@@ -37,6 +38,8 @@ pub struct Options {
     pub newton: NewtonOptions,
     /// What a projection behind each step keeps: nothing by default.
     pub keep: Keep,
+    /// Whether steps follow the motion: not by default.
+    pub density: Density,
     /// A second run tells the error at the end of one with at most so many steps: none by default.
     pub assess: u64,
 }
@@ -58,6 +61,7 @@ impl Options {
             save: Save::Every(1),
             newton: NewtonOptions::default(),
             keep: Keep::NOTHING,
+            density: Density::Constant,
             assess: 0,
         }
     }
@@ -78,6 +82,19 @@ impl Options {
     #[must_use]
     pub fn keep(self, keep: Keep) -> Self {
         Self { keep, ..self }
+    }
+
+    /// The same with steps whose size follows the motion, by an integrating step density: the given or chosen step is the first one, and
+    /// those where the field is larger are shorter, in proportion to `|f|^(-3/4)`. A symmetric method stays reversible so, and has no
+    /// drift in the energy of reversible motion, but is no Poisson map any more. Each step takes a Jacobian. See
+    /// E. Hairer, G. Söderlind, [doi:10.1137/040606995](https://doi.org/10.1137/040606995). Methods that are not symmetric are refused, as are
+    /// adaptive ones, projections, lanes, systems without a Jacobian and those with joints that are known beforehand.
+    #[must_use]
+    pub fn reversible(self) -> Self {
+        Self {
+            density: Density::Reversible,
+            ..self
+        }
     }
 
     /// The same with another choice of saved states.
@@ -151,6 +168,9 @@ pub enum OptionError {
     /// What is to be kept cannot be.
     #[error("the run cannot keep this: {0}")]
     Keep(Unkept),
+    /// Steps cannot follow the motion.
+    #[error("steps of a reversible density are not possible: {0}")]
+    Density(&'static str),
     /// A milestone of another run.
     #[error("the milestone is not one of this run: {0}")]
     Milestone(&'static str),

@@ -29,6 +29,9 @@ pub struct Solution<S, V> {
     pub assessed: Option<Assessed>,
     /// From when on the steps of a run with a tolerance are too long for it, and could not be made shorter.
     pub lost: Option<f64>,
+    /// By which factor the steps differ that the tolerance allows along the run, where it is so large that steps which follow the motion
+    /// would be faster.
+    pub uneven: Option<f64>,
     /// How the run ended.
     pub status: Status,
     /// The names of the coordinates.
@@ -55,6 +58,7 @@ impl<S, V> Solution<S, V> {
             shortened: None,
             assessed: None,
             lost: None,
+            uneven: None,
             status: Status::Finished,
             coordinates: coordinates.collect(),
             casimir_names: casimirs.collect(),

@@ -2,6 +2,7 @@
 
 use super::assess::Ended;
 use super::course::{Beginning, Course};
+use super::density::{self, Density, Growth};
 use super::error::{SolveError, StepError};
 use super::grid::Grid;
 use super::kept::Kept;
@@ -131,19 +132,34 @@ fn run<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
         return Err(OptionError::StateLength { expected, found }.into());
     }
     let method = Kept::new(problem, method, options.keep)?;
-    let (step, settled) = settle(problem, &method, options)?;
+    let follows = options.density == Density::Reversible;
+    if follows {
+        density::check(&problem.system, &method, method.keeps())?;
+    }
+    let (mut step, mut settled) = settle(problem, &method, options)?;
+    if let Some(settled) = settled.as_mut().filter(|_| follows) {
+        let mu = problem.start();
+        let followed = problem.system.following(&mu);
+        let system = followed.as_ref().unwrap_or(&problem.system);
+        let longest = Growth::new(system).longest(system, &mu);
+        step = step.signum() * step.abs().min(longest);
+        settled.chosen.step = step;
+    }
     let tolerance = settled.as_ref().map(|settled| settled.chosen.tolerance);
     if let Some(settled) = &settled {
         observer.chosen(&settled.chosen);
     }
     let grid = Grid::new(problem.span, step)?;
-    let divides = settled.is_some() && Course::<Kept<S, M>>::may_divide::<S, P>(&method);
+    let divides =
+        settled.is_some() && !follows && Course::<Kept<S, M>>::may_divide::<S, P>(&method);
     let newton = settled
         .as_ref()
         .map_or(options.newton, |settled| settled.newton(step));
     let mut course = Course::new(grid, &method, newton)
         .dividing(divides)
+        .following(options.density)
         .with_milestones(milestones.is_some());
+    let settled = settled.filter(|_| !follows);
     let (guard, begun) = settled.map_or((None, None), Settled::begin);
     let beginning = match (milestones.flatten(), begun) {
         (Some(milestone), _) => Beginning::Milestone(milestone),
@@ -158,7 +174,8 @@ fn run<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
             method: &method,
             newton: options.newton,
             tolerance,
-            step: course.size(),
+            step: if follows { step } else { course.size() },
+            density: options.density,
             end: &end,
         };
         // a change of the start would be brought back, and not grow as the errors of steps do

@@ -103,6 +103,8 @@ const LEAST_SHORTER: f64 = 1.05;
 const AGAIN: f64 = 1e3;
 /// More iterations than usual by more than this say that the motion is faster.
 const WONDER: u32 = 2;
+/// Where the steps that their errors allow differ by so much, steps that follow the motion are faster than constant ones.
+const UNEVEN: f64 = 10.0;
 /// Larger parts of what an error may be count as so large.
 const MOST_COUNTED: f64 = 1e6;
 
@@ -149,6 +151,8 @@ pub(super) struct Watch<S: Scalar, P: Poisson<S>> {
     usual: u32,
     /// Whether it was said that steps cannot be divided any more.
     said: bool,
+    /// The smallest and the largest error of a step with its stages, relative to what it may be.
+    range: (f64, f64),
 }
 
 /// What becomes of the steps.
@@ -239,7 +243,15 @@ impl<S: Scalar, P: Poisson<S>> Watch<S, P> {
             before: zero,
             usual: u32::MAX,
             said: false,
+            range: (f64::INFINITY, 0.0),
         }
+    }
+
+    /// By which factor the steps differ that the errors so far allow, where it is large.
+    fn uneven(&self, order: f64) -> Option<f64> {
+        let (least, most) = self.range;
+        let factor = (most / least).powf(1.0 / order);
+        (UNEVEN < factor && factor.is_finite()).then_some(factor)
     }
 
     /// What has changed since the start of the run.
@@ -279,6 +291,9 @@ impl<S: Scalar, P: Poisson<S>> Watch<S, P> {
         let counted = part.min(MOST_COUNTED);
         let counted = if part.is_nan() { MOST_COUNTED } else { counted };
         self.sum.add(counted);
+        if part > 0.0 {
+            self.range = (self.range.0.min(part), self.range.1.max(part));
+        }
         let most = if index < FIRST_STEPS {
             ABOVE
         } else {
@@ -420,6 +435,12 @@ impl<S: Scalar, P: Poisson<S>, M: Method<S, P>> Guard<'_, S, P, M> {
     /// The state before the step.
     pub(super) fn before(&self) -> &P::State {
         &self.watch.before
+    }
+
+    /// See [`Observer::uneven`](super::Observer::uneven).
+    pub(super) fn uneven(&self) -> Option<f64> {
+        let order = f64::from(self.trial.method.order().max(1));
+        self.watch.uneven(order)
     }
 
     /// Whether the stages of steps tell their errors.

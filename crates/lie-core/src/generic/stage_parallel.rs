@@ -1,6 +1,7 @@
 //! Gauss collocation with its stages side by side in one number, by fixed-point iteration.
 
 mod estimate;
+mod length;
 mod map;
 pub(super) mod program;
 mod start;
@@ -8,7 +9,6 @@ mod state;
 #[cfg(test)]
 mod tests;
 
-use core::array::from_fn;
 use core::ops::Range;
 
 #[cfg(feature = "std")]
@@ -17,7 +17,7 @@ use self::program::{AHEAD, PER_UNIT, PER_WEIGHT, RATIOS, StageSlopes, TABLE, WEI
 use super::diagonals::diagonals;
 use super::stage_ending::most;
 use super::stage_work::{At, Rule, Work};
-use super::tableau::{gauss_ahead, gauss_ratio, gauss_weight};
+use super::tableau::{gauss_ahead, gauss_ratio};
 use crate::clock::{Clock, holds};
 use crate::newton::{Convergence, Iteration, NewtonOptions};
 #[cfg(feature = "std")]
@@ -49,6 +49,8 @@ pub struct StageParallel<S: Scalar, V> {
     /// By their [places](program): `a_ij/b_j`, the matrix that continues the polynomial of a step, `h b_i` in place i and 0 in the places
     /// without a stage, `1/|h b_i|` likewise, so that places without a stage do not count, and one over the unit of the momenta.
     table: [S::Wide; TABLE],
+    /// Weights and inverse weights of a step of length 1.
+    unit: [S::Wide; 2],
     /// The coefficients in Legendre polynomials, once they were asked for.
     legendre: Option<[S::Wide; 8]>,
     step: S,
@@ -92,25 +94,17 @@ pub struct Iterated<S: Scalar> {
 impl<S: Scalar, V: State<S::Wide>> StageParallel<S, V> {
     /// Steps of size h with so many stages, at most 8; `zero` is any vector of the right size.
     pub fn new(stages: usize, h: S, zero: V, options: &NewtonOptions) -> Self {
-        let at_stages = |entry: &dyn Fn(S) -> S| {
-            S::gather(from_fn(|i| {
-                if i < stages {
-                    entry(h * gauss_weight::<S>(stages, i))
-                } else {
-                    S::zero()
-                }
-            }))
-        };
         let mut table = [S::Wide::one(); TABLE];
         let ratios = diagonals(stages, stages, &|i, j| gauss_ratio::<S>(stages, i, j));
         let ahead = diagonals(stages, stages, &|i, j| gauss_ahead::<S>(stages, i, j));
         table[RATIOS].copy_from_slice(&ratios);
         table[AHEAD].copy_from_slice(&ahead);
-        table[WEIGHTS] = at_stages(&|weight| weight);
-        table[PER_WEIGHT] = at_stages(&|weight| S::one() / weight.abs());
+        let unit = length::weights::<S>(stages, S::one());
+        [table[WEIGHTS], table[PER_WEIGHT]] = length::weights::<S>(stages, h);
         Self {
             stages,
             table,
+            unit,
             legendre: None,
             #[cfg(feature = "std")]
             program: None,

@@ -100,4 +100,8 @@ pub trait Facts {
     fn own_steps(&self) -> bool {
         Self::OWN_STEPS
     }
+    /// The same of [`Facts::SYMMETRIC`].
+    fn symmetric(&self) -> bool {
+        Self::SYMMETRIC
+    }
 }

@@ -234,4 +234,10 @@ where
     fn estimate(&mut self) -> Option<S> {
         Some(self.stages.estimate() * S::from_f64(OF_MOMENTA))
     }
+
+    fn set_step(&mut self, h: S) -> bool {
+        self.step = h;
+        self.stages.set_step(h);
+        true
+    }
 }

@@ -49,6 +49,11 @@ pub trait Slopes<'a, S: Scalar, P: Widen<S> + 'a>: Sized {
         out: &mut WideState<S, P>,
     );
 
+    /// Makes the steps to come of size h; false where it cannot.
+    fn set_step(&mut self, _h: S) -> bool {
+        false
+    }
+
     /// The lanes in which a step that was solved is good; `increments` gives those of its stages.
     fn resolved(
         &mut self,
@@ -102,6 +107,10 @@ impl<'a, S: Scalar, P: Widen<S> + 'a> Slopes<'a, S, P> for Field {
 
     fn known(&self) -> Option<StageSlopes> {
         Some(StageSlopes::Field)
+    }
+
+    fn set_step(&mut self, _h: S) -> bool {
+        true
     }
 
     #[inline(always)]
@@ -355,6 +364,15 @@ where
 
     fn estimate(&mut self) -> Option<S> {
         Some(self.stages.estimate())
+    }
+
+    fn set_step(&mut self, h: S) -> bool {
+        if !self.rule.set_step(h) {
+            return false;
+        }
+        self.step = h;
+        self.stages.set_step(h);
+        true
     }
 }
 

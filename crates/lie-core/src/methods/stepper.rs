@@ -147,6 +147,12 @@ pub trait Stepper<S: Scalar> {
         None
     }
 
+    /// Makes the steps to come of size h, with what it knows of those before, and without allocating. False where it cannot: then whoever
+    /// asks makes another stepper.
+    fn set_step(&mut self, _h: S) -> bool {
+        false
+    }
+
     /// Shows every number that a step takes from the steps before, in an order of its own, so that it can be read and replaced: what it
     /// leaves out, no step depends on. False where not all of it can be shown; then nothing may be replaced.
     fn carry(&mut self, _visit: &mut dyn FnMut(&mut S)) -> bool {

@@ -67,6 +67,12 @@ pub enum FailureReason {
         "the gradients of what is kept vanish or depend on each other where the state is to be brought back"
     )]
     DependentLevels,
+    /// The density of steps is no positive number: the one before was too long for how fast the motion changes there.
+    #[error("the density of steps is not positive")]
+    NoDensity,
+    /// Steps of a variable size fell below round-off of the time.
+    #[error("the step fell below round-off of the time")]
+    StepVanishes,
 }
 
 impl FailureReason {
@@ -105,6 +111,8 @@ impl FailureReason {
             Self::DependentLevels => {
                 "keep less: beside an equilibrium, where the gradients of energy and Casimirs depend on each other, no step is small enough"
             }
+            Self::NoDensity => "take a smaller step at the start: all others follow from it",
+            Self::StepVanishes => "the motion becomes singular there: end earlier",
             Self::TooManySteps => {
                 "loosen rtol and atol, take a smaller grid step, or an implicit method"
             }

@@ -57,6 +57,16 @@ impl<'a, S: Scalar> Followed<'a, S> {
         }
     }
 
+    /// Makes the steps to come of size h: what of a part depends on that alone is computed again.
+    pub fn set_step(&mut self, h: S) {
+        self.h = [h];
+        for part in &mut self.ready {
+            if let Some(Some(ready)) = part.get_mut() {
+                ready.set_step(self.system, h);
+            }
+        }
+    }
+
     fn places(&self) -> Range<usize> {
         self.system.values.compiled.plan.dimension()..self.last.len() - REPORTED
     }

@@ -9,6 +9,7 @@ mod development;
 mod followed;
 mod mask;
 mod program;
+mod ready;
 mod record;
 mod recorded;
 mod stages;
@@ -20,7 +21,6 @@ mod tree;
 
 use crate::code::{Code, Source};
 use crate::compiled::{Compiled, Values};
-use crate::engine::{ARGUMENTS, Interpreter, Machine};
 use crate::methods::{Method, explicit};
 use crate::system::Dynamic;
 use lie_codegen::methods::Choice;
@@ -29,6 +29,7 @@ use lie_runtime::diagnostics::{AnyMethod, AnyStepper, Claims, Forgotten, Forgott
 use lie_runtime::methods::{FactorSink, Method as _, StepFailure, StepReport, Stepper};
 use lie_runtime::newton::{FailureReason, NewtonOptions};
 use lie_runtime::scalar::Mask;
+use ready::Ready;
 use record::written;
 use recorded::Inlined;
 use std::sync::Arc;
@@ -197,29 +198,6 @@ impl Countdown {
     }
 }
 
-/// Two codes that are ready to run, with the results of the first.
-struct Ready<S> {
-    machine: Arc<dyn Machine<S>>,
-    of_step: Vec<S>,
-}
-
-impl<S: Scalar> Ready<S> {
-    /// By the engine of a system, or by the interpreter where that is asked for; none where the engine makes no machine.
-    fn new(system: &Dynamic<S>, codes: &Arc<[Code]>, h: S, interpret: bool) -> Option<Self> {
-        let interpreter =
-            || -> Arc<dyn Machine<S>> { Arc::new(Interpreter::new(Arc::clone(codes))) };
-        let machine = system.values.machine.compile(codes);
-        let machine = machine.or_else(|| interpret.then(interpreter))?;
-        let mut of_step = vec![S::zero(); codes[0].stores.len()];
-        if !of_step.is_empty() {
-            let scalars = [h];
-            let frame = system.values.frame([&[]; ARGUMENTS], &[], &scalars);
-            machine.run(0, &frame, [&mut of_step, &mut []]);
-        }
-        Some(Self { machine, of_step })
-    }
-}
-
 /// A method whose steps become one program.
 pub(crate) struct RecordedMethod<S: Scalar> {
     choice: Choice,
@@ -274,6 +252,7 @@ impl<S: Scalar> AnyMethod<S, Dynamic<S>> for RecordedMethod<S> {
             },
             whole: None,
             apart,
+            is_stale: false,
         };
         if at_once {
             stepper.compile();
@@ -299,9 +278,22 @@ struct RecordedStepper<'a, S: Scalar> {
     wait: Countdown,
     whole: Option<CompiledStep<S>>,
     apart: Option<ForgottenStepper<'a, Vec<S>, S>>,
+    /// Whether the other steps have another size by now.
+    is_stale: bool,
 }
 
 impl<S: Scalar> RecordedStepper<'_, S> {
+    /// Makes anew what makes steps kernel by kernel, where these have another size.
+    #[cold]
+    fn renew(&mut self) {
+        self.is_stale = false;
+        if let (Some(apart), Some(method)) = (&mut self.apart, explicit::<S>(&self.choice)) {
+            let [h] = self.step_size;
+            let options = NewtonOptions::default();
+            *apart = Forgotten(method.as_ref()).stepper(self.system, h, &options);
+        }
+    }
+
     fn compile(&mut self) {
         let Some(step) = self.system.step_program(&self.choice) else {
             return;
@@ -363,14 +355,26 @@ impl<S: Scalar> Stepper<S> for RecordedStepper<'_, S> {
         if self.wait.is_over(length) {
             self.compile();
         }
+        if self.is_stale && (self.whole.is_none() || sink.is_active()) {
+            self.renew();
+        }
         let whole = self.whole.as_mut().filter(|_| !sink.is_active());
         let whole = whole.map(|whole| (whole.run(self.system, &self.step_size, mu), whole));
         match (whole, &mut self.apart) {
             (Some((good, whole)), None) => whole.accept(good, mu),
-            (Some((good, whole)), _) if good.all() => whole.accept(good, mu),
+            (Some((good, whole)), _) if good.all() || self.is_stale => whole.accept(good, mu),
             // what a step that fails reports is for the method to say
             (_, Some(apart)) => Stepper::step(apart, mu, sink),
             (None, None) => unreachable!("systems side by side show no motion on the group"),
         }
+    }
+
+    fn set_step(&mut self, h: S) -> bool {
+        self.step_size = [h];
+        if let Some(whole) = &mut self.whole {
+            whole.ready.set_step(self.system, h);
+        }
+        self.is_stale = self.apart.is_some();
+        true
     }
 }

@@ -32,7 +32,7 @@ pub(crate) struct Trace {
 
 /// What became of a trace.
 pub(crate) enum Taken {
-    Trace(Trace),
+    Trace(Box<Trace>),
     /// The step failed.
     Failed,
     /// It is too long, or not all that decides what it does is written down.
@@ -90,12 +90,12 @@ impl Trace {
                 false => Taken::Refused,
             };
         };
-        Taken::Trace(Self {
+        Taken::Trace(Box::new(Self {
             gives: gives.into_iter().map(|number| number.register).collect(),
             guards,
             written,
             report,
-        })
+        }))
     }
 
     /// Which of the things that were asked has the first answer that is another one in another trace; none if there is no such one,

@@ -3,11 +3,11 @@
 use super::followed::Followed;
 use super::trace::{Taken, Trace};
 use super::traces::Traces;
-use crate::methods::Method;
+use crate::methods::{Method, kernel_by_kernel};
 use crate::system::Dynamic;
 use lie_codegen::methods::Choice;
 use lie_runtime::diagnostics::{AnyMethod, AnyStepper, Claims, Forgotten, ForgottenStepper};
-use lie_runtime::methods::{FactorSink, Method as _, StepFailure, StepReport, Stepper};
+use lie_runtime::methods::{FactorSink, Method as _, StepFailure, StepReport, Stepper, Tolerances};
 use lie_runtime::newton::NewtonOptions;
 use std::sync::Arc;
 
@@ -63,6 +63,8 @@ pub(super) struct TracedStepper<'a> {
     apart: ForgottenStepper<'a, Vec<f64>>,
     /// Whether that has made the last step, so that it remembers what traces do not.
     is_ahead: bool,
+    /// Whether its steps have another size by now.
+    is_stale: bool,
 }
 
 impl<'a> TracedStepper<'a> {
@@ -91,6 +93,7 @@ impl<'a> TracedStepper<'a> {
             followed,
             apart,
             is_ahead: false,
+            is_stale: false,
         })
     }
 
@@ -123,6 +126,17 @@ impl<'a> TracedStepper<'a> {
                 }
             });
             self.is_ahead = true;
+        }
+    }
+
+    /// Makes anew what makes steps kernel by kernel, where these have another size; what it remembers stays.
+    fn renew(&mut self) {
+        if self.is_stale {
+            self.remember();
+            let method = kernel_by_kernel(&self.choice, Tolerances::default());
+            let ([h], system) = (self.followed.h, self.followed.system);
+            self.apart = Forgotten(method.as_ref()).stepper(system, h, &self.newton);
+            self.is_stale = false;
         }
     }
 
@@ -160,7 +174,14 @@ impl Stepper<f64> for TracedStepper<'_> {
         {
             return Ok(report);
         }
+        self.renew();
         self.give_back();
         Stepper::step(&mut self.apart, mu, sink)
+    }
+
+    fn set_step(&mut self, h: f64) -> bool {
+        self.followed.set_step(h);
+        self.is_stale = true;
+        true
     }
 }

@@ -108,7 +108,7 @@ impl Traces {
             Taken::Trace(trace) => {
                 let mut known = self.known();
                 if known.all.iter().all(|other| trace.parts_from(other)) {
-                    known.all.push(trace);
+                    known.all.push(*trace);
                     known.tree = Arc::new(Tree::new(&known.all, &known.tree));
                 }
                 known.all.len() >= MOST
