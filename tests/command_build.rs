@@ -608,6 +608,23 @@ fn a_project_has_the_options_of_the_run() {
     ))
     .ok();
     let main = std::fs::read_to_string(place.join("src/main.rs")).unwrap();
+    text["run"] = serde_json::json!({
+        "method": "gauss16", "step": 0.5, "until": 1, "density": "reversible"
+    });
+    let steered = folder.path().join("steered.json");
+    std::fs::write(&steered, text.to_string()).unwrap();
+    let other = folder.path().join("other");
+    lie(&format!(
+        "expand {} --project {}",
+        steered.display(),
+        other.display()
+    ))
+    .ok();
+    let steered = std::fs::read_to_string(other.join("src/main.rs")).unwrap();
+    assert!(
+        steered.contains("Options::new(0.5).reversible()"),
+        "{steered}"
+    );
     for part in [
         "Dopri5::from(Tolerances { rtol: 0.0001, atol: 1e-9 })",
         ".keep(Keep { energy: true, casimirs: true })",

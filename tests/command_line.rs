@@ -44,6 +44,8 @@ fn every_mistake_of_the_command_line_is_an_option_error() {
         ("run BODY --method rkmk4 --keep energy", "--keep"),
         ("run BODY --method exact --keep energy", "--keep"),
         ("run BODY --method rk4 --keep momentum", "--keep"),
+        ("run BODY --method rk4 --density reversible", "--density"),
+        ("run BODY --method gauss4 --density even", "--density"),
         ("run BODY --method rk4 --keep energy,", "--keep"),
         ("run BODY --iteration secant", "--iteration"),
         ("run BODY --method rk4 --iteration newton", "--iteration"),

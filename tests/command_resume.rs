@@ -97,6 +97,8 @@ fn every_form_and_every_kind_of_rows_goes_on() {
         format!("{steps} --until 220 --method lie-midpoint --group quaternion"),
         format!("{steps} --method gauss4 --group matrix --at 0.05,0.2,199.9,200,200.1,210"),
         format!("{steps} --method rk4 --at 210,220"),
+        format!("{steps} --until 300 --method gauss16 --density reversible --every 7"),
+        format!("{steps} --method lie-midpoint --density reversible --at 0.05,10,200,290.5,300"),
         format!("{steps} --until 220.07 --method dopri5 --every 7"),
         format!("{steps} --until 220.07 --method dopri5 --every 7 --keep energy,casimirs"),
         format!("{steps} --until 220 --method taylor --rtol 1e-8 --keep casimirs"),

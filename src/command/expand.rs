@@ -8,7 +8,7 @@ use lie_codegen::plan::plan;
 use lie_codegen::print::Surface;
 use lie_codegen::program;
 use lie_in_process::request::{self, Front, Request, method};
-use lie_runtime::driver::Pace;
+use lie_runtime::driver::{Density, Pace};
 use lie_syntax::ast::Runtime;
 
 use super::{args, print, shell};
@@ -94,6 +94,7 @@ fn project(
         by_tolerance: matches!(plan.pace.0, Pace::Tolerance(_)),
         tolerances: plan.tolerances,
         keep: plan.keep,
+        reversible: plan.density == Density::Reversible,
     };
     let main = program::integrates(&spec.model, &plan.method, &numbers);
     let system = compile::expand(&spec.model, &choices);

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::io::Write as _;
 
 use lie_in_process::request::Labels;
+use lie_runtime::driver::Density;
 
 use super::Names;
 
@@ -27,6 +28,8 @@ pub struct Run {
     pub method: String,
     /// Step size.
     pub step: f64,
+    /// Whether the steps follow the motion.
+    pub density: Density,
     /// The values of the parameters that have several.
     pub parameters: Vec<f64>,
     /// The names of what a projection behind each step keeps.
@@ -148,6 +151,9 @@ impl Form for Json {
         json_number(run.step, out);
         if !run.kept.is_empty() {
             let _ = write!(out, ",\"kept\":{}", serde_json::json!(run.kept));
+        }
+        if run.density == Density::Reversible {
+            out.extend_from_slice(b",\"density\":\"reversible\"");
         }
         match &header.labels {
             Some(labels) => {

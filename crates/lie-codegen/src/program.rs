@@ -112,6 +112,8 @@ pub struct Numbers<'n> {
     pub tolerances: Tolerances,
     /// What a projection behind each step keeps.
     pub keep: Keep,
+    /// Whether steps follow the motion by a reversible density.
+    pub reversible: bool,
 }
 
 /// The text of a program that integrates the system of its module `system` by a method and writes the rows as CSV: for people
@@ -125,6 +127,7 @@ pub fn integrates(structure: &Structure, choice: &Choice, numbers: &Numbers<'_>)
         by_tolerance,
         tolerances,
         keep: Keep { energy, casimirs },
+        reversible,
     } = *numbers;
     let name = &structure.name;
     let title = choice.title();
@@ -158,6 +161,7 @@ pub fn integrates(structure: &Structure, choice: &Choice, numbers: &Numbers<'_>)
         true => format!(".keep(Keep {{ energy: {energy}, casimirs: {casimirs} }})"),
         false => String::new(),
     };
+    let density = if reversible { ".reversible()" } else { "" };
     format!(
         "//! {name}, {title}: writes rows of t, state and invariants as CSV.
 
@@ -177,7 +181,7 @@ const SPAN: (f64, f64) = ({start:?}, {end:?});
 fn main() -> Result<(), Box<dyn Error>> {{
     let system = system::{name}::from_values(&PARAMETERS).system()?;
     let problem = Problem::new(system, START, SPAN);
-    let solution = solve(&problem, {method}, &Options::{paced}({pace:?}){kept})?;
+    let solution = solve(&problem, {method}, &Options::{paced}({pace:?}){kept}{density})?;
     solution.write_csv(std::io::stdout().lock())?;
     Ok(())
 }}

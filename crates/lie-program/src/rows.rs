@@ -189,6 +189,10 @@ impl<P: Poisson<f64>> Observer<f64, P> for RowWriter<'_, '_> {
         self.session.mentions(Found::Lost { time });
     }
 
+    fn uneven(&mut self, factor: f64) {
+        self.session.mentions(Found::Uneven { factor });
+    }
+
     fn compared(&mut self, _progress: Progress) -> ControlFlow<()> {
         match self.session.is_interrupted() {
             true => ControlFlow::Break(()),
@@ -250,6 +254,10 @@ impl<P: MatrixGroup<f64>> Observer<f64, P> for OnGroup<'_, '_, '_, P::State> {
 
     fn lost(&mut self, progress: Progress) {
         Observer::<f64, P>::lost(self.rows, progress);
+    }
+
+    fn uneven(&mut self, factor: f64) {
+        Observer::<f64, P>::uneven(self.rows, factor);
     }
 
     fn compared(&mut self, progress: Progress) -> ControlFlow<()> {

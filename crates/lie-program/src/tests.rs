@@ -1,6 +1,6 @@
 use super::protocol::{Choice, Columns, Coordinates, Message, Start, Times};
 use super::*;
-use lie_runtime::driver::Pace;
+use lie_runtime::driver::{Density, Pace};
 use lie_runtime::methods::{Dopri5, Keep, Rk4};
 use lie_runtime::newton::NewtonOptions;
 use lie_runtime::{ParameterFault, State};
@@ -85,6 +85,7 @@ fn request(method: &str, step: f64, times: Times, initial: &[f64]) -> Run {
         tolerances: Tolerances::default(),
         newton: NewtonOptions::default(),
         keep: Keep::NOTHING,
+        density: Density::Constant,
         assess: 0,
         from_milestone: None,
         milestones: Milestones::None,
@@ -125,6 +126,7 @@ fn heard(code: u8, mut output: &[u8]) -> Heard {
             Message::Found(
                 Found::Shortened { .. }
                 | Found::Lost { .. }
+                | Found::Uneven { .. }
                 | Found::Assessed { .. }
                 | Found::Between(_)
                 | Found::Milestone(_),

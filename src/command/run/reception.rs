@@ -46,6 +46,8 @@ pub struct Received {
     pub shortened: Option<(f64, f64)>,
     /// From when on the tolerance is not kept.
     pub lost: Option<f64>,
+    /// By which factor the steps differ that the tolerance allows, where it is large.
+    pub uneven: Option<f64>,
     /// The error at the end, and whether it is much larger than the tolerance.
     pub assessed: Option<(f64, bool)>,
 }
@@ -93,6 +95,7 @@ impl<'a, 'p> Reception<'a, 'p> {
                 at_round_off: false,
                 shortened: None,
                 lost: None,
+                uneven: None,
                 assessed: None,
             },
             layout,
@@ -152,6 +155,7 @@ impl<'a, 'p> Reception<'a, 'p> {
             }
             Found::Shortened { step, time } => self.received.shortened = Some((step, time)),
             Found::Lost { time } => self.received.lost = Some(time),
+            Found::Uneven { factor } => self.received.uneven = Some(factor),
             Found::Assessed { error, missed } => self.received.assessed = Some((error, missed)),
             Found::Columns(columns) => {
                 let places = self.layout.places(&columns).ok_or_else(|| {

@@ -3,7 +3,7 @@
 use lie_in_process::request::Plan;
 use lie_in_process::words::counted;
 use lie_program::protocol::Stop;
-use lie_runtime::driver::Pace;
+use lie_runtime::driver::{Density, Pace};
 use lie_runtime::newton::Convergence;
 
 use super::reception::Received;
@@ -15,9 +15,13 @@ use crate::compiler::Spec;
 pub fn title(spec: &Spec, plan: &Plan, step: f64) -> String {
     let (name, method) = (&spec.model.name, plan.method.title());
     let written = plan.pace.1.trim();
+    let what = match plan.density {
+        Density::Constant => "step",
+        Density::Reversible => "first step",
+    };
     match plan.pace.0 {
-        Pace::Step(_) => format!("{name}, {method}, step {written}"),
-        Pace::Tolerance(_) => format!("{name}, {method}, tolerance {written}, step {step:?}"),
+        Pace::Step(_) => format!("{name}, {method}, {what} {written}"),
+        Pace::Tolerance(_) => format!("{name}, {method}, tolerance {written}, {what} {step:?}"),
     }
 }
 
@@ -31,6 +35,12 @@ pub fn of_tolerance(plan: &Plan, received: &Received) -> Vec<String> {
         notes.push(format!(
             "from t = {time:.6} on steps have the size {step:?}, {:?} before: the motion is faster there than at the start",
             received.step
+        ));
+    }
+    if let Some(factor) = received.uneven {
+        notes.push(format!(
+            "the steps that the tolerance allows differ by a factor of {factor:.0} along this orbit: `--density reversible`, or \
+             `--method taylor` where structure does not count, is faster"
         ));
     }
     if plan.newton.convergence == Convergence::Tolerance {
@@ -52,6 +62,16 @@ pub fn of_tolerance(plan: &Plan, received: &Received) -> Vec<String> {
     let warning = missed(received).or_else(|| moved(plan, received));
     notes.extend(warning.map(|warning| format!("warning: {warning}")));
     notes
+}
+
+/// What steps that follow the motion are, and what they are not.
+pub fn of_density(plan: &Plan) -> Option<String> {
+    (plan.density == Density::Reversible).then(|| {
+        format!(
+            "the size of steps follows the motion by a reversible density: {} stays symmetric, and is no Poisson map for that",
+            plan.method.id()
+        )
+    })
 }
 
 /// What was kept by a projection, and what that is not.

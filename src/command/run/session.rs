@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use lie_in_process::request::{Member, Plan, Several};
 use lie_program::protocol::Obstacle;
-use lie_runtime::driver::Pace;
+use lie_runtime::driver::{Density, Pace};
 
 use super::bar::Bar;
 use super::checkpoint::refused;
@@ -15,7 +15,7 @@ use super::keeper::{Keeper, Unwritten};
 use super::layout::Layout;
 use super::picture::{Form, Picture, rounded};
 use super::reception::{Received, Reception};
-use super::said::{missed, of_projection, of_tolerance, stopped_text, title, word};
+use super::said::{missed, of_density, of_projection, of_tolerance, stopped_text, title, word};
 use super::summary::{self, Drift, Steps};
 use super::tally::{MOST_LINES, Tally};
 use super::{impossible, outputs};
@@ -111,7 +111,8 @@ impl Session<'_> {
         if !self.flags.quiet {
             let several = self.several.labels.is_some();
             for plan in self.several.plans.iter().filter(|_| several) {
-                if let Some(note) = of_projection(self.spec, plan) {
+                let notes = of_projection(self.spec, plan).into_iter();
+                for note in notes.chain(of_density(plan)) {
                     render::say(&folded(&format!("{}: {note}", plan.method.title())));
                 }
             }
@@ -175,6 +176,7 @@ impl Session<'_> {
             parameters: member.parameters.clone(),
             step: f64::NAN,
             kept: plan.kept(self.spec),
+            density: plan.density,
         };
         let layout = Layout::new(&self.spec.model, plan.chart, &member.start.parameters);
         if let Some(picture) = &mut picture {
@@ -258,6 +260,7 @@ impl Session<'_> {
         tally.record(member.plan, number, received);
         if self.several.labels.is_none() {
             let notes = of_projection(self.spec, plan).into_iter();
+            let notes = notes.chain(of_density(plan));
             for note in notes.chain(of_tolerance(plan, received)) {
                 render::say(&folded(&note));
             }
@@ -342,6 +345,10 @@ impl Session<'_> {
                     render::stopped(&format!("{who}{}", stopped_text(&stop)), &stop.remedy);
                 }
                 Ok(STOPPED)
+            }
+            Outcome::Refused(Obstacle::Option, why) if plan.density == Density::Reversible => {
+                let help = "leave it out, for steps of one size";
+                Err(Message::option("--density", why).help(help).into())
             }
             Outcome::Refused(Obstacle::Option, why) if by_tolerance => {
                 let help = "give a step by `--step`, or another tolerance";

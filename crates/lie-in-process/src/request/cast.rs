@@ -1,7 +1,8 @@
 //! The members of an ensemble: the initial states and parameters of several runs, or states drawn around them.
 
-use lie_runtime::driver::Pace;
+use lie_runtime::driver::{Density, Pace};
 
+use super::density::not_in_ensembles;
 use super::plan::{Planner, plan};
 use super::several::{Sweep, points, sweeps};
 use super::sites::bound_to_itself;
@@ -72,6 +73,9 @@ pub fn cast(spec: &Spec, request: &Request, drawing: Drawing<'_>) -> Result<Aske
             return Err(found.flatten().collect());
         }
     };
+    if plan.density != Density::Constant {
+        return Err(vec![not_in_ensembles(front)]);
+    }
     if let (Pace::Tolerance(_), Some(every)) = (plan.pace.0, &request.every) {
         let given = OptionValue::value(&front.option("every"), every);
         let message = given.wrong("with a tolerance each member has a step of its own");

@@ -6,6 +6,7 @@
 //! `solver`, `times` or `plan`; a call from Python has it as an argument of the same name.
 
 mod cast;
+mod density;
 mod front;
 mod keep;
 mod measured;
@@ -166,6 +167,9 @@ request! {
     /// Brings the state back behind each step of taylor, dopri5 or rk4 to the values that energy and Casimirs have at the start:
     /// energy, casimirs or energy,casimirs. They are kept to round-off; the steps are no Poisson maps for that
     word keep "keep" "WHAT";
+    /// Lets the size of steps follow the motion: reversible, by an integrating step density from --step or the step that --tol chooses. A
+    /// symmetric method stays reversible, and energy has no drift; the steps are no Poisson maps for that
+    word density "density" "NAME";
 }
 
 #[cfg(test)]

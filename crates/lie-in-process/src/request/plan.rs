@@ -4,7 +4,7 @@ use lie_codegen::methods::{Choice, OptionError};
 use lie_codegen::program::Chart;
 use lie_codegen::structure::group;
 use lie_program::protocol::{Milestones, Run, Start, Times, Tolerances};
-use lie_runtime::driver::Pace;
+use lie_runtime::driver::{Density, Pace};
 use lie_runtime::methods::Keep;
 use lie_runtime::newton::NewtonOptions;
 
@@ -42,6 +42,8 @@ pub struct Plan {
     pub newton: NewtonOptions,
     /// What a projection behind each step keeps.
     pub keep: Keep,
+    /// Whether steps follow the motion.
+    pub density: Density,
     /// Whether a second run tells the error at the end.
     pub assess: bool,
 }
@@ -58,6 +60,7 @@ impl Plan {
             tolerances: self.tolerances,
             newton: self.newton,
             keep: self.keep,
+            density: self.density,
             assess: if self.assess { u64::MAX } else { 0 },
             from_milestone: None,
             milestones: Milestones::None,
@@ -121,6 +124,7 @@ pub(super) fn planned(spec: &Spec, request: &Request) -> Planned {
     let tolerances = solved.map(|method| planner.tolerances(method, overall));
     let newton = solved.map(|method| planner.newton(method, overall));
     let keep = solved.map(|method| planner.kept(method));
+    let density = solved.map(|method| planner.density(method, keep.unwrap_or_default()));
     let chart = planner.chart();
     let picked = planner.picks();
     let plan = match (method, pace, from.zip(times)) {
@@ -134,6 +138,7 @@ pub(super) fn planned(spec: &Spec, request: &Request) -> Planned {
             tolerances: tolerances.unwrap_or_default(),
             newton: newton.unwrap_or_default(),
             keep: keep.unwrap_or_default(),
+            density: density.unwrap_or_default(),
             assess: request.assess,
         }),
         _ => None,

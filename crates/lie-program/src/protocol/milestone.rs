@@ -3,7 +3,7 @@
 use super::number;
 use lie_runtime::Poisson;
 use lie_runtime::State as _;
-use lie_runtime::driver::{self, Division, Stats, Watched};
+use lie_runtime::driver::{self, Control, Division, Stats, Watched};
 use serde::{Deserialize, Serialize};
 
 /// A [`driver::Milestone`], and the group element where a run follows it.
@@ -118,6 +118,32 @@ struct DivisionFields {
     slow: (u64, u64),
     #[serde(with = "watched")]
     watched: Option<Watched>,
+    #[serde(default, skip_serializing_if = "Option::is_none", with = "control")]
+    control: Option<Control>,
+}
+
+/// The state of the control of steps that follow the motion, bit by bit.
+mod control {
+    use super::{Control, bits};
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    pub(super) fn serialize<S: Serializer>(
+        control: &Option<Control>,
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
+        let control = control.map(|control| bits(&[control.eps, control.rho, control.lost]));
+        control.serialize(serializer)
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(
+        deserializer: D,
+    ) -> Result<Option<Control>, D::Error> {
+        let written = Option::<[u64; 3]>::deserialize(deserializer)?;
+        Ok(written.map(|bits| {
+            let [eps, rho, lost] = bits.map(f64::from_bits);
+            Control { eps, rho, lost }
+        }))
+    }
 }
 
 /// What is known of errors, if something is.

@@ -16,7 +16,7 @@ mod words;
 
 use crate::listen;
 pub use columns::{Columns, Coordinates};
-use lie_runtime::driver::{Chosen, Options, Pace, Save, Stats};
+use lie_runtime::driver::{Chosen, Density, Options, Pace, Save, Stats};
 use lie_runtime::methods::Keep;
 pub use lie_runtime::methods::Tolerances;
 use lie_runtime::newton::NewtonOptions;
@@ -63,6 +63,9 @@ pub struct Run {
     /// What a projection behind each step keeps.
     #[serde(default, with = "words::KeepFields")]
     pub keep: Keep,
+    /// Whether steps follow the motion.
+    #[serde(default, with = "words::DensityInWords")]
+    pub density: Density,
     /// A second run tells the error at the end of one with at most so many steps.
     #[serde(default)]
     pub assess: u64,
@@ -100,6 +103,7 @@ impl Run {
             save,
             newton: self.newton,
             keep: self.keep,
+            density: self.density,
             assess: self.assess,
         }
     }
@@ -166,6 +170,12 @@ pub enum Found {
         /// The time.
         #[serde(with = "number")]
         time: f64,
+    },
+    /// The steps that a tolerance allows differ by this factor along the run: steps that follow the motion are faster.
+    Uneven {
+        /// The factor.
+        #[serde(with = "number")]
+        factor: f64,
     },
     /// The error at the end of a run, relative to the state, if it can be told.
     Assessed {

@@ -13,6 +13,7 @@ fn run(times: Times) -> Run {
         tolerances: Tolerances::both(1e-8),
         newton: NewtonOptions::fixed_point(),
         keep: Keep::ENERGY,
+        density: Density::Reversible,
         assess: 0,
         from_milestone: None,
         milestones: Milestones::Every(5000),

@@ -1,7 +1,7 @@
 //! Types of the runtime as serde writes them.
 
 use super::number;
-use lie_runtime::driver::Pace;
+use lie_runtime::driver::{Density, Pace};
 use lie_runtime::methods::{Keep, Tolerances};
 use lie_runtime::newton::{Convergence, Iteration, NewtonOptions};
 use serde::{Deserialize, Serialize};
@@ -32,6 +32,14 @@ pub(super) enum ConvergenceInWords {
 pub(super) enum PaceInWords {
     Step(#[serde(with = "number")] f64),
     Tolerance(#[serde(with = "number")] f64),
+}
+
+/// [`Density`] in words.
+#[derive(Deserialize, Serialize)]
+#[serde(remote = "Density", rename_all = "kebab-case")]
+pub(super) enum DensityInWords {
+    Constant,
+    Reversible,
 }
 
 /// The fields of [`NewtonOptions`].

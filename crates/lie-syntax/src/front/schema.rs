@@ -212,6 +212,8 @@ objects! {
         "converge" converge: Option<String>,
         /// What explicit methods keep by a projection behind each step: `energy`, `casimirs`, or both with a comma.
         "keep" keep: Option<String>,
+        /// Whether the size of steps follows the motion: `reversible`, for symmetric methods.
+        "density" density: Option<String>,
     }
 }
 
