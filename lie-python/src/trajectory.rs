@@ -11,7 +11,7 @@ use lie_in_process::memory;
 use lie_in_process::report::signs;
 use lie_in_process::request::{Plan, Request};
 use lie_program::protocol::{Columns, End, Found, Obstacle, Run, Stop, Times};
-use lie_runtime::driver::Pace;
+use lie_runtime::driver::{Density, Pace};
 use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
@@ -69,7 +69,9 @@ impl Heard {
         match found {
             Found::Chosen(chosen) => {
                 self.step = Some(chosen.step);
-                self.rows = Some(memory::rows(&plan.times, plan.from, chosen.step));
+                if plan.density == Density::Constant {
+                    self.rows = Some(memory::rows(&plan.times, plan.from, chosen.step));
+                }
             }
             Found::Lost { time } => self.lost = Some(time),
             Found::Assessed { error, missed } => self.assessed = Some((error, missed)),
@@ -84,7 +86,7 @@ impl Heard {
             }
             Found::Work(work) => self.steps = work.steps,
             Found::Shortened { step, .. } => self.smallest = Some(step),
-            Found::Between(_) | Found::Milestone(_) => {}
+            Found::Between(_) | Found::Milestone(_) | Found::Uneven { .. } => {}
         }
         Ok(())
     }
@@ -136,7 +138,7 @@ fn make(
     let Prepared { plan, compiled, .. } = prepared;
     let (dimension, casimirs) = (run.start.initial.len(), declaration.facts.casimirs.len());
     let mut heard = Heard::default();
-    if let Pace::Step(step) = plan.pace.0 {
+    if let (Pace::Step(step), Density::Constant) = (plan.pace.0, plan.density) {
         let rows = memory::rows(&plan.times, plan.from, step);
         let width = dimension + casimirs + 2;
         memory::fits(rows * width as f64 * memory::NUMBER)
@@ -261,6 +263,9 @@ pub fn of_prepared<'py>(
     }
     if let Some(time) = heard.lost {
         more.set_item("lost", time)?;
+    }
+    if plan.density == Density::Reversible {
+        more.set_item("density", "reversible")?;
     }
     if let Some(chart) = plan.chart {
         more.set_item("quaternion", chart == Chart::Quaternion)?;

@@ -284,6 +284,36 @@ def test_what_is_kept_by_a_projection_is_kept_to_round_off() -> None:
         body().run("rk4", h=0.1, t=1, x0=START, keep=["momentum"])
 
 
+def planet() -> lp.System:
+    return lp.System(
+        name="Planet",
+        poisson=["{q1, p1} = 1", "{q2, p2} = 1"],
+        state=["q1", "q2", "p1", "p2"],
+        hamiltonian="(p1^2 + p2^2)/2 - 1/sqrt(q1^2 + q2^2)",
+        initial=["1/10", 0, 0, "sqrt(19)"],
+    )
+
+
+def test_steps_follow_the_motion_and_go_back() -> None:
+    there = planet().run("gauss16", h=0.0158, t=60, density="reversible")
+    assert there.density == "reversible" and there.t[-1] == 60
+    sizes = np.diff(there.t[:-1])
+    assert sizes[0] == pytest.approx(0.0158) and sizes.max() > 8 * sizes.min()
+    assert np.abs(there.energy + 0.5).max() < 1e-6
+    back = planet().run("gauss16", h=-sizes[-1], t0=there.t[-2], t=0, x0=there.mu[-2], density="reversible")
+    assert np.abs(back.mu[::-1] - there.mu[:-1]).max() < 1e-9
+    plain = planet().run("gauss16", h=0.0158, t=60)
+    assert plain.density is None and plain.steps > 10 * there.steps
+    between = there.at([0.3, 31.4])
+    assert np.abs(between - planet().run("taylor", h=1, at=[0.3, 31.4]).mu).max() < 1e-5
+    with pytest.raises(lp.MethodError, match="not symmetric"):
+        planet().run("rk4", h=0.01, t=1, density="reversible")
+    with pytest.raises(ValueError, match="unknown density"):
+        planet().run("gauss4", h=0.01, t=1, density="even")
+    with pytest.raises(lp.IntegrationError, match="smaller step"):
+        planet().run("gauss16", h=0.3, t=60, density="reversible")
+
+
 def test_time_runs_backwards_without_a_step() -> None:
     run = body().run("gauss4", t=-1, x0=START)
     assert run.t[-1] == -1 and run.step == -0.01

@@ -52,6 +52,8 @@ class Solution:
         self._casimirs: Array = casimirs
         #: The error at the end relative to the state, where it was asked for; not a number where it cannot be told.
         self.error: float | None = None
+        #: ``"reversible"`` where the size of steps follows the motion: they are reversible, and no Poisson maps. ``step`` is the first one then.
+        self.density: str | None = None
         #: The group element at each row, shape (m, s, s) or (m, 4), where it was asked for.
         self.group: Array | None = None
 

@@ -29,7 +29,7 @@ __all__ = ["System", "load"]
 #: The options of `run`, in the order in which the core compares them with those of calls before.
 _OPTIONS = (
     "method", "h", "tol", "t0", "t", "every", "at", "group", "rtol", "atol", "iteration", "newton_tolerance",
-    "max_iterations", "converge", "keep", "assess",
+    "max_iterations", "converge", "keep", "density", "assess",
 )  # fmt: skip
 
 
@@ -62,6 +62,7 @@ class System(Declared):
         max_iterations: int | None = None,
         converge: str | None = None,
         keep: str | Sequence[str] | None = None,
+        density: str | None = None,
         assess: bool = False,
         group: str | None = None,
         progress: Progress | None = None,
@@ -81,6 +82,9 @@ class System(Declared):
         ``keep=["energy", "casimirs"]``, or one of them, brings the state back behind each step of taylor, dopri5 or rk4 to the
         values at the start: they are kept to round-off. The steps are no Poisson maps for that, and ``run.kept`` says what was.
 
+        ``density="reversible"`` lets the size of steps follow the motion, from ``h`` or the step that ``tol`` chooses on: a symmetric
+        method stays reversible, without drift in the energy, and is no Poisson map for that.
+
         ``assess=True`` makes a second run with other steps, which takes 1.25 times as long, and tells by how much the end is off:
         ``run.error``.
 
@@ -98,7 +102,8 @@ class System(Declared):
         if isinstance(keep, (list, tuple, set, frozenset)):
             keep = list(keep)
         options = (
-            method, h, tol, t0, t, every, at, group, rtol, atol, iteration, newton_tolerance, max_iterations, converge, keep, assess,
+            method, h, tol, t0, t, every, at, group, rtol, atol, iteration, newton_tolerance, max_iterations, converge, keep, density,
+            assess,
         )  # fmt: skip
         if named:
             # what is remembered goes by the names of its arguments
@@ -135,6 +140,7 @@ class System(Declared):
             elements = np.asarray(found["group"]).reshape(len(solution.t), -1)
             size = round(elements.shape[1] ** 0.5)
             solution.group = elements if found["quaternion"] else elements.reshape(-1, size, size)
+        solution.density = found.get("density")
         if "note" in found:
             warnings.warn(found["note"], stacklevel=3)
         error = found.get("error")
