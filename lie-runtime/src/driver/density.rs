@@ -177,6 +177,23 @@ impl<M> Course<'_, M> {
         Ok(control.step())
     }
 
+    /// The state at the end of the span from that of the last grid point, by a shorter step that does not count.
+    pub(super) fn at_the_end<S: Scalar, P: Poisson<S>>(
+        &mut self,
+        system: &P,
+        mut mu: P::State,
+    ) -> Result<P::State, IntegrateError>
+    where
+        M: Method<S, P>,
+    {
+        if self.grid.length(self.index) != 0.0 {
+            let (stats, piece) = (self.stats, (self.grid.time(self.index), self.grid.end));
+            self.in_pieces(system, &[piece], &mut mu, &mut ())?;
+            self.stats = stats;
+        }
+        Ok(mu)
+    }
+
     /// The error where no step follows.
     fn unsteered(&self, reason: FailureReason) -> IntegrateError {
         let (lanes, report) = (1, StepReport::default());

@@ -169,6 +169,10 @@ fn run<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
     let (system, mu) = (&problem.system, problem.start());
     let (end, status) = course.run(system, mu, beginning, guard, &options.save, observer)?;
     if course.stats.steps <= options.assess && status == Status::Finished {
+        let end = match follows {
+            true => course.at_the_end(system, end)?,
+            false => end,
+        };
         let ended = Ended {
             problem,
             method: &method,
