@@ -13,16 +13,17 @@ use lie_program::session::Session;
 use lie_runtime::driver::{Grid, Options, Pace, Place, Save};
 
 use crate::draw::Drawn;
-use crate::members::{LANES, Member, Members, Watch};
+use crate::members::{LANES, Member, Members, Watch, take_turns};
 use crate::memory::{self, Exceeded};
 use crate::request::Plan;
 use crate::{Question, Work};
 
-/// The most members that a thread takes at a time.
+/// The most members that a thread takes at a time; more where they take turns, so that few lanes are empty at the end.
 const SHARE: usize = 64;
+const TURNS: usize = 256;
 /// Shares of each thread, so that none waits long for another.
 const SHARES: usize = 8;
-/// So many shares of each thread may wait for one before them.
+/// So many shares of each thread may wait for one before them, of the size at most that they have where nobody takes turns.
 const AHEAD: usize = 16;
 /// Between two looks whether all is to end.
 const PAUSE: Duration = Duration::from_millis(20);
@@ -159,10 +160,10 @@ pub fn times(plan: &Plan, ends: bool) -> Vec<f64> {
 }
 
 /// How many of so many members a thread takes at a time: as many as there are lanes, or less where some threads had none.
-fn share(count: usize, threads: usize) -> usize {
+fn share(count: usize, threads: usize, most: usize) -> usize {
     let lanes = count.div_ceil(threads).clamp(1, LANES);
     let groups = count / (threads * SHARES * lanes);
-    lanes * groups.clamp(1, SHARE / LANES)
+    lanes * groups.clamp(1, most / LANES)
 }
 
 impl Question for Ensemble {
@@ -171,8 +172,13 @@ impl Question for Ensemble {
 
     fn put(self, work: &Work, session: &mut Session<'_, Self::Found>) -> Result<(), End> {
         let threads = self.threads.clamp(1, self.some.len().max(1));
-        let share = share(self.some.len(), threads);
-        let waiting = self.size(self.some.len().min(share * threads * (AHEAD + 1)));
+        let most = match take_turns(&self.plan.method, self.plan.tolerances) {
+            true => TURNS,
+            false => SHARE,
+        };
+        let share = share(self.some.len(), threads, most);
+        let ahead = share.min(SHARE) * threads * AHEAD;
+        let waiting = self.size(self.some.len().min(ahead + share * threads));
         if let Err(exceeded) = memory::fits(waiting) {
             session.found(Err(exceeded));
             return Ok(());
@@ -189,7 +195,7 @@ impl Question for Ensemble {
             span: run.span(),
             asked: &self,
             share,
-            ahead: share * threads * AHEAD,
+            ahead,
             watch: Watch::default(),
             queue: Mutex::new((self.some.start, self.some.start)),
             moved: Condvar::new(),

@@ -2,7 +2,10 @@
 //! program, and by Taylor series.
 //!
 //! Every lane has the bits of the member run alone, so that nobody can tell which members were side by side. A member that
-//! fails is run again alone, and says what it says alone; the others of its group are run again without it.
+//! fails is run again alone, and says what it says alone; the others of its group are run again without it. Where members choose
+//! their own steps, they [take turns](turns).
+
+mod turns;
 
 use lie_codegen::methods::Choice;
 use lie_dynamic::{
@@ -15,6 +18,9 @@ use lie_runtime::driver::{
 use lie_runtime::{ParameterError, Poisson, Scalar};
 use std::ops::{ControlFlow, Range};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+
+use turns::method_in_turns;
+pub use turns::take_turns;
 
 /// Lanes of double precision.
 type Wide = <f64 as Scalar>::Wide;
@@ -89,6 +95,12 @@ impl Watch {
         self.full.load(Ordering::Relaxed)
     }
 
+    /// Ends all, since there is no memory for a row.
+    fn is_full(&self) {
+        self.full.store(true, Ordering::Relaxed);
+        self.stop.store(true, Ordering::Relaxed);
+    }
+
     fn done(&self, members: usize) {
         self.done.fetch_add(members, Ordering::Relaxed);
     }
@@ -128,8 +140,7 @@ impl<S: Scalar> Observer<S, Dynamic<S>> for Kept<'_, S> {
         }
         let room = self.times.try_reserve(1);
         if room.and(self.states.try_reserve(mu.len())).is_err() {
-            self.watch.full.store(true, Ordering::Relaxed);
-            self.watch.stop.store(true, Ordering::Relaxed);
+            self.watch.is_full();
             return ControlFlow::Break(());
         }
         self.times.push(time);
@@ -143,7 +154,9 @@ struct Worker<'a> {
     members: &'a Members<'a>,
     watch: &'a Watch,
     alone: Method,
+    /// Side by side with steps of the same number, and taking turns.
     together: Option<Method<Wide>>,
+    turns: Option<Method<Wide>>,
 }
 
 /// Why a group was not run to its end.
@@ -158,20 +171,21 @@ impl Members<'_> {
     /// Runs some of the members, in order. Sets `stop` where the options suit no member, and ends early where it is set.
     pub fn run(&self, some: Range<usize>, watch: &Watch) -> Vec<Member> {
         let alone = method(self.choice, self.tolerances);
-        let lanes = self.takes_lanes();
-        let together = lanes.then(|| method_in_lanes(self.choice, self.tolerances));
+        let in_lanes = || method_in_lanes(self.choice, self.tolerances);
         let worker = Worker {
             members: self,
             watch,
             alone,
-            together: together.flatten(),
+            together: self.takes_lanes().then(in_lanes).flatten(),
+            turns: method_in_turns(self.choice, self.tolerances),
         };
         let mut found = Vec::with_capacity(some.len());
-        let mut first = some.start;
-        while first < some.end && !watch.stopped() {
-            let last = some.end.min(first + LANES);
-            worker.group(first..last, &mut found);
-            first = last;
+        while found.len() < some.len() && !watch.stopped() {
+            let left = some.start + found.len()..some.end;
+            match worker.in_turns(left.clone()) {
+                Some(done) => worker.rest_alone(left.start, done, &mut found),
+                None => worker.group(left.start..left.end.min(left.start + LANES), &mut found),
+            }
         }
         found.resize_with(some.len(), Member::default);
         found
@@ -265,16 +279,31 @@ impl Worker<'_> {
         }
         let alone = members.zip(systems).zip(all);
         found.extend(alone.map(|((member, system), done)| {
-            if let Some(done) = done {
-                return done;
-            }
-            let member = match system {
-                Ok(system) => self.alone(system, &self.members.starts[member]),
-                Err(error) => Member::failing(self.members.span.0, error.to_string()),
-            };
-            self.watch.done(1);
-            member
+            let alone = || self.one(system, &self.members.starts[member]);
+            done.unwrap_or_else(alone)
         }));
+    }
+
+    /// Takes members from the first on; those that are not there are run alone, unless all is to end.
+    fn rest_alone(&self, first: usize, done: Vec<Option<Member>>, found: &mut Vec<Member>) {
+        found.extend((first..).zip(done).map(|(member, done)| match done {
+            Some(done) => done,
+            None if self.watch.stopped() => Member::default(),
+            None => {
+                let system = self.members.systems(member..member + 1).remove(0);
+                self.one(system, &self.members.starts[member])
+            }
+        }));
+    }
+
+    /// One member.
+    fn one(&self, system: Result<Dynamic<f64>, ParameterError>, start: &[f64]) -> Member {
+        let member = match system {
+            Ok(system) => self.alone(system, start),
+            Err(error) => Member::failing(self.members.span.0, error.to_string()),
+        };
+        self.watch.done(1);
+        member
     }
 
     /// A group side by side.

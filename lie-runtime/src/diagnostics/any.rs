@@ -2,8 +2,8 @@
 
 use crate::driver::Stats;
 use crate::methods::{
-    FactorSink, Facts, Method, Preserves, Projection, Retraction, RungeKutta, Stage, StepFailure,
-    StepReport, Stepper,
+    FactorSink, Facts, Method, Preserves, Projection, Relay, Retraction, RungeKutta, Stage,
+    StepFailure, StepReport, Stepper,
 };
 use crate::newton::NewtonOptions;
 use crate::poisson::Poisson;
@@ -163,6 +163,8 @@ pub trait AnyStepper<S, V> {
     fn carry(&mut self, visit: &mut dyn FnMut(&mut S)) -> bool;
     /// See [`Stepper::keep`].
     fn keep(&mut self, projection: Projection<S, V>) -> Option<Projection<S, V>>;
+    /// See [`Stepper::relay`].
+    fn relay(&mut self, mu: &mut V, members: &mut dyn Relay<S, V>) -> bool;
 }
 
 impl<S: Scalar, V: State<S>, T: Stepper<S, State = V>> AnyStepper<S, V> for T {
@@ -204,6 +206,10 @@ impl<S: Scalar, V: State<S>, T: Stepper<S, State = V>> AnyStepper<S, V> for T {
 
     fn keep(&mut self, projection: Projection<S, V>) -> Option<Projection<S, V>> {
         Stepper::keep(self, projection)
+    }
+
+    fn relay(&mut self, mu: &mut V, members: &mut dyn Relay<S, V>) -> bool {
+        Stepper::relay(self, mu, members)
     }
 }
 
@@ -311,5 +317,9 @@ impl<S: Scalar, V: State<S>> Stepper<S> for ForgottenStepper<'_, V, S> {
 
     fn keep(&mut self, projection: Projection<S, V>) -> Option<Projection<S, V>> {
         self.stepper.keep(projection)
+    }
+
+    fn relay(&mut self, mu: &mut V, members: &mut dyn Relay<S, V>) -> bool {
+        self.stepper.relay(mu, members)
     }
 }

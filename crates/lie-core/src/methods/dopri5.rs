@@ -17,58 +17,26 @@
 //! edition, Springer 1993, sections II.4 and IV.2,
 //! [doi:10.1007/978-3-540-78862-1](https://doi.org/10.1007/978-3-540-78862-1).
 
+mod tableau;
+
 use super::explicit::direction;
 use super::facts::{Facts, Preserves};
 use super::implicit::clear;
 use super::projection::Projection;
-use super::stepper::{FactorSink, Method, RungeKutta, Stage, StepFailure, StepReport, Stepper};
+use super::stepper::{
+    FactorSink, Method, Relay, RungeKutta, Stage, StepFailure, StepReport, Stepper,
+};
 use crate::clock::holds;
 use crate::newton::{FailureReason, NewtonOptions};
 use crate::poisson::Poisson;
 use crate::scalar::{Mask, Scalar};
 use crate::state::{State, Unknown};
+use tableau::{A, ERROR};
 
 /// Attempts within one step of the grid after which it has failed.
 const MAX_ATTEMPTS: u32 = 1_000_000;
-
-/// Rows of the tableau below the first stage, and numerators over denominators.
-static A: [&[(f64, f64)]; 6] = [
-    &[(1.0, 5.0)],
-    &[(3.0, 40.0), (9.0, 40.0)],
-    &[(44.0, 45.0), (-56.0, 15.0), (32.0, 9.0)],
-    &[
-        (19372.0, 6561.0),
-        (-25360.0, 2187.0),
-        (64448.0, 6561.0),
-        (-212.0, 729.0),
-    ],
-    &[
-        (9017.0, 3168.0),
-        (-355.0, 33.0),
-        (46732.0, 5247.0),
-        (49.0, 176.0),
-        (-5103.0, 18656.0),
-    ],
-    &[
-        (35.0, 384.0),
-        (0.0, 1.0),
-        (500.0, 1113.0),
-        (125.0, 192.0),
-        (-2187.0, 6784.0),
-        (11.0, 84.0),
-    ],
-];
-
-/// Weights of order 5 minus those of order 4.
-const ERROR: [(f64, f64); 7] = [
-    (71.0, 57600.0),
-    (0.0, 1.0),
-    (-71.0, 16695.0),
-    (71.0, 1920.0),
-    (-17253.0, 339200.0),
-    (22.0, 525.0),
-    (-1.0, 40.0),
-];
+/// Of an error of 1e-4, below which the next step does not follow the one before.
+const LEAST_LOG_ERROR: f64 = -4.0 * core::f64::consts::LN_10;
 
 /// The adaptive method of Dormand and Prince, order 5; see the [module's text](self).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -110,9 +78,10 @@ impl<S: Scalar, P: Poisson<S>> Method<S, P> for Dopri5 {
             rtol: S::from_f64(self.rtol),
             atol: S::from_f64(self.atol),
             length: h.abs(),
-            sign: S::select(h.less(S::zero()), -S::one(), S::one()),
-            proposal: None,
-            log_error_before: S::from_f64(-4.0 * core::f64::consts::LN_10),
+            sign: sign(h),
+            proposal: S::zero(),
+            known: S::Mask::splat(false),
+            log_error_before: S::from_f64(LEAST_LOG_ERROR),
             slopes: core::array::from_fn(|_| zero.clone()),
             current: zero.clone(),
             point: zero,
@@ -129,8 +98,9 @@ pub struct Dopri5Stepper<'a, S: Scalar, P: Poisson<S>> {
     /// Length of a step of the grid, and its direction.
     length: S,
     sign: S,
-    /// The size of the next step, kept from one step of the grid to the next.
-    proposal: Option<S>,
+    /// The size of the next step, kept from one step of the grid to the next, in the lanes where it is known.
+    proposal: S,
+    known: S::Mask,
     log_error_before: S,
     slopes: [P::State; 7],
     current: P::State,
@@ -217,24 +187,56 @@ impl<S: Scalar, P: Poisson<S>> Dopri5Stepper<'_, S, P> {
         }
     }
 
-    /// A step from here, of which nothing is done.
-    fn begin(&mut self, mu: &P::State) -> Progress<S> {
-        let mut report = StepReport {
-            evaluations: 1,
-            ..StepReport::default()
-        };
-        self.current.copy_from(mu);
-        self.system.vector_field(mu, &mut self.slopes[0]);
-        report.evaluations += u32::from(self.proposal.is_none());
-        let proposal = self.proposal.unwrap_or_else(|| self.first_step());
-        Progress {
-            proposal,
-            covered: S::zero(),
-            active: S::zero().less(self.length),
-            after_rejection: S::Mask::splat(false),
-            report,
-            failure: None,
+    /// Begins steps in lanes, from the states that are there.
+    fn begin(&mut self, progress: &mut Progress<S>, lanes: S::Mask) {
+        self.system.vector_field(&self.current, &mut self.point);
+        progress.report.evaluations += 1;
+        self.slopes[0].assign_where(lanes, &self.point);
+        let unknown = lanes & !self.known;
+        if unknown.any() {
+            progress.report.evaluations += 1;
+            self.proposal = S::select(unknown, self.first_step(), self.proposal);
+            let least = S::from_f64(LEAST_LOG_ERROR);
+            self.log_error_before = S::select(unknown, least, self.log_error_before);
+            self.known = self.known | unknown;
         }
+        progress.covered = S::select(lanes, S::zero(), progress.covered);
+        progress.active = progress.active | (lanes & S::zero().less(self.length));
+        progress.after_rejection = progress.after_rejection & !lanes;
+    }
+
+    /// One attempt in all lanes on their way; answers those that arrive.
+    fn attempt_in<K: FactorSink<P::State>>(
+        &mut self,
+        progress: &mut Progress<S>,
+        sink: &mut K,
+    ) -> S::Mask {
+        let remaining = self.length - progress.covered;
+        // stretch by at most 1 percent rather than leave a sliver
+        let last = remaining.less_equal(self.proposal * S::from_f64(1.01));
+        let size = S::select(last, remaining, self.proposal);
+        let size = S::select(progress.active, size, S::zero());
+        let too_small = progress.active & !last & size.less_equal(S::epsilon() * self.length);
+        progress.fail(FailureReason::StepTooSmall, too_small);
+        let error = self.attempt(self.sign * size);
+        progress.report.evaluations += 6;
+        let accepted = progress.active & error.less_equal(S::one()) & self.point.finite();
+        self.adapt(progress, (size, last), error, accepted);
+        progress.covered = S::select(accepted, progress.covered + size, progress.covered);
+        if sink.is_active() && accepted.any() {
+            self.give_velocities(self.sign * size, accepted, sink);
+        }
+        self.current.assign_where(accepted, &self.point);
+        let [first, .., end] = &mut self.slopes;
+        // of the state before its projection, from which it differs by the error of the step
+        first.assign_where(accepted, end);
+        if let Some(projection) = &mut self.projection {
+            let lost = projection.bring_back(self.system, accepted, &mut self.current);
+            progress.fail(projection.reason(lost), lost);
+        }
+        let arrived = progress.active & accepted & last;
+        progress.active = progress.active & !arrived;
+        arrived
     }
 
     /// The size of the next attempt after one with this error.
@@ -253,9 +255,9 @@ impl<S: Scalar, P: Poisson<S>> Dopri5Stepper<'_, S, P> {
         let after_rejection = accepted & progress.after_rejection;
         let next = S::select(after_rejection, minimum(next, size), next);
         // a step cut short by the end of the interval says nothing against a longer one
-        let kept = S::select(accepted & last, progress.proposal.max(next), next);
-        progress.proposal = S::select(progress.active, kept, progress.proposal);
-        let least = log_error.max(S::from_f64(-4.0 * core::f64::consts::LN_10));
+        let kept = S::select(accepted & last, self.proposal.max(next), next);
+        self.proposal = S::select(progress.active, kept, self.proposal);
+        let least = log_error.max(S::from_f64(LEAST_LOG_ERROR));
         self.log_error_before = S::select(accepted, least, self.log_error_before);
         progress.after_rejection = rejected;
     }
@@ -277,8 +279,6 @@ impl<S: Scalar, P: Poisson<S>> Dopri5Stepper<'_, S, P> {
 
 /// How far a step of the grid has come.
 struct Progress<S: Scalar> {
-    /// The size of the next attempt.
-    proposal: S,
     /// What is behind, of the length of the step.
     covered: S,
     /// Lanes that have neither arrived nor failed.
@@ -289,17 +289,22 @@ struct Progress<S: Scalar> {
 }
 
 impl<S: Scalar> Progress<S> {
-    /// The size of the next attempt, and where it is the last.
-    fn attempt(&self, length: S) -> (S, S::Mask) {
-        let remaining = length - self.covered;
-        // stretch by at most 1 percent rather than leave a sliver
-        let last = remaining.less_equal(self.proposal * S::from_f64(1.01));
-        let size = S::select(last, remaining, self.proposal);
-        (S::select(self.active, size, S::zero()), last)
+    /// In no lane.
+    fn none() -> Self {
+        Self {
+            covered: S::zero(),
+            active: S::Mask::splat(false),
+            after_rejection: S::Mask::splat(false),
+            report: StepReport::default(),
+            failure: None,
+        }
     }
 
     /// Lanes go no further.
     fn fail(&mut self, reason: FailureReason, lanes: S::Mask) {
+        if !lanes.any() {
+            return;
+        }
         let failed = StepFailure {
             reason,
             lanes: 0,
@@ -308,6 +313,16 @@ impl<S: Scalar> Progress<S> {
         self.failure.get_or_insert(failed).lanes |= lanes.bits();
         self.active = self.active & !lanes;
     }
+
+    /// The lanes that have failed.
+    fn failed(&self) -> S::Mask {
+        S::Mask::from_bits(self.failure.map_or(0, |failure| failure.lanes))
+    }
+}
+
+/// The direction of a step.
+fn sign<S: Scalar>(h: S) -> S {
+    S::select(h.less(S::zero()), -S::one(), S::one())
 }
 
 /// The smaller of two numbers.
@@ -323,46 +338,54 @@ impl<S: Scalar, P: Poisson<S>> Stepper<S> for Dopri5Stepper<'_, S, P> {
         mu: &mut P::State,
         sink: &mut K,
     ) -> Result<StepReport, StepFailure> {
-        let mut progress = self.begin(mu);
+        let mut progress = Progress::none();
+        self.current.copy_from(mu);
+        self.begin(&mut progress, S::Mask::splat(true));
         for _ in 0..MAX_ATTEMPTS {
             if !progress.active.any() {
                 break;
             }
-            let (size, last) = progress.attempt(self.length);
-            let too_small = progress.active & !last & size.less_equal(S::epsilon() * self.length);
-            if too_small.any() {
-                progress.fail(FailureReason::StepTooSmall, too_small);
-            }
-            let error = self.attempt(self.sign * size);
-            progress.report.evaluations += 6;
-            let accepted = progress.active & error.less_equal(S::one()) & self.point.finite();
-            self.adapt(&mut progress, (size, last), error, accepted);
-            progress.covered = S::select(accepted, progress.covered + size, progress.covered);
-            if sink.is_active() && accepted.any() {
-                self.give_velocities(self.sign * size, accepted, sink);
-            }
-            self.current.assign_where(accepted, &self.point);
-            let [first, .., end] = &mut self.slopes;
-            // of the state before its projection, from which it differs by the error of the step
-            first.assign_where(accepted, end);
-            if let Some(projection) = &mut self.projection {
-                let lost = projection.bring_back(self.system, accepted, &mut self.current);
-                if lost.any() {
-                    progress.fail(projection.reason(lost), lost);
-                }
-            }
-            progress.active = progress.active & !(accepted & last);
+            self.attempt_in(&mut progress, sink);
         }
-        if progress.active.any() {
-            progress.fail(FailureReason::TooManySteps, progress.active);
-        }
-        self.proposal = Some(progress.proposal);
-        let (report, failure) = (progress.report, progress.failure);
-        let good = !S::Mask::from_bits(failure.map_or(0, |failure| failure.lanes));
-        mu.assign_where(good, &self.current);
-        match failure {
+        let endless = progress.active;
+        progress.fail(FailureReason::TooManySteps, endless);
+        mu.assign_where(!progress.failed(), &self.current);
+        let report = progress.report;
+        match progress.failure {
             None => Ok(report),
             Some(failure) => Err(StepFailure { report, ..failure }),
+        }
+    }
+
+    fn relay(&mut self, mu: &mut P::State, members: &mut dyn Relay<S, P::State>) -> bool {
+        let none = S::Mask::splat(false);
+        let mut progress = Progress::none();
+        // in the step of each lane
+        let mut attempts = S::zero();
+        let mut arrived = none;
+        loop {
+            mu.assign_where(arrived, &self.current);
+            let legs = members.next(mu, arrived, progress.failed());
+            self.current.assign_where(legs.begin, mu);
+            self.length = S::select(legs.begin, legs.h.abs(), self.length);
+            self.sign = S::select(legs.begin, sign(legs.h), self.sign);
+            self.known = self.known & !legs.anew;
+            attempts = S::select(legs.begin, S::zero(), attempts);
+            progress.failure = None;
+            if legs.begin.any() {
+                self.begin(&mut progress, legs.begin);
+            }
+            if !progress.active.any() {
+                return true;
+            }
+            arrived = none;
+            while !(arrived | progress.failed()).any() {
+                arrived = self.attempt_in(&mut progress, &mut ());
+                attempts += S::one();
+                let most = S::from_f64(f64::from(MAX_ATTEMPTS));
+                let endless = progress.active & most.less_equal(attempts);
+                progress.fail(FailureReason::TooManySteps, endless);
+            }
         }
     }
 

@@ -237,6 +237,10 @@ where
         self.system.clock()
     }
 
+    fn forget(&mut self, lanes: S::Mask) {
+        self.unit.forget(lanes);
+    }
+
     fn develop(&mut self, mu: &P::State, step: S, [lanes, landed]: [S::Mask; 2]) -> Developed<S> {
         copy_lanes(&mut self.rows[0], mu, lanes, lanes.all());
         let mut carry = self.recurrence.begin(mu, &mut self.field);

@@ -164,7 +164,8 @@ pub use splitting::{
 };
 pub use stage_parallel::{Field, MOST_UNKNOWNS, Slopes, StageParallelStepper};
 pub use stepper::{
-    FactorSink, Method, Retraction, RungeKutta, Stage, StepFailure, StepReport, Stepper,
+    FactorSink, Legs, Method, Relay, Retraction, RungeKutta, Stage, StepFailure, StepReport,
+    Stepper,
 };
 pub use taylor::{Taylor, TaylorDevelopment};
 pub use tensor::{

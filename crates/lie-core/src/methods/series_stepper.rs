@@ -2,7 +2,7 @@
 
 use super::implicit::equal_lanes;
 use super::projection::Projection;
-use super::stepper::{FactorSink, StepFailure, StepReport, Stepper};
+use super::stepper::{FactorSink, Relay, StepFailure, StepReport, Stepper};
 use crate::clock::Clock;
 use crate::newton::FailureReason;
 use crate::scalar::{Mask, Scalar};
@@ -43,6 +43,8 @@ pub trait Development<S: Scalar> {
 
     /// The coordinates that carry the time.
     fn clock(&self) -> Option<Clock>;
+    /// Knows nothing of developments before in some lanes.
+    fn forget(&mut self, lanes: S::Mask);
     /// Develops the solution from a state in some lanes, for a step of the grid; the others keep theirs. Returns how far it
     /// is used in each lane. The second lanes are those of the first in which the state is at the joint that ended the
     /// development before.
@@ -118,24 +120,103 @@ impl<S: Scalar, D: Development<S>> SeriesStepper<S, D> {
     }
 }
 
-/// Lanes that have failed, and why the first did.
-struct Failures<S: Scalar> {
+/// How far a step of the grid has come.
+struct Way<S: Scalar> {
+    /// What is behind, of the length of the step.
+    covered: S,
+    /// Lanes that have neither arrived nor failed.
+    active: S::Mask,
+    report: StepReport,
+    /// Why the first lane failed, and all that did.
     failure: Option<StepFailure>,
-    lanes: S::Mask,
+    failed: S::Mask,
 }
 
-impl<S: Scalar> Failures<S> {
+impl<S: Scalar> Way<S> {
     #[inline(always)]
-    fn add(&mut self, reason: FailureReason, lanes: S::Mask, report: StepReport) {
+    fn in_lanes(active: S::Mask) -> Self {
+        Self {
+            covered: S::zero(),
+            active,
+            report: StepReport::default(),
+            failure: None,
+            failed: S::Mask::splat(false),
+        }
+    }
+
+    /// Lanes go no further.
+    #[inline(always)]
+    fn fail(&mut self, reason: FailureReason, lanes: S::Mask) {
         if lanes.any() {
             let first = StepFailure {
                 reason,
                 lanes: 0,
-                report,
+                report: self.report,
             };
             self.failure.get_or_insert(first).lanes |= lanes.bits();
-            self.lanes = self.lanes | lanes;
+            self.failed = self.failed | lanes;
+            self.active = self.active & !lanes;
         }
+    }
+}
+
+impl<S: Scalar, D: Development<S>> SeriesStepper<S, D> {
+    /// The lanes on their way whose development is used up.
+    #[inline(always)]
+    fn spent(&self, way: &Way<S>) -> S::Mask {
+        let left = self.reach - self.place;
+        let sliver = S::select(self.joint, S::zero(), self.reach * S::from_f64(SLIVER));
+        way.active & left.less_equal(sliver)
+    }
+
+    /// Develops anew in lanes on their way.
+    #[inline(always)]
+    fn renew(&mut self, way: &mut Way<S>, spent: S::Mask) {
+        let [broken, stuck] = self.develop(spent);
+        way.report.evaluations += 1;
+        way.report.substeps += 1;
+        way.fail(FailureReason::NotFinite, broken);
+        way.fail(FailureReason::OnJoint, stuck);
+    }
+
+    /// Goes along the developments in lanes on their way, as far as they reach; answers those that arrive.
+    #[inline(always)]
+    fn go<K: FactorSink<D::State>>(
+        &mut self,
+        way: &mut Way<S>,
+        lanes: S::Mask,
+        sink: &mut K,
+    ) -> S::Mask {
+        let (left, remaining) = (self.reach - self.place, self.length - way.covered);
+        let beyond = S::select(self.joint, left, left * S::from_f64(1.0 + SLIVER));
+        let last = remaining.less_equal(beyond);
+        let size = S::select(lanes, S::select(last, remaining, left), S::zero());
+        let small = size.less_equal(S::epsilon() * self.length);
+        way.fail(
+            FailureReason::StepTooSmall,
+            lanes & !last & small & !self.joint,
+        );
+        let (from, place) = (self.place, self.place + size);
+        self.development.state(self.sign * place, &mut self.point);
+        let finite = self.point.finite();
+        way.fail(FailureReason::NotFinite, lanes & way.active & !finite);
+        let moving = lanes & way.active;
+        if sink.is_active() && moving.any() {
+            let (from, to) = (self.sign * from, self.sign * place);
+            self.development.push_factors(from, to, moving, sink);
+        }
+        self.place = S::select(moving, place, from);
+        self.current.assign_where(moving, &self.point);
+        if let Some(projection) = &mut self.projection {
+            let lost = self
+                .development
+                .bring_back(projection, moving, &mut self.current);
+            way.fail(projection.reason(lost), lost);
+        }
+        let moved = lanes & way.active;
+        way.covered = S::select(moved, way.covered + size, way.covered);
+        way.active = way.active & !(moved & last);
+        moved & last
     }
 }
 
@@ -151,63 +232,71 @@ impl<S: Scalar, D: Development<S>> Stepper<S> for SeriesStepper<S, D> {
         self.reach = S::select(follows, self.reach, S::zero());
         self.joint = self.joint & follows;
         self.current.copy_from(mu);
-        let mut report = StepReport::default();
-        let mut failures = Failures::<S> {
-            failure: None,
-            lanes: S::Mask::splat(false),
-        };
-        let mut covered = S::zero();
-        let mut active = S::zero().less(self.length);
-        while active.any() {
-            let left = self.reach - self.place;
-            let sliver = S::select(self.joint, S::zero(), self.reach * S::from_f64(SLIVER));
-            let spent = active & left.less_equal(sliver);
+        let mut way = Way::<S>::in_lanes(S::zero().less(self.length));
+        while way.active.any() {
+            let spent = self.spent(&way);
             if spent.any() {
-                let [broken, stuck] = self.develop(spent);
-                report.evaluations += 1;
-                report.substeps += 1;
-                failures.add(FailureReason::NotFinite, broken, report);
-                failures.add(FailureReason::OnJoint, stuck, report);
-                active = active & !broken & !stuck;
-                if report.substeps > MAX_SERIES {
-                    failures.add(FailureReason::TooManySteps, active, report);
+                self.renew(&mut way, spent);
+                if way.report.substeps > MAX_SERIES {
+                    let lanes = way.active;
+                    way.fail(FailureReason::TooManySteps, lanes);
                     break;
                 }
             }
-            let (left, remaining) = (self.reach - self.place, self.length - covered);
-            let beyond = S::select(self.joint, left, left * S::from_f64(1.0 + SLIVER));
-            let last = remaining.less_equal(beyond);
-            let size = S::select(active, S::select(last, remaining, left), S::zero());
-            let small = size.less_equal(S::epsilon() * self.length);
-            let too_small = active & !last & small & !self.joint;
-            failures.add(FailureReason::StepTooSmall, too_small, report);
-            active = active & !too_small;
-            let (from, place) = (self.place, self.place + size);
-            self.development.state(self.sign * place, &mut self.point);
-            let finite = self.point.finite();
-            failures.add(FailureReason::NotFinite, active & !finite, report);
-            active = active & finite;
-            if sink.is_active() && active.any() {
-                let (from, to) = (self.sign * from, self.sign * place);
-                self.development.push_factors(from, to, active, sink);
-            }
-            self.place = S::select(active, place, from);
-            self.current.assign_where(active, &self.point);
-            if let Some(projection) = &mut self.projection {
-                let lost = self
-                    .development
-                    .bring_back(projection, active, &mut self.current);
-                failures.add(projection.reason(lost), lost, report);
-                active = active & !lost;
-            }
-            covered = S::select(active, covered + size, covered);
-            active = active & !last;
+            let lanes = way.active;
+            self.go(&mut way, lanes, sink);
         }
-        self.reach = S::select(failures.lanes, S::zero(), self.reach);
-        mu.assign_where(!failures.lanes, &self.current);
-        match failures.failure {
-            None => Ok(report),
-            Some(failure) => Err(StepFailure { report, ..failure }),
+        self.reach = S::select(way.failed, S::zero(), self.reach);
+        mu.assign_where(!way.failed, &self.current);
+        match way.failure {
+            None => Ok(way.report),
+            Some(failure) => Err(StepFailure {
+                report: way.report,
+                ..failure
+            }),
+        }
+    }
+
+    /// Develops where no lane can go on without, so that one development serves as many as there are.
+    fn relay(&mut self, mu: &mut D::State, members: &mut dyn Relay<S, D::State>) -> bool {
+        let none = S::Mask::splat(false);
+        let mut way = Way::<S>::in_lanes(none);
+        // of the step in each lane
+        let mut series = S::zero();
+        let mut arrived = none;
+        loop {
+            mu.assign_where(arrived, &self.current);
+            let legs = members.next(mu, arrived, way.failed);
+            self.current.assign_where(legs.begin, mu);
+            self.length = S::select(legs.begin, legs.h.abs(), self.length);
+            let backwards = legs.h.less(S::zero());
+            let sign = S::select(backwards, -S::one(), S::one());
+            self.sign = S::select(legs.begin, sign, self.sign);
+            self.reach = S::select(legs.anew, S::zero(), self.reach);
+            self.joint = self.joint & !legs.anew;
+            self.development.forget(legs.anew);
+            series = S::select(legs.begin, S::zero(), series);
+            way = Way {
+                covered: S::select(legs.begin, S::zero(), way.covered),
+                ..Way::in_lanes(way.active | legs.begin)
+            };
+            if !way.active.any() {
+                return true;
+            }
+            arrived = none;
+            while !(arrived | way.failed).any() {
+                let mut ready = way.active & !self.spent(&way);
+                if !ready.any() {
+                    ready = way.active;
+                    series = S::select(ready, series + S::one(), series);
+                    self.renew(&mut way, ready);
+                    let most = S::from_f64(f64::from(MAX_SERIES));
+                    let endless = way.active & most.less(series);
+                    way.fail(FailureReason::TooManySteps, endless);
+                    ready = ready & way.active;
+                }
+                arrived = self.go(&mut way, ready, &mut ());
+            }
         }
     }
 

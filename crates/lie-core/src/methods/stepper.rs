@@ -167,6 +167,30 @@ pub trait Stepper<S: Scalar> {
     ) -> Option<Projection<S, Self::State>> {
         Some(projection)
     }
+
+    /// Makes steps in each lane at its own pace: as soon as one has come to its end, the next begins there, of the same member or of
+    /// another. Each has the bits of a stepper of its own. False where the steps of all lanes end together: then nothing is done.
+    fn relay(&mut self, _mu: &mut Self::State, _members: &mut dyn Relay<S, Self::State>) -> bool {
+        false
+    }
+}
+
+/// Members that take turns in the lanes of a stepper which chooses its own steps.
+pub trait Relay<S: Scalar, V> {
+    /// Takes the states of `mu` in lanes that have come to the end of their step, and hears where one was refused; leaves in `mu` the
+    /// states from which steps are made in those lanes, or in others where none was made.
+    fn next(&mut self, mu: &mut V, arrived: S::Mask, refused: S::Mask) -> Legs<S>;
+}
+
+/// Steps that begin.
+#[derive(Clone, Copy, Debug)]
+pub struct Legs<S: Scalar> {
+    /// In these lanes.
+    pub begin: S::Mask,
+    /// Those among them about which nothing is known from the step before: another member, or another size.
+    pub anew: S::Mask,
+    /// The size in each lane that begins.
+    pub h: S,
 }
 
 /// A method of integration, as a value with its options.

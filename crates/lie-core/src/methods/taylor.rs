@@ -108,6 +108,10 @@ impl<S: Scalar, P: Series<S>> Development<S> for TaylorDevelopment<'_, S, P> {
         self.system.clock()
     }
 
+    fn forget(&mut self, lanes: S::Mask) {
+        self.unit.forget(lanes);
+    }
+
     #[inline(always)]
     fn develop(&mut self, mu: &P::State, step: S, [lanes, landed]: [S::Mask; 2]) -> Developed<S> {
         // taken out, so that they are in registers

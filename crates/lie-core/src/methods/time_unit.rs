@@ -44,6 +44,12 @@ impl<S: Scalar> TimeUnit<S> {
         }
     }
 
+    /// Knows nothing of the series before in some lanes.
+    pub(super) fn forget(&mut self, lanes: S::Mask) {
+        let forgotten = (0..S::LANES).filter(|lane| lanes.lane(*lane));
+        forgotten.for_each(|lane| self.exponents[lane] = None);
+    }
+
     fn set(&mut self, lane: usize, exponent: i32) {
         let most = match largest(S::epsilon()) > 1e-10 {
             true => 100,

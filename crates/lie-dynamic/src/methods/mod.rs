@@ -240,6 +240,7 @@ fn compiled_for_lanes(
 ) -> Option<Method<<f64 as Scalar>::Wide>> {
     Some(match choice {
         Choice::Taylor => Box::new(m::Taylor::from(tolerances)),
+        Choice::Dopri5 => Box::new(m::Dopri5::from(tolerances)),
         // kernel by kernel for families, whose steps are loops over their sites
         Choice::Rk4 => Box::new(RecordedMethod::patient(choice, Box::new(m::Rk4))),
         _ => return None,
