@@ -111,7 +111,7 @@ fn threads_and_shares_change_no_byte() {
     let folder = folder();
     let path = |name: &str| folder.path().join(format!("{name}.npy"));
     let call = |rest: &str, name: &str| {
-        let reduce = "--reduce quantiles,mean,covariance --quantiles 0,0.5,1";
+        let reduce = "--reduce quantiles,mean,covariance,histogram --quantiles 0,0.5,1 --bins 3";
         lie(&format!(
             "ensemble {BODY} {DRAWN} {reduce} {rest} --out {}",
             path(name).display()
@@ -126,6 +126,7 @@ fn threads_and_shares_change_no_byte() {
         "mean.npy",
         "covariance.npy",
         "quantiles.npy",
+        "histogram.npy",
     ];
     assert_same(&path("one"), &path("five"), &ends);
     let files: Vec<String> = [3, 1, 4, 2]
@@ -163,6 +164,19 @@ fn threads_and_shares_change_no_byte() {
     assert_eq!(shape, [3, 3, 3]);
     let (shape, quantiles) = array(&path("one").with_extension("quantiles.npy"));
     assert_eq!(shape, [3, 3, 3]);
+    let (shape, counts) = array(&path("one").with_extension("histogram.npy"));
+    assert_eq!(shape, [3, 3, 9]);
+    let bins = &record(&path("one"))["histogram"]["sphere"];
+    assert_eq!(*bins, serde_json::json!({"bands": 3, "sectors": 9}));
+    for (row, counts) in counts.chunks_exact(27).enumerate() {
+        let mut expected = [0.0; 27];
+        for ((x, y), z) in column(row, 0).zip(column(row, 1)).zip(column(row, 2)) {
+            let height = z / (x * x + y * y + z * z).sqrt();
+            let turn = (y.atan2(x) / std::f64::consts::PI + 1.0) / 2.0;
+            expected[9 * (1.5 * (height + 1.0)) as usize + (9.0 * turn) as usize] += 1.0;
+        }
+        assert_eq!(counts, expected);
+    }
     for row in 0..3 {
         for i in 0..3 {
             let mean = |k: usize| column(row, k).sum::<f64>() / 500.0;
@@ -480,6 +494,8 @@ fn mistakes_have_a_place_and_a_remedy() {
             "--quantiles",
         ),
         ("--members 10 --reduce median", "--reduce"),
+        ("--members 10 --reduce mean --bins 4", "--bins"),
+        ("--members 10 --reduce histogram --bins 0.5", "--bins"),
         ("--members 10 --tol 1e-6 --every 2", "--every"),
         ("--param I1=1:2:3 --seed 4", "--seed"),
         ("--members 10 --step 0.1 --until -1", "--until"),

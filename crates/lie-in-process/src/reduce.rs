@@ -1,7 +1,11 @@
-//! What is computed of all members of an ensemble: mean, covariance, quantiles. The order of the sums is that of the members,
+//! What is computed of all members of an ensemble: mean, covariance, quantiles, histograms. The order of the sums is that of the members,
 //! whatever the threads and the shares.
 
+mod histogram;
+
 use std::io::{self, Read};
+
+pub use histogram::Bins;
 
 /// Members that are summed one after the other; then sums are added two by two.
 const LEAF: u64 = 32;

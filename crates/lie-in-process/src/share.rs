@@ -5,6 +5,8 @@ use std::ops::Range;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
+use crate::reduce::Bins;
+
 /// One of several shares of the members: those that lie side by side.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
@@ -71,6 +73,9 @@ pub struct Record {
     pub reduce: Vec<String>,
     /// The probabilities of the quantiles.
     pub quantiles: Vec<f64>,
+    /// Where members are counted, if they are.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub histogram: Option<Bins>,
     /// The members that ended early.
     pub failures: Vec<Failed>,
     /// A digest of the numbers of the share, once all are in the file.
@@ -126,6 +131,7 @@ impl Record {
                 complete: true,
                 failures: Vec::new(),
                 numbers: None,
+                histogram: one.histogram.as_ref().map(Bins::empty),
                 ..one.clone()
             };
             (plain(self) != plain(other)).then(|| "what was asked for differs".to_owned())

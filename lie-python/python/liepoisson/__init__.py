@@ -20,6 +20,7 @@ from ._check import Casimir, Check, Motion
 from ._core import __version__ as __version__
 from ._errors import DeclarationError, IntegrationError, Interrupted, LostShares, MethodError
 from ._functions import Function
+from ._histogram import Histogram
 from ._methods import Method, Methods
 from ._solution import Ensemble, Solution
 from ._stress import Growth, Stress, StressCell
@@ -36,6 +37,7 @@ __all__ = [
     "Fact",
     "Function",
     "Growth",
+    "Histogram",
     "IntegrationError",
     "Interrupted",
     "LostShares",

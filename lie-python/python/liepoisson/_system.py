@@ -16,6 +16,7 @@ from ._bench import Bench
 from ._declared import Declared
 from ._errors import IntegrationError
 from ._functions import Function
+from ._histogram import Histogram, histogram
 from ._measure import asked_of, measured, stressed, verified
 from ._members import drawn, members_of, table_of
 from ._notebook import page_of
@@ -269,6 +270,29 @@ class System(Declared):
             ends = states[:, -1] if len(rows) else np.full((len(starts), states.shape[2]), np.nan)
             return Ensemble(ends, rows, failures, kept)
         return Ensemble(states, rows, failures, kept)
+
+    def histogram(
+        self,
+        states: npt.ArrayLike,
+        bins: int | None = None,
+        parameters: Mapping[str, Number] | None = None,
+        **named: Number,
+    ) -> Histogram:
+        """How many members of an ensemble are where: states of shape (members, n), or (members, rows, n) row by row, as of :meth:`ensemble`.
+
+        Where orbits are spheres around zero, as on so(3) in an orthonormal basis, members are counted by their direction in ``bins`` bands (16) of
+        three times as many sectors, all of the same area; elsewhere by the value of each coordinate, in ``bins`` (50) between the least and the
+        largest of all states. `lie ensemble --reduce histogram` counts the same. States that are not numbers are left out.
+
+        Errors: ValueError for states of another shape.
+
+        >>> body = System(algebra="so(3)", state=["x", "y", "z"], hamiltonian="x^2/2 + y^2/4 + z^2/6")
+        >>> many = body.ensemble([1, 0.1, 0], "rk4", h=0.1, t=1, members=500, spread="orbit")
+        >>> found = body.histogram(many.mu, bins=4)
+        >>> found.counts.shape, int(found.counts.sum())
+        ((4, 12), 500)
+        """
+        return histogram(self, states, bins, merged(parameters, named))
 
     def function(
         self, name: str, /, parameters: Mapping[str, Number] | None = None, **named: Number

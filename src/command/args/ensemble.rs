@@ -38,13 +38,17 @@ pub struct Ensemble {
     /// `slurm/N` K alone
     #[arg(long, value_name = "K/N", allow_hyphen_values = true)]
     pub shard: Option<String>,
-    /// Computes these of all members, at each of the times, into FILE.mean.npy, FILE.covariance.npy, FILE.quantiles.npy; of
-    /// shares `lie merge` does
+    /// Computes these of all members, at each of the times, into FILE.mean.npy, FILE.covariance.npy, FILE.quantiles.npy,
+    /// FILE.histogram.npy; of shares `lie merge` does
     #[arg(long, value_enum, value_name = "LIST", value_delimiter = ',')]
     pub reduce: Vec<Reduce>,
     /// The probabilities of the quantiles, separated by commas (default: 0.05,0.25,0.5,0.75,0.95)
     #[arg(long, value_name = "P1,P2,…", allow_hyphen_values = true)]
     pub quantiles: Option<Value>,
+    /// Bins of the histogram: so many of each coordinate (default 50), or where orbits are spheres so many bands of three times as
+    /// many sectors (default 16)
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    pub bins: Option<Value>,
     /// Where the members go
     #[arg(long, value_name = "FILE.npy")]
     pub out: PathBuf,
@@ -65,6 +69,8 @@ pub enum Reduce {
     Covariance,
     /// Quantiles of each coordinate, interpolated linearly
     Quantiles,
+    /// How many members are where: on spheres in bins of equal area, elsewhere by each coordinate
+    Histogram,
 }
 
 /// `lie merge`.

@@ -19,6 +19,7 @@ pub fn name(reduce: Reduce) -> &'static str {
         Reduce::Mean => "mean",
         Reduce::Covariance => "covariance",
         Reduce::Quantiles => "quantiles",
+        Reduce::Histogram => "histogram",
     }
 }
 
@@ -106,17 +107,22 @@ impl Rest {
         written.map_err(|error| unwritable(&path, &error))
     }
 
-    /// Writes what is computed: mean and covariance as they were found, quantiles from the members in the file.
+    /// Writes what is computed: mean and covariance as they were found, quantiles and histograms from the members in the file.
     ///
     /// # Errors
     /// `io`.
     pub fn reduce(
         &mut self,
-        record: &Record,
+        record: &mut Record,
         (means, covariances): (Vec<f64>, Vec<f64>),
     ) -> Result<(), Failure> {
         let shape = record.shape();
         let columns = shape.iter().product();
+        let again = || {
+            let mut file = File::open(&self.out)?;
+            file.seek(SeekFrom::Start(npy::LENGTH as u64))?;
+            Ok(BufReader::with_capacity(1 << 20, file))
+        };
         for (one, path, destination) in self.reductions.drain(..) {
             let array = match one {
                 Reduce::Mean => Ok(npy::array(&shape, &means)),
@@ -125,13 +131,18 @@ impl Rest {
                     Ok(npy::array(&shape, &covariances))
                 }
                 Reduce::Quantiles => {
-                    let again = || {
-                        let mut file = File::open(&self.out)?;
-                        file.seek(SeekFrom::Start(npy::LENGTH as u64))?;
-                        Ok(BufReader::with_capacity(1 << 20, file))
-                    };
                     let shape = [&[record.quantiles.len()], &shape[..]].concat();
                     let found = quantiles(again, (record.members, columns), &record.quantiles);
+                    found.map(|found| npy::array(&shape, &found))
+                }
+                Reduce::Histogram => {
+                    let size = [record.times.len(), record.columns.len()];
+                    let Some(bins) = &mut record.histogram else {
+                        continue;
+                    };
+                    let rows = if record.rows { &size[..1] } else { &[] };
+                    let shape = [rows, &bins.shape(size[1])].concat();
+                    let found = bins.count(again, record.members, size);
                     found.map(|found| npy::array(&shape, &found))
                 }
             };

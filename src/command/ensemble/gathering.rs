@@ -118,7 +118,7 @@ impl Gathering {
         let found = self
             .moments
             .map_or((Vec::new(), Vec::new()), Moments::found);
-        self.rest.reduce(&self.record, found)?;
+        self.rest.reduce(&mut self.record, found)?;
         self.record.complete = true;
         self.record.numbers = Some(self.key.hex());
         self.rest.say(&self.record)?;

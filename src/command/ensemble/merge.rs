@@ -5,6 +5,7 @@ use std::io::{self, BufReader, Read as _};
 use std::path::Path;
 
 use lie_in_process::key::Key;
+use lie_in_process::reduce::Bins;
 use lie_in_process::share::{Record, Share};
 use lie_in_process::words::counted;
 use lie_syntax::diagnostic::Kind;
@@ -47,6 +48,7 @@ pub fn run(arguments: &args::Merge) -> Result<u8, Failure> {
         share: Share::WHOLE,
         failures: Vec::new(),
         numbers: None,
+        histogram: parts[0].record.histogram.as_ref().map(Bins::empty),
         complete: false,
         ..parts[0].record.clone()
     };

@@ -3,6 +3,7 @@
 mod beside;
 mod gathering;
 pub mod merge;
+mod reductions;
 mod shard;
 
 use std::path::Path;
@@ -17,7 +18,7 @@ use lie_in_process::ensemble::{self, Ensemble};
 use lie_in_process::memory::Exceeded;
 use lie_in_process::message::Fault;
 use lie_in_process::report::signs;
-use lie_in_process::request::{Asked, Drawing, OptionValue, Value, cast};
+use lie_in_process::request::{Asked, Drawing, Value, cast};
 use lie_in_process::share::{Record, Share};
 use lie_in_process::words::counted;
 use lie_program::protocol::{Obstacle, Start};
@@ -41,8 +42,6 @@ use crate::render;
 use beside::Beside;
 use gathering::Gathering;
 
-/// The probabilities where none are given.
-const QUANTILES: [f64; 5] = [0.05, 0.25, 0.5, 0.75, 0.95];
 /// So many of the members that ended early are named.
 const NAMED: usize = 3;
 
@@ -55,14 +54,15 @@ pub fn run(flags: &args::Ensemble) -> Result<u8, Failure> {
     let share = shard::of(flags.shard.as_deref())?;
     check(flags)?;
     let asked = asked(&spec, flags)?;
-    let quantiles = quantiles(flags)?;
+    let quantiles = reductions::quantiles(flags)?;
+    let bins = reductions::bins(flags)?;
     if !flags.quiet {
         render::print(&spec.warnings());
         if let Some(note) = note(&spec, &asked) {
             eprintln!("{}", folded(&format!("note: {note}")));
         }
     }
-    let (record, places) = record(&spec, flags, &asked, share, quantiles)?;
+    let (mut record, places) = record(&spec, flags, &asked, share, quantiles)?;
     let states = flags.request.initial_file.as_deref();
     let inputs = Inputs::of_spec(&flags.spec, &spec).with("--initial-file", states);
     let beside = Beside::open(&flags.out, &inputs, &record)?;
@@ -70,6 +70,9 @@ pub fn run(flags: &args::Ensemble) -> Result<u8, Failure> {
     let methods = std::slice::from_ref(&asked.plan.method);
     let work = Work::new(&spec.model, methods, Purpose::Run, clock::processor);
     let work = Arc::new(work.ok_or_else(|| not_here(&spec))?);
+    if flags.reduce.contains(&Reduce::Histogram) {
+        record.histogram = Some(reductions::bins_of(&work, &asked.cast, bins));
+    }
     let (title, kept) = (title(&spec, &asked), of_projection(&spec, &asked.plan));
     let threads = flags.threads.or_else(|| available_parallelism().ok());
     let ensemble = Ensemble {
@@ -181,6 +184,10 @@ fn check(flags: &args::Ensemble) -> Result<(), Failure> {
         let message = Message::option("--quantiles", "no quantiles are computed");
         mistakes.push(message.help("ask for them by `--reduce quantiles`"));
     }
+    if flags.bins.is_some() && !flags.reduce.contains(&Reduce::Histogram) {
+        let message = Message::option("--bins", "no histogram is computed");
+        mistakes.push(message.help("ask for it by `--reduce histogram`"));
+    }
     match mistakes.is_empty() {
         true => Ok(()),
         false => Err(Failure::invalid(mistakes)),
@@ -195,29 +202,6 @@ fn asked(spec: &Spec, flags: &args::Ensemble) -> Result<Asked, Failure> {
         spread: flags.spread.as_ref(),
     };
     cast(spec, &flags.request, drawing).map_err(Failure::invalid)
-}
-
-/// The probabilities of quantiles, in the order in which they are given.
-fn quantiles(flags: &args::Ensemble) -> Result<Vec<f64>, Failure> {
-    if !flags.reduce.contains(&Reduce::Quantiles) {
-        return Ok(Vec::new());
-    }
-    let Some(given) = &flags.quantiles else {
-        return Ok(QUANTILES.to_vec());
-    };
-    let given = OptionValue::value("--quantiles", given);
-    let number = |part: OptionValue| {
-        let number = part.number()?;
-        match (0.0..=1.0).contains(&number) {
-            true => Ok(number),
-            false => {
-                let message = part.wrong("a probability is between 0 and 1");
-                Err(message.help("give numbers such as 0.05,0.5,0.95"))
-            }
-        }
-    };
-    let numbers: Result<_, Message> = given.split().into_iter().map(number).collect();
-    Ok(numbers?)
 }
 
 /// What is to be noted of the initial states.
@@ -286,6 +270,7 @@ fn record(
         rows: !ends,
         reduce: reduce.collect(),
         quantiles,
+        histogram: None,
         failures: Vec::new(),
         numbers: None,
     };
