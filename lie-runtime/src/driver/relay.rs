@@ -2,8 +2,9 @@
 //! has come to its end takes the next one, so that none waits for the slowest of eight.
 
 use super::checks::{check_domain, check_start};
-use super::grid::{Grid, Place, Rows};
+use super::grid::{Grid, Place};
 use super::options::{OptionError, Options, Pace, Save};
+use super::rows::Rows;
 use crate::methods::{Keep, Legs, Method, Relay, StepReport, Stepper as _};
 use crate::poisson::Poisson;
 use crate::scalar::{Mask, Scalar};
