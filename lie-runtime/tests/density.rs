@@ -27,7 +27,7 @@ lie_poisson! {
     state x, y, z;
     hamiltonian = x^2/4 + y^2/2 + 3*z^2/4;
     initial = [1/1000, 1, 1/500];
-    methods = [lie_midpoint];
+    methods = [lie-midpoint, collective16, taylor];
 }
 
 lie_poisson! {
@@ -37,7 +37,7 @@ lie_poisson! {
     state x, y, z;
     hamiltonian = sin(x) + exp(y/2) + sqrt(1 + z^2) + x*y^2*z;
     initial = [3/5, -1/2, 7/10];
-    methods = [lie_midpoint];
+    methods = [lie-midpoint, collective16, taylor];
 }
 
 lie_poisson! {
@@ -47,7 +47,7 @@ lie_poisson! {
     state x, y, z;
     hamiltonian = z^2 + x*cos(t) + y*sin(t);
     initial = [3/5, -1/2, 7/10];
-    methods = [lie_midpoint];
+    methods = [lie-midpoint, collective16, taylor];
 }
 
 macro_rules! start {
@@ -126,10 +126,11 @@ fn steps_go_back_over_the_same_times() {
         defect(body(), LieMidpoint::exp(), 0.1, 60.0),
         defect(body(), Collective16::hopf(), 1.0, 60.0),
         defect(spin(), LieMidpoint::cayley(), 0.05, 20.0),
-        defect(driven(), Gauss8, 0.2, 20.0),
+        defect(driven(), Gauss8, 0.1, 20.0),
     ] {
         println!("{missed:e}");
-        assert!(missed < 3e-10, "{missed:e}");
+        // round-off, which grows by 1e3 beside the saddle of the body
+        assert!(missed < 3e-9, "{missed:e}");
     }
     // the control
     let (system, mu0) = planet();
@@ -229,7 +230,10 @@ fn orbits_are_kept_and_the_saddle_is_passed() {
         assert!(solution.drift().energy.max < 1e-11);
         let sizes: Vec<f64> = solution.t.windows(2).map(|t| t[1] - t[0]).collect();
         let largest = sizes.iter().fold(0.0_f64, |most, size| most.max(*size));
-        assert!(largest < 1.1 * step, "steps are longest beside the saddle");
+        assert!(
+            largest < 1.1 * step,
+            "{step}: steps are longest beside the saddle, {largest}"
+        );
         let missed = difference(
             solution.last().expect("an end").1,
             reference.last().expect("an end").1,
@@ -249,7 +253,7 @@ fn a_tolerance_gives_the_first_step() {
     for tolerance in [1e-3, 1e-6, 1e-9] {
         let options = Options::tolerance(tolerance).save(Save::Ends);
         let constant = solve(&problem, Gauss16, &options).expect("a run");
-        assert!(constant.uneven.expect("said") > 5.0);
+        assert!(constant.uneven.expect("said") > 30.0);
         let solution = solve(&problem, Gauss16, &options.reversible().assessed()).expect("a run");
         let (stats, chosen) = (solution.stats, solution.chosen.expect("a step"));
         let error = difference(
@@ -430,4 +434,20 @@ fn steps_that_are_too_long_end_in_a_message() {
         &mut nothing,
     )
     .expect("the remedy");
+}
+
+/// Where H depends on the time a run has the same end as with steps of one size.
+#[test]
+fn the_time_is_followed() {
+    let (system, mu0) = driven();
+    let problem = Problem::new(system, mu0, (0.0, 20.0));
+    let reference = solve(&problem, Gauss16, &Options::new(0.05)).expect("a reference");
+    let missed = [0.2, 0.1, 0.05].map(|step| {
+        let options = Options::new(step).reversible();
+        let solution = solve(&problem, Gauss8, &options).expect("a run");
+        let [found, expected] = [&solution, &reference].map(|run| run.last().expect("an end").1);
+        difference(found, expected)
+    });
+    println!("{missed:?}");
+    assert!(missed[0] < 1e-6 && missed[1] < 1e-2 * missed[0] && missed[2] < 1e-11);
 }

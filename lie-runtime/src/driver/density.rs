@@ -211,6 +211,8 @@ pub(super) struct Growth<S: Scalar, P: Poisson<S>> {
     field: P::State,
     gradient: P::State,
     jacobian: P::Jacobian,
+    /// Of it as of the Jacobian only the entries are written that are not zero everywhere.
+    hessian: P::Jacobian,
     /// Whether the Poisson matrix is linear.
     is_linear: bool,
 }
@@ -221,7 +223,8 @@ impl<S: Scalar, P: Poisson<S>> Growth<S, P> {
             field: system.zero_state(),
             gradient: system.zero_state(),
             jacobian: system.zero_jacobian(),
-            is_linear: system.poisson_degree() == Some(1),
+            hessian: system.zero_jacobian(),
+            is_linear: is_linear(system),
         }
     }
 
@@ -269,10 +272,10 @@ impl<S: Scalar, P: Poisson<S>> Growth<S, P> {
         }
         if self.is_linear {
             system.gradient(mu, &mut self.gradient);
-            system.hessian(mu, &mut self.jacobian);
+            system.hessian(mu, &mut self.hessian);
             let (sizes, speeds) = (dot(mu, mu), dot(&self.gradient, &self.gradient));
             let faster = places().map(|row| {
-                let image = image(row, &self.jacobian, &self.field);
+                let image = image(row, &self.hessian, &self.field);
                 (self.gradient.as_slice()[row] * image).to_f64()
             });
             let faster: f64 = faster.sum();
@@ -282,6 +285,27 @@ impl<S: Scalar, P: Poisson<S>> Growth<S, P> {
         }
         square
     }
+}
+
+/// Whether the Poisson matrix is linear: twice a state has twice the matrix, and in binary that is exact.
+fn is_linear<S: Scalar, P: Poisson<S>>(system: &P) -> bool {
+    let clock = system.clock();
+    let [once, twice] = [1.0, 2.0].map(|factor| {
+        let (mut mu, mut matrix) = (system.zero_state(), system.zero_jacobian());
+        for (k, entry) in mu.as_mut_slice().iter_mut().enumerate() {
+            *entry = S::from_f64(factor * (1.0 + 0.375 * k as f64));
+        }
+        system.poisson_matrix(&mu, &mut matrix);
+        matrix
+    });
+    let count = system.zero_state().as_slice().len();
+    let places = || (0..count).filter(|&k| !holds(clock, k));
+    places().all(|row| {
+        places().all(|column| {
+            let [once, twice] = [&once, &twice].map(|matrix| matrix.get(row, column).to_f64());
+            twice == once + once
+        })
+    })
 }
 
 /// `|f|^2`, with the second term on a Lie algebra, half of its derivative along the motion, and `|Df f|^2`.

@@ -94,6 +94,7 @@ pub struct Iterated<S: Scalar> {
 impl<S: Scalar, V: State<S::Wide>> StageParallel<S, V> {
     /// Steps of size h with so many stages, at most 8; `zero` is any vector of the right size.
     pub fn new(stages: usize, h: S, zero: V, options: &NewtonOptions) -> Self {
+        assert!(stages <= 8, "a number has eight places");
         let mut table = [S::Wide::one(); TABLE];
         let ratios = diagonals(stages, stages, &|i, j| gauss_ratio::<S>(stages, i, j));
         let ahead = diagonals(stages, stages, &|i, j| gauss_ahead::<S>(stages, i, j));

@@ -11,21 +11,31 @@ use crate::message::{Fault, Message};
 impl Planner<'_> {
     /// Whether the steps of a method follow the motion.
     pub(super) fn density(&mut self, choice: &Choice, keep: Keep) -> Density {
-        let Some(given) = self.method_option("density") else {
+        let of_spec = || self.in_spec("density").into_iter().next();
+        let given = self
+            .method_option("density")
+            .or_else(|| of_spec().filter(|_| self.picks()));
+        let Some(given) = given else {
             return Density::Constant;
         };
-        if given.text.trim() != "reversible" {
-            let text = format!("unknown density of steps `{}`", given.text.trim());
-            let help = "write `reversible`, or leave it out for steps of one size";
-            self.keep(Err::<(), _>(given.wrong(text).help(help)));
-            return Density::Constant;
+        match given.text.trim() {
+            "reversible" => {}
+            "constant" => return Density::Constant,
+            other => {
+                let text = format!("unknown density of steps `{other}`");
+                let help = "write `reversible`, or `constant` for steps of one size";
+                self.keep(Err::<(), _>(given.wrong(text).help(help)));
+                return Density::Constant;
+            }
         }
         if let Some((why, help)) = self.has_constant_steps(choice) {
             self.foreign("density", given.wrong(why).help(help));
         } else if let Some(message) = self.hinders_density(&given, keep) {
             self.mistakes.push(message);
+        } else {
+            return Density::Reversible;
         }
-        Density::Reversible
+        Density::Constant
     }
 
     /// Why a method does not take a density, and which ones do.

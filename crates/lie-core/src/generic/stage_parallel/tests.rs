@@ -1,7 +1,7 @@
 use super::*;
 use crate::generic::diagonals::total;
 use crate::generic::pair::Pair;
-use crate::generic::tableau::gauss_entry;
+use crate::generic::tableau::{gauss_entry, gauss_weight};
 
 type Wide = <f64 as Scalar>::Wide;
 
