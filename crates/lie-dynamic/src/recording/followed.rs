@@ -29,8 +29,10 @@ pub(super) struct Followed<'a, S: Scalar> {
     resting: u32,
     /// Whether the trace of the last step made iterations that it did not need.
     is_long: bool,
-    /// The first lane that the last one was not for that was tried in vain.
+    /// The lane of the step that another trace would be for: the first that the last one was not for, or the one that took most.
     missed: usize,
+    /// Steps that were made by traces.
+    steps: u64,
     /// What the last trace gave and what the next one gives: a state, what the stepper of a method would remember, and a report.
     last: Vec<S>,
     results: Vec<S>,
@@ -52,6 +54,7 @@ impl<'a, S: Scalar> Followed<'a, S> {
             resting: 0,
             is_long: false,
             missed: 0,
+            steps: 0,
             results: last.clone(),
             last,
         }
@@ -94,9 +97,14 @@ impl<'a, S: Scalar> Followed<'a, S> {
         (self.rest, self.resting) = (0, 0);
     }
 
-    /// The first lane that the last trace was not for that was tried in vain.
+    /// The lane of the last step that another trace would be for.
     pub fn missed(&self) -> usize {
         self.missed
+    }
+
+    /// How many steps were made by traces.
+    pub fn steps(&self) -> u64 {
+        self.steps
     }
 
     /// Tries none for so many steps.
@@ -126,11 +134,15 @@ impl<'a, S: Scalar> Followed<'a, S> {
         let made = self.follow(mu);
         if made.is_some() {
             self.rest /= 2;
+            self.steps += 1;
             return made;
         }
         if !self.ready.is_empty() {
             self.rest = (2 * self.rest + 1).min(LONGEST_REST);
             self.resting = self.rest;
+        } else if !known.is_open() {
+            // there will be none
+            self.resting = u32::MAX;
         }
         if known.is_due() {
             known.add(take(self, mu));
@@ -175,6 +187,13 @@ impl<'a, S: Scalar> Followed<'a, S> {
                     mu.copy_from_slice(&self.last[..mu.len()]);
                     let report = reported(most, &self.last[places.end..]);
                     self.is_long = report.iterations < most.iterations;
+                    if self.is_long {
+                        let fewer = self.last[places.end + 1];
+                        let of_lane = |lane: &usize| fewer.lane(*lane).to_f64();
+                        let lanes = 0..S::LANES;
+                        let slowest = lanes.min_by(|a, b| of_lane(a).total_cmp(&of_lane(b)));
+                        self.missed = slowest.unwrap_or(0);
+                    }
                     return Some(report);
                 }
             }

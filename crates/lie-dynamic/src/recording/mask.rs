@@ -58,7 +58,7 @@ impl Mask for RecordedMask {
         Self::Known(bits & 1 == 1)
     }
     fn bits(self) -> u64 {
-        match self {
+        match self.settled() {
             Self::Known(is) => u64::from(is) * u64::from(u8::MAX),
             Self::Number(_, is) => Recorded::<1>::branch(u64::from(is)),
         }

@@ -149,6 +149,13 @@ impl<S: Scalar> Dynamic<S> {
         compiled.steps.get(choice, || Step::new(choice, compiled))
     }
 
+    /// How many steps of a method were made by traces, by steppers that are there no more.
+    pub fn steps_by_traces(&self, choice: &Choice) -> u64 {
+        let traces = &self.values.compiled.traces;
+        let traces = traces.all_of(|((known, _), _)| known == choice.solved());
+        traces.iter().map(|traces| traces.steps()).sum()
+    }
+
     /// How many programs of the whole there are for a method by now: its step, or the traces of it.
     pub fn programs(&self, choice: &Choice) -> usize {
         let compiled = &self.values.compiled;

@@ -324,8 +324,10 @@ fn written_in<T>(record: Record, run: impl FnOnce() -> Option<T>) -> Option<(T, 
     }
     let before = Before(RECORD.replace(record));
     let given = run();
-    let record = RECORD.replace(Record::default());
+    let mut record = RECORD.replace(Record::default());
     drop(before);
+    // nothing is written down any more
+    (record.done, record.answers) = Default::default();
     (!record.branched).then_some((given?, Written(record)))
 }
 

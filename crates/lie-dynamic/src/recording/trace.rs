@@ -1,6 +1,6 @@
 //! Steps of methods with a solver as programs. Which operations a step makes is decided by values: how many iterations it takes, whether
-//! it starts from a prediction. A trace is what one step did, with what was asked meanwhile; it is run for the next steps, and counts
-//! where all answers that skip something are the same. Elsewhere the method makes the step, and another trace may be taken.
+//! it starts from a prediction. A trace is what one step did, with what was asked meanwhile; those that there are make one tree of programs,
+//! which is run for the next steps. Where a step has an answer that is in no trace the method makes it, and another trace may be taken.
 
 use super::record::{Guard, Written, followed, with_record};
 use super::recorded::reported;

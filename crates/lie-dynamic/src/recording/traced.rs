@@ -161,6 +161,12 @@ impl<'a> TracedStepper<'a> {
     }
 }
 
+impl Drop for TracedStepper<'_> {
+    fn drop(&mut self) {
+        self.known.count_steps(self.followed.steps());
+    }
+}
+
 impl Stepper<f64> for TracedStepper<'_> {
     type State = Vec<f64>;
 

@@ -145,6 +145,8 @@ impl TracedLanes<'_> {
             total = StepReport {
                 iterations: total.iterations.max(report.iterations),
                 evaluations: total.evaluations.max(report.evaluations),
+                fixed_point: total.fixed_point.max(report.fixed_point),
+                factorizations: total.factorizations.max(report.factorizations),
                 residual: Scalar::max(total.residual, report.residual),
                 ..report
             };
@@ -159,6 +161,12 @@ impl TracedLanes<'_> {
             }
         }
         failure.map_or(Ok(total), Err)
+    }
+}
+
+impl Drop for TracedLanes<'_> {
+    fn drop(&mut self) {
+        self.known.count_steps(self.followed.steps());
     }
 }
 

@@ -7,7 +7,7 @@ use crate::system::Dynamic;
 use lie_codegen::methods::Choice;
 use lie_runtime::Scalar;
 use lie_runtime::newton::NewtonOptions;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// More traces of a step are not taken.
@@ -28,12 +28,14 @@ pub(crate) struct Traces {
     waiting: Mutex<Waiting>,
     /// Whether more are taken.
     open: AtomicBool,
+    /// Steps that were made by them.
+    steps: AtomicU64,
 }
 
 /// Those there are, and the same as one tree.
 #[derive(Debug, Default)]
 struct Known {
-    all: Vec<Trace>,
+    all: Vec<Arc<Trace>>,
     tree: Arc<Tree>,
 }
 
@@ -60,6 +62,7 @@ impl Traces {
                 refused: 0,
             }),
             open: AtomicBool::new(true),
+            steps: AtomicU64::new(0),
         }
     }
 
@@ -83,7 +86,7 @@ impl Traces {
 
     /// Counts a step that none was for; whether one is to be taken.
     pub fn is_due(&self) -> bool {
-        if !self.open.load(Ordering::Relaxed) {
+        if !self.is_open() {
             return false;
         }
         let mut waiting = self.waiting();
@@ -105,18 +108,48 @@ impl Traces {
                 waiting.refused += 1;
                 waiting.refused >= REFUSALS
             }
-            Taken::Trace(trace) => {
-                let mut known = self.known();
-                if known.all.iter().all(|other| trace.parts_from(other)) {
-                    known.all.push(*trace);
-                    known.tree = Arc::new(Tree::new(&known.all, &known.tree));
-                }
-                known.all.len() >= MOST
-            }
+            Taken::Trace(trace) => self.grow(trace),
         };
         if full {
             self.open.store(false, Ordering::Relaxed);
         }
+    }
+
+    /// The tree with another trace, if it is not there; whether there are as many as there may be. The tree is made while others go on
+    /// with the one before.
+    fn grow(&self, trace: Box<Trace>) -> bool {
+        let (mut all, mut before) = {
+            let mut known = self.known();
+            if known.all.iter().all(|other| trace.parts_from(other)) {
+                known.all.push(Arc::from(trace));
+            }
+            (known.all.clone(), Arc::clone(&known.tree))
+        };
+        loop {
+            let tree = Arc::new(Tree::new(&all, &before));
+            let mut known = self.known();
+            if known.all.len() == all.len() {
+                known.tree = tree;
+                return all.len() >= MOST;
+            }
+            // another one was added meanwhile
+            (all, before) = (known.all.clone(), tree);
+        }
+    }
+
+    /// Whether more are taken.
+    pub fn is_open(&self) -> bool {
+        self.open.load(Ordering::Relaxed)
+    }
+
+    /// Counts steps that were made by traces.
+    pub fn count_steps(&self, steps: u64) {
+        self.steps.fetch_add(steps, Ordering::Relaxed);
+    }
+
+    /// How many steps were made by traces, of steppers that are there no more.
+    pub fn steps(&self) -> u64 {
+        self.steps.load(Ordering::Relaxed)
     }
 }
 

@@ -45,9 +45,9 @@ pub(super) enum Next {
 
 impl Tree {
     /// Of traces that part from one another, with the codes of a tree of some of them where they are the same.
-    pub fn new(traces: &[Trace], before: &Self) -> Self {
+    pub fn new(traces: &[Arc<Trace>], before: &Self) -> Self {
         let mut tree = Self::default();
-        let all: Vec<&Trace> = traces.iter().collect();
+        let all: Vec<&Trace> = traces.iter().map(Arc::as_ref).collect();
         tree.grow(&all, 0, &[], before);
         tree
     }

@@ -95,7 +95,9 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
         mut before: impl FnMut(&mut [S], Range<usize>),
         mut after: impl FnMut(&mut [S], Range<usize>),
     ) {
-        if let Some(family) = &self.family {
+        if S::LOOPS
+            && let Some(family) = &self.family
+        {
             return family.vector_field_by_parts(mu, out, before, after);
         }
         let all = 0..mu.len();
