@@ -5,7 +5,7 @@ mod histogram;
 
 use std::io::{self, Read};
 
-pub use histogram::Bins;
+pub use histogram::{Bins, MOST_BINS};
 
 /// Members that are summed one after the other; then sums are added two by two.
 const LEAF: u64 = 32;

@@ -120,6 +120,18 @@ fn read(path: &Path) -> Result<Part<'_>, Failure> {
         let help = "merge by the program that has written it";
         return Err(Message::io(&beside, text).help(help).into());
     }
+    if record
+        .histogram
+        .as_ref()
+        .is_some_and(|bins| !bins.is_sound())
+    {
+        let message = Message::io(
+            &beside,
+            "the record has no bins that members can be counted in",
+        );
+        let help = "run the share again by `lie ensemble --shard`";
+        return Err(message.help(help).into());
+    }
     Ok(Part { path, record })
 }
 

@@ -2,7 +2,7 @@
 
 use lie_in_process::Work;
 use lie_in_process::ensemble::Cast;
-use lie_in_process::reduce::Bins;
+use lie_in_process::reduce::{Bins, MOST_BINS};
 use lie_in_process::request::OptionValue;
 
 use crate::command::args::{self, Reduce};
@@ -10,8 +10,6 @@ use crate::message::{Failure, Message};
 
 /// The probabilities where none are given.
 const QUANTILES: [f64; 5] = [0.05, 0.25, 0.5, 0.75, 0.95];
-/// The most bins.
-const BINS: f64 = 1e4;
 
 /// The probabilities of quantiles, in the order in which they are given.
 ///
@@ -49,8 +47,8 @@ pub fn bins(flags: &args::Ensemble) -> Result<Option<usize>, Failure> {
     };
     let given = OptionValue::value("--bins", given);
     let number = given.number()?;
-    if !(1.0..=BINS).contains(&number) || number.fract() != 0.0 {
-        let message = given.wrong(format!("bins are a whole number from 1 to {BINS}"));
+    if !(1.0..=MOST_BINS as f64).contains(&number) || number.fract() != 0.0 {
+        let message = given.wrong(format!("bins are a whole number from 1 to {MOST_BINS}"));
         return Err(message.help("give a number such as 50").into());
     }
     Ok(Some(number as usize))

@@ -372,6 +372,7 @@ impl<S: Scalar, P: Poisson<S>> Stepper<S> for Dopri5Stepper<'_, S, P> {
             self.known = self.known & !legs.anew;
             attempts = S::select(legs.begin, S::zero(), attempts);
             progress.failure = None;
+            progress.report = StepReport::default();
             if legs.begin.any() {
                 self.begin(&mut progress, legs.begin);
             }

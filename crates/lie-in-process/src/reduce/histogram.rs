@@ -36,6 +36,9 @@ const COUNT: usize = 50;
 /// Sectors of each band: bins at the equator are nearly squares.
 const SECTORS: usize = 3;
 
+/// The most bands, and the most bins of a coordinate: of a sphere there are three million then.
+pub const MOST_BINS: usize = 1000;
+
 /// So many points tell whether leaves are spheres.
 const POINTS: i32 = 8;
 
@@ -82,6 +85,16 @@ impl Bins {
                 count: count.unwrap_or(COUNT),
                 ranges: Vec::new(),
             },
+        }
+    }
+
+    /// Whether members can be counted there, which of bins that were read is not sure.
+    pub fn is_sound(&self) -> bool {
+        match *self {
+            Self::Sphere { bands, sectors } => {
+                (1..=MOST_BINS).contains(&bands) && sectors == SECTORS * bands
+            }
+            Self::Coordinates { count, .. } => (1..=MOST_BINS).contains(&count),
         }
     }
 
