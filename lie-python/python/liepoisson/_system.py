@@ -84,7 +84,7 @@ class System(Declared):
         values at the start: they are kept to round-off. The steps are no Poisson maps for that, and ``run.kept`` says what was.
 
         ``density="reversible"`` lets the size of steps follow the motion, from ``h`` or the step that ``tol`` chooses on: a symmetric
-        method stays reversible, without drift in the energy, and is no Poisson map for that.
+        method stays reversible, so that the energy of reversible motion does not drift, and is no Poisson map for that.
 
         ``assess=True`` makes a second run with other steps, which takes 1.25 times as long, and tells by how much the end is off:
         ``run.error``.

@@ -167,8 +167,8 @@ request! {
     /// Brings the state back behind each step of taylor, dopri5 or rk4 to the values that energy and Casimirs have at the start:
     /// energy, casimirs or energy,casimirs. They are kept to round-off; the steps are no Poisson maps for that
     word keep "keep" "WHAT";
-    /// Lets the size of steps follow the motion: reversible, by an integrating step density from --step or the step that --tol chooses. A
-    /// symmetric method stays reversible, and energy has no drift; the steps are no Poisson maps for that
+    /// Lets the size of steps follow the motion: reversible, by an integrating step density from --step or the step that --tol chooses, or
+    /// constant. A symmetric method stays reversible, so that the energy of reversible motion does not drift; the steps are no Poisson maps
     word density "density" "NAME";
 }
 
