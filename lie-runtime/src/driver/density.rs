@@ -150,7 +150,7 @@ impl<M> Course<'_, M> {
         let growth = Growth::new(system).at(system, mu);
         let control = Control::begin(self.step, growth).map_err(|why| self.unsteered(why))?;
         let here = (self.index, self.grid.time(self.index));
-        self.grid = self.grid.from_here_on(here, self.step);
+        self.grid = self.grid.changed_from(here, self.step);
         self.control = Some(control);
         Ok(())
     }
@@ -172,7 +172,7 @@ impl<M> Course<'_, M> {
             .after(before, growth)
             .map_err(|why| self.unsteered(why))?;
         self.control = Some(control);
-        self.grid = (self.grid).from_here_on((self.index, time), control.step());
+        self.grid = (self.grid).changed_from((self.index, time), control.step());
         set_time(system, mu, time);
         Ok(control.step())
     }

@@ -88,7 +88,7 @@ impl Grid {
     }
 
     /// The same from a point on with another step, which need not lead to the end.
-    pub(super) fn from_here_on(self, (index, time): (u64, f64), step: f64) -> Self {
+    pub(super) fn changed_from(self, (index, time): (u64, f64), step: f64) -> Self {
         let grid = Self {
             step,
             from: (index, time),

@@ -101,7 +101,7 @@ impl<M> Course<'_, M> {
             index, division, ..
         } = *milestone;
         let grid = match (division.control, division.shortened) {
-            (Some(control), _) => (self.grid).from_here_on((index, milestone.time), control.step()),
+            (Some(control), _) => (self.grid).changed_from((index, milestone.time), control.step()),
             (None, None) => self.grid,
             (None, Some((first, time, steps))) => self.grid.going_on_with((first, time), steps),
         };
