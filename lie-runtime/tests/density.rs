@@ -134,8 +134,8 @@ fn steps_go_back_over_the_same_times() {
     }
     // the control
     let (system, mu0) = planet();
-    let there = chosen_by_the_start(&system, mu0.clone(), Gauss16, (0.0, 0.015), (PERIOD, 1.0));
-    let (time, mu) = there.last().expect("an end").clone();
+    let there = chosen_by_the_start(&system, mu0, Gauss16, (0.0, 0.015), (PERIOD, 1.0));
+    let (time, mu) = *there.last().expect("an end");
     let size = time - there[there.len() - 2].0;
     let back = chosen_by_the_start(&system, mu, Gauss16, (time, size), (0.0, -1.0));
     let missed = (back.iter().map(|(time, _)| time.abs())).fold(f64::INFINITY, f64::min);
