@@ -1,10 +1,10 @@
-//! A step allocates nothing, by every method on every system made at run time.
+//! A step of a family allocates nothing, by every method that it has.
 
 use allocation_counter::measure;
 use lie_codegen::compile::compile_spec;
 use lie_codegen::methods::Choice;
 use lie_codegen::plan::plan;
-use lie_dynamic::{Declared, Dynamic, Engine, Interpreted, Tolerances, method};
+use lie_dynamic::{Declared, Dynamic, Engine, Tolerances, method};
 use lie_in_process::list;
 use lie_jit::Jit;
 use lie_runtime::newton::NewtonOptions;
@@ -69,32 +69,6 @@ fn asking(
         }
     }
     (asking, looked)
-}
-
-/// The specs with these names.
-fn named(names: &[&str]) -> Vec<(String, String)> {
-    let mut all = specs("specs");
-    all.retain(|(name, _)| names.contains(&name.as_str()));
-    assert_eq!(all.len(), names.len());
-    all
-}
-
-#[test]
-fn long_runs_allocate_nothing() {
-    let specs = named(&["so3_free_rigid_body.json", "se3_heavy_top.json"]);
-    let (asking, looked) = asking(&specs, &Jit, (true, &[], 1000));
-    assert!(looked > 60, "{looked}");
-    assert!(asking.is_empty(), "{asking:#?}");
-}
-
-#[test]
-fn steps_allocate_nothing() {
-    let specs = specs("specs");
-    for (engine, hurry) in [(&Jit as &dyn Engine, true), (&Interpreted, false)] {
-        let (asking, looked) = asking(&specs, engine, (hurry, &[], 10));
-        assert!(looked > 300, "{looked}");
-        assert!(asking.is_empty(), "{}: {asking:#?}", engine.name());
-    }
 }
 
 #[test]

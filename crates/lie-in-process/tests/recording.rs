@@ -157,7 +157,7 @@ fn on_every_spec() {
     println!("without traces: {untraced:#?}");
     // steps that are one program, methods with a solver that have traces, and that have none, nearly all because their steps are too
     // long; docs/back_ends.md quotes them
-    assert_eq!((steps, traced, untraced.len()), (352, 808, 30));
+    assert_eq!((steps, traced, untraced.len()), (352, 794, 44));
 }
 
 /// States that do not follow, a step that fails and others behind it: answers that differ from those of the traces.
@@ -260,7 +260,7 @@ fn traces_within_a_run() {
         let traces = both.compiled.programs(&choice);
         assert!((1..=24).contains(&traces), "{id}: {traces}");
         let steps = both.compiled.steps_by_traces(&choice);
-        assert!(steps > 1500, "{id}: {steps} of 3,000 by traces");
+        assert!(steps > 1000, "{id}: {steps} of 3,000 by traces");
         assert_eq!(
             found,
             end(&both.interpreted, &choice, 0.05, &mu, 3000),

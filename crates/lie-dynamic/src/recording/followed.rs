@@ -12,7 +12,7 @@ use std::cell::OnceCell;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// For so many steps at most none is tried after one that none was for.
+/// For so many steps at most none is tried after several, one behind the other, that none was for.
 const LONGEST_REST: u32 = 32;
 
 /// The steps of a system by traces, and what these carry from step to step.
@@ -133,13 +133,14 @@ impl<'a, S: Scalar> Followed<'a, S> {
         }
         let made = self.follow(mu);
         if made.is_some() {
-            self.rest /= 2;
+            self.rest = 0;
             self.steps += 1;
             return made;
         }
         if !self.ready.is_empty() {
-            self.rest = (2 * self.rest + 1).min(LONGEST_REST);
+            // one alone costs a part of a step
             self.resting = self.rest;
+            self.rest = (2 * self.rest + 1).min(LONGEST_REST);
         } else if !known.is_open() {
             // there will be none
             self.resting = u32::MAX;

@@ -85,7 +85,9 @@ impl Record {
 
     /// What is known of a number that is 1 where something holds and 0 elsewhere.
     pub fn answer(&self, number: Register) -> Option<bool> {
-        self.answers.get(&number).copied()
+        // where nothing is written down any more, numbers are not told apart
+        let known = self.answers.get(&number).copied();
+        known.filter(|_| !self.branched)
     }
 
     /// Asks of such a number whether it is 1 in every lane, or in any, which values decide; as expected it is.
