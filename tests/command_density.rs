@@ -57,9 +57,9 @@ fn rows_plots_and_the_group_go_along() {
     ));
     let times: Vec<f64> = rows.ok().csv().1.iter().map(|row| row[0]).collect();
     assert_eq!(times, [0.0, 10.0, 20.0, 30.0, 40.0, 50.0, 60.0]);
-    let body = "run specs/so3_free_rigid_body.json --until 20 --step 0.5 --density reversible";
+    let body = "run specs/so3_free_rigid_body.json --step 0.5 --density reversible";
     let group = lie(&format!("{body} --group quaternion --at 3,20")).ok();
-    let fine = "run specs/so3_free_rigid_body.json --until 20 --step 0.005 --group quaternion";
+    let fine = "run specs/so3_free_rigid_body.json --step 0.005 --group quaternion";
     let fine = lie(&format!("{fine} --method gauss4 --at 3,20")).ok();
     for method in ["gauss16", "lie-midpoint --step 0.01"] {
         let call = match method {
