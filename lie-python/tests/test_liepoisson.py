@@ -301,7 +301,8 @@ def test_steps_follow_the_motion_and_go_back() -> None:
     assert sizes[0] == pytest.approx(0.0158) and sizes.max() > 8 * sizes.min()
     assert np.abs(there.energy + 0.5).max() < 1e-6
     back = planet().run("gauss16", h=-sizes[-1], t0=there.t[-2], t=0, x0=there.mu[-2], density="reversible")
-    assert np.abs(back.mu[::-1] - there.mu[:-1]).max() < 1e-9
+    # which comes to the start but for round-off, and may have a row there and one at 0
+    assert np.abs(back.mu[: len(sizes) + 1][::-1] - there.mu[:-1]).max() < 1e-9
     plain = planet().run("gauss16", h=0.0158, t=60)
     assert plain.density is None and plain.steps > 10 * there.steps
     between = there.at([0.3, 31.4])
