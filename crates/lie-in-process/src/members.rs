@@ -3,7 +3,7 @@
 //!
 //! Every lane has the bits of the member run alone, so that nobody can tell which members were side by side. A member that
 //! fails is run again alone, and says what it says alone; the others of its group are run again without it. Where members choose
-//! their own steps, they [take turns](turns).
+//! their own steps, they take turns.
 
 mod turns;
 
