@@ -10,6 +10,9 @@
 //!
 //! The sum decides and not the largest error: to divide all steps for the sake of a few costs more than these do.
 
+mod guard;
+mod parts;
+
 use super::pace::Chosen;
 use super::trial::Trial;
 use crate::matrix::SquareMatrix;
@@ -17,6 +20,8 @@ use crate::methods::Method;
 use crate::poisson::Poisson;
 use crate::scalar::{Scalar, largest};
 use crate::state::State;
+pub(super) use guard::Guard;
+pub(super) use parts::{JACOBIAN, MOST_PARTS, SLOW_PARTS, divided};
 
 /// The Jacobian is looked at up to so many coordinates: beyond, it costs more than a step may.
 const MOST_COORDINATES: usize = 12;
@@ -28,8 +33,6 @@ const FAR_TOO_LARGE: f64 = 30.0;
 const ROOM: (f64, f64) = (4.0, 64.0);
 /// Steps are looked at once in so much of the time in which the motion changes.
 const LOOK: f64 = 2.0;
-/// Into so many parts a step is divided at most.
-pub(super) const MOST_PARTS: u32 = 1 << 12;
 
 /// A number that follows the error of steps of an order.
 pub(super) struct Gauge<S: Scalar, P: Poisson<S>> {
@@ -392,99 +395,4 @@ impl<S: Scalar, P: Poisson<S>> Field<S, P> {
             Verdict::Kept
         }
     }
-}
-
-/// A watch with what tries steps.
-pub(super) struct Guard<'a, S: Scalar, P: Poisson<S>, M> {
-    pub(super) watch: Watch<S, P>,
-    pub(super) trial: Trial<'a, S, P, M>,
-}
-
-impl<S: Scalar, P: Poisson<S>, M: Method<S, P>> Guard<'_, S, P, M> {
-    /// Whether the step to come, whose number is known, is looked at; keeps the state before it if so.
-    #[inline(always)]
-    pub(super) fn begins(&mut self, mu: &P::State, index: u64) -> bool {
-        let watch = &mut self.watch;
-        watch.left -= 1;
-        let due = watch.left == 0;
-        if due {
-            if let By::Stages = watch.by {
-                watch.sum.interval = if index < FIRST_STEPS { 1 } else { BETWEEN };
-            }
-            watch.left = watch.sum.interval;
-        }
-        if due || matches!(watch.by, By::Stages) {
-            watch.before.copy_from(mu);
-        }
-        due
-    }
-
-    /// Whether a step took so many more iterations than usual that it is looked at before its turn: its stages are at hand.
-    #[inline(always)]
-    pub(super) fn wonders(&self, iterations: u32) -> bool {
-        let usual = self.watch.usual;
-        matches!(self.watch.by, By::Stages) && iterations > usual.saturating_add(WONDER)
-    }
-
-    /// A step that is looked at took so many iterations.
-    #[inline(always)]
-    pub(super) fn usual(&mut self, iterations: u32) {
-        self.watch.usual = iterations;
-    }
-
-    /// The state before the step.
-    pub(super) fn before(&self) -> &P::State {
-        &self.watch.before
-    }
-
-    /// See [`Observer::uneven`](super::Observer::uneven).
-    pub(super) fn uneven(&self) -> Option<f64> {
-        let order = f64::from(self.trial.method.order().max(1));
-        self.watch.uneven(order)
-    }
-
-    /// Whether the stages of steps tell their errors.
-    pub(super) fn is_by_stages(&self) -> bool {
-        matches!(self.watch.by, By::Stages)
-    }
-
-    /// Steps have this size from here on.
-    pub(super) fn steps_are(&mut self, h: f64) {
-        self.watch.sum.share = h.abs() / self.trial.span;
-    }
-
-    /// What becomes of the step of h with a number that was made in some parts and has ended at a state; the stages of its last
-    /// part may tell the error of that.
-    #[inline(always)]
-    pub(super) fn looks(
-        &mut self,
-        system: &P,
-        (index, h, parts): (u64, f64, u32),
-        end: &P::State,
-        told: impl FnOnce() -> Option<S>,
-    ) -> Verdict {
-        let watch = &mut self.watch;
-        let By::Field(field) = &mut watch.by else {
-            let error = told().map_or(f64::NAN, largest);
-            let part = self.trial.part(error, h / f64::from(parts));
-            let order = f64::from(self.trial.method.order().max(1));
-            return watch.by_part(part, order, index);
-        };
-        let number = field.gauge.at(system, end);
-        if !field.exceeded(number, &mut watch.sum) {
-            return Verdict::Kept;
-        }
-        let at = (system, &watch.before);
-        field.needed(&mut watch.sum, &self.trial, at, (h, parts), number)
-    }
-}
-
-/// A step that needs a Jacobian in place of a fixed point costs about as much as so many that do not.
-pub(super) const JACOBIAN: u64 = 200;
-/// Into so many parts steps are divided at most in order to contract.
-pub(super) const SLOW_PARTS: f64 = 8.0;
-
-/// In how many parts a step is made that failed in some; none where that is enough.
-pub(super) fn divided(parts: u32) -> Option<u32> {
-    (parts < MOST_PARTS).then_some(2 * parts)
 }
