@@ -19,7 +19,9 @@ use crate::state::State;
 use crate::structure::Spectrum;
 use core::ops::Range;
 
-/// A Hamiltonian system `mu' = f(mu) = Pi(mu) grad H(mu)` on a Poisson manifold with n coordinates.
+/// A system `mu' = f(mu) = Pi(mu) grad H(mu)` on a Poisson manifold with n coordinates; where forces F or damping act beside the
+/// Hamiltonian ([`Poisson::is_forced`], [`Poisson::is_damped`]), `mu' = f(mu) = Pi(mu) xi(mu) + F(mu)` with the generator
+/// `xi = grad H + c G ad*_{grad H} mu`.
 ///
 /// All functions write their result into `out` (every entry) and allocate nothing.
 #[diagnostic::on_unimplemented(
@@ -133,7 +135,46 @@ pub trait Poisson<S: Scalar>: Sized {
         generic::poisson_slope(self, xi, out);
     }
 
-    /// The vector field `f(mu) = Pi(mu) grad H(mu)`.
+    /// Whether forces act: the field is not `Pi(mu) xi` alone, and no orbit is kept.
+    fn is_forced(&self) -> bool {
+        false
+    }
+    /// The force F(mu), a covector as mu is: `out_i = F_i`. Of a system with a [`Poisson::clock`] the component along the momentum of the
+    /// time is `-<F, grad H>`, so that H with that momentum stays constant: what the forces do is taken from there.
+    fn force(&self, _mu: &Self::State, out: &mut Self::State) {
+        out.fill(S::zero());
+    }
+    /// The derivative of the force: `out_ij = dF_i/dmu_j`.
+    fn force_slope(&self, _mu: &Self::State, out: &mut Self::Jacobian) {
+        *out = self.zero_jacobian();
+    }
+    /// Whether damping along coadjoint orbits acts: the generator is not the gradient of H.
+    fn is_damped(&self) -> bool {
+        false
+    }
+    /// The generator of the motion along the coadjoint orbit: `xi = grad H`, and `xi = grad H + c G ad*_{grad H} mu` where a double bracket of
+    /// strength c and metric G damps.
+    fn generator(&self, mu: &Self::State, out: &mut Self::State) {
+        self.gradient(mu, out);
+    }
+    /// The derivative of the generator: `out_ij = dxi_i/dmu_j`, the Hessian of H where nothing damps.
+    fn generator_slope(&self, mu: &Self::State, out: &mut Self::Jacobian) {
+        self.hessian(mu, out);
+    }
+
+    /// The number of declared functions of the state that [`Poisson::quantities`] writes: the work of the forces, first integrals,
+    /// observables, inputs.
+    fn quantity_count(&self) -> usize {
+        0
+    }
+    /// The name of such a function.
+    fn quantity_name(&self, _index: usize) -> &str {
+        ""
+    }
+    /// Their values at mu; `out` has [`Poisson::quantity_count`] entries.
+    fn quantities(&self, _mu: &Self::State, _out: &mut [S]) {}
+
+    /// The vector field `f(mu) = Pi(mu) xi(mu) + F(mu)`, without forces and damping `Pi(mu) grad H(mu)`.
     fn vector_field(&self, mu: &Self::State, out: &mut Self::State) {
         generic::vector_field(self, mu, out);
     }

@@ -32,32 +32,49 @@ pub(crate) fn direction<S: Scalar, P: Poisson<S>>(
     }
 }
 
-/// The vector field `f = Pi(mu) grad H(mu)`.
+/// The vector field `f = Pi(mu) xi(mu)` with the generator `xi`, grad H where nothing damps, and the force beside it.
 pub fn vector_field<S: Scalar, P: Poisson<S>>(system: &P, mu: &P::State, out: &mut P::State) {
-    let mut gradient = system.zero_state();
-    system.gradient(mu, &mut gradient);
+    let mut generator = system.zero_state();
+    system.generator(mu, &mut generator);
     let mut poisson_matrix = system.zero_jacobian();
     system.poisson_matrix(mu, &mut poisson_matrix);
-    multiply(&poisson_matrix, &gradient, out);
+    multiply(&poisson_matrix, &generator, out);
+    if system.is_forced() {
+        let force = &mut generator;
+        system.force(mu, force);
+        let slots = out.as_mut_slice().iter_mut();
+        slots
+            .zip(force.as_slice())
+            .for_each(|(slot, &f)| *slot += f);
+    }
 }
 
-/// The Jacobian of the vector field, `Df = D(Pi xi) + Pi(mu) H''(mu)` with `xi = grad H(mu)` fixed in the
-/// first term, which for a Lie algebra is `ad*_xi`.
+/// The Jacobian of the vector field, `Df = D(Pi xi) + Pi(mu) Dxi(mu)` with the generator `xi(mu)` fixed in the first term, which for a
+/// Lie algebra is `ad*_xi`, and that of the force beside it. Where nothing damps, `Dxi = H''`.
 pub fn jacobian<S: Scalar, P: Poisson<S>>(system: &P, mu: &P::State, out: &mut P::Jacobian) {
-    let mut gradient = system.zero_state();
-    system.gradient(mu, &mut gradient);
-    system.poisson_slope(mu, &gradient, out);
+    let mut generator = system.zero_state();
+    system.generator(mu, &mut generator);
+    system.poisson_slope(mu, &generator, out);
     let mut poisson_matrix = system.zero_jacobian();
     system.poisson_matrix(mu, &mut poisson_matrix);
-    let mut hessian = system.zero_jacobian();
-    system.hessian(mu, &mut hessian);
+    let mut slope = system.zero_jacobian();
+    system.generator_slope(mu, &mut slope);
     for row in 0..system.dimension() {
         for column in 0..system.dimension() {
             let mut sum = out.get(row, column);
             for middle in 0..system.dimension() {
-                sum += poisson_matrix.get(row, middle) * hessian.get(middle, column);
+                sum += poisson_matrix.get(row, middle) * slope.get(middle, column);
             }
             out.set(row, column, sum);
+        }
+    }
+    if system.is_forced() {
+        system.force_slope(mu, &mut slope);
+        for row in 0..system.dimension() {
+            for column in 0..system.dimension() {
+                let sum = out.get(row, column) + slope.get(row, column);
+                out.set(row, column, sum);
+            }
         }
     }
 }
