@@ -53,6 +53,8 @@ impl<S, M: Facts> Facts for Kept<S, M> {
     const FIXED_POINT: bool = M::FIXED_POINT;
     const OWN_STEPS: bool = M::OWN_STEPS;
     const PRESERVES: Preserves = M::PRESERVES;
+    const FORCES: bool = M::FORCES;
+    const DAMPING: bool = M::DAMPING;
 
     fn order(&self) -> u32 {
         self.method.order()

@@ -19,14 +19,14 @@ pub fn multiply<S: Scalar, M: SquareMatrix<S>, V: State<S>>(matrix: &M, vector: 
     }
 }
 
-/// `out = h grad H(mu)`.
+/// `out = h xi(mu)` with the generator xi, grad H where nothing damps.
 pub(crate) fn direction<S: Scalar, P: Poisson<S>>(
     system: &P,
     h: S,
     mu: &P::State,
     out: &mut P::State,
 ) {
-    system.gradient(mu, out);
+    system.generator(mu, out);
     for entry in out.as_mut_slice() {
         *entry *= h;
     }

@@ -108,6 +108,8 @@ impl<M: Facts, const ORDER: u32> Facts for Compose<M, ORDER> {
     const SYMMETRIC: bool = true;
     const EXPLICIT: bool = M::EXPLICIT;
     const PRESERVES: Preserves = M::PRESERVES;
+    const FORCES: bool = M::FORCES;
+    const DAMPING: bool = M::DAMPING;
 }
 
 impl<S, P, M, const ORDER: u32> Method<S, P> for Compose<M, ORDER>

@@ -63,6 +63,8 @@ impl Facts for Dopri5 {
     const EXPLICIT: bool = true;
     const OWN_STEPS: bool = true;
     const PRESERVES: Preserves = Preserves::LINEAR;
+    const FORCES: bool = true;
+    const DAMPING: bool = true;
 }
 
 impl<S: Scalar, P: Poisson<S>> Method<S, P> for Dopri5 {

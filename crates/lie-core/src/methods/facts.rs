@@ -87,6 +87,12 @@ pub trait Facts {
     const OWN_STEPS: bool = false;
     /// What is kept.
     const PRESERVES: Preserves;
+    /// Whether a step applies where forces act, to `mu' = Pi(mu) xi + F(mu)`, with the order of the method. [`Facts::PRESERVES`] is then
+    /// that of the motion without them.
+    const FORCES: bool = false;
+    /// Whether a step applies where the generator xi of the motion along the orbit is not the gradient of H, as with damping by a
+    /// double bracket, with the order of the method. Orbit and Casimirs stay in [`Facts::PRESERVES`]; the energy falls.
+    const DAMPING: bool = false;
 
     /// [`Facts::ORDER`]; of a method whose type is forgotten, that of the method.
     fn order(&self) -> u32 {

@@ -47,6 +47,8 @@ macro_rules! gauss {
             const EXPLICIT: bool = false;
             const FIXED_POINT: bool = $stages > BY_NEWTON;
             const PRESERVES: Preserves = Preserves::QUADRATIC;
+            const FORCES: bool = true;
+            const DAMPING: bool = true;
         }
     };
 }

@@ -34,6 +34,8 @@ impl Facts for ImplicitMidpoint {
     const SYMMETRIC: bool = true;
     const EXPLICIT: bool = false;
     const PRESERVES: Preserves = Preserves::QUADRATIC;
+    const FORCES: bool = true;
+    const DAMPING: bool = true;
 }
 
 by_equation!([] ImplicitMidpoint);

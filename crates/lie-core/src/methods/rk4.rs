@@ -35,6 +35,8 @@ impl Facts for Rk4 {
     const SYMMETRIC: bool = false;
     const EXPLICIT: bool = true;
     const PRESERVES: Preserves = Preserves::LINEAR;
+    const FORCES: bool = true;
+    const DAMPING: bool = true;
 }
 
 impl<S: Scalar, P: Poisson<S>> Method<S, P> for Rk4 {

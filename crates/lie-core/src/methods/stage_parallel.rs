@@ -41,7 +41,7 @@ pub trait Slopes<'a, S: Scalar, P: Widen<S> + 'a>: Sized {
         stages.at_points(|at, out| self.next(wide, at, out), out);
     }
 
-    /// The directions in the algebra at the stages: `grad H`, or a mean of it.
+    /// The directions in the algebra at the stages: the generator, or a mean of `grad H`.
     fn directions(
         &mut self,
         wide: &P::Widened,
@@ -134,7 +134,7 @@ impl<'a, S: Scalar, P: Widen<S> + 'a> Slopes<'a, S, P> for Field {
         at: At<'_, WideState<S, P>>,
         out: &mut WideState<S, P>,
     ) {
-        wide.gradient(at.points, out);
+        wide.generator(at.points, out);
     }
 }
 
@@ -376,7 +376,7 @@ where
     }
 }
 
-/// Gives away h times the gradients at so many stages, one stage after the other; `xi` is any state of the right size.
+/// Gives away h times the directions at so many stages, one stage after the other; `xi` is any state of the right size.
 pub(super) fn push_velocities<S, V, W, K>(
     count: usize,
     step: S,

@@ -56,6 +56,8 @@ impl Facts for Taylor {
     const EXPLICIT: bool = true;
     const OWN_STEPS: bool = true;
     const PRESERVES: Preserves = Preserves::LINEAR;
+    const FORCES: bool = true;
+    const DAMPING: bool = true;
 }
 
 impl<S: Scalar, P: Series<S>> Method<S, P> for Taylor {
