@@ -142,7 +142,7 @@ impl Measurement for Comparison {
             .model
             .casimirs
             .iter()
-            .all(|casimir| casimir.multivalued);
+            .all(|casimir| casimir.multivalued || !casimir.kept);
         if options.measure == Measure::Casimirs && without {
             let text = "the system has no Casimir with one branch: declare one, or take measure=\"energy\"";
             return Err(PyValueError::new_err(text));

@@ -67,6 +67,10 @@ pub trait Poisson<S: Scalar>: Sized {
     fn casimir_is_multivalued(&self, _index: usize) -> bool {
         false
     }
+    /// Whether the motion keeps a Casimir: forces change those C with `<F, grad C>` not zero.
+    fn casimir_is_kept(&self, _index: usize) -> bool {
+        true
+    }
     /// The largest total degree of an entry of the Poisson matrix in the coordinates, where all are
     /// polynomials in them and that is known: 0 for a constant matrix, for which symplectic methods are
     /// Poisson maps.

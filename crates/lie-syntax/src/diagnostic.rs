@@ -153,6 +153,7 @@ kinds! {
     Method "method" "The method does not apply to the system, or is not built yet.",
     Legendre "legendre" "The Legendre transform fails.",
     Splitting "splitting" "The Hamiltonian cannot be split in this way.",
+    Dissipation "dissipation" "A dissipation that is malformed, or lacks what it promises.",
     Option "option" "Bad or missing option.",
     Io "io" "A file cannot be read or written.",
     Toolchain "toolchain" "cargo is missing or failed.",

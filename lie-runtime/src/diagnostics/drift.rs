@@ -60,7 +60,8 @@ pub struct Drift {
     /// Of the energy: of [`Poisson::hamiltonian`], which is conserved also where H depends on the time and the energy that is
     /// shown is not.
     pub energy: InvariantDrift,
-    /// Of the Casimirs, without those that have several branches ([`Poisson::casimir_is_multivalued`]).
+    /// Of the Casimirs, without those that have several branches ([`Poisson::casimir_is_multivalued`]) or that forces change
+    /// ([`Poisson::casimir_is_kept`]).
     pub casimirs: Vec<InvariantDrift>,
 }
 
@@ -107,7 +108,7 @@ impl<S: Scalar, P: Poisson<S>> Observer<S, P> for DriftMonitor<S> {
         let count = system.casimir_count();
         self.energy = system.hamiltonian(mu);
         self.followed = (0..count)
-            .filter(|&place| !system.casimir_is_multivalued(place))
+            .filter(|&place| !system.casimir_is_multivalued(place) && system.casimir_is_kept(place))
             .collect();
         self.values = vec![S::zero(); count];
         system.casimirs(mu, &mut self.values);

@@ -171,7 +171,7 @@ pub fn verify_step<P: Poisson<f64>, E>(
     claims: &Claims,
     mut step: impl FnMut(&mut P::State, f64) -> Result<(), E>,
 ) -> Result<StepVerification, E> {
-    let kept = claims.preserves;
+    let kept = claims.preserves.on(system);
     let quadratic = |degree: Option<u32>| degree.is_some_and(|degree| degree <= 2);
     let constant = system.poisson_degree() == Some(0);
     let mut facts = vec![order(system, mu, h, claims.order, &mut step)?];
@@ -210,8 +210,9 @@ pub fn verify_step<P: Poisson<f64>, E>(
         drift(mu, h, &energy, &mut control),
     );
     for (name, of_degree_two) in [("quadratic Casimirs", true), ("other Casimirs", false)] {
-        let members =
-            (0..system.casimir_count()).filter(|index| !system.casimir_is_multivalued(*index));
+        let members = (0..system.casimir_count()).filter(|&index| {
+            !system.casimir_is_multivalued(index) && system.casimir_is_kept(index)
+        });
         let members =
             members.filter(|index| quadratic(system.casimir_degree(*index)) == of_degree_two);
         let claimed = kept.casimirs || (of_degree_two && kept.quadratic_casimirs);

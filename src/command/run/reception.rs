@@ -80,7 +80,7 @@ impl<'a, 'p> Reception<'a, 'p> {
             Pace::Tolerance(_) => f64::NAN,
         };
         let mut drift = Drift::new(&layout.columns.made(layout.invariants.clone()));
-        for casimir in model.casimirs.iter().filter(|c| c.multivalued) {
+        for casimir in model.casimirs.iter().filter(|c| c.multivalued || !c.kept) {
             drift.leave_out(&casimir.name);
         }
         Self {

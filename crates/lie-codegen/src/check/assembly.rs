@@ -21,6 +21,7 @@ pub fn assemble(whole: &Whole<'_>, system: System, proven: Proven) -> Model {
         mut scratch,
         matrix,
         energy,
+        driving,
         ..
     } = system;
     let degree = |function| degree::degree(&scratch, function);
@@ -51,6 +52,7 @@ pub fn assemble(whole: &Whole<'_>, system: System, proven: Proven) -> Model {
         energy_origin: declaration.energy.expression().origin,
         configuration: whole.configuration.clone(),
         family: None,
+        driving,
         realization: lowered.realization,
         declared_casimirs: casimirs,
         taken,

@@ -41,7 +41,8 @@ pub fn configuration(
         }
         Some((name.text.clone(), size?))
     });
-    let time = uses_time(declaration);
+    // what forces do is taken from the momentum of the time
+    let time = uses_time(declaration) || declaration.is_driven();
     if group.is_none() && !time {
         return None;
     }
@@ -56,6 +57,7 @@ fn uses_time(declaration: &Declaration) -> bool {
     let lets = declaration.lets.iter().map(|(_, value)| value);
     let mut parts = lets
         .chain([declaration.energy.expression()])
+        .chain(declaration.driving())
         .flat_map(Expr::parts);
     parts.any(|part| matches!(&part.kind, ExprKind::Name { name, index: None } if name == TIME))
 }

@@ -5,8 +5,8 @@ use super::coordinates::Whole;
 use super::environment::{Allowed, Environment};
 use super::lower::Lowering;
 use super::poisson::{self, Entry};
-use super::{defaults, exactness, initial, lets, opaque, parameters, realization};
-use crate::model::{Parameter, Realization};
+use super::{defaults, driving, exactness, initial, lets, opaque, parameters, realization};
+use crate::model::{Acting, Parameter, Realization};
 use lie_symbolic::exact::Rational;
 use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 use lie_syntax::ast;
@@ -26,6 +26,8 @@ pub struct Lowered {
     pub brackets: Vec<Entry>,
     /// The Hamiltonian or the Lagrangian.
     pub energy: ExprId,
+    /// What acts beside the Hamiltonian.
+    pub acting: Vec<Acting>,
     /// The Casimirs.
     pub casimirs: Vec<ExprId>,
     /// The realization.
@@ -53,8 +55,9 @@ pub fn lower(
     lets::abbreviations(declaration, &mut graph, &mut environment, mistakes);
     let brackets =
         poisson::coordinate_brackets(declaration, &mut graph, &environment, name, mistakes);
-    let mut lower =
-        |expr, allowed| Lowering::new(&mut graph, &environment, mistakes, allowed).lower(expr);
+    let mut lower = |expr: &ast::Expr, allowed| {
+        Lowering::new(&mut graph, &environment, mistakes, allowed).lower(expr)
+    };
     let energy = lower(
         declaration.energy.expression(),
         match declaration.energy {
@@ -64,6 +67,7 @@ pub fn lower(
             }
         },
     );
+    let acting = driving::acting(whole, &mut lower);
     let casimirs = declaration.casimirs.iter();
     let casimirs: Vec<_> = casimirs.map(|c| lower(&c.value, Allowed::State)).collect();
     let realization = realization::lowered_map(
@@ -92,6 +96,7 @@ pub fn lower(
         parameters,
         brackets: brackets?,
         energy: energy?,
+        acting: acting?,
         casimirs: casimirs.into_iter().collect::<Option<_>>()?,
         realization: realization?,
         initial: initial?,

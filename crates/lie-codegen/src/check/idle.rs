@@ -12,7 +12,7 @@ use lie_syntax::diagnostic::{Diagnostic, Kind};
 /// zero and of a Hamiltonian that is constant.
 pub fn without_effect(declaration: &Declaration, model: &Model) -> Vec<Diagnostic> {
     let mut warnings = unused(declaration);
-    if model.family.is_none() {
+    if model.family.is_none() && model.driving.is_none() {
         warnings.extend(motionless(declaration, model));
     }
     warnings
@@ -89,6 +89,7 @@ fn mentioned(declaration: &Declaration) -> BTreeSet<&str> {
     }
     pending.extend(declaration.lets.iter().map(|(_, value)| value));
     pending.push(declaration.energy.expression());
+    pending.extend(declaration.driving());
     pending.extend(declaration.casimirs.iter().map(|c| &c.value));
     if let Some(realization) = &declaration.realization {
         pending.extend(realization.map.iter().map(|(_, value)| value));

@@ -16,6 +16,7 @@ mod derivatives;
 mod descent;
 mod discrete;
 pub mod domain;
+mod driving;
 mod energy;
 mod entries;
 mod environment;
@@ -92,7 +93,7 @@ fn stages(declaration: &Declaration, mistakes: &mut Vec<Diagnostic>) -> Option<M
     let whole = coordinates::whole(declaration, mistakes)?;
     let name = |symbol| symbols::symbol_name(&whole.declaration, symbol);
     let lowered = expressions::lower(&whole, &name, mistakes)?;
-    let mut system = system::system(&whole, lowered, mistakes)?;
+    let mut system = system::system(&whole, lowered, &name, mistakes)?;
     let proven = identities::identities(&whole, &mut system, &name, mistakes)?;
     let model = assembly::assemble(&whole, system, proven);
     mistakes.extend(domain::initial_domain(

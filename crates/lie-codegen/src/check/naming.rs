@@ -39,6 +39,7 @@ pub fn independent(
                     expr: candidate.expr,
                     degree: None,
                     multivalued,
+                    kept: true,
                     kind: CasimirKind::Declared,
                     written: None,
                 });

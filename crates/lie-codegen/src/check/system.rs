@@ -3,9 +3,9 @@
 use super::coordinates::Whole;
 use super::energy::{Declared, Motion};
 use super::expressions::Lowered;
-use super::{breadth, derivatives, exactness, matrix};
-use crate::model::{Algebra, Energy, PoissonMatrix};
-use lie_symbolic::symbolic::Graph;
+use super::{breadth, derivatives, driving, exactness, matrix};
+use crate::model::{Algebra, Driving, Energy, PoissonMatrix};
+use lie_symbolic::symbolic::{Graph, Symbol};
 use lie_syntax::diagnostic::Diagnostic;
 
 /// Lowered expressions with the Hamiltonian and the Poisson matrix that they make.
@@ -20,12 +20,15 @@ pub struct System {
     pub matrix: PoissonMatrix,
     /// The Hamiltonian.
     pub energy: Energy<Declared>,
+    /// What acts beside it.
+    pub driving: Option<Driving>,
 }
 
 /// Finds Hamiltonian and Poisson matrix, and refuses what is too large for what comes next.
 pub fn system(
     whole: &Whole<'_>,
     mut lowered: Lowered,
+    name: &dyn Fn(Symbol) -> String,
     mistakes: &mut Vec<Diagnostic>,
 ) -> Option<System> {
     let (declaration, configuration) = (&*whole.declaration, whole.configuration.as_ref());
@@ -44,8 +47,19 @@ pub fn system(
     };
     let energy = motion.energy(graph, lowered.energy);
     let energy = energy.map_err(|mistake| mistakes.push(mistake)).ok()?;
-    let mut scratch = graph.clone();
     let constants = algebra.as_ref().map(|algebra| &algebra.constants);
+    let acting = std::mem::take(&mut lowered.acting);
+    let defaults = lowered.parameters.iter().map(|p| p.default_value);
+    let sources = driving::Sources {
+        whole,
+        constants,
+        brackets,
+        energy: &energy,
+        defaults: &defaults.collect::<Vec<_>>(),
+        name,
+    };
+    let driving = driving::driving(graph, &sources, acting, mistakes);
+    let mut scratch = graph.clone();
     let matrix = matrix::poisson_matrix(&mut scratch, declaration.dimension(), constants, brackets);
     // The matrix of an algebra is looked at here and no more: it leaves the arena as it is.
     if !is_lie {
@@ -73,5 +87,6 @@ pub fn system(
         algebra,
         matrix,
         energy,
+        driving,
     })
 }

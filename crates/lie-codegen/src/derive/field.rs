@@ -19,6 +19,7 @@ pub(super) fn kernels(source: &mut Source, derivatives: bool) -> Vec<Kernel> {
     if let Some(hamiltonian) = &hamiltonian {
         kernels.extend(motion(source, hamiltonian.value, derivatives));
     }
+    kernels.extend(driving(source));
     let matrix = poisson_matrix(source);
     let [of_matrix, ..] = formulas(source.is_lie());
     let arguments = vec![mu(source)];
@@ -68,6 +69,40 @@ pub(super) fn kernels(source: &mut Source, derivatives: bool) -> Vec<Kernel> {
     kernels
 }
 
+/// The force and the generator with their slopes, where something acts beside the Hamiltonian.
+fn driving(source: &mut Source) -> Vec<Kernel> {
+    if source.driving.is_none() {
+        return Vec::new();
+    }
+    let mut kernels = Vec::new();
+    let mut push = |source: &mut Source, names: [&'static str; 4], values: &[ExprId]| {
+        let slope = jacobian(source, values);
+        let [vector, formula, matrix, slopes] = names;
+        let arguments = || vec![mu(source)];
+        let graph = &source.graph;
+        kernels.push(Kernel::vector(graph, vector, formula, arguments(), values));
+        kernels.push(Kernel::matrix(graph, matrix, slopes, arguments(), &slope));
+    };
+    if let Some(force) = source.force() {
+        let names = [
+            "force",
+            "`out_i = F_i`",
+            "force_slope",
+            "`out_ij = dF_i/dmu_j`",
+        ];
+        push(source, names, &force);
+    }
+    let generator = source.generator();
+    let names = [
+        "generator",
+        "`out = xi = grad H + c G ad*_{grad H} mu`",
+        "generator_slope",
+        "`out_ij = dxi_i/dmu_j`",
+    ];
+    push(source, names, &generator);
+    kernels
+}
+
 /// What is 0 where branches of H meet at a time that is known beforehand.
 fn joints(source: &mut Source, hamiltonian: Option<&Hamiltonian>) -> Option<Kernel> {
     let (clock, hamiltonian) = (source.clock()?, hamiltonian?);
@@ -76,7 +111,14 @@ fn joints(source: &mut Source, hamiltonian: Option<&Hamiltonian>) -> Option<Kern
         Symbol::Parameter(_) => true,
         _ => false,
     };
-    let places = joints_in(&mut source.graph, hamiltonian.value, &known);
+    let mut places = joints_in(&mut source.graph, hamiltonian.value, &known);
+    for force in source.force().unwrap_or_default() {
+        for place in joints_in(&mut source.graph, force, &known) {
+            if !places.contains(&place) {
+                places.push(place);
+            }
+        }
+    }
     let formula = "`out_i = g_i(t)`, which is 0 where branches of H meet";
     let arguments = vec![mu(source)];
     (!places.is_empty())
@@ -86,7 +128,7 @@ fn joints(source: &mut Source, hamiltonian: Option<&Hamiltonian>) -> Option<Kern
 /// What comes from an expression of H.
 fn motion(source: &mut Source, hamiltonian: ExprId, derivatives: bool) -> Vec<Kernel> {
     let gradient = source.gradient_of_h();
-    let field = source.field_of_h();
+    let field = source.field();
     let [_, of_field, of_both] = formulas(source.is_lie());
     let arguments = vec![mu(source)];
     let graph = &source.graph;

@@ -89,7 +89,7 @@ pub(crate) fn slope(source: &mut Source, generating: Generating) -> Slope {
         }
         Generating::First(retraction, order) => {
             // powers of h apart from what they multiply would leave the range of numbers at order 6: S5 has that of h H
-            let (unit, mut field) = (order == 6, source.field_of_h());
+            let (unit, mut field) = (order == 6, source.field());
             let mut gradient = gradient;
             if unit {
                 for entry in gradient.iter_mut().chain(&mut field) {

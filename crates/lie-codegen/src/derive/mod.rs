@@ -166,11 +166,33 @@ impl Source {
             .collect()
     }
 
-    /// `f = Pi(mu) grad H`
-    pub(crate) fn field_of_h(&mut self) -> Vec<ExprId> {
+    /// The generator xi: `dH/dmu_i`, with what damping adds.
+    pub(crate) fn generator(&mut self) -> Vec<ExprId> {
         let gradient = self.gradient_of_h();
+        let Some(driving) = &self.driving else {
+            return gradient;
+        };
+        let both = gradient.into_iter().zip(&driving.damping);
+        both.map(|(g, more)| self.graph.add(g, *more)).collect()
+    }
+
+    /// The force F, where one acts.
+    pub(crate) fn force(&self) -> Option<Vec<ExprId>> {
+        let driving = self
+            .driving
+            .as_ref()
+            .filter(|driving| driving.is_forced())?;
+        Some(driving.force.clone())
+    }
+
+    /// `f = Pi(mu) xi + F`
+    pub(crate) fn field(&mut self) -> Vec<ExprId> {
+        let (generator, force) = (self.generator(), self.force());
         let mu = self.coordinates();
-        let field = self.poisson_times(&gradient, &mu);
+        let mut field = self.poisson_times(&generator, &mu);
+        for (slot, force) in field.iter_mut().zip(force.unwrap_or_default()) {
+            *slot = self.graph.add(*slot, force);
+        }
         field.into_iter().map(|f| self.graph.tidy(f)).collect()
     }
 

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::Realization;
 use crate::algebra::{Representation, TripleEntry};
-use crate::model::{self, Descent, Discrete, Energy, Hamiltonian, Lagrangian, Model};
+use crate::model::{self, Descent, Discrete, Driving, Energy, Hamiltonian, Lagrangian, Model};
 use crate::structure::Structure;
 use crate::structure::exponential::Exponential;
 use crate::structure::group::Group;
@@ -39,6 +39,8 @@ pub struct Source {
     pub bracket: Bracket,
     /// Hamiltonian and Lagrangian, as they were written.
     pub energy: Energy,
+    /// The force and what damping adds to the generator, where something acts beside the Hamiltonian.
+    pub driving: Option<Driving>,
     /// The Casimirs.
     pub casimirs: Vec<ExprId>,
     /// Functions of `ad*_x` in closed form, where a method needs them and the algebra has one.
@@ -63,6 +65,10 @@ impl Source {
             dimension: structure.dimension(),
             bracket,
             energy: energy(structure, written),
+            driving: structure.driving.as_ref().map(|driving| Driving {
+                force: driving.force.iter().map(|f| written(*f)).collect(),
+                ..driving.clone()
+            }),
             casimirs: structure.casimirs.iter().map(|c| written(c.expr)).collect(),
             exponential: None,
             structure: Arc::new(structure.clone()),

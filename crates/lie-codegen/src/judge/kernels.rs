@@ -29,6 +29,9 @@ pub(super) struct Derivatives {
     poisson: Vec<Vec<Rounded>>,
     /// The derivative of the Poisson matrix by each coordinate.
     slopes: Vec<Vec<Vec<Rounded>>>,
+    /// What forces and dissipation add to the field, and its derivative by each coordinate; empty where nothing is declared.
+    driven: Vec<Rounded>,
+    driven_slopes: Vec<Vec<Rounded>>,
 }
 
 /// A column that is not looked at is `None` for each of its entries.
@@ -121,7 +124,14 @@ impl Kernels {
             let slope = |row: Vec<Once>| row.into_iter().map(|entry| entry.slope).collect();
             rows.into_iter().map(slope).collect()
         };
+        let driven = declared.driven(&inputs(mu), velocity);
+        let driven_slope = |j: usize| -> Option<Vec<Rounded>> {
+            let extra = declared.driven(&once(mu, j), velocity)?;
+            Some(extra.into_iter().map(|entry| entry.slope).collect())
+        };
         Derivatives {
+            driven: driven.unwrap_or_default(),
+            driven_slopes: (0..n).filter_map(driven_slope).collect(),
             mu: mu.to_vec(),
             velocity: velocity.to_vec(),
             hamiltonian: declared.hamiltonian(&inputs(mu), velocity),
@@ -266,7 +276,11 @@ impl Derivatives {
     }
 
     pub(super) fn field(&self) -> Expected {
-        known(times(&self.poisson, &self.gradient))
+        let mut field = times(&self.poisson, &self.gradient);
+        for (slot, extra) in field.iter_mut().zip(&self.driven) {
+            *slot = slot.add(extra);
+        }
+        known(field)
     }
 
     /// `dPi/dmu_j grad H + Pi H''_j`
@@ -280,6 +294,11 @@ impl Derivatives {
                 let turned = times(slope, &self.gradient);
                 Some(bent.iter().zip(&turned).map(|(a, b)| a.add(b)).collect())
             });
-        by_rows(&columns.collect::<Vec<_>>())
+        let mut columns: Vec<Option<Vec<Rounded>>> = columns.collect();
+        for (column, extra) in columns.iter_mut().zip(&self.driven_slopes) {
+            let entries = column.iter_mut().flatten().zip(extra);
+            entries.for_each(|(entry, extra)| *entry = entry.add(extra));
+        }
+        by_rows(&columns)
     }
 }

@@ -243,7 +243,8 @@ impl Judge {
             "hessian" => at.hessian(),
             "poisson_matrix" => at.poisson(),
             "poisson_slope" => at.poisson_slope(sample.arguments.get(1)?),
-            "vector_field" => at.field(),
+            // what moves along the orbit, and the force
+            "vector_field" | "driven_field" => at.field(),
             "jacobian" => at.jacobian(),
             "linearize" => [at.field(), at.jacobian()].concat(),
             _ => return None,

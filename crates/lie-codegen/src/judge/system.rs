@@ -4,7 +4,9 @@ use super::interpret::{Scope, size};
 use super::linear;
 use super::number::{Jet, Number};
 use crate::model::configuration::{Configuration, TIME};
-use lie_syntax::ast::{Algebra, Declaration, Energy, Expr, Invariance, Name, Structure};
+use lie_syntax::ast::{
+    Algebra, Declaration, DissipationKind, Energy, Expr, Invariance, Metric, Name, Structure,
+};
 
 /// Newton's iterations of a Legendre transform, from a velocity that is nearly right.
 const ITERATIONS: usize = 6;
@@ -219,6 +221,90 @@ impl Declared {
             }
         }
         (slope, second)
+    }
+
+    /// The gradient of a function over numbers with a derivative.
+    fn gradient<T: Number>(&self, mu: &[T], of: impl Fn(&[Jet<T>]) -> Jet<T>) -> Vec<T> {
+        let varied = |i: usize| -> Vec<Jet<T>> {
+            let coordinates = mu.iter().enumerate();
+            coordinates
+                .map(|(k, value)| Jet::variable(value.clone(), k == i))
+                .collect()
+        };
+        (0..mu.len()).map(|i| of(&varied(i)).slope).collect()
+    }
+
+    /// What forces and dissipation add to the field: `F - R grad H + K grad S + c Pi G Pi grad H`, and along the momentum of the time
+    /// minus what that does to H; `None` where nothing is declared.
+    pub(super) fn driven<T: Number>(&self, mu: &[T], velocity: &[f64]) -> Option<Vec<T>> {
+        let declaration = &self.declaration;
+        let configuration = self
+            .configuration
+            .as_ref()
+            .filter(|_| declaration.is_driven())?;
+        let own = configuration.own_momenta();
+        let mut extra = vec![T::integer(0); mu.len()];
+        let slopes = self.gradient(mu, |mu| self.hamiltonian(mu, velocity));
+        let poisson = self.poisson(mu);
+        let scope = self.state(mu);
+        let matrix = |rows: &[Vec<Expr>]| -> Vec<Vec<T>> {
+            let row = |row: &Vec<Expr>| row.iter().map(|entry| scope.evaluate(entry)).collect();
+            rows.iter().map(row).collect()
+        };
+        let times = |rows: &[Vec<T>], vector: &[T]| -> Vec<T> {
+            let row = |row: &Vec<T>| T::sum(row.iter().zip(vector).map(|(a, b)| a.mul(b)));
+            rows.iter().map(row).collect()
+        };
+        let mut add = |values: Vec<T>| {
+            for (slot, value) in extra.iter_mut().zip(values).take(own) {
+                *slot = slot.add(&value);
+            }
+        };
+        let mut forces = vec![T::integer(0); own];
+        for (name, value) in &declaration.forces {
+            let place = declaration.state.iter().position(|c| c.text == name.text);
+            if let Some(slot) = place.and_then(|place| forces.get_mut(place)) {
+                *slot = scope.evaluate(value);
+            }
+        }
+        add(forces);
+        for dissipation in &declaration.dissipation {
+            add(match &dissipation.kind {
+                DissipationKind::Rayleigh { matrix: rows } => {
+                    let drag = times(&matrix(rows), &slopes);
+                    drag.iter().map(T::neg).collect()
+                }
+                DissipationKind::Metriplectic { entropy, metric } => {
+                    let slope = self.gradient(mu, |mu| self.function(entropy, mu));
+                    match metric {
+                        Metric::Entries(rows) => times(&matrix(rows), &slope),
+                        Metric::Factor(rows) => {
+                            let factor = matrix(rows);
+                            let width = factor.first().map_or(0, Vec::len);
+                            let column = |c: usize| {
+                                T::sum(factor.iter().zip(&slope).map(|(row, s)| row[c].mul(s)))
+                            };
+                            let inner: Vec<T> = (0..width).map(column).collect();
+                            times(&factor, &inner)
+                        }
+                    }
+                }
+                DissipationKind::DoubleBracket { strength, metric } => {
+                    let moved = &times(&poisson, &slopes)[..own];
+                    let lowered = match metric {
+                        Some(rows) => times(&matrix(rows), moved),
+                        None => moved.to_vec(),
+                    };
+                    let strength = scope.evaluate(strength);
+                    let pushed: Vec<T> = lowered.iter().map(|w| strength.mul(w)).collect();
+                    times(&poisson, &pushed)
+                }
+            });
+        }
+        let power = extra.iter().zip(&slopes).take(own);
+        let power = T::sum(power.map(|(f, g)| f.mul(g)));
+        extra[configuration.momenta - 1] = power.neg();
+        Some(extra)
     }
 
     /// A function of the state that was declared.

@@ -16,7 +16,8 @@ pub fn refusal(structure: &Structure, choice: &Choice) -> Option<(String, String
         return family(pieces.as_ref().err(), choice);
     }
     let model = &structure.model;
-    if let Some(reason) = bracket(model, choice).or_else(|| lagrangian(model, choice)) {
+    let whole = bracket(model, choice).or_else(|| lagrangian(model, choice));
+    if let Some(reason) = whole.or_else(|| driven(model, choice)) {
         return Some(reason);
     }
     match choice {
@@ -68,6 +69,23 @@ pub fn refusal(structure: &Structure, choice: &Choice) -> Option<(String, String
         Choice::MoserVeselov => inertia::refusal(structure),
         _ => None,
     }
+}
+
+/// Why a method does not apply where something acts beside the Hamiltonian.
+fn driven(model: &Model, choice: &Choice) -> Option<(String, String)> {
+    let (driving, method) = (model.driving.as_ref()?, choice.entry()?);
+    let what = match (
+        driving.is_forced() && !method.forces,
+        driving.is_damped() && !method.damping,
+    ) {
+        (false, false) => return None,
+        (true, _) => "forces act beside the Hamiltonian, and the step has no form with them",
+        (false, true) => {
+            "a double bracket damps, and the step is made of a gradient of H, which its generator is not"
+        }
+    };
+    let help = "use `gauss16` or `taylor`, which take the whole field, or leave `forces` and `dissipation` out";
+    Some((what.into(), help.into()))
 }
 
 /// Why coefficients for two pieces are not for this many.

@@ -33,6 +33,10 @@ pub struct Method {
     pub fixed_point: bool,
     /// What it preserves.
     pub preserves: Preserves,
+    /// Whether it applies where forces act.
+    pub forces: bool,
+    /// Whether it applies where damping along orbits acts.
+    pub damping: bool,
     /// What a system must have.
     pub needs: &'static str,
     /// Author, year, DOI.

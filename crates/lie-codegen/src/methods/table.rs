@@ -73,6 +73,8 @@ const fn row<M: Facts>(
         } else {
             M::PRESERVES
         },
+        forces: M::FORCES,
+        damping: M::DAMPING,
         needs,
         reference,
     }

@@ -20,6 +20,8 @@ pub enum CasimirKind {
 pub struct Casimir {
     /// Whether it has several branches, between which its value jumps.
     pub multivalued: bool,
+    /// Whether the motion keeps it, as is proven where forces act.
+    pub kept: bool,
     /// Its name, declared or given.
     pub name: String,
     /// Where it is declared.

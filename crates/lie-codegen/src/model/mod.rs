@@ -3,6 +3,7 @@
 mod bracket;
 mod casimir;
 pub mod configuration;
+mod driving;
 mod family;
 mod realization;
 
@@ -16,6 +17,7 @@ use lie_syntax::diagnostic::Origin;
 pub use bracket::{Algebra, Bracket, PoissonMatrix};
 pub use casimir::{Casimir, CasimirKind};
 pub use configuration::Configuration;
+pub use driving::{Acting, Driving};
 pub use family::{Family, SiteSum, Size, Start};
 pub use realization::{CANONICAL, Descent, Realization};
 
@@ -149,6 +151,8 @@ pub struct Model {
     pub configuration: Option<Configuration>,
     /// The sums of a family. All else is that of a site, and its Hamiltonian is 0.
     pub family: Option<Family>,
+    /// What acts beside the Hamiltonian.
+    pub driving: Option<Driving>,
     /// The realization, for collective methods.
     pub realization: Option<Realization>,
     /// The Casimirs that are declared, those that are functions of others left out.

@@ -26,7 +26,7 @@ impl Planner<'_> {
 
     /// Of the Jacobian of the field.
     pub(super) fn field_pattern(&mut self) -> Pattern {
-        let field = self.source.field_of_h();
+        let field = self.source.field();
         let slopes = self.source.jacobian_of(&field);
         places(&self.nonzero(&slopes))
     }

@@ -55,7 +55,7 @@ impl Planner<'_> {
     /// The recurrence of the field, with the gradient or without.
     pub(super) fn recurrence(&mut self, with_gradient: bool) -> Recurrence {
         let arguments = Vec::new();
-        let field = self.source.field_of_h();
+        let field = self.source.field();
         let field_kernel = Kernel::vector(&self.source.graph, "series", "", arguments, &field);
         let Shape::Vector(of_field) = field_kernel.shape.clone() else {
             unreachable!("a field is a vector")

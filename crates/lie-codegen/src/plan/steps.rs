@@ -115,6 +115,11 @@ impl Planner<'_> {
 
     /// The equation of a method that has code of its own; none where that saves too little.
     fn solver(&mut self, choice: &Choice) -> Option<Solver> {
+        // what acts beside H stands in the field, of which these are made
+        let of_field = matches!(choice, Choice::Midpoint | Choice::Gauss(_));
+        if self.source.driving.is_some() && !of_field {
+            return None;
+        }
         match choice {
             Choice::Midpoint => Some(self.midpoint()),
             Choice::Gauss(stages) => match self.gauss(*stages) {

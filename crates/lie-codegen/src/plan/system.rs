@@ -17,6 +17,10 @@ pub struct System {
     pub clock: Option<Clock>,
     /// How many functions of the time are 0 where branches of H meet.
     pub joints: usize,
+    /// Whether forces act.
+    pub forced: bool,
+    /// Whether the generator of the motion is not the gradient of H.
+    pub damped: bool,
     /// The Casimirs.
     pub casimirs: Vec<Casimir>,
     /// What the energy is.
@@ -48,6 +52,8 @@ pub struct Casimir {
     pub degree: Option<u32>,
     /// Whether it has several branches.
     pub multivalued: bool,
+    /// Whether the motion keeps it.
+    pub kept: bool,
     /// Its gradient; `None` where a method needs nothing but the field.
     pub gradient: Option<Function>,
 }
@@ -130,6 +136,8 @@ impl Planner<'_> {
                 .and_then(|matrix| matrix.degree),
             clock: self.source.clock(),
             joints,
+            forced: self.source.force().is_some(),
+            damped: self.source.driving.is_some(),
             casimirs,
             energy: match self.source.energy.expression() {
                 Some(_) => Energy::Expression,
@@ -184,6 +192,7 @@ impl Planner<'_> {
                 name: casimir.name.clone(),
                 degree: casimir.degree,
                 multivalued: casimir.multivalued,
+                kept: casimir.kept,
                 gradient: (!by_duals).then(|| Function {
                     label: format!("casimir_gradient {}", casimir.name),
                     ..self.function(kernel)

@@ -129,6 +129,18 @@ impl Printer<'_> {
         let of_h = degree("hamiltonian_degree", plan.hamiltonian_degree);
         let of_matrix = degree("poisson_degree", plan.poisson_degree);
         let casimirs = self.facts_of_casimirs();
+        let driven = [("is_forced", plan.forced), ("is_damped", plan.damped)];
+        let driven = driven
+            .into_iter()
+            .filter(|(_, holds)| *holds)
+            .map(|(name, _)| {
+                let name = ident(name);
+                quote! {
+                    fn #name(&self) -> bool {
+                        true
+                    }
+                }
+            });
         let joints = (plan.joints > 0).then(|| {
             let count = index(plan.joints);
             quote! {
@@ -163,6 +175,7 @@ impl Printer<'_> {
 
             #clock
             #joints
+            #(#driven)*
             #casimirs
             #of_h
             #of_matrix
@@ -184,6 +197,14 @@ impl Printer<'_> {
                 }
             }
         });
+        let kept = casimirs.iter().map(|c| c.kept);
+        let kept = casimirs.iter().any(|c| !c.kept).then(|| {
+            quote! {
+                fn casimir_is_kept(&self, index: usize) -> bool {
+                    [#(#kept),*][index]
+                }
+            }
+        });
         Some(quote! {
             fn casimir_count(&self) -> usize {
                 #count
@@ -198,6 +219,7 @@ impl Printer<'_> {
             }
 
             #multivalued
+            #kept
         })
     }
 

@@ -202,6 +202,7 @@ fn complete(model: &Model, field: &Field, work: u64, graph: &mut Graph) -> (Vec<
         if standing == Standing::Independent && casimirs.len() < count {
             casimirs.push(Casimir {
                 multivalued: false,
+                kept: true,
                 name: names.next().unwrap_or_default(),
                 origin: model.name_origin,
                 expr: written.normal,

@@ -4,6 +4,7 @@ pub mod algebra;
 pub mod casimirs;
 mod completion;
 pub mod directions;
+mod driving;
 pub mod exponential;
 pub mod family;
 pub mod found;
@@ -107,7 +108,8 @@ const _: fn() = || {
 /// Finds the structure of a system.
 pub fn structure(mut model: Model, effort: Effort) -> Structure {
     let mut graph = model.graph.clone();
-    let (casimirs, search) = completion::completed(&model, effort, &mut graph);
+    let (mut casimirs, search) = completion::completed(&model, effort, &mut graph);
+    driving::mark_kept(&model, &mut casimirs, &mut graph);
     model.graph = graph;
     let (spins, vectors) = (spins::spins(&model), vectors::vectors(&model));
     let unitary = unitary::unitary(&model);

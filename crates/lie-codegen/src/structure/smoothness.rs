@@ -11,7 +11,20 @@ pub fn joints(model: &Model) -> Vec<Joint> {
     let name = |symbol| model.symbol_name(symbol);
     match &model.family {
         Some(family) => of_family(model, family),
-        None => find_joints(&model.graph, model.hamiltonian(), &name),
+        None => {
+            let force = model.driving.iter().flat_map(|driving| &driving.force);
+            let mut all = find_joints(&model.graph, model.hamiltonian(), &name);
+            for force in force {
+                let joints = find_joints(&model.graph, *force, &name);
+                // a rate that jumps is what a gradient is that does
+                let joints = joints.into_iter().map(|joint| Joint {
+                    jump: joint.jump.map(|jump| jump + 1),
+                    ..joint
+                });
+                all.extend(joints);
+            }
+            all
+        }
     }
 }
 

@@ -1,5 +1,8 @@
 //! What is known of a method, as data; tests read it and measure.
 
+use crate::poisson::Poisson;
+use crate::scalar::Scalar;
+
 /// What a method keeps exactly, up to round-off of arithmetic and solver.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Preserves {
@@ -69,6 +72,31 @@ impl Preserves {
         quadratic_casimirs: true,
         ..Self::NOTHING
     };
+}
+
+impl Preserves {
+    /// What is left of it where forces act, or damping along orbits. Forces leave the orbit, and no map is Poisson with either; of
+    /// the energy with the momentum of the time, and of the invariants of the equation, all else stays.
+    #[must_use]
+    pub const fn under(self, forced: bool, damped: bool) -> Self {
+        if !forced && !damped {
+            return self;
+        }
+        Self {
+            casimirs: self.casimirs && !forced,
+            quadratic_casimirs: self.quadratic_casimirs && (!forced || self.quadratic_invariants),
+            orbit: self.orbit && !forced,
+            poisson: false,
+            constant_poisson: false,
+            ..self
+        }
+    }
+
+    /// What is left of it on a system.
+    #[must_use]
+    pub fn on<S: Scalar, P: Poisson<S>>(self, system: &P) -> Self {
+        self.under(system.is_forced(), system.is_damped())
+    }
 }
 
 /// The constants of a method.

@@ -34,6 +34,8 @@ pub(crate) struct Kernels {
     pub linearize: Place,
     pub casimirs: Place,
     pub joints: Place,
+    /// Of the force and of the generator, each with its slope.
+    pub driving: [Place; 4],
     pub casimir_gradients: Vec<Place>,
     pub ad: Place,
     pub ad_star: Place,
@@ -239,6 +241,7 @@ impl CodeBuilder {
             linearize: place("linearize"),
             casimirs: place("casimirs"),
             joints: place("joints"),
+            driving: ["force", "force_slope", "generator", "generator_slope"].map(place),
             ad: place("ad"),
             ad_star: place("ad_star"),
             ad_star_matrix: place("ad_star_matrix"),

@@ -71,6 +71,10 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
         let casimir = self.plan().system.casimirs.get(index);
         casimir.is_some_and(|casimir| casimir.multivalued)
     }
+    fn casimir_is_kept(&self, index: usize) -> bool {
+        let casimir = self.plan().system.casimirs.get(index);
+        casimir.is_none_or(|casimir| casimir.kept)
+    }
     fn poisson_degree(&self) -> Option<u32> {
         self.values.compiled.plan.system.poisson_degree
     }
@@ -180,6 +184,40 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
                 .values
                 .call(code, [mu, xi], &mut [], out.as_mut_slice()),
             None => generic::poisson_slope(self, xi, out),
+        }
+    }
+    fn is_forced(&self) -> bool {
+        self.values.compiled.plan.system.forced
+    }
+    fn force(&self, mu: &Vec<S>, out: &mut Vec<S>) {
+        match self.values.kernels().driving[0] {
+            Some(code) => self.values.call(code, [mu, &[]], out, &mut []),
+            None => out.fill(S::zero()),
+        }
+    }
+    fn force_slope(&self, mu: &Vec<S>, out: &mut LateMatrix<S>) {
+        match self.values.kernels().driving[1] {
+            Some(code) => self
+                .values
+                .call(code, [mu, &[]], &mut [], out.as_mut_slice()),
+            None => out.as_mut_slice().fill(S::zero()),
+        }
+    }
+    fn is_damped(&self) -> bool {
+        self.values.compiled.plan.system.damped
+    }
+    fn generator(&self, mu: &Vec<S>, out: &mut Vec<S>) {
+        match self.values.kernels().driving[2] {
+            Some(code) => self.values.call(code, [mu, &[]], out, &mut []),
+            None => self.gradient(mu, out),
+        }
+    }
+    fn generator_slope(&self, mu: &Vec<S>, out: &mut LateMatrix<S>) {
+        match self.values.kernels().driving[3] {
+            Some(code) => self
+                .values
+                .call(code, [mu, &[]], &mut [], out.as_mut_slice()),
+            None => self.hessian(mu, out),
         }
     }
     fn vector_field(&self, mu: &Vec<S>, out: &mut Vec<S>) {

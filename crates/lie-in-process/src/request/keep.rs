@@ -103,10 +103,11 @@ impl Planner<'_> {
         if model.configuration.as_ref().is_none_or(|it| !it.time) {
             return Ok(());
         }
-        let text = format!(
-            "the energy of {} is not constant: H depends on the time",
-            model.name
-        );
+        let why = match &model.driving {
+            Some(_) => "forces or dissipation act on it",
+            None => "H depends on the time",
+        };
+        let text = format!("the energy of {} is not constant: {why}", model.name);
         Err(word
             .wrong(text)
             .help("keep the Casimirs alone, or leave it out"))
@@ -127,6 +128,10 @@ impl Planner<'_> {
             return Err(word
                 .wrong(text)
                 .help("declare them in `casimirs`, or keep the energy alone"));
+        }
+        if let Some(changed) = model.casimirs.iter().find(|casimir| !casimir.kept) {
+            let text = format!("the forces change the Casimir {}", changed.name);
+            return Err(word.wrong(text).help("leave it out: no level of it is to be kept"));
         }
         let jumps = model.casimirs.iter().find(|casimir| casimir.multivalued);
         jumps.map_or(Ok(()), |casimir| {

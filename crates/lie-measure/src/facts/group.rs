@@ -39,7 +39,7 @@ where
     P: Lift<f64> + MatrixGroup<f64> + Clone,
 {
     let claims = method.claims();
-    let exact = claims.preserves.orbit && !beside;
+    let exact = claims.preserves.on(system).orbit && !beside;
     let order = f64::from(claims.order);
     let round_off = 4.0 * PER_STEP * STEPS * f64::EPSILON;
     let measured = smaller_steps(ground.step, |h| {

@@ -71,7 +71,7 @@ fn groups<'a, P: Lift<f64>>(
     ground: &'a Ground<P>,
     method: &dyn AnyMethod<f64, P>,
 ) -> Vec<Group<'a, P>> {
-    let kept = method.claims().preserves;
+    let kept = method.claims().preserves.on(system);
     let quadratic_energy = system
         .hamiltonian_degree()
         .is_some_and(|degree| degree <= 2);
@@ -91,7 +91,9 @@ fn groups<'a, P: Lift<f64>>(
             move |index: &usize| system.casimir_degree(*index).is_some_and(|d| d <= 2) == quadratic;
         (0..system.casimir_count())
             .filter(of_kind)
-            .filter(|index| !system.casimir_is_multivalued(*index))
+            .filter(|index| {
+                !system.casimir_is_multivalued(*index) && system.casimir_is_kept(*index)
+            })
             .map(|index| casimir(system, index))
             .collect()
     };
@@ -248,7 +250,7 @@ pub(super) fn integrals_are_missing<P: Lift<f64>>(system: &P, ground: &Ground<P>
         gradients.push(gradient.as_slice().to_vec());
     }
     for index in 0..system.casimir_count() {
-        if quadratic(system.casimir_degree(index)) {
+        if quadratic(system.casimir_degree(index)) && system.casimir_is_kept(index) {
             system.casimir_gradient(index, mu, &mut gradient);
             gradients.push(gradient.as_slice().to_vec());
         }

@@ -168,7 +168,7 @@ fn symmetry<P: Lift<f64>>(
 }
 
 fn orbit<P: Lift<f64>>(system: &P, ground: &Ground<P>, method: &dyn AnyMethod<f64, P>) -> Finding {
-    let claimed = method.claims().preserves.orbit;
+    let claimed = method.claims().preserves.on(system).orbit;
     let Some(orbit_distance) = ground.orbit else {
         return if claimed {
             Finding::zero("orbit", claimed, f64::NAN, 0.0).note("no algebra is known".to_owned())
@@ -196,7 +196,7 @@ fn poisson<P: Lift<f64>>(
     ground: &Ground<P>,
     method: &dyn AnyMethod<Dual<f64>, P::Lifted>,
 ) -> Finding {
-    let kept = method.claims().preserves;
+    let kept = method.claims().preserves.on(lifted);
     let constant = lifted.poisson_degree() == Some(0);
     let claimed = kept.poisson || (kept.constant_poisson && constant);
     let newton = NewtonOptions::default();

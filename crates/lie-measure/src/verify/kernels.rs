@@ -2,6 +2,7 @@
 
 use super::found::Kernel;
 use crate::random::Random;
+use lie_runtime::generic;
 use lie_runtime::lagrangian::{DiscreteLagrangianPoisson, LagrangianPoisson};
 use lie_runtime::matrix::SquareMatrix;
 use lie_runtime::poisson::{CayleyPoisson, LiePoisson, Poisson};
@@ -96,6 +97,11 @@ pub(super) fn poisson<P: Poisson<f64>>(system: &P, writer: &mut Writer<'_, P::St
     let mut matrix = stale_matrix();
     system.poisson_slope(&mu, &xi, &mut matrix);
     writer.write("poisson_slope", &[&at, xi.as_slice()], &rows(&matrix));
+    if system.is_forced() || system.is_damped() {
+        let mut vector = stale(mu.clone());
+        generic::vector_field(system, &mu, &mut vector);
+        writer.write("driven_field", &[&at], vector.as_slice());
+    }
     let mut vector = stale(mu.clone());
     system.vector_field(&mu, &mut vector);
     writer.write("vector_field", &[&at], vector.as_slice());

@@ -86,6 +86,11 @@ impl<'a> Prover<'a> {
         }
     }
 
+    /// Whether a sum is shown to be nowhere negative.
+    pub fn is_nonnegative(&mut self, sum: ExprId) -> bool {
+        self.normal.is_nonnegative(sum)
+    }
+
     /// Whether a sum is shown to vanish.
     pub fn vanishes(&mut self, sum: ExprId) -> bool {
         matches!(self.normal.verdict(sum), Verdict::Zero)

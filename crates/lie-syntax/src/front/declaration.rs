@@ -1,6 +1,7 @@
 //! The body of the macro: statements to the syntax tree.
 
 mod block;
+mod dissipation;
 mod entry;
 mod family;
 mod functions;
@@ -8,6 +9,8 @@ mod lists;
 mod statement;
 mod tables;
 mod vectors;
+
+use std::borrow::Cow;
 
 use proc_macro2::{Span, TokenStream};
 
@@ -18,7 +21,7 @@ use super::reader::{self, Entries, Line, Read};
 use super::tables::Read as Table;
 use super::token::{Delimiter, Token, TokenKind, render, span, split_commas};
 use super::vectors::Declared;
-use super::{Body, Names, Parsed, item, rust};
+use super::{Body, Names, Parsed, driving, item, rust};
 use crate::ast::{Expr, Name, OwnFunction, Realization, RunOption, Start};
 use crate::ast::{NoPath, Runtime};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
@@ -272,6 +275,29 @@ impl Entries for Parts<'_> {
         }
         let block = self.first(keyword).and_then(|s| s.block(report));
         block.unwrap_or_default().iter().map(Entry::line).collect()
+    }
+
+    fn definitions(&self, key: &str, report: &mut Report) -> Vec<(Name, Line<'_>)> {
+        let lines = self.lines(key, report);
+        let mut defined = Vec::new();
+        for line in lines {
+            let what = format!("an entry of `{key}`");
+            let tokens = match line.tokens {
+                Cow::Borrowed(tokens) => tokens,
+                Cow::Owned(_) => continue,
+            };
+            if let Some((name, value)) = item::definition(tokens, &what, line.place, report) {
+                let place = name.origin;
+                let tokens = value.into();
+                defined.push((name, Line { tokens, place }));
+            }
+        }
+        defined
+    }
+
+    fn dissipation(&self, names: &Names, report: &mut Report) -> Vec<driving::Entry> {
+        let block = self.first("dissipation").and_then(|s| s.block(report));
+        dissipation::read(&block.unwrap_or_default(), names, report)
     }
 
     fn names(&self, key: &str, report: &mut Report) -> Vec<Name> {

@@ -37,6 +37,19 @@ const CLOSE: TokenKind = TokenKind::Close(Delimiter::Parenthesis);
 /// `names` are those that may stand in the expression. `tokens` is not empty: only the caller
 /// knows what is missing where nothing stands.
 pub fn parse(tokens: &[Token], names: &Names, report: &mut Report) -> Option<Expr> {
+    let taken = parse_as_written(tokens, names, report)?;
+    let scalar = vectors::expand(taken, names.vectors(), report)?;
+    names.tables().expand(scalar, report)
+}
+
+/// The same of what may be a vector or a matrix.
+pub fn parse_value(tokens: &[Token], names: &Names, report: &mut Report) -> Option<vectors::Value> {
+    let taken = parse_as_written(tokens, names, report)?;
+    let value = vectors::expand_value(taken, names.vectors(), report)?;
+    value.map(|entry| names.tables().expand(entry, report))
+}
+
+fn parse_as_written(tokens: &[Token], names: &Names, report: &mut Report) -> Option<Expr> {
     let mut parser = Parser {
         cursor: Cursor::new(tokens),
         names,
@@ -55,8 +68,7 @@ pub fn parse(tokens: &[Token], names: &Names, report: &mut Report) -> Option<Exp
     }
     let expression = expression.filter(|_| !parser.failed)?;
     let taken = names.may_be_indexed() || families::refuse(&expression, report);
-    let scalar = vectors::expand(taken.then_some(expression)?, names.vectors(), report)?;
-    names.tables().expand(scalar, report)
+    taken.then_some(expression)
 }
 
 /// The parser's state. Methods return `None` after a mistake that they reported and behind which

@@ -12,6 +12,7 @@ pub mod vocabulary;
 
 pub mod place;
 
+mod driving;
 mod equations;
 mod expression;
 mod families;

@@ -7,7 +7,7 @@ use std::borrow::Cow;
 use super::tables::{self, Tables};
 use super::token::Token;
 use super::vectors::{self, Declared};
-use super::{Body, Names, Parsed, expression, item};
+use super::{Body, Names, Parsed, driving, expression, item};
 use crate::ast::{
     Algebra, Declaration, Energy, Expr, Family, Invariance, Name, OwnFunction, Parameter,
     Realization, RunOption, Size, Start, Structure,
@@ -62,6 +62,10 @@ pub trait Entries {
     fn line(&self, key: &str, report: &mut Report) -> Option<Line<'_>>;
     /// An entry with many.
     fn lines(&self, key: &str, report: &mut Report) -> Vec<Line<'_>>;
+    /// Names, each with what is given for it.
+    fn definitions(&self, key: &str, report: &mut Report) -> Vec<(Name, Line<'_>)>;
+    /// What dissipates energy, in these names.
+    fn dissipation(&self, names: &Names, report: &mut Report) -> Vec<driving::Entry>;
     /// A list of names.
     fn names(&self, key: &str, report: &mut Report) -> Vec<Name>;
     /// The ids of the methods.
@@ -151,6 +155,14 @@ fn remainder<E: Entries>(
     let lets = lets.filter_map(|line| abbreviation(line, &names, report));
     let lets = lets.collect();
     let energy = energy(entries, velocity, &names, report);
+    let forces = entries.definitions("forces", report);
+    let forces = driving::forces(&forces, &parsed.state, &names, report);
+    let dissipation = entries.dissipation(&names, report).into_iter();
+    let dissipation = dissipation.filter_map(|entry| {
+        let read = entry.kind(E::FORM);
+        read.map_err(|mistake| report.push(*mistake)).ok()
+    });
+    let dissipation = dissipation.collect();
     let realization = entries.place("realization");
     let realization = realization.map(|_| entries.realization(&constants, report));
     let casimirs = entries.lines("casimirs", report);
@@ -183,6 +195,8 @@ fn remainder<E: Entries>(
         functions,
         lets,
         energy: energy?,
+        forces,
+        dissipation,
         realization: without_mistake(realization)?,
         casimirs,
         methods,

@@ -78,6 +78,11 @@ objects! {
         /// Names of the components of the velocity xi, one for each basis element; for a Lagrangian. For a discrete one
         /// those of the coordinates x = tau^-1(g) of the step g in the retraction of the method.
         "velocity" velocity: Option<Vec<String>>,
+        /// Forces by coordinate, covectors that are added to mu': expressions in state, time `t`, parameters, abbreviations and
+        /// entries of the group element. A vector of coordinates may stand for them.
+        "forces" forces: Option<BTreeMap<String, String>>,
+        /// What dissipates energy beside them.
+        "dissipation" dissipation: Option<Vec<Dissipation>>,
         /// A realization of the bracket in canonical coordinates, for collective methods.
         "realization" realization: Option<Realization>,
         /// Casimirs, `NAME = expression` or an expression; each is verified exactly.
@@ -102,6 +107,25 @@ objects! {
         /// What the function is outside of the table: `refuse` (the default: a step that leaves the table fails),
         /// `constant` or `linear`.
         "outside" outside: Option<Outside>,
+    }
+
+    /// A dissipation: `double-bracket`, mu' += c ad*_(G ad*_(grad H) mu) mu with the strength c and the metric G, along the
+    /// coadjoint orbit; `metriplectic`, mu' += K grad S with K grad H = 0 and {S, H} = 0, which keeps H; `rayleigh`,
+    /// mu' -= R grad H.
+    struct Dissipation requires ["kind"] {
+        /// Its kind.
+        "kind" kind: DissipationKind,
+        /// The strength c of a double bracket, an expression in parameters.
+        "strength" strength: Option<Constant>,
+        /// The metric: G of a double bracket, with entries in parameters, the identity by default; K of a metriplectic one,
+        /// with entries in state and parameters.
+        "metric" metric: Option<MatrixForm>,
+        /// Instead of the metric of a metriplectic one: a factor L, K = L L^T.
+        "factor" factor: Option<MatrixForm>,
+        /// The entropy S, a function of the state.
+        "entropy" entropy: Option<String>,
+        /// The matrix R of `rayleigh`, with entries in parameters.
+        "matrix" matrix: Option<MatrixForm>,
     }
 
     /// A random initial state of a family.
@@ -272,6 +296,30 @@ pub enum Outside {
 pub enum Distribution {
     /// Uniformly on the unit sphere.
     UnitSphere,
+}
+
+/// The kinds of dissipation.
+#[derive(JsonSchema)]
+#[schemars(rename_all = "kebab-case")]
+#[expect(dead_code, reason = "the variants describe the schema")]
+pub enum DissipationKind {
+    /// Along the coadjoint orbit.
+    DoubleBracket,
+    /// What keeps the energy.
+    Metriplectic,
+    /// By a matrix.
+    Rayleigh,
+}
+
+/// A matrix by rows, or the name of one of `vectors`.
+#[derive(JsonSchema)]
+#[schemars(untagged)]
+#[expect(dead_code, reason = "the variants describe the schema")]
+pub enum MatrixForm {
+    /// Its rows.
+    Rows(Vec<Vec<Constant>>),
+    /// Its name.
+    Name(String),
 }
 
 /// A number, or an exact constant as text, such as "1/3".

@@ -1,6 +1,7 @@
 //! The spec file: JSON to the syntax tree.
 
 mod algebra;
+mod driving;
 mod files;
 mod parameters;
 mod realization;
@@ -134,6 +135,16 @@ impl Entries for Object<'_> {
         let elements = self.elements(key, report);
         let line = |value| line(value, &format!("an element of `{key}`"), report);
         elements.into_iter().filter_map(line).collect()
+    }
+
+    fn definitions(&self, key: &str, report: &mut Report) -> Vec<(Name, Line<'_>)> {
+        let value = self.get(key);
+        value.map_or_else(Vec::new, |v| driving::definitions(v, key, report))
+    }
+
+    fn dissipation(&self, names: &Names, report: &mut Report) -> Vec<super::driving::Entry> {
+        let value = self.get("dissipation");
+        value.map_or_else(Vec::new, |v| driving::dissipation(v, names, report))
     }
 
     fn names(&self, key: &str, report: &mut Report) -> Vec<Name> {

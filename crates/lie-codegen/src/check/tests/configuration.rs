@@ -37,7 +37,7 @@ fn entries_of_the_group_element_are_coordinates_and_move_with_it() {
         assert_eq!(names[..5], ["x", "y", "z", "R11", "R12"]);
         assert_eq!(model.dimension(), 12);
         let mut source = crate::derive::Source::new(&model);
-        let field = source.field_of_h();
+        let field = source.field();
         let g = [0.1, -0.7, 0.3, 0.9, 0.2, -0.4, 0.6, 0.8, -0.5];
         let m = [0.4, -0.3, 0.8];
         let mu: Vec<f64> = m.into_iter().chain(g).collect();
@@ -116,7 +116,7 @@ fn the_time_is_a_coordinate_with_a_momentum() {
         let start = model.initial_values(&[]).unwrap();
         assert_eq!(start, [1.0, 2.0, 3.0, 0.0, 0.0, 1.0]);
         let mut source = crate::derive::Source::new(&model);
-        let field = source.field_of_h();
+        let field = source.field();
         let mu = [0.3, -0.4, 0.5, 0.7, 0.25, 1.0];
         let f: Vec<f64> = field.iter().map(|f| value(&source, *f, &mu)).collect();
         assert_eq!(f[4], 1.0, "t' = 1");

@@ -74,6 +74,8 @@ pub struct SymbolicSystem {
     vectors: Option<SymbolicVectors>,
     closed: Option<Closed>,
     exponential: bool,
+    forced: bool,
+    damped: bool,
 }
 
 impl SymbolicSystem {
@@ -96,6 +98,8 @@ impl SymbolicSystem {
             vectors: source.vectors().map(SymbolicVectors::new),
             closed: None,
             exponential: source.exponential.is_some(),
+            forced: source.force().is_some(),
+            damped: source.driving.is_some(),
         }
     }
 
@@ -179,12 +183,38 @@ impl Poisson<Sym> for SymbolicSystem {
     fn poisson_matrix(&self, mu: &State, out: &mut Square) {
         self.matrix(Self::at(|s| s.poisson_matrix().concat(), mu), out);
     }
+    fn is_forced(&self) -> bool {
+        self.forced
+    }
+    fn force(&self, mu: &State, out: &mut State) {
+        *out = Self::at(|source| source.force().unwrap_or_default(), mu);
+    }
+    fn force_slope(&self, mu: &State, out: &mut Square) {
+        let entries = |source: &mut Source| {
+            let force = source.force().unwrap_or_default();
+            source.jacobian_of(&force).concat()
+        };
+        self.matrix(Self::at(entries, mu), out);
+    }
+    fn is_damped(&self) -> bool {
+        self.damped
+    }
+    fn generator(&self, mu: &State, out: &mut State) {
+        *out = Self::at(Source::generator, mu);
+    }
+    fn generator_slope(&self, mu: &State, out: &mut Square) {
+        let entries = |source: &mut Source| {
+            let generator = source.generator();
+            source.jacobian_of(&generator).concat()
+        };
+        self.matrix(Self::at(entries, mu), out);
+    }
     fn vector_field(&self, mu: &State, out: &mut State) {
-        *out = Self::at(Source::field_of_h, mu);
+        *out = Self::at(Source::field, mu);
     }
     fn jacobian(&self, mu: &State, out: &mut Square) {
         let entries = |source: &mut Source| {
-            let field = source.field_of_h();
+            let field = source.field();
             source.jacobian_of(&field).concat()
         };
         self.matrix(Self::at(entries, mu), out);

@@ -171,6 +171,8 @@ impl Planner<'_> {
                 poisson_degree: None,
                 clock: None,
                 joints: 0,
+                forced: false,
+                damped: false,
                 casimirs: Vec::new(),
                 energy: Energy::Expression,
                 derivatives: false,

@@ -161,6 +161,18 @@ impl<'a> NormalForm<'a> {
         None
     }
 
+    /// Whether an expression is shown to be nowhere negative: all terms of its normal form have that sign.
+    pub fn is_nonnegative(&mut self, id: ExprId) -> bool {
+        self.enter(id);
+        let negative = self.refined(|form| {
+            form.establish()?;
+            let value = form.convert(id)?;
+            let value = form.reduce(&value)?;
+            Ok(form.known_sign(&value))
+        });
+        matches!(negative, Some(Some(false))) || matches!(self.verdict(id), Verdict::Zero)
+    }
+
     /// The total degree in the coordinates, if the expression is a polynomial in them.
     pub fn degree(&mut self, id: ExprId) -> Option<u32> {
         let degree = self.unconfirmed_degree(id)?;

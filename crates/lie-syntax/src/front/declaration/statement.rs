@@ -23,6 +23,8 @@ const KEYWORDS: &[(&str, Follows)] = &[
     ("lagrangian", Follows::Equals),
     ("discrete_lagrangian", Follows::Equals),
     ("velocity", Follows::Name),
+    ("forces", Follows::Block),
+    ("dissipation", Follows::Block),
     ("realization", Follows::Block),
     ("casimir", Follows::Name),
     ("methods", Follows::Equals),

@@ -1,11 +1,11 @@
 //! The block `vectors`.
 
 use super::entry::{Entry, inside};
-use crate::ast::Expr;
+use crate::ast::{Expr, Name};
 use crate::diagnostic::{Diagnostic, Kind, Report};
 use crate::front::token::{Delimiter, Token, span, split_commas};
 use crate::front::vectors::{Declared, Value};
-use crate::front::{Names, item};
+use crate::front::{Names, expression, item};
 
 /// `{ Pi = (m1, m2, m3); A = [[a11, a12], [a12, a22]]; }`; one with a mistake is left out.
 pub fn read(block: &[Entry<'_>], names: &Names, report: &mut Report) -> Vec<Declared> {
@@ -17,6 +17,23 @@ pub fn read(block: &[Entry<'_>], names: &Names, report: &mut Report) -> Vec<Decl
 
 fn vector(entry: &Entry<'_>, names: &Names, report: &mut Report) -> Option<Declared> {
     let (name, value) = item::definition(entry.tokens, "a vector", entry.origin(), report)?;
+    let value = listed(&name, value, names, report)?;
+    Some(Declared { name, value })
+}
+
+/// An expression, or entries in brackets.
+pub fn value(name: &Name, value: &[Token], names: &Names, report: &mut Report) -> Option<Value> {
+    match inside(value, Delimiter::Bracket) {
+        Some(_) => listed(name, value, names, report),
+        None if value.is_empty() => {
+            report.push(item::missing_constant(name.origin));
+            None
+        }
+        None => expression::parse_value(value, names, report),
+    }
+}
+
+fn listed(name: &Name, value: &[Token], names: &Names, report: &mut Report) -> Option<Value> {
     let list = inside(value, Delimiter::Parenthesis).or(inside(value, Delimiter::Bracket));
     let Some(list) = list else {
         let place = span(value).unwrap_or(name.origin);
@@ -39,12 +56,11 @@ fn vector(entry: &Entry<'_>, names: &Names, report: &mut Report) -> Option<Decla
             .collect::<Option<Vec<Expr>>>()
     };
     let rows = parts.iter().map(|row| inside(row, Delimiter::Bracket));
-    let value = match rows.collect::<Option<Vec<_>>>() {
+    Some(match rows.collect::<Option<Vec<_>>>() {
         Some(rows) if !rows.is_empty() => {
             let rows = rows.into_iter().map(|row| entries(split_commas(row)));
             Value::Matrix(rows.collect::<Option<_>>()?)
         }
         _ => Value::Vector(entries(parts)?),
-    };
-    Some(Declared { name, value })
+    })
 }

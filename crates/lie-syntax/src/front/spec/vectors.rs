@@ -24,7 +24,8 @@ pub fn read(value: Value<'_>, names: &Names, report: &mut Report) -> Vec<Declare
     declared
 }
 
-fn vector(value: Value<'_>, names: &Names, report: &mut Report) -> Option<vectors::Value> {
+/// A list of entries, or of rows.
+pub fn vector(value: Value<'_>, names: &Names, report: &mut Report) -> Option<vectors::Value> {
     let elements = list(value, "a vector or a matrix", report)?;
     if elements.first().is_none_or(|e| e.kind() != Type::Array) {
         let what = "an entry of a vector";

@@ -20,6 +20,18 @@ pub fn expand(expression: Expr, vectors: &Vectors, report: &mut Report) -> Optio
     result.map_err(|mistake| report.push(*mistake)).ok()
 }
 
+/// The expression as a scalar, a vector or a matrix of scalars; `None` if its shapes do not fit, which is reported.
+pub fn expand_value(expression: Expr, vectors: &Vectors, report: &mut Report) -> Option<Value> {
+    if !concerns(&expression, vectors) {
+        return Some(Value::Scalar(expression));
+    }
+    if vectors.broken {
+        return None;
+    }
+    let result = Expansion { vectors }.value(&expression);
+    result.map_err(|mistake| report.push(*mistake)).ok()
+}
+
 /// Whether there is a vector or a function of vectors in it.
 fn concerns(expression: &Expr, vectors: &Vectors) -> bool {
     let mut pending = vec![expression];

@@ -12,7 +12,7 @@ use super::names::{self, Function, Names, functions};
 use crate::ast::{Expr, ExprKind, Name};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 
-pub use expand::expand;
+pub use expand::{expand, expand_value};
 
 /// How many nodes all expansions of a declaration may have.
 const MOST_NODES: usize = 200_000;
@@ -43,6 +43,23 @@ pub enum Value {
     Matrix(Vec<Vec<Expr>>),
 }
 
+impl Value {
+    /// The same with another expression for each entry; `None` where there is one without.
+    pub fn map(self, mut of: impl FnMut(Expr) -> Option<Expr>) -> Option<Self> {
+        Some(match self {
+            Self::Scalar(scalar) => Self::Scalar(of(scalar)?),
+            Self::Vector(entries) => {
+                Self::Vector(entries.into_iter().map(of).collect::<Option<_>>()?)
+            }
+            Self::Matrix(rows) => {
+                let rows = rows.into_iter();
+                let mut row = |row: Vec<Expr>| row.into_iter().map(&mut of).collect::<Option<_>>();
+                Self::Matrix(rows.map(&mut row).collect::<Option<_>>()?)
+            }
+        })
+    }
+}
+
 /// One declared vector or matrix.
 #[derive(Clone, Debug)]
 pub struct Declared {
@@ -67,6 +84,18 @@ impl Vectors {
     /// The value of a name.
     fn get(&self, name: &str) -> Option<&Value> {
         self.named.get(name)
+    }
+
+    /// The coordinates whose names are the entries of a vector; `None` of what is no vector, or has other entries.
+    pub fn coordinates(&self, name: &str) -> Option<Vec<&str>> {
+        let Value::Vector(entries) = self.get(name)? else {
+            return None;
+        };
+        let entries = entries.iter().map(|entry| match &entry.kind {
+            ExprKind::Name { name, index: None } => Some(name.as_str()),
+            _ => None,
+        });
+        entries.collect()
     }
 
     /// The names.

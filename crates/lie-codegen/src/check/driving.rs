@@ -1,0 +1,322 @@
+//! What acts beside the Hamiltonian: forces and dissipation, and what has to be proven of them.
+//!
+//! `mu' = Pi(mu) xi + F` with `F = forces - R grad H + K grad S` and `xi = grad H + c G v`, `v = Pi grad H`, so that
+//! `H' = <F, grad H> - c <v, G v>`. The momentum p of the time, which is carried wherever something acts, gives that power, and H + p
+//! stays constant.
+
+mod metric;
+
+use super::coordinates::Whole;
+use super::energy::Declared;
+use super::environment::Allowed;
+use super::matrix;
+use super::poisson::Entry;
+use crate::algebra::StructureConstants;
+use crate::model::{Acting, Driving, Energy, PoissonMatrix};
+use lie_symbolic::exact::Rational;
+use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
+use lie_syntax::ast::{Declaration, DissipationKind, Expr, Metric};
+use lie_syntax::diagnostic::{Diagnostic, Kind, Origin};
+use metric::{Checks, Rows};
+
+/// Lowers what acts; `None` where an expression is wrong, which is reported.
+pub fn acting(
+    whole: &Whole<'_>,
+    lower: &mut dyn FnMut(&Expr, Allowed) -> Option<ExprId>,
+) -> Option<Vec<Acting>> {
+    let declaration = &*whole.declaration;
+    let mut all = Vec::new();
+    let mut complete = true;
+    for (name, value) in &declaration.forces {
+        let place = declaration.state.iter().position(|c| c.text == name.text);
+        let force = place.zip(lower(value, Allowed::State));
+        complete &= force.is_some();
+        all.extend(force.map(|(place, value)| Acting::Force(place, value)));
+    }
+    for dissipation in &declaration.dissipation {
+        let mut rows = |rows: &[Vec<Expr>], allowed| -> Option<Rows> {
+            let row =
+                |row: &Vec<Expr>| -> Vec<_> { row.iter().map(|e| lower(e, allowed)).collect() };
+            let lowered: Vec<Vec<Option<ExprId>>> = rows.iter().map(row).collect();
+            lowered
+                .into_iter()
+                .map(|row| row.into_iter().collect())
+                .collect()
+        };
+        let found = match &dissipation.kind {
+            DissipationKind::DoubleBracket { strength, metric } => {
+                let metric = metric.as_ref().map(|m| rows(m, Allowed::Parameters));
+                let strength = lower(strength, Allowed::Parameters);
+                match metric {
+                    Some(metric) => strength
+                        .zip(metric)
+                        .map(|(c, g)| Acting::DoubleBracket(c, Some(g))),
+                    None => strength.map(|c| Acting::DoubleBracket(c, None)),
+                }
+            }
+            DissipationKind::Metriplectic { entropy, metric } => {
+                let (Metric::Entries(given) | Metric::Factor(given)) = metric;
+                let given = rows(given, Allowed::State);
+                let entropy = lower(entropy, Allowed::State);
+                entropy.zip(given).map(|(s, k)| Acting::Metriplectic(s, k))
+            }
+            DissipationKind::Rayleigh { matrix } => {
+                rows(matrix, Allowed::Parameters).map(Acting::Rayleigh)
+            }
+        };
+        complete &= found.is_some();
+        all.extend(found);
+    }
+    complete.then_some(all)
+}
+
+/// What the motion of a driven system is made of.
+pub struct Sources<'a> {
+    /// The declaration in all its coordinates.
+    pub whole: &'a Whole<'a>,
+    /// The structure constants.
+    pub constants: Option<&'a StructureConstants<ExprId>>,
+    /// The brackets of coordinates.
+    pub brackets: &'a [Entry],
+    /// The Hamiltonian.
+    pub energy: &'a Energy<Declared>,
+    /// The defaults of the parameters.
+    pub defaults: &'a [f64],
+    /// The names of symbols.
+    pub name: &'a dyn Fn(Symbol) -> String,
+}
+
+/// What acts on a system; `None` where nothing does, or something is wrong, which is reported.
+pub fn driving(
+    graph: &mut Graph,
+    sources: &Sources<'_>,
+    mut declared: Vec<Acting>,
+    mistakes: &mut Vec<Diagnostic>,
+) -> Option<Driving> {
+    let declaration = &*sources.whole.declaration;
+    if declared.is_empty() {
+        return None;
+    }
+    if let Some(mistake) = refused(declaration, sources) {
+        mistakes.push(mistake);
+        return None;
+    }
+    let (configuration, energy) = sources
+        .whole
+        .configuration
+        .as_ref()
+        .zip(sources.energy.expression())?;
+    let (own, clock) = (configuration.own_momenta(), configuration.clock()?);
+    let matrix = matrix::poisson_matrix(
+        graph,
+        declaration.dimension(),
+        sources.constants,
+        sources.brackets,
+    );
+    let mut work = Work {
+        own,
+        slopes: slopes(graph, energy.value, declaration.dimension()),
+        matrix,
+        graph,
+    };
+    let zero = work.graph.integer(0);
+    let (mut force, mut damping) = (
+        vec![zero; declaration.dimension()],
+        vec![zero; declaration.dimension()],
+    );
+    let mut origins = declaration.dissipation.iter();
+    let before = mistakes.len();
+    for acting in &mut declared {
+        let dissipation = match acting {
+            Acting::Force(..) => None,
+            _ => origins.next(),
+        };
+        let origin = dissipation.map_or(declaration.name.origin, |d| d.origin);
+        let checks = Checks {
+            origin,
+            own,
+            defaults: sources.defaults,
+            name: sources.name,
+        };
+        match acting {
+            Acting::Force(place, value) => force[*place] = work.graph.add(force[*place], *value),
+            Acting::Rayleigh(rows) => {
+                mistakes.extend(checks.damps(work.graph, "the matrix R", rows));
+                work.add_rayleigh(rows, &mut force);
+            }
+            Acting::DoubleBracket(strength, metric) => {
+                mistakes.extend(checks.strength(work.graph, *strength));
+                if let Some(rows) = metric {
+                    let symmetric = checks.symmetric(work.graph, "the metric G", rows);
+                    mistakes.extend(
+                        symmetric.or_else(|| checks.damps(work.graph, "the metric G", rows)),
+                    );
+                }
+                work.add_double_bracket(*strength, metric.as_ref(), &mut damping, clock.time);
+            }
+            Acting::Metriplectic(entropy, rows) => {
+                let factor = matches!(
+                    dissipation.map(|d| &d.kind),
+                    Some(DissipationKind::Metriplectic {
+                        metric: Metric::Factor(_),
+                        ..
+                    })
+                );
+                let found = work.metriplectic(*entropy, rows, factor, &checks);
+                mistakes.extend(found.map(|k| *rows = k).err());
+                work.add_metriplectic(*entropy, rows, &mut force);
+            }
+        }
+    }
+    if mistakes.len() > before {
+        return None;
+    }
+    let power = work.power(&force);
+    damping[clock.time] = work.graph.add(damping[clock.time], power);
+    Some(Driving {
+        force,
+        damping,
+        declared,
+    })
+}
+
+/// What no driven system is yet, or can be.
+fn refused(declaration: &Declaration, sources: &Sources<'_>) -> Option<Diagnostic> {
+    let force = declaration.forces.first().map(|(name, _)| name.origin);
+    let dissipation = declaration.dissipation.first().map(|d| d.origin);
+    let origin = force.or(dissipation).unwrap_or(declaration.name.origin);
+    let mistake = |origin: Origin, message: &str, help: &str| {
+        Some(Diagnostic::new(Kind::Dissipation, origin, message).help(help))
+    };
+    if declaration.family.is_some() {
+        let message = "forces and dissipation of a family are not built yet";
+        let help = "declare the sites one by one, as in `so(3) + so(3)`, or leave them out";
+        return mistake(origin, message, help);
+    }
+    if sources.energy.expression().is_none() {
+        let message = "forces and dissipation need H as an expression, and the Legendre transform of the Lagrangian is by iteration";
+        return mistake(origin, message, "declare the `hamiltonian`");
+    }
+    let along = |kind: &DissipationKind| matches!(kind, DissipationKind::DoubleBracket { .. });
+    let mut along = declaration.dissipation.iter().filter(|d| along(&d.kind));
+    if declaration.group.is_some()
+        && let Some(bracket) = along.next()
+    {
+        let message = "a double bracket moves along the coadjoint orbit, and beside a group element that is all of T*G: \
+                       the velocity of the group element would not be grad H";
+        let help = "leave `group` out, or use `rayleigh` or `forces`, which change mu alone";
+        return mistake(bracket.origin, message, help);
+    }
+    None
+}
+
+fn slopes(graph: &mut Graph, energy: ExprId, dimension: usize) -> Vec<ExprId> {
+    let slopes = (0..dimension).map(|i| graph.derivative(energy, Symbol::Coordinate(i)));
+    slopes.collect()
+}
+
+/// What the expressions of a driven system are made of.
+struct Work<'a> {
+    graph: &'a mut Graph,
+    /// How many coordinates were declared; they come first.
+    own: usize,
+    /// The gradient of H with the momentum of the time.
+    slopes: Vec<ExprId>,
+    matrix: PoissonMatrix,
+}
+
+impl Work<'_> {
+    /// `Pi w` in the declared coordinates.
+    fn moved(&mut self, w: &[ExprId]) -> Vec<ExprId> {
+        let mut terms = vec![Vec::new(); w.len()];
+        for (i, j, entry) in &self.matrix.entries {
+            let forth = self.graph.mul(*entry, w[*j]);
+            let back = self.graph.mul(*entry, w[*i]);
+            terms[*i].push(forth);
+            terms[*j].push(self.graph.scale(back, &Rational::MINUS_ONE));
+        }
+        let own = terms.into_iter().take(self.own);
+        own.map(|terms| self.graph.sum(&terms)).collect()
+    }
+
+    /// `M w` of the first coordinates.
+    fn times(&mut self, rows: &Rows, w: &[ExprId]) -> Vec<ExprId> {
+        let row = |row: &Vec<ExprId>| {
+            let products: Vec<ExprId> = row
+                .iter()
+                .zip(w)
+                .map(|(a, b)| self.graph.mul(*a, *b))
+                .collect();
+            self.graph.sum(&products)
+        };
+        rows.iter().map(row).collect()
+    }
+
+    fn add_rayleigh(&mut self, rows: &Rows, force: &mut [ExprId]) {
+        let slopes = self.slopes.clone();
+        for (slot, drag) in force.iter_mut().zip(self.times(rows, &slopes)) {
+            *slot = self.graph.sub(*slot, drag);
+        }
+    }
+
+    fn add_double_bracket(
+        &mut self,
+        strength: ExprId,
+        metric: Option<&Rows>,
+        damping: &mut [ExprId],
+        time: usize,
+    ) {
+        let slopes = self.slopes.clone();
+        let v = self.moved(&slopes);
+        let lowered = match metric {
+            Some(rows) => self.times(rows, &v),
+            None => v.clone(),
+        };
+        let mut power = Vec::new();
+        for (i, (v, w)) in v.into_iter().zip(lowered).enumerate() {
+            let part = self.graph.mul(strength, w);
+            damping[i] = self.graph.add(damping[i], part);
+            power.push(self.graph.mul(part, v));
+        }
+        let power = self.graph.sum(&power);
+        damping[time] = self.graph.sub(damping[time], power);
+    }
+
+    fn add_metriplectic(&mut self, entropy: ExprId, rows: &Rows, force: &mut [ExprId]) {
+        let slopes = slopes(self.graph, entropy, self.own);
+        for (slot, push) in force.iter_mut().zip(self.times(rows, &slopes)) {
+            *slot = self.graph.add(*slot, push);
+        }
+    }
+
+    /// The metric K, once all that it promises is proven.
+    fn metriplectic(
+        &mut self,
+        entropy: ExprId,
+        rows: &Rows,
+        factor: bool,
+        checks: &Checks<'_>,
+    ) -> Result<Rows, Diagnostic> {
+        let rows = match factor {
+            true => checks.square(self.graph, rows)?,
+            false => rows.clone(),
+        };
+        checks.shape("the metric K", &rows).map_or(Ok(()), Err)?;
+        let degenerate = self.times(&rows, &self.slopes.clone());
+        let mut slopes = slopes(self.graph, entropy, self.own);
+        slopes.resize(self.slopes.len(), self.graph.integer(0));
+        let moved = self.moved(&self.slopes.clone());
+        let products = moved.iter().zip(&slopes);
+        let products: Vec<ExprId> = products.map(|(a, b)| self.graph.mul(*a, *b)).collect();
+        let bracket = self.graph.sum(&products);
+        checks.metriplectic(self.graph, &rows, factor, &degenerate, bracket)?;
+        Ok(rows)
+    }
+
+    /// `<F, grad H>`
+    fn power(&mut self, force: &[ExprId]) -> ExprId {
+        let parts = force.iter().zip(&self.slopes).take(self.own);
+        let parts: Vec<ExprId> = parts.map(|(f, g)| self.graph.mul(*f, *g)).collect();
+        self.graph.sum(&parts)
+    }
+}
