@@ -46,7 +46,11 @@ pub fn measure(arguments: &args::Bench, bed: &Bed) -> Result<Measure, Failure> {
         Sense::Section => Measure::Section(plane),
         Sense::Casimirs => {
             let model = &bed.spec.model;
-            if model.casimirs.iter().all(|casimir| casimir.multivalued || !casimir.kept) {
+            if model
+                .casimirs
+                .iter()
+                .all(|casimir| casimir.multivalued || !casimir.kept)
+            {
                 let text = match (model.casimirs.len(), model.casimirs_to_find()) {
                     (0, 0) => format!("{} has no Casimir", model.name),
                     (0, _) => format!("no Casimir of {} is known", model.name),

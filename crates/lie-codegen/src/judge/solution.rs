@@ -4,7 +4,7 @@
 //! gradient of H by jets over series and the brackets as they were declared.
 
 use super::functions::slope;
-use super::number::{Jet, Number};
+use super::number::Number;
 use super::system::Declared;
 use lie_core::Elementary;
 
@@ -152,19 +152,15 @@ impl Number for Series {
 
 /// The declared field over series.
 fn field(declared: &Declared, mu: &[Series]) -> Vec<Series> {
-    let slope = |i: usize| {
-        let varied: Vec<Jet<Series>> = mu
-            .iter()
-            .enumerate()
-            .map(|(k, value)| Jet::variable(value.clone(), k == i))
-            .collect();
-        declared.hamiltonian(&varied, &[]).slope
-    };
-    let gradient: Vec<Series> = (0..mu.len()).map(slope).collect();
+    let gradient = declared.gradient(mu, |mu| declared.hamiltonian(mu, &[]));
     let rows = declared.poisson(mu);
-    rows.iter()
-        .map(|row| Series::sum(row.iter().zip(&gradient).map(|(a, b)| a.mul(b))))
-        .collect()
+    let row = |row: &Vec<Series>| Series::sum(row.iter().zip(&gradient).map(|(a, b)| a.mul(b)));
+    let mut field: Vec<Series> = rows.iter().map(row).collect();
+    let driven = declared.driven(mu, &[]).unwrap_or_default();
+    for (slot, extra) in field.iter_mut().zip(&driven) {
+        *slot = slot.add(extra);
+    }
+    field
 }
 
 /// The series of the solution from a state.

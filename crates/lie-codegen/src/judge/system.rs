@@ -37,10 +37,11 @@ impl Declared {
         self.configuration.as_ref().is_some_and(|c| c.time)
     }
 
-    /// The nodes of the energy and of the abbreviations.
+    /// The nodes of the energy, of the abbreviations and of what acts beside it.
     pub(super) fn size(&self) -> usize {
         let lets = self.declaration.lets.iter().map(|(_, value)| size(value));
-        lets.sum::<usize>() + size(self.declaration.energy.expression())
+        let driving = self.declaration.driving().map(size);
+        lets.sum::<usize>() + size(self.declaration.energy.expression()) + driving.sum::<usize>()
     }
 
     fn parameters<T: Number>(&self) -> Scope<T> {
@@ -224,7 +225,7 @@ impl Declared {
     }
 
     /// The gradient of a function over numbers with a derivative.
-    fn gradient<T: Number>(&self, mu: &[T], of: impl Fn(&[Jet<T>]) -> Jet<T>) -> Vec<T> {
+    pub(super) fn gradient<T: Number>(&self, mu: &[T], of: impl Fn(&[Jet<T>]) -> Jet<T>) -> Vec<T> {
         let varied = |i: usize| -> Vec<Jet<T>> {
             let coordinates = mu.iter().enumerate();
             coordinates
@@ -303,7 +304,12 @@ impl Declared {
         }
         let power = extra.iter().zip(&slopes).take(own);
         let power = T::sum(power.map(|(f, g)| f.mul(g)));
-        extra[configuration.momenta - 1] = power.neg();
+        // of an algebra the time and its momentum have the bracket of the unit
+        let bracket = match declaration.structure {
+            Structure::Lie { .. } => mu[mu.len() - 1].clone(),
+            Structure::General { .. } => T::integer(1),
+        };
+        extra[configuration.momenta - 1] = power.neg().mul(&bracket);
         Some(extra)
     }
 

@@ -131,7 +131,9 @@ impl Planner<'_> {
         }
         if let Some(changed) = model.casimirs.iter().find(|casimir| !casimir.kept) {
             let text = format!("the forces change the Casimir {}", changed.name);
-            return Err(word.wrong(text).help("leave it out: no level of it is to be kept"));
+            return Err(word
+                .wrong(text)
+                .help("leave it out: no level of it is to be kept"));
         }
         let jumps = model.casimirs.iter().find(|casimir| casimir.multivalued);
         jumps.map_or(Ok(()), |casimir| {

@@ -38,6 +38,9 @@ pub(super) fn finding<P>(
 where
     P: Lift<f64> + MatrixGroup<f64> + Clone,
 {
+    if system.is_forced() {
+        return Finding::absent("group", "forces change the momentum in space");
+    }
     let claims = method.claims();
     let exact = claims.preserves.on(system).orbit && !beside;
     let order = f64::from(claims.order);

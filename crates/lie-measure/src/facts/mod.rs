@@ -168,6 +168,9 @@ fn symmetry<P: Lift<f64>>(
 }
 
 fn orbit<P: Lift<f64>>(system: &P, ground: &Ground<P>, method: &dyn AnyMethod<f64, P>) -> Finding {
+    if system.is_forced() {
+        return Finding::absent("orbit", "forces act");
+    }
     let claimed = method.claims().preserves.on(system).orbit;
     let Some(orbit_distance) = ground.orbit else {
         return if claimed {
@@ -196,7 +199,10 @@ fn poisson<P: Lift<f64>>(
     ground: &Ground<P>,
     method: &dyn AnyMethod<Dual<f64>, P::Lifted>,
 ) -> Finding {
-    let kept = method.claims().preserves.on(lifted);
+    if lifted.is_forced() || lifted.is_damped() {
+        return Finding::absent("Poisson", "the flow is no Poisson map");
+    }
+    let kept = method.claims().preserves;
     let constant = lifted.poisson_degree() == Some(0);
     let claimed = kept.poisson || (kept.constant_poisson && constant);
     let newton = NewtonOptions::default();
