@@ -266,6 +266,12 @@ fn write_system(model: &Structure, text: &mut String) -> std::fmt::Result {
             "  H = Legendre transform of l, solved by Newton's iteration"
         )?,
     }
+    for (what, formula) in model.acting() {
+        writeln!(text, "  {what}: {formula}")?;
+    }
+    for sentence in model.what_dissipation_does() {
+        writeln!(text, "    {sentence}")?;
+    }
     casimirs::write(model, text)
 }
 

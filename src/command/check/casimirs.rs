@@ -41,9 +41,13 @@ pub(super) fn write(model: &Structure, text: &mut String) -> std::fmt::Result {
         writeln!(text, "    {why}")?;
     }
     for casimir in &model.casimirs {
+        let changed = match casimir.kept {
+            true => "",
+            false => ", which the forces change",
+        };
         writeln!(
             text,
-            "    {} = {}",
+            "    {} = {}{changed}",
             casimir.name,
             model.display(casimir.expr)
         )?;

@@ -6,6 +6,7 @@ use lie_in_process::formula::names;
 use lie_syntax::front::Names;
 
 use super::mathml::{formula, identifier};
+use super::page::escaped;
 
 /// Brackets beyond this number say less than the name of the algebra.
 const MOST: usize = 24;
@@ -36,6 +37,19 @@ pub fn formulas(model: &Structure) -> Vec<(&'static str, Vec<String>)> {
     if let Some(lagrangian) = model.energy.lagrangian() {
         let text = format!("l = {}", model.display(lagrangian.value));
         all.push(("Reduced Lagrangian:", vec![formula(&text, &names)]));
+    }
+    let acting = model.acting().into_iter();
+    let acting: Vec<String> = acting
+        .map(|(what, formula)| {
+            format!(
+                "<p>{}: <code>{}</code></p>",
+                escaped(&what),
+                escaped(&formula)
+            )
+        })
+        .collect();
+    if !acting.is_empty() {
+        all.push(("Beside the Hamiltonian:", acting));
     }
     let casimirs = model.casimirs.iter();
     let casimirs = casimirs.map(|casimir| {

@@ -112,6 +112,12 @@ pub(super) fn docs(structure: &Structure) -> Vec<String> {
         };
         docs.push(format!("Casimirs: {}{missing}.", casimirs.join(", ")));
     }
+    for (what, formula) in model.acting() {
+        docs.push(format!("Beside H: {what}: `{formula}`."));
+    }
+    for casimir in structure.casimirs.iter().filter(|c| !c.kept) {
+        docs.push(format!("The forces change `{}`.", casimir.name));
+    }
     for casimir in structure.casimirs.iter().filter(|c| c.multivalued) {
         docs.push(format!(
             "`{}` is multi-valued: it may jump, and its drift is not measured.",

@@ -54,6 +54,7 @@ impl Report {
                         CasimirKind::Rational => "rational",
                     },
                     "degree": casimir.degree,
+                    "kept": casimir.kept,
                 })
             })
             .collect();
@@ -72,6 +73,11 @@ impl Report {
             .iter()
             .map(|(id, reason)| ((*id).to_owned(), reason.clone().into()))
             .collect();
+        let acting: Vec<Value> = model
+            .acting()
+            .into_iter()
+            .map(|(what, formula)| json!({ "what": what, "formula": formula }))
+            .collect();
         let sites = sites(model).map_or(1, |[rows, columns]| rows * columns);
         json!({
             "name": model.name,
@@ -81,6 +87,7 @@ impl Report {
             "brackets": signs::brackets(model),
             "canonical": signs::canonical(model),
             "casimirs": casimirs,
+            "acting": acting,
             "independent_casimirs": sites * (model.dimension() - model.generic_rank),
             "constants_of_motion": motions::json(model),
             "class": model.algebra.as_ref().map(|report| structure::class(&report.class)),

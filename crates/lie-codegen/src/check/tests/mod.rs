@@ -5,6 +5,7 @@ mod choices;
 mod configuration;
 mod degree;
 mod domain;
+mod driving;
 mod extremes;
 mod families;
 mod found;

@@ -1,0 +1,200 @@
+//! Forces and dissipation: what is refused, and what the equations are.
+
+use super::*;
+use crate::derive::Source;
+use lie_symbolic::exact::Budget;
+use lie_symbolic::prove::proof::Prover;
+
+const RAYLEIGH: &str = r#"[{"kind": "rayleigh", "matrix": [[1, 0, 0], [0, "1/2", 0], [0, 0, 0]]}]"#;
+
+fn metriplectic(entropy: &str, metric: &str) -> String {
+    so3(&[(
+        "dissipation",
+        &format!(r#"[{{"kind": "metriplectic", "entropy": "{entropy}", {metric}}}]"#),
+    )])
+}
+
+/// `|grad H|^2 1 - grad H grad H^T` of `H = x^2 + 2 y^2`.
+const DEGENERATE: &str =
+    r#""metric": [["16*y^2", "-8*x*y", 0], ["-8*x*y", "4*x^2", 0], [0, 0, "4*x^2 + 16*y^2"]]"#;
+
+#[test]
+fn the_field_has_the_force_and_its_power() {
+    let model = model(&so3(&[
+        ("forces", r#"{"x": "-x/2 + cos(t)", "z": "3"}"#),
+        ("casimirs", r#"["C = x^2 + y^2 + z^2"]"#),
+    ]));
+    let mut source = Source::new(&model);
+    let field = source.field();
+    // x, y, z, p, t, 1
+    let at = [0.5, 0.25, 2.0, 0.0, 0.0, 1.0];
+    let value = |id| {
+        source.graph.evaluate(id, &|symbol| match symbol {
+            Symbol::Coordinate(i) => at[i],
+            other => panic!("{other:?}"),
+        })
+    };
+    let values: Vec<f64> = field.iter().map(|id| value(*id)).collect();
+    // mu x grad H with grad H = (1, 1, 0), and F = (3/4, 0, 3)
+    assert_eq!(values[..3], [-2.0 + 0.75, 2.0, 0.25 + 3.0]);
+    // p' = -<F, grad H>, t' = 1
+    assert_eq!(values[3..], [-0.75, 1.0, 0.0]);
+    assert!(!model.casimirs[0].kept);
+}
+
+#[test]
+fn a_double_bracket_stays_on_the_orbit_and_takes_energy() {
+    let model = model(&so3(&[
+        (
+            "dissipation",
+            r#"[{"kind": "double-bracket", "strength": "1/2"}]"#,
+        ),
+        ("casimirs", r#"["C = x^2 + y^2 + z^2"]"#),
+    ]));
+    let mut source = Source::new(&model);
+    let field = source.field();
+    let at = [0.5, 0.25, 2.0, 0.0, 0.0, 1.0];
+    let values: Vec<f64> = field
+        .iter()
+        .map(|id| {
+            source.graph.evaluate(*id, &|symbol| match symbol {
+                Symbol::Coordinate(i) => at[i],
+                other => panic!("{other:?}"),
+            })
+        })
+        .collect();
+    let dot = |a: &[f64]| a.iter().zip(at).map(|(a, b)| a * b).sum::<f64>();
+    assert!(dot(&values[..3]).abs() < 1e-15);
+    // H' = -c |mu x grad H|^2
+    let v = [-2.0, 2.0, 0.25_f64];
+    let power = -0.5 * v.iter().map(|v| v * v).sum::<f64>();
+    assert!((values[0] + values[1] - power).abs() < 1e-15);
+    assert!((values[3] + power).abs() < 1e-15);
+    assert!(model.casimirs[0].kept);
+}
+
+#[test]
+fn an_entropy_grows_and_the_energy_stays() {
+    for metric in [
+        DEGENERATE,
+        r#""factor": [["4*y", 0], ["-2*x", 0], [0, "0"]]"#,
+    ] {
+        let model = model(&metriplectic("x^2 + y^2 + z^2", metric));
+        let mut source = Source::new(&model);
+        let field = source.field();
+        let name = |symbol| model.symbol_name(symbol);
+        let budget = Budget::new(1_000_000);
+        let mut prover = Prover::new(&source.graph, &budget, &[], &name);
+        assert!(prover.vanishes(field[3]), "H is constant");
+        assert!(!prover.vanishes(field[2]), "and something acts");
+    }
+}
+
+#[test]
+fn what_a_metric_must_hold_is_proven() {
+    // the entropy is none of the Hamiltonian motion
+    expect(
+        &metriplectic("x^2", DEGENERATE),
+        &["dissipation at metriplectic: the entropy is no first integral"],
+    );
+    // it takes energy
+    let identity = r#""metric": [[1, 0, 0], [0, 1, 0], [0, 0, 1]]"#;
+    expect(
+        &metriplectic("x^2 + y^2 + z^2", identity),
+        &["dissipation at metriplectic: the metric does not keep H"],
+    );
+    // it has a negative eigenvalue
+    let negative = DEGENERATE.replace("\"4*x^2 + 16*y^2\"", "\"-x^2\"");
+    expect(
+        &metriplectic("x^2 + y^2 + z^2", &negative),
+        &["dissipation at metriplectic: it could not be shown that the metric K"],
+    );
+    // it is not symmetric: K grad H = 0 all the same
+    let bent = r#""metric": [[0, 0, 0], [0, 0, 0], ["2*y", "-x", 0]]"#;
+    expect(
+        &metriplectic("x^2 + y^2 + z^2", bent),
+        &["dissipation at metriplectic: the metric K is not symmetric"],
+    );
+}
+
+#[test]
+fn what_is_malformed_is_said_at_its_place() {
+    let forces = |value: &str| so3(&[("forces", value)]);
+    expect(
+        &forces(r#"{"w": "1"}"#),
+        &["unknown-symbol at w: `w` is no coordinate"],
+    );
+    expect(
+        &forces(r#"{"x": "k"}"#),
+        &["unknown-symbol at k: unknown symbol `k`"],
+    );
+    expect(
+        &forces(r#"{"x": ""}"#),
+        &["syntax at \"\": a force is missing"],
+    );
+    let dissipation = |value: &str| so3(&[("dissipation", value)]);
+    expect(
+        &dissipation(r#"[{"kind": "gilbert"}]"#),
+        &["schema at gilbert: unknown kind of dissipation `gilbert`"],
+    );
+    expect(
+        &dissipation(r#"[{"kind": "rayleigh"}]"#),
+        &["schema at rayleigh: `rayleigh` has no `matrix`"],
+    );
+    expect(
+        &dissipation(r#"[{"kind": "rayleigh", "matrix": [[1]]}]"#),
+        &["dissipation at rayleigh: the matrix R has 1 rows of 1, but there are 3 coordinates"],
+    );
+    expect(
+        &dissipation(r#"[{"kind": "rayleigh", "matrix": [[1, 0, 0], [0, -1, 0], [0, 0, 1]]}]"#),
+        &["dissipation at rayleigh: the matrix R has a negative eigenvalue"],
+    );
+    expect(
+        &dissipation(r#"[{"kind": "double-bracket", "strength": -1}]"#),
+        &["dissipation at double-bracket: the strength is -1"],
+    );
+    expect(
+        &dissipation(r#"[{"kind": "double-bracket", "strength": "x"}]"#),
+        &["unknown-symbol at x: `x` cannot stand here"],
+    );
+}
+
+#[test]
+fn a_vector_stands_for_its_coordinates() {
+    let vectors = ("vectors", r#"{"m": ["x", "y", "z"], "d": [0, 0, 1]}"#);
+    let model = model(&so3(&[
+        vectors,
+        ("forces", r#"{"m": "cross(m, d) - 2*m"}"#),
+    ]));
+    let driving = model.driving.as_ref().expect("forces");
+    let shown: Vec<String> = driving
+        .force
+        .iter()
+        .take(3)
+        .map(|f| model.display(*f))
+        .collect();
+    assert_eq!(shown, ["-2*x + y", "-x - 2*y", "-2*z"]);
+    expect(
+        &so3(&[vectors, ("forces", r#"{"m": "2"}"#)]),
+        &["unknown-symbol at m: `m` has 3 entries, and the force on it has another shape"],
+    );
+    expect(
+        &so3(&[vectors, ("forces", r#"{"m": "d", "z": "1"}"#)]),
+        &["duplicate-name at z: the force on `z` stands twice"],
+    );
+}
+
+#[test]
+fn methods_of_the_hamiltonian_alone_are_refused_with_the_reason() {
+    use crate::methods::{Choice, refusal};
+    let model = model(&so3(&[("dissipation", RAYLEIGH)]));
+    let why = |id: &str| {
+        Choice::from_id(id)
+            .ok()
+            .and_then(|choice| refusal(&model, &choice))
+    };
+    assert!(why("gauss16").is_none());
+    assert!(why("compose4(midpoint)").is_none());
+    let (reason, _) = why("splitting2").expect("a reason");
+    assert!(reason.contains("forces act"), "{reason}");
+}
