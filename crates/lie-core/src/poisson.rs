@@ -156,14 +156,27 @@ pub trait Poisson<S: Scalar>: Sized {
     fn is_damped(&self) -> bool {
         false
     }
+    /// What a double bracket of strength c and metric G makes of a covector: `out = c G v`, in the algebra. It has no component along the
+    /// momentum of the time. Methods along discrete gradients damp by it, so that H falls by `c <v, G v>` to round-off.
+    fn damping(&self, _mu: &Self::State, _v: &Self::State, out: &mut Self::State) {
+        out.fill(S::zero());
+    }
     /// The generator of the motion along the coadjoint orbit: `xi = grad H`, and `xi = grad H + c G ad*_{grad H} mu` where a double bracket of
     /// strength c and metric G damps.
     fn generator(&self, mu: &Self::State, out: &mut Self::State) {
         self.gradient(mu, out);
+        if self.is_damped() {
+            generic::add_damping(self, mu, out);
+        }
     }
     /// The derivative of the generator: `out_ij = dxi_i/dmu_j`, the Hessian of H where nothing damps.
+    ///
+    /// The provided body is for a [`Poisson::damping`] that does not depend on mu.
     fn generator_slope(&self, mu: &Self::State, out: &mut Self::Jacobian) {
         self.hessian(mu, out);
+        if self.is_damped() {
+            generic::add_damping_slope(self, mu, out);
+        }
     }
 
     /// The number of declared functions of the state that [`Poisson::quantities`] writes: the work of the forces, first integrals,

@@ -52,7 +52,7 @@ pub trait Recurrence<S: Scalar> {
 
 /// The Taylor coefficients of the gradient of H beside those of the field.
 pub trait GradientRecurrence<S: Scalar>: Recurrence<S> {
-    /// The coefficient of `grad H(mu(t))` of the order that was computed last.
+    /// The coefficient of `grad H(mu(t))` of the order that was computed last; of the generator where something damps.
     fn gradient(&self) -> &Self::State;
 }
 

@@ -79,17 +79,25 @@ pub fn flow_of_columns<S: Scalar, P: ColumnPoisson<S>>(
     }
 }
 
-/// The canonical flow of `H o J` at a point.
+/// The canonical flow of `H o J` at a point; along the generator where something damps.
 #[inline(always)]
 pub fn flow_over_columns<S: Scalar, P: ColumnPoisson<S>>(
     system: &P,
     point: &P::Columns,
     out: &mut P::Columns,
 ) {
-    let (mut momenta, mut gradient) = (system.zero_state(), system.zero_state());
+    let (mut momenta, mut generator) = (system.zero_state(), system.zero_state());
     momentum_of_columns(system, point, &mut momenta);
-    system.gradient(&momenta, &mut gradient);
-    flow_of_columns(system, point, &gradient, out);
+    system.generator(&momenta, &mut generator);
+    flow_of_columns(system, point, &generator, out);
+    if let Some(clock) = system.clock()
+        && system.is_forced()
+    {
+        // the power of the damping
+        system.force(&momenta, &mut generator);
+        let middle = out.as_slice().len() - 2;
+        out.as_mut_slice()[middle] += generator.as_slice()[clock.momentum];
+    }
 }
 
 /// The point over a state: columns of the unit matrix, and rows that are linear in mu.

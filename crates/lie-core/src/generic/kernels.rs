@@ -79,6 +79,42 @@ pub fn jacobian<S: Scalar, P: Poisson<S>>(system: &P, mu: &P::State, out: &mut P
     }
 }
 
+/// What damps, beside the gradient: adds `c G Pi(mu) xi` to `xi = grad H`.
+pub fn add_damping<S: Scalar, P: Poisson<S>>(system: &P, mu: &P::State, xi: &mut P::State) {
+    let mut matrix = system.zero_jacobian();
+    system.poisson_matrix(mu, &mut matrix);
+    let (mut rate, mut damping) = (system.zero_state(), system.zero_state());
+    multiply(&matrix, xi, &mut rate);
+    system.damping(mu, &rate, &mut damping);
+    xi.axpy(S::one(), &damping);
+}
+
+/// The same for the derivative: adds `c G (D(Pi grad H) + Pi(mu) H'')` to H'', with grad H fixed in the first term.
+pub fn add_damping_slope<S: Scalar, P: Poisson<S>>(
+    system: &P,
+    mu: &P::State,
+    slope: &mut P::Jacobian,
+) {
+    let mut gradient = system.zero_state();
+    system.gradient(mu, &mut gradient);
+    let (mut turned, mut matrix) = (system.zero_jacobian(), system.zero_jacobian());
+    system.poisson_slope(mu, &gradient, &mut turned);
+    system.poisson_matrix(mu, &mut matrix);
+    let (mut rate, mut damping) = (system.zero_state(), gradient);
+    for column in 0..system.dimension() {
+        for (row, rate) in rate.as_mut_slice().iter_mut().enumerate() {
+            *rate = turned.get(row, column);
+            for middle in 0..system.dimension() {
+                *rate += matrix.get(row, middle) * slope.get(middle, column);
+            }
+        }
+        system.damping(mu, &rate, &mut damping);
+        for (row, &entry) in damping.as_slice().iter().enumerate() {
+            slope.set(row, column, slope.get(row, column) + entry);
+        }
+    }
+}
+
 /// The Hessian of H by its gradient over dual numbers, column by column: what a system has that was declared for
 /// methods without derivatives of the field.
 pub fn hessian_by_duals<S: Scalar, P: Lift<S>>(system: &P, mu: &P::State, out: &mut P::Jacobian) {

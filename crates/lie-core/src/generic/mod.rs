@@ -122,8 +122,9 @@ pub use generating::{
 pub use inverse_tangent::{dcay_inverse_dual, dexp_inverse_dual};
 pub(crate) use kernels::direction;
 pub use kernels::{
-    ad, ad_star, ad_star_matrix, casimir_gradient_by_duals, euler_poincare, hessian_by_duals,
-    jacobian, jacobian_by_duals, linearize, multiply, poisson_slope, vector_field,
+    ad, ad_star, ad_star_matrix, add_damping, add_damping_slope, casimir_gradient_by_duals,
+    euler_poincare, hessian_by_duals, jacobian, jacobian_by_duals, linearize, multiply,
+    poisson_slope, vector_field,
 };
 pub use lifts::LinearLift;
 pub use matrix_stages::MatrixStages;

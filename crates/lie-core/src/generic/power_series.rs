@@ -12,7 +12,7 @@ pub struct PowerSeries<S: Scalar, P: Expand<S>> {
     /// The coordinates as series.
     series: <P::Expanded as Poisson<Truncated<S>>>::State,
     out: <P::Expanded as Poisson<Truncated<S>>>::State,
-    gradient: P::State,
+    generator: P::State,
 }
 
 impl<S: Scalar, P: Expand<S>> PowerSeries<S, P> {
@@ -24,11 +24,11 @@ impl<S: Scalar, P: Expand<S>> PowerSeries<S, P> {
             out: series.clone(),
             series,
             system: expanded,
-            gradient: system.zero_state(),
+            generator: system.zero_state(),
         }
     }
 
-    /// Takes a coefficient of the state and computes one of field and gradient.
+    /// Takes a coefficient of the state and computes one of field and generator.
     fn next(&mut self, k: usize, coefficient: &P::State, field: &mut P::State) {
         let coordinates = self.series.as_mut_slice().iter_mut();
         for (series, &next) in coordinates.zip(coefficient.as_slice()) {
@@ -38,8 +38,8 @@ impl<S: Scalar, P: Expand<S>> PowerSeries<S, P> {
         }
         self.system.vector_field(&self.series, &mut self.out);
         take(k, &self.out, field);
-        self.system.gradient(&self.series, &mut self.out);
-        take(k, &self.out, &mut self.gradient);
+        self.system.generator(&self.series, &mut self.out);
+        take(k, &self.out, &mut self.generator);
     }
 }
 
@@ -65,6 +65,6 @@ impl<S: Scalar, P: Expand<S>> Recurrence<S> for PowerSeries<S, P> {
 
 impl<S: Scalar, P: Expand<S>> GradientRecurrence<S> for PowerSeries<S, P> {
     fn gradient(&self) -> &P::State {
-        &self.gradient
+        &self.generator
     }
 }

@@ -93,7 +93,7 @@ pub fn flow_of_quaternions<S: Scalar, P: VectorPoisson<S>>(
     write(first, second, out);
 }
 
-/// The canonical flow of `H o J` at a point.
+/// The canonical flow of `H o J` at a point; along the generator where something damps.
 #[inline(always)]
 pub fn flow_over_quaternions<S: Scalar, P: VectorPoisson<S>>(
     system: &P,
@@ -101,10 +101,10 @@ pub fn flow_over_quaternions<S: Scalar, P: VectorPoisson<S>>(
     point: &P::Quaternions,
     out: &mut P::Quaternions,
 ) {
-    let (mut momenta, mut gradient) = (system.zero_state(), system.zero_state());
+    let (mut momenta, mut generator) = (system.zero_state(), system.zero_state());
     vectors_of(system, labels, point, &mut momenta);
-    system.gradient(&momenta, &mut gradient);
-    flow_of_quaternions(system, labels, point, &gradient, out);
+    system.generator(&momenta, &mut generator);
+    flow_of_quaternions(system, labels, point, &generator, out);
 }
 
 /// A point over a state, with its labels. A single vector is `r conj(q) k q`, with the entry of q that is largest chosen

@@ -14,7 +14,7 @@ const CLOSE: f64 = 64.0;
 
 /// The canonical Hamiltonian system of `H o J` on the points z = (q, p) of a realization J.
 ///
-/// Gradient `J'^T grad H`, Hessian `J'^T H'' J' + sum_k (dH/dmu_k) J_k''`, both at `mu = J(z)`.
+/// Gradient `J'^T grad H`, Hessian `J'^T H'' J' + sum_k (dH/dmu_k) J_k''`, both at `mu = J(z)`; the generator and its derivative alike.
 #[derive(Debug)]
 pub struct Canonical<'a, P> {
     system: &'a P,
@@ -24,6 +24,54 @@ impl<'a, P> Canonical<'a, P> {
     /// The canonical system over a system.
     pub fn new(system: &'a P) -> Self {
         Self { system }
+    }
+}
+
+impl<P> Canonical<'_, P> {
+    /// The pullback of a vector in the algebra at `J(z)`.
+    fn pulled_back<S: Scalar>(
+        &self,
+        z: &P::Point,
+        vector: impl Fn(&P, &P::State, &mut P::State),
+        out: &mut P::Point,
+    ) where
+        P: RealizedPoisson<S>,
+    {
+        let (mut mu, mut xi) = (self.system.zero_state(), self.system.zero_state());
+        self.system.momentum_map(z, &mut mu);
+        vector(self.system, &mu, &mut xi);
+        self.system.pullback(z, &xi, out);
+    }
+
+    /// The derivative of a pullback, from the vector and its derivative in mu.
+    fn slope<S: Scalar>(
+        &self,
+        z: &P::Point,
+        vector: impl Fn(&P, &P::State, &mut P::State),
+        derivative: impl Fn(&P, &P::State, &mut P::Jacobian),
+        out: &mut P::PointMatrix,
+    ) where
+        P: RealizedPoisson<S>,
+    {
+        let system = self.system;
+        let (mut mu, mut xi) = (system.zero_state(), system.zero_state());
+        system.momentum_map(z, &mut mu);
+        vector(system, &mu, &mut xi);
+        system.curvature(z, &xi, out);
+        let mut second = system.zero_jacobian();
+        derivative(system, &mu, &mut second);
+        let (mut unit, mut column) = (system.zero_point(), system.zero_point());
+        let (mut moved, mut turned) = (system.zero_state(), system.zero_state());
+        for j in 0..system.point_dimension() {
+            unit.fill(S::zero());
+            unit.as_mut_slice()[j] = S::one();
+            system.pushforward(z, &unit, &mut moved);
+            super::multiply(&second, &moved, &mut turned);
+            system.pullback(z, &turned, &mut column);
+            for (i, &entry) in column.as_slice().iter().enumerate() {
+                out.set(i, j, out.get(i, j) + entry);
+            }
+        }
     }
 }
 
@@ -59,32 +107,33 @@ impl<S: Scalar, P: RealizedPoisson<S>> Poisson<S> for Canonical<'_, P> {
     }
 
     fn gradient(&self, z: &P::Point, out: &mut P::Point) {
-        let (mut mu, mut slope) = (self.system.zero_state(), self.system.zero_state());
-        self.system.momentum_map(z, &mut mu);
-        self.system.gradient(&mu, &mut slope);
-        self.system.pullback(z, &slope, out);
+        self.pulled_back(z, |system, mu, xi| system.gradient(mu, xi), out);
     }
 
     fn hessian(&self, z: &P::Point, out: &mut P::PointMatrix) {
-        let system = self.system;
-        let (mut mu, mut slope) = (system.zero_state(), system.zero_state());
-        system.momentum_map(z, &mut mu);
-        system.gradient(&mu, &mut slope);
-        system.curvature(z, &slope, out);
-        let mut second = system.zero_jacobian();
-        system.hessian(&mu, &mut second);
-        let (mut unit, mut column) = (system.zero_point(), system.zero_point());
-        let (mut moved, mut turned) = (system.zero_state(), system.zero_state());
-        for j in 0..self.system.point_dimension() {
-            unit.fill(S::zero());
-            unit.as_mut_slice()[j] = S::one();
-            system.pushforward(z, &unit, &mut moved);
-            super::multiply(&second, &moved, &mut turned);
-            system.pullback(z, &turned, &mut column);
-            for (i, &entry) in column.as_slice().iter().enumerate() {
-                out.set(i, j, out.get(i, j) + entry);
-            }
-        }
+        self.slope(
+            z,
+            |system, mu, xi| system.gradient(mu, xi),
+            |system, mu, second| system.hessian(mu, second),
+            out,
+        );
+    }
+
+    fn is_damped(&self) -> bool {
+        self.system.is_damped()
+    }
+
+    fn generator(&self, z: &P::Point, out: &mut P::Point) {
+        self.pulled_back(z, |system, mu, xi| system.generator(mu, xi), out);
+    }
+
+    fn generator_slope(&self, z: &P::Point, out: &mut P::PointMatrix) {
+        self.slope(
+            z,
+            |system, mu, xi| system.generator(mu, xi),
+            |system, mu, second| system.generator_slope(mu, second),
+            out,
+        );
     }
 
     fn poisson_matrix(&self, _z: &P::Point, out: &mut P::PointMatrix) {
@@ -113,7 +162,7 @@ impl<S: Scalar, P: RealizedPoisson<S>> Poisson<S> for Canonical<'_, P> {
 
     fn vector_field(&self, z: &P::Point, out: &mut P::Point) {
         let mut slope = self.zero_state();
-        self.gradient(z, &mut slope);
+        self.generator(z, &mut slope);
         let half = self.system.point_dimension() / 2;
         for i in 0..half {
             out.as_mut_slice()[i] = slope.as_slice()[half + i];
@@ -123,7 +172,7 @@ impl<S: Scalar, P: RealizedPoisson<S>> Poisson<S> for Canonical<'_, P> {
 
     fn jacobian(&self, z: &P::Point, out: &mut P::PointMatrix) {
         let mut second = self.zero_jacobian();
-        self.hessian(z, &mut second);
+        self.generator_slope(z, &mut second);
         let half = self.system.point_dimension() / 2;
         for j in 0..self.system.point_dimension() {
             for i in 0..half {
@@ -260,141 +309,4 @@ impl<V, M, Z> Lifting<V, M, Z> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::generic::multiply;
-    use nalgebra::{SMatrix, SVector};
-
-    type Vector<const N: usize> = SVector<f64, N>;
-    type Matrix<const N: usize> = SMatrix<f64, N, N>;
-
-    /// Two actions `I_k = (q_k^2 + p_k^2)/2`, which are never negative.
-    struct Actions;
-
-    impl Poisson<f64> for Actions {
-        type State = Vector<2>;
-        type Jacobian = Matrix<2>;
-        fn dimension(&self) -> usize {
-            2
-        }
-        fn name(&self) -> &str {
-            "Actions"
-        }
-        fn coordinate(&self, index: usize) -> &str {
-            ["I1", "I2"][index]
-        }
-        fn zero_state(&self) -> Vector<2> {
-            Vector::repeat(0.0)
-        }
-        fn zero_jacobian(&self) -> Matrix<2> {
-            Matrix::repeat(0.0)
-        }
-        fn hamiltonian(&self, mu: &Vector<2>) -> f64 {
-            mu[0] * mu[0] + 3.0 * mu[1]
-        }
-        fn gradient(&self, mu: &Vector<2>, out: &mut Vector<2>) {
-            *out = Vector::<2>::new(2.0 * mu[0], 3.0);
-        }
-        fn hessian(&self, _mu: &Vector<2>, out: &mut Matrix<2>) {
-            *out = Matrix::<2>::new(2.0, 0.0, 0.0, 0.0);
-        }
-        fn poisson_matrix(&self, _mu: &Vector<2>, out: &mut Matrix<2>) {
-            *out = Matrix::repeat(0.0);
-        }
-        fn jacobian(&self, _mu: &Vector<2>, out: &mut Matrix<2>) {
-            *out = Matrix::repeat(0.0);
-        }
-        fn casimirs(&self, _mu: &Vector<2>, _out: &mut [f64]) {}
-        fn casimir_gradient(&self, _index: usize, _mu: &Vector<2>, _out: &mut Vector<2>) {}
-    }
-
-    impl RealizedPoisson<f64> for Actions {
-        type Point = Vector<4>;
-        type PointMatrix = Matrix<4>;
-        fn point_dimension(&self) -> usize {
-            4
-        }
-        fn canonical_name(&self, index: usize) -> &str {
-            ["q1", "q2", "p1", "p2"][index]
-        }
-        fn start_is_given(&self) -> bool {
-            false
-        }
-        fn zero_point(&self) -> Vector<4> {
-            Vector::repeat(0.0)
-        }
-        fn zero_point_matrix(&self) -> Matrix<4> {
-            Matrix::repeat(0.0)
-        }
-        fn momentum_map(&self, z: &Vector<4>, out: &mut Vector<2>) {
-            for k in 0..2 {
-                out[k] = 0.5 * (z[k] * z[k] + z[k + 2] * z[k + 2]);
-            }
-        }
-        fn pullback(&self, z: &Vector<4>, xi: &Vector<2>, out: &mut Vector<4>) {
-            for k in 0..4 {
-                out[k] = xi[k % 2] * z[k];
-            }
-        }
-        fn pushforward(&self, z: &Vector<4>, v: &Vector<4>, out: &mut Vector<2>) {
-            for k in 0..2 {
-                out[k] = z[k] * v[k] + z[k + 2] * v[k + 2];
-            }
-        }
-        fn curvature(&self, _z: &Vector<4>, xi: &Vector<2>, out: &mut Matrix<4>) {
-            *out = Matrix::from_diagonal(&Vector::<4>::from_fn(|k, _| xi[k % 2]));
-        }
-        fn start(&self, out: &mut Vector<4>) {
-            *out = Vector::<4>::new(0.6, 0.3, -0.2, 0.5);
-        }
-    }
-
-    #[test]
-    fn a_point_lies_over_a_state_or_there_is_none() {
-        let lift = |second: f64| {
-            let mut z = Actions.zero_point();
-            Actions.start(&mut z);
-            let mu = Vector::<2>::new(1.0, second);
-            let found = Lifting::new(&Actions).lift(&Actions, &mu, &mut z);
-            let mut over = Actions.zero_state();
-            Actions.momentum_map(&z, &mut over);
-            (found, (over - mu).amax())
-        };
-        for second in [2.0, 0.1, 1e-6, 1e-11] {
-            let (found, distance) = lift(second);
-            assert!(found && distance < 1e-14, "{second:e}: {distance:e}");
-        }
-        // an action below 0, by a part of the state that is small and no round-off
-        for second in [-1e-13, -1e-12, -1e-11, -1e-3] {
-            let (found, distance) = lift(second);
-            assert!(!found, "{second:e}: {distance:e}");
-        }
-    }
-
-    #[test]
-    fn the_canonical_system_has_its_derivatives() {
-        let system = Canonical::new(&Actions);
-        let z = Vector::<4>::new(0.6, 0.3, -0.2, 0.5);
-        let (mut field, mut hessian) = (z, system.zero_jacobian());
-        system.vector_field(&z, &mut field);
-        system.hessian(&z, &mut hessian);
-        let mut gradient = z;
-        system.gradient(&z, &mut gradient);
-        let mut matrix = system.zero_jacobian();
-        system.poisson_matrix(&z, &mut matrix);
-        let mut expected = z;
-        multiply(&matrix, &gradient, &mut expected);
-        assert!((field - expected).amax() < 1e-15);
-        let difference = 1e-5;
-        for column in 0..4 {
-            let slope = |sign: f64| {
-                let (mut place, mut slope) = (z, z);
-                place[column] += sign * difference;
-                system.gradient(&place, &mut slope);
-                slope
-            };
-            let expected = (slope(1.0) - slope(-1.0)) / (2.0 * difference);
-            assert!((hessian.column(column) - expected).amax() < 1e-9);
-        }
-    }
-}
+mod tests;

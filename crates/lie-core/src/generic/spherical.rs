@@ -151,7 +151,7 @@ impl<S: Scalar, P: SpinPoisson<S>> Equation<S> for Spherical<'_, S, P> {
 
     fn group_factor(&mut self, unknown: &P::State, xi: &mut P::State) -> Option<Retraction> {
         self.set_point(unknown);
-        self.system.gradient(&self.point, &mut self.field);
+        self.system.generator(&self.point, &mut self.field);
         for (index, spin) in self.system.spins().iter().enumerate() {
             // d = ad*_x s/2 with x = 2 h (|mu|/|s|) grad H: the rotation of the quaternion (1, c x/2)
             let (scale, (_, [ratio, _])) = (self.system.scale(index), self.sum(index, unknown));

@@ -41,17 +41,17 @@ pub fn flow_of_spinors<S: Scalar, P: SpinPoisson<S>>(
     }
 }
 
-/// The canonical flow of `H o J` at a point.
+/// The canonical flow of `H o J` at a point; along the generator where something damps.
 #[inline(always)]
 pub fn flow_over_spins<S: Scalar, P: SpinPoisson<S>>(
     system: &P,
     point: &P::Spinors,
     out: &mut P::Spinors,
 ) {
-    let (mut momenta, mut gradient) = (system.zero_state(), system.zero_state());
+    let (mut momenta, mut generator) = (system.zero_state(), system.zero_state());
     spins_of(system, point, &mut momenta);
-    system.gradient(&momenta, &mut gradient);
-    flow_of_spinors(system, point, &gradient, out);
+    system.generator(&momenta, &mut generator);
+    flow_of_spinors(system, point, &generator, out);
 }
 
 /// A point over a state: that with `p1 = 0` where the third component of a spin is not negative, else that with

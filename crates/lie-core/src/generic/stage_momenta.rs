@@ -197,7 +197,7 @@ where
         self.write_residual(unknown, residual);
         for column_stage in 0..STAGES {
             self.system
-                .hessian(&unknown.0[column_stage], &mut self.hessian);
+                .generator_slope(&unknown.0[column_stage], &mut self.hessian);
             for row_stage in 0..STAGES {
                 let slopes = &self.slopes.0[row_stage][column_stage];
                 let block = &mut matrix.0[row_stage][column_stage];

@@ -72,7 +72,7 @@ pub fn flow_of_factor<S: Scalar, P: UnitaryPoisson<S>>(
     }
 }
 
-/// The canonical flow of `H o J` at a point.
+/// The canonical flow of `H o J` at a point; along the generator where something damps.
 #[inline(always)]
 pub fn flow_over_factors<S: Scalar, P: UnitaryPoisson<S>>(
     system: &P,
@@ -80,10 +80,10 @@ pub fn flow_over_factors<S: Scalar, P: UnitaryPoisson<S>>(
     point: &P::Factor,
     out: &mut P::Factor,
 ) {
-    let (mut momenta, mut gradient) = (system.zero_state(), system.zero_state());
+    let (mut momenta, mut generator) = (system.zero_state(), system.zero_state());
     momentum_of_factor(system, shift, point, &mut momenta);
-    system.gradient(&momenta, &mut gradient);
-    flow_of_factor(system, point, &gradient, out);
+    system.generator(&momenta, &mut generator);
+    flow_of_factor(system, point, &generator, out);
 }
 
 /// A point over a state: the columns of the Cholesky factor with pivots of `M - shift`, where M is the Hermitian matrix of the

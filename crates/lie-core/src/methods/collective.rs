@@ -160,6 +160,7 @@ impl<L, const STAGES: usize> Facts for Collective<L, STAGES> {
     const SYMMETRIC: bool = true;
     const EXPLICIT: bool = false;
     const PRESERVES: Preserves = Preserves::POISSON;
+    const DAMPING: bool = true;
 }
 
 /// The collective Gauss method with four to eight stages, which are evaluated together on the points of the space L themselves,
@@ -234,6 +235,7 @@ impl<L, const STAGES: usize> Facts for ParallelCollective<L, STAGES> {
     const EXPLICIT: bool = false;
     const FIXED_POINT: bool = true;
     const PRESERVES: Preserves = Preserves::POISSON;
+    const DAMPING: bool = true;
 }
 
 impl<S, P, L, const STAGES: usize> Method<S, P> for ParallelCollective<L, STAGES>

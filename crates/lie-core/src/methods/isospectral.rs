@@ -74,6 +74,7 @@ impl<const STAGES: usize> Facts for Isospectral<STAGES> {
     const SYMMETRIC: bool = true;
     const EXPLICIT: bool = false;
     const PRESERVES: Preserves = Preserves::POISSON;
+    const DAMPING: bool = true;
 }
 
 by_equation!([const STAGES: usize] Isospectral<STAGES>);
@@ -115,6 +116,7 @@ impl<const STAGES: usize> Facts for ParallelIsospectral<STAGES> {
     const EXPLICIT: bool = false;
     const FIXED_POINT: bool = true;
     const PRESERVES: Preserves = Preserves::POISSON;
+    const DAMPING: bool = true;
 }
 
 impl<S, P, const STAGES: usize> Method<S, P> for ParallelIsospectral<STAGES>

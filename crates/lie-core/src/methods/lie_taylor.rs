@@ -14,6 +14,8 @@
 //! Explicit. It keeps the coadjoint orbit and with it every Casimir, at any tolerance; the energy, and the Poisson structure, to
 //! the tolerance. Order and step as those of [`Taylor`](super::Taylor), the order `1 - 0.4 ln(tolerance)`.
 //!
+//! Damping along the orbit has the generator in place of the gradient.
+//!
 //! Needs: an expression of H and a Lie algebra.
 //!
 //! References: H. Munthe-Kaas, "High order Runge–Kutta methods on manifolds", Applied Numerical Mathematics 29 (1999)
@@ -61,6 +63,7 @@ impl Facts for LieTaylor {
     const EXPLICIT: bool = true;
     const OWN_STEPS: bool = true;
     const PRESERVES: Preserves = Preserves::ORBIT;
+    const DAMPING: bool = true;
 }
 
 /// `(-1)^j B_j/j!`, of even j from 2 on `-2 (-1)^(j/2) zeta(j)/(2 pi)^j`.
@@ -290,6 +293,14 @@ where
         self.increment(time);
         let (xi, mu) = (&self.coefficient, &self.rows[0]);
         coadjoint_action_in(self.system, xi, mu, out, &mut self.scratch);
+        if let Some(Clock { momentum, .. }) = self.system.clock()
+            && self.system.is_forced()
+        {
+            // the power of the damping moves it beside the orbit
+            let (rows, time) = (&self.rows, time * self.unit.inverse);
+            sum(rows, self.pace.order, time, &mut self.field);
+            out.as_mut_slice()[momentum] = self.field.as_slice()[momentum];
+        }
     }
 
     fn bring_back(

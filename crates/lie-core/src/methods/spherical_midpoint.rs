@@ -32,6 +32,7 @@ impl Facts for SphericalMidpoint {
     const SYMMETRIC: bool = true;
     const EXPLICIT: bool = false;
     const PRESERVES: Preserves = Preserves::POISSON;
+    const DAMPING: bool = true;
 }
 
 by_equation!([] SphericalMidpoint);

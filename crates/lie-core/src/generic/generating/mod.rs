@@ -4,13 +4,15 @@ mod derivatives;
 mod slopes;
 
 use crate::generating::GeneratingFunction;
+use crate::generic::direction;
 use crate::matrix::SquareMatrix;
 use crate::poisson::{CayleyPoisson, LiePoisson, Lift, Poisson};
 use crate::scalar::{Dual, Scalar};
 use crate::state::State;
 use derivatives::seeded;
 
-/// `S = h H`, for every retraction: the Lie–Poisson midpoint method.
+/// `S = h H`, for every retraction: the Lie–Poisson midpoint method. Where something damps, h times the generator takes the place
+/// of the gradient of S, and that is no function's.
 #[derive(Clone, Copy, Debug)]
 pub struct Generating2<'a, S, P> {
     system: &'a P,
@@ -29,20 +31,21 @@ impl<S: Scalar, P: Poisson<S>> GeneratingFunction<S> for Generating2<'_, S, P> {
     type Jacobian = P::Jacobian;
 
     fn gradient(&mut self, p: &P::State, xi: &mut P::State) {
-        self.system.gradient(p, xi);
-        for entry in xi.as_mut_slice() {
-            *entry *= self.step;
-        }
+        direction(self.system, self.step, p, xi);
     }
 
-    /// `h f(p)`: fewer operations than `ad*_xi p`, of which f is a multiple.
+    /// `h f(p)`: fewer operations than `ad*_xi p`, of which f is a multiple where nothing forces.
     fn motion<L: LiePoisson<S, State = P::State>>(
         &mut self,
-        _system: &L,
+        system: &L,
         p: &P::State,
-        _xi: &P::State,
+        xi: &P::State,
         out: &mut P::State,
     ) {
+        if self.system.is_forced() {
+            system.ad_star(xi, p, out);
+            return;
+        }
         self.system.vector_field(p, out);
         for entry in out.as_mut_slice() {
             *entry *= self.step;
@@ -51,7 +54,7 @@ impl<S: Scalar, P: Poisson<S>> GeneratingFunction<S> for Generating2<'_, S, P> {
 
     fn linearize(&mut self, p: &P::State, xi: &mut P::State, hessian: &mut P::Jacobian) {
         self.gradient(p, xi);
-        self.system.hessian(p, hessian);
+        self.system.generator_slope(p, hessian);
         for row in 0..self.system.dimension() {
             for column in 0..self.system.dimension() {
                 hessian.set(row, column, self.step * hessian.get(row, column));
