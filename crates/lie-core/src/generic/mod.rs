@@ -138,7 +138,7 @@ pub use quaternion_stages::product as quaternion_product;
 pub use quaternions::{flow_of_quaternions, flow_over_quaternions, quaternion_of, vectors_of};
 pub use realized::{Canonical, Lifting};
 pub use second_kind::{Actions, SecondKind, SeriesActions};
-pub(crate) use series::{Scratch, coadjoint_action_in};
+pub(crate) use series::{Scratch, coadjoint_action_in, phi1_in};
 pub use series::{coadjoint_action, dexp_dual};
 pub use spherical::{Spherical, sphere_ratio, sphere_ratios, sphere_ratios_into};
 pub use spinors::{flow_of_spinors, flow_over_spins, spinors_of, spins_of};

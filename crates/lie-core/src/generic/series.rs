@@ -134,6 +134,21 @@ pub(crate) fn coadjoint_action_in<S: Scalar, P: LiePoisson<S>>(
     by_series(system, x, mu, out, scratch);
 }
 
+/// `out = phi1(ad*_x) mu` alike.
+pub(crate) fn phi1_in<S: Scalar, P: LiePoisson<S>>(
+    system: &P,
+    x: &P::State,
+    mu: &P::State,
+    out: &mut P::State,
+    scratch: &mut Scratch<P::State>,
+) {
+    if system.has_closed_exponential() {
+        system.dexp_dual(x, mu, out);
+        return;
+    }
+    dexp_dual_in(system, x, mu, out, scratch, |_, _| ());
+}
+
 fn by_series<S: Scalar, P: LiePoisson<S>>(
     system: &P,
     x: &P::State,

@@ -17,6 +17,9 @@
 //! exponentials. Explicit, order 4, without commutators. Keeps the coadjoint orbit and with it every
 //! Casimir; not symmetric, not a Poisson map, and the energy drifts.
 //!
+//! Where forces act, the flows `$E$` of frozen fields are affine,
+//! `$\exp(h\, \mathrm{ad}^*_\xi)\, \mu + \varphi_1(h\, \mathrm{ad}^*_\xi)\, h F$`, with the same combinations of forces as of elements; the order is the same.
+//!
 //! Needs: the gradient of H and ad*; any Lie algebra.
 //!
 //! Reference: E. Celledoni, A. Marthinsen, B. Owren, "Commutator-free Lie group methods", Future
@@ -24,10 +27,9 @@
 //! [doi:10.1016/S0167-739X(02)00161-9](https://doi.org/10.1016/S0167-739X(02)00161-9).
 #![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
 
-use super::explicit::{accept, coadjoint_facts, combine, direction};
+use super::explicit::{Flow, Frozen, accept, coadjoint_facts};
 use super::facts::{Facts, Preserves};
 use super::stepper::{FactorSink, Method, StepFailure, StepReport, Stepper};
-use crate::generic::{Scratch, coadjoint_action_in};
 use crate::newton::NewtonOptions;
 use crate::poisson::LiePoisson;
 use crate::scalar::Scalar;
@@ -62,11 +64,11 @@ impl<S: Scalar, P: LiePoisson<S>> Method<S, P> for CommutatorFree4 {
         CommutatorFreeStepper {
             system,
             step: h,
-            slopes: core::array::from_fn(|_| zero.clone()),
-            factors: core::array::from_fn(|_| zero.clone()),
+            slopes: core::array::from_fn(|_| Frozen::new(system, &zero)),
+            factors: core::array::from_fn(|_| Frozen::new(system, &zero)),
             second: zero.clone(),
             next: zero.clone(),
-            scratch: Scratch::new(&zero),
+            flow: Flow::new(system, &zero),
         }
     }
 }
@@ -76,12 +78,12 @@ pub struct CommutatorFreeStepper<'a, S: Scalar, P: LiePoisson<S>> {
     system: &'a P,
     step: S,
     /// The `h k_i`.
-    slopes: [P::State; 4],
-    factors: [P::State; 2],
+    slopes: [Frozen<P::State>; 4],
+    factors: [Frozen<P::State>; 2],
     /// The state of the second stage.
     second: P::State,
     next: P::State,
-    scratch: Scratch<P::State>,
+    flow: Flow<P::State>,
 }
 
 impl<S: Scalar, P: LiePoisson<S>> Stepper<S> for CommutatorFreeStepper<'_, S, P> {
@@ -98,25 +100,25 @@ impl<S: Scalar, P: LiePoisson<S>> Stepper<S> for CommutatorFreeStepper<'_, S, P>
             factors,
             second,
             next,
-            scratch,
+            flow,
             ..
         } = self;
-        direction(*system, self.step, mu, &mut slopes[0]);
+        slopes[0].freeze(*system, self.step, mu);
         let [first, last] = factors;
-        combine(STAGES[0], slopes, first);
-        coadjoint_action_in(*system, first, mu, second, scratch);
-        direction(*system, self.step, second, &mut slopes[1]);
-        combine(STAGES[1], slopes, first);
-        coadjoint_action_in(*system, first, mu, next, scratch);
-        direction(*system, self.step, next, &mut slopes[2]);
-        combine(STAGES[2], slopes, first);
-        coadjoint_action_in(*system, first, second, next, scratch);
-        direction(*system, self.step, next, &mut slopes[3]);
+        first.combine(STAGES[0], slopes);
+        first.flow(*system, mu, second, flow);
+        slopes[1].freeze(*system, self.step, second);
+        first.combine(STAGES[1], slopes);
+        first.flow(*system, mu, next, flow);
+        slopes[2].freeze(*system, self.step, next);
+        first.combine(STAGES[2], slopes);
+        first.flow(*system, second, next, flow);
+        slopes[3].freeze(*system, self.step, next);
 
-        combine(&STEP[0], slopes, first);
-        combine(&STEP[1], slopes, last);
-        coadjoint_action_in(*system, first, mu, second, scratch);
-        coadjoint_action_in(*system, last, second, next, scratch);
+        first.combine(&STEP[0], slopes);
+        last.combine(&STEP[1], slopes);
+        first.flow(*system, mu, second, flow);
+        last.flow(*system, second, next, flow);
         accept(mu, next, factors, 4, sink)
     }
 }

@@ -15,6 +15,9 @@
 //! Explicit, order 3, without commutators. Keeps the coadjoint orbit and with it every Casimir; not
 //! symmetric, not a Poisson map, and the energy drifts.
 //!
+//! Where forces act, the flows `$E$` of frozen fields are affine,
+//! `$\exp(h\, \mathrm{ad}^*_\xi)\, \mu + \varphi_1(h\, \mathrm{ad}^*_\xi)\, h F$`, with the same combinations of forces as of elements; the order is the same.
+//!
 //! Needs: the gradient of H and ad*; any Lie algebra.
 //!
 //! References: P. E. Crouch, R. Grossman, "Numerical integration of ordinary differential equations on
@@ -24,10 +27,9 @@
 //! 116–142, [doi:10.1023/A:1022325426017](https://doi.org/10.1023/A:1022325426017).
 #![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
 
-use super::explicit::{accept, coadjoint_facts, combine, direction};
+use super::explicit::{Flow, Frozen, accept, coadjoint_facts};
 use super::facts::{Facts, Preserves};
 use super::stepper::{FactorSink, Method, StepFailure, StepReport, Stepper};
-use crate::generic::{Scratch, coadjoint_action_in};
 use crate::newton::NewtonOptions;
 use crate::poisson::LiePoisson;
 use crate::scalar::Scalar;
@@ -57,10 +59,10 @@ impl<S: Scalar, P: LiePoisson<S>> Method<S, P> for CrouchGrossman3 {
         CrouchGrossmanStepper {
             system,
             step: h,
-            slopes: core::array::from_fn(|_| zero.clone()),
-            factors: core::array::from_fn(|_| zero.clone()),
+            slopes: core::array::from_fn(|_| Frozen::new(system, &zero)),
+            factors: core::array::from_fn(|_| Frozen::new(system, &zero)),
             next: zero.clone(),
-            scratch: Scratch::new(&zero),
+            flow: Flow::new(system, &zero),
             point: zero,
         }
     }
@@ -71,11 +73,11 @@ pub struct CrouchGrossmanStepper<'a, S: Scalar, P: LiePoisson<S>> {
     system: &'a P,
     step: S,
     /// The `h k_i`.
-    slopes: [P::State; 3],
-    factors: [P::State; 3],
+    slopes: [Frozen<P::State>; 3],
+    factors: [Frozen<P::State>; 3],
     point: P::State,
     next: P::State,
-    scratch: Scratch<P::State>,
+    flow: Flow<P::State>,
 }
 
 impl<S: Scalar, P: LiePoisson<S>> Stepper<S> for CrouchGrossmanStepper<'_, S, P> {
@@ -88,14 +90,13 @@ impl<S: Scalar, P: LiePoisson<S>> Stepper<S> for CrouchGrossmanStepper<'_, S, P>
     ) -> Result<StepReport, StepFailure> {
         for (stage, row) in ROWS.iter().enumerate() {
             let place = if stage == 0 { &*mu } else { &self.next };
-            direction(self.system, self.step, place, &mut self.slopes[stage]);
+            self.slopes[stage].freeze(self.system, self.step, place);
             self.next.copy_from(mu);
             for (index, weight) in row.iter().enumerate() {
                 let factor = &mut self.factors[index];
-                combine(&[*weight], &self.slopes[index..=index], factor);
+                factor.combine(&[*weight], &self.slopes[index..=index]);
                 core::mem::swap(&mut self.point, &mut self.next);
-                let scratch = &mut self.scratch;
-                coadjoint_action_in(self.system, factor, &self.point, &mut self.next, scratch);
+                factor.flow(self.system, &self.point, &mut self.next, &mut self.flow);
             }
         }
         accept(mu, &self.next, &mut self.factors, 3, sink)

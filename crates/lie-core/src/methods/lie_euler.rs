@@ -4,6 +4,8 @@
 //! \mu_1 = \mathrm{Ad}^*_{\exp(h\, \nabla H(\mu))}\, \mu = \exp\!\left(\mathrm{ad}^*_{h\, \nabla H(\mu)}\right) \mu
 //! ```
 //!
+//! Where forces act, the flow of the field frozen at the start, `$\exp(h\, \mathrm{ad}^*_\xi)\, \mu + \varphi_1(h\, \mathrm{ad}^*_\xi)\, h F$`.
+//!
 //! Explicit, order 1. Keeps the coadjoint orbit and with it every Casimir; not symmetric, not a
 //! Poisson map, and the energy drifts.
 //!
@@ -14,10 +16,9 @@
 //! [doi:10.1016/S0168-9274(98)00030-0](https://doi.org/10.1016/S0168-9274(98)00030-0).
 #![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
 
-use super::explicit::{accept, coadjoint_facts, direction};
+use super::explicit::{Flow, Frozen, accept, coadjoint_facts};
 use super::facts::{Facts, Preserves};
 use super::stepper::{FactorSink, Method, StepFailure, StepReport, Stepper};
-use crate::generic::{Scratch, coadjoint_action_in};
 use crate::newton::NewtonOptions;
 use crate::poisson::LiePoisson;
 use crate::scalar::Scalar;
@@ -39,8 +40,8 @@ impl<S: Scalar, P: LiePoisson<S>> Method<S, P> for LieEuler {
         LieEulerStepper {
             system,
             step: h,
-            scratch: Scratch::new(&zero),
-            factor: [zero.clone()],
+            flow: Flow::new(system, &zero),
+            factor: [Frozen::new(system, &zero)],
             next: zero,
         }
     }
@@ -50,9 +51,9 @@ impl<S: Scalar, P: LiePoisson<S>> Method<S, P> for LieEuler {
 pub struct LieEulerStepper<'a, S: Scalar, P: LiePoisson<S>> {
     system: &'a P,
     step: S,
-    factor: [P::State; 1],
+    factor: [Frozen<P::State>; 1],
     next: P::State,
-    scratch: Scratch<P::State>,
+    flow: Flow<P::State>,
 }
 
 impl<S: Scalar, P: LiePoisson<S>> Stepper<S> for LieEulerStepper<'_, S, P> {
@@ -64,8 +65,8 @@ impl<S: Scalar, P: LiePoisson<S>> Stepper<S> for LieEulerStepper<'_, S, P> {
         sink: &mut K,
     ) -> Result<StepReport, StepFailure> {
         let [factor] = &mut self.factor;
-        direction(self.system, self.step, mu, factor);
-        coadjoint_action_in(self.system, factor, mu, &mut self.next, &mut self.scratch);
+        factor.freeze(self.system, self.step, mu);
+        factor.flow(self.system, mu, &mut self.next, &mut self.flow);
         accept(mu, &self.next, &mut self.factor, 1, sink)
     }
 }

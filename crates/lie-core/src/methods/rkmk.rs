@@ -24,6 +24,10 @@
 //! Explicit. They keep the coadjoint orbit and with it every Casimir; not symmetric, not Poisson maps,
 //! and the energy drifts.
 //!
+//! Where forces act, elements x of the algebra become pairs (x, K) with a covector, of the algebra of the semidirect product of the group
+//! with g*: `$\mathrm{Ad}^*_{\exp x} \mu + \varphi_1(\mathrm{ad}^*_x) K$` is their action, `$h\,(\nabla H, F)$` the slope and
+//! `$([x, y],\, \mathrm{ad}^*_y K - \mathrm{ad}^*_x L)$` the bracket of (x, K) and (y, L). With these the formulas are the same, and so are the orders.
+//!
 //! Needs: the gradient of H, the bracket and ad*; any Lie algebra.
 //!
 //! References: H. Munthe-Kaas, "High order Runge–Kutta methods on manifolds", Applied Numerical
@@ -34,14 +38,12 @@
 //! [doi:10.1017/S1446788700023387](https://doi.org/10.1017/S1446788700023387).
 #![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
 
-use super::explicit::{accept, coadjoint_facts, combine, direction};
+use super::explicit::{Flow, Frozen, accept, coadjoint_facts};
 use super::facts::{Facts, Preserves};
 use super::stepper::{FactorSink, Method, StepFailure, StepReport, Stepper};
-use crate::generic::{Scratch, coadjoint_action_in};
 use crate::newton::NewtonOptions;
 use crate::poisson::LiePoisson;
 use crate::scalar::Scalar;
-use crate::state::State;
 
 /// A coefficient: numerator and denominator.
 type Ratio = (f64, f64);
@@ -163,46 +165,46 @@ pub struct RkmkStepper<'a, S: Scalar, P: LiePoisson<S>, const STAGES: usize> {
     step: S,
     tableau: &'static Tableau<STAGES>,
     /// The `h k_i`.
-    slopes: [P::State; STAGES],
-    sigma: [P::State; 1],
+    slopes: [Frozen<P::State>; STAGES],
+    sigma: [Frozen<P::State>; 1],
     next: P::State,
-    term: P::State,
-    bracket: P::State,
-    scratch: Scratch<P::State>,
+    term: Frozen<P::State>,
+    bracket: Frozen<P::State>,
+    flow: Flow<P::State>,
 }
 
 impl<'a, S: Scalar, P: LiePoisson<S>, const STAGES: usize> RkmkStepper<'a, S, P, STAGES> {
     fn new(system: &'a P, h: S, tableau: &'static Tableau<STAGES>) -> Self {
         let zero = system.zero_state();
+        let field = || Frozen::new(system, &zero);
         Self {
             system,
             step: h,
             tableau,
-            slopes: core::array::from_fn(|_| zero.clone()),
-            sigma: [zero.clone()],
-            next: zero.clone(),
-            term: zero.clone(),
-            bracket: zero.clone(),
-            scratch: Scratch::new(&zero),
+            slopes: core::array::from_fn(|_| field()),
+            sigma: [field()],
+            term: field(),
+            bracket: field(),
+            flow: Flow::new(system, &zero),
+            next: zero,
         }
     }
 
-    /// `next = Ad*_(exp sigma) mu`.
+    /// `next = Ad*_(exp sigma) mu`, with forces the affine action.
     fn act(&mut self, mu: &P::State) {
-        let [sigma] = &self.sigma;
-        coadjoint_action_in(self.system, sigma, mu, &mut self.next, &mut self.scratch);
+        self.sigma[0].flow(self.system, mu, &mut self.next, &mut self.flow);
     }
 
     /// Replaces the slope of a stage by the inverse of dexp at -sigma applied to it.
     fn correct(&mut self, stage: usize) {
         let slope = &mut self.slopes[stage];
         self.term.copy_from(slope);
-        for &(numerator, denominator) in &INVERSE[1..=self.tableau.commutators] {
-            self.system
-                .ad(&self.sigma[0], &self.term, &mut self.bracket);
+        for &weight in &INVERSE[1..=self.tableau.commutators] {
+            let (bracket, flow) = (&mut self.bracket, &mut self.flow);
+            self.sigma[0].bracket(self.system, &self.term, bracket, flow);
             core::mem::swap(&mut self.term, &mut self.bracket);
-            if numerator != 0.0 {
-                slope.axpy(S::ratio(numerator, denominator), &self.term);
+            if weight.0 != 0.0 {
+                slope.add(weight, &self.term);
             }
         }
     }
@@ -220,16 +222,15 @@ where
         mu: &mut P::State,
         sink: &mut K,
     ) -> Result<StepReport, StepFailure> {
-        direction(self.system, self.step, mu, &mut self.slopes[0]);
+        self.slopes[0].freeze(self.system, self.step, mu);
         for (index, row) in self.tableau.a.iter().enumerate() {
             let stage = index + 1;
-            combine(row, &self.slopes, &mut self.sigma[0]);
+            self.sigma[0].combine(row, &self.slopes);
             self.act(mu);
-            let slope = &mut self.slopes[stage];
-            direction(self.system, self.step, &self.next, slope);
+            self.slopes[stage].freeze(self.system, self.step, &self.next);
             self.correct(stage);
         }
-        combine(&self.tableau.b, &self.slopes, &mut self.sigma[0]);
+        self.sigma[0].combine(&self.tableau.b, &self.slopes);
         self.act(mu);
         accept(mu, &self.next, &mut self.sigma, STAGES as u32, sink)
     }
