@@ -20,6 +20,11 @@ use crate::structure::Spectrum;
 /// New state: `mu + ad*_xi p`. Jacobian, column j: the terms linear in p applied to `e_j`, and with
 /// `v = S''(p) e_j` the terms `-ad*_v p/2 - (T_abc^d v^a xi^c p_d)_b/2`.
 /// Start: `p = mu + (h/2) f(mu)`.
+///
+/// Where forces act, the force at the midpoint moves p, which is what both ends are made of: with `A p = p - ad*_xi p/2 - Q_y p` and
+/// `B p = p + ad*_xi p/2 - Q_y p` the equation is `A (p - (h/2) F(p)) = mu` and the new state `B (p + (h/2) F(p))`, which is
+/// `mu + ad*_xi p + h (F - Q_y F)`. As `B = Ad*_(cay xi) A`, it is `Ad*_(cay xi) (mu + h A F(p))`: the spatial momentum
+/// changes by exactly h times the force, carried to the beginning of the step by A.
 #[derive(Debug)]
 pub struct CayleyRetraction<'a, S: Scalar, P: CayleyPoisson<S>, G> {
     system: &'a P,
@@ -29,6 +34,8 @@ pub struct CayleyRetraction<'a, S: Scalar, P: CayleyPoisson<S>, G> {
     direction: P::State,
     hessian: P::Jacobian,
     columns: [P::State; 4],
+    /// `p - (h/2) F(p)` and its derivative, where forces act.
+    forced: Option<(P::State, P::Jacobian)>,
 }
 
 /// The Lie–Poisson midpoint method with the Cayley map: [`CayleyRetraction`] with `S = h H`.
@@ -58,32 +65,71 @@ where
             direction: zero.clone(),
             hessian: system.zero_jacobian(),
             columns: core::array::from_fn(|_| zero.clone()),
+            forced: system
+                .is_forced()
+                .then(|| (zero.clone(), system.zero_jacobian())),
         }
     }
 
-    /// Computes `y = xi/2` and `ad*_xi p` for the direction xi.
-    fn set_action(&mut self, unknown: &P::State) {
-        let [action, _, y, _] = &mut self.columns;
-        let directions = self.direction.as_mut_slice().iter_mut();
-        for (y, x) in y.as_mut_slice().iter_mut().zip(directions) {
-            *y = (S::ratio(1.0, 2.0) * *x).quantity();
-            *x = *y + *y;
+    /// Sets `p - (h/2) F(p)`.
+    fn set_forced(&mut self, unknown: &P::State) {
+        if let Some((point, _)) = &mut self.forced {
+            let half = self.step * S::ratio(1.0, 2.0);
+            self.system.force(unknown, point);
+            for (entry, &p) in point.as_mut_slice().iter_mut().zip(unknown.as_slice()) {
+                *entry = p - half * *entry;
+            }
         }
-        self.function
-            .motion(self.system, unknown, &self.direction, action);
+    }
+
+    /// Sets the derivative of `p - (h/2) F(p)`.
+    fn set_slope(&mut self, unknown: &P::State) {
+        if let Some((_, slope)) = &mut self.forced {
+            let half = self.step * S::ratio(1.0, 2.0);
+            self.system.force_slope(unknown, slope);
+            for row in 0..self.system.dimension() {
+                for column in 0..self.system.dimension() {
+                    let identity = if row == column { S::one() } else { S::zero() };
+                    slope.set(row, column, identity - half * slope.get(row, column));
+                }
+            }
+        }
     }
 
     /// Computes the residual for the direction.
     fn evaluate(&mut self, unknown: &P::State, residual: &mut P::State) {
-        self.set_action(unknown);
+        self.set_forced(unknown);
+        let point = self.forced.as_ref().map_or(unknown, |(point, _)| point);
+        let (function, direction) = (&mut self.function, &mut self.direction);
+        set_action(self.system, function, point, direction, &mut self.columns);
         let half = S::ratio(1.0, 2.0);
         let [action, triple, y, _] = &mut self.columns;
-        self.system.triple(y, y, unknown, triple);
+        self.system.triple(y, y, point, triple);
         for (row, out) in residual.as_mut_slice().iter_mut().enumerate() {
             let corrections = half * action.as_slice()[row] + triple.as_slice()[row];
-            *out = unknown.as_slice()[row] - corrections - self.base.as_slice()[row];
+            *out = point.as_slice()[row] - corrections - self.base.as_slice()[row];
         }
     }
+}
+
+/// Computes `y = xi/2` and `ad*_xi p` for the direction xi.
+fn set_action<S, P, G>(
+    system: &P,
+    function: &mut G,
+    point: &P::State,
+    direction: &mut P::State,
+    [action, _, y, _]: &mut [P::State; 4],
+) where
+    S: Scalar,
+    P: CayleyPoisson<S>,
+    G: GeneratingFunction<S, State = P::State, Jacobian = P::Jacobian>,
+{
+    let directions = direction.as_mut_slice().iter_mut();
+    for (y, x) in y.as_mut_slice().iter_mut().zip(directions) {
+        *y = (S::ratio(1.0, 2.0) * *x).quantity();
+        *x = *y + *y;
+    }
+    function.motion(system, point, direction, action);
 }
 
 impl<S, P, G> Equation<S> for CayleyRetraction<'_, S, P, G>
@@ -113,11 +159,18 @@ where
         self.function
             .linearize(unknown, &mut self.direction, &mut self.hessian);
         self.evaluate(unknown, residual);
+        self.set_slope(unknown);
         let (half, quarter) = (S::ratio(1.0, 2.0), S::ratio(1.0, 4.0));
         let [along, unit, first, second] = &mut self.columns;
+        let point = self.forced.as_ref().map_or(unknown, |(point, _)| point);
         for column in 0..self.system.dimension() {
             unit.fill(S::zero());
             unit.as_mut_slice()[column] = S::one();
+            if let Some((_, slope)) = &self.forced {
+                for (row, entry) in unit.as_mut_slice().iter_mut().enumerate() {
+                    *entry = slope.get(row, column);
+                }
+            }
             self.system.ad_star(&self.direction, unit, first);
             self.system
                 .triple(&self.direction, &self.direction, unit, second);
@@ -131,8 +184,8 @@ where
             if along.as_slice().iter().all(|&entry| entry == S::zero()) {
                 continue;
             }
-            self.system.ad_star(along, unknown, first);
-            self.system.triple(along, &self.direction, unknown, second);
+            self.system.ad_star(along, point, first);
+            self.system.triple(along, &self.direction, point, second);
             for row in 0..self.system.dimension() {
                 let through_x = half * (first.as_slice()[row] + second.as_slice()[row]);
                 matrix.set(row, column, matrix.get(row, column) - through_x);
@@ -142,10 +195,17 @@ where
 
     fn result(&mut self, unknown: &P::State, mu: &mut P::State) {
         self.function.gradient(unknown, &mut self.direction);
-        self.set_action(unknown);
-        let [action, ..] = &self.columns;
+        let (function, direction) = (&mut self.function, &mut self.direction);
+        set_action(self.system, function, unknown, direction, &mut self.columns);
+        let [action, triple, y, force] = &mut self.columns;
         for (row, out) in mu.as_mut_slice().iter_mut().enumerate() {
             *out = self.base.as_slice()[row] + action.as_slice()[row];
+        }
+        if self.system.is_forced() {
+            self.system.force(unknown, force);
+            self.system.triple(y, y, force, triple);
+            mu.axpy(self.step, force);
+            mu.axpy(-self.step, triple);
         }
     }
 

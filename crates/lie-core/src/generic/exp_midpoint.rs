@@ -3,6 +3,7 @@
 
 use super::dexp_slope::DexpSlope;
 use super::generating::Generating2;
+use super::midpoint_force::MidpointForce;
 use super::series::coadjoint_action_in;
 use crate::equation::Equation;
 use crate::generating::GeneratingFunction;
@@ -19,6 +20,10 @@ use crate::state::State;
 /// New state: `exp(ad*_xi) mu`, on the coadjoint orbit of mu to round-off whatever the error of p.
 /// Jacobian: `1 - d/dxi[phi1(ad*_xi) mu] S''(p)`.
 /// Start: `p = mu + (h/2) f(mu)`.
+///
+/// Where forces act, the force at the midpoint is carried to both ends by half of the motion
+/// ([`MidpointForce`](super::midpoint_force::MidpointForce)): in the residual `mu + (h/2) exp(-ad*_xi/2) F(p)` takes the place of mu, and
+/// the new state is `exp(ad*_xi) mu + h exp(ad*_xi/2) F(p)`.
 #[derive(Debug)]
 pub struct ExpRetraction<'a, S: Scalar, P: LiePoisson<S>, G> {
     system: &'a P,
@@ -30,6 +35,8 @@ pub struct ExpRetraction<'a, S: Scalar, P: LiePoisson<S>, G> {
     series: DexpSlope<P::State, P::Jacobian, S>,
     hessian: P::Jacobian,
     columns: [P::State; 2],
+    /// Where forces act.
+    force: Option<MidpointForce<P::State, P::Jacobian>>,
 }
 
 /// The Lie–Poisson midpoint method for any Lie algebra: [`ExpRetraction`] with `S = h H`.
@@ -61,6 +68,7 @@ where
             series: DexpSlope::new(&zero, system.zero_jacobian()),
             hessian: system.zero_jacobian(),
             columns: core::array::from_fn(|_| zero.clone()),
+            force: system.is_forced().then(|| MidpointForce::new(system)),
         }
     }
 
@@ -92,24 +100,40 @@ where
 
     fn residual(&mut self, unknown: &P::State, residual: &mut P::State) {
         self.function.gradient(unknown, &mut self.direction);
-        self.series
-            .evaluate(self.system, &self.direction, &self.base, &mut self.sum);
+        let (system, xi, sum) = (self.system, &self.direction, &mut self.sum);
+        let base = match &mut self.force {
+            Some(force) => force.pushed(system, self.step, [unknown, xi, &self.base]),
+            None => &self.base,
+        };
+        self.series.evaluate(system, xi, base, sum);
         self.subtract(unknown, residual);
     }
 
     fn linearize(&mut self, unknown: &P::State, residual: &mut P::State, matrix: &mut P::Jacobian) {
         self.function
             .linearize(unknown, &mut self.direction, &mut self.hessian);
-        self.series
-            .linearize(self.system, &self.direction, &self.base, &mut self.sum);
+        let (system, xi, sum) = (self.system, &self.direction, &mut self.sum);
+        let base = match &mut self.force {
+            Some(force) => force.linearize(system, self.step, [unknown, xi, &self.base]),
+            None => &self.base,
+        };
+        self.series.linearize(system, xi, base, sum);
         self.subtract(unknown, residual);
         let [along, total] = &mut self.columns;
         for column in 0..self.system.dimension() {
             for (row, entry) in along.as_mut_slice().iter_mut().enumerate() {
                 *entry = self.hessian.get(row, column);
             }
-            self.series
-                .derivative(self.system, &self.direction, along, total);
+            match &mut self.force {
+                None => self
+                    .series
+                    .derivative(self.system, &self.direction, along, total),
+                Some(force) => {
+                    force.slope(self.system, column, along, total);
+                    self.series
+                        .along_both(self.system, &self.direction, along, total);
+                }
+            }
             for (row, &entry) in total.as_slice().iter().enumerate() {
                 let identity = if row == column { S::one() } else { S::zero() };
                 matrix.set(row, column, identity - entry);
@@ -121,6 +145,9 @@ where
         self.function.gradient(unknown, &mut self.direction);
         let scratch = self.series.scratch();
         coadjoint_action_in(self.system, &self.direction, &self.base, mu, scratch);
+        if let Some(force) = &mut self.force {
+            force.add_to_end(self.system, self.step, [unknown, &self.direction], mu);
+        }
     }
 
     fn group_factor(&mut self, unknown: &P::State, xi: &mut P::State) -> Option<Retraction> {

@@ -16,6 +16,20 @@
 //! `(abc + cba)/2`, and then is polynomial: no series. It has a pole where an element has the real eigenvalue 2 or -2: steps
 //! along x are refused where one of the x s, 0 <= s <= 1, has it ([`OutsideChart`](crate::newton::FailureReason)).
 //!
+//! Where forces act, the force F at the midpoint m enters half before and half after the motion, as in the discrete
+//! Lagrange–d'Alembert principle:
+//!
+//! ```math
+//! (\mathrm{d}\tau_x^{-1})^* m = \mu + \tfrac h2 F_a, \qquad \mu_1 = (\mathrm{d}\tau_{-x}^{-1})^* m + \tfrac h2 F_b, \qquad
+//! F_b = \mathrm{Ad}^*_{\tau(x)} F_a
+//! ```
+//!
+//! so that the spatial momentum moves by `$\mathrm{Ad}^*_{g_1^{-1}} \mu_1 - \mathrm{Ad}^*_{g^{-1}} \mu = h\, \mathrm{Ad}^*_{g^{-1}} F_a$` to round-off. For
+//! exp, `$F_a = \mathrm{Ad}^*_{\exp(-x/2)} F$`: the force is carried by the group element in the middle of the step. For Cayley
+//! `$F_a = (\mathrm{d}\tau_x^{-1})^* F$`, which is polynomial, as the method is. Symmetric, order 2.
+//!
+//! Damping has the generator `$\nabla H + c\, G\, \mathrm{ad}^*_{\nabla H} m$` in place of `$\nabla H$`.
+//!
 //! Needs: gradient and Hessian of H, ad*, and for Cayley the triple product.
 //!
 //! References: J. E. Marsden, S. Pekarsky, S. Shkoller, "Discrete Euler–Poincaré and Lie–Poisson
@@ -64,6 +78,8 @@ impl<T> Facts for LieMidpoint<T> {
     const SYMMETRIC: bool = true;
     const EXPLICIT: bool = false;
     const PRESERVES: Preserves = Preserves::POISSON;
+    const FORCES: bool = true;
+    const DAMPING: bool = true;
 }
 
 by_equation!([T] LieMidpoint<T>);
