@@ -63,7 +63,7 @@ impl Planner<'_> {
         let mut task = field_kernel.task;
         let mut gradient = None;
         if with_gradient {
-            let slope = self.source.gradient_of_h();
+            let slope = self.source.generator();
             let graph = &self.source.graph;
             let varying = slope.iter().copied().enumerate();
             let (places, values): (Vec<usize>, Vec<ExprId>) =
