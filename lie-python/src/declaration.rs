@@ -43,6 +43,8 @@ pub struct Facts {
     /// The values of the parameters where none are given.
     pub defaults: Vec<f64>,
     pub casimirs: Vec<String>,
+    /// What is recorded beside them, and whether it ought to be constant.
+    pub quantities: Vec<(String, bool)>,
     pub run: HashMap<String, Vec<String>>,
 }
 
@@ -63,6 +65,8 @@ impl Facts {
                     .to_vec(),
                 None => vec![casimir.name.clone()],
             });
+        let quantities = model.quantities.iter();
+        let quantities = quantities.map(|q| (q.name.clone(), q.is_conserved()));
         let timed = model.configuration.as_ref().is_some_and(|own| own.time);
         Self {
             system: model.name.clone(),
@@ -80,6 +84,7 @@ impl Facts {
                 .collect(),
             defaults: model.defaults(),
             casimirs: casimirs.collect(),
+            quantities: quantities.collect(),
             run: run.collect(),
         }
     }

@@ -66,6 +66,10 @@ impl Core {
     fn casimirs(&self) -> Vec<String> {
         self.0.facts.casimirs.clone()
     }
+    #[getter]
+    fn quantities(&self) -> Vec<(String, bool)> {
+        self.0.facts.quantities.clone()
+    }
 
     /// The names of the parameters, in order.
     fn parameter_names(&self) -> Vec<String> {

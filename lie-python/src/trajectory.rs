@@ -48,6 +48,7 @@ struct Heard {
     states: Vec<f64>,
     energies: Vec<f64>,
     casimirs: Vec<f64>,
+    quantities: Vec<f64>,
     elements: Vec<f64>,
     /// The step that was chosen, and the one that it was shortened to on the way.
     step: Option<f64>,
@@ -103,6 +104,7 @@ impl Heard {
             (&mut self.states, columns.coordinates.len()),
             (&mut self.energies, 1),
             (&mut self.casimirs, columns.casimirs.len()),
+            (&mut self.quantities, columns.quantities.len()),
             (&mut self.elements, columns.element),
         ] {
             memory::reserve(numbers, (rows as usize).saturating_mul(width))?;
@@ -113,11 +115,13 @@ impl Heard {
     fn row(&mut self, row: &[f64]) {
         let columns = &self.columns;
         let (state, energy) = (columns.coordinates(), columns.energy());
-        let (casimirs, element) = (columns.casimirs(), columns.element());
+        let (casimirs, quantities) = (columns.casimirs(), columns.quantities());
+        let element = columns.element();
         self.times.push(row[0]);
         self.states.extend_from_slice(&row[state..energy]);
         self.energies.push(row[energy]);
-        self.casimirs.extend_from_slice(&row[casimirs..element]);
+        self.casimirs.extend_from_slice(&row[casimirs..quantities]);
+        self.quantities.extend_from_slice(&row[quantities..element]);
         self.elements.extend_from_slice(&row[element..]);
     }
 }
@@ -136,11 +140,15 @@ fn make(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<(Heard, Ended)> {
     let Prepared { plan, compiled, .. } = prepared;
-    let (dimension, casimirs) = (run.start.initial.len(), declaration.facts.casimirs.len());
+    let facts = &declaration.facts;
+    let (dimension, beside) = (
+        run.start.initial.len(),
+        facts.casimirs.len() + facts.quantities.len(),
+    );
     let mut heard = Heard::default();
     if let (Pace::Step(step), Density::Constant) = (plan.pace.0, plan.density) {
         let rows = memory::rows(&plan.times, plan.from, step);
-        let width = dimension + casimirs + 2;
+        let width = dimension + beside + 2;
         memory::fits(rows * width as f64 * memory::NUMBER)
             .map_err(|exceeded| of_system(exceeded.into()))?;
         heard.rows = Some(rows);
@@ -272,6 +280,13 @@ pub fn of_prepared<'py>(
         more.set_item("group", heard.elements.into_pyarray(py))?;
     }
     let rows = heard.times.len();
+    let quantities = declaration.facts.quantities.len();
+    if quantities > 0 {
+        more.set_item(
+            "quantities",
+            by_rows(py, heard.quantities, (rows, quantities)),
+        )?;
+    }
     Ok((
         heard.times.into_pyarray(py),
         by_rows(py, heard.states, (rows, dimension)),

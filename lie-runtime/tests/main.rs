@@ -17,6 +17,7 @@ mod lanes;
 mod orders;
 mod own_step;
 mod passive;
+mod quantities;
 mod reconstruction;
 mod sites;
 mod solver;

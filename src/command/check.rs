@@ -3,6 +3,7 @@
 mod casimirs;
 mod joints;
 mod motions;
+mod recorded;
 mod signs;
 mod splitting;
 mod structure;
@@ -272,7 +273,8 @@ fn write_system(model: &Structure, text: &mut String) -> std::fmt::Result {
     for sentence in model.what_dissipation_does() {
         writeln!(text, "    {sentence}")?;
     }
-    casimirs::write(model, text)
+    casimirs::write(model, text)?;
+    recorded::write(model, text)
 }
 
 /// The reason of methods whose names are only kept.

@@ -188,6 +188,14 @@ pub trait Poisson<S: Scalar>: Sized {
     fn quantity_name(&self, _index: usize) -> &str {
         ""
     }
+    /// Whether it is an angle, whose jumps by 2 pi a driver takes out along a run.
+    fn quantity_unwraps(&self, _index: usize) -> bool {
+        false
+    }
+    /// Whether it is a first integral, whose drift is an error of the method.
+    fn quantity_is_conserved(&self, _index: usize) -> bool {
+        false
+    }
     /// Their values at mu; `out` has [`Poisson::quantity_count`] entries.
     fn quantities(&self, _mu: &Self::State, _out: &mut [S]) {}
 

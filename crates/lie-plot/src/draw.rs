@@ -79,6 +79,9 @@ pub fn svg(plot: &Plot) -> String {
         true => Vec::new(),
         false => vec![trajectory(plot)],
     };
+    if !plot.recorded.is_empty() {
+        panels.push(components(plot, &plot.recorded, "Observables", "values"));
+    }
     if !plot.element.is_empty() {
         panels.push(element(plot));
     }

@@ -52,6 +52,8 @@ pub struct Plot {
     subtitle: String,
     states: Vec<Curve>,
     invariants: Vec<Curve>,
+    /// Functions that are recorded beside them, if there are any.
+    recorded: Vec<Curve>,
     /// Entries of the group element, if there are any.
     element: Vec<Curve>,
     range: (f64, f64),
@@ -89,12 +91,21 @@ impl Plot {
             subtitle: String::new(),
             states: curves(states, 4, range),
             invariants: curves(invariants, 1, range),
+            recorded: Vec::new(),
             element: Vec::new(),
             range,
             rows: 0,
             between: 0,
             scale: 0.0,
         }
+    }
+
+    /// A panel for functions that are recorded beside state and invariants, the columns behind those.
+    #[must_use]
+    pub fn recorded(mut self, columns: &[impl AsRef<str>]) -> Self {
+        let names: Vec<&str> = columns.iter().map(AsRef::as_ref).collect();
+        self.recorded = curves(&names, 4, self.range);
+        self
     }
 
     /// A panel for the entries of the group element, the last columns of a row.
@@ -119,8 +130,9 @@ impl Plot {
             return;
         };
         let (states, rest) = values.split_at(self.states.len().min(values.len()));
-        let (invariants, element) = rest.split_at(self.invariants.len().min(rest.len()));
-        for (curve, &value) in self.element.iter_mut().zip(element) {
+        let (invariants, behind) = rest.split_at(self.invariants.len().min(rest.len()));
+        let further = self.recorded.iter_mut().chain(&mut self.element);
+        for (curve, &value) in further.zip(behind) {
             curve.row(t, value);
         }
         for (curve, &value) in self.states.iter_mut().zip(states) {
@@ -151,9 +163,10 @@ impl Plot {
         };
         self.between += 1;
         let (states, rest) = values.split_at(self.states.len().min(values.len()));
-        let element = &rest[self.invariants.len().min(rest.len())..];
+        let behind = &rest[self.invariants.len().min(rest.len())..];
         let curves = self.states.iter_mut().zip(states);
-        for (curve, &value) in curves.chain(self.element.iter_mut().zip(element)) {
+        let further = self.recorded.iter_mut().chain(&mut self.element);
+        for (curve, &value) in curves.chain(further.zip(behind)) {
             curve.bins.push(t, value);
         }
     }

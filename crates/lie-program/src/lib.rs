@@ -185,6 +185,9 @@ impl<P: Poisson<f64>> Program<P> {
         let mut rows = RowWriter::new(&problem.system, session)
             .saying(request.milestones, last)
             .curve(request.curve);
+        if let Some(milestone) = &request.from_milestone {
+            rows.take_up(milestone);
+        }
         let options = request.options();
         let wanted = from.is_some() || request.milestones != Milestones::None;
         let outcome = run(

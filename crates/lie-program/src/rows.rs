@@ -3,7 +3,9 @@
 use crate::protocol::{Columns, Coordinates, End, Found, Milestone, Milestones, Rows};
 use crate::session::Session;
 use core::ops::ControlFlow;
-use lie_runtime::driver::{self, Assessed, Chosen, Motion, Observer, Progress, Reconstruction};
+use lie_runtime::driver::{
+    self, Assessed, Chosen, Motion, Observer, Progress, Quantities, Reconstruction,
+};
 use lie_runtime::{MatrixGroup, Poisson, State};
 use std::time::{Duration, Instant};
 
@@ -20,6 +22,7 @@ pub struct RowWriter<'s, 'o> {
     session: &'s mut Session<'o, Found>,
     announced: bool,
     casimirs: Vec<f64>,
+    quantities: Quantities<f64>,
     /// Rows that are not yet said, or states between rows.
     block: Rows,
     between: bool,
@@ -44,6 +47,7 @@ impl<'s, 'o> RowWriter<'s, 'o> {
             session,
             announced: false,
             casimirs: vec![0.0; system.casimir_count()],
+            quantities: Quantities::new(system),
             block: Rows::default(),
             between: false,
             curve: false,
@@ -61,6 +65,11 @@ impl<'s, 'o> RowWriter<'s, 'o> {
     pub(crate) fn saying(mut self, milestones: Milestones, last: u64) -> Self {
         (self.milestones, self.last) = (milestones, last);
         self
+    }
+
+    /// Goes on with the angles of a milestone.
+    pub(crate) fn take_up(&mut self, milestone: &Milestone) {
+        self.quantities.take_up(&milestone.angles());
     }
 
     /// Says states between rows too, where that is wanted.
@@ -115,7 +124,7 @@ impl<'s, 'o> RowWriter<'s, 'o> {
         if due {
             (self.last, self.said) = (milestone.index, Instant::now());
             self.write_block();
-            let milestone = Milestone::new(milestone, element);
+            let milestone = Milestone::new(milestone, element, &self.quantities.angles());
             self.session.found(Found::Milestone(Box::new(milestone)));
         }
     }
@@ -139,7 +148,15 @@ impl<'s, 'o> RowWriter<'s, 'o> {
         system.casimirs(mu, &mut self.casimirs);
         let energy = system.energy(mu);
         self.block.numbers.reserve(self.block.width);
-        for numbers in [&[time], mu.as_slice(), &[energy], &self.casimirs, element] {
+        let quantities = self.quantities.at(system, mu);
+        for numbers in [
+            &[time],
+            mu.as_slice(),
+            &[energy],
+            &self.casimirs,
+            quantities,
+            element,
+        ] {
             self.block.numbers.extend_from_slice(numbers);
         }
         self.block.count += 1;
@@ -156,9 +173,11 @@ impl<'s, 'o> RowWriter<'s, 'o> {
             None => Coordinates::Named(names().collect()),
         };
         let casimirs = (0..system.casimir_count()).map(|k| system.casimir_name(k).to_owned());
+        let quantities = (0..system.quantity_count()).map(|k| system.quantity_name(k).to_owned());
         let columns = Columns {
             coordinates,
             casimirs: casimirs.collect(),
+            quantities: quantities.collect(),
             element,
         };
         self.block.width = columns.width();
@@ -205,7 +224,10 @@ impl<P: Poisson<f64>> Observer<f64, P> for RowWriter<'_, '_> {
         self.session.mentions(Found::Assessed { error, missed });
     }
 
-    fn step(&mut self, _system: &P, progress: Progress, _mu: &P::State) -> ControlFlow<()> {
+    fn step(&mut self, system: &P, progress: Progress, mu: &P::State) -> ControlFlow<()> {
+        if self.quantities.has_angles() {
+            self.quantities.at(system, mu);
+        }
         if self.session.is_interrupted() {
             return ControlFlow::Break(());
         }

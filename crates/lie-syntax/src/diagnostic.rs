@@ -146,6 +146,7 @@ kinds! {
     Jacobi "jacobi" "The Jacobi identity fails.",
     Representation "representation" "The matrices do not represent the brackets.",
     Casimir "casimir" "A declared Casimir is not a Casimir, or cannot be proven to be one.",
+    Integral "integral" "A declared first integral is none, or cannot be proven to be one.",
     Cocycle "cocycle" "The cocycle identity fails.",
     StateLength "state-length" "Length of the state or the initial values differs from the basis.",
     EmptyHamiltonian "empty-hamiltonian" "The text of the Hamiltonian is blank.",

@@ -93,6 +93,11 @@ class Declared:
         return self._core.casimirs
 
     @property
+    def quantities(self) -> list[str]:
+        """The names of what is recorded beside the state: first integrals and observables."""
+        return [name for name, _ in self._core.quantities]
+
+    @property
     def initial(self) -> Array | None:
         """The declared initial state at the default parameters."""
         found = self._core.initial(list(self.parameters.values()))

@@ -34,7 +34,8 @@ class Solution:
     """What a run has saved, as numpy arrays.
 
     ``t``: the times, shape (m,). ``mu``: the states, shape (m, n). ``energy``: H at each row, shape (m,).
-    ``casimirs``: a dictionary of arrays of shape (m,). ``run["Pi1"]``, ``run["energy"]`` and ``run["C1"]`` are columns.
+    ``casimirs``: a dictionary of arrays of shape (m,); ``quantities``: the same of declared integrals and observables. ``run["Pi1"]``,
+    ``run["energy"]`` and ``run["C1"]`` are columns.
     ``method``, ``step``, ``steps``: what was done.
     """
 
@@ -50,6 +51,7 @@ class Solution:
         self._system = system
         self._call = call
         self._casimirs: Array = casimirs
+        self._quantities: Array | None = None
         #: The error at the end relative to the state, where it was asked for; not a number where it cannot be told.
         self.error: float | None = None
         #: ``"reversible"`` where the size of steps follows the motion: they are reversible, and no Poisson maps. ``step`` is the first one then.
@@ -75,6 +77,15 @@ class Solution:
         """The Casimirs by name, each of shape (m,)."""
         names = self._system.casimirs
         return {name: self._casimirs[:, place] for place, name in enumerate(names)}
+
+    @cached_property
+    def quantities(self) -> dict[str, Array]:
+        """The declared first integrals and observables by name, each of shape (m,); angles that unwrap without their jumps."""
+        names = self._system.quantities
+        values = self._quantities
+        if values is None:
+            return {}
+        return {name: values[:, place] for place, name in enumerate(names)}
 
     @cached_property
     def kept(self) -> tuple[str, ...]:
@@ -107,7 +118,9 @@ class Solution:
             return self.energy
         if name in self.casimirs:
             return self.casimirs[name]
-        known = ["t", *self.coordinates, "energy", *self.casimirs]
+        if name in self.quantities:
+            return self.quantities[name]
+        known = ["t", *self.coordinates, "energy", *self.casimirs, *self.quantities]
         raise KeyError(f"no column {name!r}{among(name, known)}")
 
     def __len__(self) -> int:
@@ -161,11 +174,13 @@ class Solution:
         # where H depends on the time the energy is no constant
         driven = self._system._core.time() is not None
         energy = [] if driven else [("energy", self.energy)]
-        return [*energy, *self.casimirs.items()]
+        conserved = [name for name, kept in self._system._core.quantities if kept]
+        integrals = [(name, self.quantities[name]) for name in conserved if name in self.quantities]
+        return [*energy, *self.casimirs.items(), *integrals]
 
     @property
     def drift(self) -> dict[str, float]:
-        """The largest change of energy and Casimirs over the rows, relative to their first values; of the energy only where H
+        """The largest change of energy, Casimirs and first integrals over the rows, relative to their first values; of the energy only where H
         does not depend on the time.
 
         Where the first value is 0, or only round-off beside the state, the change itself.

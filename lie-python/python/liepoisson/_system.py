@@ -136,7 +136,9 @@ class System(Declared):
         return Again(self, call, span)
 
     def _more(self, solution: Solution, found: dict[str, Any]) -> None:
-        """What is not of every run: the group element, warnings, what ended it early."""
+        """What is not of every run: declared functions, the group element, warnings, what ended it early."""
+        if "quantities" in found:
+            solution._quantities = found["quantities"]
         if "group" in found:
             elements = np.asarray(found["group"]).reshape(len(solution.t), -1)
             size = round(elements.shape[1] ** 0.5)

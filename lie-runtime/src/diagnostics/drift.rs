@@ -54,7 +54,7 @@ impl InvariantDrift {
     }
 }
 
-/// The drift of energy and Casimirs.
+/// The drift of energy, Casimirs and first integrals.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drift {
     /// Of the energy: of [`Poisson::hamiltonian`], which is conserved also where H depends on the time and the energy that is
@@ -63,6 +63,8 @@ pub struct Drift {
     /// Of the Casimirs, without those that have several branches ([`Poisson::casimir_is_multivalued`]) or that forces change
     /// ([`Poisson::casimir_is_kept`]).
     pub casimirs: Vec<InvariantDrift>,
+    /// Of the declared first integrals ([`Poisson::quantity_is_conserved`]).
+    pub integrals: Vec<InvariantDrift>,
 }
 
 /// An observer that follows the drift over every step, saved or not.
@@ -73,6 +75,9 @@ pub struct DriftMonitor<S> {
     followed: Vec<usize>,
     casimirs: Vec<S>,
     values: Vec<S>,
+    /// The first integrals by their places, with their first values, and room for the values.
+    integrals: Vec<(usize, S)>,
+    quantities: Vec<S>,
     drift: Drift,
 }
 
@@ -84,9 +89,12 @@ impl<S: Scalar> DriftMonitor<S> {
             followed: Vec::new(),
             casimirs: Vec::new(),
             values: Vec::new(),
+            integrals: Vec::new(),
+            quantities: Vec::new(),
             drift: Drift {
                 energy: InvariantDrift::new::<S>("energy", None),
                 casimirs: Vec::new(),
+                integrals: Vec::new(),
             },
         }
     }
@@ -116,9 +124,25 @@ impl<S: Scalar, P: Poisson<S>> Observer<S, P> for DriftMonitor<S> {
         let casimirs = self.followed.iter().map(|&place| {
             InvariantDrift::new(system.casimir_name(place), Some(self.casimirs[place]))
         });
+        let count = system.quantity_count();
+        self.quantities = vec![S::zero(); count];
+        let conserved = (0..count).filter(|&place| system.quantity_is_conserved(place));
+        let conserved: Vec<usize> = conserved.collect();
+        if !conserved.is_empty() {
+            system.quantities(mu, &mut self.quantities);
+        }
+        let integrals = conserved.into_iter();
+        self.integrals = integrals
+            .map(|place| (place, self.quantities[place]))
+            .collect();
+        let integrals = self
+            .integrals
+            .iter()
+            .map(|&(place, first)| InvariantDrift::new(system.quantity_name(place), Some(first)));
         self.drift = Drift {
             energy: InvariantDrift::new("energy", Some(self.energy)),
             casimirs: casimirs.collect(),
+            integrals: integrals.collect(),
         };
     }
 
@@ -129,6 +153,13 @@ impl<S: Scalar, P: Poisson<S>> Observer<S, P> for DriftMonitor<S> {
         system.casimirs(mu, &mut self.values);
         for (drift, &place) in self.drift.casimirs.iter_mut().zip(&self.followed) {
             let change = (self.values[place] - self.casimirs[place]).abs();
+            drift.record(largest(change), step, steps);
+        }
+        if !self.integrals.is_empty() {
+            system.quantities(mu, &mut self.quantities);
+        }
+        for (drift, &(place, first)) in self.drift.integrals.iter_mut().zip(&self.integrals) {
+            let change = (self.quantities[place] - first).abs();
             drift.record(largest(change), step, steps);
         }
         ControlFlow::Continue(())

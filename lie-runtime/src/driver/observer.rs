@@ -2,6 +2,7 @@
 
 use super::milestone::Milestone;
 use super::pace::{Assessed, Chosen};
+use super::quantities::Quantities;
 use super::solution::Solution;
 use crate::methods::{FactorSink, Retraction, RungeKutta, Stage};
 use crate::poisson::Poisson;
@@ -269,11 +270,12 @@ where
     }
 }
 
-/// Records the saved states with energy and Casimirs.
+/// Records the saved states with energy, Casimirs and declared functions.
 #[derive(Clone, Debug)]
 pub struct Recorder<S, V> {
     /// What was recorded.
     pub solution: Solution<S, V>,
+    quantities: Quantities<S>,
 }
 
 impl<S: Scalar, V> Recorder<S, V> {
@@ -281,6 +283,7 @@ impl<S: Scalar, V> Recorder<S, V> {
     pub fn new<P: Poisson<S, State = V>>(system: &P) -> Self {
         Self {
             solution: Solution::empty(system),
+            quantities: Quantities::new(system),
         }
     }
 }
@@ -306,12 +309,21 @@ impl<S: Scalar, P: Poisson<S>> Observer<S, P> for Recorder<S, P::State> {
         self.solution.assessed = Some(*assessed);
     }
 
+    fn step(&mut self, system: &P, _progress: Progress, mu: &P::State) -> ControlFlow<()> {
+        if self.quantities.has_angles() {
+            self.quantities.at(system, mu);
+        }
+        ControlFlow::Continue(())
+    }
+
     fn row(&mut self, system: &P, time: f64, mu: &P::State) -> ControlFlow<()> {
         let mut casimirs = vec![S::zero(); system.casimir_count()];
         system.casimirs(mu, &mut casimirs);
         self.solution.t.push(time);
         self.solution.energy.push(system.energy(mu));
         self.solution.casimirs.push(casimirs);
+        let quantities = self.quantities.at(system, mu).to_vec();
+        self.solution.quantities.push(quantities);
         self.solution.mu.push(mu.clone());
         ControlFlow::Continue(())
     }

@@ -8,7 +8,7 @@ use crate::scalar::{Scalar, largest};
 use crate::state::State;
 use std::io;
 
-/// The saved states of a run with energy and Casimirs, row by row.
+/// The saved states of a run with energy, Casimirs and declared functions, row by row.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solution<S, V> {
     /// Times.
@@ -19,6 +19,8 @@ pub struct Solution<S, V> {
     pub energy: Vec<S>,
     /// Casimirs, all of a row together.
     pub casimirs: Vec<Vec<S>>,
+    /// Declared functions of the state ([`Poisson::quantities`]), all of a row together.
+    pub quantities: Vec<Vec<S>>,
     /// The work of the run.
     pub stats: Stats,
     /// The step that was chosen, where the options gave a tolerance.
@@ -38,6 +40,10 @@ pub struct Solution<S, V> {
     pub coordinates: Vec<String>,
     /// The names of the Casimirs.
     pub casimir_names: Vec<String>,
+    /// The names of the declared functions.
+    pub quantity_names: Vec<String>,
+    /// Which of them are first integrals.
+    pub(super) conserved: Vec<bool>,
 }
 
 impl<S, V> Solution<S, V> {
@@ -48,11 +54,16 @@ impl<S, V> Solution<S, V> {
     {
         let coordinates = (0..system.dimension()).map(|i| system.coordinate(i).to_owned());
         let casimirs = (0..system.casimir_count()).map(|i| system.casimir_name(i).to_owned());
+        let quantities = 0..system.quantity_count();
+        let names = quantities
+            .clone()
+            .map(|i| system.quantity_name(i).to_owned());
         Self {
             t: Vec::new(),
             mu: Vec::new(),
             energy: Vec::new(),
             casimirs: Vec::new(),
+            quantities: Vec::new(),
             stats: Stats::default(),
             chosen: None,
             shortened: None,
@@ -62,6 +73,10 @@ impl<S, V> Solution<S, V> {
             status: Status::Finished,
             coordinates: coordinates.collect(),
             casimir_names: casimirs.collect(),
+            quantity_names: names.collect(),
+            conserved: quantities
+                .map(|i| system.quantity_is_conserved(i))
+                .collect(),
         }
     }
 
@@ -85,6 +100,12 @@ impl<S, V> Solution<S, V> {
         self.t.iter().position(close).map(|index| &self.mu[index])
     }
 
+    /// The values of a declared function in all rows, by its name.
+    pub fn quantity(&self, name: &str) -> Option<impl Iterator<Item = &S>> {
+        let place = self.quantity_names.iter().position(|known| known == name)?;
+        Some(self.quantities.iter().map(move |row| &row[place]))
+    }
+
     /// The last row: its time and state.
     pub fn last(&self) -> Option<(f64, &V)> {
         Some((*self.t.last()?, self.mu.last()?))
@@ -92,7 +113,7 @@ impl<S, V> Solution<S, V> {
 }
 
 impl<S: Scalar, V> Solution<S, V> {
-    /// How far energy and Casimirs have moved from their first value, over the saved states.
+    /// How far energy, Casimirs and first integrals have moved from their first value, over the saved states.
     /// For the maximum over every step let a [`crate::diagnostics::DriftMonitor`] look on.
     pub fn drift(&self) -> Drift {
         let rows = self.t.len();
@@ -109,12 +130,16 @@ impl<S: Scalar, V> Solution<S, V> {
             casimirs: (self.casimir_names.iter().enumerate())
                 .map(|(index, name)| follow(name, &|row| self.casimirs[row][index]))
                 .collect(),
+            integrals: (self.quantity_names.iter().enumerate())
+                .filter(|(index, _)| self.conserved[*index])
+                .map(|(index, name)| follow(name, &|row| self.quantities[row][index]))
+                .collect(),
         }
     }
 }
 
 impl<S: Scalar<Mask = bool>, V: State<S>> Solution<S, V> {
-    /// Writes the rows as CSV: a header `t,<coordinates>,energy,<Casimirs>`, then numbers with as
+    /// Writes the rows as CSV: a header `t,<coordinates>,energy,<Casimirs>,<declared functions>`, then numbers with as
     /// many digits as reading them back needs.
     ///
     /// # Errors
@@ -125,14 +150,15 @@ impl<S: Scalar<Mask = bool>, V: State<S>> Solution<S, V> {
             write!(writer, ",{name}")?;
         }
         write!(writer, ",energy")?;
-        for name in &self.casimir_names {
+        for name in self.casimir_names.iter().chain(&self.quantity_names) {
             write!(writer, ",{name}")?;
         }
         writeln!(writer)?;
         for (row, &time) in self.t.iter().enumerate() {
             write!(writer, "{time:?}")?;
             let invariants = core::iter::once(&self.energy[row]).chain(&self.casimirs[row]);
-            for value in self.mu[row].as_slice().iter().chain(invariants) {
+            let recorded = invariants.chain(&self.quantities[row]);
+            for value in self.mu[row].as_slice().iter().chain(recorded) {
                 write!(writer, ",{:?}", value.to_f64())?;
             }
             writeln!(writer)?;

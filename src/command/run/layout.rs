@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use std::collections::BTreeMap;
 
-use lie_codegen::model::{Family, Parameter};
+use lie_codegen::model::{Family, Parameter, QuantityKind};
 use lie_codegen::program::{Chart, columns};
 use lie_codegen::structure::{Structure, group};
 use lie_program::protocol::{Columns, Coordinates};
@@ -13,13 +13,15 @@ use crate::output::Names;
 
 /// The columns that are shown.
 pub struct Layout {
-    /// Their names: the time, the coordinates, the energy, the Casimirs, the entries of the group element.
+    /// Their names: the time, the coordinates, the energy, the Casimirs, the declared functions, the entries of the group element.
     pub columns: Names,
     /// How many coordinates are shown: those that carry the time are not.
     pub states: usize,
-    /// The columns, of those that are shown, that ought to be constant. The energy of a system that depends on
-    /// the time is none of them.
+    /// The columns, of those that are shown, that ought to be constant: energy, Casimirs, first integrals. The energy of a system
+    /// that depends on the time is none of them.
     pub invariants: Range<usize>,
+    /// Where the entries of the group element begin. The other declared functions stand before it.
+    pub element: usize,
 }
 
 impl Layout {
@@ -47,14 +49,21 @@ impl Layout {
         let casimirs = model.casimirs.iter().map(|casimir| casimir.name.clone());
         let varies = model.configuration.as_ref().is_some_and(|c| c.time);
         let energy = states.len() + 1;
+        let quantities = model.quantities.iter();
+        let integrals = quantities
+            .clone()
+            .filter(|q| q.kind == QuantityKind::Integral);
+        let casimirs_end = energy + 1 + model.casimirs.len();
         Self {
             columns: std::iter::once("t".to_owned())
                 .chain(coordinates)
                 .chain(["energy".to_owned()])
                 .chain(casimirs)
+                .chain(quantities.map(|quantity| quantity.name.clone()))
                 .chain(entries(model, chart))
                 .collect(),
-            invariants: energy + usize::from(varies)..energy + 1 + model.casimirs.len(),
+            invariants: energy + usize::from(varies)..casimirs_end + integrals.count(),
+            element: casimirs_end + model.quantities.len(),
             states: states.len(),
         }
     }
@@ -79,6 +88,7 @@ impl Layout {
         }
         Self {
             invariants: states + 1..names.len(),
+            element: names.len(),
             columns: names,
             states,
         }
@@ -86,15 +96,15 @@ impl Layout {
 
     /// Where the columns that are shown stand in the rows of a program; none where it does not have them.
     pub fn places(&self, columns: &Columns) -> Option<Places> {
-        let casimirs = 2 + self.states..self.invariants.end;
-        let casimirs = self.columns.made(casimirs);
-        if self.columns.len() - self.invariants.end != columns.element {
+        let behind = self.columns.made(2 + self.states..self.element);
+        let (casimirs, quantities) = behind.split_at(columns.casimirs.len().min(behind.len()));
+        if self.columns.len() - self.element != columns.element {
             return None;
         }
         let known = match &columns.coordinates {
             // the order of a family is that of its sites
             Coordinates::OfSites(count) => {
-                let same = *count == self.states && casimirs == columns.casimirs;
+                let same = *count == self.states && *casimirs == columns.casimirs;
                 return same.then(|| Places::All(columns.width()));
             }
             Coordinates::Named(known) => known,
@@ -105,8 +115,11 @@ impl Layout {
             places.push(columns.coordinates() + place(known, name)?);
         }
         places.push(columns.energy());
-        for name in &casimirs {
+        for name in casimirs {
             places.push(columns.casimirs() + place(&columns.casimirs, name)?);
+        }
+        for name in quantities {
+            places.push(columns.quantities() + place(&columns.quantities, name)?);
         }
         places.extend(columns.element()..columns.width());
         Some(match places.iter().copied().eq(0..columns.width()) {
@@ -155,6 +168,7 @@ fn entries(model: &Structure, chart: Option<Chart>) -> Vec<String> {
     let taken = |name: &String| {
         model.coordinates.iter().any(|c| c.text == *name)
             || model.casimirs.iter().any(|c| c.name == *name)
+            || model.quantities.iter().any(|q| q.name == *name)
     };
     let names = columns(chart, group.size);
     if names.iter().any(taken) {
@@ -179,23 +193,26 @@ mod tests {
     #[test]
     fn columns_are_found_by_their_names() {
         let layout = Layout {
-            columns: names("t x y energy C D q0 q1").into_iter().collect(),
+            columns: names("t x y energy C D F q0 q1").into_iter().collect(),
             states: 2,
             invariants: 3..6,
+            element: 7,
         };
         let columns = Columns {
             coordinates: named("y clock x"),
             casimirs: names("D C"),
+            quantities: names("F"),
             element: 2,
         };
-        let places = vec![0, 3, 1, 4, 6, 5, 7, 8];
+        let places = vec![0, 3, 1, 4, 6, 5, 7, 8, 9];
         assert_eq!(layout.places(&columns), Some(Places::Some(places)));
         let of_sites = |count| Columns {
             coordinates: Coordinates::OfSites(count),
-            casimirs: names("C D"),
+            casimirs: names("C D F"),
             element: 2,
+            ..Columns::default()
         };
-        assert_eq!(layout.places(&of_sites(2)), Some(Places::All(8)));
+        assert_eq!(layout.places(&of_sites(2)), Some(Places::All(9)));
         assert_eq!(layout.places(&of_sites(3)), None);
         for wrong in [
             Columns {
@@ -204,6 +221,10 @@ mod tests {
             },
             Columns {
                 casimirs: names("C"),
+                ..columns.clone()
+            },
+            Columns {
+                quantities: names("G"),
                 ..columns.clone()
             },
             Columns {

@@ -83,6 +83,9 @@ impl<'a, 'p> Reception<'a, 'p> {
         for casimir in model.casimirs.iter().filter(|c| c.multivalued || !c.kept) {
             drift.leave_out(&casimir.name);
         }
+        for quantity in model.quantities.iter().filter(|q| !q.is_conserved()) {
+            drift.leave_out(&quantity.name);
+        }
         Self {
             rows,
             waiting: Some(run),

@@ -14,6 +14,7 @@ pub fn assemble(whole: &Whole<'_>, system: System, proven: Proven) -> Model {
     let Proven {
         mut bracket,
         mut casimirs,
+        quantities,
         taken,
     } = proven;
     let System {
@@ -55,6 +56,7 @@ pub fn assemble(whole: &Whole<'_>, system: System, proven: Proven) -> Model {
         driving,
         realization: lowered.realization,
         declared_casimirs: casimirs,
+        quantities,
         taken,
         methods: declaration.methods.clone(),
         initial: lowered.initial,

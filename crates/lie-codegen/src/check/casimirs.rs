@@ -32,6 +32,7 @@ pub fn taken(declaration: &Declaration) -> HashSet<String> {
         .chain(declaration.lets.iter().map(|(n, _)| n));
     let names = names.chain(declaration.parameters.iter().map(|p| &p.name));
     let names = names.chain(declaration.casimirs.iter().filter_map(|c| c.name.as_ref()));
+    let names = names.chain(declaration.quantities().map(|(name, _)| name));
     names.map(|n| n.text.clone()).collect()
 }
 

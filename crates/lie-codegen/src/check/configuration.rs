@@ -58,6 +58,7 @@ fn uses_time(declaration: &Declaration) -> bool {
     let mut parts = lets
         .chain([declaration.energy.expression()])
         .chain(declaration.driving())
+        .chain(declaration.recorded())
         .flat_map(Expr::parts);
     parts.any(|part| matches!(&part.kind, ExprKind::Name { name, index: None } if name == TIME))
 }
@@ -200,7 +201,8 @@ pub fn clashes(
         .chain(others)
         .chain(lets)
         .chain(velocity)
-        .chain(casimirs);
+        .chain(casimirs)
+        .chain(declaration.quantities().map(|(name, _)| name));
     let taken = names.filter(|name| entries.contains(&name.text));
     let taken = taken.map(|name| {
         let message = format!("`{}` is an entry of the group element", name.text);

@@ -14,15 +14,20 @@ pub fn kernels(
     graph: &Graph,
     poisson: &PoissonMatrix,
     hamiltonian: (ExprId, Origin),
-    casimirs: impl IntoIterator<Item = (ExprId, Origin)>,
+    (casimirs, integrals): (
+        impl IntoIterator<Item = (ExprId, Origin)>,
+        impl IntoIterator<Item = (ExprId, Origin)>,
+    ),
 ) -> Option<Diagnostic> {
     let mut scratch = graph.clone();
     if field(&mut scratch, poisson, hamiltonian.0).is_none() {
         return Some(swollen("the Hamiltonian", hamiltonian.1));
     }
-    let mut casimirs = casimirs.into_iter();
-    let large = casimirs.find(|c| gradient(&mut scratch, c.0, poisson.dimension).is_none());
-    large.map(|(_, origin)| swollen("this Casimir", origin))
+    let casimirs = casimirs.into_iter().map(|c| (c, "this Casimir"));
+    let integrals = integrals.into_iter().map(|f| (f, "this first integral"));
+    let mut kept = casimirs.chain(integrals);
+    let large = kept.find(|(f, _)| gradient(&mut scratch, f.0, poisson.dimension).is_none());
+    large.map(|((_, origin), what)| swollen(what, origin))
 }
 
 /// Whether momentum and inertia of a Lagrangian are of reasonable size.

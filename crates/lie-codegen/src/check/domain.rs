@@ -1,7 +1,7 @@
 //! The domain: the Hamiltonian, its gradient and the Casimirs must be finite where a run begins.
 
 use super::velocity::velocity;
-use crate::model::{Bracket, Energy, Model};
+use crate::model::{Bracket, Energy, Model, QuantityKind};
 use lie_symbolic::exact::Rational;
 use lie_symbolic::symbolic::{ExprId, Graph, Node, Symbol};
 use lie_syntax::diagnostic::{Diagnostic, Kind, Origin};
@@ -154,6 +154,9 @@ fn functions(model: &Model, scratch: &mut Graph) -> Vec<(ExprId, String)> {
     }
     let casimirs = model.declared_casimirs.iter();
     functions.extend(casimirs.map(|c| (c.expr, format!("the Casimir `{}`", c.name))));
+    let kept = model.quantities.iter();
+    let kept = kept.filter(|quantity| quantity.kind == QuantityKind::Integral);
+    functions.extend(kept.map(|q| (q.expr, format!("the first integral `{}`", q.name))));
     if let Bracket::General(matrix) = &model.bracket {
         functions.extend(matrix.entries.iter().map(|(i, j, value)| {
             let [a, b] = [*i, *j].map(|index| &model.coordinates[index].text);

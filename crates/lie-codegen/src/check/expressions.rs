@@ -30,6 +30,10 @@ pub struct Lowered {
     pub acting: Vec<Acting>,
     /// The Casimirs.
     pub casimirs: Vec<ExprId>,
+    /// The first integrals.
+    pub integrals: Vec<ExprId>,
+    /// The observables.
+    pub observables: Vec<ExprId>,
     /// The realization.
     pub realization: Option<Realization>,
     /// The initial state.
@@ -70,6 +74,12 @@ pub fn lower(
     let acting = driving::acting(whole, &mut lower);
     let casimirs = declaration.casimirs.iter();
     let casimirs: Vec<_> = casimirs.map(|c| lower(&c.value, Allowed::State)).collect();
+    let integrals = declaration.integrals.iter();
+    let integrals: Vec<_> = integrals.map(|(_, f)| lower(f, Allowed::State)).collect();
+    let observables = declaration.observables.iter();
+    let observables: Vec<_> = observables
+        .map(|o| lower(&o.value, Allowed::State))
+        .collect();
     let realization = realization::lowered_map(
         declaration,
         configuration,
@@ -98,6 +108,8 @@ pub fn lower(
         energy: energy?,
         acting: acting?,
         casimirs: casimirs.into_iter().collect::<Option<_>>()?,
+        integrals: integrals.into_iter().collect::<Option<_>>()?,
+        observables: observables.into_iter().collect::<Option<_>>()?,
         realization: realization?,
         initial: initial?,
     })

@@ -3,9 +3,11 @@
 use std::collections::HashSet;
 
 use super::coordinates::Whole;
+use super::expressions::Lowered;
 use super::system::System;
-use super::{casimirs, cocycle, jacobi, naming, poisson_map, sign};
-use crate::model::{Bracket, Casimir, PoissonMatrix};
+use super::{casimirs, cocycle, integrals, jacobi, naming, poisson_map, sign};
+use crate::model::{Bracket, Casimir, PoissonMatrix, Quantity, QuantityKind};
+use lie_symbolic::prove::branches;
 use lie_symbolic::symbolic::Symbol;
 use lie_syntax::diagnostic::Diagnostic;
 
@@ -15,6 +17,8 @@ pub struct Proven {
     pub bracket: Bracket,
     /// The independent Casimirs.
     pub casimirs: Vec<Casimir>,
+    /// The first integrals, and the other functions that are recorded.
+    pub quantities: Vec<Quantity>,
     /// The names that the declaration uses.
     pub taken: HashSet<String>,
 }
@@ -77,6 +81,15 @@ pub fn identities(
     }
     let proven = violations.is_empty();
     mistakes.extend(violations);
+    let motion = integrals::Motion {
+        matrix,
+        energy: &system.energy,
+        configuration: whole.configuration.as_ref(),
+        name,
+    };
+    let functions = declaration.integrals.iter().zip(&system.lowered.integrals);
+    let violations = functions.filter_map(|(f, expr)| motion.refutation(f, *expr, scratch));
+    mistakes.extend(violations);
     if let Some(realization) = &mut system.lowered.realization {
         mistakes.extend(poisson_map::poisson_map(realization, matrix, scratch, name));
     }
@@ -93,6 +106,31 @@ pub fn identities(
     Some(Proven {
         bracket,
         casimirs,
+        quantities: quantities(whole, &system.lowered),
         taken,
     })
+}
+
+/// What is recorded, in the order of the columns.
+fn quantities(whole: &Whole<'_>, lowered: &Lowered) -> Vec<Quantity> {
+    let declaration = &*whole.declaration;
+    let integrals = declaration.integrals.iter().zip(&lowered.integrals);
+    let integrals = integrals.map(|((name, value), expr)| Quantity {
+        name: name.text.clone(),
+        origin: value.origin,
+        expr: *expr,
+        kind: QuantityKind::Integral,
+        unwrap: false,
+        multivalued: branches::jumps(&lowered.graph, *expr),
+    });
+    let observables = declaration.observables.iter().zip(&lowered.observables);
+    let observables = observables.map(|(observable, expr)| Quantity {
+        name: observable.name.text.clone(),
+        origin: observable.value.origin,
+        expr: *expr,
+        kind: QuantityKind::Observable,
+        unwrap: observable.unwrap,
+        multivalued: branches::jumps(&lowered.graph, *expr),
+    });
+    integrals.chain(observables).collect()
 }

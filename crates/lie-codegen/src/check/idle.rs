@@ -91,6 +91,7 @@ fn mentioned(declaration: &Declaration) -> BTreeSet<&str> {
     pending.push(declaration.energy.expression());
     pending.extend(declaration.driving());
     pending.extend(declaration.casimirs.iter().map(|c| &c.value));
+    pending.extend(declaration.recorded());
     if let Some(realization) = &declaration.realization {
         pending.extend(realization.map.iter().map(|(_, value)| value));
         pending.extend(realization.start.iter().flatten());

@@ -26,6 +26,7 @@ mod family;
 mod identities;
 mod idle;
 mod initial;
+mod integrals;
 mod jacobi;
 mod legendre;
 mod lets;

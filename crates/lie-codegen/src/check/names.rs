@@ -11,6 +11,8 @@ const TYPES: &[&str] = &[
     "S", "bool", "char", "f32", "f64", "i8", "i16", "i32", "i64", "i128", "isize", "str", "u8",
     "u16", "u32", "u64", "u128", "usize",
 ];
+/// The column of the work of forces and damping.
+const WORK: &str = "work";
 /// So many elements of a basis are listed.
 const MOST_LISTED: usize = 8;
 
@@ -36,6 +38,7 @@ pub fn name_spaces(declaration: &Declaration) -> Vec<Diagnostic> {
         .chain(parameters.clone())
         .chain(lets.clone())
         .chain(casimirs.clone())
+        .chain(declaration.quantities().map(|(name, _)| name))
     {
         mistakes.extend(forbidden(name));
     }
@@ -91,6 +94,10 @@ pub fn name_spaces(declaration: &Declaration) -> Vec<Diagnostic> {
     for name in casimirs {
         declare(&mut [&mut columns], name, "Casimir", &mut mistakes);
     }
+    for (name, what) in declaration.quantities() {
+        declare(&mut [&mut columns, &mut dual], name, what, &mut mistakes);
+        mistakes.extend(of_work(name));
+    }
     // the basis of an algebra by its name stands where that name does: nobody wrote its elements
     if let [first, second, ..] = basis
         && first.origin == second.origin
@@ -139,6 +146,14 @@ fn steps(declaration: &Declaration) -> impl Iterator<Item = Diagnostic> {
         .chain(lets);
     names.filter(|name| name.text == "h").map(|name| {
         let message = "`h` is the step size in a discrete Lagrangian";
+        Diagnostic::new(Kind::ReservedName, name.origin, message).help("choose another name")
+    })
+}
+
+/// What is called as the column of the work.
+fn of_work(name: &Name) -> Option<Diagnostic> {
+    (name.text == WORK).then(|| {
+        let message = "`work` is the column of what forces and damping do";
         Diagnostic::new(Kind::ReservedName, name.origin, message).help("choose another name")
     })
 }

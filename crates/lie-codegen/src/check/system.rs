@@ -74,9 +74,12 @@ pub fn system(
     let hamiltonian = (hamiltonian, declaration.energy.expression().origin);
     let origins = declaration.casimirs.iter().map(|c| c.value.origin);
     let casimirs = lowered.casimirs.iter().copied().zip(origins);
+    let origins = declaration.integrals.iter().map(|(_, f)| f.origin);
+    let integrals = lowered.integrals.iter().copied().zip(origins);
     mistakes.extend(
-        breadth::fill(&scratch, (&matrix, place), hamiltonian)
-            .or_else(|| derivatives::kernels(&scratch, &matrix, hamiltonian, casimirs)),
+        breadth::fill(&scratch, (&matrix, place), hamiltonian).or_else(|| {
+            derivatives::kernels(&scratch, &matrix, hamiltonian, (casimirs, integrals))
+        }),
     );
     if super::has_errors(mistakes) {
         return None;

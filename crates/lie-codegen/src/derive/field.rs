@@ -66,6 +66,11 @@ pub(super) fn kernels(source: &mut Source, derivatives: bool) -> Vec<Kernel> {
             &gradient,
         ));
     }
+    let values = source.quantities.clone();
+    kernels.extend(
+        (!values.is_empty())
+            .then(|| Kernel::values("quantities", "`out_i = q_i(mu)`", vec![mu(source)], values)),
+    );
     kernels
 }
 

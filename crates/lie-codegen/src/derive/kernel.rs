@@ -123,6 +123,29 @@ impl Kernel {
         }
     }
 
+    /// A kernel that writes so many values, those that vanish too.
+    pub fn values(
+        name: &'static str,
+        formula: &'static str,
+        arguments: Vec<Argument>,
+        values: Vec<ExprId>,
+    ) -> Self {
+        let shape = Shape::Vector((0..values.len()).collect());
+        let task = Task {
+            definitions: Vec::new(),
+            outputs: values,
+            known: KnownSymbols::Parameters,
+        };
+        Self {
+            name,
+            formula,
+            arguments,
+            shape,
+            task,
+            whole: None,
+        }
+    }
+
     /// A kernel that writes a matrix, given by rows.
     pub fn matrix(
         graph: &Graph,

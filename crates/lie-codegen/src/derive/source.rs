@@ -43,6 +43,8 @@ pub struct Source {
     pub driving: Option<Driving>,
     /// The Casimirs.
     pub casimirs: Vec<ExprId>,
+    /// What is recorded beside them.
+    pub quantities: Vec<ExprId>,
     /// Functions of `ad*_x` in closed form, where a method needs them and the algebra has one.
     pub exponential: Option<Exponential>,
 }
@@ -70,6 +72,11 @@ impl Source {
                 ..driving.clone()
             }),
             casimirs: structure.casimirs.iter().map(|c| written(c.expr)).collect(),
+            quantities: structure
+                .quantities
+                .iter()
+                .map(|q| written(q.expr))
+                .collect(),
             exponential: None,
             structure: Arc::new(structure.clone()),
         }

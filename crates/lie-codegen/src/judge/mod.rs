@@ -62,6 +62,8 @@ pub struct Judge {
     kernels: Kernels,
     /// The Casimirs of the model as they were declared, or would have been.
     casimirs: Vec<Expr>,
+    /// What is recorded beside them.
+    quantities: Vec<Expr>,
 }
 
 impl Judge {
@@ -79,7 +81,8 @@ impl Judge {
     /// The judge of a declaration that passed its checks.
     pub fn new(declaration: &Declaration, structure: &Structure, parameters: &[f64]) -> Self {
         let declared = |origin: Origin| {
-            let mut declared = declaration.casimirs.iter().map(|casimir| &casimir.value);
+            let declared = declaration.casimirs.iter().map(|casimir| &casimir.value);
+            let mut declared = declared.chain(declaration.recorded());
             declared.find(|value| match (value.origin, origin) {
                 (Origin::Text { start: a, .. }, Origin::Text { start: b, .. }) => a == b,
                 (Origin::Span(a), Origin::Span(b)) => {
@@ -93,6 +96,11 @@ impl Judge {
                 .casimirs
                 .iter()
                 .filter_map(|c| c.written.clone().or_else(|| declared(c.origin).cloned()))
+                .collect(),
+            quantities: structure
+                .quantities
+                .iter()
+                .filter_map(|q| declared(q.origin).cloned())
                 .collect(),
             kernels: Kernels::new(Declared {
                 declaration: declaration.clone(),
@@ -210,7 +218,8 @@ impl Judge {
                 };
                 exact(vec![Rounded::rounded(possible, 1.0)])
             }
-            ("casimirs", [mu]) => exact(self.casimirs(mu)),
+            ("casimirs", [mu]) => exact(self.values(&self.casimirs, mu)),
+            ("quantities", [mu]) => exact(self.values(&self.quantities, mu)),
             ("casimir_gradient", [mu]) => exact(kernels.slope_of(self.casimirs.get(index)?, mu)),
             ("lagrangian" | "momentum" | "inertia", [xi])
                 if kernels.declared.configuration.is_none() =>
@@ -251,11 +260,11 @@ impl Judge {
         })
     }
 
-    fn casimirs(&self, mu: &[f64]) -> Vec<Rounded> {
+    fn values(&self, functions: &[Expr], mu: &[f64]) -> Vec<Rounded> {
         let declared = &self.kernels.declared;
         let mu = inputs(mu);
-        let value = |casimir: &Expr| declared.function(casimir, &mu);
-        self.casimirs.iter().map(value).collect()
+        let value = |function: &Expr| declared.function(function, &mu);
+        functions.iter().map(value).collect()
     }
 
     fn lagrangian(&self, name: &str, xi: &[f64]) -> Expected {

@@ -97,3 +97,26 @@ impl PoissonMatrix {
         rows
     }
 }
+
+/// The bracket `{f, g} = sum_ij df/dx_i Pi_ij dg/dx_j`, by the entries of the Poisson matrix above the diagonal.
+pub fn bracket_of(
+    graph: &mut Graph,
+    entries: &[(usize, usize, ExprId)],
+    f: ExprId,
+    g: ExprId,
+) -> ExprId {
+    let mut terms = Vec::new();
+    for (i, j, value) in entries {
+        let [a, b] = [*i, *j].map(Symbol::Coordinate);
+        for (a, b, negative) in [(a, b, false), (b, a, true)] {
+            let slope = graph.derivative(f, a);
+            if graph.is_zero(slope) {
+                continue;
+            }
+            let other = graph.derivative(g, b);
+            let term = graph.product(&[slope, *value, other]);
+            terms.push(if negative { graph.neg(term) } else { term });
+        }
+    }
+    graph.sum(&terms)
+}

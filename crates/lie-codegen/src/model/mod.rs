@@ -5,6 +5,7 @@ mod casimir;
 pub mod configuration;
 mod driving;
 mod family;
+mod quantity;
 mod realization;
 
 use std::collections::HashSet;
@@ -14,11 +15,12 @@ use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 use lie_syntax::ast::{Invariance, Name, RunOption};
 use lie_syntax::diagnostic::Origin;
 
-pub use bracket::{Algebra, Bracket, PoissonMatrix};
+pub use bracket::{Algebra, Bracket, PoissonMatrix, bracket_of};
 pub use casimir::{Casimir, CasimirKind};
 pub use configuration::Configuration;
 pub use driving::{Acting, Driving};
 pub use family::{Family, SiteSum, Size, Start};
+pub use quantity::{Quantity, QuantityKind};
 pub use realization::{CANONICAL, Descent, Realization};
 
 /// A parameter of the system.
@@ -157,6 +159,8 @@ pub struct Model {
     pub realization: Option<Realization>,
     /// The Casimirs that are declared, those that are functions of others left out.
     pub declared_casimirs: Vec<Casimir>,
+    /// What is recorded beside state, energy and Casimirs.
+    pub quantities: Vec<Quantity>,
     /// The names that the declaration uses, so that nothing that is found is called the same.
     pub taken: HashSet<String>,
     /// Methods that get fused code.

@@ -118,6 +118,13 @@ pub(super) fn docs(structure: &Structure) -> Vec<String> {
     for casimir in structure.casimirs.iter().filter(|c| !c.kept) {
         docs.push(format!("The forces change `{}`.", casimir.name));
     }
+    if !structure.quantities.is_empty() {
+        let quantities = structure.quantities.iter();
+        let names: Vec<String> = quantities
+            .map(|q| format!("`{}` ({})", q.name, q.kind.name()))
+            .collect();
+        docs.push(format!("Recorded: {}.", names.join(", ")));
+    }
     for casimir in structure.casimirs.iter().filter(|c| c.multivalued) {
         docs.push(format!(
             "`{}` is multi-valued: it may jump, and its drift is not measured.",

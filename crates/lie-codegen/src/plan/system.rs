@@ -4,6 +4,7 @@ use super::function::Function;
 use super::planner::Planner;
 use crate::derive::{Kernel, Shape};
 use crate::methods::Choice;
+use crate::model::{self, QuantityKind};
 use lie_core::Clock;
 
 /// What a system says of itself, and its kernels by trait.
@@ -23,6 +24,8 @@ pub struct System {
     pub damped: bool,
     /// The Casimirs.
     pub casimirs: Vec<Casimir>,
+    /// What is recorded beside them.
+    pub quantities: Vec<Quantity>,
     /// What the energy is.
     pub energy: Energy,
     /// Whether Hessian and Jacobian are written out: some method that was asked for solves an equation.
@@ -56,6 +59,19 @@ pub struct Casimir {
     pub kept: bool,
     /// Its gradient; `None` where a method needs nothing but the field.
     pub gradient: Option<Function>,
+}
+
+/// A function of the state that is recorded.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Quantity {
+    /// Its name.
+    pub name: String,
+    /// What it is.
+    pub kind: QuantityKind,
+    /// Whether its jumps by 2 pi are taken out along a run.
+    pub unwrap: bool,
+    /// Whether its drift is an error of the method.
+    pub conserved: bool,
 }
 
 /// How the energy of a state is found.
@@ -112,6 +128,10 @@ impl Planner<'_> {
                     joints = kernel.outputs();
                     poisson.push(self.values_in_a_slice(kernel, joints));
                 }
+                "quantities" => {
+                    let count = kernel.outputs();
+                    poisson.push(self.values_in_a_slice(kernel, count));
+                }
                 "ad" if without_bracket => {}
                 "ad_star" | "ad_star_matrix" if field_alone => {}
                 "ad" | "ad_star" | "ad_star_matrix" => algebra.push(self.function(&kernel)),
@@ -139,6 +159,7 @@ impl Planner<'_> {
             forced: self.source.force().is_some(),
             damped: self.source.driving.is_some(),
             casimirs,
+            quantities: self.quantities(),
             energy: match self.source.energy.expression() {
                 Some(_) => Energy::Expression,
                 None => Energy::Legendre,
@@ -182,6 +203,17 @@ impl Planner<'_> {
             kernel.shape = Shape::Vector((0..self.source.dimension.max(count)).collect());
         }
         self.function(&kernel)
+    }
+
+    fn quantities(&self) -> Vec<Quantity> {
+        let quantities = self.structure.quantities.iter();
+        let quantity = |quantity: &model::Quantity| Quantity {
+            name: quantity.name.clone(),
+            kind: quantity.kind,
+            unwrap: quantity.unwrap,
+            conserved: quantity.is_conserved(),
+        };
+        quantities.map(quantity).collect()
     }
 
     fn casimir_gradients(&mut self, kernels: &[Kernel], by_duals: bool) -> Vec<Casimir> {

@@ -15,6 +15,7 @@ mod names;
 mod own_function;
 mod parameters;
 mod partner;
+mod quantities;
 mod realization;
 mod recurrence;
 mod runtime;

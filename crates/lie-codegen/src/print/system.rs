@@ -18,6 +18,7 @@ impl Printer<'_> {
             .map(|function| match function.name {
                 "casimirs" => self.vector_function(function, plan.casimirs.len()),
                 "joints" => self.vector_function(function, plan.joints),
+                "quantities" => self.vector_function(function, plan.quantities.len()),
                 _ => self.system_method(function, None),
             })
             .collect();
@@ -141,6 +142,7 @@ impl Printer<'_> {
                     }
                 }
             });
+        let quantities = self.facts_of_quantities();
         let joints = (plan.joints > 0).then(|| {
             let count = index(plan.joints);
             quote! {
@@ -177,6 +179,7 @@ impl Printer<'_> {
             #joints
             #(#driven)*
             #casimirs
+            #quantities
             #of_h
             #of_matrix
         }

@@ -11,6 +11,7 @@ pub mod found;
 pub mod group;
 pub mod inertia;
 pub mod integrable;
+pub mod integrals;
 pub mod lifts;
 pub mod matrices;
 pub mod motions;

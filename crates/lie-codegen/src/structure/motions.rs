@@ -7,6 +7,7 @@
 mod functions;
 mod solutions;
 
+use super::integrals::integrals;
 use crate::model::{Casimir, Model};
 use functions::functions;
 use lie_symbolic::exact::{Budget, Exhausted, Monomial, Polynomial, Rational};
@@ -107,6 +108,14 @@ fn search(
 ) -> Result<(), Exhausted> {
     let mut known: Vec<ExprId> = casimirs.iter().map(|casimir| casimir.expr).collect();
     known.push(model.hamiltonian());
+    // declared ones that say nothing new are none of those that determine an orbit
+    for integral in integrals(model) {
+        known.push(integral.expr);
+        let standings = independence::standings(graph, &known, field.len());
+        if standings.last() != Some(&Standing::Independent) {
+            known.pop();
+        }
+    }
     let mut search = Search::new(field, budget)?;
     for expr in &known {
         // what cannot be written out is compared at the end

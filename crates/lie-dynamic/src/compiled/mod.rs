@@ -36,6 +36,7 @@ pub(crate) struct Kernels {
     pub joints: Place,
     /// Of the force and of the generator, each with its slope.
     pub driving: [Place; 4],
+    pub quantities: Place,
     pub casimir_gradients: Vec<Place>,
     pub ad: Place,
     pub ad_star: Place,
@@ -242,6 +243,7 @@ impl CodeBuilder {
             casimirs: place("casimirs"),
             joints: place("joints"),
             driving: ["force", "force_slope", "generator", "generator_slope"].map(place),
+            quantities: place("quantities"),
             ad: place("ad"),
             ad_star: place("ad_star"),
             ad_star_matrix: place("ad_star_matrix"),

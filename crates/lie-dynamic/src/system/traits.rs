@@ -264,6 +264,23 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
             self.values.call(code, [mu, &[]], out, &mut []);
         }
     }
+    fn quantity_count(&self) -> usize {
+        self.values.compiled.plan.system.quantities.len()
+    }
+    fn quantity_name(&self, index: usize) -> &str {
+        &self.values.compiled.plan.system.quantities[index].name
+    }
+    fn quantity_unwraps(&self, index: usize) -> bool {
+        self.values.compiled.plan.system.quantities[index].unwrap
+    }
+    fn quantity_is_conserved(&self, index: usize) -> bool {
+        self.values.compiled.plan.system.quantities[index].conserved
+    }
+    fn quantities(&self, mu: &Vec<S>, out: &mut [S]) {
+        if let Some(code) = self.values.kernels().quantities {
+            self.values.call(code, [mu, &[]], out, &mut []);
+        }
+    }
     fn casimirs(&self, mu: &Vec<S>, out: &mut [S]) {
         if S::LOOPS
             && let Some(family) = &self.family

@@ -2,6 +2,7 @@
 
 pub mod joints;
 pub mod motions;
+mod recorded;
 pub mod signs;
 pub mod splitting;
 mod structure;
@@ -79,7 +80,7 @@ impl Report {
             .map(|(what, formula)| json!({ "what": what, "formula": formula }))
             .collect();
         let sites = sites(model).map_or(1, |[rows, columns]| rows * columns);
-        json!({
+        let mut report = json!({
             "name": model.name,
             "dimension": sites * model.dimension(),
             "generic_rank": sites * model.generic_rank,
@@ -100,7 +101,11 @@ impl Report {
             "orders": joints::orders(&model.joints, &self.methods),
             "operations": operations,
             "methods": methods,
-        })
+        });
+        if let Some(report) = report.as_object_mut() {
+            recorded::add(model, report);
+        }
+        report
     }
 }
 

@@ -101,6 +101,7 @@ fn free(spec: &Spec, name: &str) -> String {
     let taken = |name: &str| {
         model.coordinates.iter().any(|known| known.text == name)
             || model.casimirs.iter().any(|known| known.name == name)
+            || model.quantities.iter().any(|known| known.name == name)
             || model.parameters.iter().any(|known| known.name == name)
     };
     while taken(&name) {

@@ -98,7 +98,7 @@ fn groups<'a, P: Lift<f64>>(
             .collect()
     };
     let integrals = |integrals: &'a [Integral]| integrals.iter().map(integral).collect();
-    vec![
+    let mut groups = vec![
         Group {
             fact: "energy",
             claimed: kept.energy || (kept.quadratic_invariants && quadratic_energy),
@@ -124,7 +124,19 @@ fn groups<'a, P: Lift<f64>>(
             claimed: kept.quadratic_invariants,
             members: integrals(&ground.quadratic),
         },
-    ]
+    ];
+    let declared = 0..system.quantity_count();
+    let declared = declared.filter(|index| system.quantity_is_conserved(*index));
+    let members: Vec<_> = declared.map(|index| quantity(system, index)).collect();
+    if !members.is_empty() {
+        // a Poisson map that keeps energy and orbit is the flow; those of degree two at most are measured above too
+        groups.push(Group {
+            fact: "declared integrals",
+            claimed: kept.energy && kept.orbit && kept.poisson && kept.quadratic_invariants,
+            members,
+        });
+    }
+    groups
 }
 
 /// `sum |g_i| max|mu|`: every coordinate carries the round-off of the largest.
@@ -147,6 +159,36 @@ fn casimir<P: Poisson<f64>>(system: &P, index: usize) -> Watched<'_, P> {
         value: Box::new(value),
         size: Box::new(move |mu| value(mu).abs() + size(&slope(mu), mu)),
         gradient: Some(Box::new(slope)),
+        defect: 0.0,
+    }
+}
+
+/// A declared first integral; how it bends is found by differences.
+fn quantity<P: Poisson<f64>>(system: &P, index: usize) -> Watched<'_, P> {
+    let value = move |mu: &P::State| {
+        let mut all = vec![0.0; system.quantity_count()];
+        system.quantities(mu, &mut all);
+        all[index]
+    };
+    let size = move |mu: &P::State| {
+        let part = DIFFERENCE * mu.max_norm();
+        let mut moved = mu.clone();
+        let slopes = (0..system.dimension()).map(|entry| {
+            let at = mu.as_slice()[entry];
+            let mut to = |offset: f64| {
+                moved.as_mut_slice()[entry] = at + offset;
+                value(&moved)
+            };
+            let change = to(part) - to(-part);
+            moved.as_mut_slice()[entry] = at;
+            (change / (2.0 * part)).abs()
+        });
+        value(mu).abs() + slopes.sum::<f64>() * mu.max_norm()
+    };
+    Watched {
+        value: Box::new(value),
+        size: Box::new(size),
+        gradient: None,
         defect: 0.0,
     }
 }

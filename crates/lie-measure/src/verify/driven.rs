@@ -9,14 +9,15 @@ use lie_program::protocol::{Coordinates, Found, Message};
 use lie_program::session::Session;
 use lie_runtime::diagnostics::{AnyMethod, Forgotten};
 use lie_runtime::driver::{
-    IntegrateError, Options, Problem, Recorder, Save, Solution, Stats, Status, integrate, set_time,
+    IntegrateError, Options, Problem, Quantities, Recorder, Save, Solution, Stats, Status,
+    integrate, set_time,
 };
 use lie_runtime::methods::{StepFailure, StepReport};
 use lie_runtime::newton::NewtonOptions;
 use lie_runtime::poisson::{Lift, Poisson};
 use lie_runtime::state::State;
 
-/// A row: time, state, energy, Casimirs.
+/// A row: time, state, energy, Casimirs, declared functions.
 type Row = Vec<f64>;
 
 /// Where rows are asked for, in steps; those off the grid are reached by a shorter step that is not continued from.
@@ -170,6 +171,11 @@ fn row_of<V: State<f64>>(solution: &Solution<f64, V>, place: usize) -> Row {
     row.extend(solution.mu[place].as_slice());
     row.push(solution.energy[place]);
     row.extend(&solution.casimirs[place]);
+    row.extend(
+        solution.quantities[place]
+            .iter()
+            .map(|value| comparable(*value)),
+    );
     row
 }
 
@@ -190,7 +196,7 @@ fn by_hand<P: Poisson<f64> + Clone>(
 ) -> Result<Vec<Made>, StepFailure> {
     let newton = NewtonOptions::default();
     let (mut rows, mut state, mut done) = (Vec::new(), mu.clone(), 0_u32);
-    let mut whole = Vec::new();
+    let (mut whole, mut quantities) = (Vec::new(), Quantities::new(system));
     let mut places = PLACES.into_iter().enumerate().peekable();
     set_time(system, &mut state, t0);
     let mut current = system.following(&state).unwrap_or_else(|| system.clone());
@@ -208,7 +214,7 @@ fn by_hand<P: Poisson<f64> + Clone>(
                     set_time(&current, &mut here, time);
                 }
                 rows.push(Made {
-                    row: row_at(&current, time, &here),
+                    row: row_at(&current, time, &here, &mut quantities),
                     whole: core::mem::take(&mut whole),
                     shorter,
                 });
@@ -219,6 +225,7 @@ fn by_hand<P: Poisson<f64> + Clone>(
             whole.push(stepper.step(&mut state)?);
             done += 1;
             set_time(&current, &mut state, t0 + f64::from(done) * h);
+            quantities.at(&current, &state);
             if let Some(next) = current.following(&state) {
                 break next;
             }
@@ -228,14 +235,30 @@ fn by_hand<P: Poisson<f64> + Clone>(
     }
 }
 
-fn row_at<P: Poisson<f64>>(system: &P, time: f64, mu: &P::State) -> Row {
+fn row_at<P: Poisson<f64>>(
+    system: &P,
+    time: f64,
+    mu: &P::State,
+    quantities: &mut Quantities<f64>,
+) -> Row {
     let mut casimirs = vec![0.0; system.casimir_count()];
     system.casimirs(mu, &mut casimirs);
     let mut row = vec![time];
     row.extend(mu.as_slice());
     row.push(system.energy(mu));
     row.extend(casimirs);
+    row.extend(
+        quantities
+            .at(system, mu)
+            .iter()
+            .map(|value| comparable(*value)),
+    );
     row
+}
+
+/// A declared function may have no value at a state: then every row should say so.
+fn comparable(value: f64) -> f64 {
+    if value.is_nan() { f64::MAX } else { value }
 }
 
 /// What an observer kept, and the rows that were written.
@@ -283,7 +306,14 @@ fn rows<P: Poisson<f64>>(system: &P, said: Vec<Message<Found>>) -> Vec<Row> {
                 };
             }
             Message::Found(Found::Rows(rows)) if named => {
-                all.extend(rows.numbers.chunks(rows.width).map(<[f64]>::to_vec));
+                all.extend(rows.numbers.chunks(rows.width).map(|numbers| {
+                    let mut row = numbers.to_vec();
+                    let declared = &mut row[numbers.len() - system.quantity_count()..];
+                    declared
+                        .iter_mut()
+                        .for_each(|value| *value = comparable(*value));
+                    row
+                }));
             }
             _ => {}
         }

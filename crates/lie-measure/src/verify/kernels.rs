@@ -115,6 +115,12 @@ pub(super) fn poisson<P: Poisson<f64>>(system: &P, writer: &mut Writer<'_, P::St
     let mut casimirs = vec![f64::NAN; system.casimir_count()];
     system.casimirs(&mu, &mut casimirs);
     writer.write("casimirs", &[&at], &casimirs);
+    let count = system.quantity_count();
+    if count > 0 {
+        let mut quantities = vec![f64::NAN; count];
+        system.quantities(&mu, &mut quantities);
+        writer.write("quantities", &[&at], &quantities);
+    }
     for index in 0..system.casimir_count() {
         let mut vector = stale(mu.clone());
         system.casimir_gradient(index, &mu, &mut vector);

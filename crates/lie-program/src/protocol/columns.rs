@@ -33,7 +33,7 @@ impl Coordinates {
     }
 }
 
-/// The numbers of a row: the time, the coordinates, the energy, the Casimirs, the group element.
+/// The numbers of a row: the time, the coordinates, the energy, the Casimirs, the declared functions, the group element.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Columns {
@@ -41,6 +41,9 @@ pub struct Columns {
     pub coordinates: Coordinates,
     /// The names of the Casimirs.
     pub casimirs: Vec<String>,
+    /// The names of the declared functions.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub quantities: Vec<String>,
     /// The number of entries of the group element, where a method reconstructs it.
     pub element: usize,
 }
@@ -48,7 +51,7 @@ pub struct Columns {
 impl Columns {
     /// How many numbers a row has.
     pub fn width(&self) -> usize {
-        self.casimirs() + self.casimirs.len() + self.element
+        self.element() + self.element
     }
 
     /// The place of the first coordinate; the time stands before it.
@@ -66,8 +69,13 @@ impl Columns {
         self.energy() + 1
     }
 
+    /// The place of the first declared function.
+    pub fn quantities(&self) -> usize {
+        self.casimirs() + self.casimirs.len()
+    }
+
     /// The place of the first entry of the group element.
     pub fn element(&self) -> usize {
-        self.casimirs() + self.casimirs.len()
+        self.quantities() + self.quantities.len()
     }
 }

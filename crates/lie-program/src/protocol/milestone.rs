@@ -19,6 +19,9 @@ pub struct Milestone {
     state: Vec<u64>,
     branch: Option<Vec<u64>>,
     element: Vec<u64>,
+    /// The angles that are followed.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    angles: Vec<u64>,
     #[serde(with = "StatsFields")]
     stats: Stats,
     #[serde(with = "DivisionFields")]
@@ -47,10 +50,11 @@ fn numbers(bits: &[u64]) -> Vec<f64> {
 }
 
 impl Milestone {
-    /// That of a driver, with the group element.
+    /// That of a driver, with the group element and the angles that are followed.
     pub(crate) fn new<V: lie_runtime::State<f64>>(
         milestone: &driver::Milestone<V>,
         element: &[f64],
+        angles: &[f64],
     ) -> Self {
         let branch = milestone.branch.as_ref();
         Self {
@@ -60,6 +64,7 @@ impl Milestone {
             state: bits(milestone.mu.as_slice()),
             branch: branch.map(|branch| bits(branch.as_slice())),
             element: bits(element),
+            angles: bits(angles),
             stats: milestone.stats,
             division: milestone.division,
         }
@@ -91,6 +96,11 @@ impl Milestone {
     /// The group element.
     pub(crate) fn element(&self) -> Vec<f64> {
         numbers(&self.element)
+    }
+
+    /// The angles that are followed.
+    pub(crate) fn angles(&self) -> Vec<f64> {
+        numbers(&self.angles)
     }
 }
 

@@ -6,12 +6,14 @@
 
 pub mod names;
 mod parts;
+mod recorded;
 mod runtime;
 
 use crate::diagnostic::Origin;
 use lie_symbolic::exact::Rational;
 use lie_symbolic::symbolic::Opaque;
 
+pub use recorded::Observable;
 pub use runtime::{NoPath, Runtime};
 
 /// A name and its place.
@@ -387,6 +389,10 @@ pub struct Declaration {
     pub realization: Option<Realization>,
     /// Declared Casimirs.
     pub casimirs: Vec<Casimir>,
+    /// Declared first integrals.
+    pub integrals: Vec<(Name, Expr)>,
+    /// Functions of the state that are recorded beside it.
+    pub observables: Vec<Observable>,
     /// Methods that get fused code.
     pub methods: Vec<Name>,
     /// Left or right invariance.

@@ -6,6 +6,7 @@ mod entry;
 mod family;
 mod functions;
 mod lists;
+mod observables;
 mod statement;
 mod tables;
 mod vectors;
@@ -17,7 +18,7 @@ use proc_macro2::{Span, TokenStream};
 use self::block::{algebra, is_named, names, parameters, realization};
 use self::entry::Entry;
 use self::statement::{Statement, statements};
-use super::reader::{self, Entries, Line, Read};
+use super::reader::{self, Entries, Line, Read, Recorded};
 use super::tables::Read as Table;
 use super::token::{Delimiter, Token, TokenKind, render, span, split_commas};
 use super::vectors::Declared;
@@ -331,6 +332,11 @@ impl Entries for Parts<'_> {
     fn vectors(&self, names: &Names, report: &mut Report) -> Vec<Declared> {
         let block = self.first("vectors").and_then(|s| s.block(report));
         vectors::read(&block.unwrap_or_default(), names, report)
+    }
+
+    fn observables(&self, report: &mut Report) -> Vec<Recorded<'_>> {
+        let block = self.first("observables").and_then(|s| s.block(report));
+        observables::read(&block.unwrap_or_default(), report)
     }
 
     fn tables(&self, report: &mut Report) -> Vec<Table> {

@@ -31,8 +31,8 @@ pub fn begins_sign(token: &Token) -> bool {
     token.is('=') || token.is(':')
 }
 
-/// `x^2 + y^2 = 1` for a Casimir; whether there is no second side.
-pub fn one_side(tokens: &[Token], report: &mut Report) -> bool {
+/// `x^2 + y^2 = 1` for a Casimir or `what` else is kept; whether there is no second side.
+pub fn one_side(tokens: &[Token], what: &str, report: &mut Report) -> bool {
     let mut cursor = Cursor::new(tokens);
     // `<=` stands in parentheses
     let equals = cursor
@@ -50,7 +50,7 @@ pub fn one_side(tokens: &[Token], report: &mut Report) -> bool {
         true => format!("write `{left}`; its value follows from the initial state"),
         false => format!("write `{left} - ({})`", render(right)),
     };
-    let message = "a Casimir is a function, not an equation";
+    let message = format!("{what} is a function, not an equation");
     report.push(Diagnostic::new(Kind::Syntax, place, message).help(help));
     false
 }

@@ -130,7 +130,7 @@ pub fn casimir(
         ),
         None => (None, tokens, whole),
     };
-    if !equations::one_side(value, report) {
+    if !equations::one_side(value, "a Casimir", report) {
         return None;
     }
     let value = formula(value, CASIMIR, place, names, report)?;

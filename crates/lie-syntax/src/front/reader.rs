@@ -7,10 +7,10 @@ use std::borrow::Cow;
 use super::tables::{self, Tables};
 use super::token::Token;
 use super::vectors::{self, Declared};
-use super::{Body, Names, Parsed, driving, expression, item};
+use super::{Body, Names, Parsed, driving, equations, expression, item};
 use crate::ast::{
-    Algebra, Declaration, Energy, Expr, Family, Invariance, Name, OwnFunction, Parameter,
-    Realization, RunOption, Size, Start, Structure,
+    Algebra, Declaration, Energy, Expr, Family, Invariance, Name, Observable, OwnFunction,
+    Parameter, Realization, RunOption, Size, Start, Structure,
 };
 use crate::diagnostic::{Kind, Origin, Report};
 
@@ -50,6 +50,16 @@ pub struct Read {
     pub sizes: Vec<Size>,
 }
 
+/// An observable whose expression is not read yet.
+pub struct Recorded<'a> {
+    /// Its name.
+    pub name: Name,
+    /// Its expression.
+    pub value: Line<'a>,
+    /// Whether its jumps by 2 pi are taken out.
+    pub unwrap: bool,
+}
+
 /// A declaration in the form of one of the front ends; `key` is one of the spec. Mistakes of form are reported
 /// where an entry is asked for.
 pub trait Entries {
@@ -78,6 +88,8 @@ pub trait Entries {
     fn realization(&self, parameters: &[String], report: &mut Report) -> Option<Realization>;
     /// The vectors and matrices, whose entries may use `names`.
     fn vectors(&self, names: &Names, report: &mut Report) -> Vec<Declared>;
+    /// The observables.
+    fn observables(&self, report: &mut Report) -> Vec<Recorded<'_>>;
     /// The functions by tables.
     fn tables(&self, report: &mut Report) -> Vec<tables::Read>;
     /// The functions of Rust.
@@ -170,6 +182,13 @@ fn remainder<E: Entries>(
     let casimirs =
         casimirs.filter_map(|line| item::casimir(&line.tokens, line.place, &names, report));
     let casimirs = casimirs.collect();
+    let integrals = entries.lines("integrals", report);
+    let integrals = integrals.iter();
+    let integrals = integrals.filter_map(|line| integral(line, &names, report));
+    let integrals = integrals.collect();
+    let observables = entries.observables(report).into_iter();
+    let observables = observables.filter_map(|recorded| observable(recorded, &names, report));
+    let observables = observables.collect();
     let methods = entries.methods(report);
     let group = entries.place("group").map(|_| {
         let line = entries.line("group", report)?;
@@ -199,6 +218,8 @@ fn remainder<E: Entries>(
         dissipation,
         realization: without_mistake(realization)?,
         casimirs,
+        integrals,
+        observables,
         methods,
         invariance: invariance?,
         initial,
@@ -286,6 +307,31 @@ fn abbreviation(line: &Line<'_>, names: &Names, report: &mut Report) -> Option<(
     let example = ("its value", "x^2/2");
     let value = item::formula(value, example, line.place, names, report)?;
     Some((name, value))
+}
+
+fn integral(line: &Line<'_>, names: &Names, report: &mut Report) -> Option<(Name, Expr)> {
+    let (name, value) = item::definition(&line.tokens, "a first integral", line.place, report)?;
+    if !equations::one_side(value, "a first integral", report) {
+        return None;
+    }
+    let example = ("its value", "x^2/2");
+    let value = item::formula(value, example, line.place, names, report)?;
+    Some((name, value))
+}
+
+fn observable(recorded: Recorded<'_>, names: &Names, report: &mut Report) -> Option<Observable> {
+    let Recorded {
+        name,
+        value,
+        unwrap,
+    } = recorded;
+    let example = ("the observable", "x^2/2");
+    let value = item::formula(&value.tokens, example, value.place, names, report)?;
+    Some(Observable {
+        name,
+        value,
+        unwrap,
+    })
 }
 
 /// `hamiltonian`, or one of the Lagrangians with `velocity`.

@@ -1,9 +1,13 @@
 //! The keys of the spec file: one table for the reader and for the JSON Schema.
 
+mod forms;
+
 use std::collections::BTreeMap;
 
 use schemars::JsonSchema;
 use serde_json::Value;
+
+pub use forms::*;
 
 /// Declares an object of the spec once: the struct that `schemars` turns into the schema and the
 /// list of keys that the reader accepts. Keys in `required` must be there.
@@ -87,6 +91,11 @@ objects! {
         "realization" realization: Option<Realization>,
         /// Casimirs, `NAME = expression` or an expression; each is verified exactly.
         "casimirs" casimirs: Option<Vec<String>>,
+        /// First integrals, `NAME = expression`: functions of state, parameters, abbreviations and the time `t` whose bracket with the
+        /// Hamiltonian is proven to vanish. They are columns of a run.
+        "integrals" integrals: Option<Vec<String>>,
+        /// Functions of state, parameters, abbreviations and the time `t` by name, which are columns of a run.
+        "observables" observables: Option<BTreeMap<String, Observable>>,
         /// Ids of the methods that get fused code.
         "methods" methods: Option<Vec<String>>,
         /// `left` (the default): mu' = ad*_(grad H) mu; `right`: the opposite sign.
@@ -126,6 +135,14 @@ objects! {
         "entropy" entropy: Option<String>,
         /// The matrix R of `rayleigh`, with entries in parameters.
         "matrix" matrix: Option<MatrixForm>,
+    }
+
+    /// An observable with how it is recorded.
+    struct DescribedObservable requires ["expression"] {
+        /// The function.
+        "expression" expression: String,
+        /// Whether it is an angle whose jumps by 2 pi are taken out.
+        "unwrap" unwrap: Option<bool>,
     }
 
     /// A random initial state of a family.
@@ -239,146 +256,6 @@ objects! {
         /// Whether the size of steps follows the motion: `reversible`, for symmetric methods.
         "density" density: Option<String>,
     }
-}
-
-/// The name of an algebra, or what it consists of.
-#[derive(JsonSchema)]
-#[schemars(untagged)]
-#[expect(dead_code, reason = "the variants describe the schema")]
-pub enum AlgebraForm {
-    /// A name, such as `so(3) + R^2`.
-    Name(String),
-    /// Basis, brackets and matrices.
-    Written(Algebra),
-}
-
-/// The initial state: of a family at random or from a file, else value by value.
-#[derive(JsonSchema)]
-#[schemars(untagged)]
-#[expect(dead_code, reason = "the variants describe the schema")]
-pub enum Initial {
-    /// Numbers or exact expressions in parameters.
-    Values(Vec<Constant>),
-    /// At random.
-    Random(Random),
-    /// From a file.
-    Numbers(Numbers),
-}
-
-/// The points of a table: a list, or a file.
-#[derive(JsonSchema)]
-#[schemars(untagged)]
-#[expect(dead_code, reason = "the variants describe the schema")]
-pub enum Points {
-    /// The points `[x, y]`.
-    List(Vec<[Constant; 2]>),
-    /// The path of a CSV file, relative to that of the spec: `x,y` in each line, after at most one line of names.
-    File(String),
-}
-
-/// What a function by a table is outside of it.
-#[derive(JsonSchema)]
-#[schemars(rename_all = "lowercase")]
-#[expect(dead_code, reason = "the variants describe the schema")]
-pub enum Outside {
-    /// Not a number: a step that leaves the table fails.
-    Refuse,
-    /// The value at the end.
-    Constant,
-    /// The tangent at the end.
-    Linear,
-}
-
-/// How the sites of a random state are distributed.
-#[derive(JsonSchema)]
-#[schemars(rename_all = "kebab-case")]
-#[expect(dead_code, reason = "the variants describe the schema")]
-pub enum Distribution {
-    /// Uniformly on the unit sphere.
-    UnitSphere,
-}
-
-/// The kinds of dissipation.
-#[derive(JsonSchema)]
-#[schemars(rename_all = "kebab-case")]
-#[expect(dead_code, reason = "the variants describe the schema")]
-pub enum DissipationKind {
-    /// Along the coadjoint orbit.
-    DoubleBracket,
-    /// What keeps the energy.
-    Metriplectic,
-    /// By a matrix.
-    Rayleigh,
-}
-
-/// A matrix by rows, or the name of one of `vectors`.
-#[derive(JsonSchema)]
-#[schemars(untagged)]
-#[expect(dead_code, reason = "the variants describe the schema")]
-pub enum MatrixForm {
-    /// Its rows.
-    Rows(Vec<Vec<Constant>>),
-    /// Its name.
-    Name(String),
-}
-
-/// A number, or an exact constant as text, such as "1/3".
-#[derive(JsonSchema)]
-#[schemars(untagged)]
-#[expect(dead_code, reason = "the variants describe the schema")]
-pub enum Constant {
-    /// A decimal number, taken exactly: 0.1 is 1/10.
-    Number(f64),
-    /// An exact constant.
-    Text(String),
-}
-
-/// Entries of a vector, or rows of a matrix.
-#[derive(JsonSchema)]
-#[schemars(untagged)]
-#[expect(dead_code, reason = "the variants describe the schema")]
-pub enum VectorOrMatrix {
-    /// The entries: numbers, names or expressions.
-    Vector(Vec<Constant>),
-    /// The rows.
-    Matrix(Vec<Vec<Constant>>),
-}
-
-/// The default of a parameter, or an object that also describes it.
-#[derive(JsonSchema)]
-#[schemars(untagged)]
-#[expect(dead_code, reason = "the variants describe the schema")]
-pub enum Parameter {
-    /// A decimal number, taken exactly: 0.1 is 1/10.
-    Number(f64),
-    /// An exact constant.
-    Text(String),
-    /// Default and description.
-    Described(DescribedParameter),
-}
-
-/// Times of rows.
-#[derive(JsonSchema)]
-#[schemars(untagged)]
-#[expect(dead_code, reason = "the variants describe the schema")]
-pub enum Times {
-    /// One time.
-    Number(f64),
-    /// Times with commas between them.
-    Text(String),
-    /// A list of times.
-    List(Vec<Constant>),
-}
-
-/// Left or right invariance.
-#[derive(JsonSchema)]
-#[schemars(rename_all = "lowercase")]
-#[expect(dead_code, reason = "the variants describe the schema")]
-pub enum Invariance {
-    /// mu' = ad*_(grad H) mu
-    Left,
-    /// mu' = -ad*_(grad H) mu
-    Right,
 }
 
 /// The JSON Schema (draft 2020-12) of a spec file, the same on every call.

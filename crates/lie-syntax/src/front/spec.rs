@@ -3,6 +3,7 @@
 mod algebra;
 mod driving;
 mod files;
+mod observables;
 mod parameters;
 mod realization;
 mod run;
@@ -17,7 +18,7 @@ use quote::quote;
 
 use super::json::{self, Type, Value};
 use super::object::{Object, as_list, list, parts, string, wrong_type};
-use super::reader::{self, Entries, Line, Read};
+use super::reader::{self, Entries, Line, Read, Recorded};
 use super::schema::Spec;
 use super::tables::Read as Table;
 use super::vectors::Declared;
@@ -192,6 +193,11 @@ impl Entries for Object<'_> {
     fn vectors(&self, names: &Names, report: &mut Report) -> Vec<Declared> {
         let value = self.get("vectors");
         value.map_or_else(Vec::new, |v| vectors::read(v, names, report))
+    }
+
+    fn observables(&self, report: &mut Report) -> Vec<Recorded<'_>> {
+        let value = self.get("observables");
+        value.map_or_else(Vec::new, |v| observables::read(v, report))
     }
 
     fn tables(&self, report: &mut Report) -> Vec<Table> {

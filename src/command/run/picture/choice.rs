@@ -191,15 +191,27 @@ fn attitude(spec: &Spec, several: &Several, given: &OptionValue) -> Result<Kind,
 }
 
 fn coordinate(layout: &Layout, given: &OptionValue) -> Result<usize, Message> {
-    let names = layout.coordinates();
+    named(&layout.coordinates(), "coordinate", given)
+}
+
+/// The column behind the time with a name: a coordinate, or what is recorded beside the state.
+fn column(layout: &Layout, given: &OptionValue) -> Result<usize, Message> {
+    match layout.columns.made(1..layout.element) {
+        // of a family the columns behind the state are those of all its sites
+        columns if layout.element > layout.invariants.end => named(&columns, "column", given),
+        _ => coordinate(layout, given),
+    }
+}
+
+fn named(names: &[String], what: &str, given: &OptionValue) -> Result<usize, Message> {
     let name = given.text.trim();
     names.iter().position(|known| known == name).ok_or_else(|| {
-        let message = given.wrong(format!("unknown coordinate `{name}`"));
+        let message = given.wrong(format!("unknown {what} `{name}`"));
         let known = names.iter().map(String::as_str);
         message.help(match did_you_mean(name, known) {
             Some(near) => format!("did you mean `{near}`?"),
             None => format!(
-                "the coordinates are {}",
+                "the {what}s are {}",
                 names[..names.len().min(12)].join(", ")
             ),
         })
@@ -218,7 +230,7 @@ fn axes(
     }
     let Some(rest) = rest else { return Ok([0, 1]) };
     match rest.split().as_slice() {
-        [x, y] => Ok([coordinate(layout, x)?, coordinate(layout, y)?]),
+        [x, y] => Ok([column(layout, x)?, column(layout, y)?]),
         _ => {
             let names = layout.columns.made(1..3);
             let message = rest.wrong("a phase portrait has two coordinates");

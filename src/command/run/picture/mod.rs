@@ -98,7 +98,7 @@ impl<'a> Picture<'a> {
     /// Begins a further run.
     pub fn begin(&mut self, name: &str, plan: &Plan, start: &Start) {
         self.end_run();
-        self.quaternions = Quaternions::of(plan.chart, self.layout.invariants.end);
+        self.quaternions = Quaternions::of(plan.chart, self.layout.element);
         if let Drawn::Nothing(kind) = self.drawn {
             self.subtitle = self.second_line(plan);
             self.drawn = self.first(kind, plan, start);
@@ -152,7 +152,9 @@ impl<'a> Picture<'a> {
         }
         let would = match self.drawn {
             Drawn::Orbit(..) => true,
-            Drawn::Phase(..) => self.spec.model.dimension() == 2,
+            Drawn::Phase(_, axes, _) => {
+                self.spec.model.dimension() == 2 && axes.iter().all(|axis| *axis < 2)
+            }
             _ => false,
         };
         if would && !self.has_levels() {
@@ -182,7 +184,8 @@ impl<'a> Picture<'a> {
     fn first(&self, kind: Kind, plan: &Plan, start: &Start) -> Drawn {
         let names = &self.layout.columns;
         let (name, columns) = (&*self.spec.model.name, names.made(0..names.len()));
-        let (own, element) = columns.split_at(self.layout.invariants.end);
+        let (known, element) = columns.split_at(self.layout.element);
+        let (own, recorded) = known.split_at(self.layout.invariants.end);
         let phase = |[x, y]: [usize; 2]| {
             let names = [columns[1 + x].clone(), columns[1 + y].clone()];
             Phase::new(name, "", names)
@@ -190,14 +193,15 @@ impl<'a> Picture<'a> {
         match kind {
             Kind::Components => {
                 let plot = Plot::new(name, own, self.layout.states, (plan.from, plan.end()));
-                Drawn::Components(Box::new(plot.element(element)))
+                let plot = plot.recorded(recorded).element(element);
+                Drawn::Components(Box::new(plot))
             }
             Kind::Compare => {
                 let compare = Compare::new(name, "", own, self.layout.states);
                 Drawn::Compare(compare)
             }
             Kind::Phase(axes) => {
-                let plane = self.spec.model.dimension() == 2;
+                let plane = self.spec.model.dimension() == 2 && axes.iter().all(|axis| *axis < 2);
                 let system = system(self.spec, start).filter(|_| plane && self.has_levels());
                 Drawn::Phase(phase(axes), axes, system.map(Box::new))
             }
@@ -230,7 +234,7 @@ impl<'a> Picture<'a> {
                 }
             }
             Drawn::Attitude(curves) => {
-                let tip = tip(&row[self.layout.invariants.end..]);
+                let tip = tip(&row[self.layout.element..]);
                 if let Some(curve) = curves.last_mut() {
                     curve.push(&tip, &tip);
                 }
@@ -255,7 +259,7 @@ impl<'a> Picture<'a> {
                 }
             }
             Drawn::Attitude(curves) => {
-                let tip = tip(&row[self.layout.invariants.end..]);
+                let tip = tip(&row[self.layout.element..]);
                 if let Some(curve) = curves.last_mut() {
                     curve.between(&tip, &tip);
                 }

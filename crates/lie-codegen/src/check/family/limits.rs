@@ -26,6 +26,11 @@ pub fn violations(declaration: &Declaration, family: &Family) -> Vec<Diagnostic>
         let message = "the group element of a family is not followed";
         refuse(name.origin, message, "remove `group`");
     }
+    if let Some((name, what)) = declaration.quantities().next() {
+        let message = format!("a family has no {what} of its own");
+        let help = "remove it: the columns of a run are coordinates, energy and Casimirs, from which it can be computed";
+        refuse(name.origin, &message, help);
+    }
     if let Some(realization) = &declaration.realization {
         let message = "a family takes no realization";
         refuse(realization.origin, message, "remove `realization`");

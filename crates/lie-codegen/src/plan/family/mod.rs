@@ -174,6 +174,7 @@ impl Planner<'_> {
                 forced: false,
                 damped: false,
                 casimirs: Vec::new(),
+                quantities: Vec::new(),
                 energy: Energy::Expression,
                 derivatives: false,
                 poisson: Vec::new(),

@@ -27,6 +27,8 @@ const KEYWORDS: &[(&str, Follows)] = &[
     ("dissipation", Follows::Block),
     ("realization", Follows::Block),
     ("casimir", Follows::Name),
+    ("integrals", Follows::Block),
+    ("observables", Follows::Block),
     ("methods", Follows::Equals),
     ("invariance", Follows::Equals),
     ("initial", Follows::Equals),

@@ -1,0 +1,34 @@
+//! What is recorded beside state, energy and Casimirs, for programs.
+
+use lie_codegen::model::QuantityKind;
+use lie_codegen::structure::Structure;
+use lie_codegen::structure::integrals::brackets;
+use serde_json::{Map, Value, json};
+
+/// Adds first integrals with their brackets, and observables, where there are some.
+pub fn add(model: &Structure, report: &mut Map<String, Value>) {
+    let of = |kind: QuantityKind| {
+        let quantities = model.quantities.iter();
+        quantities.filter(move |quantity| quantity.kind == kind)
+    };
+    let integrals: Vec<Value> = of(QuantityKind::Integral)
+        .map(|q| json!({ "name": q.name, "expression": model.display(q.expr) }))
+        .collect();
+    if !integrals.is_empty() {
+        let brackets = brackets(model).into_iter();
+        let brackets: Vec<Value> = brackets
+            .map(|bracket| json!({ "of": bracket.of, "value": bracket.value.as_deref().unwrap_or("0") }))
+            .collect();
+        report.insert("integrals".into(), integrals.into());
+        report.insert("integral_brackets".into(), brackets.into());
+    }
+    let observables: Vec<Value> = of(QuantityKind::Observable)
+        .map(|q| {
+            let expression = model.display(q.expr);
+            json!({ "name": q.name, "expression": expression, "unwrap": q.unwrap })
+        })
+        .collect();
+    if !observables.is_empty() {
+        report.insert("observables".into(), observables.into());
+    }
+}
