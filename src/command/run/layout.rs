@@ -1,5 +1,6 @@
 //! The columns of a run: what of the program's rows is shown.
 
+use std::borrow::Cow;
 use std::ops::Range;
 
 use std::collections::BTreeMap;
@@ -17,14 +18,51 @@ pub struct Layout {
     pub columns: Names,
     /// How many coordinates are shown: those that carry the time are not.
     pub states: usize,
-    /// The columns, of those that are shown, that ought to be constant: energy, Casimirs, first integrals. The energy of a system
+    /// The columns, of those that are watched, that ought to be constant: energy, Casimirs, first integrals. The energy of a system
     /// that depends on the time is none of them.
     pub invariants: Range<usize>,
+    /// What is watched in a row, where that is not the row itself: where forces act, the energy without their work takes the place of the
+    /// energy, and Casimirs that they change stand with what is recorded beside the invariants.
+    watched: Option<Vec<Watched>>,
     /// Where the entries of the group element begin. The other declared functions stand before it.
     pub element: usize,
 }
 
+/// A number that is watched.
+#[derive(Clone, Copy)]
+enum Watched {
+    /// That of a column.
+    Column(usize),
+    /// The difference of two.
+    Difference(usize, usize),
+}
+
 impl Layout {
+    /// The names of what is watched.
+    pub fn watched_names(&self) -> Vec<String> {
+        let all = self.columns.made(0..self.columns.len());
+        let name = |watched: &Watched| match *watched {
+            Watched::Column(place) => all[place].clone(),
+            Watched::Difference(a, b) => format!("{} - {}", all[a], all[b]),
+        };
+        match &self.watched {
+            Some(watched) => watched.iter().map(name).collect(),
+            None => all,
+        }
+    }
+
+    /// What is watched of a row that is shown.
+    pub fn watched<'r>(&self, row: &'r [f64]) -> Cow<'r, [f64]> {
+        let value = |watched: &Watched| match *watched {
+            Watched::Column(place) => row[place],
+            Watched::Difference(a, b) => row[a] - row[b],
+        };
+        match &self.watched {
+            Some(watched) => watched.iter().map(value).collect(),
+            None => Cow::Borrowed(row),
+        }
+    }
+
     /// The columns of a run.
     pub fn new(
         model: &Structure,
@@ -35,6 +73,11 @@ impl Layout {
             Some(family) => Self::of_family(model, family, parameters),
             None => Self::of_system(model, chart),
         }
+    }
+
+    /// Whether something is recorded beside the state and the invariants.
+    pub fn has_recorded(&self) -> bool {
+        self.watched.is_some() || self.element > self.invariants.end
     }
 
     /// The names of the coordinates.
@@ -54,7 +97,7 @@ impl Layout {
             .clone()
             .filter(|q| q.kind == QuantityKind::Integral);
         let casimirs_end = energy + 1 + model.casimirs.len();
-        Self {
+        let mut layout = Self {
             columns: std::iter::once("t".to_owned())
                 .chain(coordinates)
                 .chain(["energy".to_owned()])
@@ -65,7 +108,35 @@ impl Layout {
             invariants: energy + usize::from(varies)..casimirs_end + integrals.count(),
             element: casimirs_end + model.quantities.len(),
             states: states.len(),
+            watched: None,
+        };
+        if model.driving.is_some() {
+            layout.watch_balance(model);
         }
+        layout
+    }
+
+    /// Watches the energy without the work of forces and dissipation in place of the energy.
+    fn watch_balance(&mut self, model: &Structure) {
+        let energy = self.states + 1;
+        let casimirs = model.casimirs.iter().map(|casimir| casimir.kept);
+        let quantities = model.quantities.iter().map(|quantity| quantity.kind);
+        let quantities = quantities.map(|kind| kind == QuantityKind::Integral);
+        let kept = (energy + 1..).zip(casimirs.chain(quantities));
+        let (kept, changed): (Vec<_>, Vec<_>) = kept.partition(|(_, kept)| *kept);
+        let work = energy + 1 + model.casimirs.len();
+        let columns = |places: Vec<(usize, bool)>| places.into_iter().map(|(place, _)| place);
+        let mut watched: Vec<Watched> = (0..energy).map(Watched::Column).collect();
+        watched.push(Watched::Difference(energy, work));
+        watched.extend(columns(kept).map(Watched::Column));
+        self.invariants = energy..watched.len();
+        let behind = [energy].into_iter().chain(columns(changed));
+        watched.extend(
+            behind
+                .chain(self.element..self.columns.len())
+                .map(Watched::Column),
+        );
+        self.watched = Some(watched);
     }
 
     /// The columns of a family with these values of its parameters.
@@ -91,6 +162,7 @@ impl Layout {
             element: names.len(),
             columns: names,
             states,
+            watched: None,
         }
     }
 
@@ -196,6 +268,7 @@ mod tests {
             columns: names("t x y energy C D F q0 q1").into_iter().collect(),
             states: 2,
             invariants: 3..6,
+            watched: None,
             element: 7,
         };
         let columns = Columns {

@@ -79,7 +79,7 @@ impl<'a, 'p> Reception<'a, 'p> {
             Pace::Step(step) => step,
             Pace::Tolerance(_) => f64::NAN,
         };
-        let mut drift = Drift::new(&layout.columns.made(layout.invariants.clone()));
+        let mut drift = Drift::new(&layout.watched_names()[layout.invariants.clone()]);
         for casimir in model.casimirs.iter().filter(|c| c.multivalued || !c.kept) {
             drift.leave_out(&casimir.name);
         }
@@ -199,9 +199,10 @@ impl<'a, 'p> Reception<'a, 'p> {
         let columns = self.places.len();
         for row in shown.chunks_exact(columns) {
             let invariants = &self.layout.invariants;
+            let watched = self.layout.watched(row);
             self.received
                 .drift
-                .push(&row[..invariants.end], invariants.start);
+                .push(&watched[..invariants.end], invariants.start);
             if let Some(picture) = &mut self.picture {
                 picture.push(row);
             }

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use super::coordinates::Whole;
-use super::expressions::Lowered;
+use super::names::WORK;
 use super::system::System;
 use super::{casimirs, cocycle, integrals, jacobi, naming, poisson_map, sign};
 use crate::model::{Bracket, Casimir, PoissonMatrix, Quantity, QuantityKind};
@@ -84,6 +84,7 @@ pub fn identities(
     let motion = integrals::Motion {
         matrix,
         energy: &system.energy,
+        driving: system.driving.as_ref(),
         configuration: whole.configuration.as_ref(),
         name,
     };
@@ -106,14 +107,28 @@ pub fn identities(
     Some(Proven {
         bracket,
         casimirs,
-        quantities: quantities(whole, &system.lowered),
+        quantities: quantities(whole, system),
         taken,
     })
 }
 
 /// What is recorded, in the order of the columns.
-fn quantities(whole: &Whole<'_>, lowered: &Lowered) -> Vec<Quantity> {
+fn quantities(whole: &Whole<'_>, system: &mut System) -> Vec<Quantity> {
     let declaration = &*whole.declaration;
+    let lowered = &mut system.lowered;
+    // what the forces do is taken from the momentum of the time
+    let clock = whole.configuration.as_ref().and_then(|c| c.clock());
+    let work = clock.filter(|_| system.driving.is_some()).map(|clock| {
+        let momentum = lowered.graph.symbol(Symbol::Coordinate(clock.momentum));
+        Quantity {
+            name: WORK.to_owned(),
+            origin: declaration.name.origin,
+            expr: lowered.graph.neg(momentum),
+            kind: QuantityKind::Work,
+            unwrap: false,
+            multivalued: false,
+        }
+    });
     let integrals = declaration.integrals.iter().zip(&lowered.integrals);
     let integrals = integrals.map(|((name, value), expr)| Quantity {
         name: name.text.clone(),
@@ -132,5 +147,8 @@ fn quantities(whole: &Whole<'_>, lowered: &Lowered) -> Vec<Quantity> {
         unwrap: observable.unwrap,
         multivalued: branches::jumps(&lowered.graph, *expr),
     });
-    integrals.chain(observables).collect()
+    work.into_iter()
+        .chain(integrals)
+        .chain(observables)
+        .collect()
 }

@@ -3,7 +3,7 @@
 
 use super::energy::Declared;
 use crate::model::configuration::Configuration;
-use crate::model::{Energy, PoissonMatrix, bracket_of};
+use crate::model::{Driving, Energy, PoissonMatrix, bracket_of};
 use lie_symbolic::exact::Budget;
 use lie_symbolic::prove::proof::{Proof, Prover};
 use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
@@ -19,6 +19,8 @@ pub struct Motion<'a> {
     pub matrix: &'a PoissonMatrix,
     /// The Hamiltonian.
     pub energy: &'a Energy<Declared>,
+    /// What acts beside it.
+    pub driving: Option<&'a Driving>,
     /// The group element and the time, where they are among the coordinates.
     pub configuration: Option<&'a Configuration>,
     /// The names of symbols.
@@ -38,6 +40,8 @@ impl Motion<'_> {
             Energy::Legendre(_, function) => *function,
         };
         let bracket = bracket_of(scratch, &self.matrix.entries, function, hamiltonian);
+        let driven = self.driven(function, scratch);
+        let bracket = scratch.add(bracket, driven);
         let bracket = self.on_solutions(bracket, scratch);
         let mut domain = vec![function, hamiltonian];
         domain.extend(self.matrix.entries.iter().map(|(.., value)| *value));
@@ -48,10 +52,14 @@ impl Motion<'_> {
         let budget = Budget::new(WORK);
         let proof = Prover::new(scratch, &budget, &domain, self.name).examine(bracket);
         let text = &name.text;
+        let rate = match self.driving {
+            Some(_) => format!("d{text}/dt"),
+            None => format!("{{{text}, H}}"),
+        };
         let (message, help) = match proof {
             Proof::Zero => return None,
             Proof::Nonzero(shown) => (
-                format!("`{text}` is not a first integral: {{{text}, H}} = {shown}"),
+                format!("`{text}` is not a first integral: {rate} = {shown}"),
                 "a first integral keeps its value along every motion: mend it or the Hamiltonian, or make it one of the `observables`",
             ),
             Proof::Unproven {
@@ -61,13 +69,32 @@ impl Motion<'_> {
                 let shown = shown.map_or_else(String::new, |shown| format!(" = {shown}"));
                 (
                     format!(
-                        "`{text}` is unproven: it could not be shown that {{{text}, H}}{shown} is zero, {values}"
+                        "`{text}` is unproven: it could not be shown that {rate}{shown} is zero, {values}"
                     ),
                     "write it in a simpler form, with fewer different functions and roots, or make it one of the `observables`",
                 )
             }
         };
         Some(Diagnostic::new(Kind::Integral, declared.origin, message).help(help))
+    }
+
+    /// What acts beside the Hamiltonian changes in a function: `<grad F, f + Pi d>` with the force f and what damping adds to the generator.
+    fn driven(&self, function: ExprId, scratch: &mut Graph) -> ExprId {
+        let Some(driving) = self.driving else {
+            return scratch.integer(0);
+        };
+        let slopes: Vec<ExprId> = (0..driving.force.len())
+            .map(|i| scratch.derivative(function, Symbol::Coordinate(i)))
+            .collect();
+        let pairs = slopes.iter().zip(&driving.force);
+        let mut terms: Vec<ExprId> = pairs.map(|(s, f)| scratch.mul(*s, *f)).collect();
+        for (i, j, entry) in &self.matrix.entries {
+            let forth = scratch.mul(slopes[*i], driving.damping[*j]);
+            let back = scratch.mul(slopes[*j], driving.damping[*i]);
+            let both = scratch.sub(forth, back);
+            terms.push(scratch.mul(*entry, both));
+        }
+        scratch.sum(&terms)
     }
 
     /// The expression where the motion takes place: the unit beside the time is 1, and momenta without a Hamiltonian in them are

@@ -12,7 +12,7 @@ const TYPES: &[&str] = &[
     "u16", "u32", "u64", "u128", "usize",
 ];
 /// The column of the work of forces and damping.
-const WORK: &str = "work";
+pub const WORK: &str = "work";
 /// So many elements of a basis are listed.
 const MOST_LISTED: usize = 8;
 
@@ -91,8 +91,12 @@ pub fn name_spaces(declaration: &Declaration) -> Vec<Diagnostic> {
             &mut mistakes,
         );
     }
-    for name in casimirs {
+    for name in casimirs.clone() {
         declare(&mut [&mut columns], name, "Casimir", &mut mistakes);
+    }
+    if declaration.is_driven() {
+        let columns = state.iter().chain(casimirs.clone());
+        mistakes.extend(columns.filter_map(of_work));
     }
     for (name, what) in declaration.quantities() {
         declare(&mut [&mut columns, &mut dual], name, what, &mut mistakes);

@@ -136,7 +136,7 @@ impl Source {
             momenta[clock.time] = time;
             momenta[clock.time + 1] = self.graph.integer(1);
         }
-        let gradient = self.gradient_of_h();
+        let gradient = self.generator();
         let gradient = self.at_point(&gradient, &momenta);
         let mut terms: Vec<Vec<ExprId>> = vec![Vec::new(); 2 * half];
         let moving = gradient.iter().zip(&representation.matrices).enumerate();
@@ -192,7 +192,7 @@ impl Source {
             let constant = self.graph.scale(shift, &trace);
             *momentum = self.graph.add(*momentum, constant);
         }
-        let gradient = self.in_gauge(Self::gradient_of_h);
+        let gradient = self.in_gauge(Self::generator);
         let gradient = self.at_point(&gradient, &momenta);
         let mut terms: Vec<Vec<ExprId>> = vec![Vec::new(); x.len()];
         for (xi, matrix) in gradient.iter().zip(&representation.matrices) {

@@ -219,7 +219,7 @@ impl Judge {
                 exact(vec![Rounded::rounded(possible, 1.0)])
             }
             ("casimirs", [mu]) => exact(self.values(&self.casimirs, mu)),
-            ("quantities", [mu]) => exact(self.values(&self.quantities, mu)),
+            ("quantities", [mu]) => exact(self.recorded(mu)),
             ("casimir_gradient", [mu]) => exact(kernels.slope_of(self.casimirs.get(index)?, mu)),
             ("lagrangian" | "momentum" | "inertia", [xi])
                 if kernels.declared.configuration.is_none() =>
@@ -265,6 +265,16 @@ impl Judge {
         let mu = inputs(mu);
         let value = |function: &Expr| declared.function(function, &mu);
         functions.iter().map(value).collect()
+    }
+
+    /// What is recorded: the work of what acts, minus the momentum of the time, then what is declared.
+    fn recorded(&self, mu: &[f64]) -> Vec<Rounded> {
+        let declared = &self.kernels.declared;
+        let configuration = declared.configuration.as_ref();
+        let configuration = configuration.filter(|_| declared.declaration.is_driven());
+        let work = configuration.map(|c| Rounded::input(mu[c.momenta - 1]).neg());
+        let others = self.values(&self.quantities, mu);
+        work.into_iter().chain(others).collect()
     }
 
     fn lagrangian(&self, name: &str, xi: &[f64]) -> Expected {

@@ -143,7 +143,8 @@ pub fn structure(mut model: Model, effort: Effort) -> Structure {
     let motions = motions.map(|work| motions::find(&model, &casimirs, work));
     let smallest = lifts::smallest(&model, few, many, unitary);
     let group = group::group(&model);
-    let (body, gauged) = match model.is_lie_poisson() && model.family.is_none() {
+    let alone = model.family.is_none() && model.driving.is_none();
+    let (body, gauged) = match model.is_lie_poisson() && alone {
         true => {
             let mut graph = model.graph.clone();
             let body = inertia::body(&model, few, &mut graph);

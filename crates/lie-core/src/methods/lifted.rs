@@ -150,7 +150,7 @@ where
         let at = self.stages.stages(self.point.as_slice());
         let mut gradient: WideState<S, P> = self.wide.zero_state();
         L::project(&self.wide, &self.wide_labels, at.points, &mut self.momenta);
-        self.wide.gradient(&self.momenta, &mut gradient);
+        self.wide.generator(&self.momenta, &mut gradient);
         self.stages.set_base(S::Mask::splat(true), end.as_slice());
         let xi = self.system.zero_state();
         let count = self.stages.count();

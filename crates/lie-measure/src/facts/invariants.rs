@@ -71,7 +71,8 @@ fn groups<'a, P: Lift<f64>>(
     ground: &'a Ground<P>,
     method: &dyn AnyMethod<f64, P>,
 ) -> Vec<Group<'a, P>> {
-    let kept = method.claims().preserves.on(system);
+    let whole = method.claims().preserves;
+    let kept = whole.on(system);
     let quadratic_energy = system
         .hamiltonian_degree()
         .is_some_and(|degree| degree <= 2);
@@ -132,7 +133,7 @@ fn groups<'a, P: Lift<f64>>(
         // a Poisson map that keeps energy and orbit is the flow; those of degree two at most are measured above too
         groups.push(Group {
             fact: "declared integrals",
-            claimed: kept.energy && kept.orbit && kept.poisson && kept.quadratic_invariants,
+            claimed: whole.energy && whole.orbit && whole.poisson && whole.quadratic_invariants,
             members,
         });
     }

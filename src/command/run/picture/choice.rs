@@ -198,7 +198,7 @@ fn coordinate(layout: &Layout, given: &OptionValue) -> Result<usize, Message> {
 fn column(layout: &Layout, given: &OptionValue) -> Result<usize, Message> {
     match layout.columns.made(1..layout.element) {
         // of a family the columns behind the state are those of all its sites
-        columns if layout.element > layout.invariants.end => named(&columns, "column", given),
+        columns if layout.has_recorded() => named(&columns, "column", given),
         _ => coordinate(layout, given),
     }
 }

@@ -184,7 +184,9 @@ impl<'a> Picture<'a> {
     fn first(&self, kind: Kind, plan: &Plan, start: &Start) -> Drawn {
         let names = &self.layout.columns;
         let (name, columns) = (&*self.spec.model.name, names.made(0..names.len()));
-        let (known, element) = columns.split_at(self.layout.element);
+        let watched = self.layout.watched_names();
+        let entries = names.len() - self.layout.element;
+        let (known, element) = watched.split_at(watched.len() - entries);
         let (own, recorded) = known.split_at(self.layout.invariants.end);
         let phase = |[x, y]: [usize; 2]| {
             let names = [columns[1 + x].clone(), columns[1 + y].clone()];
@@ -223,8 +225,12 @@ impl<'a> Picture<'a> {
         let states = self.layout.states;
         match &mut self.drawn {
             Drawn::Nothing(_) => {}
-            Drawn::Components(plot) => plot.push(&self.quaternions.continued(row)),
-            Drawn::Compare(compare) => compare.push(&row[..self.layout.invariants.end]),
+            Drawn::Components(plot) => {
+                plot.push(&self.layout.watched(&self.quaternions.continued(row)));
+            }
+            Drawn::Compare(compare) => {
+                compare.push(&self.layout.watched(row)[..self.layout.invariants.end]);
+            }
             Drawn::Phase(phase, [x, y], _) => phase.push((row[1 + *x], row[1 + *y])),
             Drawn::Section(phase, section) => pass(phase, section, row, states),
             Drawn::Orbit(curves, system) => {
@@ -248,7 +254,9 @@ impl<'a> Picture<'a> {
         let states = self.layout.states;
         match &mut self.drawn {
             Drawn::Nothing(_) => {}
-            Drawn::Components(plot) => plot.between(&self.quaternions.continued(row)),
+            Drawn::Components(plot) => {
+                plot.between(&self.layout.watched(&self.quaternions.continued(row)));
+            }
             Drawn::Compare(compare) => compare.between(row),
             Drawn::Phase(phase, [x, y], _) => phase.between((row[1 + *x], row[1 + *y])),
             Drawn::Section(phase, section) => pass(phase, section, row, states),
