@@ -179,6 +179,20 @@ pub trait Poisson<S: Scalar>: Sized {
         }
     }
 
+    /// How many inputs are among the coordinates: they are set from outside, constant along the motion, and follow the unit beside the time
+    /// ([`Poisson::clock`]).
+    fn input_count(&self) -> usize {
+        0
+    }
+    /// The time from one sampling of an input to the next; every step where it is `None`.
+    fn input_sampling(&self, _index: usize) -> Option<f64> {
+        None
+    }
+    /// How many rates of Wiener processes follow the inputs: `dW/dt`, constant along a step.
+    fn noise_count(&self) -> usize {
+        0
+    }
+
     /// The number of declared functions of the state that [`Poisson::quantities`] writes: the work of the forces, first integrals,
     /// observables, inputs.
     fn quantity_count(&self) -> usize {

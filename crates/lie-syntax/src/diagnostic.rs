@@ -155,6 +155,7 @@ kinds! {
     Legendre "legendre" "The Legendre transform fails.",
     Splitting "splitting" "The Hamiltonian cannot be split in this way.",
     Dissipation "dissipation" "A dissipation that is malformed, or lacks what it promises.",
+    Input "input" "Values of an input that cannot be used.",
     Option "option" "Bad or missing option.",
     Io "io" "A file cannot be read or written.",
     Toolchain "toolchain" "cargo is missing or failed.",

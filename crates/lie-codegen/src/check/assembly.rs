@@ -54,6 +54,7 @@ pub fn assemble(whole: &Whole<'_>, system: System, proven: Proven) -> Model {
         configuration: whole.configuration.clone(),
         family: None,
         driving,
+        inputs: super::driving::inputs(declaration),
         realization: lowered.realization,
         declared_casimirs: casimirs,
         quantities,

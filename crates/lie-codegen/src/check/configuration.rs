@@ -12,6 +12,7 @@
 
 mod larger;
 
+use super::driving;
 use crate::model::configuration::{Configuration, TIME, TIME_MOMENTUM, UNIT};
 use larger::Builder;
 use lie_symbolic::exact::Rational;
@@ -50,6 +51,7 @@ pub fn configuration(
         momenta: declaration.dimension() + usize::from(time),
         group,
         time,
+        held: driving::held(declaration, mistakes),
     })
 }
 
@@ -79,7 +81,7 @@ pub fn extended(
     let mut whole = declaration.clone();
     added.names(&mut whole.state);
     if let Some(initial) = &declaration.initial {
-        let complete = configuration.complete(initial, |value| added.number(value));
+        let complete = configuration.complete(initial, |value| added.exact(value.clone()));
         if complete.is_none() {
             mistakes.push(incomplete(declaration, configuration, initial, origin));
         }
@@ -118,8 +120,12 @@ impl Added<'_> {
     }
 
     fn number(&self, value: i64) -> Expr {
+        self.exact(Rational::from(value))
+    }
+
+    fn exact(&self, value: Rational) -> Expr {
         Expr {
-            kind: ExprKind::Number(Rational::from(value)),
+            kind: ExprKind::Number(value),
             origin: self.origin,
         }
     }
@@ -135,6 +141,8 @@ impl Added<'_> {
         if time {
             names.extend([TIME, UNIT].map(|text| self.name(text)));
         }
+        let held = self.configuration.held.iter();
+        names.extend(held.map(|(text, _)| self.name(text)));
     }
 
     /// The elements of the larger algebra with their brackets and matrices.

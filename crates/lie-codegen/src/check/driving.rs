@@ -6,18 +6,69 @@
 
 mod metric;
 
+use super::constant_value;
 use super::coordinates::Whole;
 use super::energy::Declared;
 use super::environment::Allowed;
 use super::matrix;
 use super::poisson::Entry;
 use crate::algebra::StructureConstants;
-use crate::model::{Acting, Driving, Energy, PoissonMatrix};
+use crate::model::{Acting, Driving, Energy, Input, PoissonMatrix};
 use lie_symbolic::exact::Rational;
 use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
-use lie_syntax::ast::{Declaration, DissipationKind, Expr, Metric};
+use lie_syntax::ast::{Declaration, DissipationKind, Expr, ExprKind, Metric, Name, Noise};
 use lie_syntax::diagnostic::{Diagnostic, Kind, Origin};
 use metric::{Checks, Rows};
+
+/// What is held from step to step: inputs with their defaults, then the rates of Wiener processes.
+pub fn held(declaration: &Declaration, mistakes: &mut Vec<Diagnostic>) -> Vec<(String, Rational)> {
+    let mut held = Vec::new();
+    for input in &declaration.inputs {
+        let default = match &input.default.kind {
+            ExprKind::Number(value) => Ok(value.clone()),
+            _ => constant_value(&input.default)
+                .map(|value| Rational::from_f64(value).unwrap_or(Rational::ZERO)),
+        };
+        match default {
+            Ok(default) => held.push((input.name.text.clone(), default)),
+            Err(wrong) => mistakes.extend(wrong),
+        }
+        let sampling = input
+            .sampling
+            .as_ref()
+            .map(|value| (value.origin, constant_value(value)));
+        match sampling {
+            Some((origin, Ok(value))) if !(value > 0.0 && value.is_finite()) => {
+                let message = format!("`{}` is sampled every {value}", input.name.text);
+                let help = "write a time that is positive, or leave `sampling` out to sample before every step";
+                mistakes.push(Diagnostic::new(Kind::Input, origin, message).help(help));
+            }
+            Some((_, Err(wrong))) => mistakes.extend(wrong),
+            _ => {}
+        }
+    }
+    let own = declaration.dimension();
+    let warm = declaration
+        .dissipation
+        .iter()
+        .filter(|d| d.temperature.is_some());
+    let count = declaration.noise.len() + own * warm.count();
+    held.extend((1..=count).map(|k| (format!("_w{k}"), Rational::ZERO)));
+    held
+}
+
+/// The inputs of a declaration that passed its checks.
+pub fn inputs(declaration: &Declaration) -> Vec<Input> {
+    let value = |expr: &Expr| constant_value(expr).unwrap_or(f64::NAN);
+    let inputs = declaration.inputs.iter();
+    inputs
+        .map(|input| Input {
+            name: input.name.text.clone(),
+            default: value(&input.default),
+            sampling: input.sampling.as_ref().map(value),
+        })
+        .collect()
+}
 
 /// Lowers what acts; `None` where an expression is wrong, which is reported.
 pub fn acting(
@@ -66,6 +117,27 @@ pub fn acting(
         };
         complete &= found.is_some();
         all.extend(found);
+        if let Some(temperature) = &dissipation.temperature {
+            let temperature = lower(temperature, Allowed::Parameters);
+            complete &= temperature.is_some();
+            all.extend(temperature.map(Acting::Temperature));
+        }
+    }
+    for noise in &declaration.noise {
+        let found = match noise {
+            Noise::Hamiltonian(value) => lower(value, Allowed::State).map(Acting::HamiltonianNoise),
+            Noise::Force(parts) => {
+                let part = |(name, value): &(Name, Expr)| {
+                    let place = declaration.state.iter().position(|c| c.text == name.text);
+                    place.zip(lower(value, Allowed::State))
+                };
+                let parts: Vec<Option<(usize, ExprId)>> = parts.iter().map(part).collect();
+                let parts: Option<Vec<_>> = parts.into_iter().collect();
+                parts.map(Acting::ForceNoise)
+            }
+        };
+        complete &= found.is_some();
+        all.extend(found);
     }
     complete.then_some(all)
 }
@@ -94,7 +166,7 @@ pub fn driving(
     mistakes: &mut Vec<Diagnostic>,
 ) -> Option<Driving> {
     let declaration = &*sources.whole.declaration;
-    if declared.is_empty() {
+    if !declaration.is_driven() {
         return None;
     }
     if let Some(mistake) = refused(declaration, sources) {
@@ -120,20 +192,27 @@ pub fn driving(
         graph,
     };
     let zero = work.graph.integer(0);
-    let (mut force, mut damping) = (
-        vec![zero; declaration.dimension()],
-        vec![zero; declaration.dimension()],
-    );
-    let mut origins = declaration.dissipation.iter();
-    let before = mistakes.len();
+    let nothing = vec![zero; declaration.dimension()];
+    let (mut force, mut damping) = (nothing.clone(), nothing.clone());
+    // what noise adds to both, which is no work
+    let mut noise = Loud {
+        force: nothing.clone(),
+        damping: nothing,
+        next: declaration.dimension() - configuration.held.len() + declaration.inputs.len(),
+    };
+    let mut dissipations = declaration.dissipation.iter();
+    let (mut dissipation, mut before) = (None, None);
+    let count = mistakes.len();
     for acting in &mut declared {
-        let dissipation = match acting {
-            Acting::Force(..) => None,
-            _ => origins.next(),
-        };
-        let origin = dissipation.map_or(declaration.name.origin, |d| d.origin);
+        let own_entry = matches!(
+            acting,
+            Acting::DoubleBracket(..) | Acting::Metriplectic(..) | Acting::Rayleigh(_)
+        );
+        if own_entry {
+            dissipation = dissipations.next();
+        }
         let checks = Checks {
-            origin,
+            origin: dissipation.map_or(declaration.name.origin, |d| d.origin),
             own,
             defaults: sources.defaults,
             name: sources.name,
@@ -148,9 +227,9 @@ pub fn driving(
                 mistakes.extend(checks.strength(work.graph, *strength));
                 if let Some(rows) = metric {
                     let symmetric = checks.symmetric(work.graph, "the metric G", rows);
-                    mistakes.extend(
-                        symmetric.or_else(|| checks.damps(work.graph, "the metric G", rows)),
-                    );
+                    let wrong =
+                        symmetric.or_else(|| checks.damps(work.graph, "the metric G", rows));
+                    mistakes.extend(wrong);
                 }
                 work.add_double_bracket(*strength, metric.as_ref(), &mut damping, clock.time);
             }
@@ -166,35 +245,99 @@ pub fn driving(
                 mistakes.extend(found.map(|k| *rows = k).err());
                 work.add_metriplectic(*entropy, rows, &mut force);
             }
+            Acting::HamiltonianNoise(function) => {
+                work.add_hamiltonian_noise(*function, &mut noise, clock.time)
+            }
+            Acting::ForceNoise(parts) => {
+                let rate = noise.rate(work.graph);
+                for (place, value) in parts {
+                    let part = work.graph.mul(*value, rate);
+                    noise.force[*place] = work.graph.add(noise.force[*place], part);
+                }
+            }
+            Acting::Temperature(temperature) => {
+                let wrong = checks.strength(work.graph, *temperature);
+                let wrong = wrong.map(|mistake| Diagnostic {
+                    message: mistake
+                        .message
+                        .replace("strength", "temperature")
+                        .replace(": H would grow", ""),
+                    help: Some("write a temperature that is not negative".into()),
+                    ..mistake
+                });
+                mistakes.extend(wrong);
+                let wrong = match &before {
+                    Some(Acting::DoubleBracket(strength, metric)) => work.warm(
+                        &checks,
+                        (*temperature, Some(*strength)),
+                        metric.as_ref(),
+                        &mut noise,
+                        clock.time,
+                    ),
+                    Some(Acting::Rayleigh(rows)) => work.warm(
+                        &checks,
+                        (*temperature, None),
+                        Some(rows),
+                        &mut noise,
+                        clock.time,
+                    ),
+                    _ => None,
+                };
+                mistakes.extend(wrong);
+            }
         }
+        before = Some(acting.clone());
     }
-    if mistakes.len() > before {
+    if mistakes.len() > count {
         return None;
     }
     let power = work.power(&force);
     damping[clock.time] = work.graph.add(damping[clock.time], power);
+    for (sum, part) in force.iter_mut().zip(&noise.force) {
+        *sum = work.graph.add(*sum, *part);
+    }
+    for (sum, part) in damping.iter_mut().zip(&noise.damping) {
+        *sum = work.graph.add(*sum, *part);
+    }
     Some(Driving {
         force,
         damping,
         declared,
+        noises: configuration.held.len() - declaration.inputs.len(),
     })
+}
+
+/// What noise adds to the force and to the generator.
+struct Loud {
+    force: Vec<ExprId>,
+    damping: Vec<ExprId>,
+    /// The coordinate of the rate of the next Wiener process.
+    next: usize,
+}
+
+impl Loud {
+    /// The rate `dW/dt` of the next Wiener process.
+    fn rate(&mut self, graph: &mut Graph) -> ExprId {
+        let place = self.next;
+        self.next += 1;
+        graph.symbol(Symbol::Coordinate(place))
+    }
 }
 
 /// What no driven system is yet, or can be.
 fn refused(declaration: &Declaration, sources: &Sources<'_>) -> Option<Diagnostic> {
-    let force = declaration.forces.first().map(|(name, _)| name.origin);
-    let dissipation = declaration.dissipation.first().map(|d| d.origin);
-    let origin = force.or(dissipation).unwrap_or(declaration.name.origin);
+    let origin = declaration.place_of_driving();
+    let origin = origin.unwrap_or(declaration.name.origin);
     let mistake = |origin: Origin, message: &str, help: &str| {
         Some(Diagnostic::new(Kind::Dissipation, origin, message).help(help))
     };
     if declaration.family.is_some() {
-        let message = "forces and dissipation of a family are not built yet";
+        let message = "forces, dissipation, noise and inputs of a family are not built yet";
         let help = "declare the sites one by one, as in `so(3) + so(3)`, or leave them out";
         return mistake(origin, message, help);
     }
     if sources.energy.expression().is_none() {
-        let message = "forces and dissipation need H as an expression, and the Legendre transform of the Lagrangian is by iteration";
+        let message = "forces, dissipation, noise and inputs need H as an expression, and the Legendre transform of the Lagrangian is by iteration";
         return mistake(origin, message, "declare the `hamiltonian`");
     }
     let along = |kind: &DissipationKind| matches!(kind, DissipationKind::DoubleBracket { .. });
@@ -280,6 +423,83 @@ impl Work<'_> {
         }
         let power = self.graph.sum(&power);
         damping[time] = self.graph.sub(damping[time], power);
+    }
+
+    /// `xi += grad sigma dW/dt`, without what that does to the momentum of the time.
+    fn add_hamiltonian_noise(&mut self, function: ExprId, noise: &mut Loud, time: usize) {
+        let rate = noise.rate(self.graph);
+        for (i, slope) in slopes(self.graph, function, self.slopes.len())
+            .into_iter()
+            .enumerate()
+        {
+            if i != time {
+                let part = self.graph.mul(slope, rate);
+                noise.damping[i] = self.graph.add(noise.damping[i], part);
+            }
+        }
+    }
+
+    /// The noise of a dissipation at a temperature T: `sigma sigma^T = 2 c T G` along the orbit with the strength c, `2 T R` as a force
+    /// without one.
+    fn warm(
+        &mut self,
+        checks: &Checks<'_>,
+        (temperature, strength): (ExprId, Option<ExprId>),
+        metric: Option<&Rows>,
+        noise: &mut Loud,
+        time: usize,
+    ) -> Option<Diagnostic> {
+        if strength.is_none() {
+            let rows = metric?;
+            if let Some(mistake) = checks.symmetric(self.graph, "the matrix R", rows) {
+                return Some(mistake);
+            }
+            let divergence = self.divergence();
+            if let Some(mistake) = checks.unimodular(self.graph, &divergence) {
+                return Some(mistake);
+            }
+        }
+        let two = self.graph.integer(2);
+        let half = Rational::ONE / Rational::from(2);
+        let mut factors = vec![two, temperature];
+        factors.extend(strength);
+        let scale = self.graph.product(&factors);
+        let (columns, pivots) = checks.factors(self.graph, metric);
+        for (column, pivot) in columns.into_iter().zip(pivots) {
+            let square = self.graph.mul(scale, pivot);
+            let amplitude = self.graph.pow(square, &half);
+            let rate = noise.rate(self.graph);
+            let rate = self.graph.mul(amplitude, rate);
+            let target = match strength {
+                Some(_) => &mut noise.damping,
+                None => &mut noise.force,
+            };
+            for (i, entry) in column.into_iter().enumerate() {
+                let part = self.graph.mul(entry, rate);
+                target[i] = self.graph.add(target[i], part);
+            }
+        }
+        debug_assert!(
+            self.graph.is_zero(noise.damping[time]),
+            "noise does no work"
+        );
+        None
+    }
+
+    /// `sum_i dPi_ij/dx_i` for each declared coordinate j: zero where every Hamiltonian field has no divergence.
+    fn divergence(&mut self) -> Vec<ExprId> {
+        let mut terms = vec![Vec::new(); self.own];
+        for (i, j, entry) in &self.matrix.entries {
+            if *i < self.own && *j < self.own {
+                terms[*j].push(self.graph.derivative(*entry, Symbol::Coordinate(*i)));
+                let other = self.graph.derivative(*entry, Symbol::Coordinate(*j));
+                terms[*i].push(self.graph.neg(other));
+            }
+        }
+        terms
+            .into_iter()
+            .map(|terms| self.graph.sum(&terms))
+            .collect()
     }
 
     fn add_metriplectic(&mut self, entropy: ExprId, rows: &Rows, force: &mut [ExprId]) {

@@ -129,6 +129,18 @@ fn quantities(whole: &Whole<'_>, system: &mut System) -> Vec<Quantity> {
             multivalued: false,
         }
     });
+    let held = whole.configuration.iter().flat_map(|c| c.held_places());
+    let inputs = declaration.inputs.iter().zip(held);
+    let inputs: Vec<Quantity> = inputs
+        .map(|(input, place)| Quantity {
+            name: input.name.text.clone(),
+            origin: input.name.origin,
+            expr: lowered.graph.symbol(Symbol::Coordinate(place)),
+            kind: QuantityKind::Input,
+            unwrap: false,
+            multivalued: false,
+        })
+        .collect();
     let integrals = declaration.integrals.iter().zip(&lowered.integrals);
     let integrals = integrals.map(|((name, value), expr)| Quantity {
         name: name.text.clone(),
@@ -147,8 +159,6 @@ fn quantities(whole: &Whole<'_>, system: &mut System) -> Vec<Quantity> {
         unwrap: observable.unwrap,
         multivalued: branches::jumps(&lowered.graph, *expr),
     });
-    work.into_iter()
-        .chain(integrals)
-        .chain(observables)
-        .collect()
+    let all = work.into_iter().chain(integrals);
+    all.chain(observables).chain(inputs).collect()
 }

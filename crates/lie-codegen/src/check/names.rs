@@ -99,7 +99,12 @@ pub fn name_spaces(declaration: &Declaration) -> Vec<Diagnostic> {
         mistakes.extend(columns.filter_map(of_work));
     }
     for (name, what) in declaration.quantities() {
-        declare(&mut [&mut columns, &mut dual], name, what, &mut mistakes);
+        let mut spaces = vec![&mut columns, &mut dual];
+        if what == "input" {
+            // it stands in expressions, as a parameter does
+            spaces.push(&mut algebra);
+        }
+        declare(&mut spaces, name, what, &mut mistakes);
         mistakes.extend(of_work(name));
     }
     // the basis of an algebra by its name stands where that name does: nobody wrote its elements

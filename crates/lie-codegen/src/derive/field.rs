@@ -76,9 +76,6 @@ pub(super) fn kernels(source: &mut Source, derivatives: bool) -> Vec<Kernel> {
 
 /// The force and the generator with their slopes, where something acts beside the Hamiltonian.
 fn driving(source: &mut Source) -> Vec<Kernel> {
-    if source.driving.is_none() {
-        return Vec::new();
-    }
     let mut kernels = Vec::new();
     let mut push = |source: &mut Source, names: [&'static str; 4], values: &[ExprId]| {
         let slope = jacobian(source, values);
@@ -96,6 +93,9 @@ fn driving(source: &mut Source) -> Vec<Kernel> {
             "`out_ij = dF_i/dmu_j`",
         ];
         push(source, names, &force);
+    }
+    if !source.is_damped() {
+        return kernels;
     }
     let generator = source.generator();
     let names = [

@@ -176,12 +176,16 @@ impl Source {
         both.map(|(g, more)| self.graph.add(g, *more)).collect()
     }
 
+    /// Whether the generator is not the gradient of H.
+    pub(crate) fn is_damped(&self) -> bool {
+        let driving = self.driving.as_ref();
+        driving.is_some_and(|driving| driving.is_damped(&self.graph))
+    }
+
     /// The force F, where one acts.
     pub(crate) fn force(&self) -> Option<Vec<ExprId>> {
-        let driving = self
-            .driving
-            .as_ref()
-            .filter(|driving| driving.is_forced())?;
+        let driving = self.driving.as_ref()?;
+        let driving = Some(driving).filter(|driving| driving.is_forced(&self.graph))?;
         Some(driving.force.clone())
     }
 

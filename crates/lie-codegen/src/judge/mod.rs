@@ -274,7 +274,10 @@ impl Judge {
         let configuration = configuration.filter(|_| declared.declaration.is_driven());
         let work = configuration.map(|c| Rounded::input(mu[c.momenta - 1]).neg());
         let others = self.values(&self.quantities, mu);
-        work.into_iter().chain(others).collect()
+        let held = declared.configuration.iter().flat_map(|c| c.held_places());
+        let inputs = held.take(declared.declaration.inputs.len());
+        let inputs = inputs.map(|place| Rounded::input(mu[place]));
+        work.into_iter().chain(others).chain(inputs).collect()
     }
 
     fn lagrangian(&self, name: &str, xi: &[f64]) -> Expected {

@@ -5,7 +5,7 @@ use super::linear;
 use super::number::{Jet, Number};
 use crate::model::configuration::{Configuration, TIME};
 use lie_syntax::ast::{
-    Algebra, Declaration, DissipationKind, Energy, Expr, Invariance, Metric, Name, Structure,
+    Algebra, Declaration, DissipationKind, Energy, Expr, Invariance, Metric, Name, Noise, Structure,
 };
 
 /// Newton's iterations of a Legendre transform, from a velocity that is nearly right.
@@ -31,10 +31,6 @@ impl Declared {
         self.configuration
             .as_ref()
             .map_or(own, Configuration::dimension)
-    }
-
-    fn has_time(&self) -> bool {
-        self.configuration.as_ref().is_some_and(|c| c.time)
     }
 
     /// The nodes of the energy, of the abbreviations and of what acts beside it.
@@ -65,8 +61,12 @@ impl Declared {
             for (place, name) in entries.iter().enumerate() {
                 scope.bind(name, mu[configuration.momenta + place].clone());
             }
-            if configuration.time {
-                scope.bind(TIME, mu[self.dimension() - 2].clone());
+            if let Some(clock) = configuration.clock() {
+                scope.bind(TIME, mu[clock.time].clone());
+            }
+            let inputs = self.declaration.inputs.iter();
+            for (input, place) in inputs.zip(configuration.held_places()) {
+                scope.bind(&input.name.text, mu[place].clone());
             }
         }
         scope
@@ -306,11 +306,93 @@ impl Declared {
         let power = T::sum(power.map(|(f, g)| f.mul(g)));
         // of an algebra the time and its momentum have the bracket of the unit
         let bracket = match declaration.structure {
-            Structure::Lie { .. } => mu[mu.len() - 1].clone(),
+            Structure::Lie { .. } => mu[configuration.clock()?.time + 1].clone(),
             Structure::General { .. } => T::integer(1),
         };
         extra[configuration.momenta - 1] = power.neg().mul(&bracket);
+        self.add_noise(configuration, mu, (&poisson, &scope), &mut extra);
         Some(extra)
+    }
+
+    /// What noise adds to the field, of which the momentum of the time knows nothing.
+    fn add_noise<T: Number>(
+        &self,
+        configuration: &Configuration,
+        mu: &[T],
+        (poisson, scope): (&[Vec<T>], &Scope<T>),
+        extra: &mut [T],
+    ) {
+        let declaration = &self.declaration;
+        let (n, own) = (mu.len(), configuration.own_momenta());
+        let mut rates = configuration.held_places().skip(declaration.inputs.len());
+        let mut rate = || {
+            rates
+                .next()
+                .map_or(T::integer(0), |place| mu[place].clone())
+        };
+        let mut along = |xi: &[T]| {
+            for (slot, row) in extra.iter_mut().zip(poisson) {
+                let moved = T::sum(row.iter().zip(xi).map(|(a, b)| a.mul(b)));
+                *slot = slot.add(&moved);
+            }
+        };
+        let mut forces = vec![T::integer(0); n];
+        for dissipation in &declaration.dissipation {
+            let Some(temperature) = &dissipation.temperature else {
+                continue;
+            };
+            let (strength, rows, is_force) = match &dissipation.kind {
+                DissipationKind::DoubleBracket { strength, metric } => {
+                    (scope.evaluate(strength), metric.as_ref(), false)
+                }
+                DissipationKind::Rayleigh { matrix } => (T::integer(1), Some(matrix), true),
+                DissipationKind::Metriplectic { .. } => continue,
+            };
+            let scale = T::integer(2)
+                .mul(&scope.evaluate(temperature))
+                .mul(&strength);
+            let entry = |i: usize, j: usize| match rows {
+                Some(rows) => scope.evaluate(&rows[i][j]),
+                None => T::integer(i32::from(i == j)),
+            };
+            for column in roots(own, entry) {
+                let size = scale.power(0.5).mul(&rate());
+                let mut xi: Vec<T> = column.iter().map(|entry| entry.mul(&size)).collect();
+                xi.resize(n, T::integer(0));
+                match is_force {
+                    true => {
+                        for (slot, xi) in forces.iter_mut().zip(&xi) {
+                            *slot = slot.add(xi);
+                        }
+                    }
+                    false => along(&xi),
+                }
+            }
+        }
+        for noise in &declaration.noise {
+            let rate = rate();
+            match noise {
+                Noise::Hamiltonian(function) => {
+                    let mut xi = self.gradient(mu, |mu| self.function(function, mu));
+                    xi.iter_mut().for_each(|entry| *entry = entry.mul(&rate));
+                    if let Some(clock) = configuration.clock() {
+                        xi[clock.time] = T::integer(0);
+                    }
+                    along(&xi);
+                }
+                Noise::Force(parts) => {
+                    for (name, value) in parts {
+                        let place = declaration.state.iter().position(|c| c.text == name.text);
+                        if let Some(slot) = place.map(|place| &mut forces[place]) {
+                            *slot = slot.add(&scope.evaluate(value).mul(&rate));
+                        }
+                    }
+                }
+            }
+        }
+        for (slot, force) in extra.iter_mut().zip(&forces) {
+            *slot = slot.add(force);
+        }
     }
 
     /// A function of the state that was declared.
@@ -364,8 +446,8 @@ impl Declared {
                     let (i, j) = self.pair(&self.declaration.state, bracket);
                     set(i, j, scope.evaluate(&bracket.value));
                 }
-                if let (true, Some(configuration)) = (self.has_time(), &self.configuration) {
-                    set(n - 2, configuration.momenta - 1, T::integer(1));
+                if let Some(clock) = self.configuration.as_ref().and_then(|c| c.clock()) {
+                    set(clock.time, clock.momentum, T::integer(1));
                 }
             }
             Structure::Lie { algebra, cocycle } => {
@@ -456,9 +538,27 @@ impl Declared {
                 }
             }
         }
-        if configuration.time {
-            let n = self.dimension();
-            set(n - 2, configuration.momenta - 1, mu[n - 1].clone());
+        if let Some(clock) = configuration.clock() {
+            set(clock.time, clock.momentum, mu[clock.time + 1].clone());
         }
     }
+}
+
+/// The columns of a root of a symmetric matrix, `M = sum_k c_k c_k^T`, by Cholesky's elimination; those of pivots that are zero are zero.
+fn roots<T: Number>(n: usize, entry: impl Fn(usize, usize) -> T) -> Vec<Vec<T>> {
+    let mut columns: Vec<Vec<T>> = Vec::new();
+    for j in 0..n {
+        let rest = |i: usize| {
+            let taken = columns.iter().map(|column| column[i].mul(&column[j]));
+            entry(i, j).sub(&T::sum(taken))
+        };
+        let pivot = rest(j);
+        let column = (0..n).map(|i| match i < j || pivot.value().abs() < 1e-12 {
+            true => T::integer(0),
+            false => rest(i).div(&pivot.power(0.5)),
+        });
+        let column = column.collect();
+        columns.push(column);
+    }
+    columns
 }

@@ -1,7 +1,7 @@
 //! Which methods a system can carry.
 
 use super::{CATALOGUE, Choice, Lift, Pieces, Retraction, Scheme, Tensor};
-use crate::model::{Bracket, Descent, Discrete, Model};
+use crate::model::{Acting, Bracket, Descent, Discrete, Model};
 use crate::structure::{
     Structure, found, inertia, integrable, lifts, matrices, separable, spins, unitary, vectors,
 };
@@ -71,12 +71,30 @@ pub fn refusal(structure: &Structure, choice: &Choice) -> Option<(String, String
     }
 }
 
+/// Whether inputs or noise are held from step to step.
+fn held(model: &Model) -> bool {
+    let configuration = model.configuration.as_ref();
+    configuration.is_some_and(|configuration| !configuration.held.is_empty())
+}
+
 /// Why a method does not apply where something acts beside the Hamiltonian.
 fn driven(model: &Model, choice: &Choice) -> Option<(String, String)> {
     let (driving, method) = (model.driving.as_ref()?, choice.entry()?);
+    let along = |acting: &Acting| {
+        matches!(
+            acting,
+            Acting::DoubleBracket(..) | Acting::HamiltonianNoise(_)
+        )
+    };
+    // the power of forces alone does not bend what moves along the orbit
+    let bends = driving.declared.iter().any(along);
+    if held(model) && matches!(choice, Choice::Collective(..) | Choice::Isospectral(_)) {
+        let what = "inputs and noise are not carried to the space over the state";
+        return Some((what.into(), "use `lie-midpoint` or `gauss16`".into()));
+    }
     let what = match (
-        driving.is_forced() && !method.forces,
-        driving.is_damped() && !method.damping,
+        driving.is_forced(&model.graph) && !method.forces,
+        bends && !method.damping,
     ) {
         (false, false) => return None,
         (true, _) => "forces act beside the Hamiltonian, and the step has no form with them",

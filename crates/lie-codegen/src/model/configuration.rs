@@ -1,6 +1,7 @@
 //! What the coordinates of a system on T*G, or of one that depends on the time, are.
 
 use lie_core::Clock;
+use lie_symbolic::exact::Rational;
 
 /// The name of the momentum of the time. A user's name does not begin with an underscore.
 pub const TIME_MOMENTUM: &str = "_p";
@@ -10,6 +11,8 @@ pub const UNIT: &str = "_one";
 pub const TIME: &str = "t";
 /// The size of the block of the time in the matrices of a representation, the last one.
 pub const TIME_BLOCK: usize = 3;
+/// The size of the block of something that is held, behind that of the time.
+pub const HELD_BLOCK: usize = 2;
 
 /// How the coordinates of a system on `T*G`, or on `T*(G x R)`, are ordered.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -18,14 +21,18 @@ pub struct Configuration {
     pub momenta: usize,
     /// Name and size of the group element, whose entries follow.
     pub group: Option<(String, usize)>,
-    /// Whether the Hamiltonian depends on the time.
+    /// Whether the Hamiltonian depends on the time, or something acts beside it.
     pub time: bool,
+    /// What is held from one step to the next, behind the time, which is there then: inputs with their defaults, and the rates of Wiener
+    /// processes.
+    pub held: Vec<(String, Rational)>,
 }
 
 impl Configuration {
     /// Whether a coordinate is one of the three that carry the time, which no user named.
     pub fn is_hidden(&self, coordinate: usize) -> bool {
         let entries = self.group.as_ref().map_or(0, |(_, size)| size * size);
+        // the time, the unit and what is held come last
         self.time && (coordinate + 1 == self.momenta || coordinate >= self.momenta + entries)
     }
 
@@ -33,8 +40,13 @@ impl Configuration {
     pub fn clock(&self) -> Option<Clock> {
         self.time.then(|| Clock {
             momentum: self.momenta - 1,
-            time: self.dimension() - 2,
+            time: self.dimension() - 2 - self.held.len(),
         })
+    }
+
+    /// The coordinates that are held from step to step: inputs, then the rates of Wiener processes.
+    pub fn held_places(&self) -> std::ops::Range<usize> {
+        self.dimension() - self.held.len()..self.dimension()
     }
 
     /// The momenta without that of the time.
@@ -78,13 +90,17 @@ impl Configuration {
     /// The number of coordinates.
     pub fn dimension(&self) -> usize {
         let size = self.group.as_ref().map_or(0, |(_, size)| *size);
-        self.momenta + size * size + 2 * usize::from(self.time)
+        self.momenta + size * size + 2 * usize::from(self.time) + self.held.len()
     }
 
     /// A coordinate of the state at rest at the identity, at time 0.
     pub fn at_rest(&self, coordinate: usize) -> f64 {
         let size = self.group.as_ref().map_or(0, |(_, size)| *size);
-        let unit = self.time && coordinate + 1 == self.dimension();
+        let behind = self.dimension() - self.held.len();
+        if let Some(held) = coordinate.checked_sub(behind) {
+            return self.held[held].1.to_f64();
+        }
+        let unit = self.time && coordinate + 1 == behind;
         let diagonal = coordinate
             .checked_sub(self.momenta)
             .is_some_and(|place| place < size * size && place % (size + 1) == 0);
@@ -100,7 +116,13 @@ impl Configuration {
 
     /// A state from the one that the user gives: the momenta alone (the group element is 1 then), or with
     /// the entries of g. `None` where the number of values is neither.
-    pub fn complete<T: Clone>(&self, given: &[T], number: impl Fn(i64) -> T) -> Option<Vec<T>> {
+    pub fn complete<T: Clone>(
+        &self,
+        given: &[T],
+        number: impl Fn(&Rational) -> T,
+    ) -> Option<Vec<T>> {
+        let held = self.held.iter().map(|(_, default)| number(default));
+        let number = |value: i64| number(&Rational::from(value));
         let own = self.own_momenta();
         let size = self.group.as_ref().map_or(0, |(_, size)| *size);
         if given.len() != own && given.len() != own + size * size {
@@ -119,6 +141,7 @@ impl Configuration {
         if self.time {
             state.extend([number(0), number(1)]);
         }
+        state.extend(held);
         Some(state)
     }
 }

@@ -1,7 +1,7 @@
 //! What acts beside the Hamiltonian.
 
 use super::Model;
-use lie_symbolic::symbolic::ExprId;
+use lie_symbolic::symbolic::{ExprId, Graph};
 
 /// Forces and dissipation of a system: `mu' = Pi(mu) xi + F`.
 #[derive(Clone, Debug)]
@@ -13,6 +13,19 @@ pub struct Driving {
     pub damping: Vec<ExprId>,
     /// What was declared, in its order.
     pub declared: Vec<Acting>,
+    /// The number of Wiener processes, whose rates are the last of what is held.
+    pub noises: usize,
+}
+
+/// What is set from outside, and held from one sampling to the next.
+#[derive(Clone, Debug)]
+pub struct Input {
+    /// Its name.
+    pub name: String,
+    /// Its value where nobody sets it.
+    pub default: f64,
+    /// The time from one sampling to the next; every step where it is absent.
+    pub sampling: Option<f64>,
 }
 
 /// One thing that acts.
@@ -26,19 +39,28 @@ pub enum Acting {
     Metriplectic(ExprId, Vec<Vec<ExprId>>),
     /// A matrix that takes `R grad H`.
     Rayleigh(Vec<Vec<ExprId>>),
+    /// Noise along a Hamiltonian.
+    HamiltonianNoise(ExprId),
+    /// Noise as a force on coordinates.
+    ForceNoise(Vec<(usize, ExprId)>),
+    /// The noise of a dissipation at a temperature.
+    Temperature(ExprId),
 }
 
 impl Driving {
-    /// Whether forces act, and not damping along orbits alone.
-    pub fn is_forced(&self) -> bool {
-        let along = |acting: &Acting| matches!(acting, Acting::DoubleBracket(..));
-        !self.declared.iter().all(along)
+    /// Whether forces act, and not what moves along orbits alone.
+    pub fn is_forced(&self, graph: &Graph) -> bool {
+        self.force.iter().any(|force| !graph.is_zero(*force))
     }
 
-    /// Whether damping along orbits acts.
-    pub fn is_damped(&self) -> bool {
-        let along = |acting: &Acting| matches!(acting, Acting::DoubleBracket(..));
-        self.declared.iter().any(along)
+    /// Whether the generator is not the gradient of H.
+    pub fn is_damped(&self, graph: &Graph) -> bool {
+        self.damping.iter().any(|more| !graph.is_zero(*more))
+    }
+
+    /// Whether there is noise.
+    pub fn is_noisy(&self) -> bool {
+        self.noises > 0
     }
 }
 
@@ -81,6 +103,31 @@ impl Model {
                 let name = "Rayleigh, mu' -= R grad H";
                 (name.to_owned(), format!("R = {}", matrix(rows)))
             }
+            Acting::HamiltonianNoise(function) => {
+                let name = "noise along a Hamiltonian, Stratonovich";
+                (
+                    name.to_owned(),
+                    format!("sigma = {}", self.display(*function)),
+                )
+            }
+            Acting::ForceNoise(parts) => {
+                let part = |(place, value): &(usize, ExprId)| {
+                    format!(
+                        "{}: {}",
+                        self.coordinates[*place].text,
+                        self.display(*value)
+                    )
+                };
+                let parts: Vec<String> = parts.iter().map(part).collect();
+                (
+                    "noise as a force, Stratonovich".to_owned(),
+                    parts.join(", "),
+                )
+            }
+            Acting::Temperature(value) => {
+                let name = "with its noise at the temperature";
+                (name.to_owned(), self.display(*value))
+            }
         }
     }
 
@@ -93,7 +140,10 @@ impl Model {
         let (mut pushes, mut damps) = (false, false);
         for acting in &driving.declared {
             match acting {
-                Acting::Force(..) => pushes = true,
+                Acting::Force(..)
+                | Acting::HamiltonianNoise(_)
+                | Acting::ForceNoise(_)
+                | Acting::Temperature(_) => pushes = true,
                 Acting::DoubleBracket(..) | Acting::Rayleigh(_) => damps = true,
                 Acting::Metriplectic(entropy, _) => {
                     let entropy = self.display(*entropy);

@@ -18,7 +18,7 @@ use lie_syntax::diagnostic::Origin;
 pub use bracket::{Algebra, Bracket, PoissonMatrix, bracket_of};
 pub use casimir::{Casimir, CasimirKind};
 pub use configuration::Configuration;
-pub use driving::{Acting, Driving};
+pub use driving::{Acting, Driving, Input};
 pub use family::{Family, SiteSum, Size, Start};
 pub use quantity::{Quantity, QuantityKind};
 pub use realization::{CANONICAL, Descent, Realization};
@@ -155,6 +155,8 @@ pub struct Model {
     pub family: Option<Family>,
     /// What acts beside the Hamiltonian.
     pub driving: Option<Driving>,
+    /// What is set from outside, the first of what is held.
+    pub inputs: Vec<Input>,
     /// The realization, for collective methods.
     pub realization: Option<Realization>,
     /// The Casimirs that are declared, those that are functions of others left out.
@@ -230,7 +232,7 @@ impl Model {
     /// at the identity. `None` where the number of values is another.
     pub fn complete_state(&self, given: &[f64]) -> Option<Vec<f64>> {
         match &self.configuration {
-            Some(configuration) => configuration.complete(given, |value| value as f64),
+            Some(configuration) => configuration.complete(given, Rational::to_f64),
             None => (given.len() == self.dimension()).then(|| given.to_vec()),
         }
     }

@@ -117,7 +117,7 @@ impl Planner<'_> {
     fn solver(&mut self, choice: &Choice) -> Option<Solver> {
         // what acts beside H stands in the field, of which these are made
         let of_field = matches!(choice, Choice::Midpoint | Choice::Gauss(_));
-        if self.source.driving.is_some() && !of_field {
+        if (self.source.is_damped() || self.source.force().is_some()) && !of_field {
             return None;
         }
         match choice {

@@ -4,6 +4,7 @@ use super::function::Function;
 use super::planner::Planner;
 use crate::derive::{Kernel, Shape};
 use crate::methods::Choice;
+use crate::model::Model;
 use crate::model::{self, QuantityKind};
 use lie_core::Clock;
 
@@ -22,6 +23,10 @@ pub struct System {
     pub forced: bool,
     /// Whether the generator of the motion is not the gradient of H.
     pub damped: bool,
+    /// The inputs, each with the bits of the time between samplings where it has one.
+    pub inputs: Vec<Option<u64>>,
+    /// The number of Wiener processes.
+    pub noises: usize,
     /// The Casimirs.
     pub casimirs: Vec<Casimir>,
     /// What is recorded beside them.
@@ -157,7 +162,9 @@ impl Planner<'_> {
             clock: self.source.clock(),
             joints,
             forced: self.source.force().is_some(),
-            damped: self.source.driving.is_some(),
+            damped: self.source.is_damped(),
+            inputs: model_inputs(self.structure),
+            noises: self.structure.driving.as_ref().map_or(0, |d| d.noises),
             casimirs,
             quantities: self.quantities(),
             energy: match self.source.energy.expression() {
@@ -232,4 +239,12 @@ impl Planner<'_> {
             })
             .collect()
     }
+}
+
+/// The times between samplings of the inputs, as bits.
+fn model_inputs(model: &Model) -> Vec<Option<u64>> {
+    let inputs = model.inputs.iter();
+    inputs
+        .map(|input| input.sampling.map(f64::to_bits))
+        .collect()
 }

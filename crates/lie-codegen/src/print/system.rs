@@ -6,7 +6,7 @@ use quote::quote;
 use super::Printer;
 use super::names::{ident, index};
 use crate::derive::Shape;
-use crate::plan::{Energy, Function};
+use crate::plan::{Energy, Function, System};
 
 impl Printer<'_> {
     /// The impls of `Poisson` and, where they apply, `LiePoisson` and `CayleyPoisson`.
@@ -143,6 +143,7 @@ impl Printer<'_> {
                 }
             });
         let quantities = self.facts_of_quantities();
+        let held = held(plan);
         let joints = (plan.joints > 0).then(|| {
             let count = index(plan.joints);
             quote! {
@@ -180,6 +181,7 @@ impl Printer<'_> {
             #(#driven)*
             #casimirs
             #quantities
+            #held
             #of_h
             #of_matrix
         }
@@ -322,6 +324,39 @@ impl Printer<'_> {
             }
         }
     }
+}
+
+/// What is set from outside.
+fn held(plan: &System) -> Option<TokenStream> {
+    if plan.inputs.is_empty() && plan.noises == 0 {
+        return None;
+    }
+    let [inputs, noises] = [plan.inputs.len(), plan.noises].map(index);
+    let samplings = plan.inputs.iter().map(|bits| match bits {
+        Some(bits) => {
+            let value = proc_macro2::Literal::f64_unsuffixed(f64::from_bits(*bits));
+            quote! { ::core::option::Option::Some(#value) }
+        }
+        None => quote! { ::core::option::Option::None },
+    });
+    let sampling = plan.inputs.iter().any(Option::is_some).then(|| {
+        quote! {
+            fn input_sampling(&self, index: usize) -> ::core::option::Option<f64> {
+                [#(#samplings),*][index]
+            }
+        }
+    });
+    Some(quote! {
+        fn input_count(&self) -> usize {
+            #inputs
+        }
+
+        #sampling
+
+        fn noise_count(&self) -> usize {
+            #noises
+        }
+    })
 }
 
 fn option(degree: Option<u32>) -> TokenStream {

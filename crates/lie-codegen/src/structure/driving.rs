@@ -11,7 +11,11 @@ const WORK: u64 = 2_000_000;
 /// Marks the Casimirs that forces change: those C for which `C' = <F, grad C>` is not shown to vanish. Damping along orbits
 /// changes none.
 pub fn mark_kept(model: &Model, casimirs: &mut [Casimir], graph: &mut Graph) {
-    let Some(driving) = model.driving.as_ref().filter(|driving| driving.is_forced()) else {
+    let Some(driving) = model
+        .driving
+        .as_ref()
+        .filter(|driving| driving.is_forced(&model.graph))
+    else {
         return;
     };
     let rates: Vec<_> = casimirs

@@ -186,6 +186,15 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
             None => generic::poisson_slope(self, xi, out),
         }
     }
+    fn input_count(&self) -> usize {
+        self.values.compiled.plan.system.inputs.len()
+    }
+    fn input_sampling(&self, index: usize) -> Option<f64> {
+        self.values.compiled.plan.system.inputs[index].map(f64::from_bits)
+    }
+    fn noise_count(&self) -> usize {
+        self.values.compiled.plan.system.noises
+    }
     fn is_forced(&self) -> bool {
         self.values.compiled.plan.system.forced
     }

@@ -4,6 +4,7 @@
 //! long sum cannot exhaust the stack. Names may carry indices and sums may run over an index:
 //! families of systems need both, so they are in the tree from the start.
 
+mod driving;
 pub mod names;
 mod parts;
 mod recorded;
@@ -13,6 +14,7 @@ use crate::diagnostic::Origin;
 use lie_symbolic::exact::Rational;
 use lie_symbolic::symbolic::Opaque;
 
+pub use driving::{Dissipation, DissipationKind, Input, Metric, Noise};
 pub use recorded::Observable;
 pub use runtime::{NoPath, Runtime};
 
@@ -275,66 +277,6 @@ impl Realization {
     }
 }
 
-/// What dissipates energy beside the forces.
-#[derive(Clone, Debug)]
-pub struct Dissipation {
-    /// Of what kind.
-    pub kind: DissipationKind,
-    /// Where its kind stands.
-    pub origin: Origin,
-}
-
-/// The kinds of dissipation, with matrices by rows.
-#[derive(Clone, Debug)]
-pub enum DissipationKind {
-    /// `mu' += c ad*_{G ad*_{grad H} mu} mu`: along the coadjoint orbit.
-    DoubleBracket {
-        /// The strength c.
-        strength: Expr,
-        /// The metric G; the identity where it is absent.
-        metric: Option<Vec<Vec<Expr>>>,
-    },
-    /// `mu' += K grad S`: what keeps H.
-    Metriplectic {
-        /// The entropy S.
-        entropy: Expr,
-        /// The metric K.
-        metric: Metric,
-    },
-    /// `mu' -= R grad H`.
-    Rayleigh {
-        /// The matrix R.
-        matrix: Vec<Vec<Expr>>,
-    },
-}
-
-/// A symmetric matrix without negative eigenvalues.
-#[derive(Clone, Debug)]
-pub enum Metric {
-    /// Its entries.
-    Entries(Vec<Vec<Expr>>),
-    /// A factor L of it: `K = L L^T`.
-    Factor(Vec<Vec<Expr>>),
-}
-
-impl Dissipation {
-    /// Every expression in it.
-    pub fn expressions(&self) -> impl Iterator<Item = &Expr> {
-        let (scalar, matrix) = match &self.kind {
-            DissipationKind::DoubleBracket { strength, metric } => {
-                (Some(strength), metric.as_ref())
-            }
-            DissipationKind::Metriplectic { entropy, metric } => {
-                let (Metric::Entries(rows) | Metric::Factor(rows)) = metric;
-                (Some(entropy), Some(rows))
-            }
-            DissipationKind::Rayleigh { matrix } => (None, Some(matrix)),
-        };
-        let entries = matrix.into_iter().flatten().flatten();
-        scalar.into_iter().chain(entries)
-    }
-}
-
 /// Which invariance the system has; the right-invariant one has the opposite sign.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Invariance {
@@ -385,6 +327,10 @@ pub struct Declaration {
     pub forces: Vec<(Name, Expr)>,
     /// What dissipates energy beside them.
     pub dissipation: Vec<Dissipation>,
+    /// Noise, each with a Wiener process of its own.
+    pub noise: Vec<Noise>,
+    /// What is set from outside.
+    pub inputs: Vec<Input>,
     /// A realization, for collective methods.
     pub realization: Option<Realization>,
     /// Declared Casimirs.
@@ -417,17 +363,6 @@ pub struct OwnFunction {
 }
 
 impl Declaration {
-    /// Whether something acts beside the Hamiltonian.
-    pub fn is_driven(&self) -> bool {
-        !self.forces.is_empty() || !self.dissipation.is_empty()
-    }
-
-    /// The expressions of what acts beside the Hamiltonian.
-    pub fn driving(&self) -> impl Iterator<Item = &Expr> {
-        let forces = self.forces.iter().map(|(_, value)| value);
-        forces.chain(self.dissipation.iter().flat_map(Dissipation::expressions))
-    }
-
     /// The algebra, if there is one.
     pub fn algebra(&self) -> Option<&Algebra> {
         match &self.structure {

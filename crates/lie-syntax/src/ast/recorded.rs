@@ -19,7 +19,9 @@ impl Declaration {
         let integrals = self.integrals.iter();
         let integrals = integrals.map(|(name, _)| (name, "first integral"));
         let observables = self.observables.iter();
-        integrals.chain(observables.map(|o| (&o.name, "observable")))
+        let observables = observables.map(|o| (&o.name, "observable"));
+        let inputs = self.inputs.iter().map(|input| (&input.name, "input"));
+        integrals.chain(observables).chain(inputs)
     }
 
     /// The expressions of what is recorded beside the state.

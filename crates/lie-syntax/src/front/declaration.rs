@@ -1,7 +1,8 @@
 //! The body of the macro: statements to the syntax tree.
 
+mod acting;
 mod block;
-mod dissipation;
+
 mod entry;
 mod family;
 mod functions;
@@ -23,7 +24,7 @@ use super::tables::Read as Table;
 use super::token::{Delimiter, Token, TokenKind, render, span, split_commas};
 use super::vectors::Declared;
 use super::{Body, Names, Parsed, driving, item, rust};
-use crate::ast::{Expr, Name, OwnFunction, Realization, RunOption, Start};
+use crate::ast::{Expr, Input, Name, OwnFunction, Realization, RunOption, Start};
 use crate::ast::{NoPath, Runtime};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 
@@ -298,7 +299,17 @@ impl Entries for Parts<'_> {
 
     fn dissipation(&self, names: &Names, report: &mut Report) -> Vec<driving::Entry> {
         let block = self.first("dissipation").and_then(|s| s.block(report));
-        dissipation::read(&block.unwrap_or_default(), names, report)
+        acting::dissipation(&block.unwrap_or_default(), names, report)
+    }
+
+    fn noise(&self, report: &mut Report) -> Vec<driving::Noisy<'_>> {
+        let block = self.first("noise").and_then(|s| s.block(report));
+        acting::noise(&block.unwrap_or_default(), report)
+    }
+
+    fn inputs(&self, report: &mut Report) -> Vec<Input> {
+        let block = self.first("inputs").and_then(|s| s.block(report));
+        acting::inputs(&block.unwrap_or_default(), report)
     }
 
     fn names(&self, key: &str, report: &mut Report) -> Vec<Name> {

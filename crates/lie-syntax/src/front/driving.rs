@@ -3,7 +3,7 @@
 use super::reader::Line;
 use super::vectors::Value;
 use super::{Names, expression, item};
-use crate::ast::{Dissipation, DissipationKind, Expr, Metric, Name};
+use crate::ast::{Dissipation, DissipationKind, Expr, Metric, Name, Noise};
 use crate::diagnostic::{Diagnostic, Kind, Report};
 use crate::suggest::meant;
 
@@ -102,6 +102,31 @@ fn value(line: &Line<'_>, names: &Names, report: &mut Report) -> Option<Value> {
     expression::parse_value(&line.tokens, names, report)
 }
 
+/// A noise as it was written: along a Hamiltonian, or a force.
+pub enum Noisy<'a> {
+    /// The Hamiltonian.
+    Hamiltonian(Line<'a>),
+    /// What is given for coordinates.
+    Force(Vec<(Name, Line<'a>)>),
+}
+
+impl Noisy<'_> {
+    /// What it declares; `None` where an expression is wrong, which is reported.
+    pub fn noise(&self, state: &[Name], names: &Names, report: &mut Report) -> Option<Noise> {
+        match self {
+            Self::Hamiltonian(line) => {
+                let what = ("the Hamiltonian of a noise", "sigma*x");
+                let value = item::formula(&line.tokens, what, line.place, names, report)?;
+                Some(Noise::Hamiltonian(value))
+            }
+            Self::Force(lines) => {
+                let parts = forces(lines, state, names, report);
+                (!parts.is_empty()).then_some(Noise::Force(parts))
+            }
+        }
+    }
+}
+
 /// A dissipation as it was written.
 pub struct Entry {
     /// Its kind, as text, with its place.
@@ -112,9 +137,9 @@ pub struct Entry {
 
 /// The kinds, each with what has to be given and what may be.
 const KINDS: [(&str, &[&str], &[&str]); 3] = [
-    ("double-bracket", &["strength"], &["metric"]),
+    ("double-bracket", &["strength"], &["metric", "temperature"]),
     ("metriplectic", &["entropy"], &["metric", "factor"]),
-    ("rayleigh", &["matrix"], &[]),
+    ("rayleigh", &["matrix"], &["temperature"]),
 ];
 
 impl Entry {
@@ -176,7 +201,14 @@ impl Entry {
                     .ok_or_else(|| absent("matrix"))?,
             },
         };
-        Ok(Dissipation { kind, origin })
+        let temperature = self
+            .given("temperature")
+            .map(|_| self.scalar("temperature", form));
+        Ok(Dissipation {
+            kind,
+            origin,
+            temperature: temperature.transpose()?,
+        })
     }
 
     fn given(&self, name: &str) -> Option<&(Name, Value)> {

@@ -9,7 +9,7 @@ use super::token::Token;
 use super::vectors::{self, Declared};
 use super::{Body, Names, Parsed, driving, equations, expression, item};
 use crate::ast::{
-    Algebra, Declaration, Energy, Expr, Family, Invariance, Name, Observable, OwnFunction,
+    Algebra, Declaration, Energy, Expr, Family, Input, Invariance, Name, Observable, OwnFunction,
     Parameter, Realization, RunOption, Size, Start, Structure,
 };
 use crate::diagnostic::{Kind, Origin, Report};
@@ -76,6 +76,10 @@ pub trait Entries {
     fn definitions(&self, key: &str, report: &mut Report) -> Vec<(Name, Line<'_>)>;
     /// What dissipates energy, in these names.
     fn dissipation(&self, names: &Names, report: &mut Report) -> Vec<driving::Entry>;
+    /// Noise.
+    fn noise(&self, report: &mut Report) -> Vec<driving::Noisy<'_>>;
+    /// What is set from outside.
+    fn inputs(&self, report: &mut Report) -> Vec<Input>;
     /// A list of names.
     fn names(&self, key: &str, report: &mut Report) -> Vec<Name>;
     /// The ids of the methods.
@@ -153,9 +157,11 @@ fn remainder<E: Entries>(
 ) -> Option<Declaration> {
     let constants: Vec<String> = texts(&parsed.parameters).collect();
     let velocity = entries.names("velocity", report);
+    let inputs = entries.inputs(report);
     let lets = entries.lines("let", report);
     let basis = algebra.iter().filter_map(|(_, algebra)| algebra.as_ref());
-    let names = in_functions(entries, parsed, &velocity, &lets)
+    let held = inputs.iter().map(|input| input.name.text.clone());
+    let names = in_functions(entries, parsed, &velocity, &lets, held)
         .with_elsewhere(basis.flat_map(|algebra| texts(&algebra.basis)));
     let names = with_vectors(entries, parsed, names, report);
     let tables = Tables::new(entries.tables(report), &names, report);
@@ -175,6 +181,9 @@ fn remainder<E: Entries>(
         read.map_err(|mistake| report.push(*mistake)).ok()
     });
     let dissipation = dissipation.collect();
+    let noise = entries.noise(report).into_iter();
+    let noise = noise.filter_map(|noisy| noisy.noise(&parsed.state, &names, report));
+    let noise = noise.collect();
     let realization = entries.place("realization");
     let realization = realization.map(|_| entries.realization(&constants, report));
     let casimirs = entries.lines("casimirs", report);
@@ -216,6 +225,8 @@ fn remainder<E: Entries>(
         energy: energy?,
         forces,
         dissipation,
+        noise,
+        inputs,
         realization: without_mistake(realization)?,
         casimirs,
         integrals,
@@ -268,6 +279,7 @@ fn in_functions<E: Entries>(
     parsed: &Parsed,
     velocity: &[Name],
     lets: &[Line<'_>],
+    held: impl Iterator<Item = String>,
 ) -> Names {
     let [.., discrete] = item::FUNCTIONS;
     let step = entries.place(discrete).map(|_| "h".to_owned());
@@ -277,6 +289,7 @@ fn in_functions<E: Entries>(
         .chain(texts(&parsed.parameters))
         .chain(defined.filter_map(|name| Some(name.identifier()?.to_owned())))
         .chain(step)
+        .chain(held)
         .collect::<Names>()
         .with_indices(!parsed.indices.is_empty())
 }

@@ -87,6 +87,10 @@ objects! {
         "forces" forces: Option<BTreeMap<String, String>>,
         /// What dissipates energy beside them.
         "dissipation" dissipation: Option<Vec<Dissipation>>,
+        /// Noise in the sense of Stratonovich, each entry with a Wiener process of its own.
+        "noise" noise: Option<Vec<Noise>>,
+        /// What is set from outside while a run goes on, by name.
+        "inputs" inputs: Option<BTreeMap<String, Input>>,
         /// A realization of the bracket in canonical coordinates, for collective methods.
         "realization" realization: Option<Realization>,
         /// Casimirs, `NAME = expression` or an expression; each is verified exactly.
@@ -135,6 +139,9 @@ objects! {
         "entropy" entropy: Option<String>,
         /// The matrix R of `rayleigh`, with entries in parameters.
         "matrix" matrix: Option<MatrixForm>,
+        /// The temperature T of the noise that belongs to a double bracket or to `rayleigh`, an expression in parameters:
+        /// `exp(-H/T)` is invariant then.
+        "temperature" temperature: Option<Constant>,
     }
 
     /// An observable with how it is recorded.
@@ -143,6 +150,22 @@ objects! {
         "expression" expression: String,
         /// Whether it is an angle whose jumps by 2 pi are taken out.
         "unwrap" unwrap: Option<bool>,
+    }
+
+    /// A noise: along a Hamiltonian, or a force.
+    struct Noise requires [] {
+        /// A function sigma of the state: `mu' += ad*_(grad sigma) mu dW/dt`.
+        "hamiltonian" hamiltonian: Option<String>,
+        /// A force by coordinate, times `dW/dt`.
+        "force" force: Option<BTreeMap<String, String>>,
+    }
+
+    /// What is set from outside, and held from one sampling to the next.
+    struct Input requires ["default"] {
+        /// The value where nobody sets it.
+        "default" default: Constant,
+        /// The time from one sampling to the next; every step where it is absent.
+        "sampling" sampling: Option<Constant>,
     }
 
     /// A random initial state of a family.

@@ -23,7 +23,7 @@ use super::schema::Spec;
 use super::tables::Read as Table;
 use super::vectors::Declared;
 use super::{Names, Parsed, expression, families, file, item, number, prose};
-use crate::ast::{Expr, ExprKind, Name, OwnFunction, Realization, RunOption, Start};
+use crate::ast::{Expr, ExprKind, Input, Name, OwnFunction, Realization, RunOption, Start};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 
 /// The only version of the format.
@@ -146,6 +146,16 @@ impl Entries for Object<'_> {
     fn dissipation(&self, names: &Names, report: &mut Report) -> Vec<super::driving::Entry> {
         let value = self.get("dissipation");
         value.map_or_else(Vec::new, |v| driving::dissipation(v, names, report))
+    }
+
+    fn noise(&self, report: &mut Report) -> Vec<super::driving::Noisy<'_>> {
+        let value = self.get("noise");
+        value.map_or_else(Vec::new, |v| driving::noise(v, report))
+    }
+
+    fn inputs(&self, report: &mut Report) -> Vec<Input> {
+        let value = self.get("inputs");
+        value.map_or_else(Vec::new, |v| driving::inputs(v, report))
     }
 
     fn names(&self, key: &str, report: &mut Report) -> Vec<Name> {

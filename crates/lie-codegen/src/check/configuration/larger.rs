@@ -1,6 +1,8 @@
 //! Brackets and matrices of the larger algebra.
 
-use crate::model::configuration::{Configuration, TIME, TIME_BLOCK, TIME_MOMENTUM, UNIT, entry};
+use crate::model::configuration::{
+    Configuration, HELD_BLOCK, TIME, TIME_BLOCK, TIME_MOMENTUM, UNIT, entry,
+};
 use lie_symbolic::exact::Rational;
 use lie_syntax::ast::{Algebra, Bracket, Expr, ExprKind, Invariance, Matrix, Name};
 use lie_syntax::diagnostic::Origin;
@@ -93,7 +95,9 @@ impl Builder<'_> {
             Some(_) => 2 * size,
             None => size,
         };
-        let whole = blocks + TIME_BLOCK * usize::from(self.configuration.time);
+        let held = self.configuration.held.len();
+        let time = TIME_BLOCK * usize::from(self.configuration.time);
+        let whole = blocks + time + HELD_BLOCK * held;
         let left = self.invariance == Invariance::Left;
         let mut matrices: Vec<Matrix> = declared
             .iter()
@@ -122,6 +126,10 @@ impl Builder<'_> {
             unit(TIME_MOMENTUM.into(), blocks + first, blocks + first + 1);
             unit(TIME.into(), blocks + second, blocks + second + 1);
             unit(UNIT.into(), blocks, blocks + 2);
+        }
+        for (k, (name, _)) in self.configuration.held.iter().enumerate() {
+            let place = blocks + time + HELD_BLOCK * k;
+            unit(name.clone(), place, place + 1);
         }
         matrices
     }

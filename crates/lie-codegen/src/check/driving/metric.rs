@@ -232,6 +232,49 @@ impl Checks<'_> {
         }
     }
 
+    /// The columns of L and the entries of D of a symmetric matrix `L D L^T`, of the unit matrix where there is none. Columns whose pivot is
+    /// zero, at the default parameters, are zero.
+    pub fn factors(&self, graph: &mut Graph, rows: Option<&Rows>) -> (Rows, Vec<ExprId>) {
+        let n = self.own;
+        let (zero, one) = (graph.integer(0), graph.integer(1));
+        let mut columns = vec![vec![zero; n]; n];
+        let mut pivots = vec![one; n];
+        for j in 0..n {
+            columns[j][j] = one;
+            let Some(rows) = rows else { continue };
+            let rest = |graph: &mut Graph, i: usize, columns: &Rows, pivots: &[ExprId]| {
+                let mut sum = rows[i][j];
+                for k in 0..j {
+                    let product = graph.product(&[columns[k][i], columns[k][j], pivots[k]]);
+                    sum = graph.sub(sum, product);
+                }
+                sum
+            };
+            pivots[j] = rest(graph, j, &columns, &pivots);
+            let is_zero = self.value(graph, pivots[j]).abs() <= ROUNDING;
+            if is_zero {
+                (columns[j][j], pivots[j]) = (zero, zero);
+                continue;
+            }
+            for i in j + 1..n {
+                let sum = rest(graph, i, &columns, &pivots);
+                columns[j][i] = graph.div(sum, pivots[j]);
+            }
+        }
+        (columns, pivots)
+    }
+
+    /// Whether the field of every Hamiltonian has no divergence, as on unimodular algebras.
+    pub fn unimodular(&self, graph: &Graph, divergence: &[ExprId]) -> Option<Diagnostic> {
+        let budget = Budget::new(WORK);
+        let mut prover = Prover::new(graph, &budget, &[], self.name);
+        let vanish = divergence.iter().all(|part| prover.vanishes(*part));
+        (!vanish).then(|| {
+            let message = "a Rayleigh dissipation has no noise that leaves exp(-H/T) invariant here: the algebra is not unimodular";
+            self.mistake(message, "use a double bracket with its temperature, or declare `noise` by itself")
+        })
+    }
+
     fn value(&self, graph: &Graph, expression: ExprId) -> f64 {
         graph.evaluate(expression, &|symbol| match symbol {
             Symbol::Parameter(k) => self.defaults[k],

@@ -99,7 +99,7 @@ impl SymbolicSystem {
             closed: None,
             exponential: source.exponential.is_some(),
             forced: source.force().is_some(),
-            damped: source.driving.is_some(),
+            damped: source.is_damped(),
         }
     }
 

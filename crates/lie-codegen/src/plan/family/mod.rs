@@ -173,6 +173,8 @@ impl Planner<'_> {
                 joints: 0,
                 forced: false,
                 damped: false,
+                inputs: Vec::new(),
+                noises: 0,
                 casimirs: Vec::new(),
                 quantities: Vec::new(),
                 energy: Energy::Expression,

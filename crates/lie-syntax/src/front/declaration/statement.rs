@@ -25,6 +25,8 @@ const KEYWORDS: &[(&str, Follows)] = &[
     ("velocity", Follows::Name),
     ("forces", Follows::Block),
     ("dissipation", Follows::Block),
+    ("noise", Follows::Block),
+    ("inputs", Follows::Block),
     ("realization", Follows::Block),
     ("casimir", Follows::Name),
     ("integrals", Follows::Block),

@@ -1,8 +1,8 @@
-//! The keys `forces` and `dissipation`.
+//! The keys `forces`, `dissipation`, `noise` and `inputs`.
 
 use super::{line, quantity, vectors};
-use crate::ast::Name;
-use crate::diagnostic::Report;
+use crate::ast::{Input, Name};
+use crate::diagnostic::{Diagnostic, Kind, Report};
 use crate::front::json::{Type, Value};
 use crate::front::object::{Object, list, string, wrong_type};
 use crate::front::reader::Line;
@@ -72,4 +72,63 @@ fn one(value: Value<'_>, names: &Names, report: &mut Report) -> Option<driving::
         },
         fields,
     })
+}
+
+/// `[{"hamiltonian": "sigma*x"}, {"force": {"m1": "s"}}]`
+pub fn noise(value: Value<'_>, report: &mut Report) -> Vec<driving::Noisy<'static>> {
+    let mut all = Vec::new();
+    for value in list(value, "`noise`", report).unwrap_or_default() {
+        let place = value.head();
+        let Some(object) = Object::read(value, "a noise", schema::Noise::KEYS, report) else {
+            continue;
+        };
+        object.require("a noise", schema::Noise::REQUIRED, report);
+        match (object.get("hamiltonian"), object.get("force")) {
+            (Some(value), None) => {
+                let line = line(value, "`hamiltonian`", report);
+                all.extend(line.map(driving::Noisy::Hamiltonian));
+            }
+            (None, Some(value)) => {
+                all.push(driving::Noisy::Force(definitions(value, "force", report)));
+            }
+            _ => {
+                let message = "a noise has one of `hamiltonian` and `force`";
+                let help =
+                    "write `{\"hamiltonian\": \"sigma*x\"}` or `{\"force\": {\"m1\": \"s\"}}`";
+                report.push(Diagnostic::new(Kind::Schema, place, message).help(help));
+            }
+        }
+    }
+    all
+}
+
+/// `{"u": {"default": 0, "sampling": 0.1}}`
+pub fn inputs(value: Value<'_>, report: &mut Report) -> Vec<Input> {
+    if value.kind() != Type::Object {
+        report.push(wrong_type(&value, "`inputs`", "an object"));
+        return Vec::new();
+    }
+    let mut all = Vec::new();
+    for member in value.members(report) {
+        let name = item::name(&member.key.tokens(), member.key.extent(), report);
+        let what = format!("the input `{}`", member.key.text.escape_debug());
+        let Some(object) = Object::read(member.value, &what, schema::Input::KEYS, report) else {
+            continue;
+        };
+        object.require(&what, schema::Input::REQUIRED, report);
+        let default = object.get("default");
+        let default = default.and_then(|v| quantity(v, "`default`", None, report));
+        let sampling = object.get("sampling");
+        let sampling = sampling.map(|v| quantity(v, "`sampling`", None, report));
+        if let (Some(name), Some(default)) = (name, default)
+            && sampling.as_ref().is_none_or(Option::is_some)
+        {
+            all.push(Input {
+                name,
+                default,
+                sampling: sampling.flatten(),
+            });
+        }
+    }
+    all
 }
