@@ -244,6 +244,10 @@ impl<'r, M> Course<'r, M> {
             if self.index == self.milestone && self.done == 0 {
                 return Ok(Left::Milestone);
             }
+            if self.done == 0 {
+                let step = (self.index, self.grid.time(self.index), self.grid.step());
+                observer.hold(system, step, mu);
+            }
             if let Some(curve) = curve.as_mut().filter(|_| self.done == 0) {
                 let is_row = rows.peek().map(|row| row.place) == Some(Place::On(self.index));
                 curve.arrive(system, (&self.grid, self.index), mu, is_row);
@@ -274,14 +278,16 @@ impl<'r, M> Course<'r, M> {
             }
             let begins = |guard: &mut Guard<'_, S, P, M>| guard.begins(mu, self.index);
             let mut watched = self.done == 0 && guard.as_mut().is_some_and(begins);
-            let pieces = joints.as_mut().filter(|_| self.done == 0).map(|joints| {
+            if self.done == 0 {
                 let times = [self.index, self.index + 1].map(|index| self.grid.time(index));
-                joints.pieces(system, times.into())
-            });
-            if let Some(pieces) = pieces.filter(|pieces| !pieces.is_empty()) {
-                self.in_pieces(system, pieces, mu, observer)?;
-                self.done = self.parts;
-                watched = false;
+                let joint = joints
+                    .as_mut()
+                    .is_some_and(|joints| !joints.pieces(system, times.into()).is_empty());
+                if joint || self.changes_within::<S, P>(observer) {
+                    self.through(system, joints.as_mut(), times.into(), mu, observer)?;
+                    self.done = self.parts;
+                    watched = false;
+                }
             }
             let (mut iterations, mut slow) = (0, false);
             while self.done < self.parts {

@@ -104,13 +104,9 @@ impl<M> Course<'_, M> {
     where
         M: Method<S, P>,
     {
-        let whole = [(self.grid.time(self.index), end)];
-        let pieces = joints.map_or(&[][..], |joints| joints.pieces(system, whole[0]));
         observer.leave_grid();
-        match pieces {
-            [] => self.in_pieces(system, &whole, mu, observer),
-            pieces => self.in_pieces(system, pieces, mu, observer),
-        }
+        let whole = (self.grid.time(self.index), end);
+        self.through(system, joints, whole, mu, observer)
     }
 
     /// Goes from piece to piece, each with a stepper of its own.

@@ -1,5 +1,6 @@
 //! Observers of a run.
 
+use super::held::Held;
 use super::milestone::Milestone;
 use super::pace::{Assessed, Chosen};
 use super::quantities::Quantities;
@@ -55,6 +56,15 @@ pub trait Observer<S: Scalar, P: Poisson<S>> {
     /// Sees the error at the end, after all else, where the options ask for it.
     fn assessed(&mut self, assessed: &Assessed) {
         let _ = assessed;
+    }
+    /// Sets what is held from the beginning of a step on, or from where an input changes within one: inputs and the rates of noise, for a
+    /// step by its number, the time and the step of the grid.
+    fn hold(&mut self, system: &P, step: (u64, f64, f64), mu: &mut P::State) {
+        let _ = (system, step, mu);
+    }
+    /// What it holds, whose changes end steps.
+    fn held(&self) -> Option<&Held> {
+        None
     }
     /// Sees the state before the first step.
     fn start(&mut self, system: &P, progress: Progress, mu: &P::State) {
@@ -169,6 +179,12 @@ impl<S: Scalar, P: Poisson<S>, O: Observer<S, P>> Observer<S, P> for &mut O {
     fn assessed(&mut self, assessed: &Assessed) {
         (**self).assessed(assessed);
     }
+    fn hold(&mut self, system: &P, step: (u64, f64, f64), mu: &mut P::State) {
+        (**self).hold(system, step, mu);
+    }
+    fn held(&self) -> Option<&Held> {
+        (**self).held()
+    }
     fn start(&mut self, system: &P, progress: Progress, mu: &P::State) {
         (**self).start(system, progress, mu);
     }
@@ -230,6 +246,13 @@ impl<S: Scalar, P: Poisson<S>, A: Observer<S, P>, B: Observer<S, P>> Observer<S,
         self.0.assessed(assessed);
         self.1.assessed(assessed);
     }
+    fn hold(&mut self, system: &P, step: (u64, f64, f64), mu: &mut P::State) {
+        self.0.hold(system, step, mu);
+        self.1.hold(system, step, mu);
+    }
+    fn held(&self) -> Option<&Held> {
+        self.0.held().or(self.1.held())
+    }
     fn start(&mut self, system: &P, progress: Progress, mu: &P::State) {
         self.0.start(system, progress, mu);
         self.1.start(system, progress, mu);
@@ -254,6 +277,16 @@ impl<S: Scalar, P: Poisson<S>, A: Observer<S, P>, B: Observer<S, P>> Observer<S,
     fn between(&mut self, system: &P, time: f64, mu: &P::State) {
         self.0.between(system, time, mu);
         self.1.between(system, time, mu);
+    }
+}
+
+/// What is held sets itself.
+impl<S: Scalar, P: Poisson<S>> Observer<S, P> for Held {
+    fn hold(&mut self, system: &P, step: (u64, f64, f64), mu: &mut P::State) {
+        self.set(system, step, mu, &[]);
+    }
+    fn held(&self) -> Option<&Held> {
+        Some(self)
     }
 }
 

@@ -171,6 +171,11 @@ pub enum OptionError {
     /// Steps cannot follow the motion.
     #[error("steps of a reversible density are not possible: {0}")]
     Density(&'static str),
+    /// Noise and a tolerance.
+    #[error(
+        "a system with noise takes steps of one size: no tolerance says how far a random path is right"
+    )]
+    Noise,
     /// A milestone of another run.
     #[error("the milestone is not one of this run: {0}")]
     Milestone(&'static str),

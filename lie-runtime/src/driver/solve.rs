@@ -8,7 +8,7 @@ use super::grid::Grid;
 use super::kept::Kept;
 use super::milestone::Milestone;
 use super::observer::{Observer, Recorder};
-use super::options::{OptionError, Options};
+use super::options::{OptionError, Options, Pace};
 use super::pace::{Assessed, Settled, settle};
 use super::problem::Problem;
 use super::solution::Solution;
@@ -136,6 +136,9 @@ fn run<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
     if follows {
         density::check(&problem.system, &method, method.keeps())?;
     }
+    if problem.system.noise_count() > 0 && !matches!(options.pace, Pace::Step(_)) {
+        return Err(OptionError::Noise.into());
+    }
     let (mut step, mut settled) = settle(problem, &method, options)?;
     if let Some(settled) = settled.as_mut().filter(|_| follows) {
         let mu = problem.start();
@@ -161,6 +164,8 @@ fn run<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
         .with_milestones(milestones.is_some());
     let settled = settled.filter(|_| !follows);
     let (guard, begun) = settled.map_or((None, None), Settled::begin);
+    // the first step knew no inputs
+    let begun = begun.filter(|_| problem.system.input_count() == 0);
     let beginning = match (milestones.flatten(), begun) {
         (Some(milestone), _) => Beginning::Milestone(milestone),
         (None, Some(begun)) => Beginning::Step(begun),
