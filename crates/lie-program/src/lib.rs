@@ -184,6 +184,11 @@ impl<P: Poisson<f64>> Program<P> {
         let last = from.as_ref().map_or(0, |(milestone, _)| milestone.index);
         let mut rows = RowWriter::new(&problem.system, session)
             .saying(request.milestones, last)
+            .holding(
+                request
+                    .held
+                    .of(&problem.system, problem.span.0, &request.sources),
+            )
             .curve(request.curve);
         if let Some(milestone) = &request.from_milestone {
             rows.take_up(milestone);

@@ -37,6 +37,8 @@ pub struct RowWriter<'s, 'o> {
     milestones: Milestones,
     last: u64,
     said: Instant,
+    /// What is held from step to step.
+    held: Option<driver::Held>,
 }
 
 impl<'s, 'o> RowWriter<'s, 'o> {
@@ -58,6 +60,7 @@ impl<'s, 'o> RowWriter<'s, 'o> {
             milestones: Milestones::None,
             last: 0,
             said: now,
+            held: None,
         }
     }
 
@@ -70,6 +73,11 @@ impl<'s, 'o> RowWriter<'s, 'o> {
     /// Goes on with the angles of a milestone.
     pub(crate) fn take_up(&mut self, milestone: &Milestone) {
         self.quantities.take_up(&milestone.angles());
+    }
+
+    /// Holds inputs and noise.
+    pub(crate) fn holding(self, held: Option<driver::Held>) -> Self {
+        Self { held, ..self }
     }
 
     /// Says states between rows too, where that is wanted.
@@ -194,6 +202,16 @@ fn on(state: Result<(), End>) -> ControlFlow<()> {
 }
 
 impl<P: Poisson<f64>> Observer<f64, P> for RowWriter<'_, '_> {
+    fn hold(&mut self, system: &P, step: (u64, f64, f64), mu: &mut P::State) {
+        if let Some(held) = &mut self.held {
+            held.set(system, step, mu, &[]);
+        }
+    }
+
+    fn held(&self) -> Option<&driver::Held> {
+        self.held.as_ref()
+    }
+
     fn chosen(&mut self, chosen: &Chosen) {
         self.session.mentions(Found::Chosen(chosen.into()));
     }
@@ -265,6 +283,16 @@ pub(crate) struct OnGroup<'r, 's, 'o, V> {
 
 impl<P: MatrixGroup<f64>> Observer<f64, P> for OnGroup<'_, '_, '_, P::State> {
     const MOTION: bool = true;
+
+    fn hold(&mut self, system: &P, step: (u64, f64, f64), mu: &mut P::State) {
+        if let Some(held) = &mut self.rows.held {
+            held.set(system, step, mu, self.reconstruction.element());
+        }
+    }
+
+    fn held(&self) -> Option<&driver::Held> {
+        self.rows.held.as_ref()
+    }
 
     fn chosen(&mut self, chosen: &Chosen) {
         Observer::<f64, P>::chosen(self.rows, chosen);

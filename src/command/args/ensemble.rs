@@ -27,9 +27,6 @@ pub struct Ensemble {
     /// coadjoint orbit. With --initial-file it has to be their number
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     pub members: Option<Value>,
-    /// Seed of the drawn states (default 1)
-    #[arg(long, value_name = "S")]
-    pub seed: Option<u64>,
     /// How far they go: the standard deviation of the element's coordinates in the algebra (default 0.1; on so(3) an angle about
     /// each axis), or `orbit`: uniformly over the orbit, of a compact group
     #[arg(long, value_name = "R", allow_hyphen_values = true)]

@@ -18,7 +18,7 @@ use lie_in_process::ensemble::{self, Ensemble};
 use lie_in_process::memory::Exceeded;
 use lie_in_process::message::Fault;
 use lie_in_process::report::signs;
-use lie_in_process::request::{Asked, Drawing, Value, cast};
+use lie_in_process::request::{Asked, Drawing, Value, cast, seed};
 use lie_in_process::share::{Record, Share};
 use lie_in_process::words::counted;
 use lie_program::protocol::{Obstacle, Start};
@@ -198,7 +198,12 @@ fn check(flags: &args::Ensemble) -> Result<(), Failure> {
 fn asked(spec: &Spec, flags: &args::Ensemble) -> Result<Asked, Failure> {
     let drawing = Drawing {
         members: flags.members.as_ref(),
-        seed: flags.seed,
+        seed: match flags.request.seed {
+            Some(_) => {
+                Some(seed(&flags.request).map_err(|mistake| Failure::invalid(vec![mistake]))?)
+            }
+            None => None,
+        },
         spread: flags.spread.as_ref(),
     };
     cast(spec, &flags.request, drawing).map_err(Failure::invalid)

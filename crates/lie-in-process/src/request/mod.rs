@@ -8,6 +8,7 @@
 mod cast;
 mod density;
 mod front;
+mod held;
 mod keep;
 mod measured;
 pub mod method;
@@ -24,12 +25,15 @@ mod states;
 mod times;
 mod value;
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
+use lie_runtime::driver::Source;
 use serde::{Deserialize, Serialize};
 
 pub use cast::{Asked, Drawing, cast};
 pub use front::Front;
+pub use held::seed;
 pub use measured::{span, step_of_facts};
 pub use option_value::{OptionValue, constant};
 pub use plan::{Plan, Point, plan, start};
@@ -69,6 +73,14 @@ macro_rules! request {
             /// Makes a second run behind each, with other steps, and says by how much its end is off: 1.25 times the time of the run
             #[cfg_attr(feature = "clap", arg(long))]
             pub assess: bool,
+            /// Values of an input (repeatable): NAME=FILE with `time,value` in each line of CSV, or a row of NPY; each value is held from its
+            /// time on
+            #[cfg_attr(feature = "clap", arg(long, value_name = "NAME=FILE"))]
+            pub input: Vec<String>,
+            /// The same from a call.
+            #[serde(skip)]
+            #[cfg_attr(feature = "clap", arg(skip))]
+            pub sources: BTreeMap<String, Source>,
             $(
                 $(#[$doc])*
                 #[serde(rename = $name)]
@@ -170,6 +182,8 @@ request! {
     /// Lets the size of steps follow the motion: reversible, by an integrating step density from --step or the step that --tol chooses, or
     /// constant. A symmetric method stays reversible, so that the energy of reversible motion does not drift; the steps are no Poisson maps
     word density "density" "NAME";
+    /// Seed of noise, and of initial states that are drawn (default 1)
+    quantity seed "seed" "S";
 }
 
 #[cfg(test)]

@@ -3,10 +3,11 @@
 use lie_codegen::methods::{Choice, OptionError};
 use lie_codegen::program::Chart;
 use lie_codegen::structure::group;
-use lie_program::protocol::{Milestones, Run, Start, Times, Tolerances};
-use lie_runtime::driver::{Density, Pace};
+use lie_program::protocol::{Held, Milestones, Run, Sources, Start, Times, Tolerances};
+use lie_runtime::driver::{Density, Pace, Source};
 use lie_runtime::methods::Keep;
 use lie_runtime::newton::NewtonOptions;
+use std::collections::BTreeMap;
 
 use super::{OptionValue, Request, method};
 use crate::message::{Fault, Message};
@@ -46,6 +47,10 @@ pub struct Plan {
     pub density: Density,
     /// Whether a second run tells the error at the end.
     pub assess: bool,
+    /// What is held from step to step.
+    pub held: Held,
+    /// Where the values of inputs come from, in a call.
+    pub sources: BTreeMap<String, Source>,
 }
 
 impl Plan {
@@ -62,6 +67,8 @@ impl Plan {
             keep: self.keep,
             density: self.density,
             assess: if self.assess { u64::MAX } else { 0 },
+            held: self.held.clone(),
+            sources: Sources(self.sources.clone()),
             from_milestone: None,
             milestones: Milestones::None,
             curve: false,
@@ -125,6 +132,8 @@ pub(super) fn planned(spec: &Spec, request: &Request) -> Planned {
     let newton = solved.map(|method| planner.newton(method, overall));
     let keep = solved.map(|method| planner.kept(method));
     let density = solved.map(|method| planner.density(method, keep.unwrap_or_default()));
+    let held = solved.map(|method| planner.held(method, overall));
+    let (held, sources) = held.unwrap_or_default();
     let chart = planner.chart();
     let picked = planner.picks();
     let plan = match (method, pace, from.zip(times)) {
@@ -140,6 +149,8 @@ pub(super) fn planned(spec: &Spec, request: &Request) -> Planned {
             keep: keep.unwrap_or_default(),
             density: density.unwrap_or_default(),
             assess: request.assess,
+            held,
+            sources,
         }),
         _ => None,
     };

@@ -9,6 +9,7 @@
 //! ends soon after. So no program outlives the command that started it, however that one was ended.
 
 mod columns;
+mod held;
 mod milestone;
 pub mod number;
 mod times;
@@ -16,6 +17,7 @@ mod words;
 
 use crate::listen;
 pub use columns::{Columns, Coordinates};
+pub use held::{Held, Sources, Table};
 use lie_runtime::driver::{Chosen, Density, Options, Pace, Save, Stats};
 use lie_runtime::methods::Keep;
 pub use lie_runtime::methods::Tolerances;
@@ -69,6 +71,12 @@ pub struct Run {
     /// A second run tells the error at the end of one with at most so many steps.
     #[serde(default)]
     pub assess: u64,
+    /// What is held from step to step.
+    #[serde(default)]
+    pub held: Held,
+    /// Where the values of inputs come from, within a process.
+    #[serde(skip)]
+    pub sources: Sources,
     /// Where it is taken up again; nothing for a run from its start.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub from_milestone: Option<Milestone>,
