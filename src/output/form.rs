@@ -30,6 +30,8 @@ pub struct Run {
     pub step: f64,
     /// Whether the steps follow the motion.
     pub density: Density,
+    /// The seed of its noise, where there is some.
+    pub seed: Option<u64>,
     /// The values of the parameters that have several.
     pub parameters: Vec<f64>,
     /// The names of what a projection behind each step keeps.
@@ -154,6 +156,9 @@ impl Form for Json {
         }
         if run.density == Density::Reversible {
             out.extend_from_slice(b",\"density\":\"reversible\"");
+        }
+        if let Some(seed) = run.seed {
+            let _ = write!(out, ",\"seed\":{seed}");
         }
         match &header.labels {
             Some(labels) => {

@@ -8,7 +8,7 @@ use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use lie_program::protocol::{End, Obstacle, Times};
+use lie_program::protocol::{End, Held, Obstacle, Sources, Times};
 use lie_program::session::Session;
 use lie_runtime::driver::{Grid, Options, Pace, Place, Save};
 
@@ -264,6 +264,11 @@ impl Running<'_> {
             count: self.asked.some.len(),
             span: self.span,
             options: self.options.clone(),
+            held: Held {
+                stream: some.start as u64,
+                ..self.asked.plan.held.clone()
+            },
+            sources: Sources(self.asked.plan.sources.clone()),
         };
         members.run(0..some.len(), &self.watch)
     }

@@ -11,9 +11,10 @@ use lie_codegen::methods::Choice;
 use lie_dynamic::{
     Declared, Dynamic, Method, Tolerances, is_compiled_for_lanes, method, method_in_lanes,
 };
+use lie_program::protocol::{Held, Sources};
 use lie_runtime::diagnostics::Forgotten;
 use lie_runtime::driver::{
-    IntegrateError, Observer, OptionError, Options, Pace, Problem, Progress, Save, integrate,
+    self, IntegrateError, Observer, OptionError, Options, Pace, Problem, Progress, Save, integrate,
 };
 use lie_runtime::{ParameterError, Poisson, Scalar};
 use std::ops::{ControlFlow, Range};
@@ -50,6 +51,10 @@ pub struct Members<'a> {
     pub options: Options,
     /// Start and end.
     pub span: (f64, f64),
+    /// What is held from step to step; streams of noise are numbered from that of the first member on.
+    pub held: Held,
+    /// Where the values of inputs come from, in a call.
+    pub sources: Sources,
 }
 
 /// The rows of a member, as many as it came to.
@@ -112,6 +117,7 @@ struct Kept<'a, S> {
     states: Vec<S>,
     last_alone: bool,
     watch: &'a Watch,
+    held: Option<driver::Held>,
 }
 
 impl<'a, S> Kept<'a, S> {
@@ -121,11 +127,22 @@ impl<'a, S> Kept<'a, S> {
             states: Vec::new(),
             last_alone: options.save == Save::Ends,
             watch,
+            held: None,
         }
     }
 }
 
 impl<S: Scalar> Observer<S, Dynamic<S>> for Kept<'_, S> {
+    fn hold(&mut self, system: &Dynamic<S>, step: (u64, f64, f64), mu: &mut Vec<S>) {
+        if let Some(held) = &mut self.held {
+            held.set(system, step, mu, &[]);
+        }
+    }
+
+    fn held(&self) -> Option<&driver::Held> {
+        self.held.as_ref()
+    }
+
     fn step(&mut self, _: &Dynamic<S>, _: Progress, _: &Vec<S>) -> ControlFlow<()> {
         match self.watch.stopped() {
             true => ControlFlow::Break(()),
@@ -259,7 +276,11 @@ impl Worker<'_> {
                     .map(|member| self.members.starts[member].as_slice())
                     .collect();
                 let side_by_side: Vec<_> = left.iter().map(|(_, system)| *system).collect();
-                match self.together(together, &side_by_side, &starts) {
+                let streams = left
+                    .iter()
+                    .map(|(index, _)| self.stream(members.start + index));
+                let streams: Vec<u64> = streams.collect();
+                match self.together(together, &side_by_side, (&starts, &streams)) {
                     Ok(lanes) => {
                         self.watch.done(lanes.len());
                         for ((index, _), member) in left.drain(..).zip(lanes) {
@@ -279,7 +300,7 @@ impl Worker<'_> {
         }
         let alone = members.zip(systems).zip(all);
         found.extend(alone.map(|((member, system), done)| {
-            let alone = || self.one(system, &self.members.starts[member]);
+            let alone = || self.one(system, member);
             done.unwrap_or_else(alone)
         }));
     }
@@ -291,15 +312,15 @@ impl Worker<'_> {
             None if self.watch.stopped() => Member::default(),
             None => {
                 let system = self.members.systems(member..member + 1).remove(0);
-                self.one(system, &self.members.starts[member])
+                self.one(system, member)
             }
         }));
     }
 
     /// One member.
-    fn one(&self, system: Result<Dynamic<f64>, ParameterError>, start: &[f64]) -> Member {
+    fn one(&self, system: Result<Dynamic<f64>, ParameterError>, member: usize) -> Member {
         let member = match system {
-            Ok(system) => self.alone(system, start),
+            Ok(system) => self.alone(system, member),
             Err(error) => Member::failing(self.members.span.0, error.to_string()),
         };
         self.watch.done(1);
@@ -311,13 +332,15 @@ impl Worker<'_> {
         &self,
         method: &Method<Wide>,
         systems: &[&Dynamic<f64>],
-        starts: &[&[f64]],
+        (starts, streams): (&[&[f64]], &[u64]),
     ) -> Result<Vec<Member>, Lost> {
         let of_lane = |lane: usize| *starts.get(lane).unwrap_or(&starts[0]);
         let lengths = systems[0].dimension();
         // each member ends steps where its own parameters say
         let joints = Poisson::<f64>::joint_count(systems[0]) > 0;
-        if joints || starts.iter().any(|start| start.len() != lengths) {
+        // and a controller sees one state
+        let controlled = !self.members.sources.0.is_empty();
+        if joints || controlled || starts.iter().any(|start| start.len() != lengths) {
             return Err(Lost::All);
         }
         let gather = |entry| Wide::new(std::array::from_fn(|lane| of_lane(lane)[entry]));
@@ -328,6 +351,9 @@ impl Worker<'_> {
         };
         let options = &self.members.options;
         let mut kept = Kept::new(options, self.watch);
+        let (held, sources) = (&self.members.held, &self.members.sources);
+        let held = held.in_lanes(&problem.system, problem.span.0, sources, streams);
+        kept.held = held;
         match integrate(&problem, Forgotten(method.as_ref()), options, &mut kept) {
             Ok(_) => Ok((0..systems.len())
                 .map(|lane| Member {
@@ -341,14 +367,22 @@ impl Worker<'_> {
         }
     }
 
-    fn alone(&self, system: Dynamic<f64>, start: &[f64]) -> Member {
+    /// The stream of noise of a member.
+    fn stream(&self, member: usize) -> u64 {
+        self.members.held.stream + member as u64
+    }
+
+    fn alone(&self, system: Dynamic<f64>, member: usize) -> Member {
         let problem = Problem {
             system,
-            mu0: start.to_vec(),
+            mu0: self.members.starts[member].clone(),
             span: self.members.span,
         };
         let options = &self.members.options;
         let mut kept = Kept::new(options, self.watch);
+        let (held, sources) = (&self.members.held, &self.members.sources);
+        let streams = [self.stream(member)];
+        kept.held = held.in_lanes(&problem.system, problem.span.0, sources, &streams);
         let outcome = integrate(&problem, Forgotten(self.alone.as_ref()), options, &mut kept);
         let mut member = Member {
             times: kept.times,

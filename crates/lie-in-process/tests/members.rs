@@ -83,6 +83,8 @@ fn different(name: &str, save: Save, newton: NewtonOptions) -> (usize, Vec<Strin
             count: COUNT,
             options: Options::new(STEP).save(save.clone()).newton(newton),
             span: (0.0, END),
+            held: Default::default(),
+            sources: Default::default(),
         };
         let expected = alone(&members);
         let found = all(&members);
@@ -133,6 +135,8 @@ fn sweep<'a>(declared: &'a Declared, choice: &'a Choice, save: Save) -> Members<
         count: COUNT,
         options: Options::new(STEP).save(save),
         span: (0.0, END),
+        held: members.held.clone(),
+        sources: members.sources.clone(),
     }
 }
 

@@ -84,6 +84,8 @@ fn members_have_the_bits_that_they_have_alone() {
                     count: COUNT,
                     options: options.clone().save(save),
                     span: (0.0, *end),
+                    held: Default::default(),
+                    sources: Default::default(),
                 };
                 let what = format!("{name}, {}, {options:?}", choice.label());
                 assert!(take_turns(choice, members.tolerances));
@@ -110,6 +112,8 @@ fn parameters_may_differ() {
             count: COUNT,
             options: Options::new(10.0).save(Save::Ends),
             span: (0.0, 10.0),
+            held: Default::default(),
+            sources: Default::default(),
         };
         for (member, values) in members.parameters.iter_mut().enumerate() {
             values[0] *= 1.0 + (member / 10) as f64;

@@ -8,7 +8,7 @@ use super::problem::set_time;
 use super::solve::IntegrateError;
 use crate::methods::Method;
 use crate::poisson::Poisson;
-use crate::scalar::{Scalar, largest};
+use crate::scalar::Scalar;
 use crate::state::State;
 use std::fmt;
 use std::sync::Arc;
@@ -87,12 +87,12 @@ pub struct Held {
 }
 
 impl Held {
-    /// What a system has of it, with inputs at their defaults and the noise of a seed and a stream, from a time on; nothing of a
+    /// What a system has of it, with inputs at their defaults and the noise of a seed and a stream for each lane, from a time on; nothing of a
     /// system that has neither.
     pub fn of<S: Scalar, P: Poisson<S>>(
         system: &P,
         start: f64,
-        (seed, stream): (u64, u64),
+        (seed, streams): (u64, &[u64]),
     ) -> Option<Self> {
         let (inputs, noises) = (system.input_count(), system.noise_count());
         let input = |index: usize| Input {
@@ -102,7 +102,7 @@ impl Held {
         };
         (inputs + noises > 0).then(|| Self {
             inputs: (0..inputs).map(input).collect(),
-            noise: (noises > 0).then(|| Wiener::new(seed, stream, noises)),
+            noise: (noises > 0).then(|| Wiener::new(seed, streams, noises)),
             step: None,
             start,
             state: Vec::new(),

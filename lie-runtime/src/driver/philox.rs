@@ -35,18 +35,19 @@ const PROCESSES: u64 = 1 << 24;
 #[derive(Clone, Debug)]
 pub struct Wiener {
     seed: u64,
-    stream: u64,
+    streams: Vec<u64>,
     processes: usize,
     bounded: bool,
 }
 
 impl Wiener {
-    /// So many processes of a seed and a stream, such as the number of a member. There are 2^40 streams.
+    /// So many processes of a seed, with a stream for each lane, such as the number of a member; lanes behind them have the last one. There
+    /// are 2^40 streams.
     #[must_use]
-    pub fn new(seed: u64, stream: u64, processes: usize) -> Self {
+    pub fn new(seed: u64, streams: &[u64], processes: usize) -> Self {
         Self {
             seed,
-            stream,
+            streams: streams.to_vec(),
             processes,
             bounded: false,
         }
@@ -58,7 +59,7 @@ impl Wiener {
         Self { bounded, ..self }
     }
 
-    /// The rates `dW/dt` of a step of a size by its number, `z/sqrt(|h|)`; lanes have the streams behind this one.
+    /// The rates `dW/dt` of a step of a size by its number, `z/sqrt(|h|)`.
     pub fn rates<S: Scalar>(&self, step: u64, size: f64, out: &mut [S]) {
         let scale = 1.0 / size.abs().sqrt();
         let bound = match self.bounded {
@@ -68,7 +69,8 @@ impl Wiener {
         };
         for (process, rate) in out.iter_mut().take(self.processes).enumerate() {
             let lane = |lane: usize| {
-                let z = self.normal(step, self.stream + lane as u64, process as u64);
+                let stream = self.streams.get(lane).or(self.streams.last());
+                let z = self.normal(step, stream.copied().unwrap_or(0), process as u64);
                 scale * z.clamp(-bound, bound)
             };
             let mut all = S::from_f64(lane(0));
@@ -125,7 +127,7 @@ mod tests {
 
     #[test]
     fn increments_are_normal_and_independent() {
-        let wiener = Wiener::new(7, 3, 3);
+        let wiener = Wiener::new(7, &[3], 3);
         let (steps, size) = (40_000, 0.25);
         let (mut sums, mut squares, mut fourth, mut mixed) = ([0.0; 3], [0.0; 3], 0.0, 0.0);
         for step in 0..steps {
@@ -155,14 +157,16 @@ mod tests {
     fn numbers_are_those_of_seed_stream_and_step() {
         let rates = |seed, stream, step| {
             let mut rates = [0.0; 2];
-            Wiener::new(seed, stream, 2).rates(step, 0.1, &mut rates);
+            Wiener::new(seed, &[stream], 2).rates(step, 0.1, &mut rates);
             rates
         };
         assert_eq!(rates(1, 2, 3), rates(1, 2, 3));
         let others = [rates(2, 2, 3), rates(1, 3, 3), rates(1, 2, 4)];
         assert!(others.iter().all(|other| *other != rates(1, 2, 3)));
         let mut long = [0.0];
-        Wiener::new(1, 0, 1).bounded(true).rates(0, 1e-3, &mut long);
+        Wiener::new(1, &[0], 1)
+            .bounded(true)
+            .rates(0, 1e-3, &mut long);
         assert!((long[0] * 1e-3_f64.sqrt()).abs() <= 2.0 * 1e-3_f64.ln().abs().sqrt());
     }
 }

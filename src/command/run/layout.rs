@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use std::collections::BTreeMap;
 
-use lie_codegen::model::{Family, Parameter, QuantityKind};
+use lie_codegen::model::{Driving, Family, Parameter, QuantityKind};
 use lie_codegen::program::{Chart, columns};
 use lie_codegen::structure::{Structure, group};
 use lie_program::protocol::{Columns, Coordinates};
@@ -127,7 +127,11 @@ impl Layout {
         let work = energy + 1 + model.casimirs.len();
         let columns = |places: Vec<(usize, bool)>| places.into_iter().map(|(place, _)| place);
         let mut watched: Vec<Watched> = (0..energy).map(Watched::Column).collect();
-        watched.push(Watched::Difference(energy, work));
+        // noise is no work
+        let balanced = !model.driving.as_ref().is_some_and(Driving::is_noisy);
+        if balanced {
+            watched.push(Watched::Difference(energy, work));
+        }
         watched.extend(columns(kept).map(Watched::Column));
         self.invariants = energy..watched.len();
         let behind = [energy].into_iter().chain(columns(changed));

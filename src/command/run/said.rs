@@ -74,6 +74,14 @@ pub fn of_density(plan: &Plan) -> Option<String> {
     })
 }
 
+/// Which noise it was.
+pub fn of_noise(spec: &Spec, plan: &Plan) -> Option<String> {
+    let driving = spec.model.driving.as_ref()?;
+    driving
+        .is_noisy()
+        .then(|| format!("noise with seed {}", plan.held.seed))
+}
+
 /// What was kept by a projection, and what that is not.
 pub fn of_projection(spec: &Spec, plan: &Plan) -> Option<String> {
     let kept = plan.kept(spec);

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use lie_in_process::request::{Member, Plan, Several};
-use lie_program::protocol::Obstacle;
+use lie_program::protocol::{Held, Obstacle};
 use lie_runtime::driver::{Density, Pace};
 
 use super::bar::Bar;
@@ -15,7 +15,9 @@ use super::keeper::{Keeper, Unwritten};
 use super::layout::Layout;
 use super::picture::{Form, Picture, rounded};
 use super::reception::{Received, Reception};
-use super::said::{missed, of_density, of_projection, of_tolerance, stopped_text, title, word};
+use super::said::{
+    missed, of_density, of_noise, of_projection, of_tolerance, stopped_text, title, word,
+};
 use super::summary::{self, Drift, Steps};
 use super::tally::{MOST_LINES, Tally};
 use super::{impossible, outputs};
@@ -112,7 +114,10 @@ impl Session<'_> {
             let several = self.several.labels.is_some();
             for plan in self.several.plans.iter().filter(|_| several) {
                 let notes = of_projection(self.spec, plan).into_iter();
-                for note in notes.chain(of_density(plan)) {
+                for note in notes
+                    .chain(of_density(plan))
+                    .chain(of_noise(self.spec, plan))
+                {
                     render::say(&folded(&format!("{}: {note}", plan.method.title())));
                 }
             }
@@ -177,6 +182,13 @@ impl Session<'_> {
             step: f64::NAN,
             kept: plan.kept(self.spec),
             density: plan.density,
+            seed: self
+                .spec
+                .model
+                .driving
+                .as_ref()
+                .filter(|d| d.is_noisy())
+                .map(|_| plan.held.seed),
         };
         let layout = Layout::new(&self.spec.model, plan.chart, &member.start.parameters);
         if let Some(picture) = &mut picture {
@@ -192,6 +204,10 @@ impl Session<'_> {
             milestones: milestones.unwrap_or_default(),
             assess: assessed_up_to(plan),
             curve,
+            held: Held {
+                stream: number as u64,
+                ..plan.held.clone()
+            },
             ..plan.run(member.start.clone())
         };
         if let Some(place) = &place {
@@ -260,7 +276,9 @@ impl Session<'_> {
         tally.record(member.plan, number, received);
         if self.several.labels.is_none() {
             let notes = of_projection(self.spec, plan).into_iter();
-            let notes = notes.chain(of_density(plan));
+            let notes = notes
+                .chain(of_density(plan))
+                .chain(of_noise(self.spec, plan));
             for note in notes.chain(of_tolerance(plan, received)) {
                 render::say(&folded(&note));
             }

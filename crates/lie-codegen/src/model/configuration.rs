@@ -71,6 +71,11 @@ impl Configuration {
         if self.time {
             parts.push("the time with its momentum and a unit".into());
         }
+        match self.held.len() {
+            0 => {}
+            1 => parts.push("one that is held from step to step".into()),
+            count => parts.push(format!("{count} that are held from step to step")),
+        }
         parts.join(", ")
     }
 

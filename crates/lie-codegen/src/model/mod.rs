@@ -219,7 +219,8 @@ impl Model {
     /// declare.
     pub fn casimirs_to_find(&self) -> usize {
         let unit = self.configuration.as_ref().is_some_and(|c| c.time);
-        (self.dimension() - self.generic_rank).saturating_sub(usize::from(unit))
+        let held = self.configuration.as_ref().map_or(0, |c| c.held.len());
+        (self.dimension() - self.generic_rank).saturating_sub(usize::from(unit) + held)
     }
 
     /// The coordinates that are shown: all but those that carry the time.

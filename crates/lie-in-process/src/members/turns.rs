@@ -27,7 +27,8 @@ impl Worker<'_> {
         let system = systems.first()?.as_ref().ok()?;
         let starts = &self.members.starts[members.clone()];
         let dimension = Poisson::<f64>::dimension(system);
-        let suits = system.takes_lanes(self.members.choice);
+        let held = Poisson::<f64>::input_count(system) + Poisson::<f64>::noise_count(system);
+        let suits = system.takes_lanes(self.members.choice) && held == 0;
         if !suits || starts.iter().any(|start| start.len() != dimension) {
             return None;
         }

@@ -3,6 +3,7 @@
 use super::number;
 use lie_runtime::driver::{self, Source};
 use lie_runtime::poisson::Poisson;
+use lie_runtime::scalar::Scalar;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -44,7 +45,18 @@ impl Held {
         start: f64,
         sources: &Sources,
     ) -> Option<driver::Held> {
-        let mut held = driver::Held::of(system, start, (self.seed, self.stream))?;
+        self.in_lanes(system, start, sources, &[self.stream])
+    }
+
+    /// The same for a system in lanes, each with its stream.
+    pub fn in_lanes<S: Scalar, P: Poisson<S>>(
+        &self,
+        system: &P,
+        start: f64,
+        sources: &Sources,
+        streams: &[u64],
+    ) -> Option<driver::Held> {
+        let mut held = driver::Held::of(system, start, (self.seed, streams))?;
         let first = system.clock().map_or(0, |clock| clock.time + 2);
         for index in 0..system.input_count() {
             let name = system.coordinate(first + index);
