@@ -1,6 +1,7 @@
 //! Tests of the runtime that are soon done without optimisation, as one program: they share what they compile of the systems.
 
 mod allocations;
+mod balances;
 mod branches;
 mod charts;
 mod coadjoint_orbit;
@@ -10,6 +11,7 @@ mod curve;
 mod driver;
 mod families;
 mod family_splittings;
+mod forces;
 mod functions;
 mod generating;
 mod kernels;

@@ -65,6 +65,8 @@ macro_rules! so3_algebra {
 
 pub mod affine_line;
 pub mod body4;
+pub mod damped_body;
+pub mod driven_body;
 pub mod folded;
 pub mod heavy_top;
 pub mod logarithmic;

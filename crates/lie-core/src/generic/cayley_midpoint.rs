@@ -1,6 +1,7 @@
 //! The equation of methods of coadjoint form along the Cayley map: the Lie–Poisson midpoint method
 //! and the generating-function methods.
 
+use super::acting::Acting;
 use super::chart::cayley_chart;
 use super::generating::Generating2;
 use crate::equation::Equation;
@@ -35,7 +36,7 @@ pub struct CayleyRetraction<'a, S: Scalar, P: CayleyPoisson<S>, G> {
     hessian: P::Jacobian,
     columns: [P::State; 4],
     /// `p - (h/2) F(p)` and its derivative, where forces act.
-    forced: Option<(P::State, P::Jacobian)>,
+    forced: Acting<(P::State, P::Jacobian)>,
 }
 
 /// The Lie–Poisson midpoint method with the Cayley map: [`CayleyRetraction`] with `S = h H`.
@@ -65,15 +66,13 @@ where
             direction: zero.clone(),
             hessian: system.zero_jacobian(),
             columns: core::array::from_fn(|_| zero.clone()),
-            forced: system
-                .is_forced()
-                .then(|| (zero.clone(), system.zero_jacobian())),
+            forced: Acting::of(system, || (zero.clone(), system.zero_jacobian())),
         }
     }
 
     /// Sets `p - (h/2) F(p)`.
     fn set_forced(&mut self, unknown: &P::State) {
-        if let Some((point, _)) = &mut self.forced {
+        if let Some((point, _)) = self.forced.get_mut(self.system) {
             let half = self.step * S::ratio(1.0, 2.0);
             self.system.force(unknown, point);
             for (entry, &p) in point.as_mut_slice().iter_mut().zip(unknown.as_slice()) {
@@ -84,7 +83,7 @@ where
 
     /// Sets the derivative of `p - (h/2) F(p)`.
     fn set_slope(&mut self, unknown: &P::State) {
-        if let Some((_, slope)) = &mut self.forced {
+        if let Some((_, slope)) = self.forced.get_mut(self.system) {
             let half = self.step * S::ratio(1.0, 2.0);
             self.system.force_slope(unknown, slope);
             for row in 0..self.system.dimension() {
@@ -99,7 +98,8 @@ where
     /// Computes the residual for the direction.
     fn evaluate(&mut self, unknown: &P::State, residual: &mut P::State) {
         self.set_forced(unknown);
-        let point = self.forced.as_ref().map_or(unknown, |(point, _)| point);
+        let forced = self.forced.get(self.system);
+        let point = forced.map_or(unknown, |(point, _)| point);
         let (function, direction) = (&mut self.function, &mut self.direction);
         set_action(self.system, function, point, direction, &mut self.columns);
         let half = S::ratio(1.0, 2.0);
@@ -162,11 +162,12 @@ where
         self.set_slope(unknown);
         let (half, quarter) = (S::ratio(1.0, 2.0), S::ratio(1.0, 4.0));
         let [along, unit, first, second] = &mut self.columns;
-        let point = self.forced.as_ref().map_or(unknown, |(point, _)| point);
+        let forced = self.forced.get(self.system);
+        let point = forced.map_or(unknown, |(point, _)| point);
         for column in 0..self.system.dimension() {
             unit.fill(S::zero());
             unit.as_mut_slice()[column] = S::one();
-            if let Some((_, slope)) = &self.forced {
+            if let Some((_, slope)) = forced {
                 for (row, entry) in unit.as_mut_slice().iter_mut().enumerate() {
                     *entry = slope.get(row, column);
                 }

@@ -1,8 +1,11 @@
 //! The equation of energy-preserving collocation.
 
+use super::acting::Acting;
+use super::beside::Beside;
 use super::kernels::multiply;
 use super::quadrature::{EnergyBalance, MAX_NODES, Quadrature};
 use super::tableau::{Tableau, gauss_tableau};
+use crate::clock::Clock;
 use crate::equation::Equation;
 use crate::matrix::SquareMatrix;
 use crate::poisson::Poisson;
@@ -18,6 +21,9 @@ use crate::state::{Stages, State};
 /// `mu + sum_i D_i`. Jacobian, with the ratios `mu_ij = a_ij/b_j`:
 /// `dr_i/dD_j = delta_ij - h b_i (mu_ij d/dY[Pi(Y_i) g_i] + Pi(Y_i) sum_q w_q l_i(t_q)/b_i L_j(t_q) H''(u(t_q)))`.
 /// Start: `D_i = h b_i f(mu + c_i h f(mu))`.
+///
+/// Where something damps, `g_i + c G Pi(Y_i) g_i` takes the place of `g_i`, and where forces act, `F(Y_i)` is added, both at the
+/// stages: H changes by `h sum_i b_i (<F(Y_i), g_i> - c <v_i, G v_i>)` with `v_i = Pi(Y_i) g_i` ([`Beside`]).
 #[derive(Debug)]
 pub struct CohenHairerStep<'a, S: Scalar, P: Poisson<S>, const STAGES: usize> {
     system: &'a P,
@@ -37,6 +43,7 @@ pub struct CohenHairerStep<'a, S: Scalar, P: Poisson<S>, const STAGES: usize> {
     gradients: [P::State; STAGES],
     poisson_matrix: P::Jacobian,
     hessian: P::Jacobian,
+    beside: Acting<Beside<P::State, P::Jacobian>>,
 }
 
 impl<'a, S: Scalar, P: Poisson<S>, const STAGES: usize> CohenHairerStep<'a, S, P, STAGES> {
@@ -73,6 +80,7 @@ impl<'a, S: Scalar, P: Poisson<S>, const STAGES: usize> CohenHairerStep<'a, S, P
             gradients: core::array::from_fn(|_| zero.clone()),
             poisson_matrix: system.zero_jacobian(),
             hessian: system.zero_jacobian(),
+            beside: Acting::of(system, || Beside::new(system)),
         }
     }
 
@@ -111,7 +119,8 @@ impl<'a, S: Scalar, P: Poisson<S>, const STAGES: usize> CohenHairerStep<'a, S, P
         }
     }
 
-    /// `r_i = D_i - h b_i Pi(Y_i) g_i`; leaves `Y_i` in the point and `Pi(Y_i)` in the matrix.
+    /// `r_i = D_i - h b_i Pi(Y_i) g_i`; leaves `Y_i` in the point and `Pi(Y_i)` in the matrix, and the direction of the motion in the
+    /// place of the mean of the gradient.
     fn write_residual(
         &mut self,
         stage: usize,
@@ -122,12 +131,51 @@ impl<'a, S: Scalar, P: Poisson<S>, const STAGES: usize> CohenHairerStep<'a, S, P
         let matrix = &mut self.poisson_matrix;
         self.system.poisson_matrix(&self.point, matrix);
         multiply(matrix, &self.gradients[stage], &mut self.field);
+        if let Some(beside) = self.beside.get_mut(self.system) {
+            beside.set_at(self.system, &self.point);
+            let gradient = &mut self.gradients[stage];
+            beside.act(self.system, matrix, gradient, &mut self.field);
+        }
         let pairs = unknown.0[stage]
             .as_slice()
             .iter()
             .zip(self.field.as_slice());
         for (out, (&increment, &field)) in residual.as_mut_slice().iter_mut().zip(pairs) {
             *out = increment - self.weights[stage] * field;
+        }
+    }
+}
+
+impl<S: Scalar, P: Poisson<S>, const STAGES: usize> CohenHairerStep<'_, S, P, STAGES> {
+    /// Adds to the derivatives of the mean of a stage those of what damps there.
+    #[cold]
+    fn damp_blocks(
+        &mut self,
+        stage: usize,
+        unknown: &Stages<P::State, STAGES>,
+        blocks: &mut [P::Jacobian; STAGES],
+    ) {
+        let Some(beside) = self.beside.get_mut(self.system) else {
+            return;
+        };
+        let system = self.system;
+        self.point.copy_from(&self.base);
+        for (&ratio, increment) in self.tableau.ratios[stage].iter().zip(&unknown.0) {
+            self.point.axpy(ratio, increment);
+        }
+        beside.set_at(system, &self.point);
+        system.poisson_matrix(&self.point, &mut self.poisson_matrix);
+        let (tensor, slope) = (&self.poisson_matrix, &mut self.hessian);
+        system.poisson_slope(&self.point, &self.gradients[stage], slope);
+        for (block, &ratio) in blocks.iter_mut().zip(&self.tableau.ratios[stage]) {
+            beside.damp_columns(system, block, |block, column, v| {
+                for (row, entry) in v.as_mut_slice().iter_mut().enumerate() {
+                    *entry = ratio * slope.get(row, column);
+                    for inner in 0..system.dimension() {
+                        *entry += tensor.get(row, inner) * block.get(inner, column);
+                    }
+                }
+            });
         }
     }
 }
@@ -207,7 +255,13 @@ impl<S: Scalar, P: Poisson<S>, const STAGES: usize> Equation<S>
             }
         }
         for (stage, blocks) in matrix.0.iter_mut().enumerate() {
+            if self.system.is_damped() {
+                self.damp_blocks(stage, unknown, blocks);
+            }
             self.write_residual(stage, unknown, &mut residual.0[stage]);
+            if let Some(beside) = self.beside.get_mut(self.system) {
+                beside.linearize(self.system, S::one());
+            }
             let slope = &mut self.hessian;
             self.system
                 .poisson_slope(&self.point, &self.gradients[stage], slope);
@@ -221,7 +275,10 @@ impl<S: Scalar, P: Poisson<S>, const STAGES: usize> Equation<S>
                         let unit = stage == other && row == column;
                         let identity = if unit { S::one() } else { S::zero() };
                         let ratio = self.tableau.ratios[stage][other];
-                        let slope = ratio * self.hessian.get(row, column) + entry;
+                        let mut slope = ratio * self.hessian.get(row, column) + entry;
+                        if let Some(beside) = self.beside.get(self.system) {
+                            slope += ratio * beside.slope(row, column);
+                        }
                         block.set(row, column, identity - self.weights[stage] * slope);
                     }
                 }
@@ -257,6 +314,10 @@ impl<S: Scalar, P: Poisson<S>, const STAGES: usize> Equation<S>
 
     fn velocity(&mut self, unknown: &Self::Unknown, stage: usize, xi: &mut P::State) -> usize {
         self.set_gradients(unknown);
+        if self.system.is_damped() {
+            // the residual leaves the direction of the motion in the place of the mean
+            self.write_residual(stage, unknown, xi);
+        }
         xi.fill(S::zero());
         xi.axpy(self.step, &self.gradients[stage]);
         STAGES
@@ -265,5 +326,14 @@ impl<S: Scalar, P: Poisson<S>, const STAGES: usize> Equation<S>
     fn result(&mut self, unknown: &Self::Unknown, mu: &mut P::State) {
         self.set_point(&[S::one(); STAGES], unknown);
         mu.copy_from(&self.point);
+        let beside = self.beside.get(self.system);
+        if let (Some(_), Some(Clock { momentum, .. })) = (beside, self.system.clock()) {
+            // no residual depends on it, and no test of convergence
+            let mut residual = self.zero_unknown();
+            self.residual(unknown, &mut residual);
+            for residual in &residual.0 {
+                mu.as_mut_slice()[momentum] -= residual.as_slice()[momentum];
+            }
+        }
     }
 }

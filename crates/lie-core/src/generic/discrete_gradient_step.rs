@@ -1,8 +1,11 @@
 //! The equation of the discrete gradient methods.
 
+use super::acting::Acting;
+use super::beside::Beside;
 use super::discrete_gradient::DiscreteGradient;
 use super::kernels::multiply;
 use super::tensor::{MidpointTensor, PoissonTensor};
+use crate::clock::Clock;
 use crate::equation::Equation;
 use crate::matrix::SquareMatrix;
 use crate::poisson::Poisson;
@@ -14,6 +17,9 @@ use crate::state::State;
 /// Unknown: the new state u. Equation: `r(u) = u - mu - h T(mu, u) g(mu, u)` with the discrete gradient g
 /// and the tensor T, by default `Pi((mu + u)/2)`. Jacobian: `1 - h d/du[T g] - h T dg/du`, g fixed in the
 /// first derivative. Start: `mu + h f(mu)`.
+///
+/// Where something damps, `g + c G T g` takes the place of g, and where forces act, `F(m)` is added, both at `m = (mu + u)/2`: H changes
+/// by `h <F(m), g> - h c <T g, G T g>` exactly.
 #[derive(Debug)]
 pub struct DiscreteGradientStep<'a, S: Scalar, P: Poisson<S>, G, T = MidpointTensor> {
     system: &'a P,
@@ -25,6 +31,7 @@ pub struct DiscreteGradientStep<'a, S: Scalar, P: Poisson<S>, G, T = MidpointTen
     field: P::State,
     poisson_matrix: P::Jacobian,
     derivative: P::Jacobian,
+    beside: Acting<Beside<P::State, P::Jacobian>>,
 }
 
 impl<'a, S: Scalar, P: Poisson<S>, G: DiscreteGradient<S, P>> DiscreteGradientStep<'a, S, P, G> {
@@ -54,15 +61,20 @@ where
             field: zero,
             poisson_matrix: system.zero_jacobian(),
             derivative: system.zero_jacobian(),
+            beside: Acting::of(system, || Beside::new(system)),
         }
     }
 
-    /// `r = u - mu - h T g` with the discrete gradient already computed.
+    /// `r = u - mu - h T g` with the discrete gradient already computed; leaves the direction of the motion in its place.
     fn write_residual(&mut self, unknown: &P::State, residual: &mut P::State) {
         let matrix = &mut self.poisson_matrix;
         self.tensor
             .matrix(self.system, &self.base, unknown, self.step, matrix);
         multiply(matrix, &self.xi, &mut self.field);
+        if let Some(beside) = self.beside.get_mut(self.system) {
+            beside.set_middle(self.system, &self.base, unknown);
+            beside.act(self.system, matrix, &mut self.xi, &mut self.field);
+        }
         let (base, field) = (self.base.as_slice(), self.field.as_slice());
         for (index, out) in residual.as_mut_slice().iter_mut().enumerate() {
             *out = unknown.as_slice()[index] - base[index] - self.step * field[index];
@@ -99,7 +111,31 @@ where
         let derivative = &mut self.derivative;
         self.gradient
             .linearize(self.system, unknown, &mut self.xi, derivative);
+        if self.system.is_damped() {
+            self.tensor.slope(
+                self.system,
+                &self.base,
+                unknown,
+                self.step,
+                &self.xi,
+                matrix,
+            );
+        }
         self.write_residual(unknown, residual);
+        if let Some(beside) = self.beside.get_mut(self.system) {
+            beside.linearize(self.system, S::ratio(1.0, 2.0));
+            if self.system.is_damped() {
+                let (tensor, system) = (&self.poisson_matrix, self.system);
+                beside.damp_columns(system, &mut self.derivative, |derivative, column, v| {
+                    for (row, entry) in v.as_mut_slice().iter_mut().enumerate() {
+                        *entry = matrix.get(row, column);
+                        for inner in 0..system.dimension() {
+                            *entry += tensor.get(row, inner) * derivative.get(inner, column);
+                        }
+                    }
+                });
+            }
+        }
         self.tensor.slope(
             self.system,
             &self.base,
@@ -115,6 +151,9 @@ where
                     let slope = self.derivative.get(inner, column);
                     sum += self.poisson_matrix.get(row, inner) * slope;
                 }
+                if let Some(beside) = self.beside.get(self.system) {
+                    sum += beside.slope(row, column);
+                }
                 let identity = if row == column { S::one() } else { S::zero() };
                 matrix.set(row, column, identity - self.step * sum);
             }
@@ -127,6 +166,13 @@ where
 
     fn velocity(&mut self, unknown: &P::State, _stage: usize, xi: &mut P::State) -> usize {
         self.gradient.value(self.system, unknown, xi);
+        if self.system.is_damped() {
+            // the residual leaves the direction with what damps
+            self.xi.copy_from(xi);
+            let mut residual = self.system.zero_state();
+            self.write_residual(unknown, &mut residual);
+            xi.copy_from(&self.xi);
+        }
         for entry in xi.as_mut_slice() {
             *entry *= self.step;
         }
@@ -135,5 +181,12 @@ where
 
     fn result(&mut self, unknown: &P::State, mu: &mut P::State) {
         mu.copy_from(unknown);
+        let beside = self.beside.get(self.system);
+        if let (Some(_), Some(Clock { momentum, .. })) = (beside, self.system.clock()) {
+            // no residual depends on it, and no test of convergence
+            let mut residual = self.system.zero_state();
+            self.residual(unknown, &mut residual);
+            mu.as_mut_slice()[momentum] -= residual.as_slice()[momentum];
+        }
     }
 }

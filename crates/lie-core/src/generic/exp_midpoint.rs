@@ -1,6 +1,7 @@
 //! The equation of methods of coadjoint form along the exponential map: the Lie–Poisson midpoint
 //! method and the generating-function methods.
 
+use super::acting::Acting;
 use super::dexp_slope::DexpSlope;
 use super::generating::Generating2;
 use super::midpoint_force::MidpointForce;
@@ -36,7 +37,7 @@ pub struct ExpRetraction<'a, S: Scalar, P: LiePoisson<S>, G> {
     hessian: P::Jacobian,
     columns: [P::State; 2],
     /// Where forces act.
-    force: Option<MidpointForce<P::State, P::Jacobian>>,
+    force: Acting<MidpointForce<P::State, P::Jacobian>>,
 }
 
 /// The Lie–Poisson midpoint method for any Lie algebra: [`ExpRetraction`] with `S = h H`.
@@ -68,7 +69,7 @@ where
             series: DexpSlope::new(&zero, system.zero_jacobian()),
             hessian: system.zero_jacobian(),
             columns: core::array::from_fn(|_| zero.clone()),
-            force: system.is_forced().then(|| MidpointForce::new(system)),
+            force: Acting::of(system, || MidpointForce::new(system)),
         }
     }
 
@@ -101,7 +102,7 @@ where
     fn residual(&mut self, unknown: &P::State, residual: &mut P::State) {
         self.function.gradient(unknown, &mut self.direction);
         let (system, xi, sum) = (self.system, &self.direction, &mut self.sum);
-        let base = match &mut self.force {
+        let base = match self.force.get_mut(self.system) {
             Some(force) => force.pushed(system, self.step, [unknown, xi, &self.base]),
             None => &self.base,
         };
@@ -113,7 +114,7 @@ where
         self.function
             .linearize(unknown, &mut self.direction, &mut self.hessian);
         let (system, xi, sum) = (self.system, &self.direction, &mut self.sum);
-        let base = match &mut self.force {
+        let base = match self.force.get_mut(self.system) {
             Some(force) => force.linearize(system, self.step, [unknown, xi, &self.base]),
             None => &self.base,
         };
@@ -124,7 +125,7 @@ where
             for (row, entry) in along.as_mut_slice().iter_mut().enumerate() {
                 *entry = self.hessian.get(row, column);
             }
-            match &mut self.force {
+            match self.force.get_mut(self.system) {
                 None => self
                     .series
                     .derivative(self.system, &self.direction, along, total),
@@ -145,7 +146,7 @@ where
         self.function.gradient(unknown, &mut self.direction);
         let scratch = self.series.scratch();
         coadjoint_action_in(self.system, &self.direction, &self.base, mu, scratch);
-        if let Some(force) = &mut self.force {
+        if let Some(force) = self.force.get_mut(self.system) {
             force.add_to_end(self.system, self.step, [unknown, &self.direction], mu);
         }
     }

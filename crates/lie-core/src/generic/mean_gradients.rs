@@ -2,6 +2,8 @@
 
 use core::array::from_fn;
 
+use super::acting::Acting;
+use super::beside::Beside;
 use super::cohen_hairer::lagrange;
 use super::diagonals::{diagonals, product, product_from};
 use super::kernels::multiply;
@@ -29,6 +31,7 @@ pub struct MeanGradients<S: Scalar, V, M, const STAGES: usize> {
     gradient: V,
     matrix: M,
     means: V,
+    beside: Acting<Beside<V, M>>,
 }
 
 /// Eight nodes `t_q` of a rule with weights `w_q`, as diagonals of matrices.
@@ -64,6 +67,7 @@ where
             gradient: zero.clone(),
             matrix: wide.zero_jacobian(),
             means: zero,
+            beside: Acting::of(wide, || Beside::new(wide)),
         }
     }
 
@@ -79,7 +83,7 @@ where
         W: Poisson<S::Wide, State = V, Jacobian = M>,
     {
         let Some(blocks) = &self.blocks else {
-            wide.gradient(at.points, &mut self.means);
+            wide.generator(at.points, &mut self.means);
             return &self.means;
         };
         self.means.fill(S::Wide::zero());
@@ -98,7 +102,7 @@ where
         &self.means
     }
 
-    /// The slopes `Pi(Y_i) g_i` at all stages of a step.
+    /// The slopes `Pi(Y_i) g_i` at all stages of a step, with what acts beside H.
     #[inline(always)]
     pub fn slopes<W>(&mut self, wide: &W, at: &At<'_, V>, out: &mut V)
     where
@@ -111,6 +115,22 @@ where
         self.means(wide, at);
         wide.poisson_matrix(at.points, &mut self.matrix);
         multiply(&self.matrix, &self.means, out);
+        if let Some(beside) = self.beside.get_mut(wide) {
+            beside.set_at(wide, at.points);
+            beside.act(wide, &self.matrix, &mut self.means, out);
+        }
+    }
+
+    /// The directions of the motion at all stages of a step: the means, with what damps; `out` is space for the slopes.
+    pub fn directions<W>(&mut self, wide: &W, at: &At<'_, V>, out: &mut V) -> &V
+    where
+        W: Poisson<S::Wide, State = V, Jacobian = M>,
+    {
+        if !wide.is_damped() || self.are_at_stages() {
+            return self.means(wide, at);
+        }
+        self.slopes(wide, at, out);
+        &self.means
     }
 }
 

@@ -94,8 +94,12 @@ impl<V, M> MidpointForce<V, M> {
         let [turn, ..] = &mut self.columns;
         turn.fill(S::zero());
         turn.axpy(-S::ratio(1.0, 2.0), along);
-        let _kept = dexp_of_minus(system, half, &mut self.columns);
-        system.ad_star(&self.columns[0], &self.carried, &mut self.force);
+        let kept = dexp_of_minus(system, half, &mut self.columns);
+        let [turn, ..] = &mut self.columns;
+        for entry in turn.as_mut_slice() {
+            *entry = S::select(kept, *entry, S::zero());
+        }
+        system.ad_star(turn, &self.carried, &mut self.force);
         out.axpy(S::one(), &self.force);
     }
 

@@ -47,6 +47,8 @@ macro_rules! unknown_of_stages {
 }
 use unknown_of_stages;
 
+mod acting;
+mod beside;
 mod blocks;
 mod cayley_midpoint;
 mod cayley_variational;
@@ -75,6 +77,7 @@ mod lifts;
 mod matrix_stages;
 mod mean_gradients;
 mod midpoint_force;
+mod orbit_beside;
 mod orbit_energy;
 mod pair;
 mod part_flows;

@@ -1,22 +1,16 @@
 //! The equation of the method that keeps orbit and energy.
 
+use super::acting::Acting;
+use super::dexp_series::dexp_of_minus;
 use super::discrete_gradient::DiscreteGradient;
+use super::orbit_beside::OrbitBeside;
 use super::series::{Scratch, coadjoint_action_in};
 use crate::equation::Equation;
 use crate::matrix::SquareMatrix;
 use crate::methods::Retraction;
 use crate::poisson::LiePoisson;
 use crate::scalar::{Mask, Scalar};
-use crate::state::{State, Unknown};
-
-/// Terms of the series in the Jacobian beyond which no argument of use goes.
-const MAX_TERMS: usize = 60;
-/// The series in the Jacobian ends where its terms are below that part of the first. An error e of the
-/// Jacobian leaves e times the last update, which itself is below the root of round-off: 2^-30
-/// costs no iteration.
-const TOLERANCE: f64 = 1.0 / 1_073_741_824.0;
-/// A series whose terms rise beyond that many times the first has lost too many digits.
-const MAX_RISE: f64 = 1_048_576.0;
+use crate::state::State;
 
 /// Coadjoint motion along a discrete gradient, for any Lie algebra.
 ///
@@ -25,6 +19,9 @@ const MAX_RISE: f64 = 1_048_576.0;
 /// error of u. Jacobian: `1 - h Pi(mu1) dexp_(-x) dg/du` with `mu1 = exp(ad*_x) mu` and
 /// `dexp_(-x) = sum_k (-ad_x)^k/(k + 1)!`; where x is so large that this series has no digits left, 1,
 /// which makes the iteration one of fixed point. Start: `mu + h f(mu)`.
+///
+/// Where forces act, half of `h F((mu + u)/2)` is added before the motion and half after it; where something damps, it is in the direction
+/// ([`OrbitBeside`]).
 #[derive(Debug)]
 pub struct OrbitEnergyStep<'a, S: Scalar, P: LiePoisson<S>, G> {
     system: &'a P,
@@ -36,6 +33,7 @@ pub struct OrbitEnergyStep<'a, S: Scalar, P: LiePoisson<S>, G> {
     scratch: Scratch<P::State>,
     derivative: P::Jacobian,
     columns: [P::State; 3],
+    beside: Acting<OrbitBeside<S, P::State, P::Jacobian>>,
 }
 
 impl<'a, S: Scalar, P: LiePoisson<S>, G: DiscreteGradient<S, P>> OrbitEnergyStep<'a, S, P, G> {
@@ -52,6 +50,7 @@ impl<'a, S: Scalar, P: LiePoisson<S>, G: DiscreteGradient<S, P>> OrbitEnergyStep
             scratch: Scratch::new(&zero),
             derivative: system.zero_jacobian(),
             columns: core::array::from_fn(|_| zero.clone()),
+            beside: Acting::of(system, || OrbitBeside::new(system)),
         }
     }
 
@@ -59,46 +58,58 @@ impl<'a, S: Scalar, P: LiePoisson<S>, G: DiscreteGradient<S, P>> OrbitEnergyStep
     fn set_direction(&mut self, unknown: &P::State) {
         let direction = &mut self.direction;
         self.gradient.value(self.system, unknown, direction);
+        self.complete(unknown);
+    }
+
+    /// Makes the direction of the discrete gradient that stands there.
+    fn complete(&mut self, unknown: &P::State) {
+        let (direction, scratch) = (&mut self.direction, &mut self.scratch);
+        if let Some(beside) = self.beside.get_mut(self.system) {
+            let ends = [&self.base, unknown];
+            beside.complete(self.system, self.step, ends, direction, scratch);
+            return;
+        }
         for entry in direction.as_mut_slice() {
             *entry *= self.step;
         }
     }
 
-    /// `r = u - exp(ad*_x) mu`; leaves the new state in `moved`.
+    /// `r = u - exp(ad*_x) mu`; leaves the new state in `moved`, with forces the state before their second half.
     fn write_residual(&mut self, unknown: &P::State, residual: &mut P::State) {
         let (moved, scratch) = (&mut self.moved, &mut self.scratch);
-        coadjoint_action_in(self.system, &self.direction, &self.base, moved, scratch);
+        let beside = self.beside.get(self.system);
+        let base = beside.map_or(&self.base, |beside| &beside.pushed);
+        coadjoint_action_in(self.system, &self.direction, base, moved, scratch);
         let pairs = unknown.as_slice().iter().zip(self.moved.as_slice());
         for (out, (&u, &moved)) in residual.as_mut_slice().iter_mut().zip(pairs) {
             *out = u - moved;
         }
+        if let Some(OrbitBeside { beside, .. }) = self.beside.get(self.system) {
+            residual.axpy(-self.step * S::ratio(1.0, 2.0), &beside.force);
+        }
     }
 
-    /// Replaces the first column by `dexp_(-x)` of it; returns the lanes in which the series has kept
-    /// its digits.
-    fn apply_dexp(&mut self) -> S::Mask {
-        let [sum, term, next] = &mut self.columns;
-        let size = sum.max_norm();
-        let end = size * S::from_f64(TOLERANCE);
-        let mut active = !end.less_equal(S::zero());
-        let mut peak = size;
-        term.copy_from(sum);
-        for index in 1..MAX_TERMS {
-            if !active.any() {
-                break;
-            }
-            self.system.ad(&self.direction, term, next);
-            let weight = S::ratio(-1.0, (index + 1) as f64);
-            let pairs = term.as_mut_slice().iter_mut().zip(next.as_slice());
-            for ((term, &next), sum) in pairs.zip(sum.as_mut_slice()) {
-                *term = weight * next;
-                *sum = S::select(active, *sum + *term, *sum);
-            }
-            let norm = term.max_norm();
-            peak = S::select(active, peak.max(norm), peak);
-            active = active & !norm.less_equal(end);
+    /// Adds to the derivative of the discrete gradient that of what damps, with the mean on the way that of the ends.
+    fn damp_derivative(&mut self) {
+        let system = self.system;
+        if let Some(acting) = self.beside.get_mut(self.system)
+            && system.is_damped()
+        {
+            let (mean, gradient) = (&acting.mean, &acting.gradient);
+            let [along, turned, unit] = &mut self.columns;
+            acting
+                .beside
+                .damp_columns(system, &mut self.derivative, |derivative, column, v| {
+                    for (row, entry) in along.as_mut_slice().iter_mut().enumerate() {
+                        *entry = derivative.get(row, column);
+                    }
+                    system.ad_star(along, mean, v);
+                    unit.fill(S::zero());
+                    unit.as_mut_slice()[column] = S::ratio(1.0, 2.0);
+                    system.ad_star(gradient, unit, turned);
+                    v.axpy(S::one(), turned);
+                });
         }
-        !active & peak.less_equal(size * S::from_f64(MAX_RISE))
     }
 }
 
@@ -130,18 +141,30 @@ where
         let (direction, derivative) = (&mut self.direction, &mut self.derivative);
         self.gradient
             .linearize(self.system, unknown, direction, derivative);
-        for entry in direction.as_mut_slice() {
-            *entry *= self.step;
-        }
+        self.complete(unknown);
         self.write_residual(unknown, residual);
+        self.damp_derivative();
+        if let Some(OrbitBeside { beside, .. }) = self.beside.get_mut(self.system) {
+            // half of the force, at half of the end
+            beside.linearize(self.system, self.step * S::ratio(1.0, 4.0));
+        }
         let mut kept = S::Mask::splat(true);
         for column in 0..self.system.dimension() {
             for (row, entry) in self.columns[0].as_mut_slice().iter_mut().enumerate() {
                 *entry = self.step * self.derivative.get(row, column);
             }
-            kept = kept & self.apply_dexp();
-            let [along, change, _] = &mut self.columns;
+            kept = kept & dexp_of_minus(self.system, &self.direction, &mut self.columns);
+            let [along, change, turned] = &mut self.columns;
             self.system.ad_star(along, &self.moved, change);
+            if let Some(OrbitBeside { beside, .. }) = self.beside.get(self.system) {
+                for (row, entry) in along.as_mut_slice().iter_mut().enumerate() {
+                    *entry = beside.slope(row, column);
+                }
+                change.axpy(S::one(), along);
+                let scratch = &mut self.scratch;
+                coadjoint_action_in(self.system, &self.direction, along, turned, scratch);
+                change.axpy(S::one(), turned);
+            }
             for (row, &entry) in change.as_slice().iter().enumerate() {
                 let identity = if row == column { S::one() } else { S::zero() };
                 matrix.set(row, column, identity - entry);
@@ -160,13 +183,22 @@ where
     }
 
     fn resolved(&mut self, unknown: &P::State, _end: &P::State) -> S::Mask {
-        self.gradient.resolved(self.system, unknown)
+        let resolved = self.gradient.resolved(self.system, unknown);
+        match self.beside.get(self.system) {
+            Some(beside) => resolved & beside.settled(),
+            None => resolved,
+        }
     }
 
     fn result(&mut self, unknown: &P::State, mu: &mut P::State) {
         self.set_direction(unknown);
         let scratch = &mut self.scratch;
-        coadjoint_action_in(self.system, &self.direction, &self.base, mu, scratch);
+        let beside = self.beside.get(self.system);
+        let base = beside.map_or(&self.base, |beside| &beside.pushed);
+        coadjoint_action_in(self.system, &self.direction, base, mu, scratch);
+        if let Some(OrbitBeside { beside, .. }) = self.beside.get(self.system) {
+            mu.axpy(self.step * S::ratio(1.0, 2.0), &beside.force);
+        }
     }
 
     fn group_factor(&mut self, unknown: &P::State, xi: &mut P::State) -> Option<Retraction> {

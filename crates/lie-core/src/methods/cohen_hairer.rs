@@ -13,6 +13,9 @@
 //! of the method. With one stage it is the mean-value discrete gradient method, for a quadratic H it
 //! is Gauss collocation.
 //!
+//! Forces act at the stages, `$F(u(c_i))$`, and damping has `$g_i + c\, G\, \Pi\, g_i$` in place of the means: the order stays 2s, and H changes by
+//! `$h \sum_i b_i \left(\langle F(u(c_i)), g_i \rangle - c\, \langle \Pi g_i, G\, \Pi g_i \rangle\right)$` to round-off.
+//!
 //! The integrals are exact for a polynomial H of known degree; otherwise they are Gauss quadrature with
 //! 10 nodes or 2s, whichever is more, and a step that those do not resolve is refused
 //! ([`FailureReason::Unresolved`](crate::newton::FailureReason::Unresolved)). The unknowns are
@@ -87,6 +90,8 @@ impl<const STAGES: usize> Facts for CohenHairer<STAGES> {
     const EXPLICIT: bool = false;
     const FIXED_POINT: bool = STAGES > BY_NEWTON;
     const PRESERVES: Preserves = Preserves::ENERGY;
+    const FORCES: bool = true;
+    const DAMPING: bool = true;
 }
 
 /// A step by Newton's iteration.
@@ -160,7 +165,8 @@ impl<'a, S: Scalar, P: Widen<S> + 'a, const STAGES: usize> Slopes<'a, S, P>
         at: At<'_, WideState<S, P>>,
         out: &mut WideState<S, P>,
     ) {
-        out.clone_from(self.means.means(wide, &at));
+        let mut slopes = out.clone();
+        out.clone_from(self.means.directions(wide, &at, &mut slopes));
     }
 
     fn resolved(

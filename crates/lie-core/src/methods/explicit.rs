@@ -110,7 +110,9 @@ impl<V> Frozen<V> {
         P: LiePoisson<S, State = V>,
     {
         coadjoint_action_in(system, &self.x, mu, out, &mut flow.scratch);
-        if let (Some(force), Some(forced)) = (&self.force, &mut flow.forced) {
+        if system.is_forced()
+            && let (Some(force), Some(forced)) = (&self.force, &mut flow.forced)
+        {
             phi1_in(system, &self.x, force, forced, &mut flow.scratch);
             out.axpy(S::one(), forced);
         }

@@ -9,6 +9,9 @@
 //! kept whatever H is. Order 2, symmetric; keeps quadratic Casimirs, those of higher degree and the
 //! Poisson structure only to O(h^2) per unit of time. For a quadratic H it is the midpoint rule.
 //!
+//! Where forces act, `$h F(m)$` is added, and where a double bracket damps, `$\overline\nabla H + c\, G\, \Pi(m) \overline\nabla H$` takes the place of the
+//! discrete gradient: the energy changes by `$h\, \langle F(m), \overline\nabla H \rangle - h\, c\, \langle v, G v \rangle$` with `$v = \Pi(m) \overline\nabla H$`, to round-off.
+//!
 //! With another tensor in place of `$\Pi(m)$`: [`WithTensor`](super::WithTensor).
 //!
 //! The quotient loses digits where d is small. [`GonzalezGradient`](crate::generic::GonzalezGradient)
@@ -35,6 +38,8 @@ impl Facts for Gonzalez {
     const SYMMETRIC: bool = true;
     const EXPLICIT: bool = false;
     const PRESERVES: Preserves = Preserves::ENERGY;
+    const FORCES: bool = true;
+    const DAMPING: bool = true;
 }
 
 by_equation!([] Gonzalez);

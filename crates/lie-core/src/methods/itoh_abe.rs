@@ -12,6 +12,9 @@
 //! keeps quadratic Casimirs, those of higher degree and the Poisson structure only to O(h^2) per
 //! unit of time. For a quadratic H it is the midpoint rule.
 //!
+//! Where forces act, `$h F(m)$` is added, and where a double bracket damps, `$\overline\nabla H + c\, G\, \Pi(m) \overline\nabla H$` takes the place of the
+//! discrete gradient: the energy changes by `$h\, \langle F(m), \overline\nabla H \rangle - h\, c\, \langle v, G v \rangle$` with `$v = \Pi(m) \overline\nabla H$`, to round-off.
+//!
 //! A quotient loses digits where its increment is small. [`ItohAbeGradient`](crate::generic::ItohAbeGradient)
 //! explains how that is avoided, for polynomials and in general.
 //!
@@ -38,6 +41,8 @@ impl Facts for ItohAbe {
     const SYMMETRIC: bool = true;
     const EXPLICIT: bool = false;
     const PRESERVES: Preserves = Preserves::ENERGY;
+    const FORCES: bool = true;
+    const DAMPING: bool = true;
 }
 
 by_equation!([] ItohAbe);

@@ -10,6 +10,11 @@
 //! `$\langle \xi, (\exp(\mathrm{ad}^*_{h\xi}) - 1)\, \mu \rangle = 0$`. Both hold for every Lie algebra. Order 2, symmetric, so
 //! that compositions raise the order and keep both. Not a Poisson map.
 //!
+//! Where forces act, half of the force at the midpoint is added before the motion and half after it,
+//! `$\mu_1 = \mathrm{Ad}^*_{\exp(h \xi)}(\mu + \tfrac h2 F) + \tfrac h2 F$`, and H changes by `$h\, \langle F, \overline\nabla H \rangle$`. Damping has
+//! `$\xi = \overline\nabla H + c\, G\, v$`, `$v = \mathrm{ad}^*_{\overline\nabla H} \varphi_1(h\, \mathrm{ad}^*_\xi)(\mu + \tfrac h2 F)$`, with which H falls by
+//! `$h\, c\, \langle v, G v \rangle$` on the orbit, at any step. Both to round-off.
+//!
 //! The unknown is the new state: the round-off of a discrete gradient then enters multiplied by h.
 //!
 //! Needs: what the discrete gradient needs, ad and ad*; any [`LiePoisson`](crate::LiePoisson) system.
@@ -59,6 +64,8 @@ impl<G> Facts for OrbitEnergy<G> {
     const SYMMETRIC: bool = true;
     const EXPLICIT: bool = false;
     const PRESERVES: Preserves = Preserves::ORBIT_ENERGY;
+    const FORCES: bool = true;
+    const DAMPING: bool = true;
 }
 
 by_equation!([G] OrbitEnergy<G>);

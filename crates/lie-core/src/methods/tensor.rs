@@ -84,6 +84,9 @@ impl<G: AlongGradient, T: TensorFacts> Facts for WithTensor<G, T> {
         quadratic_casimirs: T::QUADRATIC_CASIMIRS,
         ..Preserves::ENERGY
     };
+    /// With a tensor of order 2 alone: force and damping are those at the midpoint.
+    const FORCES: bool = T::ORDER <= 2;
+    const DAMPING: bool = T::ORDER <= 2;
 }
 
 impl<S, P, G, T> Method<S, P> for WithTensor<G, T>
