@@ -1,7 +1,7 @@
 //! Energy, Casimirs and the field: the kernels of a Poisson system.
 
-use super::{Argument, Bracket, Kernel, Source};
-use crate::model::Hamiltonian;
+use super::{Argument, Block, Bracket, Kernel, Source};
+use crate::model::{Acting, Hamiltonian};
 use lie_symbolic::prove::joints::joints_in;
 use lie_symbolic::symbolic::{ExprId, Symbol};
 
@@ -105,7 +105,45 @@ fn driving(source: &mut Source) -> Vec<Kernel> {
         "`out_ij = dxi_i/dmu_j`",
     ];
     push(source, names, &generator);
+    kernels.extend(damping(source));
     kernels
+}
+
+/// What the double brackets make of a covector: `sum c G v`.
+fn damping(source: &mut Source) -> Option<Kernel> {
+    let declared = source.driving.as_ref()?.declared.clone();
+    let v = source.block(Block::Xi);
+    let zero = source.graph.integer(0);
+    let mut out = vec![zero; source.dimension];
+    let mut any = false;
+    for acting in &declared {
+        let Acting::DoubleBracket(strength, metric) = acting else {
+            continue;
+        };
+        any = true;
+        let own = metric.as_ref().map_or_else(|| source.own(), Vec::len);
+        for (i, slot) in out.iter_mut().enumerate().take(own) {
+            let lowered = match metric {
+                Some(rows) => {
+                    let parts = rows[i].iter().zip(&v);
+                    let parts: Vec<ExprId> = parts.map(|(g, v)| source.graph.mul(*g, *v)).collect();
+                    source.graph.sum(&parts)
+                }
+                None => v[i],
+            };
+            let part = source.graph.mul(*strength, lowered);
+            *slot = source.graph.add(*slot, part);
+        }
+    }
+    let arguments = vec![
+        mu(source),
+        Argument {
+            name: "xi",
+            symbols: source.symbols(Block::Xi),
+        },
+    ];
+    let formula = "`out = c G v` of a covector v";
+    any.then(|| Kernel::vector(&source.graph, "damping", formula, arguments, &out))
 }
 
 /// What is 0 where branches of H meet at a time that is known beforehand.

@@ -124,6 +124,12 @@ impl Source {
         self.structure.configuration.as_ref()?.clock()
     }
 
+    /// The number of coordinates that were declared, without the time and the group element.
+    pub(crate) fn own(&self) -> usize {
+        let configuration = self.structure.configuration.as_ref();
+        configuration.map_or(self.dimension, |c| c.own_momenta())
+    }
+
     /// The coordinate pieces of H, if it is a sum of functions of one coordinate each.
     pub fn pieces(&self) -> Option<&[Piece]> {
         self.lie()?.pieces.as_deref()

@@ -86,6 +86,14 @@ fn driven(model: &Model, choice: &Choice) -> Option<(String, String)> {
             Acting::DoubleBracket(..) | Acting::HamiltonianNoise(_)
         )
     };
+    let gradients = matches!(
+        choice,
+        Choice::DiscreteGradient(..) | Choice::OrbitEnergy(_) | Choice::CohenHairer(_)
+    );
+    if gradients && driving.has_noise_along_orbits() {
+        let what = "noise moves along the orbit, and the discrete gradient is that of H alone";
+        return Some((what.into(), "use `lie-midpoint` or `gauss16`".into()));
+    }
     // the power of forces alone does not bend what moves along the orbit
     let bends = driving.declared.iter().any(along);
     if held(model) && matches!(choice, Choice::Collective(..) | Choice::Isospectral(_)) {

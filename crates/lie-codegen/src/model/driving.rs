@@ -58,6 +58,15 @@ impl Driving {
         self.damping.iter().any(|more| !graph.is_zero(*more))
     }
 
+    /// Whether noise moves along orbits.
+    pub fn has_noise_along_orbits(&self) -> bool {
+        let pairs = self.declared.windows(2);
+        let mut warm =
+            pairs.map(|pair| matches!(pair, [Acting::DoubleBracket(..), Acting::Temperature(_)]));
+        let along = |acting: &Acting| matches!(acting, Acting::HamiltonianNoise(_));
+        warm.any(|warm| warm) || self.declared.iter().any(along)
+    }
+
     /// Whether there is noise.
     pub fn is_noisy(&self) -> bool {
         self.noises > 0

@@ -35,7 +35,7 @@ pub(crate) struct Kernels {
     pub casimirs: Place,
     pub joints: Place,
     /// Of the force and of the generator, each with its slope.
-    pub driving: [Place; 4],
+    pub driving: [Place; 5],
     pub quantities: Place,
     pub casimir_gradients: Vec<Place>,
     pub ad: Place,
@@ -242,7 +242,14 @@ impl CodeBuilder {
             linearize: place("linearize"),
             casimirs: place("casimirs"),
             joints: place("joints"),
-            driving: ["force", "force_slope", "generator", "generator_slope"].map(place),
+            driving: [
+                "force",
+                "force_slope",
+                "generator",
+                "generator_slope",
+                "damping",
+            ]
+            .map(place),
             quantities: place("quantities"),
             ad: place("ad"),
             ad_star: place("ad_star"),

@@ -215,6 +215,12 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
     fn is_damped(&self) -> bool {
         self.values.compiled.plan.system.damped
     }
+    fn damping(&self, mu: &Vec<S>, v: &Vec<S>, out: &mut Vec<S>) {
+        match self.values.kernels().driving[4] {
+            Some(code) => self.values.call(code, [mu, v], out, &mut []),
+            None => out.fill(S::zero()),
+        }
+    }
     fn generator(&self, mu: &Vec<S>, out: &mut Vec<S>) {
         match self.values.kernels().driving[2] {
             Some(code) => self.values.call(code, [mu, &[]], out, &mut []),
