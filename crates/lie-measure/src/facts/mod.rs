@@ -268,6 +268,11 @@ fn iterations<P: Lift<f64>>(
         let newton = Finding::absent("Newton", "a fixed-point iteration");
         return vec![explicit, newton, residual(system, ground, method)];
     }
+    // damping along the orbit takes the mean of a curve whose derivative is left out
+    if system.is_damped() && claims.preserves.energy && claims.preserves.orbit {
+        let newton = Finding::absent("Newton", "an approximate Jacobian beside damping");
+        return vec![explicit, newton, residual(system, ground, method)];
+    }
     let note = if slowest.is_finite() {
         format!("order of the iteration, at most {most} iterations")
     } else {
