@@ -6,9 +6,12 @@ use lie_in_process::message::Message;
 use lie_in_process::request::{self, Front, Parameter, Plan, Request, Value};
 use lie_in_process::spec::Spec;
 use lie_program::protocol::{Run, Start};
+use lie_runtime::driver::{Controller, Source};
+use numpy::IntoPyArray;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use std::sync::Arc;
 
 /// A value of an argument.
 #[derive(FromPyObject)]
@@ -42,6 +45,14 @@ pub fn request(declaration: &Declaration, asked: &Bound<'_, PyDict>) -> PyResult
         match name.as_str() {
             "method" => request.method = vec![value.extract()?],
             "assess" => request.assess = value.extract()?,
+            "stream" => request.stream = value.extract()?,
+            "inputs" => {
+                for (name, value) in value.cast::<PyDict>()? {
+                    request
+                        .sources
+                        .insert(name.extract()?, source(declaration, &value)?);
+                }
+            }
             "parameters" => {
                 let values = declaration.named(value.extract()?);
                 let set = |(name, value)| Parameter::Set(name, Value::Number(value));
@@ -58,6 +69,25 @@ pub fn request(declaration: &Declaration, asked: &Bound<'_, PyDict>) -> PyResult
         }
     }
     Ok(request)
+}
+
+/// Times and values, or a function of time, state and group element; what it raises is kept by whoever gave it, and no number here.
+fn source(declaration: &Declaration, value: &Bound<'_, PyAny>) -> PyResult<Source> {
+    if let Ok((times, values)) = value.extract::<(Vec<f64>, Vec<f64>)>() {
+        return Ok(Source::Table { times, values });
+    }
+    let shown = declaration.facts.shown.clone();
+    let function: Py<PyAny> = value.clone().unbind();
+    let controller: Controller = Arc::new(move |time, state, element| {
+        Python::attach(|py| {
+            let state: Vec<f64> = shown.iter().map(|place| state[*place]).collect();
+            let element = (!element.is_empty()).then(|| element.to_vec().into_pyarray(py));
+            let answer = function.call1(py, (time, state.into_pyarray(py), element));
+            let number = answer.and_then(|answer| answer.extract::<f64>(py));
+            number.unwrap_or(f64::NAN)
+        })
+    });
+    Ok(Source::Controller(controller))
 }
 
 /// What a request comes to, by a check of it.

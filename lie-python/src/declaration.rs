@@ -5,6 +5,7 @@ use crate::kept::Kept;
 use crate::talk::{Who, attended};
 use lie_codegen::compile::{compile_spec, compile_spec_in};
 use lie_codegen::methods::Choice;
+use lie_codegen::model::{Configuration, Driving};
 use lie_codegen::program::{Chart, Purpose};
 use lie_codegen::structure::Effort;
 use lie_codegen::structure::Structure;
@@ -45,6 +46,10 @@ pub struct Facts {
     pub casimirs: Vec<String>,
     /// What is recorded beside them, and whether it ought to be constant.
     pub quantities: Vec<(String, bool)>,
+    /// The names of the inputs.
+    pub inputs: Vec<String>,
+    /// Whether there is noise.
+    pub noisy: bool,
     pub run: HashMap<String, Vec<String>>,
 }
 
@@ -67,7 +72,7 @@ impl Facts {
             });
         let quantities = model.quantities.iter();
         let quantities = quantities.map(|q| (q.name.clone(), q.is_conserved()));
-        let timed = model.configuration.as_ref().is_some_and(|own| own.time);
+        let clock = model.configuration.as_ref().and_then(Configuration::clock);
         Self {
             system: model.name.clone(),
             family: model.family.is_some(),
@@ -77,8 +82,13 @@ impl Facts {
                 .is_some_and(|family| family.sizes.len() == 2),
             names: names.collect(),
             shown: model.shown_coordinates(),
-            // the last is the constant 1
-            time: timed.then(|| model.dimension() - 2),
+            time: clock.map(|clock| clock.time),
+            inputs: model
+                .inputs
+                .iter()
+                .map(|input| input.name.clone())
+                .collect(),
+            noisy: model.driving.as_ref().is_some_and(Driving::is_noisy),
             parameters: parameters
                 .map(|p| (p.name.clone(), p.default_value))
                 .collect(),

@@ -66,6 +66,16 @@ impl Core {
     fn casimirs(&self) -> Vec<String> {
         self.0.facts.casimirs.clone()
     }
+    /// The inputs.
+    #[getter]
+    fn inputs(&self) -> Vec<String> {
+        self.0.facts.inputs.clone()
+    }
+    /// Whether there is noise.
+    #[getter]
+    fn noisy(&self) -> bool {
+        self.0.facts.noisy
+    }
     #[getter]
     fn quantities(&self) -> Vec<(String, bool)> {
         self.0.facts.quantities.clone()

@@ -275,6 +275,9 @@ pub fn of_prepared<'py>(
     if plan.density == Density::Reversible {
         more.set_item("density", "reversible")?;
     }
+    if declaration.facts.noisy {
+        more.set_item("seed", plan.held.seed)?;
+    }
     if let Some(chart) = plan.chart {
         more.set_item("quaternion", chart == Chart::Quaternion)?;
         more.set_item("group", heard.elements.into_pyarray(py))?;

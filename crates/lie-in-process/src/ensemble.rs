@@ -265,7 +265,7 @@ impl Running<'_> {
             span: self.span,
             options: self.options.clone(),
             held: Held {
-                stream: some.start as u64,
+                stream: self.asked.plan.held.stream + some.start as u64,
                 ..self.asked.plan.held.clone()
             },
             sources: Sources(self.asked.plan.sources.clone()),

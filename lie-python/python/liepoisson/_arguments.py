@@ -42,7 +42,7 @@ SLIPS = {
 #: What chooses a variant of a method.
 VARIANTS = ("retraction", "lift", "gradient", "composition", "pieces", "tensor")
 #: Arguments that count something.
-COUNTS = ("every", "max_iterations")
+COUNTS = ("every", "max_iterations", "seed")
 #: Arguments that are True or False.
 FLAGS = ("assess",)
 #: The step where neither the call nor the declaration gives one.
@@ -139,7 +139,9 @@ def asked(options: Mapping[str, Any]) -> dict[str, Any]:
 
 def _value(name: str, value: Any) -> Any:
     if name in COUNTS:
-        return whole(value, name, 1)
+        return whole(value, name, 0 if name == "seed" else 1)
+    if name == "inputs":
+        return {str(key): source(key, given) for key, given in value.items()}
     if name in FLAGS:
         if isinstance(value, (bool, np.bool_)):
             return bool(value)
@@ -157,6 +159,48 @@ def _value(name: str, value: Any) -> Any:
         entries = value if type(value) is list else np.atleast_1d(value).tolist()
         return [entry if isinstance(entry, str) else number(entry, what) for entry in entries]
     return number(value, name)
+
+
+def source(name: str, given: Any) -> Any:
+    """The values of an input: a function, or a table of times and values as two lists."""
+    if callable(given):
+        return given
+    table = np.asarray(given, dtype=float)
+    if table.ndim != 2 or table.shape[1] != 2 or len(table) == 0:
+        raise ValueError(
+            f"the input {name!r} is a function of (t, mu, g), or an array of shape (m, 2) with a time and a value in each row, "
+            f"not of shape {table.shape}"
+        )
+    if not np.isfinite(table).all() or (np.diff(table[:, 0]) <= 0).any():
+        raise ValueError(f"the times of the input {name!r} must ascend, and all its numbers be finite")
+    return table[:, 0].tolist(), table[:, 1].tolist()
+
+
+class Controllers:
+    """Functions that set inputs, with what one of them raised."""
+
+    def __init__(self, inputs: Mapping[str, Any]) -> None:
+        if not isinstance(inputs, Mapping):
+            raise TypeError(f'inputs are a dictionary such as {{"u": controller}}, not {inputs!r}')
+        self.raised: BaseException | None = None
+        self.sources = {
+            name: self._guarded(given) if callable(given) else given for name, given in inputs.items()
+        }
+
+    def _guarded(self, function: Callable[..., Any]) -> Callable[..., float]:
+        def answer(time: float, mu: Array, element: Array | None) -> float:
+            if self.raised is not None:
+                return float("nan")
+            if element is not None and len(element) != 4:
+                size = round(len(element) ** 0.5)
+                element = element.reshape(size, size)
+            try:
+                return float(function(time, mu, element))
+            except BaseException as error:  # noqa: BLE001
+                self.raised = error
+                return float("nan")
+
+        return answer
 
 
 def spelled(own: dict[str, Any], named: dict[str, Any], parameters: Mapping[str, float]) -> None:

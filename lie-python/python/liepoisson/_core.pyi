@@ -22,6 +22,8 @@ class Core:
     lattice: bool
     parameters: dict[str, float]
     casimirs: list[str]
+    inputs: list[str]
+    noisy: bool
     quantities: list[tuple[str, bool]]
     def __init__(self, text: str) -> None: ...
     def sites(self, parameters: list[float]) -> tuple[int, int] | None: ...

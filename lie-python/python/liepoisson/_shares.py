@@ -43,7 +43,9 @@ class Work(NamedTuple):
     def share(self, some: range) -> Work:
         rows = slice(some.start, some.stop)
         table = self.table if len(self.table) == 1 else self.table[rows]
-        return self._replace(table=table, starts=self.starts[rows])
+        # each member has the noise of its number
+        asked = {**self.asked, "stream": some.start} if "seed" in self.asked else self.asked
+        return self._replace(table=table, starts=self.starts[rows], asked=asked)
 
     def digest(self, shares: int) -> str:
         """Tells it from all others."""

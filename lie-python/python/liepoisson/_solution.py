@@ -56,6 +56,8 @@ class Solution:
         self.error: float | None = None
         #: ``"reversible"`` where the size of steps follows the motion: they are reversible, and no Poisson maps. ``step`` is the first one then.
         self.density: str | None = None
+        #: The seed of the noise, where there is some.
+        self.seed: int | None = None
         #: The group element at each row, shape (m, s, s) or (m, 4), where it was asked for.
         self.group: Array | None = None
 

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ._again import Again
-from ._arguments import Number, Progress, heard, merged, spelled, whole
+from ._arguments import Controllers, Number, Progress, heard, merged, spelled, whole
 from ._bench import Bench
 from ._declared import Declared
 from ._errors import IntegrationError
@@ -30,7 +30,7 @@ __all__ = ["System", "load"]
 #: The options of `run`, in the order in which the core compares them with those of calls before.
 _OPTIONS = (
     "method", "h", "tol", "t0", "t", "every", "at", "group", "rtol", "atol", "iteration", "newton_tolerance",
-    "max_iterations", "converge", "keep", "density", "assess",
+    "max_iterations", "converge", "keep", "density", "assess", "inputs", "seed",
 )  # fmt: skip
 
 
@@ -66,6 +66,8 @@ class System(Declared):
         density: str | None = None,
         assess: bool = False,
         group: str | None = None,
+        inputs: Mapping[str, Any] | None = None,
+        seed: int | None = None,
         progress: Progress | None = None,
         parameters: Mapping[str, Number] | None = None,
         **named: Number,
@@ -86,6 +88,10 @@ class System(Declared):
         ``density="reversible"`` lets the size of steps follow the motion, from ``h`` or the step that ``tol`` chooses on: a symmetric
         method stays reversible, so that the energy of reversible motion does not drift, and is no Poisson map for that.
 
+        ``inputs={"u": source}`` gives the declared inputs their values: a function ``u(t, mu, g)`` that is asked at each sampling, with the
+        state and, with ``group``, the group element there, else None; or an array of shape (m, 2), a time and a value in each row, held
+        from each of its times on. What a function raises ends the run and is raised. ``seed`` (1) is that of noise: ``run.seed``.
+
         ``assess=True`` makes a second run with other steps, which takes 1.25 times as long, and tells by how much the end is off:
         ``run.error``.
 
@@ -104,8 +110,12 @@ class System(Declared):
             keep = list(keep)
         options = (
             method, h, tol, t0, t, every, at, group, rtol, atol, iteration, newton_tolerance, max_iterations, converge, keep, density,
-            assess,
+            assess, inputs, seed,
         )  # fmt: skip
+        controllers = None
+        if inputs is not None:
+            controllers = Controllers(inputs)
+            options = (*options[:-2], controllers.sources, seed)
         if named:
             # what is remembered goes by the names of its arguments
             own = {"x0": x0, **dict(zip(_OPTIONS, options))}
@@ -118,6 +128,8 @@ class System(Declared):
         if made is None:
             call = self._asked({"x0": x0, **dict(zip(_OPTIONS, options))}, parameters, named)
             made = self._core.run(call, options, heard(progress))
+            if controllers is not None and controllers.raised is not None:
+                raise controllers.raised
         else:
             # lists and arrays may change before it is looked at
             start = x0 if x0 is None else x0.copy() if isinstance(x0, np.ndarray) else list(x0)
@@ -144,6 +156,7 @@ class System(Declared):
             size = round(elements.shape[1] ** 0.5)
             solution.group = elements if found["quaternion"] else elements.reshape(-1, size, size)
         solution.density = found.get("density")
+        solution.seed = found.get("seed")
         if "note" in found:
             warnings.warn(found["note"], stacklevel=3)
         error = found.get("error")
@@ -209,7 +222,8 @@ class System(Declared):
 
         ``members=1000`` draws initial states around a single one, that of the declaration where x0 is None: where random
         elements of the group take it, on its coadjoint orbit. ``spread`` is the standard deviation of their coordinates in the algebra
-        (0.1), or "orbit": uniformly over the orbit, of a compact group. ``seed`` (1) says which; `lie ensemble` draws the same.
+        (0.1), or "orbit": uniformly over the orbit, of a compact group. ``seed`` (1) says which; `lie ensemble` draws the same. It is
+        also that of noise, of which each member has its own.
 
         ``executor`` has the members computed by other workers: any of ``concurrent.futures``, a Client of Dask, the module ``ray``
         after its ``init``, or ``mpi4py.futures.MPIPoolExecutor``. They take shares of the members, ``shares`` in number, each on
@@ -237,11 +251,13 @@ class System(Declared):
             "rtol": rtol, "atol": atol, "iteration": iteration, "newton_tolerance": newton_tolerance,
             "max_iterations": max_iterations, "converge": converge, "keep": keep,
         }  # fmt: skip
+        if self._core.noisy:
+            own["seed"] = 1 if seed is None else seed
         others = dict(named)
         spelled(own, others, self.parameters)
         parameters = merged(parameters, others)
         if members is None:
-            if seed is not None or spread is not None:
+            if (seed is not None and not self._core.noisy) or spread is not None:
                 raise TypeError(
                     "seed and spread are for initial states that are drawn: give members=1000"
                 )

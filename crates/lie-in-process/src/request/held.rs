@@ -69,7 +69,7 @@ impl Planner<'_> {
             .is_some_and(|method| method.explicit);
         let held = Held {
             seed,
-            stream: 0,
+            stream: self.request.stream,
             bounded: !explicit,
             inputs: tables,
         };

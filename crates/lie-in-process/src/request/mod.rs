@@ -81,6 +81,10 @@ macro_rules! request {
             #[serde(skip)]
             #[cfg_attr(feature = "clap", arg(skip))]
             pub sources: BTreeMap<String, Source>,
+            /// The stream of the noise, in a call that makes some of the members.
+            #[serde(skip)]
+            #[cfg_attr(feature = "clap", arg(skip))]
+            pub stream: u64,
             $(
                 $(#[$doc])*
                 #[serde(rename = $name)]
