@@ -386,3 +386,18 @@ fn check_tells_programs_of_them() {
     assert_eq!(said["observables"][2]["name"], "phi");
     assert_eq!(said["observables"][2]["unwrap"], true);
 }
+
+#[test]
+fn the_report_shows_them() {
+    let folder = folder();
+    let path = written(folder.path(), &top());
+    let page = folder.path().join("page.html");
+    lie(&format!(
+        "report {path} --quiet --no-bench --out {}",
+        page.display()
+    ))
+    .ok();
+    let page = std::fs::read_to_string(page).unwrap();
+    assert!(page.contains("First integrals:") && page.contains("Observables:"));
+    assert!(page.contains("turning"));
+}

@@ -50,6 +50,7 @@ pub struct Facts {
     pub inputs: Vec<String>,
     /// Whether there is noise.
     pub noisy: bool,
+    pub events: Vec<String>,
     pub run: HashMap<String, Vec<String>>,
 }
 
@@ -95,6 +96,11 @@ impl Facts {
             defaults: model.defaults(),
             casimirs: casimirs.collect(),
             quantities: quantities.collect(),
+            events: model
+                .events
+                .iter()
+                .map(|event| event.name.clone())
+                .collect(),
             run: run.collect(),
         }
     }

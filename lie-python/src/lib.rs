@@ -77,6 +77,10 @@ impl Core {
         self.0.facts.noisy
     }
     #[getter]
+    fn events(&self) -> Vec<String> {
+        self.0.facts.events.clone()
+    }
+    #[getter]
     fn quantities(&self) -> Vec<(String, bool)> {
         self.0.facts.quantities.clone()
     }

@@ -10,7 +10,7 @@ use lie_codegen::program::Chart;
 use lie_in_process::memory;
 use lie_in_process::report::signs;
 use lie_in_process::request::{Plan, Request};
-use lie_program::protocol::{Columns, End, Found, Obstacle, Run, Stop, Times};
+use lie_program::protocol::{Columns, End, Event, Found, Obstacle, Run, Stop, Times};
 use lie_runtime::driver::{Density, Pace};
 use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyArray1, PyArray2};
@@ -50,6 +50,7 @@ struct Heard {
     casimirs: Vec<f64>,
     quantities: Vec<f64>,
     elements: Vec<f64>,
+    events: Vec<Event>,
     /// The step that was chosen, and the one that it was shortened to on the way.
     step: Option<f64>,
     smallest: Option<f64>,
@@ -85,6 +86,7 @@ impl Heard {
                 let rows = rows.numbers.chunks_exact(rows.width);
                 rows.for_each(|row| self.row(row));
             }
+            Found::Event(event) => self.events.push(event),
             Found::Work(work) => self.steps = work.steps,
             Found::Shortened { step, .. } => self.smallest = Some(step),
             Found::Between(_) | Found::Milestone(_) | Found::Uneven { .. } => {}
@@ -282,6 +284,13 @@ pub fn of_prepared<'py>(
         more.set_item("quaternion", chart == Chart::Quaternion)?;
         more.set_item("group", heard.elements.into_pyarray(py))?;
     }
+    if let Some(last) = heard.events.last().filter(|event| event.stops) {
+        end = last.time;
+        more.set_item("stopped", &last.name)?;
+    }
+    if !declaration.facts.events.is_empty() {
+        more.set_item("events", events(py, declaration, &heard.events, dimension)?)?;
+    }
     let rows = heard.times.len();
     let quantities = declaration.facts.quantities.len();
     if quantities > 0 {
@@ -301,6 +310,24 @@ pub fn of_prepared<'py>(
         (plan.from, end),
         (!more.is_empty()).then_some(more),
     ))
+}
+
+/// The times and states of events by their names.
+fn events<'py>(
+    py: Python<'py>,
+    declaration: &Declaration,
+    found: &[Event],
+    dimension: usize,
+) -> PyResult<Bound<'py, PyDict>> {
+    let all = PyDict::new(py);
+    for name in &declaration.facts.events {
+        let of_name = || found.iter().filter(|event| event.name == *name);
+        let times: Vec<f64> = of_name().map(|event| event.time).collect();
+        let states: Vec<f64> = of_name().flat_map(|event| event.state.clone()).collect();
+        let states = by_rows(py, states, (times.len(), dimension));
+        all.set_item(name, (times.into_pyarray(py), states))?;
+    }
+    Ok(all)
 }
 
 /// Numbers row by row as an array.

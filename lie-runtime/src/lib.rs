@@ -72,7 +72,7 @@ mod test_systems;
 
 pub use lie_core::{
     CayleyPoisson, Clock, ClosedRealization, CollectivePoisson, ColumnPoisson, CotangentPoisson,
-    DiscreteLagrangian, DiscreteLagrangianPoisson, Dual, Elementary, Equation, Expand,
+    DiscreteLagrangian, DiscreteLagrangianPoisson, Dual, Elementary, Equation, EventRule, Expand,
     FoundPoisson, GeneratingFunction, GradientRecurrence, GradientSeries, Group, Implicit,
     InertiaPoisson, IntegrablePoisson, LagrangianPoisson, LiePoisson, Lift, Mask, MatrixGroup,
     MatrixPoisson, Motion, ParameterError, ParameterFault, PieceFlows, Poisson, RealizedPoisson,

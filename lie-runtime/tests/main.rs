@@ -9,6 +9,7 @@ mod collective;
 mod cotangent;
 mod curve;
 mod driver;
+mod events;
 mod families;
 mod family_splittings;
 mod forces;

@@ -229,6 +229,9 @@ pub struct Run {
     /// (runs side by side; default of several)
     #[arg(long, value_name = "KIND")]
     pub picture: Option<String>,
+    /// Writes the events that the spec declares as a table: event,t,state (CSV)
+    #[arg(long, value_name = "FILE")]
+    pub events: Option<PathBuf>,
     /// Keeps in a file what `lie resume` needs to go on after Ctrl-C, a kill or a loss of power, written about once a second at a
     /// multiple of 1000 steps; with --out
     #[arg(long, value_name = "FILE")]

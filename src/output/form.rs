@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::io::Write as _;
 
 use lie_in_process::request::Labels;
+use lie_program::protocol::Event;
 use lie_runtime::driver::Density;
 
 use super::Names;
@@ -15,6 +16,8 @@ pub struct Header {
     pub system: String,
     /// `t`, the state, `energy`, the Casimirs.
     pub columns: Names,
+    /// The coordinates that events show; nothing where none are declared.
+    pub events: Option<Vec<usize>>,
     /// What tells runs apart; nothing for one run alone.
     pub labels: Option<Labels>,
 }
@@ -47,7 +50,7 @@ pub trait Form {
     /// One row.
     fn row(&mut self, row: &[f64], out: &mut Vec<u8>);
     /// What stands behind the rows of a run; `status` is a word about how it ended.
-    fn close(&mut self, _status: &str, _out: &mut Vec<u8>) {}
+    fn close(&mut self, _header: &Header, _status: &str, _events: &[Event], _out: &mut Vec<u8>) {}
     /// What stands behind all rows.
     fn end(&mut self, _out: &mut Vec<u8>) {}
     /// The first bytes of a file with so many rows, where they depend on it.
@@ -186,8 +189,26 @@ impl Form for Json {
         out.push(b']');
     }
 
-    fn close(&mut self, status: &str, out: &mut Vec<u8>) {
-        let _ = write!(out, "\n],\"status\":{}}}", Self::text(status));
+    fn close(&mut self, header: &Header, status: &str, events: &[Event], out: &mut Vec<u8>) {
+        out.extend_from_slice(b"\n]");
+        if let Some(shown) = &header.events {
+            out.extend_from_slice(b",\"events\":[");
+            for (place, event) in events.iter().enumerate() {
+                let comma = if place > 0 { "," } else { "" };
+                let _ = write!(
+                    out,
+                    "{comma}\n{{\"event\":{},\"t\":",
+                    Self::text(&event.name)
+                );
+                json_number(event.time, out);
+                out.extend_from_slice(b",\"mu\":[");
+                let state: Vec<f64> = shown.iter().map(|&entry| event.state[entry]).collect();
+                numbers(&state, true, out);
+                out.extend_from_slice(b"]}");
+            }
+            out.extend_from_slice(b"\n]");
+        }
+        let _ = write!(out, ",\"status\":{}}}", Self::text(status));
         if !self.several {
             out.push(b'\n');
         }

@@ -19,6 +19,7 @@ use npy::Npy;
 pub use written::is_in;
 
 use crate::command::args::Format;
+use lie_program::protocol::Event;
 
 /// The rows of runs on their way out.
 ///
@@ -126,8 +127,9 @@ impl Rows {
     ///
     /// # Errors
     /// The destination cannot be written; the rows are kept.
-    pub fn close(&mut self, status: &str) -> io::Result<()> {
-        self.form.close(status, &mut self.buffer);
+    pub fn close(&mut self, status: &str, events: &[Event]) -> io::Result<()> {
+        self.form
+            .close(&self.header, status, events, &mut self.buffer);
         // of one run alone, the end of the file goes with it
         match self.header.labels {
             Some(_) => self.sent_or_settled(),
@@ -187,7 +189,7 @@ impl Rows {
         self.destination.cut(whole.unwrap_or(good));
         self.count()?;
         let mut end = Vec::new();
-        self.form.close("failed", &mut end);
+        self.form.close(&self.header, "failed", &[], &mut end);
         self.form.end(&mut end);
         let length = self.destination.length();
         let fits = |from: &&u64| **from + end.len() as u64 <= length;

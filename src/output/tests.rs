@@ -47,7 +47,7 @@ fn written(format: Format, finish: bool) -> Vec<u8> {
     rows.push(&NUMBERS[..6]).unwrap();
     rows.push(&NUMBERS[6..]).unwrap();
     if finish {
-        rows.close("done").unwrap();
+        rows.close("done", &[]).unwrap();
         rows.finish().unwrap();
     }
     std::fs::read(&path).unwrap()
@@ -183,7 +183,7 @@ fn several(format: Format) -> Vec<u8> {
         };
         rows.open(&run).unwrap();
         rows.push(&NUMBERS[..6 * (1 - number)]).unwrap();
-        rows.close(["done", "stopped"][number]).unwrap();
+        rows.close(["done", "stopped"][number], &[]).unwrap();
     }
     rows.finish().unwrap();
     std::fs::read(&path).unwrap()

@@ -12,6 +12,7 @@ pub mod clock;
 pub mod closed;
 pub mod elimination;
 pub mod equation;
+mod event;
 #[cfg(feature = "std")]
 pub mod family;
 pub mod functions;
@@ -36,6 +37,7 @@ mod test_systems;
 
 pub use clock::Clock;
 pub use equation::{Equation, Implicit};
+pub use event::EventRule;
 pub use functions::Elementary;
 pub use generating::GeneratingFunction;
 pub use lagrangian::{DiscreteLagrangian, DiscreteLagrangianPoisson, LagrangianPoisson};

@@ -12,6 +12,7 @@
 #![cfg_attr(doc, doc = include_str!("../docs/katex.html"))]
 
 use crate::clock::{self, Clock};
+use crate::event::EventRule;
 use crate::generic;
 use crate::matrix::SquareMatrix;
 use crate::scalar::{Dual, Scalar};
@@ -212,6 +213,21 @@ pub trait Poisson<S: Scalar>: Sized {
     }
     /// Their values at mu; `out` has [`Poisson::quantity_count`] entries.
     fn quantities(&self, _mu: &Self::State, _out: &mut [S]) {}
+
+    /// The number of events: functions of the state whose zeros along a run are found.
+    fn event_count(&self) -> usize {
+        0
+    }
+    /// The name of an event.
+    fn event_name(&self, _index: usize) -> &str {
+        ""
+    }
+    /// Which zeros of an event count, and what they do.
+    fn event_rule(&self, _index: usize) -> EventRule {
+        EventRule::default()
+    }
+    /// The functions of the events at mu; `out` has [`Poisson::event_count`] entries.
+    fn events(&self, _mu: &Self::State, _out: &mut [S]) {}
 
     /// The vector field `f(mu) = Pi(mu) xi(mu) + F(mu)`, without forces and damping `Pi(mu) grad H(mu)`.
     fn vector_field(&self, mu: &Self::State, out: &mut Self::State) {

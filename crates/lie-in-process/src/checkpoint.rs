@@ -4,7 +4,7 @@
 
 use std::path::PathBuf;
 
-use lie_program::protocol::Milestone;
+use lie_program::protocol::{Event, Milestone};
 use serde::{Deserialize, Serialize};
 
 use crate::key::Key;
@@ -38,6 +38,9 @@ pub struct Place {
     pub written: Option<Written>,
     /// The errors of the invariants.
     pub drift: KeptDrift,
+    /// The events so far.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub events: Vec<Event>,
     /// The step that was shortened, and since when.
     pub shortened: Option<(f64, f64)>,
     /// The time that it took.

@@ -207,7 +207,7 @@ impl<P: Poisson<f64>> Program<P> {
         let (stats, status) = outcome.map_err(refusal)?;
         session.mentions(Found::Work(Work::from(&stats)));
         match status {
-            Status::Finished => Ok(()),
+            Status::Finished | Status::Event(_) => Ok(()),
             Status::Stopped | Status::Failed => Err(End::Interrupted),
         }
     }

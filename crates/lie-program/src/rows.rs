@@ -1,6 +1,6 @@
 //! The rows of a run as they come, with progress, and the wish to stop.
 
-use crate::protocol::{Columns, Coordinates, End, Found, Milestone, Milestones, Rows};
+use crate::protocol::{Columns, Coordinates, End, Event, Found, Milestone, Milestones, Rows};
 use crate::session::Session;
 use core::ops::ControlFlow;
 use lie_runtime::driver::{
@@ -28,6 +28,8 @@ pub struct RowWriter<'s, 'o> {
     between: bool,
     /// Whether states between rows are said.
     curve: bool,
+    /// Whether events are said.
+    events: bool,
     /// Steps between two looks at the clock, and left until the next.
     stride: u32,
     left: u32,
@@ -53,6 +55,7 @@ impl<'s, 'o> RowWriter<'s, 'o> {
             block: Rows::default(),
             between: false,
             curve: false,
+            events: true,
             stride: 1,
             left: 1,
             looked: now,
@@ -83,6 +86,15 @@ impl<'s, 'o> RowWriter<'s, 'o> {
     /// Says states between rows too, where that is wanted.
     pub(crate) fn curve(self, curve: bool) -> Self {
         Self { curve, ..self }
+    }
+
+    /// Has no events, which end no run then.
+    #[must_use]
+    pub fn without_events(self) -> Self {
+        Self {
+            events: false,
+            ..self
+        }
     }
 
     /// Writes what is left.
@@ -266,6 +278,19 @@ impl<P: Poisson<f64>> Observer<f64, P> for RowWriter<'_, '_> {
         on(self.session.intact())
     }
 
+    fn awaits_events(&self) -> bool {
+        self.events
+    }
+
+    fn event(&mut self, system: &P, event: &driver::Event<P::State>) {
+        self.session.mentions(Found::Event(Event {
+            name: system.event_name(event.index).to_owned(),
+            time: event.time,
+            state: event.mu.as_slice().to_vec(),
+            stops: event.stops,
+        }));
+    }
+
     fn draws(&self) -> bool {
         self.curve
     }
@@ -331,6 +356,14 @@ impl<P: MatrixGroup<f64>> Observer<f64, P> for OnGroup<'_, '_, '_, P::State> {
         let element = self.reconstruction.element();
         self.rows.write(system, (time, false), mu, element);
         on(self.rows.session.intact())
+    }
+
+    fn awaits_events(&self) -> bool {
+        self.rows.events
+    }
+
+    fn event(&mut self, system: &P, event: &driver::Event<P::State>) {
+        self.rows.event(system, event);
     }
 
     fn draws(&self) -> bool {

@@ -129,6 +129,7 @@ fn heard(code: u8, mut output: &[u8]) -> Heard {
                 | Found::Uneven { .. }
                 | Found::Assessed { .. }
                 | Found::Between(_)
+                | Found::Event(_)
                 | Found::Milestone(_),
             ) => {}
             Message::Progress(_) => {}

@@ -147,6 +147,7 @@ kinds! {
     Representation "representation" "The matrices do not represent the brackets.",
     Casimir "casimir" "A declared Casimir is not a Casimir, or cannot be proven to be one.",
     Integral "integral" "A declared first integral is none, or cannot be proven to be one.",
+    Event "event" "An event that can have no zeros, or no direction.",
     Cocycle "cocycle" "The cocycle identity fails.",
     StateLength "state-length" "Length of the state or the initial values differs from the basis.",
     EmptyHamiltonian "empty-hamiltonian" "The text of the Hamiltonian is blank.",

@@ -22,7 +22,7 @@ from ._errors import DeclarationError, IntegrationError, Interrupted, LostShares
 from ._functions import Function
 from ._histogram import Histogram
 from ._methods import Method, Methods
-from ._solution import Ensemble, Solution
+from ._solution import Ensemble, Occurrences, Solution
 from ._stress import Growth, Stress, StressCell
 from ._system import System, load
 from ._verification import Fact, Verification
@@ -45,6 +45,7 @@ __all__ = [
     "MethodError",
     "Methods",
     "Motion",
+    "Occurrences",
     "Solution",
     "Stress",
     "StressCell",

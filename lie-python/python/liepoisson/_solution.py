@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -15,7 +15,7 @@ from ._sites import Sites
 if TYPE_CHECKING:
     from ._system import System
 
-__all__ = ["Ensemble", "Solution"]
+__all__ = ["Ensemble", "Occurrences", "Solution"]
 
 #: Coordinates of a family that a picture shows.
 _DRAWN = 12
@@ -28,6 +28,16 @@ _NUMBERS = 1_000_000
 _DOTS = 200
 #: Failures of an ensemble that a notebook shows.
 _SHOWN = 10
+
+
+class Occurrences(NamedTuple):
+    """When an event happened, and the states there.
+
+    ``t``: the times, shape (k,). ``mu``: the states, shape (k, n).
+    """
+
+    t: Array
+    mu: Array
 
 
 class Solution:
@@ -52,6 +62,10 @@ class Solution:
         self._call = call
         self._casimirs: Array = casimirs
         self._quantities: Array | None = None
+        #: The declared events by name; each has ``.t``, the times, and ``.mu``, the states there.
+        self.events: dict[str, Occurrences] = {}
+        #: The event that ended the run, by its name.
+        self.stopped: str | None = None
         #: The error at the end relative to the state, where it was asked for; not a number where it cannot be told.
         self.error: float | None = None
         #: ``"reversible"`` where the size of steps follows the motion: they are reversible, and no Poisson maps. ``step`` is the first one then.

@@ -21,7 +21,7 @@ from ._measure import asked_of, measured, stressed, verified
 from ._members import drawn, members_of, table_of
 from ._notebook import page_of
 from ._shares import Work, gathered
-from ._solution import Ensemble, Solution
+from ._solution import Ensemble, Occurrences, Solution
 from ._stress import Stress
 from ._verification import Verification
 
@@ -151,6 +151,9 @@ class System(Declared):
         """What is not of every run: declared functions, the group element, warnings, what ended it early."""
         if "quantities" in found:
             solution._quantities = found["quantities"]
+        for name, (times, states) in found.get("events", {}).items():
+            solution.events[name] = Occurrences(times, self._visible(states))
+        solution.stopped = found.get("stopped")
         if "group" in found:
             elements = np.asarray(found["group"]).reshape(len(solution.t), -1)
             size = round(elements.shape[1] ** 0.5)

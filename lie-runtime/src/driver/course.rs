@@ -4,13 +4,14 @@ use super::by_stages::Begun;
 use super::checks::check_start;
 use super::curve::Curve;
 use super::density::{Control, Density, Growth};
+use super::events::{Ahead, Events};
 use super::grid::{Grid, Place};
 use super::joints::Joints;
 use super::milestone::{MILESTONE, Milestone, gradient};
-use super::observer::{MotionSink, Observer, Progress};
+use super::observer::{MotionSink, Observer};
 use super::options::Save;
 use super::problem::set_time;
-use super::rows::{Row, Rows};
+use super::rows::Rows;
 use super::solve::IntegrateError;
 use super::stats::{Stats, Status};
 use super::trial::Trial;
@@ -20,6 +21,13 @@ use crate::newton::NewtonOptions;
 use crate::poisson::Poisson;
 use crate::scalar::Scalar;
 use crate::state::State;
+
+/// What is shown of a run: its rows, the states between them, its events.
+type Shown<'a, V> = (
+    &'a mut Rows,
+    &'a mut Option<Curve<V>>,
+    &'a mut Option<Events<V>>,
+);
 
 /// Why a stepper was left.
 pub(super) enum Left<P> {
@@ -62,7 +70,7 @@ pub(super) struct Course<'r, M> {
     pub(super) step: f64,
     pub(super) planned: u64,
     /// The time of the last row.
-    shown: Option<f64>,
+    pub(super) shown: Option<f64>,
     /// In so many parts each is made.
     pub(super) parts: u32,
     /// Parts done of the step that is being made.
@@ -169,6 +177,10 @@ impl<'r, M> Course<'r, M> {
         let mut between = mu.clone();
         observer.start(system, self.progress(), &mu);
         let mut begun = begun.filter(|_| followed.is_none());
+        let mut events = match observer.awaits_events() {
+            true => Events::of(system),
+            false => None,
+        };
         let mut curve = match observer.draws() {
             true => Curve::along(system, &self.grid, with_motion(observer)),
             false => None,
@@ -176,7 +188,7 @@ impl<'r, M> Course<'r, M> {
         // once, and again with each branch of the system that has to be followed, each size of steps, and from each milestone
         loop {
             let mut states = (&mut mu, &mut between);
-            let shown = (&mut rows, &mut curve);
+            let shown = (&mut rows, &mut curve, &mut events);
             let left = match begun.take() {
                 Some(begun) => {
                     self.go(first, Some(begun), &mut states, shown, &mut guard, observer)
@@ -222,7 +234,7 @@ impl<'r, M> Course<'r, M> {
         system: &'s P,
         begun: Option<Begun<M::Stepper<'s>, P::State>>,
         (mu, between): &mut (&mut P::State, &mut P::State),
-        (rows, curve): (&mut Rows, &mut Option<Curve<P::State>>),
+        (rows, curve, events): Shown<'_, P::State>,
         guard: &mut Option<Guard<'_, S, P, M>>,
         observer: &mut O,
     ) -> Result<Left<P>, IntegrateError>
@@ -235,7 +247,7 @@ impl<'r, M> Course<'r, M> {
             false => self.newton,
         };
         let (mut stepper, mut made) = match begun {
-            Some(begun) => (begun.stepper, Some((begun.end, begun.report))),
+            Some(begun) => (begun.stepper, Some(Ok((begun.end, begun.report)))),
             None => (self.method.stepper(system, size, &newton), None),
         };
         let mut joints = Joints::of(system);
@@ -252,7 +264,14 @@ impl<'r, M> Course<'r, M> {
                 let is_row = rows.peek().map(|row| row.place) == Some(Place::On(self.index));
                 curve.arrive(system, (&self.grid, self.index), mu, is_row);
             }
-            while let Some((row, is_kept)) = self.due(rows, curve) {
+            let mut ahead = match events {
+                Some(events) if self.done == 0 => {
+                    let first = (&mut stepper, &mut made);
+                    self.look_ahead(system, joints.as_mut(), events, mu, first, observer)
+                }
+                _ => Ahead::nothing(),
+            };
+            while let Some((row, is_kept)) = self.due(rows, curve, ahead.stop()) {
                 let looked = match row.place {
                     _ if !is_kept => {
                         let states = (&**mu, &mut **between);
@@ -273,7 +292,11 @@ impl<'r, M> Course<'r, M> {
                     return Ok(Left::Over(Status::Stopped));
                 }
             }
+            if let Some(last) = ahead.take_stop(system, observer) {
+                return self.stop_at(system, joints.as_mut(), last, (mu, between), observer);
+            }
             if self.index == self.grid.steps() {
+                ahead.tell(system, observer);
                 return Ok(Left::Over(Status::Finished));
             }
             let begins = |guard: &mut Guard<'_, S, P, M>| guard.begins(mu, self.index);
@@ -292,10 +315,11 @@ impl<'r, M> Course<'r, M> {
             let (mut iterations, mut slow) = (0, false);
             while self.done < self.parts {
                 let stepped = match made.take() {
-                    Some((end, report)) => {
+                    Some(Ok((end, report))) => {
                         mu.copy_from(&end);
                         Ok(report)
                     }
+                    Some(Err(failure)) => Err(failure),
                     None => stepper.step(mu, &mut MotionSink::new(observer, system)),
                 };
                 match stepped {
@@ -342,6 +366,7 @@ impl<'r, M> Course<'r, M> {
                     }
                 }
             }
+            ahead.tell(system, observer);
             self.index += 1;
             if let Some(growth) = &mut growth {
                 let size = S::from_f64(self.steer(growth, system, mu)?);
@@ -364,44 +389,6 @@ impl<'r, M> Course<'r, M> {
             if change.is_some() {
                 return Ok(Left::Divided);
             }
-        }
-    }
-
-    /// The size of the steps that are made.
-    pub(super) fn size(&self) -> f64 {
-        self.grid.step() / f64::from(self.parts)
-    }
-
-    /// The rows that have not been shown.
-    fn rows_left(&self, save: &Save) -> Result<Rows, IntegrateError> {
-        let mut rows = self.grid.rows(save)?.from(self.index);
-        let sign = self.step.signum();
-        let is_shown = |row: &Row| {
-            let shown = self
-                .shown
-                .is_some_and(|shown| (row.time - shown) * sign <= 0.0);
-            let behind = self.follows && self.grid.is_behind(row.time);
-            shown || behind || row.place.index() < self.index
-        };
-        while rows.next_if(is_shown).is_some() {}
-        Ok(rows)
-    }
-
-    /// The time at the end of the part that is being made of a step.
-    fn next_time(&self) -> f64 {
-        let done = self.done + 1;
-        if done == self.parts {
-            return self.grid.time(self.index + 1);
-        }
-        let part = self.grid.step() * (f64::from(done) / f64::from(self.parts));
-        self.grid.time(self.index) + part
-    }
-
-    fn progress(&self) -> Progress {
-        Progress {
-            step: self.index,
-            steps: self.grid.steps(),
-            time: self.grid.time(self.index),
         }
     }
 }

@@ -191,23 +191,28 @@ impl<V> Curve<V> {
 }
 
 impl<M> Course<'_, M> {
-    /// What is shown next of the step that begins here: a row, which is kept, or a state between rows.
+    /// What is shown next of the step that begins here, up to a time at which the run stops: a row, which is kept, or a state
+    /// between rows.
     pub(super) fn due<V>(
         &self,
         rows: &mut Rows,
         curve: &mut Option<Curve<V>>,
+        stop: Option<f64>,
     ) -> Option<(Row, bool)> {
         if self.done > 0 {
             return None;
         }
+        let sign = self.grid.step().signum();
+        let is_before = |row: &Row| stop.is_none_or(|stop| (row.time - stop) * sign <= 0.0);
         if let Some(curve) = curve {
             let row = rows.peek().filter(|row| row.place.index() == self.index);
-            if let Some(sample) = curve.before((&self.grid, self.index), row) {
+            let sample = curve.before((&self.grid, self.index), row);
+            if let Some(sample) = sample.filter(is_before) {
                 curve.advance();
                 return Some((sample, false));
             }
         }
-        let row = rows.next_if(|row| row.place.index() == self.index);
+        let row = rows.next_if(|row| row.place.index() == self.index && is_before(row));
         row.map(|row| (row, true))
     }
 

@@ -1,5 +1,6 @@
 //! Observers of a run.
 
+use super::events::Event;
 use super::held::Held;
 use super::milestone::Milestone;
 use super::pace::{Assessed, Chosen};
@@ -83,6 +84,16 @@ pub trait Observer<S: Scalar, P: Poisson<S>> {
     fn row(&mut self, system: &P, time: f64, mu: &P::State) -> ControlFlow<()> {
         let _ = (system, time, mu);
         ControlFlow::Continue(())
+    }
+    /// Whether it wants to know of the events that the system declares; asked once, at the start. They are not looked for otherwise, and
+    /// end no run.
+    fn awaits_events(&self) -> bool {
+        false
+    }
+    /// Sees an event, in order of time, once the step that it happens on is accepted. One that ends the run is seen before the
+    /// last row.
+    fn event(&mut self, system: &P, event: &Event<P::State>) {
+        let _ = (system, event);
     }
     /// Whether it draws the run as a curve, and wants to see states between the rows where these are far apart; asked once, at
     /// the start.
@@ -197,6 +208,12 @@ impl<S: Scalar, P: Poisson<S>, O: Observer<S, P>> Observer<S, P> for &mut O {
     fn row(&mut self, system: &P, time: f64, mu: &P::State) -> ControlFlow<()> {
         (**self).row(system, time, mu)
     }
+    fn awaits_events(&self) -> bool {
+        (**self).awaits_events()
+    }
+    fn event(&mut self, system: &P, event: &Event<P::State>) {
+        (**self).event(system, event);
+    }
     fn draws(&self) -> bool {
         (**self).draws()
     }
@@ -271,6 +288,13 @@ impl<S: Scalar, P: Poisson<S>, A: Observer<S, P>, B: Observer<S, P>> Observer<S,
         let second = self.1.row(system, time, mu);
         if first.is_break() { first } else { second }
     }
+    fn awaits_events(&self) -> bool {
+        self.0.awaits_events() || self.1.awaits_events()
+    }
+    fn event(&mut self, system: &P, event: &Event<P::State>) {
+        self.0.event(system, event);
+        self.1.event(system, event);
+    }
     fn draws(&self) -> bool {
         self.0.draws() || self.1.draws()
     }
@@ -309,6 +333,7 @@ pub struct Recorder<S, V> {
     /// What was recorded.
     pub solution: Solution<S, V>,
     quantities: Quantities<S>,
+    events: bool,
 }
 
 impl<S: Scalar, V> Recorder<S, V> {
@@ -317,6 +342,18 @@ impl<S: Scalar, V> Recorder<S, V> {
         Self {
             solution: Solution::empty(system),
             quantities: Quantities::new(system),
+            events: true,
+        }
+    }
+}
+
+impl<S, V> Recorder<S, V> {
+    /// The same without events, which end no run then.
+    #[must_use]
+    pub fn without_events(self) -> Self {
+        Self {
+            events: false,
+            ..self
         }
     }
 }
@@ -347,6 +384,14 @@ impl<S: Scalar, P: Poisson<S>> Observer<S, P> for Recorder<S, P::State> {
             self.quantities.at(system, mu);
         }
         ControlFlow::Continue(())
+    }
+
+    fn awaits_events(&self) -> bool {
+        self.events
+    }
+
+    fn event(&mut self, _system: &P, event: &Event<P::State>) {
+        self.solution.events.push(event);
     }
 
     fn row(&mut self, system: &P, time: f64, mu: &P::State) -> ControlFlow<()> {

@@ -1,5 +1,6 @@
 //! What a run has saved.
 
+use super::event_table::EventTable;
 use super::pace::{Assessed, Chosen};
 use super::stats::{Stats, Status};
 use crate::diagnostics::{Drift, InvariantDrift};
@@ -21,6 +22,8 @@ pub struct Solution<S, V> {
     pub casimirs: Vec<Vec<S>>,
     /// Declared functions of the state ([`Poisson::quantities`]), all of a row together.
     pub quantities: Vec<Vec<S>>,
+    /// The events that the system declares, by their names: `solution.events["down"].t` and `.mu`.
+    pub events: EventTable<V>,
     /// The work of the run.
     pub stats: Stats,
     /// The step that was chosen, where the options gave a tolerance.
@@ -64,6 +67,7 @@ impl<S, V> Solution<S, V> {
             energy: Vec::new(),
             casimirs: Vec::new(),
             quantities: Vec::new(),
+            events: EventTable::of(system),
             stats: Stats::default(),
             chosen: None,
             shortened: None,

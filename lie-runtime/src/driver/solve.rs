@@ -30,7 +30,8 @@ pub enum IntegrateError {
     Step(#[from] Box<StepError>),
 }
 
-/// Integrates a problem and returns what was saved.
+/// Integrates a problem and returns what was saved. Events that the system declares are in [`Solution::events`]; one that stops ends
+/// the run there, with [`Status::Event`].
 ///
 /// # Errors
 /// [`SolveError::Option`] for invalid options; [`SolveError::Step`], which carries what

@@ -55,6 +55,8 @@ pub enum Status {
     /// At the end of the span.
     #[default]
     Finished,
+    /// Before it, at an event that ends the run, the one with this number.
+    Event(usize),
     /// Before it, because an observer asked for it.
     Stopped,
     /// Before it, because a step failed.

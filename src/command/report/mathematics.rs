@@ -1,5 +1,6 @@
 //! What the mathematics of a system is, in formulas.
 
+use lie_codegen::model::QuantityKind;
 use lie_codegen::plan::plan;
 use lie_codegen::structure::Structure;
 use lie_in_process::formula::names;
@@ -61,6 +62,23 @@ pub fn formulas(model: &Structure) -> Vec<(&'static str, Vec<String>)> {
     let casimirs: Vec<String> = casimirs.collect();
     if !casimirs.is_empty() {
         all.push(("Casimirs:", casimirs));
+    }
+    for (kind, title) in [
+        (QuantityKind::Integral, "First integrals:"),
+        (QuantityKind::Observable, "Observables:"),
+    ] {
+        let quantities = model
+            .quantities
+            .iter()
+            .filter(|quantity| quantity.kind == kind);
+        let formulas = quantities.map(|quantity| {
+            let text = format!("{} = {}", quantity.name, model.display(quantity.expr));
+            formula(&text, &names)
+        });
+        let formulas: Vec<String> = formulas.collect();
+        if !formulas.is_empty() {
+            all.push((title, formulas));
+        }
     }
     if model.family.is_none() {
         let plan = plan(model, &[]);

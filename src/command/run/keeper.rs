@@ -131,6 +131,7 @@ impl Keeper {
             milestone,
             written: rows.written(&self.rows)?,
             drift: received.drift.kept(),
+            events: received.events.clone(),
             shortened: received.shortened,
             seconds: (self.before + self.began.elapsed()).as_secs_f64(),
         });

@@ -2,6 +2,7 @@
 
 pub mod bar;
 pub mod checkpoint;
+mod events;
 mod keeper;
 pub mod layout;
 pub mod outputs;
@@ -18,6 +19,7 @@ use lie_codegen::methods::Choice;
 use lie_codegen::program::{Purpose, program};
 use lie_in_process::report::signs;
 use lie_in_process::request::{Member, Plan, Several, several};
+use lie_runtime::driver::Pace;
 use lie_syntax::diagnostic::Kind;
 
 use super::args;
@@ -75,6 +77,7 @@ pub fn go(flags: &args::Run, taken_up: Option<Checkpoint>) -> Result<u8, Failure
     let states = flags.request.initial_file.as_deref();
     let inputs = Inputs::of_spec(path, &spec).with("--initial-file", states);
     let outputs = Outputs::open(flags, &inputs)?;
+    let events = events::Table::open(flags, &spec.model, &inputs, several.labels.is_some())?;
     let keeper = match &flags.checkpoint {
         Some(path) => Some(Keeper::new(flags, path, &spec, &inputs, taken_up)?),
         None => None,
@@ -95,6 +98,7 @@ pub fn go(flags: &args::Run, taken_up: Option<Checkpoint>) -> Result<u8, Failure
     let header = Header {
         system: spec.model.name.clone(),
         columns: layout.columns.clone(),
+        events: (!spec.model.events.is_empty()).then(|| spec.model.shown_coordinates()),
         labels: several.labels.clone(),
     };
     let picture = kind.zip(outputs.plot).map(|(kind, (form, destination))| {
@@ -114,7 +118,7 @@ pub fn go(flags: &args::Run, taken_up: Option<Checkpoint>) -> Result<u8, Failure
         workers: &workers,
         interrupt: &interrupt,
     }
-    .run_all(rows, picture, keeper)
+    .run_all(rows, (picture, events), keeper)
 }
 
 /// The columns, which all runs have in common.
@@ -177,4 +181,17 @@ pub fn impossible(name: &str, why: &str) -> Failure {
     let message = Message::new(Kind::Domain, format!("parameter {name}: {why}"));
     let help = format!("give {name} another value with `--param {name}=VALUE`");
     message.at_option("--param").help(help).into()
+}
+
+/// The second run of a tolerance with so few steps takes no time beside the start of the program, and tells orbits on which errors
+/// grow.
+const SHORT: u64 = 1000;
+
+/// Up to how many steps the error at the end is told.
+fn assessed_up_to(plan: &Plan) -> u64 {
+    match plan.pace.0 {
+        _ if plan.assess => u64::MAX,
+        Pace::Tolerance(_) => SHORT,
+        Pace::Step(_) => 0,
+    }
 }

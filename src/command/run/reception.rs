@@ -3,7 +3,7 @@
 use std::io;
 
 use lie_in_process::request::Plan;
-use lie_program::protocol::{Found, Times, Work};
+use lie_program::protocol::{Event, Found, Times, Work};
 use lie_runtime::driver::Pace;
 
 use super::checkpoint::Place;
@@ -48,6 +48,8 @@ pub struct Received {
     pub lost: Option<f64>,
     /// By which factor the steps differ that the tolerance allows, where it is large.
     pub uneven: Option<f64>,
+    /// The events, in order of time.
+    pub events: Vec<Event>,
     /// The error at the end, and whether it is much larger than the tolerance.
     pub assessed: Option<(f64, bool)>,
 }
@@ -99,6 +101,7 @@ impl<'a, 'p> Reception<'a, 'p> {
                 shortened: None,
                 lost: None,
                 uneven: None,
+                events: Vec::new(),
                 assessed: None,
             },
             layout,
@@ -116,6 +119,7 @@ impl<'a, 'p> Reception<'a, 'p> {
         self.hidden = false;
         self.received.shortened = place.shortened;
         self.received.drift.restore(&place.drift);
+        self.received.events.clone_from(&place.events);
         if let Some(written) = &place.written
             && let Some(run) = self.waiting.take()
         {
@@ -180,6 +184,7 @@ impl<'a, 'p> Reception<'a, 'p> {
                     keeper.keep(*milestone, self.rows, &self.received)?;
                 }
             }
+            Found::Event(event) => self.received.events.push(event),
             Found::Work(work) => self.received.work = work,
         }
         Ok(())
@@ -218,7 +223,9 @@ impl<'a, 'p> Reception<'a, 'p> {
     /// The destination cannot be written.
     pub fn finish(mut self, word: &'static str) -> io::Result<Received> {
         if matches!(word, "done" | "stopped") || self.waiting.is_none() {
-            self.begin()?.close(word)?;
+            let events = std::mem::take(&mut self.received.events);
+            self.begin()?.close(word, &events)?;
+            self.received.events = events;
         }
         Ok(self.received)
     }

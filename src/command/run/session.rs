@@ -5,12 +5,13 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use lie_in_process::request::{Member, Plan, Several};
+use lie_in_process::request::{Member, Several};
 use lie_program::protocol::{Held, Obstacle};
 use lie_runtime::driver::{Density, Pace};
 
 use super::bar::Bar;
 use super::checkpoint::refused;
+use super::events::{self, Table};
 use super::keeper::{Keeper, Unwritten};
 use super::layout::Layout;
 use super::picture::{Form, Picture, rounded};
@@ -20,7 +21,7 @@ use super::said::{
 };
 use super::summary::{self, Drift, Steps};
 use super::tally::{MOST_LINES, Tally};
-use super::{impossible, outputs};
+use super::{assessed_up_to, impossible, outputs};
 use crate::build::talk::{Outcome, Worker};
 use crate::command::args;
 use crate::command::files::unwritable;
@@ -48,7 +49,7 @@ impl Session<'_> {
     pub fn run_all(
         &self,
         mut rows: Rows,
-        mut picture: Option<(Picture<'_>, Form, Destination)>,
+        (mut picture, mut events): (Option<(Picture<'_>, Form, Destination)>, Option<Table>),
         mut keeper: Option<Keeper>,
     ) -> Result<u8, Failure> {
         let clock = Instant::now();
@@ -73,6 +74,9 @@ impl Session<'_> {
                     break;
                 }
             };
+            if let Some(table) = &mut events {
+                table.add(number, &received.events);
+            }
             let goes_on = matches!(outcome, Outcome::Done | Outcome::Stopped(_));
             let done = matches!(outcome, Outcome::Done);
             let interrupted = matches!(outcome, Outcome::Interrupted(_));
@@ -104,6 +108,7 @@ impl Session<'_> {
         };
         // rows that cannot be written do not take the picture with them
         let drawn = picture.map_or(Ok(()), |picture| self.draw(picture, whole));
+        let listed = events.map_or(Ok(()), |table| table.finish(self.flags));
         let kept = match &mut keeper {
             Some(keeper) if matches!(ended, Ok(0)) && written.is_ok() => {
                 keeper.finish().map_err(|error| self.lost(error))
@@ -123,7 +128,7 @@ impl Session<'_> {
             }
             render::say_all(&folded(&tally.text(clock.elapsed())));
         }
-        [written, drawn, kept].into_iter().fold(ended, also)
+        [written, drawn, listed, kept].into_iter().fold(ended, also)
     }
 
     /// Writes the picture: of runs that did not come to their end, what there is of them; where there is nothing, the file stays
@@ -290,6 +295,9 @@ impl Session<'_> {
             };
             let text = summary::text(&title, work, whose, drift, time);
             render::say(&folded(&text));
+            if let Some(text) = events::said(&self.spec.model, &received.events) {
+                render::say(&folded(&text));
+            }
         } else if self.several.members.len() <= MOST_LINES {
             let mut title = self.named(number, member);
             if let Some(warning) = missed(received) {
@@ -395,18 +403,5 @@ fn also(ended: Result<u8, Failure>, further: Result<(), Failure>) -> Result<u8, 
             failure.messages.extend(further.messages);
             Err(failure)
         }
-    }
-}
-
-/// The second run of a tolerance with so few steps takes no time beside the start of the program, and tells orbits on which errors
-/// grow.
-const SHORT: u64 = 1000;
-
-/// Up to how many steps the error at the end is told.
-fn assessed_up_to(plan: &Plan) -> u64 {
-    match plan.pace.0 {
-        _ if plan.assess => u64::MAX,
-        Pace::Tolerance(_) => SHORT,
-        Pace::Step(_) => 0,
     }
 }

@@ -15,6 +15,7 @@ pub fn assemble(whole: &Whole<'_>, system: System, proven: Proven) -> Model {
         mut bracket,
         mut casimirs,
         quantities,
+        events,
         taken,
     } = proven;
     let System {
@@ -58,6 +59,7 @@ pub fn assemble(whole: &Whole<'_>, system: System, proven: Proven) -> Model {
         realization: lowered.realization,
         declared_casimirs: casimirs,
         quantities,
+        events,
         taken,
         methods: declaration.methods.clone(),
         initial: lowered.initial,

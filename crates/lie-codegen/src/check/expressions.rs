@@ -34,6 +34,8 @@ pub struct Lowered {
     pub integrals: Vec<ExprId>,
     /// The observables.
     pub observables: Vec<ExprId>,
+    /// The functions of the events.
+    pub events: Vec<ExprId>,
     /// The realization.
     pub realization: Option<Realization>,
     /// The initial state.
@@ -80,6 +82,8 @@ pub fn lower(
     let observables: Vec<_> = observables
         .map(|o| lower(&o.value, Allowed::State))
         .collect();
+    let events = declaration.events.iter();
+    let events: Vec<_> = events.map(|e| lower(&e.when, Allowed::State)).collect();
     let realization = realization::lowered_map(
         declaration,
         configuration,
@@ -110,6 +114,7 @@ pub fn lower(
         casimirs: casimirs.into_iter().collect::<Option<_>>()?,
         integrals: integrals.into_iter().collect::<Option<_>>()?,
         observables: observables.into_iter().collect::<Option<_>>()?,
+        events: events.into_iter().collect::<Option<_>>()?,
         realization: realization?,
         initial: initial?,
     })

@@ -5,8 +5,8 @@ use std::collections::HashSet;
 use super::coordinates::Whole;
 use super::names::WORK;
 use super::system::System;
-use super::{casimirs, cocycle, integrals, jacobi, naming, poisson_map, sign};
-use crate::model::{Bracket, Casimir, PoissonMatrix, Quantity, QuantityKind};
+use super::{casimirs, cocycle, events, integrals, jacobi, naming, poisson_map, sign};
+use crate::model::{Bracket, Casimir, Event, PoissonMatrix, Quantity, QuantityKind};
 use lie_symbolic::prove::branches;
 use lie_symbolic::symbolic::Symbol;
 use lie_syntax::diagnostic::Diagnostic;
@@ -19,6 +19,8 @@ pub struct Proven {
     pub casimirs: Vec<Casimir>,
     /// The first integrals, and the other functions that are recorded.
     pub quantities: Vec<Quantity>,
+    /// The functions whose zeros are found.
+    pub events: Vec<Event>,
     /// The names that the declaration uses.
     pub taken: HashSet<String>,
 }
@@ -108,6 +110,7 @@ pub fn identities(
         bracket,
         casimirs,
         quantities: quantities(whole, system),
+        events: events::events(whole, &system.lowered, mistakes),
         taken,
     })
 }

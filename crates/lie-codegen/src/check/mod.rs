@@ -20,6 +20,7 @@ mod driving;
 mod energy;
 mod entries;
 mod environment;
+mod events;
 mod exactness;
 mod expressions;
 mod family;

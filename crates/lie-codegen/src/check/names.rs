@@ -107,6 +107,12 @@ pub fn name_spaces(declaration: &Declaration) -> Vec<Diagnostic> {
         declare(&mut spaces, name, what, &mut mistakes);
         mistakes.extend(of_work(name));
     }
+    // labels of rows of a table of their own
+    let mut labels = HashMap::new();
+    for event in &declaration.events {
+        declare(&mut [&mut labels], &event.name, "event", &mut mistakes);
+        mistakes.extend(forbidden(&event.name));
+    }
     // the basis of an algebra by its name stands where that name does: nobody wrote its elements
     if let [first, second, ..] = basis
         && first.origin == second.origin

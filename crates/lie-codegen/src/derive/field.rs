@@ -66,11 +66,17 @@ pub(super) fn kernels(source: &mut Source, derivatives: bool) -> Vec<Kernel> {
             &gradient,
         ));
     }
-    let values = source.quantities.clone();
-    kernels.extend(
-        (!values.is_empty())
-            .then(|| Kernel::values("quantities", "`out_i = q_i(mu)`", vec![mu(source)], values)),
-    );
+    for (name, formula, values) in [
+        ("quantities", "`out_i = q_i(mu)`", source.quantities.clone()),
+        (
+            "events",
+            "`out_i = g_i(mu)`, whose zeros are events",
+            source.events.clone(),
+        ),
+    ] {
+        let kernel = || Kernel::values(name, formula, vec![mu(source)], values.clone());
+        kernels.extend((!values.is_empty()).then(kernel));
+    }
     kernels
 }
 

@@ -45,6 +45,8 @@ pub struct Source {
     pub casimirs: Vec<ExprId>,
     /// What is recorded beside them.
     pub quantities: Vec<ExprId>,
+    /// The functions whose zeros are found.
+    pub events: Vec<ExprId>,
     /// Functions of `ad*_x` in closed form, where a method needs them and the algebra has one.
     pub exponential: Option<Exponential>,
 }
@@ -77,6 +79,7 @@ impl Source {
                 .iter()
                 .map(|q| written(q.expr))
                 .collect(),
+            events: structure.events.iter().map(|e| written(e.expr)).collect(),
             exponential: None,
             structure: Arc::new(structure.clone()),
         }

@@ -64,6 +64,8 @@ pub struct Judge {
     casimirs: Vec<Expr>,
     /// What is recorded beside them.
     quantities: Vec<Expr>,
+    /// The functions of the events.
+    events: Vec<Expr>,
 }
 
 impl Judge {
@@ -102,6 +104,7 @@ impl Judge {
                 .iter()
                 .filter_map(|q| declared(q.origin).cloned())
                 .collect(),
+            events: declaration.events.iter().map(|e| e.when.clone()).collect(),
             kernels: Kernels::new(Declared {
                 declaration: declaration.clone(),
                 configuration: structure.configuration.clone(),
@@ -220,6 +223,7 @@ impl Judge {
             }
             ("casimirs", [mu]) => exact(self.values(&self.casimirs, mu)),
             ("quantities", [mu]) => exact(self.recorded(mu)),
+            ("events", [mu]) => exact(self.values(&self.events, mu)),
             ("casimir_gradient", [mu]) => exact(kernels.slope_of(self.casimirs.get(index)?, mu)),
             ("lagrangian" | "momentum" | "inertia", [xi])
                 if kernels.declared.configuration.is_none() =>

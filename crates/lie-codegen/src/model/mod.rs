@@ -20,7 +20,7 @@ pub use casimir::{Casimir, CasimirKind};
 pub use configuration::Configuration;
 pub use driving::{Acting, Driving, Input};
 pub use family::{Family, SiteSum, Size, Start};
-pub use quantity::{Quantity, QuantityKind};
+pub use quantity::{Event, Quantity, QuantityKind};
 pub use realization::{CANONICAL, Descent, Realization};
 
 /// A parameter of the system.
@@ -163,6 +163,8 @@ pub struct Model {
     pub declared_casimirs: Vec<Casimir>,
     /// What is recorded beside state, energy and Casimirs.
     pub quantities: Vec<Quantity>,
+    /// The functions whose zeros along a run are found.
+    pub events: Vec<Event>,
     /// The names that the declaration uses, so that nothing that is found is called the same.
     pub taken: HashSet<String>,
     /// Methods that get fused code.

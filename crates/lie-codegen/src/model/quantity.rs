@@ -1,5 +1,6 @@
-//! What is recorded beside state, energy and Casimirs.
+//! What is recorded beside state, energy and Casimirs, and events.
 
+use lie_core::EventRule;
 use lie_symbolic::symbolic::ExprId;
 use lie_syntax::diagnostic::Origin;
 
@@ -43,6 +44,19 @@ pub struct Quantity {
     pub unwrap: bool,
     /// Whether it has several branches, between which its value jumps.
     pub multivalued: bool,
+}
+
+/// A function whose zeros along a run are found.
+#[derive(Clone, Debug)]
+pub struct Event {
+    /// Its name.
+    pub name: String,
+    /// Where its expression stands.
+    pub origin: Origin,
+    /// The function.
+    pub expr: ExprId,
+    /// Which zeros count, and what they do.
+    pub rule: EventRule,
 }
 
 impl Quantity {

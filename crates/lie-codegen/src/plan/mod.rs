@@ -41,7 +41,7 @@ pub use splitting::{Flow, Found, FoundPart, FoundPiece, Splitting, chosen};
 pub use structure::{
     Group, Inertia, Realization, Representation, Spectrum, Spins, Structure, Vectors,
 };
-pub use system::{Casimir, Energy, Quantity, System};
+pub use system::{Casimir, Energy, Event, Quantity, System};
 
 use lie_symbolic::schedule::Counts;
 

@@ -6,7 +6,7 @@ use crate::derive::{Kernel, Shape};
 use crate::methods::Choice;
 use crate::model::Model;
 use crate::model::{self, QuantityKind};
-use lie_core::Clock;
+use lie_core::{Clock, EventRule};
 
 /// What a system says of itself, and its kernels by trait.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -31,6 +31,8 @@ pub struct System {
     pub casimirs: Vec<Casimir>,
     /// What is recorded beside them.
     pub quantities: Vec<Quantity>,
+    /// The functions whose zeros are found.
+    pub events: Vec<Event>,
     /// What the energy is.
     pub energy: Energy,
     /// Whether Hessian and Jacobian are written out: some method that was asked for solves an equation.
@@ -77,6 +79,15 @@ pub struct Quantity {
     pub unwrap: bool,
     /// Whether its drift is an error of the method.
     pub conserved: bool,
+}
+
+/// A function whose zeros along a run are found.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Event {
+    /// Its name.
+    pub name: String,
+    /// Which zeros count, and what they do.
+    pub rule: EventRule,
 }
 
 /// How the energy of a state is found.
@@ -133,7 +144,7 @@ impl Planner<'_> {
                     joints = kernel.outputs();
                     poisson.push(self.values_in_a_slice(kernel, joints));
                 }
-                "quantities" => {
+                "quantities" | "events" => {
                     let count = kernel.outputs();
                     poisson.push(self.values_in_a_slice(kernel, count));
                 }
@@ -167,6 +178,7 @@ impl Planner<'_> {
             noises: self.structure.driving.as_ref().map_or(0, |d| d.noises),
             casimirs,
             quantities: self.quantities(),
+            events: self.events(),
             energy: match self.source.energy.expression() {
                 Some(_) => Energy::Expression,
                 None => Energy::Legendre,
@@ -221,6 +233,15 @@ impl Planner<'_> {
             conserved: quantity.is_conserved(),
         };
         quantities.map(quantity).collect()
+    }
+
+    fn events(&self) -> Vec<Event> {
+        let events = self.structure.events.iter();
+        let event = |event: &model::Event| Event {
+            name: event.name.clone(),
+            rule: event.rule,
+        };
+        events.map(event).collect()
     }
 
     fn casimir_gradients(&mut self, kernels: &[Kernel], by_duals: bool) -> Vec<Casimir> {

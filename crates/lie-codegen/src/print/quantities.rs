@@ -1,6 +1,6 @@
-//! What a system says of the functions that are recorded beside its state.
+//! What a system says of the functions that are recorded beside its state, and of events.
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use super::Printer;
@@ -41,6 +41,39 @@ impl Printer<'_> {
 
             #unwraps
             #conserved
+        })
+    }
+
+    /// The number of events, their names, and what their zeros do; nothing where there are none.
+    pub(super) fn facts_of_events(&self) -> Option<TokenStream> {
+        let events = &self.plan.system.events;
+        if events.is_empty() {
+            return None;
+        }
+        let (count, names) = (index(events.len()), events.iter().map(|e| &e.name));
+        let rules = events.iter().map(|event| {
+            let (stops, size) = (
+                event.rule.stops,
+                Literal::i8_unsuffixed(event.rule.direction.abs()),
+            );
+            let direction = match event.rule.direction < 0 {
+                true => quote! { -#size },
+                false => quote! { #size },
+            };
+            quote! { ::lie_runtime::EventRule { direction: #direction, stops: #stops } }
+        });
+        Some(quote! {
+            fn event_count(&self) -> usize {
+                #count
+            }
+
+            fn event_name(&self, index: usize) -> &str {
+                [#(#names),*][index]
+            }
+
+            fn event_rule(&self, index: usize) -> ::lie_runtime::EventRule {
+                [#(#rules),*][index]
+            }
         })
     }
 }

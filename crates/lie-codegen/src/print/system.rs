@@ -19,6 +19,7 @@ impl Printer<'_> {
                 "casimirs" => self.vector_function(function, plan.casimirs.len()),
                 "joints" => self.vector_function(function, plan.joints),
                 "quantities" => self.vector_function(function, plan.quantities.len()),
+                "events" => self.vector_function(function, plan.events.len()),
                 _ => self.system_method(function, None),
             })
             .collect();
@@ -144,6 +145,7 @@ impl Printer<'_> {
             });
         let quantities = self.facts_of_quantities();
         let held = held(plan);
+        let events = self.facts_of_events();
         let joints = (plan.joints > 0).then(|| {
             let count = index(plan.joints);
             quote! {
@@ -182,6 +184,7 @@ impl Printer<'_> {
             #casimirs
             #quantities
             #held
+            #events
             #of_h
             #of_matrix
         }

@@ -37,6 +37,7 @@ pub(crate) struct Kernels {
     /// Of the force and of the generator, each with its slope.
     pub driving: [Place; 5],
     pub quantities: Place,
+    pub events: Place,
     pub casimir_gradients: Vec<Place>,
     pub ad: Place,
     pub ad_star: Place,
@@ -251,6 +252,7 @@ impl CodeBuilder {
             ]
             .map(place),
             quantities: place("quantities"),
+            events: place("events"),
             ad: place("ad"),
             ad_star: place("ad_star"),
             ad_star_matrix: place("ad_star_matrix"),

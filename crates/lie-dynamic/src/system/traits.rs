@@ -4,7 +4,7 @@ use crate::compiled::Place;
 use crate::system::Dynamic;
 use lie_core::family::LateMatrix;
 use lie_core::generic::{StageProgram, StageSlopes};
-use lie_core::{Clock, generic, lagrangian::legendre};
+use lie_core::{Clock, EventRule, generic, lagrangian::legendre};
 use lie_runtime::scalar::Truncated;
 use lie_runtime::{
     CayleyPoisson, Dual, Expand, LiePoisson, Lift, Poisson, Scalar, Spectrum, Widen,
@@ -293,6 +293,20 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
     }
     fn quantities(&self, mu: &Vec<S>, out: &mut [S]) {
         if let Some(code) = self.values.kernels().quantities {
+            self.values.call(code, [mu, &[]], out, &mut []);
+        }
+    }
+    fn event_count(&self) -> usize {
+        self.plan().system.events.len()
+    }
+    fn event_name(&self, index: usize) -> &str {
+        &self.values.compiled.plan.system.events[index].name
+    }
+    fn event_rule(&self, index: usize) -> EventRule {
+        self.plan().system.events[index].rule
+    }
+    fn events(&self, mu: &Vec<S>, out: &mut [S]) {
+        if let Some(code) = self.values.kernels().events {
             self.values.call(code, [mu, &[]], out, &mut []);
         }
     }

@@ -271,11 +271,11 @@ fn run<P: Poisson<f64>>(
     options: &Options,
 ) -> Result<Seen<P::State>, StepFailure> {
     let mut said = Vec::new();
-    let mut recorder = Recorder::new(&problem.system);
+    let mut recorder = Recorder::new(&problem.system).without_events();
     let ended;
     {
         let mut session = Session::undisturbed(&mut said);
-        let mut writer = RowWriter::new(&problem.system, &mut session);
+        let mut writer = RowWriter::new(&problem.system, &mut session).without_events();
         let mut observers = (&mut recorder, &mut writer);
         match integrate(problem, Forgotten(method), options, &mut observers) {
             Ok(outcome) => ended = outcome,

@@ -121,6 +121,12 @@ pub(super) fn poisson<P: Poisson<f64>>(system: &P, writer: &mut Writer<'_, P::St
         system.quantities(&mu, &mut quantities);
         writer.write("quantities", &[&at], &quantities);
     }
+    let count = system.event_count();
+    if count > 0 {
+        let mut events = vec![f64::NAN; count];
+        system.events(&mu, &mut events);
+        writer.write("events", &[&at], &events);
+    }
     for index in 0..system.casimir_count() {
         let mut vector = stale(mu.clone());
         system.casimir_gradient(index, &mu, &mut vector);

@@ -199,10 +199,28 @@ pub enum Found {
     Rows(Rows),
     /// States between the rows, with the same columns, where a curve is wanted.
     Between(Rows),
+    /// An event, in order of time.
+    Event(Event),
     /// A place from which the run can be taken up again, behind all rows before it.
     Milestone(Box<Milestone>),
     /// The work so far, at the end.
     Work(Work),
+}
+
+/// An event of a run.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Event {
+    /// Its name.
+    pub name: String,
+    /// When it happened.
+    #[serde(with = "number")]
+    pub time: f64,
+    /// All coordinates there.
+    #[serde(with = "number::list")]
+    pub state: Vec<f64>,
+    /// Whether it ended the run.
+    pub stops: bool,
 }
 
 /// Rows of a run.

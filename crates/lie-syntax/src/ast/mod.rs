@@ -15,7 +15,7 @@ use lie_symbolic::exact::Rational;
 use lie_symbolic::symbolic::Opaque;
 
 pub use driving::{Dissipation, DissipationKind, Input, Metric, Noise};
-pub use recorded::Observable;
+pub use recorded::{Event, Observable};
 pub use runtime::{NoPath, Runtime};
 
 /// A name and its place.
@@ -339,6 +339,8 @@ pub struct Declaration {
     pub integrals: Vec<(Name, Expr)>,
     /// Functions of the state that are recorded beside it.
     pub observables: Vec<Observable>,
+    /// Functions whose zeros are found.
+    pub events: Vec<Event>,
     /// Methods that get fused code.
     pub methods: Vec<Name>,
     /// Left or right invariance.

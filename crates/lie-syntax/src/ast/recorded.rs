@@ -1,4 +1,4 @@
-//! What is recorded beside the state: first integrals and observables.
+//! What is recorded beside the state: first integrals, observables, events.
 
 use super::{Declaration, Expr, Name};
 
@@ -13,6 +13,19 @@ pub struct Observable {
     pub unwrap: bool,
 }
 
+/// A function whose zeros along a run are found.
+#[derive(Clone, Debug)]
+pub struct Event {
+    /// Its name.
+    pub name: Name,
+    /// The function.
+    pub when: Expr,
+    /// Which zeros count: 1 where it rises, -1 where it falls, 0 for both.
+    pub direction: i8,
+    /// Whether the first of them ends the run.
+    pub stop: bool,
+}
+
 impl Declaration {
     /// The names of what is recorded beside the state, and what it is.
     pub fn quantities(&self) -> impl Iterator<Item = (&Name, &'static str)> {
@@ -24,9 +37,11 @@ impl Declaration {
         integrals.chain(observables).chain(inputs)
     }
 
-    /// The expressions of what is recorded beside the state.
+    /// The expressions of what is recorded beside the state, and those of events.
     pub fn recorded(&self) -> impl Iterator<Item = &Expr> {
         let integrals = self.integrals.iter().map(|(_, value)| value);
-        integrals.chain(self.observables.iter().map(|o| &o.value))
+        let observables = self.observables.iter().map(|o| &o.value);
+        let events = self.events.iter().map(|event| &event.when);
+        integrals.chain(observables).chain(events)
     }
 }

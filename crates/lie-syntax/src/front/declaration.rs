@@ -4,6 +4,7 @@ mod acting;
 mod block;
 
 mod entry;
+mod events;
 mod family;
 mod functions;
 mod lists;
@@ -19,7 +20,7 @@ use proc_macro2::{Span, TokenStream};
 use self::block::{algebra, is_named, names, parameters, realization};
 use self::entry::Entry;
 use self::statement::{Statement, statements};
-use super::reader::{self, Entries, Line, Read, Recorded};
+use super::reader::{self, Awaited, Entries, Line, Read, Recorded};
 use super::tables::Read as Table;
 use super::token::{Delimiter, Token, TokenKind, render, span, split_commas};
 use super::vectors::Declared;
@@ -348,6 +349,11 @@ impl Entries for Parts<'_> {
     fn observables(&self, report: &mut Report) -> Vec<Recorded<'_>> {
         let block = self.first("observables").and_then(|s| s.block(report));
         observables::read(&block.unwrap_or_default(), report)
+    }
+
+    fn events(&self, report: &mut Report) -> Vec<Awaited<'_>> {
+        let block = self.first("events").and_then(|s| s.block(report));
+        events::read(&block.unwrap_or_default(), report)
     }
 
     fn tables(&self, report: &mut Report) -> Vec<Table> {

@@ -9,8 +9,8 @@ use super::token::Token;
 use super::vectors::{self, Declared};
 use super::{Body, Names, Parsed, driving, equations, expression, item};
 use crate::ast::{
-    Algebra, Declaration, Energy, Expr, Family, Input, Invariance, Name, Observable, OwnFunction,
-    Parameter, Realization, RunOption, Size, Start, Structure,
+    Algebra, Declaration, Energy, Event, Expr, Family, Input, Invariance, Name, Observable,
+    OwnFunction, Parameter, Realization, RunOption, Size, Start, Structure,
 };
 use crate::diagnostic::{Kind, Origin, Report};
 
@@ -60,6 +60,18 @@ pub struct Recorded<'a> {
     pub unwrap: bool,
 }
 
+/// An event whose expression is not read yet.
+pub struct Awaited<'a> {
+    /// Its name.
+    pub name: Name,
+    /// Its expression.
+    pub when: Line<'a>,
+    /// Which zeros count.
+    pub direction: i8,
+    /// Whether the first of them ends the run.
+    pub stop: bool,
+}
+
 /// A declaration in the form of one of the front ends; `key` is one of the spec. Mistakes of form are reported
 /// where an entry is asked for.
 pub trait Entries {
@@ -94,6 +106,8 @@ pub trait Entries {
     fn vectors(&self, names: &Names, report: &mut Report) -> Vec<Declared>;
     /// The observables.
     fn observables(&self, report: &mut Report) -> Vec<Recorded<'_>>;
+    /// The events.
+    fn events(&self, report: &mut Report) -> Vec<Awaited<'_>>;
     /// The functions by tables.
     fn tables(&self, report: &mut Report) -> Vec<tables::Read>;
     /// The functions of Rust.
@@ -198,6 +212,9 @@ fn remainder<E: Entries>(
     let observables = entries.observables(report).into_iter();
     let observables = observables.filter_map(|recorded| observable(recorded, &names, report));
     let observables = observables.collect();
+    let events = entries.events(report).into_iter();
+    let events = events.filter_map(|awaited| event(awaited, &names, report));
+    let events = events.collect();
     let methods = entries.methods(report);
     let group = entries.place("group").map(|_| {
         let line = entries.line("group", report)?;
@@ -231,6 +248,7 @@ fn remainder<E: Entries>(
         casimirs,
         integrals,
         observables,
+        events,
         methods,
         invariance: invariance?,
         initial,
@@ -344,6 +362,20 @@ fn observable(recorded: Recorded<'_>, names: &Names, report: &mut Report) -> Opt
         name,
         value,
         unwrap,
+    })
+}
+
+fn event(awaited: Awaited<'_>, names: &Names, report: &mut Report) -> Option<Event> {
+    let (line, example) = (awaited.when, ("the function of the event", "z - 1/2"));
+    if !equations::one_side(&line.tokens, "an event", report) {
+        return None;
+    }
+    let when = item::formula(&line.tokens, example, line.place, names, report)?;
+    Some(Event {
+        name: awaited.name,
+        when,
+        direction: awaited.direction,
+        stop: awaited.stop,
     })
 }
 

@@ -100,6 +100,8 @@ objects! {
         "integrals" integrals: Option<Vec<String>>,
         /// Functions of state, parameters, abbreviations and the time `t` by name, which are columns of a run.
         "observables" observables: Option<BTreeMap<String, Observable>>,
+        /// Functions of state, parameters, abbreviations and the time `t` by name, whose zeros along a run are found.
+        "events" events: Option<BTreeMap<String, Event>>,
         /// Ids of the methods that get fused code.
         "methods" methods: Option<Vec<String>>,
         /// `left` (the default): mu' = ad*_(grad H) mu; `right`: the opposite sign.
@@ -166,6 +168,17 @@ objects! {
         "default" default: Constant,
         /// The time from one sampling to the next; every step where it is absent.
         "sampling" sampling: Option<Constant>,
+    }
+
+    /// The zeros of a function along a run.
+    struct Event requires ["when"] {
+        /// The function.
+        "when" when: String,
+        /// Which zeros count: 1 where it rises, -1 where it falls, 0 (the default) for both.
+        #[schemars(range(min = -1, max = 1))]
+        "direction" direction: Option<i8>,
+        /// Whether the first of them ends the run.
+        "stop" stop: Option<bool>,
     }
 
     /// A random initial state of a family.

@@ -2,6 +2,7 @@
 
 mod algebra;
 mod driving;
+mod events;
 mod files;
 mod observables;
 mod parameters;
@@ -18,7 +19,7 @@ use quote::quote;
 
 use super::json::{self, Type, Value};
 use super::object::{Object, as_list, list, parts, string, wrong_type};
-use super::reader::{self, Entries, Line, Read, Recorded};
+use super::reader::{self, Awaited, Entries, Line, Read, Recorded};
 use super::schema::Spec;
 use super::tables::Read as Table;
 use super::vectors::Declared;
@@ -208,6 +209,11 @@ impl Entries for Object<'_> {
     fn observables(&self, report: &mut Report) -> Vec<Recorded<'_>> {
         let value = self.get("observables");
         value.map_or_else(Vec::new, |v| observables::read(v, report))
+    }
+
+    fn events(&self, report: &mut Report) -> Vec<Awaited<'_>> {
+        let value = self.get("events");
+        value.map_or_else(Vec::new, |v| events::read(v, report))
     }
 
     fn tables(&self, report: &mut Report) -> Vec<Table> {

@@ -26,6 +26,11 @@ pub fn violations(declaration: &Declaration, family: &Family) -> Vec<Diagnostic>
         let message = "the group element of a family is not followed";
         refuse(name.origin, message, "remove `group`");
     }
+    if let Some(event) = declaration.events.first() {
+        let message = "events of a family are not found";
+        let help = "remove it, or declare the sites as one system: `so(3)^3` without an index in the state";
+        refuse(event.name.origin, message, help);
+    }
     if let Some((name, what)) = declaration.quantities().next() {
         let message = format!("a family has no {what} of its own");
         let help = "remove it: the columns of a run are coordinates, energy and Casimirs, from which it can be computed";

@@ -177,6 +177,7 @@ impl Planner<'_> {
                 noises: 0,
                 casimirs: Vec::new(),
                 quantities: Vec::new(),
+                events: Vec::new(),
                 energy: Energy::Expression,
                 derivatives: false,
                 poisson: Vec::new(),

@@ -31,6 +31,7 @@ const KEYWORDS: &[(&str, Follows)] = &[
     ("casimir", Follows::Name),
     ("integrals", Follows::Block),
     ("observables", Follows::Block),
+    ("events", Follows::Block),
     ("methods", Follows::Equals),
     ("invariance", Follows::Equals),
     ("initial", Follows::Equals),

@@ -1,0 +1,138 @@
+//! A step is looked at before it is shown.
+
+use super::{Event, Events};
+use crate::driver::course::{Course, Left};
+use crate::driver::grid::Place;
+use crate::driver::joints::Joints;
+use crate::driver::observer::Observer;
+use crate::driver::problem::set_time;
+use crate::driver::solve::IntegrateError;
+use crate::driver::stats::Status;
+use crate::methods::{Method, StepFailure, StepReport, Stepper};
+use crate::poisson::Poisson;
+use crate::scalar::Scalar;
+use crate::state::State;
+
+/// What happens until the next grid point.
+pub(in crate::driver) struct Ahead<V> {
+    events: Vec<Event<V>>,
+}
+
+impl<V> Ahead<V> {
+    /// Nothing.
+    pub(in crate::driver) fn nothing() -> Self {
+        Self { events: Vec::new() }
+    }
+
+    /// When the run stops, if it does.
+    pub(in crate::driver) fn stop(&self) -> Option<f64> {
+        let last = self.events.last().filter(|event| event.stops);
+        last.map(|event| event.time)
+    }
+
+    /// Tells what happens.
+    pub(in crate::driver) fn tell<S: Scalar, P: Poisson<S, State = V>>(
+        &mut self,
+        system: &P,
+        observer: &mut impl Observer<S, P>,
+    ) {
+        for event in self.events.drain(..) {
+            observer.event(system, &event);
+        }
+    }
+
+    /// Tells what happens until the run stops, if it does, and gives the event at which that is.
+    pub(in crate::driver) fn take_stop<S: Scalar, P: Poisson<S, State = V>>(
+        &mut self,
+        system: &P,
+        observer: &mut impl Observer<S, P>,
+    ) -> Option<Event<V>> {
+        self.stop()?;
+        let last = self.events.pop()?;
+        self.tell(system, observer);
+        observer.event(system, &last);
+        Some(last)
+    }
+}
+
+/// A step that was made before it is shown.
+type Made<V> = Option<Result<(V, StepReport), StepFailure>>;
+
+impl<M> Course<'_, M> {
+    /// The time up to which the run is known next: the end of a step, or that of the run behind the last one.
+    fn ahead(&self) -> Option<f64> {
+        if self.index < self.grid.steps() {
+            return Some(self.grid.time(self.index + 1));
+        }
+        match self.grid.end_place {
+            Place::After(index, _) if index == self.index => Some(self.grid.end),
+            _ => None,
+        }
+    }
+
+    /// Looks at the step that begins here. Where it is one alone that shows no motion on the group, it is made for that.
+    pub(in crate::driver) fn look_ahead<'s, S: Scalar, P: Poisson<S>, O: Observer<S, P>>(
+        &mut self,
+        system: &'s P,
+        mut joints: Option<&mut Joints<S, P>>,
+        events: &mut Events<P::State>,
+        mu: &P::State,
+        (stepper, made): (&mut M::Stepper<'s>, &mut Made<P::State>),
+        _observer: &O,
+    ) -> Ahead<P::State>
+    where
+        M: Method<S, P>,
+    {
+        let Some(time) = self.ahead() else {
+            return Ahead::nothing();
+        };
+        let whole = self.index < self.grid.steps() && self.parts == 1 && joints.is_none();
+        if whole && made.is_none() && !O::MOTION {
+            let mut end = mu.clone();
+            let stepped = stepper.step(&mut end, &mut ());
+            *made = Some(stepped.map(|report| (end, report)));
+        }
+        let mut end = mu.clone();
+        match made {
+            Some(Ok((state, _))) => {
+                end.copy_from(state);
+                set_time(system, &mut end, time);
+            }
+            Some(Err(_)) => return Ahead::nothing(),
+            None => {
+                let stats = self.stats;
+                let joints = joints.as_deref_mut();
+                let reached = self.off_grid(system, joints, time, &mut end, &mut ());
+                self.stats = stats;
+                if reached.is_err() {
+                    return Ahead::nothing();
+                }
+            }
+        }
+        Ahead {
+            events: self.events_until(system, joints, events, (mu, (time, &end))),
+        }
+    }
+
+    /// The last row of a run that stops at an event.
+    pub(in crate::driver) fn stop_at<S: Scalar, P: Poisson<S>>(
+        &mut self,
+        system: &P,
+        joints: Option<&mut Joints<S, P>>,
+        last: Event<P::State>,
+        (mu, between): (&P::State, &mut P::State),
+        observer: &mut impl Observer<S, P>,
+    ) -> Result<Left<P>, IntegrateError>
+    where
+        M: Method<S, P>,
+    {
+        if self.shown != Some(last.time) {
+            between.copy_from(mu);
+            // the motion on the group goes there too
+            self.off_grid(system, joints, last.time, between, observer)?;
+            // it is the last row, whatever an observer says
+            let _ = observer.row(system, last.time, &last.mu);
+        }
+        Ok(Left::Over(Status::Event(last.index)))
+    }
+}
