@@ -62,6 +62,13 @@ impl<S: Scalar, P: Poisson<S>> Joints<S, P> {
             for lane in 0..S::LANES {
                 let of = |values: &[S]| values[index].lane(lane).to_f64();
                 let (from, to) = (of(before), of(after));
+                // one at an end of the step is there, not inside
+                if from == 0.0 {
+                    times.push(start);
+                }
+                if to == 0.0 {
+                    times.push(end);
+                }
                 if from * to < 0.0 {
                     let mut scratch = vec![S::zero(); before.len()];
                     let negative = |time: f64| {
@@ -73,20 +80,25 @@ impl<S: Scalar, P: Poisson<S>> Joints<S, P> {
             }
         }
         let least = SLIVER * (end - start).abs();
+        let at_start = times.iter().any(|time| (time - start).abs() <= least);
+        let at_end = times.iter().any(|time| (time - end).abs() <= least);
         times.retain(|time| (time - start).abs() > least && (time - end).abs() > least);
-        if times.is_empty() {
+        if times.is_empty() && !at_start && !at_end {
             return &self.pieces;
         }
         times.sort_by(|a, b| (a - start).abs().total_cmp(&(b - start).abs()));
         times.dedup_by(|b, a| (*a - *b).abs() <= least);
-        let mut from = start;
-        for time in times {
+        let beside = |time: f64| {
             let size = time.abs().max((end - start).abs());
-            let beside = (BESIDE * largest(S::epsilon()) * size).copysign(end - start);
-            self.pieces.push((from, time - beside));
-            from = time + beside;
+            (BESIDE * largest(S::epsilon()) * size).copysign(end - start)
+        };
+        let mut from = start + if at_start { beside(start) } else { 0.0 };
+        for time in times {
+            self.pieces.push((from, time - beside(time)));
+            from = time + beside(time);
         }
-        self.pieces.push((from, end));
+        let to = end - if at_end { beside(end) } else { 0.0 };
+        self.pieces.push((from, to));
         &self.pieces
     }
 }

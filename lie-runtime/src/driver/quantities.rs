@@ -36,6 +36,8 @@ impl<S: Scalar> Quantities<S> {
             return &self.values;
         }
         system.quantities(mu, &mut self.values);
+        // no work is not minus nothing
+        self.values.iter_mut().for_each(|value| *value += S::zero());
         for (place, last) in &mut self.angles {
             let value = &mut self.values[*place];
             if let Some(last) = last {

@@ -43,7 +43,7 @@ pub(super) fn write(model: &Structure, text: &mut String) -> std::fmt::Result {
     for casimir in &model.casimirs {
         let changed = match casimir.kept {
             true => "",
-            false => ", which the forces change",
+            false => ", which is not kept: what acts changes it",
         };
         writeln!(
             text,

@@ -33,7 +33,7 @@ pub fn measure(arguments: &args::Bench, bed: &Bed) -> Result<Measure, Failure> {
             let model = &bed.spec.model;
             if model.configuration.as_ref().is_some_and(|c| c.time) {
                 let text = format!(
-                    "the Hamiltonian of {} depends on the time, so that the energy is not conserved and its drift says nothing",
+                    "the energy of {} varies, by the time or by what acts on it, and its drift says nothing",
                     model.name
                 );
                 let message = Message::option("--measure", text);

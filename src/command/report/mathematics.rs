@@ -87,9 +87,15 @@ pub fn formulas(model: &Structure) -> Vec<(&'static str, Vec<String>)> {
             .poisson
             .iter()
             .flat_map(|kernel| kernel.explicit.iter());
+        let hidden = |name: &str| {
+            let shown = model.shown_coordinates();
+            let place = model.coordinates.iter().position(|c| c.text == name);
+            place.is_some_and(|place| !shown.contains(&place))
+        };
         let motion = lines.filter(|line| {
-            line.split_once('=')
-                .is_some_and(|(left, _)| left.trim().ends_with('\''))
+            let left = line.split_once('=').map(|(left, _)| left.trim());
+            let name = left.and_then(|left| left.strip_suffix('\''));
+            name.is_some_and(|name| !hidden(name))
         });
         let motion: Vec<String> = motion.map(|line| formula(line, &names)).collect();
         if !motion.is_empty() {
@@ -108,6 +114,12 @@ fn brackets(model: &Structure, names: &Names) -> Vec<String> {
     let pairs = (0..size).flat_map(|i| (i + 1..size).map(move |j| (i, j)));
     let pairs: Vec<(usize, usize)> = pairs
         .filter(|(i, j)| !algebra.constants.upper(*i, *j).is_empty())
+        // what carries the time has names that nobody wrote
+        .filter(|(i, j)| {
+            [i, j]
+                .iter()
+                .all(|k| !algebra.basis[**k].text.starts_with('_'))
+        })
         .collect();
     if pairs.len() > MOST {
         return vec![format!(

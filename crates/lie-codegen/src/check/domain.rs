@@ -157,6 +157,14 @@ fn functions(model: &Model, scratch: &mut Graph) -> Vec<(ExprId, String)> {
     let kept = model.quantities.iter();
     let kept = kept.filter(|quantity| quantity.kind == QuantityKind::Integral);
     functions.extend(kept.map(|q| (q.expr, format!("the first integral `{}`", q.name))));
+    for (place, force) in model
+        .driving
+        .iter()
+        .flat_map(|d| d.force.iter().enumerate())
+    {
+        let name = &model.coordinates[place].text;
+        functions.push((*force, format!("the force on `{name}`")));
+    }
     if let Bracket::General(matrix) = &model.bracket {
         functions.extend(matrix.entries.iter().map(|(i, j, value)| {
             let [a, b] = [*i, *j].map(|index| &model.coordinates[index].text);

@@ -13,7 +13,7 @@ use super::environment::Allowed;
 use super::matrix;
 use super::poisson::Entry;
 use crate::algebra::StructureConstants;
-use crate::model::{Acting, Driving, Energy, Input, PoissonMatrix};
+use crate::model::{Acting, Driving, Energy, Input, Model, PoissonMatrix};
 use lie_symbolic::exact::Rational;
 use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 use lie_syntax::ast::{Declaration, DissipationKind, Expr, ExprKind, Metric, Name, Noise};
@@ -142,6 +142,34 @@ pub fn acting(
     complete.then_some(all)
 }
 
+/// What dissipation promises and does not hold at values of the parameters: why, as text with a remedy.
+pub fn violation(model: &Model, values: &[f64]) -> Option<Diagnostic> {
+    let driving = model.driving.as_ref()?;
+    let name = |symbol| model.symbol_name(symbol);
+    let configuration = model.configuration.as_ref()?;
+    let checks = Checks {
+        origin: model.name_origin,
+        own: configuration.own_momenta(),
+        defaults: values,
+        name: &name,
+    };
+    let mut declared = driving.declared.iter();
+    let wrong = declared.find_map(|acting| match acting {
+        Acting::DoubleBracket(strength, metric) => {
+            let wrong = checks.strength(&model.graph, *strength);
+            let metric = metric.as_ref();
+            wrong.or_else(|| checks.damps(&model.graph, "the metric G", metric?))
+        }
+        Acting::Rayleigh(rows) => checks.damps(&model.graph, "the matrix R", rows),
+        Acting::Temperature(temperature) => checks.temperature(&model.graph, *temperature),
+        _ => None,
+    })?;
+    let message = wrong
+        .message
+        .replace("at the default parameters", "at these parameters");
+    Some(Diagnostic { message, ..wrong })
+}
+
 /// What the motion of a driven system is made of.
 pub struct Sources<'a> {
     /// The declaration in all its coordinates.
@@ -234,6 +262,17 @@ pub fn driving(
                 work.add_double_bracket(*strength, metric.as_ref(), &mut damping, clock.time);
             }
             Acting::Metriplectic(entropy, rows) => {
+                let held = clock.time..declaration.dimension();
+                let symbols = work.graph.symbols(*entropy).into_iter();
+                let mut outside = symbols.filter(
+                    |symbol| matches!(symbol, Symbol::Coordinate(place) if held.contains(place)),
+                );
+                if outside.next().is_some() {
+                    let message = "the entropy depends on the time or on an input, and would change without the motion";
+                    let help = "write a function of the state and of parameters";
+                    let mistake = Diagnostic::new(Kind::Dissipation, checks.origin, message);
+                    mistakes.push(mistake.help(help));
+                }
                 let factor = matches!(
                     dissipation.map(|d| &d.kind),
                     Some(DissipationKind::Metriplectic {
@@ -256,16 +295,7 @@ pub fn driving(
                 }
             }
             Acting::Temperature(temperature) => {
-                let wrong = checks.strength(work.graph, *temperature);
-                let wrong = wrong.map(|mistake| Diagnostic {
-                    message: mistake
-                        .message
-                        .replace("strength", "temperature")
-                        .replace(": H would grow", ""),
-                    help: Some("write a temperature that is not negative".into()),
-                    ..mistake
-                });
-                mistakes.extend(wrong);
+                mistakes.extend(checks.temperature(work.graph, *temperature));
                 let wrong = match &before {
                     Some(Acting::DoubleBracket(strength, metric)) => work.warm(
                         &checks,
@@ -331,11 +361,6 @@ fn refused(declaration: &Declaration, sources: &Sources<'_>) -> Option<Diagnosti
     let mistake = |origin: Origin, message: &str, help: &str| {
         Some(Diagnostic::new(Kind::Dissipation, origin, message).help(help))
     };
-    if declaration.family.is_some() {
-        let message = "forces, dissipation, noise and inputs of a family are not built yet";
-        let help = "declare the sites one by one, as in `so(3) + so(3)`, or leave them out";
-        return mistake(origin, message, help);
-    }
     if sources.energy.expression().is_none() {
         let message = "forces, dissipation, noise and inputs need H as an expression, and the Legendre transform of the Lagrangian is by iteration";
         return mistake(origin, message, "declare the `hamiltonian`");

@@ -58,6 +58,7 @@ use lie_syntax::ast::Declaration;
 use lie_syntax::diagnostic::{Diagnostic, Report};
 
 pub use constant::constant_value;
+pub use driving::violation;
 pub use refuted_verdict::refuted_verdict;
 
 /// Checks a declaration; `None` if there are mistakes. Those and warnings go to the report.

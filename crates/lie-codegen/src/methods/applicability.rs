@@ -16,8 +16,8 @@ pub fn refusal(structure: &Structure, choice: &Choice) -> Option<(String, String
         return family(pieces.as_ref().err(), choice);
     }
     let model = &structure.model;
-    let whole = bracket(model, choice).or_else(|| lagrangian(model, choice));
-    if let Some(reason) = whole.or_else(|| driven(model, choice)) {
+    let whole = bracket(model, choice).or_else(|| driven(model, choice));
+    if let Some(reason) = whole.or_else(|| lagrangian(model, choice)) {
         return Some(reason);
     }
     match choice {
@@ -105,7 +105,12 @@ fn driven(model: &Model, choice: &Choice) -> Option<(String, String)> {
         bends && !method.damping,
     ) {
         (false, false) => return None,
-        (true, _) => "forces act beside the Hamiltonian, and the step has no form with them",
+        (true, _) if driving.pushes() => {
+            "forces act beside the Hamiltonian, and the step has no form with them"
+        }
+        (true, _) => {
+            "dissipation or noise acts beside the Hamiltonian, and the step has no form with it"
+        }
         (false, true) => {
             "a double bracket damps, and the step is made of a gradient of H, which its generator is not"
         }

@@ -1,7 +1,7 @@
 //! What acts beside the Hamiltonian.
 
 use super::Model;
-use lie_symbolic::symbolic::{ExprId, Graph};
+use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 
 /// Forces and dissipation of a system: `mu' = Pi(mu) xi + F`.
 #[derive(Clone, Debug)]
@@ -56,6 +56,12 @@ impl Driving {
     /// Whether the generator is not the gradient of H.
     pub fn is_damped(&self, graph: &Graph) -> bool {
         self.damping.iter().any(|more| !graph.is_zero(*more))
+    }
+
+    /// Whether a force was declared.
+    pub fn pushes(&self) -> bool {
+        let force = |acting: &Acting| matches!(acting, Acting::Force(..) | Acting::ForceNoise(_));
+        self.declared.iter().any(force)
     }
 
     /// Whether noise moves along orbits.
@@ -146,6 +152,20 @@ impl Model {
             return Vec::new();
         };
         let mut sentences = Vec::new();
+        // what changes H from outside
+        let clock = self.configuration.as_ref().and_then(|c| c.clock());
+        let energy = self
+            .energy
+            .expression()
+            .map(|h| self.graph.symbols(h.energy));
+        let outside = |symbol: &Symbol| {
+            let place = match symbol {
+                Symbol::Coordinate(place) => *place,
+                _ => return false,
+            };
+            clock.is_some_and(|clock| place >= clock.time)
+        };
+        let changes = energy.iter().flatten().any(outside);
         let (mut pushes, mut damps) = (false, false);
         for acting in &driving.declared {
             match acting {
@@ -164,6 +184,7 @@ impl Model {
         }
         match (pushes, damps) {
             (true, _) => sentences.clear(),
+            _ if changes => {}
             (false, true) => sentences = vec!["H never grows".into()],
             (false, false) => sentences.push("H is constant".into()),
         }

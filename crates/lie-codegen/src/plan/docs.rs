@@ -116,7 +116,7 @@ pub(super) fn docs(structure: &Structure) -> Vec<String> {
         docs.push(format!("Beside H: {what}: `{formula}`."));
     }
     for casimir in structure.casimirs.iter().filter(|c| !c.kept) {
-        docs.push(format!("The forces change `{}`.", casimir.name));
+        docs.push(format!("What acts changes `{}`.", casimir.name));
     }
     if !structure.quantities.is_empty() {
         let quantities = structure.quantities.iter();

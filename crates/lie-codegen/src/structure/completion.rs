@@ -199,7 +199,13 @@ fn complete(model: &Model, field: &Field, work: u64, graph: &mut Graph) -> (Vec<
     });
     let mut casimirs = declared.clone();
     for ((written, kind, degree), standing) in written.into_iter().zip(standings) {
-        if standing == Standing::Independent && casimirs.len() < count {
+        // of what carries the time nobody has to be told
+        let shown = model.shown_coordinates();
+        let symbols = writer.graph.symbols(written.normal).into_iter();
+        let mut own =
+            symbols.filter(|symbol| matches!(symbol, Symbol::Coordinate(i) if shown.contains(i)));
+        let told = own.next().is_some();
+        if standing == Standing::Independent && told && casimirs.len() < count {
             casimirs.push(Casimir {
                 multivalued: false,
                 kept: true,

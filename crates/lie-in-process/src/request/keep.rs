@@ -110,7 +110,10 @@ impl Planner<'_> {
         let text = format!("the energy of {} is not constant: {why}", model.name);
         Err(word
             .wrong(text)
-            .help("keep the Casimirs alone, or leave it out"))
+            .help(match model.casimirs.iter().any(|casimir| !casimir.kept) {
+                true => "leave it out",
+                false => "keep the Casimirs alone, or leave it out",
+            }))
     }
 
     /// Whether there are Casimirs with values.

@@ -1,5 +1,6 @@
 //! Parameters and the initial state.
 
+use lie_codegen::check::violation;
 use lie_syntax::diagnostic::Kind;
 use lie_syntax::front::names::normalised;
 use lie_syntax::suggest::did_you_mean;
@@ -14,6 +15,7 @@ use crate::words::counted;
 impl Planner<'_> {
     pub(super) fn start(&mut self) -> Option<Point> {
         let parameters = self.parameters()?;
+        self.dissipates(&parameters);
         let initial = self.initial(&parameters)?;
         Some(Point {
             parameters,
@@ -26,6 +28,7 @@ impl Planner<'_> {
         let Some(parameters) = self.parameters() else {
             return Vec::new();
         };
+        self.dissipates(&parameters);
         let mut points = Vec::new();
         let before = self.mistakes.len();
         for (values, place) in &states.all {
@@ -40,6 +43,18 @@ impl Planner<'_> {
         let of_rows = self.mistakes.split_off(before);
         self.mistakes.extend(said_once(of_rows));
         points
+    }
+
+    /// What was checked of dissipation at the default parameters holds at these.
+    fn dissipates(&mut self, parameters: &[f64]) {
+        if let Some(wrong) = violation(&self.spec.model, parameters) {
+            let option = self.request.front.option("param");
+            let message = Message::option(&option, wrong.message);
+            self.mistakes.push(match wrong.help {
+                Some(help) => message.help(help),
+                None => message,
+            });
+        }
     }
 
     fn of_file(&mut self, values: &[f64], place: &Place, parameters: &[f64]) -> Option<Vec<f64>> {

@@ -142,7 +142,7 @@ pub fn no_orbit(model: &Structure) -> Option<String> {
     }
     if model.configuration.as_ref().is_some_and(|c| c.time) {
         return Some(format!(
-            "the Hamiltonian of {} depends on the time, and an orbit has level curves of one that does not",
+            "the energy of {} varies, by the time or by what acts on it, and an orbit has level curves of one that does not",
             model.name
         ));
     }
@@ -254,7 +254,7 @@ fn section(
         let name = &model.name;
         let text = if model.configuration.as_ref().is_some_and(|c| c.time) {
             format!(
-                "the Hamiltonian of {name} depends on the time, and sections are drawn of systems without it"
+                "the energy of {name} varies, by the time or by what acts on it, and sections are drawn of systems whose energy does not"
             )
         } else if model.family.is_some() {
             format!("{name} is a family, and sections are drawn of single systems")

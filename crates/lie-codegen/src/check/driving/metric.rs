@@ -10,7 +10,7 @@ const WORK: u64 = 4_000_000;
 /// Of larger metrics the minors are not written out.
 const MOST_MINORS: usize = 6;
 /// Eigenvalues that are negative by less, of the largest entry, are rounding.
-const ROUNDING: f64 = 1e-12;
+const ROUNDING: f64 = 1e-15;
 
 /// A matrix of expressions by rows.
 pub type Rows = Vec<Vec<ExprId>>;
@@ -37,6 +37,18 @@ impl Checks<'_> {
         let n = self.own;
         (rows.len() != n || rows.iter().any(|row| row.len() != n)).then(|| {
             let columns = rows.first().map_or(0, Vec::len);
+            let ragged = rows.iter().position(|row| row.len() != columns);
+            if let Some(place) = ragged {
+                let message = format!(
+                    "row {} of {what} has {} entries, the first one {columns}",
+                    place + 1,
+                    rows[place].len()
+                );
+                return self.mistake(
+                    message,
+                    "write a row and a column for every coordinate of the state",
+                );
+            }
             let message = format!(
                 "{what} has {} rows of {columns}, but there are {n} coordinates",
                 rows.len()
@@ -58,6 +70,15 @@ impl Checks<'_> {
                 message,
                 "a double bracket damps; write a strength that is not negative",
             )
+        })
+    }
+
+    /// Whether a temperature is not negative, at the default parameters.
+    pub fn temperature(&self, graph: &Graph, temperature: ExprId) -> Option<Diagnostic> {
+        let value = self.value(graph, temperature);
+        (value < 0.0 || value.is_nan()).then(|| {
+            let message = format!("the temperature is {value} at the default parameters");
+            self.mistake(message, "write a temperature that is not negative")
         })
     }
 
