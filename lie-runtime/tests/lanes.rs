@@ -2,10 +2,13 @@
 
 use crate::systems;
 
-use lie_runtime::methods::{Method, StepFailure, StepReport, Stepper};
+use lie_runtime::methods::{
+    CohenHairer4, Gonzalez, MeanValue, Method, OrbitEnergy, Rkmk6, StepFailure, StepReport, Stepper,
+};
 use lie_runtime::newton::{FailureReason, NewtonOptions};
 use lie_runtime::prelude::*;
 use nalgebra::SVector;
+use systems::driven_body::DrivenBody;
 use systems::heavy_top::HeavyTop;
 use systems::nonpolynomial::Nonpolynomial;
 use systems::saddle::Saddle;
@@ -74,6 +77,35 @@ fn top(lane: usize) -> [f64; 6] {
 fn body(lane: usize) -> [f64; 3] {
     let size = [1e-6, 1e-3, 0.01, 0.1, 0.5, 1.0, 1.5, 2.0][lane];
     [0.6 * size, -0.5 * size, 0.7 * size]
+}
+
+/// The same of a body that is driven and damped.
+fn driven(lane: usize) -> [f64; 6] {
+    let [x, y, z] = body(lane);
+    [x, y, z, 0.0, 0.3 + lane as f64, 1.0]
+}
+
+#[test]
+fn forces_and_damping_have_the_digits_of_the_scalar_run() {
+    let body = DrivenBody {
+        forced: true,
+        strength: Some(0.4),
+    };
+    let many = DrivenBody {
+        forced: true,
+        strength: Some(F64x8::from_f64(0.4)),
+    };
+    let (bodies, h) = ((&many, &body), [0.1; 8]);
+    let options = NewtonOptions::default();
+    compare(bodies, &LieMidpoint::exp(), &options, h, driven);
+    compare(bodies, &LieMidpoint::cayley(), &options, h, driven);
+    compare(bodies, &Gonzalez, &options, h, driven);
+    compare(bodies, &MeanValue, &options, h, driven);
+    let orbit = OrbitEnergy::gonzalez();
+    assert!(different(compare(bodies, &orbit, &options, h, driven)));
+    compare(bodies, &CohenHairer4::new(), &options, h, driven);
+    compare(bodies, &Rkmk6, &options, h, driven);
+    compare(bodies, &CommutatorFree4, &options, h, driven);
 }
 
 #[test]

@@ -68,6 +68,7 @@ pub mod body4;
 pub mod damped_body;
 pub mod driven_body;
 pub mod folded;
+pub mod forced_top;
 pub mod heavy_top;
 pub mod logarithmic;
 pub mod nonpolynomial;

@@ -21,6 +21,7 @@ pub(super) struct Beside<V, M> {
     /// The derivative of the force in m.
     slopes: M,
     column: V,
+    turned: V,
 }
 
 impl<V, M> Beside<V, M> {
@@ -37,7 +38,8 @@ impl<V, M> Beside<V, M> {
             force: zero.clone(),
             damping: zero.clone(),
             slopes: system.zero_jacobian(),
-            column: zero,
+            column: zero.clone(),
+            turned: zero,
         }
     }
 
@@ -171,11 +173,10 @@ impl<V, M> Beside<V, M> {
         M: SquareMatrix<S>,
         P: Poisson<S, State = V, Jacobian = M>,
     {
-        let mut damping = self.damping.clone();
         for index in 0..system.dimension() {
             v(derivative, index, &mut self.column);
-            system.damping(&self.middle, &self.column, &mut damping);
-            for (row, &entry) in damping.as_slice().iter().enumerate() {
+            system.damping(&self.middle, &self.column, &mut self.turned);
+            for (row, &entry) in self.turned.as_slice().iter().enumerate() {
                 derivative.set(row, index, derivative.get(row, index) + entry);
             }
         }

@@ -23,7 +23,7 @@ use crate::state::{Stages, State};
 /// Start: `D_i = h b_i f(mu + c_i h f(mu))`.
 ///
 /// Where something damps, `g_i + c G Pi(Y_i) g_i` takes the place of `g_i`, and where forces act, `F(Y_i)` is added, both at the
-/// stages: H changes by `h sum_i b_i (<F(Y_i), g_i> - c <v_i, G v_i>)` with `v_i = Pi(Y_i) g_i` ([`Beside`]).
+/// stages: H changes by `h sum_i b_i (<F(Y_i), g_i> - c <v_i, G v_i>)` with `v_i = Pi(Y_i) g_i`.
 #[derive(Debug)]
 pub struct CohenHairerStep<'a, S: Scalar, P: Poisson<S>, const STAGES: usize> {
     system: &'a P,
@@ -119,14 +119,9 @@ impl<'a, S: Scalar, P: Poisson<S>, const STAGES: usize> CohenHairerStep<'a, S, P
         }
     }
 
-    /// `r_i = D_i - h b_i Pi(Y_i) g_i`; leaves `Y_i` in the point and `Pi(Y_i)` in the matrix, and the direction of the motion in the
-    /// place of the mean of the gradient.
-    fn write_residual(
-        &mut self,
-        stage: usize,
-        unknown: &Stages<P::State, STAGES>,
-        residual: &mut P::State,
-    ) {
+    /// Sets the field `Pi(Y_i) g_i`; leaves `Y_i` in the point and `Pi(Y_i)` in the matrix, and the direction of the motion in the place
+    /// of the mean of the gradient.
+    fn set_field(&mut self, stage: usize, unknown: &Stages<P::State, STAGES>) {
         self.set_point(&{ self.tableau.ratios[stage] }, unknown);
         let matrix = &mut self.poisson_matrix;
         self.system.poisson_matrix(&self.point, matrix);
@@ -136,6 +131,16 @@ impl<'a, S: Scalar, P: Poisson<S>, const STAGES: usize> CohenHairerStep<'a, S, P
             let gradient = &mut self.gradients[stage];
             beside.act(self.system, matrix, gradient, &mut self.field);
         }
+    }
+
+    /// `r_i = D_i - h b_i Pi(Y_i) g_i`, and what [`Self::set_field`] leaves.
+    fn write_residual(
+        &mut self,
+        stage: usize,
+        unknown: &Stages<P::State, STAGES>,
+        residual: &mut P::State,
+    ) {
+        self.set_field(stage, unknown);
         let pairs = unknown.0[stage]
             .as_slice()
             .iter()
@@ -144,25 +149,19 @@ impl<'a, S: Scalar, P: Poisson<S>, const STAGES: usize> CohenHairerStep<'a, S, P
             *out = increment - self.weights[stage] * field;
         }
     }
-}
 
-impl<S: Scalar, P: Poisson<S>, const STAGES: usize> CohenHairerStep<'_, S, P, STAGES> {
     /// Adds to the derivatives of the mean of a stage those of what damps there.
-    #[cold]
     fn damp_blocks(
         &mut self,
         stage: usize,
         unknown: &Stages<P::State, STAGES>,
         blocks: &mut [P::Jacobian; STAGES],
     ) {
+        self.set_point(&{ self.tableau.ratios[stage] }, unknown);
         let Some(beside) = self.beside.get_mut(self.system) else {
             return;
         };
         let system = self.system;
-        self.point.copy_from(&self.base);
-        for (&ratio, increment) in self.tableau.ratios[stage].iter().zip(&unknown.0) {
-            self.point.axpy(ratio, increment);
-        }
         beside.set_at(system, &self.point);
         system.poisson_matrix(&self.point, &mut self.poisson_matrix);
         let (tensor, slope) = (&self.poisson_matrix, &mut self.hessian);
@@ -315,8 +314,7 @@ impl<S: Scalar, P: Poisson<S>, const STAGES: usize> Equation<S>
     fn velocity(&mut self, unknown: &Self::Unknown, stage: usize, xi: &mut P::State) -> usize {
         self.set_gradients(unknown);
         if self.system.is_damped() {
-            // the residual leaves the direction of the motion in the place of the mean
-            self.write_residual(stage, unknown, xi);
+            self.set_field(stage, unknown);
         }
         xi.fill(S::zero());
         xi.axpy(self.step, &self.gradients[stage]);
@@ -329,11 +327,13 @@ impl<S: Scalar, P: Poisson<S>, const STAGES: usize> Equation<S>
         let beside = self.beside.get(self.system);
         if let (Some(_), Some(Clock { momentum, .. })) = (beside, self.system.clock()) {
             // no residual depends on it, and no test of convergence
-            let mut residual = self.zero_unknown();
-            self.residual(unknown, &mut residual);
-            for residual in &residual.0 {
-                mu.as_mut_slice()[momentum] -= residual.as_slice()[momentum];
+            self.set_gradients(unknown);
+            let mut moved = S::zero();
+            for stage in 0..STAGES {
+                self.set_field(stage, unknown);
+                moved += self.weights[stage] * self.field.as_slice()[momentum];
             }
+            mu.as_mut_slice()[momentum] = self.base.as_slice()[momentum] + moved;
         }
     }
 }

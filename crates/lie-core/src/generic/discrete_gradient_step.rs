@@ -65,8 +65,8 @@ where
         }
     }
 
-    /// `r = u - mu - h T g` with the discrete gradient already computed; leaves the direction of the motion in its place.
-    fn write_residual(&mut self, unknown: &P::State, residual: &mut P::State) {
+    /// Sets the field `T g` with the discrete gradient already computed; leaves the direction of the motion in its place.
+    fn set_field(&mut self, unknown: &P::State) {
         let matrix = &mut self.poisson_matrix;
         self.tensor
             .matrix(self.system, &self.base, unknown, self.step, matrix);
@@ -75,6 +75,11 @@ where
             beside.set_middle(self.system, &self.base, unknown);
             beside.act(self.system, matrix, &mut self.xi, &mut self.field);
         }
+    }
+
+    /// `r = u - mu - h T g` with the discrete gradient already computed.
+    fn write_residual(&mut self, unknown: &P::State, residual: &mut P::State) {
+        self.set_field(unknown);
         let (base, field) = (self.base.as_slice(), self.field.as_slice());
         for (index, out) in residual.as_mut_slice().iter_mut().enumerate() {
             *out = unknown.as_slice()[index] - base[index] - self.step * field[index];
@@ -167,10 +172,8 @@ where
     fn velocity(&mut self, unknown: &P::State, _stage: usize, xi: &mut P::State) -> usize {
         self.gradient.value(self.system, unknown, xi);
         if self.system.is_damped() {
-            // the residual leaves the direction with what damps
             self.xi.copy_from(xi);
-            let mut residual = self.system.zero_state();
-            self.write_residual(unknown, &mut residual);
+            self.set_field(unknown);
             xi.copy_from(&self.xi);
         }
         for entry in xi.as_mut_slice() {
@@ -184,9 +187,10 @@ where
         let beside = self.beside.get(self.system);
         if let (Some(_), Some(Clock { momentum, .. })) = (beside, self.system.clock()) {
             // no residual depends on it, and no test of convergence
-            let mut residual = self.system.zero_state();
-            self.residual(unknown, &mut residual);
-            mu.as_mut_slice()[momentum] -= residual.as_slice()[momentum];
+            self.gradient.value(self.system, unknown, &mut self.xi);
+            self.set_field(unknown);
+            let moved = self.step * self.field.as_slice()[momentum];
+            mu.as_mut_slice()[momentum] = self.base.as_slice()[momentum] + moved;
         }
     }
 }

@@ -22,9 +22,8 @@ use crate::state::State;
 /// Jacobian: `1 - d/dxi[phi1(ad*_xi) mu] S''(p)`.
 /// Start: `p = mu + (h/2) f(mu)`.
 ///
-/// Where forces act, the force at the midpoint is carried to both ends by half of the motion
-/// ([`MidpointForce`](super::midpoint_force::MidpointForce)): in the residual `mu + (h/2) exp(-ad*_xi/2) F(p)` takes the place of mu, and
-/// the new state is `exp(ad*_xi) mu + h exp(ad*_xi/2) F(p)`.
+/// Where forces act, the force at the midpoint is carried to both ends by half of the motion: in the residual
+/// `mu + (h/2) exp(-ad*_xi/2) F(p)` takes the place of mu, and the new state is `exp(ad*_xi) mu + h exp(ad*_xi/2) F(p)`.
 #[derive(Debug)]
 pub struct ExpRetraction<'a, S: Scalar, P: LiePoisson<S>, G> {
     system: &'a P,

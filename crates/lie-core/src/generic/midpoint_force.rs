@@ -13,7 +13,7 @@ use crate::state::State;
 /// So the spatial momentum changes by exactly h times the force, carried to space by the group element in the middle of the step:
 /// `Ad*_(g1^-1) mu1 - Ad*_(g^-1) mu = h Ad*_(gm^-1) F(p)`, `gm = g exp(xi/2)`.
 #[derive(Debug)]
-pub struct MidpointForce<V, M> {
+pub(super) struct MidpointForce<V, M> {
     /// h/2 times the force, at the beginning.
     carried: V,
     /// The base with it.

@@ -20,8 +20,8 @@ use crate::state::State;
 /// `dexp_(-x) = sum_k (-ad_x)^k/(k + 1)!`; where x is so large that this series has no digits left, 1,
 /// which makes the iteration one of fixed point. Start: `mu + h f(mu)`.
 ///
-/// Where forces act, half of `h F((mu + u)/2)` is added before the motion and half after it; where something damps, it is in the direction
-/// ([`OrbitBeside`]).
+/// Where forces act, half of `h F((mu + u)/2)` is added before the motion and half after it; where something damps, it is in the
+/// direction: `x = h (g + c G v)` with `v = ad*_g phi1(ad*_x) y` and the state y from which the motion goes.
 #[derive(Debug)]
 pub struct OrbitEnergyStep<'a, S: Scalar, P: LiePoisson<S>, G> {
     system: &'a P,

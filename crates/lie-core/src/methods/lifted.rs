@@ -143,18 +143,18 @@ where
         }
     }
 
-    /// Gives away `h grad H` at the stages of the last step, which began at `self.point`.
+    /// Gives away h times the generator at the stages of the last step, which began at `self.point`.
     fn give_velocities<K: FactorSink<P::State>>(&mut self, failed: S::Mask, sink: &mut K) {
         let mut end = self.point.clone();
         self.stages.base_into(end.as_mut_slice());
         let at = self.stages.stages(self.point.as_slice());
-        let mut gradient: WideState<S, P> = self.wide.zero_state();
+        let mut generator: WideState<S, P> = self.wide.zero_state();
         L::project(&self.wide, &self.wide_labels, at.points, &mut self.momenta);
-        self.wide.generator(&self.momenta, &mut gradient);
+        self.wide.generator(&self.momenta, &mut generator);
         self.stages.set_base(S::Mask::splat(true), end.as_slice());
         let xi = self.system.zero_state();
         let count = self.stages.count();
-        push_velocities(count, self.step, &gradient, xi, failed, sink);
+        push_velocities(count, self.step, &generator, xi, failed, sink);
     }
 }
 
