@@ -6,6 +6,7 @@
 
 use super::rough_log::{ONE, binary_log, exp2, log2};
 use crate::clock::{Clock, holds};
+use crate::poisson::Poisson;
 use crate::recurrence::MOST_ORDERS;
 use crate::scalar::{Scalar, largest};
 use crate::state::State;
@@ -61,6 +62,8 @@ pub(super) struct Pace {
     part: Option<i64>,
     /// The size of what is left out, relative to the state.
     pub(super) tolerance: f64,
+    /// A coordinate that counts by itself, though it carries the time: its momentum, where that is what forces do.
+    beside: Option<usize>,
 }
 
 /// The radius of convergence of a series, in its unit of time.
@@ -99,6 +102,7 @@ impl Pace {
             order,
             part: Some((part * ONE) as i64),
             tolerance,
+            beside: None,
         }
     }
 
@@ -109,7 +113,15 @@ impl Pace {
             order,
             part: None,
             tolerance: 0.0,
+            beside: None,
         }
+    }
+
+    /// The same for a system, whose forces do work where there are some.
+    pub(super) fn of<S: Scalar, P: Poisson<S>>(self, system: &P) -> Self {
+        let works = system.is_forced() || system.is_damped();
+        let beside = system.clock().filter(|_| works).map(|clock| clock.momentum);
+        Self { beside, ..self }
     }
 
     /// Whether the steps follow from the series.
@@ -153,13 +165,21 @@ impl Pace {
                 .find(|k| !is_finite(*k))
                 .unwrap_or(self.order),
         };
-        let mut found = Radius::Infinite;
-        for order in (1..finite).rev() {
-            // series in powers of a power of t have no coefficients at some orders
-            found = radius_by(order, &sizes, step);
-            if found != Radius::Infinite {
-                break;
-            }
+        // series in powers of a power of t have no coefficients at some orders
+        let mut orders = (1..finite).rev();
+        let mut found = orders
+            .by_ref()
+            .map(|order| radius_by(order, &sizes, step))
+            .find(|found| *found != Radius::Infinite)
+            .unwrap_or(Radius::Infinite);
+        if let Some(beside) = self.beside {
+            // work begins at 0 and may pass it: it is relative to the state too
+            let state = sizes(0).fold(0.0, f64::max);
+            let sizes = |k: usize| {
+                let entry = rows[k].as_slice()[beside].lane(lane).to_f64().abs();
+                core::iter::once(if k == 0 { entry + state } else { entry })
+            };
+            found = found.smaller(radius_by(self.order.min(finite - 1).max(1), &sizes, step));
         }
         // what does not move now may do so later where H depends on the time
         if let (Radius::Infinite, Some(_), Some(step)) = (found, clock, binary_log(step)) {

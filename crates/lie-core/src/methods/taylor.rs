@@ -73,7 +73,8 @@ impl<S: Scalar, P: Series<S>> Method<S, P> for Taylor {
             pace: match self.order {
                 Some(order) => Pace::of_order(order as usize),
                 None => Pace::of_tolerance::<S>(self.tolerance, ORDER),
-            },
+            }
+            .of(system),
             recurrence: system.series(),
             inverses: core::array::from_fn(|k| S::ratio(1.0, k.max(1) as f64)),
             rows: core::array::from_fn(|_| zero.clone()),
