@@ -1,8 +1,8 @@
 //! Forces and dissipation beside the Hamiltonian, declared by the macro: outside solutions, what is kept, and what is not.
 
+use lie_runtime::Poisson;
 use lie_runtime::methods::Facts;
 use lie_runtime::prelude::*;
-use lie_runtime::{Poisson, State};
 
 lie_poisson! {
     /// A body whose every component decays alike.

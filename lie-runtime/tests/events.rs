@@ -28,7 +28,7 @@ lie_poisson! {
     initial = [1, 1];
 }
 
-/// The axis x of a body of revolution goes round with the frequency z.
+// The axis x of a body of revolution goes round with the frequency z.
 lie_poisson! {
     system Symmetric;
     algebra = so(3);

@@ -38,9 +38,9 @@ fn a_system_says_what_is_recorded() {
     let of = |flag: fn(&TopSystem<f64>, usize) -> bool| {
         (0..count).map(move |k| flag(top(), k)).collect::<Vec<_>>()
     };
-    let conserved = of(|top, k| Poisson::<f64>::quantity_is_conserved(top, k));
+    let conserved = of(Poisson::<f64>::quantity_is_conserved);
     assert_eq!(conserved, [true, true, false, false, false, false]);
-    let unwraps = of(|top, k| Poisson::<f64>::quantity_unwraps(top, k));
+    let unwraps = of(Poisson::<f64>::quantity_unwraps);
     assert_eq!(unwraps, [false, false, true, false, false, false]);
     let plain = Plain::new().system().unwrap();
     assert_eq!(Poisson::<f64>::quantity_count(&plain), 0);

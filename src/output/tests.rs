@@ -8,6 +8,7 @@ fn header() -> Header {
     Header {
         system: "Rigid\"Body".to_owned(),
         columns: ["t", "x", "energy"].into_iter().collect(),
+        events: None,
         labels: None,
     }
 }

@@ -135,8 +135,8 @@ fn sweep<'a>(declared: &'a Declared, choice: &'a Choice, save: Save) -> Members<
         count: COUNT,
         options: Options::new(STEP).save(save),
         span: (0.0, END),
-        held: members.held.clone(),
-        sources: members.sources.clone(),
+        held: Default::default(),
+        sources: Default::default(),
     }
 }
 
@@ -248,6 +248,8 @@ fn kernel_by_kernel(members: &Members<'_>) -> Vec<Member> {
             starts: vec![start.clone()],
             count: 1,
             options: members.options.clone(),
+            held: members.held.clone(),
+            sources: members.sources.clone(),
             ..*members
         };
         let member = all(&one).remove(0);

@@ -90,6 +90,8 @@ fn request(method: &str, step: f64, times: Times, initial: &[f64]) -> Run {
         from_milestone: None,
         milestones: Milestones::None,
         curve: false,
+        held: Default::default(),
+        sources: Default::default(),
     }
 }
 

@@ -18,6 +18,8 @@ fn run(times: Times) -> Run {
         from_milestone: None,
         milestones: Milestones::Every(5000),
         curve: true,
+        held: Default::default(),
+        sources: Default::default(),
     }
 }
 
@@ -67,13 +69,15 @@ fn columns_have_their_places() {
     let columns = Columns {
         coordinates: Coordinates::Named(names("x y z")),
         casimirs: names("C D"),
+        quantities: names("work"),
         element: 9,
     };
     assert_eq!((columns.energy(), columns.casimirs()), (4, 5));
-    assert_eq!((columns.element(), columns.width()), (7, 16));
+    assert_eq!((columns.quantities(), columns.element()), (7, 8));
+    assert_eq!(columns.width(), 17);
     let of_sites = Columns {
         coordinates: Coordinates::OfSites(3),
         ..columns.clone()
     };
-    assert_eq!((of_sites.energy(), of_sites.width()), (4, 16));
+    assert_eq!((of_sites.energy(), of_sites.width()), (4, 17));
 }

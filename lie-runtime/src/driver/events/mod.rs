@@ -182,8 +182,7 @@ impl<M> Course<'_, M> {
         }
         let mut found = Vec::new();
         for (index, (rule, guesses)) in events.rules.iter().zip(&guesses).enumerate() {
-            for place in 0..guesses.len() {
-                let guess = &guesses[place];
+            for (place, guess) in guesses.iter().enumerate() {
                 if !rule.counts(guess.sign) {
                     continue;
                 }
@@ -214,13 +213,13 @@ impl<M> Course<'_, M> {
                     stops: rule.stops,
                 }));
             }
-            found.extend(at_knots(&knots, index, guesses).filter_map(|(knot, sign)| {
-                rule.counts(sign).then(|| Event {
-                    index,
-                    time: knot.time,
-                    mu: knot.mu.clone(),
-                    stops: rule.stops,
-                })
+            let zeros = at_knots(&knots, index, guesses);
+            let zeros = zeros.filter(|(_, sign)| rule.counts(*sign));
+            found.extend(zeros.map(|(knot, _)| Event {
+                index,
+                time: knot.time,
+                mu: knot.mu.clone(),
+                stops: rule.stops,
             }));
         }
         let span = (finish.time - start.time).signum();

@@ -30,7 +30,7 @@ pub(super) fn zero(
         if best.1 == 0.0 {
             return Some((best.0, 0.0));
         }
-        if !(limit < 0.5) {
+        if limit >= 0.5 || limit.is_nan() {
             return Some((best.0, (a.1 - b.1).abs()));
         }
         let (xi, phi) = ((a.0 - b.0) / (c.0 - b.0), (a.1 - b.1) / (c.1 - b.1));
@@ -53,9 +53,12 @@ pub(super) fn zero(
 mod tests {
     use super::*;
 
+    /// A function with its zero between 1 and 2.
+    type Case = (fn(f64) -> f64, f64);
+
     #[test]
     fn zeros_are_found_to_the_last_bits() {
-        let functions: [(fn(f64) -> f64, f64); 4] = [
+        let functions: [Case; 4] = [
             (|x| x * x - 2.0, 2.0_f64.sqrt()),
             (|x| (x - 1.3).cbrt(), 1.3),
             (|x| (x - 1.1).powi(9), 1.1),
