@@ -92,8 +92,8 @@ pub mod prelude {
     pub use crate::diagnostics::{Drift, DriftMonitor};
     #[cfg(feature = "std")]
     pub use crate::driver::{
-        EveryStep, Keep, Observer, Options, Problem, Progress, Save, Solution, SolveError, Stats,
-        Status, solve, solve_observed,
+        EveryStep, Held, Keep, Observer, Options, Problem, Progress, Save, Solution, SolveError,
+        Source, Stats, Status, solve, solve_observed,
     };
     #[doc(no_inline)]
     pub use crate::methods::gauss::*;

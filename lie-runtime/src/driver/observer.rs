@@ -314,6 +314,18 @@ impl<S: Scalar, P: Poisson<S>> Observer<S, P> for Held {
     }
 }
 
+/// What is held, where something is.
+impl<S: Scalar, P: Poisson<S>> Observer<S, P> for Option<Held> {
+    fn hold(&mut self, system: &P, step: (u64, f64, f64), mu: &mut P::State) {
+        if let Some(held) = self {
+            held.set(system, step, mu, &[]);
+        }
+    }
+    fn held(&self) -> Option<&Held> {
+        self.as_ref()
+    }
+}
+
 /// Calls a closure after every step of the grid with the progress and the state.
 #[derive(Clone, Copy, Debug)]
 pub struct EveryStep<F>(pub F);

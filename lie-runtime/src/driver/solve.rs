@@ -5,6 +5,7 @@ use super::course::{Beginning, Course};
 use super::density::{self, Density, Growth};
 use super::error::{SolveError, StepError};
 use super::grid::Grid;
+use super::held::Held;
 use super::kept::Kept;
 use super::milestone::Milestone;
 use super::observer::{Observer, Recorder};
@@ -31,7 +32,8 @@ pub enum IntegrateError {
 }
 
 /// Integrates a problem and returns what was saved. Events that the system declares are in [`Solution::events`]; one that stops ends
-/// the run there, with [`Status::Event`].
+/// the run there, with [`Status::Event`]. Inputs have their defaults, and noise has the seed 1; [`solve_observed`] with [`Held`] gives
+/// others.
 ///
 /// # Errors
 /// [`SolveError::Option`] for invalid options; [`SolveError::Step`], which carries what
@@ -54,10 +56,14 @@ pub fn solve<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
     method: M,
     options: &Options,
 ) -> Result<Solution<S, P::State>, SolveError<S, P::State>> {
-    solve_observed(problem, method, options, ())
+    let streams: Vec<u64> = (0..).take(S::LANES).collect();
+    let held = Held::of(&problem.system, problem.span.0, (1, &streams));
+    let held = held.map(|held| held.bounded(!M::EXPLICIT));
+    solve_observed(problem, method, options, held)
 }
 
-/// [`solve`] with an observer.
+/// [`solve`] with an observer. Inputs and noise are the observer's: [`Held`] gives them, as one of a pair of observers does; without it inputs
+/// stay as the initial state has them, and noise is none.
 ///
 /// # Errors
 /// As [`solve`].

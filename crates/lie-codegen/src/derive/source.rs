@@ -117,9 +117,8 @@ impl Source {
 
     /// The representation, where it carries collective methods.
     pub fn matrices(&self) -> Option<&Representation> {
-        let configuration = self.structure.configuration.as_ref();
-        let held = configuration.is_some_and(|c| !c.held.is_empty());
-        self.representation().filter(|r| r.dual.is_some() && !held)
+        let holds = self.structure.holds();
+        self.representation().filter(|r| r.dual.is_some() && !holds)
     }
 
     /// The coordinates that carry the time, where H depends on it.

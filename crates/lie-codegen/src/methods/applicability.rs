@@ -71,12 +71,6 @@ pub fn refusal(structure: &Structure, choice: &Choice) -> Option<(String, String
     }
 }
 
-/// Whether inputs or noise are held from step to step.
-fn held(model: &Model) -> bool {
-    let configuration = model.configuration.as_ref();
-    configuration.is_some_and(|configuration| !configuration.held.is_empty())
-}
-
 /// Why a method does not apply where something acts beside the Hamiltonian.
 fn driven(model: &Model, choice: &Choice) -> Option<(String, String)> {
     let (driving, method) = (model.driving.as_ref()?, choice.entry()?);
@@ -96,7 +90,7 @@ fn driven(model: &Model, choice: &Choice) -> Option<(String, String)> {
     }
     // the power of forces alone does not bend what moves along the orbit
     let bends = driving.declared.iter().any(along);
-    if held(model) && matches!(choice, Choice::Collective(..) | Choice::Isospectral(_)) {
+    if model.holds() && matches!(choice, Choice::Collective(..) | Choice::Isospectral(_)) {
         let what = "inputs and noise are not carried to the space over the state";
         return Some((what.into(), "use `lie-midpoint` or `gauss16`".into()));
     }

@@ -207,6 +207,12 @@ impl Model {
         matches!(self.bracket, Bracket::Lie(_))
     }
 
+    /// Whether inputs or noise are held from step to step.
+    pub fn holds(&self) -> bool {
+        let configuration = self.configuration.as_ref();
+        configuration.is_some_and(|configuration| !configuration.held.is_empty())
+    }
+
     /// The Hamiltonian in mu; of [`Energy::Legendre`] in mu and its velocity.
     pub fn hamiltonian(&self) -> ExprId {
         match &self.energy {

@@ -34,13 +34,16 @@ impl Smallest {
     }
 }
 
-/// The smallest space, if there is one.
+/// The smallest space, if there is one; what is held from step to step is carried to none.
 pub fn smallest(
     model: &Model,
     spins: Option<&[Spin]>,
     vectors: Option<&Vectors>,
     unitary: Option<Unitary>,
 ) -> Option<Smallest> {
+    if model.holds() {
+        return None;
+    }
     if spins.is_some() {
         Some(Smallest::Hopf)
     } else if vectors.is_some() {
