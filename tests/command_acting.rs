@@ -1,0 +1,169 @@
+//! Inputs and noise at the command: tables, seeds, threads and shares.
+
+mod common;
+
+use std::fs;
+use std::path::Path;
+
+use common::{Run, folder, lie};
+use serde_json::{Value, json};
+
+/// A body with a torque from outside, and with a moment of inertia from there too.
+fn driven() -> Value {
+    json!({
+        "name": "Driven",
+        "algebra": "so(3)",
+        "state": ["x", "y", "z"],
+        "inputs": { "u": { "default": 0.25 }, "w": { "default": 1 } },
+        "hamiltonian": "x^2/2 + w*y^2/4 + z^2/6",
+        "forces": { "z": "u*x" },
+        "initial": [0.3, 0.1, 1],
+        "run": { "method": "gauss6", "step": 0.1, "until": 10 }
+    })
+}
+
+/// A spin in a field, in thermal equilibrium.
+fn spin() -> Value {
+    json!({
+        "name": "Spin",
+        "algebra": "so(3)",
+        "state": ["x", "y", "z"],
+        "parameters": { "alpha": 1, "T": 0.3 },
+        "hamiltonian": "z",
+        "casimirs": ["C = x^2 + y^2 + z^2"],
+        "dissipation": [{ "kind": "double-bracket", "strength": "alpha", "temperature": "T" }],
+        "initial": [0.6, 0, 0.8],
+        "run": { "method": "gauss4", "step": 0.1, "until": 10 }
+    })
+}
+
+fn written(folder: &Path, name: &str, text: &str) -> String {
+    let path = folder.join(name);
+    fs::write(&path, text).unwrap();
+    path.display().to_string()
+}
+
+fn last(run: &Run) -> Vec<f64> {
+    run.csv().1.pop().unwrap()
+}
+
+fn distance(a: &[f64], b: &[f64]) -> f64 {
+    let pairs = a.iter().zip(b).take(4);
+    pairs.map(|(x, y)| (x - y).abs()).fold(0.0, f64::max)
+}
+
+/// An input that jumps between the steps is the force with the same jumps.
+#[test]
+fn a_table_is_the_force_that_it_writes() {
+    let folder = folder();
+    let by_table = written(folder.path(), "table.json", &driven().to_string());
+    let table = written(folder.path(), "u.csv", "t,u\n0,0.5\n3.14159,-1\n6,2\n");
+    let mut spec = driven();
+    spec.as_object_mut().unwrap().remove("inputs");
+    spec["hamiltonian"] = json!("x^2/2 + y^2/4 + z^2/6");
+    spec["forces"] = json!({ "z": "piecewise(t < 3.14159: 1/2, t < 6: -1, 2)*x" });
+    let by_force = written(folder.path(), "force.json", &spec.to_string());
+    for pace in ["--step 0.01", "--tol 1e-11", "--at 0,10 --tol 1e-11"] {
+        let one = lie(&format!("run {by_table} --input u={table} {pace}")).ok();
+        let other = lie(&format!("run {by_force} {pace}")).ok();
+        let (one, other) = (last(&one), last(&other));
+        assert!(distance(&one, &other) < 1e-11, "{pace}: {one:?} {other:?}");
+    }
+    let without = last(&lie(&format!("run {by_table}")).ok());
+    let with = last(&lie(&format!("run {by_table} --input u={table}")).ok());
+    assert!(distance(&without, &with) > 0.1, "the control");
+}
+
+#[test]
+fn a_wrong_table_has_a_place_and_a_remedy() {
+    let folder = folder();
+    let spec = written(folder.path(), "spec.json", &driven().to_string());
+    let run = |flags: &str| lie(&format!("run {spec} {flags}"));
+    let missing = folder.path().join("none.csv");
+    run(&format!("--input u={}", missing.display())).error("io", "none.csv");
+    let text = run("--input v=u.csv").error("option", "--input").stderr;
+    assert!(text.contains("the inputs are u, w"), "{text}");
+    run("--input u").error("option", "--input");
+    for (name, table) in [
+        ("back.csv", "t,u\n0,1\n3,1\n2,1\n"),
+        ("twice.csv", "t,u\n0,1\n0,2\n"),
+        ("infinite.csv", "t,u\n0,1\n1,inf\n"),
+        ("words.csv", "t,u\n0,one\n"),
+        ("empty.csv", ""),
+    ] {
+        let path = written(folder.path(), name, table);
+        let text = run(&format!("--input u={path}"))
+            .error("input", name)
+            .stderr;
+        assert!(text.contains("help:"), "{text}");
+    }
+}
+
+#[test]
+fn noise_is_told_by_its_seed() {
+    let folder = folder();
+    let spec = written(folder.path(), "spin.json", &spin().to_string());
+    let run = |flags: &str| lie(&format!("run {spec} {flags}")).ok().stdout;
+    let first = run("--seed 1");
+    assert_eq!(first, run(""), "the seed is 1 where none is given");
+    assert_ne!(first, run("--seed 2"));
+    let text = lie(&format!("run {spec} --tol 1e-6"))
+        .error("option", "--tol")
+        .stderr;
+    assert!(text.contains("help:"), "{text}");
+}
+
+/// On the sphere of radius 1 the mean of H is that of Langevin, `T - coth(1/T)`.
+#[test]
+fn a_thermal_spin_has_the_mean_of_langevin() {
+    let folder = folder();
+    let mean = |spec: &Value| {
+        let path = written(folder.path(), "spin.json", &spec.to_string());
+        let run = lie(&format!("run {path} --until 3000 --every 10")).ok();
+        let (_, rows) = run.csv();
+        let radius = |row: &[f64]| row[1..4].iter().map(|x| x * x).sum::<f64>();
+        assert!(rows.iter().all(|row| (radius(row) - 1.0).abs() < 1e-12));
+        let late = &rows[rows.len() / 20..];
+        late.iter().map(|row| row[3]).sum::<f64>() / late.len() as f64
+    };
+    // the mean of one run of this length has an error of 0.008
+    let expected = 0.3 - 1.0 / (1.0_f64 / 0.3).tanh();
+    let found = mean(&spin());
+    assert!((found - expected).abs() < 0.03, "{found}, {expected}");
+    let mut cold = spin();
+    cold["dissipation"][0]
+        .as_object_mut()
+        .unwrap()
+        .remove("temperature");
+    let found = mean(&cold);
+    assert!((found + 1.0).abs() < 1e-6, "the control: {found}");
+}
+
+#[test]
+fn members_have_noise_of_their_own_whoever_makes_them() {
+    let folder = folder();
+    let spec = written(folder.path(), "spin.json", &spin().to_string());
+    let made = |flags: &str, name: &str| {
+        let path = folder.path().join(name);
+        let members = "--members 20 --seed 3 --until 2";
+        let out = path.display();
+        lie(&format!("ensemble {spec} {members} {flags} --out {out}")).ok();
+        path
+    };
+    let one = fs::read(made("--threads 1", "one.npy")).unwrap();
+    assert_eq!(one, fs::read(made("--threads 2", "two.npy")).unwrap());
+    let shares: Vec<String> = (1..=3)
+        .map(|k| made(&format!("--shard {k}/3"), &format!("share{k}.npy")))
+        .map(|path| path.display().to_string())
+        .collect();
+    let merged = folder.path().join("merged.npy");
+    lie(&format!(
+        "merge {} --out {}",
+        shares.join(" "),
+        merged.display()
+    ))
+    .ok();
+    assert_eq!(one, fs::read(merged).unwrap());
+    let members: std::collections::BTreeSet<&[u8]> = one[128..].chunks_exact(24).collect();
+    assert_eq!(members.len(), 20, "all members differ");
+}
