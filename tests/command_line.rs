@@ -347,7 +347,7 @@ fn messages_name_the_true_reason() {
         (format!("{body} --initial 1"), "1 value for a state of 3"),
         (
             format!("{time} --picture orbit"),
-            "the Hamiltonian of Broken depends on the time",
+            "the energy of Broken varies",
         ),
         (
             format!("{chain} --picture section:x[0]=0"),

@@ -196,5 +196,5 @@ fn methods_of_the_hamiltonian_alone_are_refused_with_the_reason() {
     assert!(why("gauss16").is_none());
     assert!(why("compose4(midpoint)").is_none());
     let (reason, _) = why("splitting2").expect("a reason");
-    assert!(reason.contains("forces act"), "{reason}");
+    assert!(reason.contains("beside the Hamiltonian"), "{reason}");
 }

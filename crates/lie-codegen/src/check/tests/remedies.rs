@@ -115,17 +115,14 @@ fn keys_for_equations_and_forces_say_where_those_stand() {
             "derived from the brackets and the energy",
         ),
         ("odes", "[]", "derived from the brackets and the energy"),
-        ("torque", r#"["0", "0", "1"]"#, "write the potential"),
-        ("Forces", r#"{"x": "1"}"#, "write the potential"),
-        ("damping", "0.1", "cannot be declared"),
+        ("torque", r#"["0", "0", "1"]"#, "`forces`"),
+        ("controls", r#"{"x": "1"}"#, "`inputs`"),
+        ("damping", "0.1", "`dissipation`"),
+        ("thermal", "0.1", "`dissipation`"),
+        ("langevin", "0.1", "`noise`"),
     ] {
         let wrong = body(&[(key, value)]);
-        leads_out(
-            &wrong,
-            &format!("unknown key `{key}`"),
-            &[says, "`hamiltonian`"],
-            &body(&[]),
-        );
+        leads_out(&wrong, &format!("unknown key `{key}`"), &[says], &body(&[]));
     }
     // control: other keys are told by their spelling
     let (_, diagnostics) = run(&body(&[("hamiltonain", r#""x""#)]));
