@@ -55,7 +55,7 @@ pub fn assemble(whole: &Whole<'_>, system: System, proven: Proven) -> Model {
         configuration: whole.configuration.clone(),
         family: None,
         driving,
-        inputs: super::driving::inputs(declaration),
+        inputs: super::driving::held::inputs(declaration),
         realization: lowered.realization,
         declared_casimirs: casimirs,
         quantities,

@@ -51,7 +51,7 @@ pub fn configuration(
         momenta: declaration.dimension() + usize::from(time),
         group,
         time,
-        held: driving::held(declaration, mistakes),
+        held: driving::held::held(declaration, mistakes),
     })
 }
 

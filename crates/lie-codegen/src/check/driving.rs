@@ -4,7 +4,9 @@
 //! `H' = <F, grad H> - c <v, G v>`. The momentum p of the time, which is carried wherever something acts, gives that power, and H + p
 //! stays constant.
 
+pub mod held;
 mod metric;
+mod work;
 
 use super::constant_value;
 use super::coordinates::Whole;
@@ -19,56 +21,7 @@ use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 use lie_syntax::ast::{Declaration, DissipationKind, Expr, ExprKind, Metric, Name, Noise};
 use lie_syntax::diagnostic::{Diagnostic, Kind, Origin};
 use metric::{Checks, Rows};
-
-/// What is held from step to step: inputs with their defaults, then the rates of Wiener processes.
-pub fn held(declaration: &Declaration, mistakes: &mut Vec<Diagnostic>) -> Vec<(String, Rational)> {
-    let mut held = Vec::new();
-    for input in &declaration.inputs {
-        let default = match &input.default.kind {
-            ExprKind::Number(value) => Ok(value.clone()),
-            _ => constant_value(&input.default)
-                .map(|value| Rational::from_f64(value).unwrap_or(Rational::ZERO)),
-        };
-        match default {
-            Ok(default) => held.push((input.name.text.clone(), default)),
-            Err(wrong) => mistakes.extend(wrong),
-        }
-        let sampling = input
-            .sampling
-            .as_ref()
-            .map(|value| (value.origin, constant_value(value)));
-        match sampling {
-            Some((origin, Ok(value))) if !(value > 0.0 && value.is_finite()) => {
-                let message = format!("`{}` is sampled every {value}", input.name.text);
-                let help = "write a time that is positive, or leave `sampling` out to sample before every step";
-                mistakes.push(Diagnostic::new(Kind::Input, origin, message).help(help));
-            }
-            Some((_, Err(wrong))) => mistakes.extend(wrong),
-            _ => {}
-        }
-    }
-    let own = declaration.dimension();
-    let warm = declaration
-        .dissipation
-        .iter()
-        .filter(|d| d.temperature.is_some());
-    let count = declaration.noise.len() + own * warm.count();
-    held.extend((1..=count).map(|k| (format!("_w{k}"), Rational::ZERO)));
-    held
-}
-
-/// The inputs of a declaration that passed its checks.
-pub fn inputs(declaration: &Declaration) -> Vec<Input> {
-    let value = |expr: &Expr| constant_value(expr).unwrap_or(f64::NAN);
-    let inputs = declaration.inputs.iter();
-    inputs
-        .map(|input| Input {
-            name: input.name.text.clone(),
-            default: value(&input.default),
-            sampling: input.sampling.as_ref().map(value),
-        })
-        .collect()
-}
+use work::{Loud, Work};
 
 /// Lowers what acts; `None` where an expression is wrong, which is reported.
 pub fn acting(
@@ -337,23 +290,6 @@ pub fn driving(
     })
 }
 
-/// What noise adds to the force and to the generator.
-struct Loud {
-    force: Vec<ExprId>,
-    damping: Vec<ExprId>,
-    /// The coordinate of the rate of the next Wiener process.
-    next: usize,
-}
-
-impl Loud {
-    /// The rate `dW/dt` of the next Wiener process.
-    fn rate(&mut self, graph: &mut Graph) -> ExprId {
-        let place = self.next;
-        self.next += 1;
-        graph.symbol(Symbol::Coordinate(place))
-    }
-}
-
 /// What no driven system is yet, or can be.
 fn refused(declaration: &Declaration, sources: &Sources<'_>) -> Option<Diagnostic> {
     let origin = declaration.place_of_driving();
@@ -381,187 +317,4 @@ fn refused(declaration: &Declaration, sources: &Sources<'_>) -> Option<Diagnosti
 fn slopes(graph: &mut Graph, energy: ExprId, dimension: usize) -> Vec<ExprId> {
     let slopes = (0..dimension).map(|i| graph.derivative(energy, Symbol::Coordinate(i)));
     slopes.collect()
-}
-
-/// What the expressions of a driven system are made of.
-struct Work<'a> {
-    graph: &'a mut Graph,
-    /// How many coordinates were declared; they come first.
-    own: usize,
-    /// The gradient of H with the momentum of the time.
-    slopes: Vec<ExprId>,
-    matrix: PoissonMatrix,
-}
-
-impl Work<'_> {
-    /// `Pi w` in the declared coordinates.
-    fn moved(&mut self, w: &[ExprId]) -> Vec<ExprId> {
-        let mut terms = vec![Vec::new(); w.len()];
-        for (i, j, entry) in &self.matrix.entries {
-            let forth = self.graph.mul(*entry, w[*j]);
-            let back = self.graph.mul(*entry, w[*i]);
-            terms[*i].push(forth);
-            terms[*j].push(self.graph.scale(back, &Rational::MINUS_ONE));
-        }
-        let own = terms.into_iter().take(self.own);
-        own.map(|terms| self.graph.sum(&terms)).collect()
-    }
-
-    /// `M w` of the first coordinates.
-    fn times(&mut self, rows: &Rows, w: &[ExprId]) -> Vec<ExprId> {
-        let row = |row: &Vec<ExprId>| {
-            let products: Vec<ExprId> = row
-                .iter()
-                .zip(w)
-                .map(|(a, b)| self.graph.mul(*a, *b))
-                .collect();
-            self.graph.sum(&products)
-        };
-        rows.iter().map(row).collect()
-    }
-
-    fn add_rayleigh(&mut self, rows: &Rows, force: &mut [ExprId]) {
-        let slopes = self.slopes.clone();
-        for (slot, drag) in force.iter_mut().zip(self.times(rows, &slopes)) {
-            *slot = self.graph.sub(*slot, drag);
-        }
-    }
-
-    fn add_double_bracket(
-        &mut self,
-        strength: ExprId,
-        metric: Option<&Rows>,
-        damping: &mut [ExprId],
-        time: usize,
-    ) {
-        let slopes = self.slopes.clone();
-        let v = self.moved(&slopes);
-        let lowered = match metric {
-            Some(rows) => self.times(rows, &v),
-            None => v.clone(),
-        };
-        let mut power = Vec::new();
-        for (i, (v, w)) in v.into_iter().zip(lowered).enumerate() {
-            let part = self.graph.mul(strength, w);
-            damping[i] = self.graph.add(damping[i], part);
-            power.push(self.graph.mul(part, v));
-        }
-        let power = self.graph.sum(&power);
-        damping[time] = self.graph.sub(damping[time], power);
-    }
-
-    /// `xi += grad sigma dW/dt`, without what that does to the momentum of the time.
-    fn add_hamiltonian_noise(&mut self, function: ExprId, noise: &mut Loud, time: usize) {
-        let rate = noise.rate(self.graph);
-        for (i, slope) in slopes(self.graph, function, self.slopes.len())
-            .into_iter()
-            .enumerate()
-        {
-            if i != time {
-                let part = self.graph.mul(slope, rate);
-                noise.damping[i] = self.graph.add(noise.damping[i], part);
-            }
-        }
-    }
-
-    /// The noise of a dissipation at a temperature T: `sigma sigma^T = 2 c T G` along the orbit with the strength c, `2 T R` as a force
-    /// without one.
-    fn warm(
-        &mut self,
-        checks: &Checks<'_>,
-        (temperature, strength): (ExprId, Option<ExprId>),
-        metric: Option<&Rows>,
-        noise: &mut Loud,
-        time: usize,
-    ) -> Option<Diagnostic> {
-        if strength.is_none() {
-            let rows = metric?;
-            if let Some(mistake) = checks.symmetric(self.graph, "the matrix R", rows) {
-                return Some(mistake);
-            }
-            let divergence = self.divergence();
-            if let Some(mistake) = checks.unimodular(self.graph, &divergence) {
-                return Some(mistake);
-            }
-        }
-        let two = self.graph.integer(2);
-        let half = Rational::ONE / Rational::from(2);
-        let mut factors = vec![two, temperature];
-        factors.extend(strength);
-        let scale = self.graph.product(&factors);
-        let (columns, pivots) = checks.factors(self.graph, metric);
-        for (column, pivot) in columns.into_iter().zip(pivots) {
-            let square = self.graph.mul(scale, pivot);
-            let amplitude = self.graph.pow(square, &half);
-            let rate = noise.rate(self.graph);
-            let rate = self.graph.mul(amplitude, rate);
-            let target = match strength {
-                Some(_) => &mut noise.damping,
-                None => &mut noise.force,
-            };
-            for (i, entry) in column.into_iter().enumerate() {
-                let part = self.graph.mul(entry, rate);
-                target[i] = self.graph.add(target[i], part);
-            }
-        }
-        debug_assert!(
-            self.graph.is_zero(noise.damping[time]),
-            "noise does no work"
-        );
-        None
-    }
-
-    /// `sum_i dPi_ij/dx_i` for each declared coordinate j: zero where every Hamiltonian field has no divergence.
-    fn divergence(&mut self) -> Vec<ExprId> {
-        let mut terms = vec![Vec::new(); self.own];
-        for (i, j, entry) in &self.matrix.entries {
-            if *i < self.own && *j < self.own {
-                terms[*j].push(self.graph.derivative(*entry, Symbol::Coordinate(*i)));
-                let other = self.graph.derivative(*entry, Symbol::Coordinate(*j));
-                terms[*i].push(self.graph.neg(other));
-            }
-        }
-        terms
-            .into_iter()
-            .map(|terms| self.graph.sum(&terms))
-            .collect()
-    }
-
-    fn add_metriplectic(&mut self, entropy: ExprId, rows: &Rows, force: &mut [ExprId]) {
-        let slopes = slopes(self.graph, entropy, self.own);
-        for (slot, push) in force.iter_mut().zip(self.times(rows, &slopes)) {
-            *slot = self.graph.add(*slot, push);
-        }
-    }
-
-    /// The metric K, once all that it promises is proven.
-    fn metriplectic(
-        &mut self,
-        entropy: ExprId,
-        rows: &Rows,
-        factor: bool,
-        checks: &Checks<'_>,
-    ) -> Result<Rows, Diagnostic> {
-        let rows = match factor {
-            true => checks.square(self.graph, rows)?,
-            false => rows.clone(),
-        };
-        checks.shape("the metric K", &rows).map_or(Ok(()), Err)?;
-        let degenerate = self.times(&rows, &self.slopes.clone());
-        let mut slopes = slopes(self.graph, entropy, self.own);
-        slopes.resize(self.slopes.len(), self.graph.integer(0));
-        let moved = self.moved(&self.slopes.clone());
-        let products = moved.iter().zip(&slopes);
-        let products: Vec<ExprId> = products.map(|(a, b)| self.graph.mul(*a, *b)).collect();
-        let bracket = self.graph.sum(&products);
-        checks.metriplectic(self.graph, &rows, factor, &degenerate, bracket)?;
-        Ok(rows)
-    }
-
-    /// `<F, grad H>`
-    fn power(&mut self, force: &[ExprId]) -> ExprId {
-        let parts = force.iter().zip(&self.slopes).take(self.own);
-        let parts: Vec<ExprId> = parts.map(|(f, g)| self.graph.mul(*f, *g)).collect();
-        self.graph.sum(&parts)
-    }
 }

@@ -5,6 +5,7 @@
 //! mean. Every expected value comes with a bound of the round-off that the written formula has there, inputs known to one
 //! unit in their last place: a kernel that differs by many such units computes something else.
 
+mod acting;
 mod functions;
 mod interpret;
 mod kernels;
