@@ -80,21 +80,30 @@ fn a_wrong_table_has_a_place_and_a_remedy() {
     let spec = written(folder.path(), "spec.json", &driven().to_string());
     let run = |flags: &str| lie(&format!("run {spec} {flags}"));
     let missing = folder.path().join("none.csv");
-    run(&format!("--input u={}", missing.display())).error("io", "none.csv");
-    let text = run("--input v=u.csv").error("option", "--input").stderr;
+    let text = run(&format!("--input u={}", missing.display())).stderr;
+    assert!(
+        text.starts_with("error[io]: ") && text.contains("none.csv"),
+        "{text}"
+    );
+    let text = run("--input v=u.csv")
+        .error("option", "command line: --input")
+        .stderr;
     assert!(text.contains("the inputs are u, w"), "{text}");
-    run("--input u").error("option", "--input");
+    run("--input u").error("option", "command line: --input");
     for (name, table) in [
         ("back.csv", "t,u\n0,1\n3,1\n2,1\n"),
         ("twice.csv", "t,u\n0,1\n0,2\n"),
         ("infinite.csv", "t,u\n0,1\n1,inf\n"),
         ("words.csv", "t,u\n0,one\n"),
+        ("fraction.csv", "0,1/2\n1,2\n"),
         ("empty.csv", ""),
     ] {
         let path = written(folder.path(), name, table);
-        let text = run(&format!("--input u={path}"))
-            .error("input", name)
-            .stderr;
+        let text = run(&format!("--input u={path}")).stderr;
+        assert!(
+            text.starts_with("error[input]: ") && text.contains(name),
+            "{text}"
+        );
         assert!(text.contains("help:"), "{text}");
     }
 }
@@ -108,7 +117,7 @@ fn noise_is_told_by_its_seed() {
     assert_eq!(first, run(""), "the seed is 1 where none is given");
     assert_ne!(first, run("--seed 2"));
     let text = lie(&format!("run {spec} --tol 1e-6"))
-        .error("option", "--tol")
+        .error("option", "command line: --tol")
         .stderr;
     assert!(text.contains("help:"), "{text}");
 }

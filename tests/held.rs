@@ -69,23 +69,26 @@ fn a_controller_sees_the_state_at_its_samplings() {
     let closed = held(&problem).with(0, Source::Controller(damper));
     let options = Options::new(0.05);
     let run = solve_observed(&problem, Gauss6, &options, closed).expect("a run");
-    for (row, t) in run.mu.iter().zip(&run.t).skip(1) {
-        let sampled = ((t + 1e-9) / 0.1).floor() as usize * 2;
-        // at a sampling the row still has the value of the step that ends there
-        let at = if (t / 0.1).fract().min(1.0 - (t / 0.1).fract()) < 1e-6 {
-            sampled - 2
-        } else {
-            sampled
-        };
-        assert_eq!(row[6], -2.0 * run.mu[at][0], "t = {t}");
+    // the value at the end is sampled there too
+    for (row, t) in run.mu.iter().zip(&run.t) {
+        let sampled = (t / 0.1 + 1e-6).floor() as usize * 2;
+        assert_eq!(row[6], -2.0 * run.mu[sampled][0], "t = {t}");
     }
     // the same values from a table are the same bits
-    let samplings = (0..).step_by(2).take(50);
+    let samplings = (0..).step_by(2).take(51);
     let times = samplings.clone().map(|row| run.t[row]).collect();
     let values = samplings.map(|row| -2.0 * run.mu[row][0]).collect();
     let table = held(&problem).with(0, Source::Table { times, values });
     let again = solve_observed(&problem, Gauss6, &options, table).expect("a run");
-    assert_eq!(run.mu, again.mu);
+    let apart =
+        |(a, b): (&[f64; 8], &[f64; 8])| (0..8).map(|i| (a[i] - b[i]).abs()).fold(0.0, f64::max);
+    let pairs = run
+        .mu
+        .iter()
+        .map(|mu| mu.as_ref())
+        .zip(again.mu.iter().map(|mu| mu.as_ref()));
+    let differences: Vec<f64> = pairs.map(apart).collect();
+    assert!(differences.iter().all(|x| *x == 0.0), "{differences:?}");
     let free = solve(&problem, Gauss6, &options).expect("a run");
     let energy = |run: &Solution<f64, _>| run.energy[run.energy.len() - 1];
     assert!(energy(&run) < 0.9 * energy(&free), "the control");

@@ -198,8 +198,7 @@ pub fn verify_step<P: Poisson<f64>, E>(
         symmetry(mu, h, &mut control),
     );
     let energy = |mu: &P::State| system.hamiltonian(mu);
-    let claimed =
-        kept.energy || (kept.quadratic_invariants && quadratic(system.hamiltonian_degree()));
+    let claimed = kept.keeps_energy(system);
     let bound = f64::from(STEPS) * PER_STEP;
     let value = drift(mu, h, &energy, &mut step)?;
     fact(

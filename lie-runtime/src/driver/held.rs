@@ -139,7 +139,9 @@ impl Held {
         if self.inputs.iter().any(asks) {
             state.extend(mu.as_slice().iter().map(|x| x.lane(0).to_f64()));
         }
-        let before = (!self.inputs.is_empty()).then(|| system.hamiltonian(mu));
+        // the values at the start belong to it
+        let begins = index == 0 && (time - self.start).abs() <= NEAR * step.abs();
+        let before = (!self.inputs.is_empty() && !begins).then(|| system.hamiltonian(mu));
         for (k, input) in self.inputs.iter_mut().enumerate() {
             if let Some(value) = input.value(self.start, time, step, &state, element) {
                 mu.as_mut_slice()[first + k] = S::from_f64(value);

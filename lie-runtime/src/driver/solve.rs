@@ -180,7 +180,9 @@ fn run<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
     };
     let (system, mu) = (&problem.system, problem.start());
     let (end, status) = course.run(system, mu, beginning, guard, &options.save, observer)?;
-    if course.stats.steps <= options.assess && status == Status::Finished {
+    // the second run knows neither the inputs nor the noise of this one
+    let holds = problem.system.input_count() + problem.system.noise_count() > 0;
+    if course.stats.steps <= options.assess && status == Status::Finished && !holds {
         let end = match follows {
             true => course.at_the_end(system, end)?,
             false => end,

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use super::Structure;
+use crate::model::configuration::{HELD_BLOCK, TIME_BLOCK};
 use crate::model::{Bracket, Model};
 use lie_symbolic::exact::Rational;
 use lie_syntax::ast::Invariance;
@@ -65,8 +66,9 @@ pub fn group(model: &Model) -> Option<Group> {
     if configuration.is_some_and(|c| c.group.is_some()) {
         return None;
     }
-    // beside the time the blocks of its algebra come last
-    let size = representation.dimension - if configuration.is_some() { 3 } else { 0 };
+    // the blocks of the time and of what is held come last
+    let behind = configuration.map_or(0, |c| TIME_BLOCK + HELD_BLOCK * c.held.len());
+    let size = representation.dimension - behind;
     let block = |matrix: &Vec<Vec<Rational>>| {
         let rows = matrix.iter().take(size);
         rows.map(|row| row[..size].to_vec()).collect()

@@ -97,6 +97,17 @@ impl Preserves {
     pub fn on<S: Scalar, P: Poisson<S>>(self, system: &P) -> Self {
         self.under(system.is_forced(), system.is_damped())
     }
+
+    /// Whether the energy of a system is kept to round-off, as of a quadratic one where quadratic invariants are. The work of noise is in
+    /// no balance.
+    #[must_use]
+    pub fn keeps_energy<S: Scalar, P: Poisson<S>>(self, system: &P) -> bool {
+        let kept = self.on(system);
+        let quadratic = system
+            .hamiltonian_degree()
+            .is_some_and(|degree| degree <= 2);
+        system.noise_count() == 0 && (kept.energy || (kept.quadratic_invariants && quadratic))
+    }
 }
 
 /// The constants of a method.

@@ -54,6 +54,20 @@ impl Planner<'_> {
             self.mistakes
                 .push(message.help(format!("give a step, such as {step}")));
         }
+        if noises > 0 && self.request.density.is_some() {
+            let text = format!("{} has noise, which needs steps of one size", model.name);
+            let message = self.option_mistake("density", text);
+            self.mistakes.push(message.help("leave the option out"));
+        }
+        if noises + model.inputs.len() > 0 && self.request.assess {
+            let text = format!(
+                "the second run that finds the error at the end has neither the inputs nor the noise of {}",
+                model.name
+            );
+            let message = self.option_mistake("assess", text);
+            let help = "leave the option out, and compare with a run by half of the step";
+            self.mistakes.push(message.help(help));
+        }
         let mut tables = BTreeMap::new();
         for written in &self.request.input {
             let found = self.table(written);
@@ -107,6 +121,15 @@ impl Planner<'_> {
     }
 }
 
+/// Whether no part of a line begins as a number does.
+fn names_columns(line: &str) -> bool {
+    let begins = |part: &str| {
+        part.trim()
+            .starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c))
+    };
+    !line.split([',', ';', '\t']).any(begins)
+}
+
 /// A table of a file: times and values.
 fn read(path: &Path) -> Result<Table, Message> {
     let bytes = std::fs::read(path).map_err(|error| Message::io(path, error.to_string()))?;
@@ -141,7 +164,7 @@ fn read(path: &Path) -> Result<Table, Message> {
             match numbers.collect::<Result<Vec<f64>, _>>().as_deref() {
                 Ok(&[time, value]) => pairs.push((time, value)),
                 // names of the columns
-                Err(_) if pairs.is_empty() && number == 0 => {}
+                Err(_) if number == 0 && names_columns(line) => {}
                 _ => {
                     let text = format!(
                         "line {}: `{}` is not a time and a value",
@@ -158,7 +181,13 @@ fn read(path: &Path) -> Result<Table, Message> {
     let finite = pairs
         .iter()
         .all(|(time, value)| time.is_finite() && value.is_finite());
-    if pairs.is_empty() || !ascend || !finite {
+    if pairs.is_empty() {
+        return Err(wrong(
+            "there are no numbers".into(),
+            "write `time,value` in each line",
+        ));
+    }
+    if !ascend || !finite {
         return Err(wrong(
             "no table of ascending times with finite values".into(),
             "sort the lines by their times, each once",

@@ -73,9 +73,6 @@ fn groups<'a, P: Lift<f64>>(
 ) -> Vec<Group<'a, P>> {
     let whole = method.claims().preserves;
     let kept = whole.on(system);
-    let quadratic_energy = system
-        .hamiltonian_degree()
-        .is_some_and(|degree| degree <= 2);
     let slope = |mu: &P::State| {
         let mut gradient = system.zero_state();
         system.gradient(mu, &mut gradient);
@@ -102,7 +99,7 @@ fn groups<'a, P: Lift<f64>>(
     let mut groups = vec![
         Group {
             fact: "energy",
-            claimed: kept.energy || (kept.quadratic_invariants && quadratic_energy),
+            claimed: kept.keeps_energy(system),
             members: vec![energy],
         },
         Group {

@@ -48,9 +48,6 @@ pub(super) fn domain(method: String, trial: &Trial, what: &str) -> Cell {
 /// Which invariants a method claims on a system: the energy, then each Casimir.
 pub(super) fn claimed<P: Poisson<f64>>(system: &P, claims: &Claims) -> Vec<bool> {
     let kept = claims.preserves.on(system);
-    let quadratic = system
-        .hamiltonian_degree()
-        .is_some_and(|degree| degree <= 2);
     let casimirs = (0..system.casimir_count()).map(|index| {
         let degree = system.casimir_degree(index);
         let quadratic = kept.quadratic_casimirs && degree.is_some_and(|degree| degree <= 2);
@@ -58,7 +55,7 @@ pub(super) fn claimed<P: Poisson<f64>>(system: &P, claims: &Claims) -> Vec<bool>
             && !system.casimir_is_multivalued(index)
             && system.casimir_is_kept(index)
     });
-    std::iter::once(kept.energy || (kept.quadratic_invariants && quadratic))
+    std::iter::once(kept.keeps_energy(system))
         .chain(casimirs)
         .collect()
 }
