@@ -176,3 +176,144 @@ fn members_have_noise_of_their_own_whoever_makes_them() {
     let members: std::collections::BTreeSet<&[u8]> = one[128..].chunks_exact(24).collect();
     assert_eq!(members.len(), 20, "all members differ");
 }
+
+/// Events are looked for piece by piece between the jumps of an input, and leave the run as it is.
+#[test]
+fn events_and_jumps_of_inputs_do_not_disturb_each_other() {
+    let folder = folder();
+    let plain = written(folder.path(), "plain.json", &driven().to_string());
+    let mut spec = driven();
+    spec["events"] = json!({ "x": { "when": "x" }, "y": { "when": "y" }, "z": { "when": "z - 0.9" }, "jump": { "when": "u + 0.9" }, "level": { "when": "u - 2" } });
+    let with = written(folder.path(), "events.json", &spec.to_string());
+    let table = written(folder.path(), "u.csv", "t,u\n0,0.5\n3.14159,-1\n6.03,2\n");
+    let found = folder.path().join("found.csv");
+    let flags = format!("--input u={table} --step 0.1 --until 20");
+    let one = lie(&format!("run {plain} {flags}")).ok();
+    let events = format!("--events {}", found.display());
+    let other = lie(&format!("run {with} {flags} {events}")).ok();
+    assert_eq!(one.stdout, other.stdout);
+    let times = |path: &Path| -> Vec<(String, f64)> {
+        let text = fs::read_to_string(path).unwrap();
+        let rows = text
+            .lines()
+            .skip(1)
+            .map(|line| line.split(',').collect::<Vec<_>>());
+        rows.map(|row| (row[0].to_owned(), row[1].parse().unwrap()))
+            .collect()
+    };
+    // the same zeros by the force with the same jumps, at a step that ends at them
+    spec["inputs"] = json!({ "w": { "default": 1 } });
+    spec["events"] =
+        json!({ "x": { "when": "x" }, "y": { "when": "y" }, "z": { "when": "z - 0.9" } });
+    spec["forces"] = json!({ "z": "piecewise(t < 3.14159: 1/2, t < 6.03: -1, 2)*x" });
+    let by_force = written(folder.path(), "force.json", &spec.to_string());
+    let expected = folder.path().join("expected.csv");
+    let out = expected.display();
+    lie(&format!(
+        "run {by_force} --step 0.01 --until 20 --events {out}"
+    ))
+    .ok();
+    let (found, expected) = (times(&found), times(&expected));
+    assert!(expected.len() == 8, "{expected:?}");
+    assert_eq!(found.len(), expected.len(), "{found:?} {expected:?}");
+    for (found, expected) in found.iter().zip(&expected) {
+        assert_eq!(found.0, expected.0);
+        assert!(
+            (found.1 - expected.1).abs() < 1e-6,
+            "{found:?} {expected:?}"
+        );
+    }
+}
+
+/// What a tolerance is told of an input before it comes, and what a second run says of the end.
+#[test]
+fn a_tolerance_knows_the_tables() {
+    let folder = folder();
+    let spec = written(folder.path(), "spec.json", &driven().to_string());
+    let table = written(folder.path(), "u.csv", "0,0\n0.5,30\n");
+    let run = |flags: &str| lie(&format!("run {spec} --input u={table} --until 3 {flags}")).ok();
+    let exact = last(&run("--method gauss16 --step 0.002"));
+    let size = exact[1..4]
+        .iter()
+        .fold(0.0_f64, |most, x| most.max(x.abs()));
+    for method in ["rk4", "gauss6", "gauss16"] {
+        let found = run(&format!("--method {method} --tol 1e-8 --assess"));
+        let error = distance(&exact, &last(&found)) / size;
+        assert!(error < 3e-7, "{method}: {error:e}");
+        let said = found
+            .stderr
+            .split("the error at the end is about ")
+            .nth(1)
+            .unwrap();
+        let said: f64 = said.split_whitespace().next().unwrap().parse().unwrap();
+        assert!(said < 1e-5, "{method}: {said:e}");
+    }
+    let noisy = written(folder.path(), "spin.json", &spin().to_string());
+    lie(&format!("run {noisy} --assess")).error("option", "command line: --assess");
+    lie(&format!("run {noisy} --density reversible")).error("option", "command line: --density");
+}
+
+/// A table is read by a run as the spec is: it is not written over, a changed one takes up no run, and shares of another are not merged.
+#[test]
+fn a_table_belongs_to_the_run() {
+    let folder = folder();
+    let spec = written(folder.path(), "spec.json", &driven().to_string());
+    let text = "0,0.5\n1,-1\n";
+    let table = written(folder.path(), "u.csv", text);
+    lie(&format!("run {spec} --input u={table} --out {table}"))
+        .error("option", "command line: --out");
+    assert_eq!(fs::read_to_string(&table).unwrap(), text);
+    let place = |name: &str| folder.path().join(name).display().to_string();
+    let (checkpoint, out) = (place("checkpoint"), place("rows.csv"));
+    let flags = format!("--input u={table} --until 300 --checkpoint {checkpoint} --out {out}");
+    lie(&format!("run {spec} {flags}")).ok();
+    let share = |k: u32| {
+        let out = place(&format!("share{k}.npy"));
+        let members = "--members 4 --spread 0.1 --until 1";
+        lie(&format!(
+            "ensemble {spec} {members} --input u={table} --shard {k}/2 --out {out}"
+        ))
+        .ok();
+        out
+    };
+    let first = share(1);
+    fs::write(&table, "0,0.5\n1,-2\n").unwrap();
+    lie(&format!("resume {checkpoint}")).error("checkpoint", &table);
+    let second = share(2);
+    let merged = place("merged.npy");
+    let run = lie(&format!("merge {first} {second} --out {merged}"));
+    assert_eq!(run.code, Some(2), "{}", run.stderr);
+    assert!(run.stderr.contains("input"), "{}", run.stderr);
+}
+
+/// Methods are compared along one path.
+#[test]
+fn methods_see_the_same_noise() {
+    let folder = folder();
+    let spec = written(folder.path(), "spin.json", &spin().to_string());
+    let run = lie(&format!(
+        "run {spec} --method lie-midpoint --method gauss4 --step 0.001 --until 1 --every 1000"
+    ))
+    .ok();
+    let ends: Vec<Vec<f64>> = run
+        .stdout
+        .lines()
+        .skip(1)
+        .map(|line| {
+            line.split(',')
+                .filter_map(|entry| entry.parse().ok())
+                .collect()
+        })
+        .collect();
+    let ends: Vec<_> = ends
+        .iter()
+        .filter(|row: &&Vec<f64>| row[1] == 1.0)
+        .collect();
+    assert_eq!(ends.len(), 2);
+    assert!(distance(&ends[0][1..], &ends[1][1..]) < 0.01, "{ends:?}");
+    let other = last(&lie(&format!("run {spec} --seed 2 --step 0.001 --until 1")).ok());
+    assert!(
+        distance(&ends[0][1..], &other) > 0.1,
+        "the control: {other:?}"
+    );
+}

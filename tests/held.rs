@@ -99,14 +99,14 @@ fn a_controller_sees_the_state_at_its_samplings() {
 fn jumps_of_a_table_cost_no_order() {
     let problem = wheel(4.0);
     let end = |step: f64| {
-        let times = vec![0.0, 1.234_567, 2.5];
+        let times: Arc<[f64]> = [0.0, 1.234_567, 2.5].into();
         let jumps = Source::Table {
             times: times.clone(),
-            values: vec![0.3, -0.5, 0.1],
+            values: [0.3, -0.5, 0.1].into(),
         };
         let inertia = Source::Table {
             times,
-            values: vec![1.0, 1.5, 0.8],
+            values: [1.0, 1.5, 0.8].into(),
         };
         let held = held(&problem).with(0, jumps).with(1, inertia);
         let run = solve_observed(&problem, Rk4, &Options::new(step), held).expect("a run");
@@ -128,8 +128,8 @@ fn jumps_of_a_table_cost_no_order() {
 fn jumps_of_the_hamiltonian_are_work() {
     let problem = wheel(4.0);
     let inertia = Source::Table {
-        times: vec![0.0, 1.25, 2.5],
-        values: vec![1.0, 1.5, 0.8],
+        times: [0.0, 1.25, 2.5].into(),
+        values: [1.0, 1.5, 0.8].into(),
     };
     let held = held(&problem).with(1, inertia);
     let run = solve_observed(&problem, Gauss6, &Options::new(0.05), held).expect("a run");

@@ -74,7 +74,10 @@ pub fn request(declaration: &Declaration, asked: &Bound<'_, PyDict>) -> PyResult
 /// Times and values, or a function of time, state and group element; what it raises is kept by whoever gave it, and no number here.
 fn source(declaration: &Declaration, value: &Bound<'_, PyAny>) -> PyResult<Source> {
     if let Ok((times, values)) = value.extract::<(Vec<f64>, Vec<f64>)>() {
-        return Ok(Source::Table { times, values });
+        return Ok(Source::Table {
+            times: times.into(),
+            values: values.into(),
+        });
     }
     let shown = declaration.facts.shown.clone();
     let function: Py<PyAny> = value.clone().unbind();

@@ -4,6 +4,7 @@ use std::fs::{self, File};
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
+use lie_in_process::request::Request;
 use lie_syntax::front::spec::files;
 
 use crate::compiler::Spec;
@@ -27,12 +28,18 @@ impl Inputs {
         inputs
     }
 
+    /// The same, and the files of a request.
+    pub fn of_request(path: &Path, spec: &Spec, request: &Request) -> Self {
+        let files = request.files().into_iter();
+        files.fold(Self::of_spec(path, spec), |inputs, (option, file)| {
+            inputs.with(option, &file)
+        })
+    }
+
     /// The same with the file of an option.
     #[must_use]
-    pub fn with(mut self, option: &str, path: Option<&Path>) -> Self {
-        if let Some(path) = path {
-            self.add(format!("the file of `{option}`"), path);
-        }
+    pub fn with(mut self, option: &str, path: &Path) -> Self {
+        self.add(format!("the file of `{option}`"), path);
         self
     }
 

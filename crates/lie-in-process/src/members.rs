@@ -5,6 +5,7 @@
 //! fails is run again alone, and says what it says alone; the others of its group are run again without it. Where members choose
 //! their own steps, they take turns.
 
+mod kept;
 mod turns;
 
 use lie_codegen::methods::Choice;
@@ -13,13 +14,12 @@ use lie_dynamic::{
 };
 use lie_program::protocol::{Held, Sources};
 use lie_runtime::diagnostics::Forgotten;
-use lie_runtime::driver::{
-    self, IntegrateError, Observer, OptionError, Options, Pace, Problem, Progress, Save, integrate,
-};
+use lie_runtime::driver::{IntegrateError, OptionError, Options, Pace, Problem, integrate};
 use lie_runtime::{ParameterError, Poisson, Scalar};
-use std::ops::{ControlFlow, Range};
+use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
+use kept::Kept;
 use turns::method_in_turns;
 pub use turns::take_turns;
 
@@ -108,61 +108,6 @@ impl Watch {
 
     fn done(&self, members: usize) {
         self.done.fetch_add(members, Ordering::Relaxed);
-    }
-}
-
-/// Keeps the rows of a run, and ends it where the whole is to end.
-struct Kept<'a, S> {
-    times: Vec<f64>,
-    states: Vec<S>,
-    last_alone: bool,
-    watch: &'a Watch,
-    held: Option<driver::Held>,
-}
-
-impl<'a, S> Kept<'a, S> {
-    fn new(options: &Options, watch: &'a Watch) -> Self {
-        Self {
-            times: Vec::new(),
-            states: Vec::new(),
-            last_alone: options.save == Save::Ends,
-            watch,
-            held: None,
-        }
-    }
-}
-
-impl<S: Scalar> Observer<S, Dynamic<S>> for Kept<'_, S> {
-    fn hold(&mut self, system: &Dynamic<S>, step: (u64, f64, f64), mu: &mut Vec<S>) {
-        if let Some(held) = &mut self.held {
-            held.set(system, step, mu, &[]);
-        }
-    }
-
-    fn held(&self) -> Option<&driver::Held> {
-        self.held.as_ref()
-    }
-
-    fn step(&mut self, _: &Dynamic<S>, _: Progress, _: &Vec<S>) -> ControlFlow<()> {
-        match self.watch.stopped() {
-            true => ControlFlow::Break(()),
-            false => ControlFlow::Continue(()),
-        }
-    }
-
-    fn row(&mut self, _: &Dynamic<S>, time: f64, mu: &Vec<S>) -> ControlFlow<()> {
-        if self.last_alone {
-            self.times.clear();
-            self.states.clear();
-        }
-        let room = self.times.try_reserve(1);
-        if room.and(self.states.try_reserve(mu.len())).is_err() {
-            self.watch.is_full();
-            return ControlFlow::Break(());
-        }
-        self.times.push(time);
-        self.states.extend_from_slice(mu);
-        ControlFlow::Continue(())
     }
 }
 

@@ -215,9 +215,7 @@ fn on(state: Result<(), End>) -> ControlFlow<()> {
 
 impl<P: Poisson<f64>> Observer<f64, P> for RowWriter<'_, '_> {
     fn hold(&mut self, system: &P, step: (u64, f64, f64), mu: &mut P::State) {
-        if let Some(held) = &mut self.held {
-            held.set(system, step, mu, &[]);
-        }
+        self.held.hold(system, step, mu);
     }
 
     fn held(&self) -> Option<&driver::Held> {

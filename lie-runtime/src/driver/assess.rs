@@ -3,6 +3,7 @@
 use super::course::{Beginning, Course};
 use super::density::Density;
 use super::grid::Grid;
+use super::held::Held;
 use super::observer::{Observer, Progress};
 use super::options::Save;
 use super::problem::Problem;
@@ -72,6 +73,7 @@ impl<S: Scalar, P: Poisson<S>, M: Method<S, P>> Ended<'_, S, P, M> {
             .following(self.density);
         let mut last = Last {
             state: mu.clone(),
+            held: observer.held().cloned(),
             observer,
         };
         let system = &self.problem.system;
@@ -95,10 +97,19 @@ impl<S: Scalar, P: Poisson<S>, M: Method<S, P>> Ended<'_, S, P, M> {
 /// Keeps the last state.
 struct Last<'o, V, O> {
     state: V,
+    held: Option<Held>,
     observer: &'o mut O,
 }
 
 impl<S: Scalar, P: Poisson<S>, O: Observer<S, P>> Observer<S, P> for Last<'_, P::State, O> {
+    fn hold(&mut self, system: &P, step: (u64, f64, f64), mu: &mut P::State) {
+        self.held.hold(system, step, mu);
+    }
+
+    fn held(&self) -> Option<&Held> {
+        self.held.as_ref()
+    }
+
     fn step(&mut self, _system: &P, progress: Progress, _mu: &P::State) -> ControlFlow<()> {
         self.observer.compared(progress)
     }

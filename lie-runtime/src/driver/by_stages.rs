@@ -109,9 +109,8 @@ impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'a, S, P, M> {
         pulse: Option<&Pulse>,
     ) -> Result<Option<FirstStaged<'a, S, P, M>>, IntegrateError> {
         let system = &self.problem.system;
-        let mut mu = self.problem.start();
         let time = self.time(span, pulse.map_or(0.0, |pulse| pulse.after));
-        set_time(system, &mut mu, time);
+        let mu = self.at(time);
         let longest = pulse.map_or(f64::INFINITY, |pulse| pulse.spacing);
         let Some(followed) = system.following(&mu) else {
             let place = Place {

@@ -267,7 +267,7 @@ impl<'r, M> Course<'r, M> {
             let mut ahead = match events {
                 Some(events) if self.done == 0 => {
                     let first = (&mut stepper, &mut made);
-                    self.look_ahead(system, joints.as_mut(), events, mu, first, observer)
+                    self.look_ahead(system, joints.as_mut(), events, mu, first, observer)?
                 }
                 _ => Ahead::nothing(),
             };
@@ -303,13 +303,18 @@ impl<'r, M> Course<'r, M> {
             let mut watched = self.done == 0 && guard.as_mut().is_some_and(begins);
             if self.done == 0 {
                 let times = [self.index, self.index + 1].map(|index| self.grid.time(index));
+                let times = times.into();
                 let joint = joints
                     .as_mut()
-                    .is_some_and(|joints| !joints.pieces(system, times.into()).is_empty());
-                if joint || self.changes_within::<S, P>(observer) {
-                    self.through(system, joints.as_mut(), times.into(), mu, observer)?;
+                    .is_some_and(|joints| !joints.pieces(system, times).is_empty());
+                if joint
+                    || observer
+                        .held()
+                        .is_some_and(|held| held.changes_within(times))
+                {
+                    self.through(system, joints.as_mut(), times, mu, observer)?;
                     self.done = self.parts;
-                    watched = false;
+                    (watched, made) = (false, None);
                 }
             }
             let (mut iterations, mut slow) = (0, false);

@@ -25,11 +25,12 @@ pub enum Source {
     /// From a table: each value is held from its time on, the first one before it too.
     Table {
         /// The times, ascending.
-        times: Vec<f64>,
+        times: Arc<[f64]>,
         /// A value for each.
-        values: Vec<f64>,
+        values: Arc<[f64]>,
     },
-    /// From a function of (t, state, group element), asked at each sampling with the state there; again for rows between steps.
+    /// From a function of (t, state, group element), asked at each sampling with the state there; again for rows between steps and
+    /// for events.
     Controller(Controller),
 }
 
@@ -162,8 +163,53 @@ impl Held {
         }
     }
 
+    /// The tables alone: controllers are asked no more.
+    pub(super) fn tables(mut self) -> Self {
+        let controllers = self.inputs.iter_mut();
+        let controllers =
+            controllers.filter(|input| matches!(input.source, Some(Source::Controller(_))));
+        controllers.for_each(|input| input.source = None);
+        self
+    }
+
+    /// Whether a run with other steps is the same: there is no noise and no controller.
+    pub(super) fn repeats(&self) -> bool {
+        let asks = |input: &Input| matches!(input.source, Some(Source::Controller(_)));
+        self.noise.is_none() && !self.inputs.iter().any(asks)
+    }
+
+    /// Times within a span at which inputs are largest and smallest in their tables.
+    pub(super) fn extremes(&self, (from, to): Piece) -> Vec<f64> {
+        let mut found = Vec::new();
+        for input in &self.inputs {
+            let Some(Source::Table { times, values }) = &input.source else {
+                continue;
+            };
+            let rows = times.iter().copied().zip(values.iter().copied());
+            let rows = rows.filter(|(time, _)| (*time - from) * (*time - to) < 0.0);
+            let by = |a: &(f64, f64), b: &(f64, f64)| a.1.total_cmp(&b.1);
+            found.extend(rows.clone().max_by(by).map(|row| row.0));
+            found.extend(rows.min_by(by).map(|row| row.0));
+        }
+        found
+    }
+
+    /// Whether an input changes between two times.
+    pub(super) fn changes_within(&self, piece: Piece) -> bool {
+        !self.changes(piece).is_empty()
+    }
+
+    /// Whether a controller is asked between two times.
+    pub(super) fn samples_within(&self, piece: Piece) -> bool {
+        let mut times = Vec::new();
+        let inputs = self.inputs.iter();
+        let asked = inputs.filter(|input| matches!(input.source, Some(Source::Controller(_))));
+        asked.for_each(|input| input.changes(self.start, piece, &mut times));
+        !times.is_empty()
+    }
+
     /// The times between two others at which an input changes, in the order of the run.
-    fn changes(&self, (from, to): Piece) -> Vec<f64> {
+    pub(super) fn changes(&self, (from, to): Piece) -> Vec<f64> {
         let mut times: Vec<f64> = Vec::new();
         for input in &self.inputs {
             input.changes(self.start, (from, to), &mut times);
@@ -278,16 +324,6 @@ impl<M> Course<'_, M> {
         }
         Ok(())
     }
-
-    /// Whether an input changes within the step that comes.
-    pub(super) fn changes_within<S: Scalar, P: Poisson<S>>(
-        &self,
-        observer: &mut impl Observer<S, P>,
-    ) -> bool {
-        let step = [self.index, self.index + 1].map(|index| self.grid.time(index));
-        let held = observer.held();
-        held.is_some_and(|held| !held.changes(step.into()).is_empty())
-    }
 }
 
 #[cfg(test)]
@@ -327,8 +363,8 @@ mod tests {
     fn a_table_is_held_from_each_of_its_times() {
         let mut input = Input {
             source: Some(Source::Table {
-                times: vec![0.0, 1.0, 2.5],
-                values: vec![3.0, 4.0, 5.0],
+                times: [0.0, 1.0, 2.5].into(),
+                values: [3.0, 4.0, 5.0].into(),
             }),
             sampling: None,
             last: None,

@@ -176,6 +176,11 @@ pub enum OptionError {
         "a system with noise takes steps of one size: no tolerance says how far a random path is right"
     )]
     Noise,
+    /// A controller that sees the group element, asked within steps, and events.
+    #[error(
+        "events are looked for before a step shows the group element, which a controller is asked with: take steps that end at its samplings"
+    )]
+    SampledWithin,
     /// A milestone of another run.
     #[error("the milestone is not one of this run: {0}")]
     Milestone(&'static str),

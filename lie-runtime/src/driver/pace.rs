@@ -7,7 +7,8 @@
 //! `by_stages`), and nothing is made twice. Of other methods a run-in from the initial state estimates the error of single
 //! steps: that of a step of h against two steps of h/2, times `2^p/(2^p - 1)`, p the order; the first five steps decide, and
 //! the run starts anew. Where H depends on the time, steps are tried too where the field changes most by it, and the smaller
-//! step is taken: steps chosen at the start could pass a pulse without seeing it. Where the motion becomes faster later, steps
+//! step is taken: steps chosen at the start could pass a pulse without seeing it. The same is done where an input is largest and smallest in its
+//! table. Where the motion becomes faster later, steps
 //! become shorter during the run (see the module `watch`); where errors of single steps grow on their way, as near unstable motion,
 //! the error at the end is larger, which a second run tells ([`Options::assessed`]).
 //!
@@ -15,6 +16,7 @@
 //! 1993, section II.4, [doi:10.1007/978-3-540-78862-1](https://doi.org/10.1007/978-3-540-78862-1).
 
 use super::by_stages::{FirstStaged, FirstStep, Staged};
+use super::held::Held;
 use super::options::{OptionError, Options, Pace};
 use super::problem::Problem;
 use super::pulse::{Pulse, pulse};
@@ -118,11 +120,12 @@ pub(super) fn settle<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>>(
     problem: &'a Problem<S, P>,
     method: &'a M,
     options: &Options,
+    held: Option<Held>,
 ) -> Result<Paced<'a, S, P, M>, IntegrateError> {
     match options.pace {
         Pace::Step(step) => Ok((step, None)),
         Pace::Tolerance(tolerance) => {
-            let settled = chosen_by(problem, method, tolerance, &options.newton)?;
+            let settled = chosen_by(problem, method, (tolerance, &options.newton), held)?;
             Ok((settled.chosen.step, Some(settled)))
         }
     }
@@ -145,14 +148,14 @@ pub fn choose<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
     tolerance: f64,
     newton: &NewtonOptions,
 ) -> Result<Chosen, IntegrateError> {
-    Ok(chosen_by(problem, method, tolerance, newton)?.chosen)
+    Ok(chosen_by(problem, method, (tolerance, newton), None)?.chosen)
 }
 
 fn chosen_by<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>>(
     problem: &'a Problem<S, P>,
     method: &'a M,
-    tolerance: f64,
-    newton: &NewtonOptions,
+    (tolerance, newton): (f64, &NewtonOptions),
+    held: Option<Held>,
 ) -> Result<Settled<'a, S, P, M>, IntegrateError> {
     let (start, end) = problem.span;
     let span = end - start;
@@ -162,13 +165,15 @@ fn chosen_by<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>>(
     if !span.is_finite() {
         return Err(OptionError::Span(start, end).into());
     }
-    let trial = Trial::new(problem, method, *newton, tolerance);
-    let pulse = pulse(problem);
+    let trial = Trial::new(problem, method, (*newton, tolerance), held);
+    let pulse = pulse(&problem.system, trial.start.clone(), problem.span);
+    let mut pulses = trial.pushes();
+    pulses.extend(pulse);
     let zero = || problem.system.zero_state();
     if method.fixed_point()
         && S::LANES == 1
         && span != 0.0
-        && let Some(found) = by_stages(&trial, span, pulse.as_ref())?
+        && let Some(found) = by_stages(&trial, span, &pulses)?
     {
         let watch = Watch::by_stages(1.0 / found.steps, zero());
         return Ok(Settled {
@@ -179,11 +184,11 @@ fn chosen_by<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>>(
         });
     }
     let (size, error, seen) = if method.own_steps() {
-        let most = pulse.and_then(|pulse| pulse.step());
+        let most = pulses.iter().filter_map(Pulse::step).reduce(f64::min);
         let size = trial.own_steps(span)?;
         (most.map_or(size, |most| size.min(most)), tolerance, None)
     } else {
-        let (size, estimates, gauge) = by_run_in(&trial, span, pulse.as_ref())?;
+        let (size, estimates, gauge) = by_run_in(&trial, span, &pulses)?;
         let seen = (gauge, estimates.seen, estimates.part);
         let size = SAFETY * trial.below_round_off(size);
         (size, estimates.worst, Some(seen))
@@ -210,14 +215,15 @@ fn chosen_by<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>>(
 fn by_stages<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>>(
     trial: &Trial<'a, S, P, M>,
     span: f64,
-    pulse: Option<&Pulse>,
+    pulses: &[Pulse],
 ) -> Result<Option<FirstStaged<'a, S, P, M>>, IntegrateError> {
     let Some(mut found) = trial.by_stages(span, None)? else {
         return Ok(None);
     };
-    if let Some(pulse) = pulse
-        && let Ok(Some(later)) = trial.by_stages(span, Some(pulse))
-    {
+    for pulse in pulses {
+        let Ok(Some(later)) = trial.by_stages(span, Some(pulse)) else {
+            continue;
+        };
         let steps = count(span, (later.steps * trial.over_a_part(pulse)).ceil());
         if steps > found.steps {
             found = Staged {
@@ -234,12 +240,13 @@ fn by_stages<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>>(
 fn by_run_in<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
     trial: &Trial<'_, S, P, M>,
     span: f64,
-    pulse: Option<&Pulse>,
+    pulses: &[Pulse],
 ) -> Result<(f64, Estimates, Gauge<S, P>), IntegrateError> {
     let mut found = trial.run_in(span, None)?;
-    if let Some(pulse) = pulse
-        && let Ok(mut later) = trial.run_in(span, Some(pulse))
-    {
+    for pulse in pulses {
+        let Ok(mut later) = trial.run_in(span, Some(pulse)) else {
+            continue;
+        };
         later.0 /= trial.over_a_part(pulse);
         if later.0 < found.0 {
             found = later;

@@ -1,6 +1,6 @@
 //! Where the time alone changes the field most: a pulse that steps chosen at the start would pass without seeing it.
 
-use super::problem::{Problem, set_time};
+use super::problem::set_time;
 use crate::clock::holds;
 use crate::poisson::Poisson;
 use crate::scalar::{Scalar, largest};
@@ -26,6 +26,16 @@ pub(super) struct Pulse {
 }
 
 impl Pulse {
+    /// An input that jumps: steps end there.
+    pub(super) fn push(after: f64) -> Self {
+        Self {
+            after,
+            spacing: f64::INFINITY,
+            part: 1.0,
+            sharp: false,
+        }
+    }
+
     /// A step that cannot pass it.
     pub(super) fn step(&self) -> Option<f64> {
         self.sharp.then_some(0.25 * SHARP * self.spacing)
@@ -34,11 +44,12 @@ impl Pulse {
 
 /// The time at which the field at the initial state begins to change most from one of many times to the next; none of a
 /// system without the time, or whose field does not change.
-pub(super) fn pulse<S: Scalar, P: Poisson<S>>(problem: &Problem<S, P>) -> Option<Pulse> {
-    let system = &problem.system;
+pub(super) fn pulse<S: Scalar, P: Poisson<S>>(
+    system: &P,
+    mut mu: P::State,
+    (start, end): (f64, f64),
+) -> Option<Pulse> {
     let clock = system.clock()?;
-    let (start, end) = problem.span;
-    let mut mu = problem.start();
     let times = (ENTRIES / mu.as_slice().len()).clamp(TIMES.0, TIMES.1);
     let spacing = (end - start) / times as f64;
     let distance = |a: &P::State, b: &P::State| {

@@ -8,10 +8,11 @@ use super::grid::Grid;
 use super::held::Held;
 use super::kept::Kept;
 use super::milestone::Milestone;
-use super::observer::{Observer, Recorder};
+use super::observer::Observer;
 use super::options::{OptionError, Options, Pace};
 use super::pace::{Assessed, Settled, settle};
 use super::problem::Problem;
+use super::recorder::Recorder;
 use super::solution::Solution;
 use super::stats::{Stats, Status};
 use crate::methods::{Facts as _, Method};
@@ -146,7 +147,7 @@ fn run<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
     if problem.system.noise_count() > 0 && !matches!(options.pace, Pace::Step(_)) {
         return Err(OptionError::Noise.into());
     }
-    let (mut step, mut settled) = settle(problem, &method, options)?;
+    let (mut step, mut settled) = settle(problem, &method, options, observer.held().cloned())?;
     if let Some(settled) = settled.as_mut().filter(|_| follows) {
         let mu = problem.start();
         let followed = problem.system.following(&mu);
@@ -171,8 +172,6 @@ fn run<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
         .with_milestones(milestones.is_some());
     let settled = settled.filter(|_| !follows);
     let (guard, begun) = settled.map_or((None, None), Settled::begin);
-    // the first step knew no inputs
-    let begun = begun.filter(|_| problem.system.input_count() == 0);
     let beginning = match (milestones.flatten(), begun) {
         (Some(milestone), _) => Beginning::Milestone(milestone),
         (None, Some(begun)) => Beginning::Step(begun),
@@ -180,9 +179,8 @@ fn run<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
     };
     let (system, mu) = (&problem.system, problem.start());
     let (end, status) = course.run(system, mu, beginning, guard, &options.save, observer)?;
-    // the second run knows neither the inputs nor the noise of this one
-    let holds = problem.system.input_count() + problem.system.noise_count() > 0;
-    if course.stats.steps <= options.assess && status == Status::Finished && !holds {
+    let repeats = observer.held().is_none_or(Held::repeats);
+    if course.stats.steps <= options.assess && status == Status::Finished && repeats {
         let end = match follows {
             true => course.at_the_end(system, end)?,
             false => end,

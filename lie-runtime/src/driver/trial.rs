@@ -1,6 +1,8 @@
 //! Steps that are tried, and what the first ones of a run say of the step for all of it.
 
 use super::error::StepError;
+use super::held::Held;
+use super::observer::Observer as _;
 use super::options::OptionError;
 use super::pace::least_tolerance;
 use super::problem::{Problem, set_time};
@@ -30,6 +32,9 @@ pub(super) struct Trial<'a, S: Scalar, P: Poisson<S>, M> {
     pub(super) newton: NewtonOptions,
     pub(super) span: f64,
     pub(super) tolerance: f64,
+    /// The initial state with its inputs, and the tables of these.
+    pub(super) start: P::State,
+    tables: Option<Held>,
 }
 
 /// What a trial has found.
@@ -74,16 +79,44 @@ impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'a, S, P, M> {
     pub(super) fn new(
         problem: &'a Problem<S, P>,
         method: &'a M,
-        newton: NewtonOptions,
-        tolerance: f64,
+        (newton, tolerance): (NewtonOptions, f64),
+        mut held: Option<Held>,
     ) -> Self {
+        let span = problem.span.1 - problem.span.0;
+        let mut start = problem.start();
+        held.hold(&problem.system, (0, problem.span.0, span), &mut start);
         Self {
             problem,
             method,
             newton,
-            span: (problem.span.1 - problem.span.0).abs(),
+            span: span.abs(),
             tolerance,
+            start,
+            tables: held.map(Held::tables),
         }
+    }
+
+    /// The initial state at a time, with the inputs of their tables there.
+    pub(super) fn at(&self, time: f64) -> P::State {
+        let mut mu = self.start.clone();
+        set_time(&self.problem.system, &mut mu, time);
+        self.tables
+            .clone()
+            .hold(&self.problem.system, (0, time, 0.0), &mut mu);
+        mu
+    }
+
+    /// Times at which inputs are largest and smallest.
+    pub(super) fn pushes(&self) -> Vec<Pulse> {
+        let (start, end) = self.problem.span;
+        let times = self
+            .tables
+            .as_ref()
+            .map_or_else(Vec::new, |held| held.extremes((start, end)));
+        times
+            .into_iter()
+            .map(|time| Pulse::push((time - start).abs()))
+            .collect()
     }
 
     /// The error that a step of a size may have.
@@ -130,9 +163,8 @@ impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'a, S, P, M> {
         span: f64,
         pulse: Option<&Pulse>,
     ) -> Result<(f64, Estimates, Gauge<S, P>), IntegrateError> {
-        let mut mu = self.problem.start();
         let mut reached = pulse.map_or(0.0, |pulse| pulse.after);
-        set_time(&self.problem.system, &mut mu, self.time(span, reached));
+        let mut mu = self.at(self.time(span, reached));
         let mut followed = self.problem.system.following(&mu);
         let system = followed.as_ref().unwrap_or(&self.problem.system);
         let mut gauge = Gauge::new(system, &mu, self.method.order());
@@ -223,9 +255,9 @@ impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'a, S, P, M> {
     /// The mean of the steps that a method chooses itself, from the start on.
     pub(super) fn own_steps(&self, span: f64) -> Result<f64, IntegrateError> {
         let system = &self.problem.system;
-        let mut size = self.first(&self.problem.start());
+        let mut size = self.first(&self.start);
         loop {
-            let mut mu = self.problem.start();
+            let mut mu = self.start.clone();
             let h = S::from_f64(size * span.signum());
             let mut stepper = self.method.stepper(system, h, &self.newton);
             match stepper.step(&mut mu, &mut ()) {

@@ -61,7 +61,7 @@ pub fn run(arguments: &args::Merge) -> Result<u8, Failure> {
         .iter()
         .fold(Inputs::default(), |inputs, path| {
             let record = path_of_record(path);
-            inputs.with("FILE", Some(path)).with("FILE", Some(&record))
+            inputs.with("FILE", path).with("FILE", &record)
         });
     let beside = Beside::open(&arguments.out, &inputs, &record)?;
     let mut gathering = Gathering::begin(beside, record, Vec::new())?;

@@ -63,8 +63,7 @@ pub fn run(flags: &args::Ensemble) -> Result<u8, Failure> {
         }
     }
     let (mut record, places) = record(&spec, flags, &asked, share, quantiles)?;
-    let states = flags.request.initial_file.as_deref();
-    let inputs = Inputs::of_spec(&flags.spec, &spec).with("--initial-file", states);
+    let inputs = Inputs::of_request(&flags.spec, &spec, &flags.request);
     let beside = Beside::open(&flags.out, &inputs, &record)?;
     let interrupt = Interrupt::install();
     let methods = std::slice::from_ref(&asked.plan.method);
@@ -301,7 +300,7 @@ fn digest(path: &Path) -> Result<String, Failure> {
     Ok(Key::digest(&bytes))
 }
 
-/// What was asked for, by option; of the file of states its digest.
+/// What was asked for, by option; of files their digests.
 fn options(
     flags: &args::Ensemble,
     asked: &Asked,
@@ -315,6 +314,20 @@ fn options(
         .retain(|_, value| !value.is_null() && value.as_array().is_none_or(|all| !all.is_empty()));
     if let Some(path) = &flags.request.initial_file {
         options.insert("initial-file".to_owned(), digest(path)?.into());
+    }
+    let tables = flags.request.input.iter();
+    let tables = tables.filter_map(|written| written.split_once('='));
+    let tables: Vec<String> = tables
+        .map(|(name, path)| {
+            Ok(format!(
+                "{}={}",
+                name.trim(),
+                digest(Path::new(path.trim()))?
+            ))
+        })
+        .collect::<Result<_, Failure>>()?;
+    if !tables.is_empty() {
+        options.insert("input".to_owned(), tables.into());
     }
     if let Some(draw) = asked.cast.drawn.as_ref().map(|drawn| drawn.draw) {
         options.insert("members".to_owned(), draw.count.into());

@@ -39,7 +39,8 @@ pub fn of(flags: &args::Run, spec: &Spec) -> Result<Checkpoint, Failure> {
     let named = files(&spec.source.text)
         .into_iter()
         .map(|file| folder.join(file));
-    for path in named.chain(flags.request.initial_file.clone()) {
+    let asked = flags.request.files().into_iter().map(|(_, path)| path);
+    for path in named.chain(asked) {
         let bytes = fs::read(&path).map_err(|error| unreadable(&path, &error))?;
         inputs.push((path, Key::digest(unmarked(&bytes))));
     }

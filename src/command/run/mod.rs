@@ -74,8 +74,7 @@ pub fn go(flags: &args::Run, taken_up: Option<Checkpoint>) -> Result<u8, Failure
             eprintln!("{}", folded(&format!("note: {note}")));
         }
     }
-    let states = flags.request.initial_file.as_deref();
-    let inputs = Inputs::of_spec(path, &spec).with("--initial-file", states);
+    let inputs = Inputs::of_request(path, &spec, &flags.request);
     let outputs = Outputs::open(flags, &inputs)?;
     let events = events::Table::open(flags, &spec.model, &inputs, several.labels.is_some())?;
     let keeper = match &flags.checkpoint {

@@ -210,7 +210,7 @@ impl Session<'_> {
             assess: assessed_up_to(plan),
             curve,
             held: Held {
-                stream: number as u64,
+                stream: member.point as u64,
                 ..plan.held.clone()
             },
             ..plan.run(member.start.clone())

@@ -244,7 +244,7 @@ impl<'a> Environment<'a> {
 
 fn on_time() -> (String, String) {
     (
-        "`t` is the time, on which only the Hamiltonian or the Lagrangian may depend".to_owned(),
+        "`t` is the time, which cannot stand here".to_owned(),
         "remove it; a parameter takes the place of a frozen time".to_owned(),
     )
 }

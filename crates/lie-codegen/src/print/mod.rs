@@ -5,6 +5,7 @@
 mod elimination;
 mod equation;
 mod expression;
+mod facts;
 mod family;
 mod found;
 mod function;

@@ -1,5 +1,6 @@
 //! A system made at run time: the traits of the numeric core by the codes of its plan, a file for each structure that a system may have.
 
+mod algebra;
 pub(crate) mod family;
 pub(crate) mod flows;
 mod lagrangian;

@@ -59,9 +59,11 @@ impl Planner<'_> {
             let message = self.option_mistake("density", text);
             self.mistakes.push(message.help("leave the option out"));
         }
-        if noises + model.inputs.len() > 0 && self.request.assess {
+        let mut sources = self.request.sources.values();
+        let controlled = sources.any(|source| matches!(source, Source::Controller(_)));
+        if (noises > 0 || controlled) && self.request.assess {
             let text = format!(
-                "the second run that finds the error at the end has neither the inputs nor the noise of {}",
+                "a second run finds the error at the end, and {} would have other noise or another answer of a function in it",
                 model.name
             );
             let message = self.option_mistake("assess", text);
@@ -132,7 +134,10 @@ fn names_columns(line: &str) -> bool {
 
 /// A table of a file: times and values.
 fn read(path: &Path) -> Result<Table, Message> {
-    let bytes = std::fs::read(path).map_err(|error| Message::io(path, error.to_string()))?;
+    let bytes = std::fs::read(path).map_err(|error| {
+        let help = "give a file of CSV or NPY; a constant is the input's `default` in the spec";
+        Message::io(path, error.to_string()).help(help)
+    })?;
     let wrong = |text: String, help: &str| {
         let message = Message::new(Kind::Input, format!("{}: {text}", path.display()));
         message.help(help)

@@ -104,7 +104,7 @@ impl Planner<'_> {
             return Ok(());
         }
         let why = match &model.driving {
-            Some(_) => "forces or dissipation act on it",
+            Some(_) => "more than H acts on it",
             None => "H depends on the time",
         };
         let text = format!("the energy of {} is not constant: {why}", model.name);

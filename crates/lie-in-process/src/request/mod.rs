@@ -99,6 +99,15 @@ macro_rules! request {
         }
 
         impl Request {
+            /// The files that it reads beside the spec, with their options.
+            pub fn files(&self) -> Vec<(&'static str, PathBuf)> {
+                let states = self.initial_file.iter();
+                let states = states.map(|path| ("--initial-file", path.clone()));
+                let tables = self.input.iter().filter_map(|written| written.split_once('='));
+                let tables = tables.map(|(_, path)| ("--input", PathBuf::from(path.trim())));
+                states.chain(tables).collect()
+            }
+
             /// An option by its name.
             pub fn get(&self, name: &str) -> Option<&Value> {
                 match name {

@@ -59,6 +59,8 @@ impl Several {
 pub struct Member {
     /// Which of the plans.
     pub plan: usize,
+    /// Which of the points: runs of several methods from one have the same noise.
+    pub point: usize,
     /// The values of the parameters that have several.
     pub parameters: Vec<f64>,
     /// Where it starts.

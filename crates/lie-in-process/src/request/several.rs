@@ -75,8 +75,10 @@ pub fn several(spec: &Spec, request: &Request) -> Result<Several, Vec<Message>> 
         .map(|(parameters, point)| (parameters, point.named(spec)))
         .collect();
     let members = (0..plans.len()).flat_map(|plan| {
-        starts.iter().map(move |(parameters, start)| Member {
+        let starts = starts.iter().enumerate();
+        starts.map(move |(point, (parameters, start))| Member {
             plan,
+            point,
             parameters: parameters.clone(),
             start: start.clone(),
         })

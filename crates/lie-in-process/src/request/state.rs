@@ -121,7 +121,15 @@ impl Planner<'_> {
             let known = known.as_str();
             let Some(index) = names.iter().position(|name| *name == known) else {
                 let message = name.wrong(format!("unknown parameter `{known}`"));
+                let mut inputs = self.spec.model.inputs.iter();
                 let help = match did_you_mean(known, names.iter().copied()) {
+                    _ if inputs.any(|input| input.name == known) => format!(
+                        "`{known}` is an input: {}",
+                        match self.request.front {
+                            Front::Command => format!("write `--input {known}=FILE`"),
+                            Front::Call => format!("write `inputs={{\"{known}\": ...}}`"),
+                        }
+                    ),
                     Some(near) => format!("did you mean `{near}`?"),
                     None if names.is_empty() => "the system has no parameters".to_owned(),
                     None => format!("the parameters are {}", names.join(", ")),

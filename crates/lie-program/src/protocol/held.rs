@@ -61,8 +61,8 @@ impl Held {
         for index in 0..system.input_count() {
             let name = system.coordinate(first + index);
             let table = self.inputs.get(name).map(|table| Source::Table {
-                times: table.times.clone(),
-                values: table.values.clone(),
+                times: table.times.as_slice().into(),
+                values: table.values.as_slice().into(),
             });
             if let Some(source) = sources.0.get(name).cloned().or(table) {
                 held = held.with(index, source);

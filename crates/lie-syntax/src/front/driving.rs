@@ -4,7 +4,7 @@ use super::reader::Line;
 use super::vectors::Value;
 use super::{Names, expression, item};
 use crate::ast::{Dissipation, DissipationKind, Expr, Metric, Name, Noise};
-use crate::diagnostic::{Diagnostic, Kind, Report};
+use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::suggest::meant;
 
 /// The forces by coordinate, in the order of the state; a vector of coordinates stands for them.
@@ -106,8 +106,8 @@ fn value(line: &Line<'_>, names: &Names, report: &mut Report) -> Option<Value> {
 pub enum Noisy<'a> {
     /// The Hamiltonian.
     Hamiltonian(Line<'a>),
-    /// What is given for coordinates.
-    Force(Vec<(Name, Line<'a>)>),
+    /// What is given for coordinates, and where it is said.
+    Force(Vec<(Name, Line<'a>)>, Origin),
 }
 
 impl Noisy<'_> {
@@ -119,7 +119,13 @@ impl Noisy<'_> {
                 let value = item::formula(&line.tokens, what, line.place, names, report)?;
                 Some(Noise::Hamiltonian(value))
             }
-            Self::Force(lines) => {
+            Self::Force(lines, origin) if lines.is_empty() => {
+                let help = "name the coordinates that it moves, as in `{\"force\": {\"m1\": \"s\"}}` or `force(m1 = s);`";
+                let message = "a noise without a force";
+                report.push(Diagnostic::new(Kind::Schema, *origin, message).help(help));
+                None
+            }
+            Self::Force(lines, _) => {
                 let parts = forces(lines, state, names, report);
                 (!parts.is_empty()).then_some(Noise::Force(parts))
             }

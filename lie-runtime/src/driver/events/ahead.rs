@@ -5,6 +5,7 @@ use crate::driver::course::{Course, Left};
 use crate::driver::grid::Place;
 use crate::driver::joints::Joints;
 use crate::driver::observer::Observer;
+use crate::driver::options::OptionError;
 use crate::driver::problem::set_time;
 use crate::driver::solve::IntegrateError;
 use crate::driver::stats::Status;
@@ -78,15 +79,24 @@ impl<M> Course<'_, M> {
         events: &mut Events<P::State>,
         mu: &P::State,
         (stepper, made): (&mut M::Stepper<'s>, &mut Made<P::State>),
-        _observer: &O,
-    ) -> Ahead<P::State>
+        observer: &O,
+    ) -> Result<Ahead<P::State>, IntegrateError>
     where
         M: Method<S, P>,
     {
         let Some(time) = self.ahead() else {
-            return Ahead::nothing();
+            return Ok(Ahead::nothing());
         };
-        let whole = self.index < self.grid.steps() && self.parts == 1 && joints.is_none();
+        let piece = (self.grid.time(self.index), time);
+        let held = observer
+            .held()
+            .filter(|held| held.changes_within(piece))
+            .cloned();
+        if O::MOTION && held.as_ref().is_some_and(|held| held.samples_within(piece)) {
+            return Err(OptionError::SampledWithin.into());
+        }
+        let alone = self.parts == 1 && joints.is_none() && held.is_none();
+        let whole = self.index < self.grid.steps() && alone;
         if whole && made.is_none() && !O::MOTION {
             let mut end = mu.clone();
             let stepped = stepper.step(&mut end, &mut ());
@@ -98,20 +108,20 @@ impl<M> Course<'_, M> {
                 end.copy_from(state);
                 set_time(system, &mut end, time);
             }
-            Some(Err(_)) => return Ahead::nothing(),
+            Some(Err(_)) => return Ok(Ahead::nothing()),
             None => {
                 let stats = self.stats;
                 let joints = joints.as_deref_mut();
-                let reached = self.off_grid(system, joints, time, &mut end, &mut ());
+                let reached = self.off_grid(system, joints, time, &mut end, &mut held.clone());
                 self.stats = stats;
                 if reached.is_err() {
-                    return Ahead::nothing();
+                    return Ok(Ahead::nothing());
                 }
             }
         }
-        Ahead {
-            events: self.events_until(system, joints, events, (mu, (time, &end))),
-        }
+        Ok(Ahead {
+            events: self.events_until(system, joints, events, (mu, (time, &end)), held),
+        })
     }
 
     /// The last row of a run that stops at an event.

@@ -4,7 +4,7 @@
 //! than a radian on the step, states in between are made as rows off the grid are. On these quintics a function is sampled at eight
 //! places of each piece, and dips towards zero between them are followed to their ends. A change of its sign is then located in the
 //! run itself, whose state at any time is that of one shorter step from the grid point before, to round-off in the time. The grid
-//! stays, and an event is told once its step is accepted.
+//! stays, and an event is told once its step is accepted. Where an input jumps within a step, each piece is looked at by itself.
 //!
 //! What is missed: two zeros between neighbouring samples, where the dip between them is not on the quintic, and zeros of functions that change much faster than
 //! the motion. A jump is no zero, and neither is the start of a run.
@@ -14,7 +14,10 @@ mod quintic;
 mod zero;
 
 use super::course::Course;
+use super::held::Held;
 use super::joints::Joints;
+use super::observer::Observer as _;
+use super::problem::set_time;
 use crate::EventRule;
 use crate::methods::Method;
 use crate::poisson::Poisson;
@@ -157,31 +160,70 @@ impl<M> Course<'_, M> {
         mut joints: Option<&mut Joints<S, P>>,
         events: &mut Events<P::State>,
         (mu, end): (&P::State, (f64, &P::State)),
+        mut held: Option<Held>,
     ) -> Vec<Event<P::State>>
     where
         M: Method<S, P>,
     {
         let stats = self.stats;
         let time = self.grid.time(self.index);
-        let known = events.last.take().filter(|knot| knot.time == time);
+        let known = events.last.take();
+        let known = known.filter(|knot| knot.time == time && knot.mu.as_slice() == mu.as_slice());
         let start = known.unwrap_or_else(|| Knot::at(system, time, mu));
         let finish = Knot::at(system, end.0, end.1);
+        let changes = held
+            .as_ref()
+            .map_or_else(Vec::new, |held| held.changes((time, end.0)));
+        let mut ahead = held.clone();
         let mut reach = |course: &mut Self, to: f64| {
             let mut there = mu.clone();
             let joints = joints.as_deref_mut();
-            let made = course.off_grid(system, joints, to, &mut there, &mut ());
+            let made = course.off_grid(system, joints, to, &mut there, &mut ahead);
             made.is_ok().then_some(there)
         };
-        let knots = self.knots(system, (&start, &finish), &mut reach);
-        let mut guesses: Vec<Vec<Guess>> = (0..events.rules.len()).map(|_| Vec::new()).collect();
+        let mut found = Vec::new();
+        let mut from = start;
+        for change in changes {
+            // an input jumps: the motion has a corner, and its functions may jump with it
+            let Some(there) = reach(self, change) else {
+                continue;
+            };
+            let before = Knot::at(system, change, &there);
+            found.extend(self.events_between(system, &events.rules, (&from, &before), &mut reach));
+            let mut there = before.mu;
+            set_time(system, &mut there, change);
+            held.hold(system, (self.index, change, self.grid.step()), &mut there);
+            from = Knot::at(system, change, &there);
+        }
+        found.extend(self.events_between(system, &events.rules, (&from, &finish), &mut reach));
+        let span = (end.0 - time).signum();
+        found.sort_by(|a, b| (a.time * span).total_cmp(&(b.time * span)));
+        if let Some(place) = found.iter().position(|event| event.stops) {
+            found.truncate(place + 1);
+        }
+        events.last = Some(finish);
+        self.stats = stats;
+        found
+    }
+
+    /// The events between two states with a smooth motion between them.
+    fn events_between<S: Scalar, P: Poisson<S>>(
+        &mut self,
+        system: &P,
+        rules: &[EventRule],
+        (start, finish): (&Knot<P::State>, &Knot<P::State>),
+        reach: &mut impl FnMut(&mut Self, f64) -> Option<P::State>,
+    ) -> Vec<Event<P::State>> {
+        let knots = self.knots(system, (start, finish), reach);
+        let mut guesses: Vec<Vec<Guess>> = (0..rules.len()).map(|_| Vec::new()).collect();
         for pair in knots.windows(2) {
-            let found = Quintic::new(system, [&pair[0], &pair[1]]).guesses(events.rules.len());
+            let found = Quintic::new(system, [&pair[0], &pair[1]]).guesses(rules.len());
             for (guesses, found) in guesses.iter_mut().zip(found) {
                 guesses.extend(found);
             }
         }
         let mut found = Vec::new();
-        for (index, (rule, guesses)) in events.rules.iter().zip(&guesses).enumerate() {
+        for (index, (rule, guesses)) in rules.iter().zip(&guesses).enumerate() {
             for (place, guess) in guesses.iter().enumerate() {
                 if !rule.counts(guess.sign) {
                     continue;
@@ -195,11 +237,11 @@ impl<M> Course<'_, M> {
                 let limits = [low.unwrap_or(start.time), high.unwrap_or(finish.time)];
                 let mut of = |course: &mut Self, to: f64| {
                     if to == start.time || to == finish.time {
-                        let knot = if to == start.time { &start } else { &finish };
+                        let knot = if to == start.time { start } else { finish };
                         return Some((knot.mu.clone(), knot.values[index]));
                     }
                     let there = reach(course, to)?;
-                    let mut values = vec![0.0; events.rules.len()];
+                    let mut values = vec![0.0; rules.len()];
                     fill(system, &there, &mut values);
                     let value = values[index];
                     Some((there, value))
@@ -222,17 +264,10 @@ impl<M> Course<'_, M> {
                 stops: rule.stops,
             }));
         }
-        let span = (finish.time - start.time).signum();
-        found.sort_by(|a, b| (a.time * span).total_cmp(&(b.time * span)));
-        if let Some(place) = found.iter().position(|event| event.stops) {
-            found.truncate(place + 1);
-        }
-        events.last = Some(finish);
-        self.stats = stats;
         found
     }
 
-    /// The ends of the step, and states in between where the motion turns far.
+    /// The ends of a piece, and states in between where the motion turns far.
     fn knots<S: Scalar, P: Poisson<S>>(
         &mut self,
         system: &P,

@@ -110,7 +110,7 @@ fn symbols_in_the_wrong_place() {
     );
     expect(
         &so3(&[("casimirs", r#"["t*x"]"#)]),
-        &["reserved-name at t: `t` is the time, on which only the Hamiltonian"],
+        &["reserved-name at t: `t` is the time, which cannot stand here"],
     );
     expect(
         &so3(&[

@@ -8,14 +8,15 @@
 mod equation;
 mod explicit_unknowns;
 mod linear;
+mod parts;
 mod sym;
 mod system;
 
 pub use equation::{COMPLETED, Formulas, Step, kernels, step};
 pub(crate) use equation::{complete, linearized, values};
+pub(crate) use parts::{SymbolicActions, SymbolicFunction, SymbolicGradient};
 pub use sym::Sym;
 pub use system::{Square, SymbolicSystem};
-pub(crate) use system::{SymbolicActions, SymbolicFunction, SymbolicGradient};
 
 #[cfg(test)]
 mod tests {

@@ -1,19 +1,14 @@
 //! A declared system over expressions: its traits say how the kernels of the declaration look at a point that is
 //! itself an expression.
 
-use lie_core::generic::{Actions, DiscreteGradient};
 use lie_core::structure::{Entry, Plane};
 use lie_core::{
-    CayleyPoisson, GeneratingFunction, InertiaPoisson, LiePoisson, Poisson, SpinPoisson,
-    SquareMatrix, VectorPoisson,
+    CayleyPoisson, InertiaPoisson, LiePoisson, Poisson, SpinPoisson, SquareMatrix, VectorPoisson,
 };
 
 use super::sym::{Session, Sym, with_session};
-use crate::derive::{
-    Block, Closed, Definitions, Generating, Slope, Source, moved, slope, symmetric,
-};
+use crate::derive::{Block, Closed, Source};
 use crate::structure::inertia::Body;
-use crate::structure::separable;
 use crate::structure::vectors::{Component, Vectors};
 use lie_symbolic::exact::Rational;
 use lie_symbolic::symbolic::{ExprId, Symbol};
@@ -22,7 +17,7 @@ use lie_symbolic::symbolic::{ExprId, Symbol};
 #[derive(Clone, Debug)]
 pub struct Square {
     size: usize,
-    entries: Vec<Sym>,
+    pub(super) entries: Vec<Sym>,
 }
 
 impl SquareMatrix<Sym> for Square {
@@ -37,7 +32,7 @@ impl SquareMatrix<Sym> for Square {
     }
 }
 
-type State = Vec<Sym>;
+pub(super) type State = Vec<Sym>;
 
 /// so(3) with vectors.
 #[derive(Clone, Debug)]
@@ -111,7 +106,7 @@ impl SymbolicSystem {
         }
     }
 
-    fn gradient(&self) -> &Closed {
+    pub(super) fn gradient(&self) -> &Closed {
         self.closed.as_ref().expect("a system with a gradient")
     }
 
@@ -135,7 +130,7 @@ impl SymbolicSystem {
         })
     }
 
-    fn matrix(&self, rows: Vec<Sym>, out: &mut Square) {
+    pub(super) fn matrix(&self, rows: Vec<Sym>, out: &mut Square) {
         *out = Square {
             size: self.dimension,
             entries: rows,
@@ -143,11 +138,11 @@ impl SymbolicSystem {
     }
 }
 
-fn ids(vector: &[Sym]) -> Vec<ExprId> {
+pub(super) fn ids(vector: &[Sym]) -> Vec<ExprId> {
     vector.iter().map(|x| x.0).collect()
 }
 
-fn write(values: Vec<ExprId>, out: &mut State) {
+pub(super) fn write(values: Vec<ExprId>, out: &mut State) {
     *out = values.into_iter().map(Sym).collect();
 }
 
@@ -272,106 +267,6 @@ impl CayleyPoisson<Sym> for SymbolicSystem {
     fn triple(&self, x: &State, z: &State, mu: &State, out: &mut State) {
         let (x, z, mu) = (ids(x), ids(z), ids(mu));
         write(with_session(|s| s.source.triple_of(&x, &z, &mu)), out);
-    }
-}
-
-/// The discrete gradient in closed form that a system is given.
-#[derive(Debug)]
-pub(crate) struct SymbolicGradient;
-
-impl DiscreteGradient<Sym, SymbolicSystem> for SymbolicGradient {
-    fn new(_system: &SymbolicSystem) -> Self {
-        Self
-    }
-    fn set_start(&mut self, _system: &SymbolicSystem, _start: &State) {}
-    fn value(&mut self, system: &SymbolicSystem, _end: &State, out: &mut State) {
-        let Closed {
-            value, definitions, ..
-        } = system.gradient();
-        let value = with_session(
-            |Session {
-                 source,
-                 tape,
-                 given,
-                 ..
-             }| {
-                *given = 1;
-                tape.extend(source, definitions);
-                tape.define_all(source, value)
-            },
-        );
-        write(value, out);
-    }
-    fn linearize(
-        &mut self,
-        system: &SymbolicSystem,
-        end: &State,
-        out: &mut State,
-        derivative: &mut Square,
-    ) {
-        self.value(system, end, out);
-        let slopes = system.gradient().slopes.concat();
-        system.matrix(slopes.into_iter().map(Sym).collect(), derivative);
-    }
-}
-
-/// A generating function whose gradient is derived in closed form.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct SymbolicFunction(pub(crate) Generating);
-
-impl GeneratingFunction<Sym> for SymbolicFunction {
-    type State = State;
-    type Jacobian = Square;
-
-    fn gradient(&mut self, p: &State, xi: &mut State) {
-        let p = ids(p);
-        let entries = with_session(|Session { source, tape, .. }| {
-            let Slope {
-                tape: list,
-                entries,
-            } = slope(source, self.0);
-            tape.adopt(source, (&list, &entries), &p)
-        });
-        write(entries, xi);
-    }
-    fn linearize(&mut self, p: &State, xi: &mut State, hessian: &mut Square) {
-        let p = ids(p);
-        let (entries, rows) = with_session(|Session { source, tape, .. }| {
-            let Slope {
-                tape: mut list,
-                mut entries,
-            } = slope(source, self.0);
-            let rows = symmetric(list.jacobian(source, &entries));
-            entries.extend(rows.concat());
-            let mut entries = tape.adopt(source, (&list, &entries), &p);
-            let rows = entries.split_off(p.len());
-            (entries, rows)
-        });
-        write(entries, xi);
-        hessian.entries = rows.into_iter().map(Sym).collect();
-    }
-}
-
-/// Actions in closed form.
-#[derive(Debug, Default)]
-pub(crate) struct SymbolicActions(Definitions);
-
-impl Actions<Sym, SymbolicSystem> for SymbolicActions {
-    fn new(_system: &SymbolicSystem) -> Self {
-        Self::default()
-    }
-    fn act(&mut self, _system: &SymbolicSystem, i: usize, s: Sym, m: &State, out: &mut State) {
-        let m = ids(m);
-        let moved = with_session(|Session { source, tape, .. }| {
-            let algebra = source.structure.bracket.algebra();
-            let blocks = algebra.and_then(|algebra| separable::action_of(algebra, i));
-            let blocks = blocks.expect("a closed form of each action");
-            let known = self.0.all().len();
-            let moved = moved(source, &blocks, s.0, &m, &mut self.0);
-            tape.extend(source, &self.0.all()[known..]);
-            moved
-        });
-        write(moved, out);
     }
 }
 

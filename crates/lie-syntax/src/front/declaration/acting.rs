@@ -65,7 +65,7 @@ pub fn noise<'a>(block: &[Entry<'a>], report: &mut Report) -> Vec<driving::Noisy
                         (name, Line { tokens, place })
                     }));
                 }
-                all.push(driving::Noisy::Force(lines));
+                all.push(driving::Noisy::Force(lines, place));
             }
             _ => {
                 let message = "a noise is along a Hamiltonian, or a force";

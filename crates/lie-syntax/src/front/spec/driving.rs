@@ -89,7 +89,8 @@ pub fn noise(value: Value<'_>, report: &mut Report) -> Vec<driving::Noisy<'stati
                 all.extend(line.map(driving::Noisy::Hamiltonian));
             }
             (None, Some(value)) => {
-                all.push(driving::Noisy::Force(definitions(value, "force", report)));
+                let lines = definitions(value, "force", report);
+                all.push(driving::Noisy::Force(lines, place));
             }
             _ => {
                 let message = "a noise has one of `hamiltonian` and `force`";
