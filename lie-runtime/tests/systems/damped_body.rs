@@ -3,8 +3,6 @@
 
 use super::driven_body::metric;
 use super::nonpolynomial::Nonpolynomial;
-use super::rigid_body::{SO3, so3_triple};
-use lie_runtime::structure::Representation;
 use lie_runtime::{CayleyPoisson, LiePoisson, MatrixPoisson, Poisson, Scalar, SpinPoisson, Widen};
 use nalgebra::{SMatrix, SVector};
 
@@ -47,25 +45,11 @@ impl<S: Scalar> Widen<S> for DampedBody {
 }
 
 impl<S: Scalar> CayleyPoisson<S> for DampedBody {
-    fn triple(
-        &self,
-        x: &SVector<S, 3>,
-        z: &SVector<S, 3>,
-        mu: &SVector<S, 3>,
-        out: &mut SVector<S, 3>,
-    ) {
-        *out = so3_triple(x.as_slice(), z.as_slice(), mu.as_slice()).into();
-    }
+    so3_cayley!(S);
 }
 
 impl<S: Scalar> MatrixPoisson<S> for DampedBody {
-    type Matrix = SMatrix<S, 3, 3>;
-    fn representation(&self) -> Representation<'_> {
-        SO3
-    }
-    fn zero_matrix(&self) -> Self::Matrix {
-        SMatrix::<S, 3, 3>::repeat(S::zero())
-    }
+    so3_matrices!(S);
 }
 
 impl<S: Scalar> SpinPoisson<S> for DampedBody {

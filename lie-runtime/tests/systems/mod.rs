@@ -63,6 +63,35 @@ macro_rules! so3_algebra {
     };
 }
 
+/// The method of `CayleyPoisson` on so(3).
+macro_rules! so3_cayley {
+    ($scalar:ty) => {
+        fn triple(
+            &self,
+            x: &nalgebra::SVector<$scalar, 3>,
+            z: &nalgebra::SVector<$scalar, 3>,
+            mu: &nalgebra::SVector<$scalar, 3>,
+            out: &mut nalgebra::SVector<$scalar, 3>,
+        ) {
+            let triple = super::rigid_body::so3_triple(x.as_slice(), z.as_slice(), mu.as_slice());
+            *out = triple.into();
+        }
+    };
+}
+
+/// The methods of `MatrixPoisson` on so(3).
+macro_rules! so3_matrices {
+    ($scalar:ty) => {
+        type Matrix = nalgebra::SMatrix<$scalar, 3, 3>;
+        fn representation(&self) -> lie_runtime::structure::Representation<'_> {
+            super::rigid_body::SO3
+        }
+        fn zero_matrix(&self) -> Self::Matrix {
+            nalgebra::SMatrix::<$scalar, 3, 3>::repeat(<$scalar as lie_runtime::Scalar>::zero())
+        }
+    };
+}
+
 pub mod affine_line;
 pub mod body4;
 pub mod damped_body;

@@ -1,7 +1,5 @@
 // A system on so(3)* with the Hamiltonian `sin x + exp(y/2) + sqrt(1 + z^2) + x y^2 z`.
 
-use super::rigid_body::{SO3, so3_triple};
-use lie_runtime::structure::Representation;
 use lie_runtime::{CayleyPoisson, LiePoisson, Lift, MatrixPoisson, Poisson, Scalar, SpinPoisson};
 use nalgebra::{SMatrix, SVector};
 
@@ -49,28 +47,14 @@ impl<S: Scalar> Lift<S> for Nonpolynomial {
 }
 
 impl<S: Scalar> CayleyPoisson<S> for Nonpolynomial {
-    fn triple(
-        &self,
-        x: &SVector<S, 3>,
-        z: &SVector<S, 3>,
-        mu: &SVector<S, 3>,
-        out: &mut SVector<S, 3>,
-    ) {
-        *out = so3_triple(x.as_slice(), z.as_slice(), mu.as_slice()).into();
-    }
+    so3_cayley!(S);
 }
 
 lie_runtime::generic_equations!([S: Scalar] Nonpolynomial, S: midpoint, gauss4, gauss6, exp, cayley, generating, generating_cayley);
 lie_runtime::generic_equations!([S: Scalar] Nonpolynomial, S: discrete_gradients, orbit_energy, cohen_hairer);
 
 impl<S: Scalar> MatrixPoisson<S> for Nonpolynomial {
-    type Matrix = SMatrix<S, 3, 3>;
-    fn representation(&self) -> Representation<'_> {
-        SO3
-    }
-    fn zero_matrix(&self) -> Self::Matrix {
-        SMatrix::<S, 3, 3>::repeat(S::zero())
-    }
+    so3_matrices!(S);
 }
 
 impl<S: Scalar> SpinPoisson<S> for Nonpolynomial {

@@ -1,7 +1,7 @@
 // Systems by a Lagrangian that is not quadratic in the velocity, written by hand; their Hamiltonians come from
 // Newton's iteration.
 
-use super::rigid_body::{dot, hat, so3_triple};
+use super::rigid_body::{dot, hat};
 use lie_runtime::lagrangian::legendre;
 use lie_runtime::{CayleyPoisson, LagrangianPoisson, LiePoisson, Lift, Poisson, Scalar, generic};
 use nalgebra::{SMatrix, SVector};
@@ -76,15 +76,7 @@ impl<S: Scalar> LiePoisson<S> for QuarticBody {
 }
 
 impl<S: Scalar> CayleyPoisson<S> for QuarticBody {
-    fn triple(
-        &self,
-        x: &SVector<S, 3>,
-        z: &SVector<S, 3>,
-        mu: &SVector<S, 3>,
-        out: &mut SVector<S, 3>,
-    ) {
-        *out = so3_triple(x.as_slice(), z.as_slice(), mu.as_slice()).into();
-    }
+    so3_cayley!(S);
 }
 
 impl<S: Scalar> LagrangianPoisson<S> for QuarticBody {

@@ -65,6 +65,13 @@ where
         }
     }
 
+    /// Sets a matrix to the derivative of `T xi` at a fixed direction xi.
+    fn set_slope(&mut self, unknown: &P::State, matrix: &mut P::Jacobian) {
+        let (system, xi) = (self.system, &self.xi);
+        self.tensor
+            .slope(system, &self.base, unknown, self.step, xi, matrix);
+    }
+
     /// Sets the field `T g` with the discrete gradient already computed; leaves the direction of the motion in its place.
     fn set_field(&mut self, unknown: &P::State) {
         let matrix = &mut self.poisson_matrix;
@@ -117,14 +124,7 @@ where
         self.gradient
             .linearize(self.system, unknown, &mut self.xi, derivative);
         if self.system.is_damped() {
-            self.tensor.slope(
-                self.system,
-                &self.base,
-                unknown,
-                self.step,
-                &self.xi,
-                matrix,
-            );
+            self.set_slope(unknown, matrix);
         }
         self.write_residual(unknown, residual);
         if let Some(beside) = self.beside.get_mut(self.system) {
@@ -141,14 +141,7 @@ where
                 });
             }
         }
-        self.tensor.slope(
-            self.system,
-            &self.base,
-            unknown,
-            self.step,
-            &self.xi,
-            matrix,
-        );
+        self.set_slope(unknown, matrix);
         for row in 0..self.system.dimension() {
             for column in 0..self.system.dimension() {
                 let mut sum = matrix.get(row, column);
