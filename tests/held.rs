@@ -197,3 +197,84 @@ fn kicks_have_the_variance_of_a_wiener_process() {
         "{square}"
     );
 }
+
+/// Sets the rates of noise from a path that is known on a fine grid.
+struct Path<'a> {
+    /// Increments of each process, all of a fine step together.
+    increments: &'a [f64],
+    processes: usize,
+    /// So many fine steps are one of the run.
+    stride: usize,
+    /// The place of the first rate.
+    first: usize,
+}
+
+impl<P: Poisson<f64>> Observer<f64, P> for Path<'_> {
+    fn hold(&mut self, _system: &P, (index, _, h): (u64, f64, f64), mu: &mut P::State) {
+        let from = index as usize * self.stride * self.processes;
+        let part = self
+            .increments
+            .get(from..from + self.stride * self.processes);
+        for process in 0..self.processes {
+            let steps = part
+                .into_iter()
+                .flat_map(|part| part.chunks(self.processes));
+            let sum: f64 = steps.map(|increments| increments[process]).sum();
+            mu.as_mut_slice()[self.first + process] = sum / h;
+        }
+    }
+}
+
+/// The root of the mean square of the distance from the run on a fine grid, over paths, for steps of so many fine steps.
+fn errors<P: Poisson<f64>>(problem: &Problem<f64, P>, strides: &[usize]) -> Vec<f64> {
+    let (fine, paths) = (512, 200);
+    let processes = problem.system.noise_count();
+    let first = problem.mu0.as_slice().len() - processes;
+    let size = (problem.span.1 - problem.span.0) / fine as f64;
+    let mut sums = vec![0.0; strides.len()];
+    for stream in 0..paths {
+        let wiener = lie_runtime::driver::Wiener::new(5, &[stream], processes);
+        let mut increments = vec![0.0; fine * processes];
+        for (step, out) in increments.chunks_mut(processes).enumerate() {
+            wiener.rates(step as u64, size, out);
+            out.iter_mut().for_each(|rate| *rate *= size);
+        }
+        let end = |stride: usize| {
+            let path = Path {
+                increments: &increments,
+                processes,
+                stride,
+                first,
+            };
+            let options = Options::new(size * stride as f64).save(Save::Ends);
+            let run = solve_observed(problem, Rk4, &options, path);
+            let end = run.ok().and_then(|mut run| run.mu.pop()).expect("a row");
+            [0, 1, 2].map(|k| end.as_slice()[k])
+        };
+        let exact = end(1);
+        for (sum, &stride) in sums.iter_mut().zip(strides) {
+            let found = end(stride);
+            let squares = (0..3).map(|k| (found[k] - exact[k]).powi(2));
+            *sum += squares.sum::<f64>() / paths as f64;
+        }
+    }
+    sums.into_iter().map(f64::sqrt).collect()
+}
+
+/// A path that is held over a step is right to order 1 in the mean square where noises commute, as one that is a force does, and to order
+/// 1/2 where not, as the three of a temperature.
+#[test]
+fn noise_has_order_one_where_it_commutes_and_half_of_it_where_not() {
+    let strides = [64, 32, 16];
+    let slope = |errors: &[f64]| (errors[0] / errors[2]).log2() / 2.0;
+    let thermal = Problem {
+        span: (0.0, 1.0),
+        ..spin()
+    };
+    let found = slope(&errors(&thermal, &strides));
+    assert!((found - 0.5).abs() < 0.1, "{found}");
+    let system = Kicked::new().system().expect("a system");
+    let start = [0.8, 0.1, 0.6, 0.0, 0.0, 1.0, 0.0];
+    let found = slope(&errors(&Problem::new(system, start, (0.0, 1.0)), &strides));
+    assert!((found - 1.0).abs() < 0.1, "{found}");
+}
