@@ -51,6 +51,15 @@ def test_friction_is_work() -> None:
     assert run["work"][-1] < -0.1
 
 
+def test_a_check_says_what_acts() -> None:
+    found = wheel(observables={"size": "x^2 + y^2 + z^2"}).check()
+    assert [what for what, _ in found.acting] and "u" in str(found.acting)
+    assert [casimir.kept for casimir in found.casimirs] == [False]
+    assert found.observables.keys() == {"size"} and "changed by what acts" in repr(found)
+    damped = spin().check()
+    assert [casimir.kept for casimir in damped.casimirs] == [True]
+
+
 def test_a_controller_closes_the_loop() -> None:
     asked: list[tuple[float, float]] = []
 

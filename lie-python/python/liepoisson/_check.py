@@ -11,12 +11,14 @@ __all__ = ["Casimir", "Check", "Motion"]
 
 
 class Casimir(NamedTuple):
-    """A function that is constant for every Hamiltonian; ``kind``: "declared", "polynomial" or "rational"."""
+    """A function that is constant for every Hamiltonian; ``kind``: "declared", "polynomial" or "rational". Not ``kept`` where
+    forces change it."""
 
     name: str
     expression: str
     kind: str
     degree: int | None
+    kept: bool = True
 
 
 class Motion(NamedTuple):
@@ -31,7 +33,8 @@ class Check:
 
     ``dimension``: of the Poisson space, in which a Hamiltonian that depends on the time has three coordinates more than the user
     gave. ``generic_rank``: of the Poisson matrix at a generic state. ``initial_rank``: at the initial state, ``None`` without
-    one. ``casimirs``: a list of :class:`Casimir`, functionally independent. ``independent_casimirs``: how many there can be.
+    one. ``casimirs``: a list of :class:`Casimir`, functionally independent. ``acting``: what acts beside the Hamiltonian, each with
+    its formula. ``integrals``, ``observables``: those that are declared, by name. ``independent_casimirs``: how many there can be.
     ``algebra``: the name of the algebra, if it was recognised. ``algebra_class``: "abelian", "nilpotent", "solvable",
     "semisimple", "reductive", "unimodular", each true or false. ``series``: dimensions of the derived and of the lower central
     series, of centre and radical. ``killing``: the signature of the Killing form. The last four are ``None`` where there is
@@ -50,6 +53,12 @@ class Check:
         self.generic_rank: int = found["generic_rank"]
         self.initial_rank: int | None = found["initial_rank"]
         self.casimirs = [Casimir(**row) for row in found["casimirs"]]
+        self.acting: list[tuple[str, str]] = [
+            (row["what"], row["formula"]) for row in found["acting"]
+        ]
+        integrals, observables = found.get("integrals", []), found.get("observables", [])
+        self.integrals: dict[str, str] = {row["name"]: row["expression"] for row in integrals}
+        self.observables: dict[str, str] = {row["name"]: row["expression"] for row in observables}
         self.independent_casimirs: int = found["independent_casimirs"]
         self.algebra: str | None = found["algebra_name"]
         self.algebra_class: dict[str, bool] | None = found["class"]
@@ -80,7 +89,11 @@ class Check:
             kinds = ", ".join(name for name, holds in self.algebra_class.items() if holds)
             lines.append(("algebra", f"{self.algebra or 'not recognised'} ({kinds or 'general'})"))
         for casimir in self.casimirs:
-            lines.append((f"Casimir {casimir.name}", f"{casimir.expression} ({casimir.kind})"))
+            changed = "" if casimir.kept else ", changed by what acts"
+            text = f"{casimir.expression} ({casimir.kind}{changed})"
+            lines.append((f"Casimir {casimir.name}", text))
+        lines.extend(self.acting)
+        lines.extend((f"integral {name}", text) for name, text in self.integrals.items())
         if len(self.casimirs) < self.independent_casimirs:
             lines.append(("Casimirs", f"{len(self.casimirs)} of {self.independent_casimirs} known"))
         for pair in self.canonical:
