@@ -20,12 +20,16 @@ use lie_runtime::{LiePoisson, Poisson, lie_poisson};
 use random::Random;
 use wasmi_engine::Wasmi;
 
+lie_poisson! { spec = "tests/data/families/disordered_chain.json"; }
+lie_poisson! { spec = "tests/data/families/disordered_lattice.json"; }
+lie_poisson! { spec = "tests/data/families/fput_chain.json"; }
 lie_poisson! { spec = "tests/data/families/heisenberg_chain.json"; }
 lie_poisson! { spec = "tests/data/families/lattice.json"; }
 lie_poisson! { spec = "tests/data/families/mean_field.json"; }
 lie_poisson! { spec = "tests/data/families/mean_field_pieces.json"; }
 lie_poisson! { spec = "tests/data/families/open_chain.json"; }
 lie_poisson! { spec = "tests/data/families/su3_ring.json"; }
+lie_poisson! { spec = "tests/data/families/toda_ring.json"; }
 lie_poisson! { spec = "tests/data/families/xxz_chain.json"; }
 
 /// The bracket at two states.
@@ -204,4 +208,20 @@ fn mean_fields() {
     .system()
     .unwrap();
     compare("mean_field_pieces", &field, &[("N", 9.0)], splittings!());
+}
+
+#[test]
+fn coefficients_that_differ_from_site_to_site() {
+    let chain = DisorderedChain::new().system().unwrap();
+    compare("disordered_chain", &chain, &[], splittings!());
+    let lattice = DisorderedLattice::new().system().unwrap();
+    compare("disordered_lattice", &lattice, &[], splittings!());
+}
+
+#[test]
+fn functions_of_two_coordinates() {
+    let ring = TodaRing::new().system().unwrap();
+    compare("toda_ring", &ring, &[], splittings!());
+    let chain = FputChain::new().system().unwrap();
+    compare("fput_chain", &chain, &[], splittings!());
 }

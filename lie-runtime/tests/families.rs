@@ -15,6 +15,8 @@ lie_poisson! { pub spec = "../../tests/data/families/mean_field.json"; }
 lie_poisson! { pub spec = "../../tests/data/families/lattice.json"; }
 lie_poisson! { pub spec = "../../tests/data/families/su3_ring.json"; }
 lie_poisson! { pub spec = "../../tests/data/families/mean_field_pieces.json"; }
+lie_poisson! { pub spec = "../../tests/data/families/disordered_chain.json"; }
+lie_poisson! { pub spec = "../../tests/data/families/disordered_lattice.json"; }
 
 lie_poisson! {
     /// Classical spins on a ring, without a spec.
@@ -239,6 +241,89 @@ fn lattices_wrap_around_along_the_axes_that_sums_go_over_whole() {
             }
             h
         });
+    }
+}
+
+lie_poisson! {
+    /// A disordered chain without a spec.
+    pub system Disordered;
+    algebra = so(3)^N;
+    state x[i], y[i], z[i];
+    parameters {
+        N = 4;
+        /// The field.
+        B = [1, -1/2, 0.25, 3];
+        J = [1/3, 2, -1];
+    }
+    hamiltonian = sum(i in 0..N: B[i]*z[i]) + sum(i in 0..N-1: J[i]*x[i]*x[i+1]);
+}
+
+#[test]
+fn coefficients_are_those_of_their_site() {
+    let chain = DisorderedChain::new();
+    let values = |values: &[f64], i: isize| d(values[i as usize]);
+    compare(&chain.system().expect("values"), |at| {
+        let [x, y, z] = [0, 1, 2].map(|k| move |i: isize| at(k, 0, i));
+        let mut h = d(0.0);
+        for i in 0..10 {
+            let exchange = x(i) * x(i + 1) + y(i) * y(i + 1) + z(i) * z(i + 1);
+            h -= values(&chain.J, i) * exchange + values(&chain.K, i + 1) * x(i) * y(i + 1);
+        }
+        for i in 0..11 {
+            let site = values(&chain.B, i) * z(i) + values(&chain.D, i) * z(i) * z(i);
+            h -= d(chain.g) * site;
+        }
+        h
+    });
+    let lattice = DisorderedLattice::new();
+    compare(&lattice.system().expect("values"), |at| {
+        let [x, y, z] = [0, 1, 2].map(|k| move |i: isize, j: isize| at(k, i, j));
+        let mut h = d(0.0);
+        for i in 0..4 {
+            for j in 0..5 {
+                h += values(&lattice.K, 5 * i + j) * z(i, j) * z(i + 1, j);
+                h += values(&lattice.B, 5 * i + j) * x(i, j);
+                if j < 4 {
+                    let exchange = x(i, j) * x(i, j + 1) + y(i, j) * y(i, j + 1);
+                    let exchange = exchange + z(i, j) * z(i, j + 1);
+                    h -= values(&lattice.J, 4 * i + j) * exchange;
+                }
+            }
+        }
+        h
+    });
+    let written = Disordered::new();
+    assert_eq!(
+        (written.B.len(), written.J.as_slice()),
+        (4, &[1.0 / 3.0, 2.0, -1.0][..])
+    );
+    compare(&written.system().expect("values"), |at| {
+        let [x, z] = [0, 2].map(|k| move |i: isize| at(k, 0, i));
+        let field = (0..4).fold(d(0.0), |h, i| h + values(&written.B, i) * z(i));
+        (0..3).fold(field, |h, i| h + values(&written.J, i) * x(i) * x(i + 1))
+    });
+}
+
+#[test]
+fn there_are_as_many_values_as_sites() {
+    let wrong = Disordered {
+        N: 5.0,
+        ..Disordered::new()
+    };
+    let error = wrong.system().expect_err("four values");
+    assert_eq!(error.name, "B");
+    assert!(error.to_string().contains("value for each site"), "{error}");
+    let long = |n: usize| Disordered {
+        N: 5.0,
+        B: vec![1.0; 5],
+        J: vec![2.0; n],
+    };
+    let system = long(4).system().expect("a value for each bond");
+    let padded = long(5).system().expect("a value for each site");
+    let mu: Vec<f64> = unit_spheres(5, 3, 1);
+    assert_eq!(system.hamiltonian(&mu), padded.hamiltonian(&mu));
+    for n in [3, 6] {
+        assert_eq!(long(n).system().expect_err("no such number").name, "J");
     }
 }
 

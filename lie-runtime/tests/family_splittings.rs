@@ -8,10 +8,14 @@ use lie_runtime::prelude::*;
 use lie_runtime::{FoundPoisson, PieceFlows};
 use sites::{by_component, end, largest_difference};
 
+lie_poisson! { pub spec = "../../tests/data/families/disordered_chain.json"; }
+lie_poisson! { pub spec = "../../tests/data/families/disordered_lattice.json"; }
+lie_poisson! { pub spec = "../../tests/data/families/fput_chain.json"; }
 lie_poisson! { pub spec = "../../tests/data/families/heisenberg_chain.json"; }
 lie_poisson! { pub spec = "../../tests/data/families/lattice.json"; }
 lie_poisson! { pub spec = "../../tests/data/families/xxz_chain.json"; }
 lie_poisson! { pub spec = "../../tests/data/families/mean_field_pieces.json"; }
+lie_poisson! { pub spec = "../../tests/data/families/toda_ring.json"; }
 
 lie_poisson! {
     /// Spins on a lattice with all bonds in one sum, and bonds along a diagonal.
@@ -24,20 +28,17 @@ lie_poisson! {
     initial = random(unit-sphere, 3);
 }
 
-/// Splittings have their orders, keep the Casimir of each site and are undone by the step back.
-fn splits<K>(system: &Family<K>)
+/// Splittings have their orders.
+fn have_orders<K>(system: &Family<K>, mu: &[f64])
 where
     K: Pieces<f64>,
 {
-    let count = system.count();
-    let mu: Vec<f64> = unit_spheres(count, 3, 11);
-    let exact = end(system, Gauss16, &mu, 0.05, 20);
+    let exact = end(system, Gauss16, mu, 0.05, 20);
     let error = |end: Vec<f64>| largest_difference(&end, &exact);
     let order = |coarse: f64, fine: f64| (coarse / fine).log2();
-    let second =
-        [20, 40].map(|n| error(end(system, Splitting2::new(), &mu, 1.0 / f64::from(n), n)));
-    let fourth = [8, 16].map(|n| error(end(system, Splitting4::new(), &mu, 1.0 / f64::from(n), n)));
-    let sixth = [5, 10].map(|n| error(end(system, Splitting6::new(), &mu, 1.0 / f64::from(n), n)));
+    let second = [20, 40].map(|n| error(end(system, Splitting2::new(), mu, 1.0 / f64::from(n), n)));
+    let fourth = [8, 16].map(|n| error(end(system, Splitting4::new(), mu, 1.0 / f64::from(n), n)));
+    let sixth = [5, 10].map(|n| error(end(system, Splitting6::new(), mu, 1.0 / f64::from(n), n)));
     for (errors, expected) in [(second, 2.0), (fourth, 4.0), (sixth, 6.0)] {
         let found = order(errors[0], errors[1]);
         assert!(
@@ -46,6 +47,16 @@ where
         );
         assert!(errors[1] > 1e-13, "{errors:?} is round-off");
     }
+}
+
+/// Splittings have their orders, keep the Casimir of each site and are undone by the step back.
+fn splits<K>(system: &Family<K>)
+where
+    K: Pieces<f64>,
+{
+    let count = system.count();
+    let mu: Vec<f64> = unit_spheres(count, 3, 11);
+    have_orders(system, &mu);
     let far = end(system, Splitting2::new(), &mu, 0.3, 200);
     for site in 0..count {
         let square: f64 = (0..3).map(|k| far[k * count + site].powi(2)).sum();
@@ -221,4 +232,36 @@ fn functions_of_sums_over_one_coordinate_are_pieces_too() {
         let near = |a: f64, b: f64| (end[3 + i] - a).abs() + (end[6 + i] - b).abs() < 1e-14;
         assert!(near(y, z) || near(y_back, z_back), "{i} {end:?}");
     }
+}
+
+#[test]
+fn pieces_have_the_coefficients_of_their_sites() {
+    splits(&DisorderedChain::new().system().expect("values"));
+    splits(&DisorderedLattice::new().system().expect("values"));
+}
+
+#[test]
+fn functions_of_two_coordinates_have_exact_flows() {
+    let ring = TodaRing::new().system().expect("values");
+    let chain = FputChain::new().system().expect("values");
+    // momenta, and bonds in two colours, those of the ring with the potentials of their first sites
+    assert_eq!(FoundPoisson::<f64>::found(&ring).pieces(), 3);
+    assert_eq!(FoundPoisson::<f64>::found(&chain).pieces(), 3);
+    let moving = |count: usize| {
+        let mut mu: Vec<f64> = unit_spheres(count, 3, 11);
+        mu[2 * count..].fill(1.0);
+        mu
+    };
+    have_orders(&ring, &moving(6));
+    have_orders(&chain, &moving(9));
+    // the flow keeps the total momentum of a chain, and the unit of every site
+    let mu = moving(9);
+    let far = end(&chain, Splitting4::new(), &mu, 0.1, 500);
+    let momentum = |mu: &[f64]| mu[9..18].iter().sum::<f64>();
+    assert!((momentum(&far) - momentum(&mu)).abs() < 1e-12);
+    assert_eq!(&far[18..], &mu[18..]);
+    let change = chain.hamiltonian(&far) - chain.hamiltonian(&mu);
+    assert!(change.abs() < 1e-4, "{change}");
+    let back = end(&chain, Splitting4::new(), &far, -0.1, 500);
+    assert!(largest_difference(&back, &mu) < 1e-8);
 }

@@ -27,6 +27,8 @@ pub enum ParameterFault {
     NotPositive,
     /// The parameter is the size of a family, which is a whole number.
     NotASize,
+    /// The parameter has a value for each site of a family, and another number of values.
+    NotOneForEachSite,
 }
 
 impl fmt::Display for ParameterError {
@@ -42,6 +44,10 @@ impl fmt::Display for ParameterError {
             ParameterFault::NotASize => write!(
                 f,
                 "the parameter `{name}` is the size of the family: a whole number between 1 and 2^31"
+            ),
+            ParameterFault::NotOneForEachSite => write!(
+                f,
+                "the parameter `{name}` has a value for each site of the family, and there are other numbers of values and of sites"
             ),
             ParameterFault::NotPositive => {
                 write!(

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::model::CANONICAL;
+use crate::model::{CANONICAL, data_number};
 use lie_symbolic::symbolic::{ExprId, Function, Opaque, Symbol};
 use lie_syntax::ast::{Declaration, Name, OwnFunction, Realization};
 use lie_syntax::diagnostic::{Diagnostic, Kind, Origin};
@@ -34,6 +34,8 @@ pub enum Allowed {
     Parameters,
     /// Coordinates of mu too.
     State,
+    /// The same, and what has a value for each site of a family.
+    Site,
     /// Components of the velocity, and of the coordinates those from this one on: a Lagrangian may depend on
     /// the group element and the time, but not on mu.
     Velocity(usize),
@@ -55,7 +57,10 @@ pub struct Environment<'a> {
 impl Allowed {
     /// Whether functions of the user may stand.
     pub fn has_own_functions(self) -> bool {
-        matches!(self, Self::State | Self::Velocity(_) | Self::Everything)
+        matches!(
+            self,
+            Self::State | Self::Site | Self::Velocity(_) | Self::Everything
+        )
     }
 
     /// Whether a symbol may stand.
@@ -63,10 +68,11 @@ impl Allowed {
         match symbol {
             Symbol::Parameter(_) => self != Self::Constants,
             Symbol::Coordinate(i) => match self {
-                Self::State | Self::Everything => true,
+                Self::State | Self::Site | Self::Everything => true,
                 Self::Velocity(first) => i >= first,
                 Self::Constants | Self::Parameters | Self::Canonical => false,
             },
+            _ if data_number(symbol).is_some() => self == Self::Site,
             Symbol::Input(i) if i >= CANONICAL => self == Self::Canonical,
             Symbol::Input(_) => matches!(self, Self::Velocity(_) | Self::Everything),
             Symbol::Step => matches!(self, Self::Velocity(_) | Self::Everything),
@@ -127,6 +133,12 @@ impl<'a> Environment<'a> {
         }
     }
 
+    /// Gives a name its symbol, unless it has another meaning.
+    pub fn bind_symbol(&mut self, name: &'a str, symbol: Symbol) {
+        let binding = Binding::Symbol(symbol);
+        self.bindings.entry(name).or_insert(binding);
+    }
+
     /// Gives an abbreviation its meaning.
     pub fn bind(&mut self, name: &'a str, value: Option<ExprId>) {
         if let Some(binding @ Binding::Later) = self.bindings.get_mut(name) {
@@ -154,7 +166,8 @@ impl<'a> Environment<'a> {
             let declared = self.get(name).and_then(|b| misplaced(name, b, allowed));
             let declared = declared.map(|(message, help)| match self.duals.get(name) {
                 Some(dual)
-                    if self.get(name) == Some(Binding::Basis) && allowed == Allowed::State =>
+                    if self.get(name) == Some(Binding::Basis)
+                        && matches!(allowed, Allowed::State | Allowed::Site) =>
                 {
                     (
                         message,
@@ -275,7 +288,7 @@ fn misplaced(name: &str, binding: Binding, allowed: Allowed) -> Option<(String, 
             "cannot stand here: the map of a realization depends on positions and momenta alone",
             "use their names",
         ),
-        (_, Allowed::State) => (
+        (_, Allowed::State | Allowed::Site) => (
             "cannot stand here: it depends on the velocity, and this is a function of mu",
             "use the state names",
         ),

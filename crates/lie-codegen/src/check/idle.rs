@@ -27,6 +27,8 @@ fn unused(declaration: &Declaration) -> Vec<Diagnostic> {
     }
     let parameters = declaration.parameters.iter();
     let parameters = parameters.map(|p| (&p.name, "parameter"));
+    let data = declaration.site_data().iter();
+    let parameters = parameters.chain(data.map(|data| (&data.name, "parameter")));
     let lets = declaration.lets.iter();
     let lets = lets.map(|(name, _)| (name, "abbreviation"));
     let all = parameters.chain(lets);

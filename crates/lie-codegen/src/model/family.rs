@@ -1,7 +1,25 @@
 //! Families of copies of an algebra.
 
-use lie_symbolic::symbolic::ExprId;
+use std::sync::Arc;
+
+use lie_symbolic::symbolic::{ExprId, Symbol};
 pub use lie_syntax::ast::Start;
+
+/// [`Symbol::Input`] of the first coefficient that differs from site to site.
+const DATA: usize = 1 << 22;
+
+/// Coefficient j of the site in slot s is number `s d + j` of these symbols, d the number of coefficients.
+pub fn data_symbol(number: usize) -> Symbol {
+    Symbol::Input(DATA + number)
+}
+
+/// The number of a symbol of [`data_symbol`].
+pub fn data_number(symbol: Symbol) -> Option<usize> {
+    match symbol {
+        Symbol::Input(place) => place.checked_sub(DATA).filter(|number| *number < DATA),
+        _ => None,
+    }
+}
 
 /// A family `A^N`: H is a function of sums over the sites.
 #[derive(Clone, Debug)]
@@ -15,6 +33,10 @@ pub struct Family {
     pub own: usize,
     /// The names of all these coordinates, such as `x[i+1]`.
     pub names: Vec<String>,
+    /// What has a value for each site.
+    pub data: Vec<SiteData>,
+    /// The names of these coefficients, such as `B[i+1]`, slot after slot.
+    pub data_names: Vec<String>,
     /// The sums `T_k`; `Symbol::Coordinate(slots n + k)` in H.
     pub sums: Vec<SiteSum>,
     /// H.
@@ -34,12 +56,27 @@ pub enum Size {
     Parameter(usize),
 }
 
+/// A coefficient that has a value for each site.
+#[derive(Clone, Debug)]
+pub struct SiteData {
+    /// Its name.
+    pub name: String,
+    /// Its values, site after site.
+    pub values: Arc<[f64]>,
+    /// The number of last rows and columns of which no sum asks for the value.
+    pub unused: [usize; 2],
+    /// Unit, for people, as Markdown within a line.
+    pub unit: Option<String>,
+    /// Description, for people, as Markdown.
+    pub description: Option<String>,
+}
+
 /// A sum over sites.
 #[derive(Clone, Debug)]
 pub struct SiteSum {
     /// The summand.
     pub summand: ExprId,
-    /// The slots that it depends on.
+    /// The slots whose coordinates it depends on.
     pub slots: Vec<usize>,
     /// For each axis the first site and the number of sites behind the last one; none where it goes over all.
     pub spans: [Option<(usize, usize)>; 2],

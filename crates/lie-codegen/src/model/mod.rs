@@ -19,7 +19,7 @@ pub use bracket::{Algebra, Bracket, PoissonMatrix, bracket_of};
 pub use casimir::{Casimir, CasimirKind};
 pub use configuration::Configuration;
 pub use driving::{Acting, Driving, Input};
-pub use family::{Family, SiteSum, Size, Start};
+pub use family::{Family, SiteData, SiteSum, Size, Start, data_number, data_symbol};
 pub use quantity::{Event, Quantity, QuantityKind};
 pub use realization::{CANONICAL, Descent, Realization};
 
@@ -300,7 +300,10 @@ impl Model {
                 let ranges: Vec<String> = ranges.collect();
                 let summand = self.graph.display(sum.summand, &|symbol| match symbol {
                     Symbol::Coordinate(place) => family.names[place].clone(),
-                    other => self.symbol_name(other),
+                    other => match data_number(other) {
+                        Some(number) => family.data_names[number].clone(),
+                        None => self.symbol_name(other),
+                    },
                 });
                 format!("sum({}: {summand})", ranges.join(", "))
             }

@@ -1,7 +1,7 @@
 //! What is called how. A name of the user never begins with an underscore, hence the names of ours that share a scope
 //! with them do.
 
-use crate::model::{CANONICAL, Model};
+use crate::model::{CANONICAL, Model, data_number};
 use lie_symbolic::symbolic::Symbol;
 
 /// The names of a system.
@@ -15,6 +15,8 @@ pub struct Names {
     pub basis: Vec<String>,
     /// The parameters.
     pub parameters: Vec<String>,
+    /// Of a family the coefficients that differ from site to site, slot after slot.
+    pub data: Vec<String>,
 }
 
 impl Names {
@@ -29,12 +31,16 @@ impl Names {
             coordinates: texts(&model.coordinates),
             basis: texts(basis),
             parameters: model.parameters.iter().map(|p| p.name.clone()).collect(),
+            data: Vec::new(),
         }
     }
 
     /// The local variable that holds a symbol.
     pub fn local(&self, symbol: Symbol) -> String {
         let n = self.coordinates.len();
+        if let Some(number) = data_number(symbol) {
+            return self.data[number].clone();
+        }
         match symbol {
             Symbol::Coordinate(i) => coordinate_local(&self.coordinates[i]),
             Symbol::Parameter(i) => self.parameters[i].clone(),

@@ -138,14 +138,7 @@ impl<'a> Planner<'a> {
 
 pub(super) fn parameters(model: &Model) -> Vec<Parameter> {
     let described = model.parameters.iter().map(|p| {
-        let mut doc = match &p.description {
-            Some(description) => description.clone(),
-            None => format!("The parameter `{}`", p.name),
-        };
-        if let Some(unit) = &p.unit {
-            doc.push_str(&format!(" \\[{unit}]"));
-        }
-        doc.push('.');
+        let mut doc = described(&p.name, p.unit.as_deref(), p.description.as_deref());
         if p.positive {
             doc.push_str(" Positive.");
         }
@@ -155,4 +148,13 @@ pub(super) fn parameters(model: &Model) -> Vec<Parameter> {
         }
     });
     described.collect()
+}
+
+/// What a parameter is, for people.
+pub(super) fn described(name: &str, unit: Option<&str>, description: Option<&str>) -> String {
+    let what = description.map_or_else(|| format!("The parameter `{name}`"), str::to_owned);
+    match unit {
+        Some(unit) => format!("{what} \\[{unit}]."),
+        None => format!("{what}."),
+    }
 }

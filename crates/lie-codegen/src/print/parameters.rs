@@ -1,12 +1,12 @@
 //! The parameter struct, which the user constructs, and the struct of the system.
 
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use super::Printer;
 use super::function::Owner;
 use super::names::{ident, index};
-use crate::plan::Code;
+use crate::plan::{Code, Data};
 use lie_symbolic::schedule::Value;
 use lie_symbolic::symbolic::Symbol;
 
@@ -41,6 +41,24 @@ impl Printer<'_> {
         none.then(|| quote! { _scalar: ::core::marker::PhantomData })
     }
 
+    /// What has a value for each site of a family.
+    fn data(&self) -> &[Data] {
+        let family = self.plan.family.as_ref();
+        family.map_or(&[], |family| family.data.as_slice())
+    }
+
+    /// The fields of the parameter struct that hold these values.
+    fn data_names(&self) -> Vec<Ident> {
+        self.data().iter().map(|data| ident(&data.name)).collect()
+    }
+
+    /// The fields of the sites that hold as many of them as there are sites.
+    pub(super) fn data_fields(&self) -> Vec<Ident> {
+        let data = self.data().iter();
+        data.map(|data| format_ident!("_at_{}", data.name))
+            .collect()
+    }
+
     /// The parameter struct with its defaults.
     pub(super) fn parameters(&self) -> TokenStream {
         let (visibility, name, system) =
@@ -53,6 +71,21 @@ impl Printer<'_> {
         });
         let (statements, values) =
             self.of_parameters(&self.plan.defaults, &|_| quote! { S::zero() });
+        let (data, listed) = (self.data_names(), self.data());
+        let described = listed.iter().map(|data| {
+            format!(
+                " {} A value for each site, of a lattice row after row.",
+                data.doc
+            )
+        });
+        let listed = listed.iter().map(|data| {
+            let values = data.values().map(Literal::f64_suffixed);
+            quote! {{
+                const _VALUES: &[f64] = &[#(#values),*];
+                _VALUES.iter().copied().map(S::from_f64).collect()
+            }}
+        });
+        let listed: Vec<TokenStream> = listed.collect();
         let marker = names.is_empty().then(|| {
             quote! { #[doc(hidden)] pub _scalar: ::core::marker::PhantomData<S> }
         });
@@ -78,6 +111,7 @@ impl Printer<'_> {
             #[allow(non_snake_case)]
             #visibility struct #name<S = f64> {
                 #(#fields,)*
+                #(#[doc = #described] pub #data: ::std::vec::Vec<S>,)*
                 #marker
             }
 
@@ -85,7 +119,7 @@ impl Printer<'_> {
             impl<S: ::lie_runtime::Scalar> ::core::default::Default for #name<S> {
                 fn default() -> Self {
                     #statements
-                    Self { #(#names: #values,)* #marker_value }
+                    Self { #(#names: #values,)* #(#data: #listed,)* #marker_value }
                 }
             }
 
@@ -102,7 +136,7 @@ impl Printer<'_> {
                 #[doc = " The parameters from their values, in the order of the declaration."]
                 #[must_use]
                 pub fn from_values(_values: &[S; #count]) -> Self {
-                    Self { #(#names: _values[#places],)* #marker_value }
+                    Self { #(#names: _values[#places],)* #(#data: #listed,)* #marker_value }
                 }
 
                 #[doc = #what]
@@ -153,14 +187,28 @@ impl Printer<'_> {
             .has_branches()
             .then(|| quote! { _branch: ::core::option::Option::None, });
         let signs = self.signs();
+        let (fields, given) = (self.data_fields(), self.data_names());
+        let padded = self.data().iter().zip(&fields).zip(&given);
+        let padded = padded.map(|((data, field), given)| {
+            let (text, [rows, columns]) = (&data.name, data.unused.map(index));
+            quote! {
+                let #field = ::lie_runtime::family::values(&self.#given, #text, _sizes, [#rows, #columns])?;
+            }
+        });
+        let padded: Vec<TokenStream> = padded.collect();
+        let sizes = (!fields.is_empty()).then(|| quote! { let _sizes = self.sizes()?; });
+        let fields = fields.iter();
         quote! {
             #signs
             #statements
             #(let #locals = #values;)*
             #check
+            #sizes
+            #(#padded)*
             ::core::result::Result::Ok(#system {
                 _parameters: ::core::clone::Clone::clone(self),
                 #branch
+                #(#fields,)*
                 #(#names: #locals),*
             })
         }
@@ -190,6 +238,7 @@ impl Printer<'_> {
             let doc = format!(" `{}`", entry.text);
             quote! { #[doc = #doc] #field: S }
         });
+        let data = self.data_fields();
         let doc = format!(" The system [`{name}`] with its derived constants.");
         let branch = self.has_branches().then(|| {
             let size = index(self.plan.dimension());
@@ -205,6 +254,7 @@ impl Printer<'_> {
             #visibility struct #system<S = f64> {
                 _parameters: #name<S>,
                 #branch
+                #(#data: ::std::vec::Vec<S>,)*
                 #(#fields,)*
             }
 
@@ -234,6 +284,7 @@ impl Printer<'_> {
         let fields = self.constant_names();
         let names = self.parameters_by_name();
         let marker = self.marker();
+        let (data, given) = (self.data_fields(), self.data_names());
         let branch = self
             .has_branches()
             .then(|| quote! { _branch: self._branch.map(|branch| branch.map(&_constant)), });
@@ -243,9 +294,11 @@ impl Printer<'_> {
                     #system {
                         _parameters: #name {
                             #(#names: _constant(self._parameters.#names),)*
+                            #(#given: self._parameters.#given.iter().map(|value| _constant(*value)).collect(),)*
                             #marker
                         },
                         #branch
+                        #(#data: self.#data.iter().map(|value| _constant(*value)).collect(),)*
                         #(#fields: _constant(self.#fields),)*
                     }
                 }

@@ -1,7 +1,9 @@
 //! The pieces of the Hamiltonian of a family whose flows are exact: functions of one coordinate, products of a coordinate of
-//! each of two sites, on so(3) the exchange of two spins, and functions of sums of functions of one coordinate.
+//! each of two sites and other functions of them, on so(3) the exchange of two spins, and functions of sums of functions of one coordinate.
 
-use crate::model::{Family, Model, SiteSum};
+use std::collections::BTreeMap;
+
+use crate::model::{Family, Model, SiteSum, data_number, data_symbol};
 use crate::structure::separable;
 use crate::structure::spins::Spin;
 use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
@@ -20,13 +22,17 @@ pub struct Piece {
 /// What a piece is.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Form {
-    /// A function of a coordinate, with its derivative; coordinate a of the site is `Symbol::Coordinate(a)`.
+    /// A function of a coordinate, with its derivative; coordinate a of the site is `Symbol::Coordinate(a)`, and coefficients
+    /// that differ from site to site are those around it.
     Site(usize, ExprId),
     /// A function of sums over functions of one coordinate, all of which its flow keeps: its derivative by that coordinate of a
     /// site, in which the sums are the symbols that they are in H, and what a site adds to each of these sums.
     Collective(usize, ExprId, Vec<(usize, ExprId)>),
-    /// A multiple of a product of a coordinate of each site.
+    /// A multiple of a product of a coordinate of each site; its coefficients are those around the first.
     Product([usize; 2], ExprId),
+    /// A function of a coordinate of each site, both of which its flow keeps, by its derivatives; the coordinates of the second site
+    /// stand behind those of the first.
+    Pair([usize; 2], [ExprId; 2]),
     /// `s_1' = rate (s_1 + s_2) x s_1`, and the opposite of that for the other spin.
     Exchange(ExprId),
 }
@@ -48,6 +54,7 @@ impl Pieces {
         for piece in &mut all {
             match &mut piece.form {
                 Form::Site(_, id) | Form::Product(_, id) | Form::Exchange(id) => ids.push(id),
+                Form::Pair(_, both) => ids.extend(both),
                 Form::Collective(_, id, shares) => {
                     ids.push(id);
                     ids.extend(shares.iter_mut().map(|(_, share)| share));
@@ -74,6 +81,7 @@ impl Piece {
             Form::Site(a, _) => format!("f({})", name(*a)),
             Form::Collective(a, ..) => format!("F(sums over {})", name(*a)),
             Form::Product([a, b], _) => format!("{}*{}[{at}]", name(*a), name(*b)),
+            Form::Pair([a, b], _) => format!("f({}, {}[{at}])", name(*a), name(*b)),
             Form::Exchange(_) => format!("exchange with [{at}]"),
         }
     }
@@ -101,7 +109,7 @@ pub fn pieces(model: &Model, family: &Family, spins: Option<&[Spin]>) -> Result<
     let actions = actions.unwrap_or_default();
     let needed = found.iter().flat_map(|piece| match &piece.form {
         Form::Site(a, _) | Form::Collective(a, ..) => vec![*a],
-        Form::Product(both, _) => both.to_vec(),
+        Form::Product(both, _) | Form::Pair(both, _) => both.to_vec(),
         Form::Exchange(_) => Vec::new(),
     });
     for a in needed {
@@ -180,6 +188,13 @@ impl Search<'_> {
             let [place] = places.as_slice() else {
                 return Err("H is a function of a sum, not linear in it, whose summand depends on more than one coordinate".into());
             };
+            let symbols = self.graph.symbols(sum.summand);
+            if symbols
+                .into_iter()
+                .any(|symbol| data_number(symbol).is_some())
+            {
+                return Err("H is a function of a sum, not linear in it, whose coefficients differ from site to site".into());
+            }
             let (slot, a) = (place / n, place % n);
             let spans = self.spans(sum, slot);
             let (coordinate, of_all) = *known.get_or_insert((a, spans));
@@ -218,15 +233,34 @@ impl Search<'_> {
             return Ok(());
         }
         let mut density = self.graph.mul(weight, sum.summand);
+        let mut done = Vec::new();
         for (place, &one) in sum.slots.iter().enumerate() {
             for &other in &sum.slots[place + 1..] {
-                density = self.bond(density, [one, other], sum)?;
+                density = self.bond(density, [one, other], sum, &mut done)?;
             }
         }
         for &slot in &sum.slots {
-            self.site(density, slot, sum)?;
+            self.site(density, slot, sum, &done)?;
         }
         Ok(())
+    }
+
+    /// An expression at the site of a summand, its coefficients as those around the site in a slot.
+    fn around(&mut self, expression: ExprId, slot: usize) -> ExprId {
+        let (slots, count) = (&self.family.slots, self.family.data.len());
+        let [down, right] = slots[slot];
+        let symbols = self.graph.symbols(expression).into_iter();
+        let numbers: Vec<usize> = symbols.filter_map(data_number).collect();
+        let moved = numbers.into_iter().filter_map(|number| {
+            let [row, column] = slots[number / count];
+            let moved = [row - down, column - right];
+            let place = slots.iter().position(|slot| *slot == moved)?;
+            let symbol = data_symbol(place * count + number % count);
+            Some((data_symbol(number), self.graph.symbol(symbol)))
+        });
+        let moved: BTreeMap<Symbol, ExprId> = moved.collect();
+        self.graph
+            .substitute(&[expression], &|symbol| moved.get(&symbol).copied())[0]
     }
 
     /// The spans of a sum as those of the site in a slot.
@@ -240,12 +274,50 @@ impl Search<'_> {
         [moved(0), moved(1)]
     }
 
-    /// The products of coordinates of two of the sites of a summand; what is left without them.
+    /// The function of two coordinates that a summand contains, if no other coordinate is mixed with these.
+    fn pair(&mut self, density: ExprId, places: [usize; 2], sum: &SiteSum) -> Result<(), String> {
+        let n = self.n();
+        let [one, other] = places.map(|place| place / n);
+        let both = places.map(|place| place % n);
+        let slopes = places.map(|place| self.graph.derivative(density, Symbol::Coordinate(place)));
+        for slope in slopes {
+            let mixed = self.graph.coordinates(slope);
+            if let Some(third) = mixed.iter().find(|place| !places.contains(place)) {
+                let names = [places[0], places[1], *third].map(|place| &self.family.names[place]);
+                return Err(format!(
+                    "`{}`, `{}` and `{}` are coupled by more than products",
+                    names[0], names[1], names[2]
+                ));
+            }
+        }
+        let stands_for = [both[0], n + both[1]];
+        let symbols = stands_for.map(|place| self.graph.symbol(Symbol::Coordinate(place)));
+        let slopes = self.graph.substitute(&slopes, &|symbol| match symbol {
+            Symbol::Coordinate(place) if place == places[0] => Some(symbols[0]),
+            Symbol::Coordinate(place) if place == places[1] => Some(symbols[1]),
+            _ => None,
+        });
+        let slopes = [slopes[0], slopes[1]].map(|slope| self.around(slope, one));
+        let slots = &self.family.slots;
+        self.found.push(Piece {
+            offset: [
+                slots[other][0] - slots[one][0],
+                slots[other][1] - slots[one][1],
+            ],
+            spans: self.spans(sum, one),
+            form: Form::Pair(both, slopes),
+        });
+        Ok(())
+    }
+
+    /// The products of coordinates of two of the sites of a summand; what is left without them. The coordinates that it is another
+    /// function of are `done`.
     fn bond(
         &mut self,
         density: ExprId,
         [one, other]: [usize; 2],
         sum: &SiteSum,
+        done: &mut Vec<usize>,
     ) -> Result<ExprId, String> {
         let n = self.n();
         let mut rest = density;
@@ -262,17 +334,16 @@ impl Search<'_> {
                     continue;
                 }
                 if !self.graph.coordinates(factor).is_empty() {
-                    let names = &self.family.names;
-                    let (x, y) = (&names[one * n + a], &names[other * n + b]);
-                    return Err(format!(
-                        "`{x}` and `{y}` are coupled by more than a product"
-                    ));
+                    let places = [one * n + a, other * n + b];
+                    self.pair(density, places, sum)?;
+                    done.extend(places);
+                    continue;
                 }
                 let product =
                     [one * n + a, other * n + b].map(|p| self.graph.symbol(Symbol::Coordinate(p)));
                 let product = self.graph.product(&[factor, product[0], product[1]]);
                 rest = self.graph.sub(rest, product);
-                factors.push(([a, b], factor));
+                factors.push(([a, b], self.around(factor, one)));
             }
         }
         let slots = &self.family.slots;
@@ -321,11 +392,20 @@ impl Search<'_> {
     }
 
     /// The functions of single coordinates of the site in a slot.
-    fn site(&mut self, density: ExprId, slot: usize, sum: &SiteSum) -> Result<(), String> {
+    fn site(
+        &mut self,
+        density: ExprId,
+        slot: usize,
+        sum: &SiteSum,
+        done: &[usize],
+    ) -> Result<(), String> {
         let n = self.n();
         let spans = self.spans(sum, slot);
         for a in 0..n {
             let place = slot * n + a;
+            if done.contains(&place) {
+                continue;
+            }
             let slope = self.graph.derivative(density, Symbol::Coordinate(place));
             for other in self.graph.coordinates(slope) {
                 let mixed = self.graph.derivative(slope, Symbol::Coordinate(other));
@@ -346,6 +426,7 @@ impl Search<'_> {
             if self.graph.is_zero(slope) {
                 continue;
             }
+            let slope = self.around(slope, slot);
             let known = self
                 .found
                 .iter_mut()

@@ -1,7 +1,7 @@
 //! How smooth the Hamiltonian of a system is, and its Lagrangian.
 
 use super::Structure;
-use crate::model::{Family, Model};
+use crate::model::{Family, Model, data_number};
 use lie_symbolic::prove::joints::{Joint, find_joints};
 use lie_symbolic::symbolic::Symbol;
 use lie_syntax::diagnostic::{Diagnostic, Kind, Report};
@@ -35,7 +35,10 @@ fn of_family(model: &Model, family: &Family) -> Vec<Joint> {
             Some(name) => name.clone(),
             None => format!("sum{}", place - family.names.len() + 1),
         },
-        other => model.symbol_name(other),
+        other => match data_number(other) {
+            Some(number) => family.data_names[number].clone(),
+            None => model.symbol_name(other),
+        },
     };
     let summands = family.sums.iter().map(|sum| sum.summand);
     let mut all: Vec<Joint> = Vec::new();

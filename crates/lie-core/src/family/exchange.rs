@@ -69,6 +69,34 @@ impl<S: Scalar> Exchange<S> {
         }
     }
 
+    /// The flow over times t of which each bond has a multiple of its own, `most` in size at most.
+    pub(super) fn of_each(t: S, most: S, square: S) -> Self {
+        let longest = most * t;
+        let unit = Self::new(S::one(), square * (longest * longest));
+        // the terms are those of unit time, which each bond multiplies by its own
+        Self { t, ..unit }
+    }
+
+    /// The flow of bonds of which each has a rate.
+    pub(super) fn flow_of_each(&self, pairs: Pairs<'_, S>, rates: &[S]) {
+        turn(pairs, |bond, square| {
+            let t = self.t * rates[bond];
+            let x = square * (t * t);
+            let near = (
+                t * series(&self.sines, x),
+                (t * t) * series(&self.cosines, x),
+            );
+            if self.near.all() {
+                return near;
+            }
+            let far = by_angles(square, t);
+            (
+                S::select(self.near, near.0, far.0),
+                S::select(self.near, near.1, far.1),
+            )
+        });
+    }
+
     /// The flow of bonds, each of which has its spins at the same place in the slices.
     #[inline(always)]
     pub(super) fn flow(&self, pairs: Pairs<'_, S>) {
@@ -80,14 +108,14 @@ impl<S: Scalar> Exchange<S> {
             x if x < LEVELS[4].1 => self.by_series::<{ LEVELS[4].0 }>(pairs),
             x if x < LEVELS[5].1 => self.by_series::<{ LEVELS[5].0 }>(pairs),
             x if x < LEVELS[6].1 => self.by_series::<{ LEVELS[6].0 }>(pairs),
-            _ => turn(pairs, |square| self.far(square)),
+            _ => turn(pairs, |_, square| self.far(square)),
         }
     }
 
     fn by_series<const TERMS: usize>(&self, pairs: Pairs<'_, S>) {
         let (sines, cosines) = (&self.sines[..TERMS], &self.cosines[..TERMS]);
         let squared = self.t * self.t;
-        turn(pairs, |square| {
+        turn(pairs, |_, square| {
             let x = square * squared;
             (series(sines, x), series(cosines, x))
         });
@@ -96,12 +124,7 @@ impl<S: Scalar> Exchange<S> {
     /// The two functions by sine and cosine, and by their series in the lanes for which that is enough.
     fn far(&self, square: S) -> (S, S) {
         let x = square * (self.t * self.t);
-        // opposite spins do not turn, whatever the functions are
-        let square = S::select(S::zero().less(square), square, S::one());
-        let size = square.sqrt();
-        let (sin, cos) = (S::ratio(1.0, 2.0) * size * self.t).sin_cos();
-        let two = S::from_f64(2.0);
-        let (sine, cosine) = (two * sin * cos / size, two * sin * sin / square);
+        let (sine, cosine) = by_angles(square, self.t);
         if !self.near.any() {
             return (sine, cosine);
         }
@@ -110,6 +133,16 @@ impl<S: Scalar> Exchange<S> {
             S::select(self.near, series(&self.cosines, x), cosine),
         )
     }
+}
+
+/// The two functions by sine and cosine.
+fn by_angles<S: Scalar>(square: S, t: S) -> (S, S) {
+    // opposite spins do not turn, whatever the functions are
+    let square = S::select(S::zero().less(square), square, S::one());
+    let size = square.sqrt();
+    let (sin, cos) = (S::ratio(1.0, 2.0) * size * t).sin_cos();
+    let two = S::from_f64(2.0);
+    (two * sin * cos / size, two * sin * sin / square)
 }
 
 /// The series at x, as a polynomial in its square over pairs of terms: half as many operations wait for each other as in
@@ -126,9 +159,10 @@ fn series<S: Scalar>(terms: &[S], x: S) -> S {
     pairs.fold(last, |sum, pair| sum * square + pair)
 }
 
-/// Turns the two spins of each bond about their sum, of whose square the two functions are given.
+/// Turns the two spins of each bond about their sum: of the number of the bond and of the square of the sum the two functions are
+/// given.
 #[inline(always)]
-fn turn<S: Scalar>(pairs: Pairs<'_, S>, functions: impl Fn(S) -> (S, S)) {
+fn turn<S: Scalar>(pairs: Pairs<'_, S>, functions: impl Fn(usize, S) -> (S, S)) {
     let [[x1, y1, z1], [x2, y2, z2]] = pairs;
     let count = x1.len();
     let [y1, z1, x2, y2, z2] = [y1, z1, x2, y2, z2].map(|part| &mut part[..count]);
@@ -138,7 +172,7 @@ fn turn<S: Scalar>(pairs: Pairs<'_, S>, functions: impl Fn(S) -> (S, S)) {
         // S x a = b x a
         let w = cross(b, a);
         let v = cross(s, w);
-        let (sine, cosine) = functions(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]);
+        let (sine, cosine) = functions(i, s[0] * s[0] + s[1] * s[1] + s[2] * s[2]);
         let d = [
             sine * w[0] + cosine * v[0],
             sine * w[1] + cosine * v[1],

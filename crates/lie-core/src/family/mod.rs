@@ -33,4 +33,4 @@ pub use shape::{Fixed, Of, Shape};
 pub use sites::{Around, Site, Sites, Span, Sums, Term};
 pub use splitting::{FamilyFlows, Kind, Pieces, Strip, site_by_site};
 pub use stencil::Stretch;
-pub use system::{Family, STATISTICS, size};
+pub use system::{Family, STATISTICS, size, values};

@@ -10,7 +10,7 @@ use super::columns::Columns;
 use super::energy::Totals;
 use super::exchange::Exchange;
 use super::shape::Shape as _;
-use super::sites::{Site, Sums};
+use super::sites::{Around, Site, Sums};
 use super::stencil::wrapped;
 use super::{Family, Sites, Span};
 use crate::pieces::{FoundPoisson, PieceFlows};
@@ -42,7 +42,14 @@ pub trait Pieces<S: Scalar>: Sites<S> {
     fn exchange(&self, kind: usize) -> Option<S>;
     /// What a site adds to the sums of which a piece is a function; 0 of all other sums.
     fn share(&self, kind: usize, one: &Site<Self, S>) -> Sums<Self, S>;
-    /// The flow of a piece over a time t, of a site or of a bond, at these values of its sums.
+    /// The rate of an exchange whose coefficients, those behind the coordinates of `at` around its first site, differ from site
+    /// to site.
+    fn exchange_of(&self, kind: usize, _at: &Around<Self, S>) -> Option<S> {
+        self.exchange(kind)
+    }
+    /// The flow of a piece over a time t, of a site or of a bond, at these values of its sums. Implemented where no coefficient
+    /// differs from site to site.
+    #[inline]
     fn flow(
         &self,
         kind: usize,
@@ -50,13 +57,56 @@ pub trait Pieces<S: Scalar>: Sites<S> {
         sums: &Sums<Self, S>,
         one: &mut Site<Self, S>,
         other: &mut Site<Self, S>,
-    );
-
-    /// The flow of a piece over a time t for many sites or bonds of a state: [`Pieces::flow`] of each.
-    #[inline(always)]
-    fn flows(&self, kind: usize, t: S, sums: &Sums<Self, S>, strip: &Strip, mu: &mut [S]) {
-        site_by_site(self, kind, t, sums, strip, mu);
+    ) {
+        let none = Self::Around::make(around(self), |_| S::zero());
+        self.flow_of(kind, t, (sums, &none), one, other);
     }
+    /// The same with coefficients, those behind the coordinates of `at` around the first site.
+    #[inline]
+    fn flow_of(
+        &self,
+        kind: usize,
+        t: S,
+        (sums, _at): (&Sums<Self, S>, &Around<Self, S>),
+        one: &mut Site<Self, S>,
+        other: &mut Site<Self, S>,
+    ) {
+        self.flow(kind, t, sums, one, other);
+    }
+
+    /// The flow of a piece over a time t for many sites or bonds of a state: [`Pieces::flow`] of each. `data` are the coefficients
+    /// of all slots, of each as many as there are sites, in the order of the state.
+    #[inline(always)]
+    fn flows(
+        &self,
+        kind: usize,
+        t: S,
+        (sums, data): (&Sums<Self, S>, &[S]),
+        strip: &Strip,
+        mu: &mut [S],
+    ) {
+        site_by_site(self, kind, t, (sums, data), strip, mu);
+    }
+}
+
+/// The number of coordinates and coefficients in all slots.
+fn around<S: Scalar, K: Sites<S>>(kernels: &K) -> usize {
+    kernels.offsets().len() * (kernels.dimension() + kernels.data_count())
+}
+
+/// The coefficients around the site at a place, behind coordinates that nobody reads.
+#[inline(always)]
+fn coefficients<S: Scalar, K: Sites<S>>(
+    kernels: &K,
+    data: &[S],
+    sites: usize,
+    place: usize,
+) -> Around<K, S> {
+    let coordinates = kernels.offsets().len() * kernels.dimension();
+    K::Around::make(around(kernels), |k| match k.checked_sub(coordinates) {
+        Some(number) => data[number * sites + place],
+        None => S::zero(),
+    })
 }
 
 /// [`Pieces::flow`] of one site or bond of a strip after the other.
@@ -65,7 +115,7 @@ pub fn site_by_site<S: Scalar, K: Pieces<S>>(
     kernels: &K,
     kind: usize,
     t: S,
-    sums: &Sums<K, S>,
+    (sums, data): (&Sums<K, S>, &[S]),
     strip: &Strip,
     mu: &mut [S],
 ) {
@@ -79,7 +129,12 @@ pub fn site_by_site<S: Scalar, K: Pieces<S>>(
     for i in 0..strip.count {
         let [first, second] = strip.places.map(|place| place + i);
         let (mut one, mut other) = (site(mu, first), site(mu, second));
-        kernels.flow(kind, t, sums, &mut one, &mut other);
+        if data.is_empty() {
+            kernels.flow(kind, t, sums, &mut one, &mut other);
+        } else {
+            let at = coefficients(kernels, data, strip.sites, first);
+            kernels.flow_of(kind, t, (sums, &at), &mut one, &mut other);
+        }
         if strip.bonds {
             set(mu, second, &other);
         }
@@ -106,7 +161,15 @@ struct Piece<S> {
     kind: Kind,
     colour: u8,
     bonds: Option<Bonds>,
-    exchange: Option<S>,
+    exchange: Option<Rate<S>>,
+}
+
+/// The rate of exchanges.
+enum Rate<S> {
+    /// The same for all bonds.
+    Same(S),
+    /// One for each bond, at the place of its first site, and the largest size of them.
+    Each(Vec<S>, S),
 }
 
 /// The flows of the pieces of a family. They act on states in an order of their own, see [`PieceFlows::gather`].
@@ -114,6 +177,8 @@ pub struct FamilyFlows<'a, S, K> {
     family: &'a Family<K>,
     columns: Columns,
     pieces: Vec<Piece<S>>,
+    /// The coefficients of all slots, of each as many as there are sites, in the order of the states.
+    data: Vec<S>,
     /// A bound of the squares of all spins, which exchanges ask for.
     largest: S,
 }
@@ -136,14 +201,20 @@ where
                     kind,
                     colour,
                     bonds,
-                    exchange: family.kernels().exchange(place),
+                    exchange: None,
                 });
             }
         }
+        let columns = Columns::new(family.sizes()[1], modulus);
+        let data = data(family, columns);
+        for piece in &mut pieces {
+            piece.exchange = rate(family, &data, piece);
+        }
         Self {
             family,
-            columns: Columns::new(family.sizes()[1], modulus),
+            columns,
             pieces,
+            data,
             // the flow of an exchange of any spins, until a state is taken
             largest: S::one() / S::zero(),
         }
@@ -218,14 +289,17 @@ where
         for row in 0..self.family.sizes()[0] {
             self.strips(piece, row, |strip| {
                 let kernels = self.family.kernels();
-                kernels.flows(piece.place, t, &sums, &strip, mu);
+                kernels.flows(piece.place, t, (&sums, &self.data), &strip, mu);
             });
         }
     }
 
     /// The flow of exchanges.
-    fn exchanges(&self, piece: &Piece<S>, t: S, mu: &mut [S]) {
-        let exchange = Exchange::new(t, self.largest);
+    fn exchanges(&self, piece: &Piece<S>, rate: &Rate<S>, t: S, mu: &mut [S]) {
+        let exchange = match rate {
+            Rate::Same(rate) => Exchange::new(*rate * t, self.largest),
+            Rate::Each(_, most) => Exchange::of_each(t, *most, self.largest),
+        };
         for row in 0..self.family.sizes()[0] {
             self.strips(piece, row, |strip| {
                 let mut parts = mu.chunks_exact_mut(self.family.count());
@@ -234,10 +308,57 @@ where
                     None => unreachable!("a spin has three components"),
                 });
                 let [[x1, x2], [y1, y2], [z1, z2]] = components;
-                exchange.flow([[x1, y1, z1], [x2, y2, z2]]);
+                let pairs = [[x1, y1, z1], [x2, y2, z2]];
+                match rate {
+                    Rate::Same(_) => exchange.flow(pairs),
+                    Rate::Each(rates, _) => {
+                        exchange.flow_of_each(pairs, &rates[strip.places[0]..][..strip.count]);
+                    }
+                }
             });
         }
     }
+}
+
+/// The coefficients of all slots in the order of the columns.
+fn data<S: Scalar, K: Sites<S>>(family: &Family<K>, order: Columns) -> Vec<S> {
+    let (kernels, [rows, columns]) = (family.kernels(), family.sizes());
+    let count = kernels.data_count();
+    let mut all = std::vec![S::zero(); count * kernels.offsets().len() * family.count()];
+    let mut parts = all.chunks_exact_mut(family.count());
+    for &offset in kernels.offsets() {
+        for (number, part) in (0..count).zip(&mut parts) {
+            let values = kernels.data(number);
+            for row in 0..rows {
+                for column in 0..columns {
+                    let site = family.neighbour([row, column], offset);
+                    part[row * columns + order.place(column)] = values[site];
+                }
+            }
+        }
+    }
+    all
+}
+
+/// The rate of a piece, if it is an exchange.
+fn rate<S: Scalar, K: Pieces<S>>(
+    family: &Family<K>,
+    data: &[S],
+    piece: &Piece<S>,
+) -> Option<Rate<S>> {
+    let (kernels, count) = (family.kernels(), family.count());
+    if data.is_empty() {
+        return kernels.exchange(piece.place).map(Rate::Same);
+    }
+    let rate = |place| {
+        let at = coefficients(kernels, data, count, place);
+        kernels.exchange_of(piece.place, &at)
+    };
+    let rates: Vec<S> = (0..count).map(rate).collect::<Option<_>>()?;
+    let most = rates
+        .iter()
+        .fold(S::zero(), |most, rate| most.max(rate.abs()));
+    Some(Rate::Each(rates, most))
 }
 
 impl Strip {
@@ -305,8 +426,8 @@ where
             // a bond of a site with itself is no such piece
             return mu.fill(S::zero() / S::zero());
         }
-        match piece.exchange {
-            Some(rate) => self.exchanges(piece, rate * t, mu),
+        match &piece.exchange {
+            Some(rate) => self.exchanges(piece, rate, t, mu),
             None => self.sites(piece, t, mu),
         }
     }

@@ -38,17 +38,31 @@ impl<'m, S: Scalar> Stretch<'m, S> {
     #[inline]
     pub fn part(&self, [down, right]: [isize; 2], coordinate: usize) -> &'m [S] {
         let [rows, columns] = self.sizes;
-        let row = wrapped(self.row as isize + down, rows);
-        let from = row * columns + (self.columns.start as isize + right) as usize;
-        &self.mu[coordinate * rows * columns + from..][..self.len()]
+        self.along(&self.mu[coordinate * rows * columns..], [down, right])
     }
 
-    /// The coordinates of the sites and of their neighbours, slot after slot.
+    /// What there is for each site, of those at a distance from the sites of the stretch.
+    #[inline]
+    pub fn along<'a>(&self, all: &'a [S], [down, right]: [isize; 2]) -> &'a [S] {
+        let [rows, columns] = self.sizes;
+        let row = wrapped(self.row as isize + down, rows);
+        let from = row * columns + (self.columns.start as isize + right) as usize;
+        &all[from..][..self.len()]
+    }
+
+    /// The coordinates of the sites and of their neighbours, slot after slot, and behind them their coefficients.
     #[inline(always)]
-    pub(super) fn around<K: Sites<S>>(&self, sites: &K) -> Of<K::Around, &'m [S]> {
+    pub fn around<'a, K: Sites<S>>(&self, sites: &'a K) -> Of<K::Around, &'a [S]>
+    where
+        'm: 'a,
+    {
         let (dimension, offsets) = (sites.dimension(), sites.offsets());
-        K::Around::make(dimension * offsets.len(), |place| {
-            self.part(offsets[place / dimension], place % dimension)
+        let (coordinates, count) = (dimension * offsets.len(), sites.data_count());
+        K::Around::make(coordinates + count * offsets.len(), |place| {
+            match place.checked_sub(coordinates) {
+                None => self.part(offsets[place / dimension], place % dimension),
+                Some(place) => self.along(sites.data(place % count), offsets[place / count]),
+            }
         })
     }
 
@@ -124,20 +138,33 @@ impl<K> Family<K> {
         }
     }
 
-    /// The coordinates of a site and of its neighbours, wherever they are.
+    /// The coordinates of a site and of its neighbours, wherever they are, and behind them their coefficients.
     #[inline]
-    pub(super) fn around<S: Scalar>(&self, mu: &[S], [row, column]: [usize; 2]) -> Around<K, S>
+    pub(super) fn around<S: Scalar>(&self, mu: &[S], site: [usize; 2]) -> Around<K, S>
     where
         K: Sites<S>,
     {
-        let [rows, columns] = self.sizes();
-        let (dimension, offsets) = (self.kernels().dimension(), self.kernels().offsets());
-        K::Around::make(dimension * offsets.len(), |place| {
-            let [down, right] = offsets[place / dimension];
-            let site = wrapped(row as isize + down, rows) * columns
-                + wrapped(column as isize + right, columns);
-            mu[place % dimension * self.count() + site]
+        let kernels = self.kernels();
+        let (dimension, offsets) = (kernels.dimension(), kernels.offsets());
+        let (coordinates, count) = (dimension * offsets.len(), kernels.data_count());
+        K::Around::make(coordinates + count * offsets.len(), |place| {
+            match place.checked_sub(coordinates) {
+                None => {
+                    let site = self.neighbour(site, offsets[place / dimension]);
+                    mu[place % dimension * self.count() + site]
+                }
+                Some(place) => {
+                    kernels.data(place % count)[self.neighbour(site, offsets[place / count])]
+                }
+            }
         })
+    }
+
+    /// The site at a distance from another one.
+    #[inline]
+    pub(super) fn neighbour(&self, [row, column]: [usize; 2], [down, right]: [isize; 2]) -> usize {
+        let [rows, columns] = self.sizes();
+        wrapped(row as isize + down, rows) * columns + wrapped(column as isize + right, columns)
     }
 
     /// The coordinates of a site.

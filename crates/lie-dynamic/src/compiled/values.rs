@@ -11,6 +11,8 @@ pub(crate) struct Values<S> {
     pub machine: Arc<dyn Machine<S>>,
     pub parameters: Vec<S>,
     pub constants: Vec<S>,
+    /// Of a family what has a value for each site.
+    pub data: Arc<[Vec<S>]>,
     /// Whether programs of the whole are compiled at once, see [`Dynamic::without_patience`](crate::Dynamic::without_patience).
     pub hurry: bool,
 }
@@ -22,6 +24,7 @@ impl<S: Clone> Clone for Values<S> {
             machine: Arc::clone(&self.machine),
             parameters: self.parameters.clone(),
             constants: self.constants.clone(),
+            data: Arc::clone(&self.data),
             hurry: self.hurry,
         }
     }
@@ -94,6 +97,7 @@ impl<S: Scalar> Values<S> {
             machine,
             parameters: all(&self.parameters),
             constants: all(&self.constants),
+            data: self.data.iter().map(|values| all(values)).collect(),
             hurry: self.hurry,
         }
     }

@@ -56,6 +56,8 @@ impl Dynamic<f64> {
             },
             parameters: gather(|system| &system.values.parameters),
             constants: gather(|system| &system.values.constants),
+            // the same of all: declarations alone give them
+            data: widened(&first.values.data),
             hurry: first.values.hurry,
         };
         let family = first.sizes();
@@ -67,4 +69,11 @@ impl Dynamic<f64> {
             members: systems.iter().map(|system| (*system).clone()).collect(),
         }
     }
+}
+
+/// Values of sites, the same in every lane.
+fn widened(data: &[Vec<f64>]) -> Arc<[Vec<<f64 as Scalar>::Wide>]> {
+    let columns = data.iter();
+    let columns = columns.map(|values| values.iter().map(|value| value.widen()).collect());
+    columns.collect()
 }

@@ -84,6 +84,7 @@ fn inlined<const LANES: usize>(
             machine: Arc::new(Inlined(Arc::clone(&compiled.codes))),
             parameters,
             constants,
+            data: Arc::default(),
             hurry: true,
         },
         branch: None,

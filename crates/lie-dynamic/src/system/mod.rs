@@ -15,10 +15,10 @@ use crate::compiled::{Compiled, Values};
 use crate::engine::{ARGUMENTS, Engine, Interpreter, Machine};
 use crate::recording::PATIENCE;
 use family::{FamilySite, sizes};
-use lie_codegen::plan::{Code as Program, Plan};
+use lie_codegen::plan::{Code as Program, Data, Plan};
 use lie_core::parameter::{ParameterError, all_finite, all_positive};
 use lie_runtime::Scalar;
-use lie_runtime::family::{Family, unit_spheres};
+use lie_runtime::family::{Family, unit_spheres, values};
 use lie_symbolic::schedule::Operation;
 use lie_symbolic::symbolic::{self, Symbol};
 use std::sync::Arc;
@@ -80,6 +80,7 @@ impl Declared {
             machine: Arc::clone(&self.machine),
             parameters: Vec::new(),
             constants: Vec::new(),
+            data: Arc::default(),
             hurry: false,
         };
         let system = Dynamic {
@@ -138,6 +139,7 @@ impl Dynamic<f64> {
         let family = match &values.compiled.plan.family {
             Some(family) => {
                 let sizes = sizes(&family.sizes, &values)?;
+                values.data = data(&family.data, sizes)?;
                 Some(Family::new(FamilySite::new(values.clone()), sizes))
             }
             None => None,
@@ -177,6 +179,15 @@ impl Dynamic<f64> {
         interpreter.run(0, &frame, [&mut values, &mut []]);
         values
     }
+}
+
+/// What has a value for each site.
+fn data(all: &[Data], sizes: [usize; 2]) -> Result<Arc<[Vec<f64>]>, ParameterError> {
+    let columns = all.iter().map(|data| {
+        let given: Vec<f64> = data.values().collect();
+        values(&given, names::text(&data.name), sizes, data.unused)
+    });
+    columns.collect()
 }
 
 fn check_signs(values: &Values<f64>) -> Result<(), ParameterError> {

@@ -7,10 +7,11 @@ use lie_codegen::methods::Choice;
 use lie_program::protocol::{Held, Table};
 use lie_runtime::driver::{Pace, Source};
 use lie_syntax::diagnostic::Kind;
+use lie_syntax::front::npy;
 use lie_syntax::suggest::meant;
 
 use super::plan::Planner;
-use super::{Request, Value, npy};
+use super::{Request, Value};
 use crate::message::Message;
 
 /// The seed of a request, 1 where there is none.

@@ -12,7 +12,6 @@ mod held;
 mod keep;
 mod measured;
 pub mod method;
-mod npy;
 mod option_value;
 mod plan;
 mod range;

@@ -3,13 +3,13 @@
 use std::path::Path;
 
 use lie_codegen::methods::Choice;
-use lie_codegen::model::{Family, Start};
+use lie_codegen::model::{Family, SiteData, Start};
 use lie_codegen::structure::Structure;
-use lie_runtime::family::unit_spheres;
+use lie_runtime::family::{unit_spheres, values};
 use lie_syntax::diagnostic::{Kind, Origin};
+use lie_syntax::front::npy::{self, Array};
 
 use super::Front;
-use super::npy::{self, Array};
 use super::plan::Planner;
 use crate::memory;
 use crate::message::{Fault, Message, Place};
@@ -43,6 +43,10 @@ impl Planner<'_> {
             self.mistakes.push(message.help(help));
             return None;
         };
+        if let Some(message) = self.without_values(family, [rows, columns]) {
+            self.mistakes.push(message);
+            return None;
+        }
         let sites = rows * columns;
         if let Err(exceeded) = memory::fits(sites as f64 * n as f64 * memory::COORDINATE) {
             let text = format!("{}: {exceeded}", counted(sites as u64, "site"));
@@ -86,6 +90,23 @@ impl Planner<'_> {
         }
         let values: Vec<Option<f64>> = parts.iter().map(|part| self.keep(part.number())).collect();
         values.into_iter().collect()
+    }
+
+    /// What is said of a coefficient that has no value for each of so many sites.
+    fn without_values(&self, family: &Family, sizes: [usize; 2]) -> Option<Message> {
+        let fits = |data: &&SiteData| values(&data.values, "", sizes, data.unused).is_ok();
+        let data = family.data.iter().find(|data| !fits(data))?;
+        let sites = match sizes {
+            [1, columns] => counted(columns as u64, "site"),
+            [rows, columns] => format!("{rows} x {columns} sites"),
+        };
+        let given = counted(data.values.len() as u64, "value");
+        let text = format!("`{}` has {given}, and there are {sites}", data.name);
+        let option = self.request.front.option("param");
+        let message = Message::new(Kind::StateLength, text).at_option(&option);
+        Some(message.help(
+            "give the values of as many sites in the spec, or take as many sites as it has values",
+        ))
     }
 
     /// The numbers of a file, the path of which stands in the spec and is relative to it.

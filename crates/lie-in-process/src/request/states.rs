@@ -4,9 +4,10 @@ use std::path::Path;
 use std::sync::Arc;
 
 use lie_syntax::diagnostic::Kind;
+use lie_syntax::front::npy;
 
+use super::constant;
 use super::several::MOST;
-use super::{constant, npy};
 use crate::memory;
 use crate::message::{Fault, Message, Place, Source};
 use crate::spec::Spec;

@@ -113,8 +113,36 @@ pub struct Family {
     pub sizes: Vec<Size>,
     /// The indices in the names of the state.
     pub indices: Vec<Name>,
+    /// What has a value for each site.
+    pub data: Vec<SiteData>,
     /// Where a run starts.
     pub start: Option<Start>,
+}
+
+/// A coefficient of a family that has a value for each site, `B[i]` in its sums.
+#[derive(Clone, Debug)]
+pub struct SiteData {
+    /// Its name.
+    pub name: Name,
+    /// The values, site after site, of a lattice row after row.
+    pub values: SiteValues,
+    /// How many there are along each axis; one number where they are one list.
+    pub shape: Vec<usize>,
+    /// Where they stand.
+    pub origin: Origin,
+    /// Unit, for people, as Markdown within a line.
+    pub unit: Option<String>,
+    /// Description, for people, as Markdown.
+    pub description: Option<String>,
+}
+
+/// The values of a coefficient.
+#[derive(Clone, Debug)]
+pub enum SiteValues {
+    /// Expressions in constants.
+    Written(Vec<Expr>),
+    /// The numbers of a file.
+    Read(Vec<f64>),
 }
 
 /// The initial state of a family.
@@ -371,6 +399,11 @@ impl Declaration {
             Structure::Lie { algebra, .. } => Some(algebra),
             Structure::General { .. } => None,
         }
+    }
+
+    /// What has a value for each site of a family.
+    pub fn site_data(&self) -> &[SiteData] {
+        self.family.as_ref().map_or(&[], |family| &family.data)
     }
 
     /// Names of the basis of the algebra; none where there is no algebra.

@@ -256,8 +256,7 @@ fn system(parts: &Parts<'_>, report: &mut Report) -> Parsed {
     };
     let block = parts.first("parameters").and_then(|s| s.block(report));
     let parameters = parameters(block.unwrap_or_default(), report);
-    parsed.parameters = parameters.names;
-    reader::finish(parts, parsed, parameters.whole, report)
+    reader::finish(parts, parsed, parameters, report)
 }
 
 impl Entries for Parts<'_> {

@@ -7,6 +7,7 @@
 pub mod declaration;
 pub mod file;
 pub mod names;
+pub mod npy;
 pub mod spec;
 pub mod vocabulary;
 

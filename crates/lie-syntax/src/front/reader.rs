@@ -10,9 +10,9 @@ use super::vectors::{self, Declared};
 use super::{Body, Names, Parsed, driving, equations, expression, item};
 use crate::ast::{
     Algebra, Declaration, Energy, Event, Expr, Family, Input, Invariance, Name, Observable,
-    OwnFunction, Parameter, Realization, RunOption, Size, Start, Structure,
+    OwnFunction, Parameter, Realization, RunOption, SiteData, Size, Start, Structure,
 };
-use crate::diagnostic::{Kind, Origin, Report};
+use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 
 /// What belongs to an algebra, and stands beside no `poisson`.
 const OF_ALGEBRA: [&str; 5] = [
@@ -38,6 +38,8 @@ pub struct Parameters {
     pub names: Vec<Name>,
     /// The parameters without mistakes.
     pub whole: Vec<Parameter>,
+    /// The coefficients that have a value for each site of a family.
+    pub sites: Vec<SiteData>,
 }
 
 /// An algebra, written out or by its name.
@@ -126,9 +128,15 @@ pub trait Entries {
 pub fn finish<E: Entries>(
     entries: &E,
     mut parsed: Parsed,
-    parameters: Vec<Parameter>,
+    parameters: Parameters,
     report: &mut Report,
 ) -> Parsed {
+    parsed.parameters = parameters.names;
+    let data = parameters.sites;
+    if parsed.indices.is_empty() {
+        let mistakes = data.iter().map(without_sites);
+        mistakes.for_each(|mistake| report.push(mistake));
+    }
     let constants: Vec<String> = texts(&parsed.parameters).collect();
     let place = entries.place("algebra");
     let read = place.map(|place| (place, entries.algebra(&constants, report)));
@@ -145,13 +153,14 @@ pub fn finish<E: Entries>(
     let sizes = read.iter().filter_map(|(_, read)| read.as_ref());
     let sizes: Vec<Size> = sizes.flat_map(|read| read.sizes.clone()).collect();
     let algebra = read.map(|(place, read)| (place, read.map(|read| read.algebra)));
-    let declaration = remainder(entries, &parsed, algebra, parameters, report);
+    let declaration = remainder(entries, &parsed, algebra, parameters.whole, report);
     let indices = parsed.indices.clone();
     let start = (!indices.is_empty()).then(|| entries.start(report));
     let declaration = declaration.map(|declaration| Declaration {
         family: (!indices.is_empty()).then(|| Family {
             sizes,
             indices,
+            data,
             start: start.flatten(),
         }),
         ..declaration
@@ -255,6 +264,17 @@ fn remainder<E: Entries>(
         initial_origin,
         run,
     })
+}
+
+/// What is said of a list of values where there are no sites.
+fn without_sites(data: &SiteData) -> Diagnostic {
+    let name = &data.name.text;
+    let message =
+        format!("`{name}` has a value for each site of a family, and this declaration is none");
+    let help = format!(
+        "declare a parameter for each entry, such as `{name}1`, `{name}2`, or a family: `\"algebra\": \"so(3)^N\"` with a state such as `x[i]`, and write `{name}[i]`"
+    );
+    Diagnostic::new(Kind::Schema, data.origin, message).help(help)
 }
 
 fn texts(names: &[Name]) -> impl Iterator<Item = String> {

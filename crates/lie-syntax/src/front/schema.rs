@@ -245,6 +245,19 @@ objects! {
         "description" description: Option<String>,
     }
 
+    /// A coefficient of a family that has a value for each site, `B[i]` in its sums.
+    struct PerSite requires [] {
+        /// The values, site after site; of a lattice a list of rows.
+        "values" values: Option<SiteValues>,
+        /// The path of a file with the values, relative to that of the spec: what `numpy.save` wrote, or a number in each line
+        /// of a CSV file.
+        "file" file: Option<String>,
+        /// Its unit.
+        "unit" unit: Option<String>,
+        /// Its meaning.
+        "description" description: Option<String>,
+    }
+
     /// Defaults of `lie run`; keys and values are those of its flags.
     struct Run requires [] {
         /// Id of the method.

@@ -8,6 +8,7 @@ mod observables;
 mod parameters;
 mod realization;
 mod run;
+mod sites;
 mod start;
 mod tables;
 mod vectors;
@@ -85,10 +86,9 @@ fn document(text: &str, folder: Option<&Path>, report: &mut Report) -> Parsed {
     parsed.dimension = spec.get("state").map_or(0, |v| v.elements().len());
     let parameters = spec
         .get("parameters")
-        .map(|v| parameters::read(v, report))
+        .map(|v| parameters::read(v, spec.folder(), report))
         .unwrap_or_default();
-    parsed.parameters = parameters.names;
-    reader::finish(&spec, parsed, parameters.whole, report)
+    reader::finish(&spec, parsed, parameters, report)
 }
 
 /// The names of the state; of a family with their indices.

@@ -1,15 +1,15 @@
 //! The sums and the Hamiltonian of a family in the arena of the model of its site.
 
 use super::sites::SiteSums;
-use super::sums;
+use super::sums::{self, Collected};
 use crate::check::environment::{Allowed, Environment};
 use crate::check::has_errors;
 use crate::check::lets;
 use crate::check::lower::Lowering;
-use crate::model::{Family, Model, SiteSum, Size};
+use crate::model::{Family, Model, SiteData, SiteSum, Size, data_symbol};
 use lie_symbolic::prove::degree;
-use lie_symbolic::symbolic::{ExprId, Symbol};
-use lie_syntax::ast::{self, Declaration, Name};
+use lie_symbolic::symbolic::{Graph, Symbol};
+use lie_syntax::ast::{self, Declaration, Name, SiteValues};
 use lie_syntax::diagnostic::{Diagnostic, Kind};
 
 /// Makes the model of a site that of the family; `None` if there are mistakes.
@@ -26,6 +26,8 @@ pub fn couple(
         slots: collected.slots.clone(),
         own: collected.slot([0, 0]),
         names: collected.names.clone(),
+        data: data(family, collected, &model, mistakes)?,
+        data_names: collected.data.clone(),
         sums: Vec::new(),
         energy: model.hamiltonian(),
         degree: None,
@@ -75,6 +77,77 @@ fn sizes(
     found.into_iter().collect()
 }
 
+/// The values of what differs from site to site, as many as there are sites at the default sizes.
+fn data(
+    family: &ast::Family,
+    collected: &Collected,
+    model: &Model,
+    mistakes: &mut Vec<Diagnostic>,
+) -> Option<Vec<SiteData>> {
+    let defaults = model.defaults();
+    let along = |size: &ast::Size| match size {
+        ast::Size::Number(count, _) => Some(*count),
+        ast::Size::Parameter(name) => {
+            let mut parameters = model.parameters.iter();
+            let p = parameters.position(|p| p.name == name.text)?;
+            Size::Parameter(p).value(&defaults)
+        }
+    };
+    let sizes: Vec<usize> = family.sizes.iter().filter_map(along).collect();
+    let all = family.data.iter().zip(&collected.unused);
+    let all = all.map(|(data, unused)| {
+        let name = &data.name.text;
+        let values: Vec<f64> = match &data.values {
+            SiteValues::Read(values) => values.clone(),
+            SiteValues::Written(entries) => {
+                let mut graph = Graph::default();
+                let environment = Environment::default();
+                let lowered = entries.iter().map(|entry| {
+                    let value = Lowering::new(&mut graph, &environment, mistakes, Allowed::Constants)
+                        .lower(entry)?;
+                    Some(graph.evaluate(value, &|_| f64::NAN))
+                });
+                lowered.collect::<Vec<_>>().into_iter().collect::<Option<_>>()?
+            }
+        };
+        if let Some(at) = values.iter().position(|value| !value.is_finite()) {
+            let message = format!("value {at} of `{name}` is not finite in double precision");
+            let help = "give each site a finite number";
+            mistakes.push(Diagnostic::new(Kind::Number, data.origin, message).help(help));
+            return None;
+        }
+        let unused_along = &unused[2 - sizes.len()..];
+        let fits = |(given, (size, unused)): (&usize, (&usize, &usize))| {
+            given <= size && size - given <= *unused
+        };
+        let shaped = data.shape.len() == sizes.len()
+            && data.shape.iter().zip(sizes.iter().zip(unused_along)).all(fits);
+        let flat = data.shape.len() == 1 && values.len() == sizes.iter().product::<usize>();
+        if !shaped && !flat {
+            let shown = |sizes: &[usize]| {
+                let sizes: Vec<String> = sizes.iter().map(usize::to_string).collect();
+                sizes.join(" x ")
+            };
+            let (given, wanted) = (shown(&data.shape), shown(&sizes));
+            let message = format!("`{name}` has {given} values, and there are {wanted} sites");
+            let help = match unused_along.iter().any(|unused| *unused > 0) {
+                true => "give a value for each site; those at the end that no sum asks for may be left out",
+                false => "give a value for each site, or another number of sites",
+            };
+            mistakes.push(Diagnostic::new(Kind::StateLength, data.origin, message).help(help));
+            return None;
+        }
+        Some(SiteData {
+            name: name.clone(),
+            values: values.into(),
+            unused: *unused,
+            unit: data.unit.clone(),
+            description: data.description.clone(),
+        })
+    });
+    all.collect::<Vec<_>>().into_iter().collect()
+}
+
 /// The sums and H in the arena of the model.
 fn summed(
     declaration: &Declaration,
@@ -99,11 +172,16 @@ fn summed(
         ..declaration.clone()
     };
     let mut environment = Environment::new(&widened);
+    for (number, name) in known.data_names.iter().enumerate() {
+        environment.bind_symbol(name, data_symbol(number));
+    }
     let graph = &mut model.graph;
     lets::abbreviations(&widened, graph, &mut environment, mistakes);
-    let mut lower = |expr| Lowering::new(graph, &environment, mistakes, Allowed::State).lower(expr);
-    let summands: Vec<Option<ExprId>> = collected.sums.iter().map(|s| lower(&s.body)).collect();
-    let energy = lower(&acting.energy);
+    let mut lower =
+        |expr, allowed| Lowering::new(graph, &environment, mistakes, allowed).lower(expr);
+    let summands = collected.sums.iter();
+    let summands: Vec<_> = summands.map(|s| lower(&s.body, Allowed::Site)).collect();
+    let energy = lower(&acting.energy, Allowed::State);
     let first = names.len();
     let of_a_sum = |symbol: &Symbol| matches!(symbol, Symbol::Coordinate(k) if *k >= first);
     let mut sums = Vec::new();
@@ -115,7 +193,7 @@ fn summed(
         }
         sums.push(SiteSum {
             summand,
-            slots: sum.sites.iter().map(|o| collected.slot(*o)).collect(),
+            slots: sum.moving.iter().map(|o| collected.slot(*o)).collect(),
             spans: sum.spans,
         });
     }

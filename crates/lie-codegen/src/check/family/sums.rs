@@ -7,8 +7,8 @@ use lie_syntax::ast::{Declaration, Expr, ExprKind, Family, Index, Name};
 use lie_syntax::diagnostic::{Diagnostic, Kind, Origin};
 
 /// What to do where sites differ.
-const WRITTEN_OUT: &str = "for a few sites write the copies out: an algebra such as `so(3)^16` and no index in the state, so that the \
-                           coordinates are x1, y1, z1, x2, …, and each term has a coefficient of its own";
+const DIFFERENT: &str = "what differs from site to site is a parameter with a list, `\"B\": {\"values\": [1, 2, 3]}` or `{\"file\": \"B.npy\"}`, \
+                         and `B[i]` in a sum";
 
 /// Names for the index of a sum.
 const INDICES: [&str; 6] = ["i", "j", "k", "l", "m", "site"];
@@ -19,6 +19,10 @@ pub struct Collected {
     pub slots: Vec<[i64; 2]>,
     /// The names of all coordinates, slot after slot.
     pub names: Vec<String>,
+    /// Those of what has a value for each site.
+    pub data: Vec<String>,
+    /// The number of last rows and columns of which no sum asks for a value.
+    pub unused: Vec<[usize; 2]>,
     /// The sums.
     pub sums: Vec<Sum>,
 }
@@ -29,6 +33,8 @@ pub struct Sum {
     pub body: Expr,
     /// The distances of the sites in it.
     pub sites: BTreeSet<[i64; 2]>,
+    /// Of those whose coordinates are in it.
+    pub moving: BTreeSet<[i64; 2]>,
     /// Where it goes, by row and by column.
     pub spans: [Span; 2],
     /// Where it stands.
@@ -78,6 +84,8 @@ pub struct Sums<'a> {
     declaration: &'a Declaration,
     family: &'a Family,
     found: Vec<Sum>,
+    /// Of each coefficient how many last rows and columns no sum has asked for; none before one asks.
+    unused: Vec<Option<[usize; 2]>>,
 }
 
 /// A sum that is being read.
@@ -85,6 +93,7 @@ struct Reading<'a> {
     variables: Vec<&'a Name>,
     spans: Vec<Span>,
     sites: BTreeSet<[i64; 2]>,
+    moving: BTreeSet<[i64; 2]>,
 }
 
 impl<'a> Sums<'a> {
@@ -94,6 +103,7 @@ impl<'a> Sums<'a> {
             declaration,
             family,
             found: Vec::new(),
+            unused: vec![None; family.data.len()],
         }
     }
 
@@ -116,9 +126,17 @@ impl<'a> Sums<'a> {
             .iter()
             .flat_map(|slot| state.iter().map(|name| named(&name.text, &indices, *slot)))
             .collect();
+        let data = self.family.data.iter().map(|data| &data.name.text);
+        let data = slots
+            .iter()
+            .flat_map(|slot| data.clone().map(|name| named(name, &indices, *slot)))
+            .collect();
+        let unused = self.unused.iter();
         Collected {
             slots: slots.into_iter().collect(),
             names,
+            data,
+            unused: unused.map(|unused| unused.unwrap_or_default()).collect(),
             sums: self.found,
         }
     }
@@ -140,6 +158,10 @@ impl<'a> Sums<'a> {
                 mistakes.push(sums.without_index(name, expr.origin));
                 None
             }
+            ExprKind::Name { name, .. } if sums.data(name).is_some() => {
+                mistakes.push(sums.without_site(name, expr.origin));
+                None
+            }
             ExprKind::IndexedSum { .. } => sums.sum(expr, mistakes),
             _ => Some(expr.clone()),
         };
@@ -148,6 +170,18 @@ impl<'a> Sums<'a> {
 
     fn is_coordinate(&self, name: &str) -> bool {
         self.declaration.state.iter().any(|s| s.text == name)
+    }
+
+    /// The place of a coefficient that has a value for each site.
+    fn data(&self, name: &str) -> Option<usize> {
+        let mut data = self.family.data.iter();
+        data.position(|data| data.name.text == name)
+    }
+
+    fn without_site(&self, name: &str, origin: Origin) -> Diagnostic {
+        let help = format!("write `{}` in a sum", named(name, &self.indices(), [0, 0]));
+        let message = format!("`{name}` has a value for each site and needs an index");
+        Diagnostic::new(Kind::UnknownSymbol, origin, message).help(help)
     }
 
     fn without_index(&self, name: &str, origin: Origin) -> Diagnostic {
@@ -162,6 +196,7 @@ impl<'a> Sums<'a> {
             variables: Vec::new(),
             spans: Vec::new(),
             sites: BTreeSet::new(),
+            moving: BTreeSet::new(),
         };
         let mut body = expr;
         for size in &self.family.sizes {
@@ -191,14 +226,16 @@ impl<'a> Sums<'a> {
                 mistakes.push(self.without_index(name, part.origin));
                 None
             }
+            ExprKind::Name { name, index: None } if self.data(name).is_some() => {
+                mistakes.push(self.without_site(name, part.origin));
+                None
+            }
             ExprKind::Name { name, index: None }
                 if reading.variables.iter().any(|v| v.text == *name) =>
             {
-                let message = format!(
-                    "`{name}` is the index of the sum and no number: the coefficients of a family are the same at all sites"
-                );
+                let message = format!("`{name}` is the index of the sum and no number");
                 let mistake = Diagnostic::new(Kind::UnknownSymbol, part.origin, message);
-                mistakes.push(mistake.help(WRITTEN_OUT));
+                mistakes.push(mistake.help(DIFFERENT));
                 None
             }
             ExprKind::Name {
@@ -215,6 +252,7 @@ impl<'a> Sums<'a> {
         self.found.push(Sum {
             body,
             sites: reading.sites,
+            moving: reading.moving,
             spans: [span(0), span(1)],
             origin: expr.origin,
         });
@@ -247,7 +285,7 @@ impl<'a> Sums<'a> {
 
     /// A coordinate with an index under the name of its slot.
     fn coordinate(
-        &self,
+        &mut self,
         name: &str,
         index: &Index,
         origin: Origin,
@@ -258,10 +296,11 @@ impl<'a> Sums<'a> {
             mistakes.push(Diagnostic::new(kind, origin, message).help(help));
             None
         };
-        if !self.is_coordinate(name) {
+        let data = self.data(name);
+        if data.is_none() && !self.is_coordinate(name) {
             let message = format!("`{name}` has an index and is no coordinate");
             let help = format!(
-                "only the names of the state have indices; a parameter is the same for all sites: {WRITTEN_OUT}"
+                "a parameter that is one number is the same for all sites, `{name}`; {DIFFERENT}"
             );
             return fail(Kind::UnknownSymbol, message, help);
         }
@@ -297,6 +336,10 @@ impl<'a> Sums<'a> {
             }
         }
         reading.sites.insert(distance);
+        match data {
+            None => drop(reading.moving.insert(distance)),
+            Some(place) => self.asked(place, distance, &reading.spans),
+        }
         Some(Expr {
             kind: ExprKind::Name {
                 name: named(name, &self.indices(), distance),
@@ -304,6 +347,22 @@ impl<'a> Sums<'a> {
             },
             origin,
         })
+    }
+}
+
+impl Sums<'_> {
+    /// Notes which of the last values of a coefficient a sum asks for.
+    fn asked(&mut self, place: usize, distance: [i64; 2], spans: &[Span]) {
+        let before = 2 - spans.len();
+        let unused = |axis: usize| {
+            let span = axis.checked_sub(before).and_then(|axis| spans[axis]);
+            span.map_or(0, |(_, left)| {
+                left.saturating_sub_signed(distance[axis] as isize)
+            })
+        };
+        let found = [unused(0), unused(1)];
+        let known = self.unused[place].get_or_insert(found);
+        *known = [known[0].min(found[0]), known[1].min(found[1])];
     }
 }
 

@@ -219,7 +219,15 @@ fn pieces_of_functions_of_sums_and_of_longer_summands_are_found() {
     );
     assert_eq!(
         pieces("sum(i in 0..N: x[i]*x[i+1]*x[i+2])"),
-        err("`x[i]` and `x[i+1]` are coupled by more than a product")
+        err("`x[i]`, `x[i+1]` and `x[i+2]` are coupled by more than products")
+    );
+    assert_eq!(
+        pieces("sum(i in 0..N: x[i]*y[i] + exp(x[i] - x[i+1]))"),
+        err("`x[i]`, `x[i+1]` and `y[i]` are coupled by more than products")
+    );
+    assert_eq!(
+        pieces("sum(i in 0..N: cos(x[i])*y[i+2]^2 + z[i]*z[i+2] + z[i])"),
+        ok("f(x, y[+2]), z*z[+2], f(z)")
     );
 }
 
@@ -280,4 +288,81 @@ fn an_initial_state_is_random_or_a_file() {
     ] {
         expect(&ring(&[("initial", text)]), &[expected]);
     }
+}
+
+#[test]
+fn coefficients_have_a_value_for_each_site() {
+    let keys = [
+        (
+            "parameters",
+            r#"{"N": 4, "B": [1, "1/4", 2, 3], "J": {"values": [1, 2, 3], "unit": "K"}}"#,
+        ),
+        (
+            "hamiltonian",
+            r#""sum(i in 0..N-1: J[i]*x[i]*x[i+1] + B[i+1]*y[i]) + sum(i in 0..N: B[i]*z[i]^2)""#,
+        ),
+    ];
+    let model = model(&ring(&keys));
+    let family = model.family.as_ref().expect("a family");
+    let data: Vec<_> = family
+        .data
+        .iter()
+        .map(|data| (&*data.name, &*data.values, data.unused))
+        .collect();
+    // of couplings of bonds the last one is not asked for
+    let expected: [(&str, &[f64], [usize; 2]); 2] = [
+        ("B", &[1.0, 0.25, 2.0, 3.0], [0, 0]),
+        ("J", &[1.0, 2.0, 3.0], [0, 1]),
+    ];
+    assert_eq!(data, expected);
+    // coefficients are no coordinates
+    assert_eq!(family.degree, Some(2));
+    assert_eq!(family.sums[0].slots, [1, 2]);
+    assert_eq!(
+        model.display_of_family(family),
+        "sum(i in 0..N-1: J[i]*x[i]*x[i+1] + B[i+1]*y[i]) + sum(i in 0..N: B[i]*z[i]^2)"
+    );
+    let wrong = |parameters: &str, sum: &str, expected: &str| {
+        let sum = format!("{sum:?}");
+        expect(
+            &ring(&[("parameters", parameters), ("hamiltonian", &sum)]),
+            &[expected],
+        );
+    };
+    let sum = "sum(i in 0..N: B[i]*x[i])";
+    wrong(
+        r#"{"N": 4, "B": [1, 2, 3]}"#,
+        sum,
+        "state-length at [: `B` has 3 values, and there are 4 sites",
+    );
+    wrong(
+        r#"{"N": 2, "B": [1, "1/0"]}"#,
+        sum,
+        "domain at 1/0: division by zero",
+    );
+    wrong(
+        r#"{"N": 2, "B": [1, 2]}"#,
+        "B*sum(i in 0..N: x[i])",
+        "unknown-symbol at B: `B` has a value for each site and needs an index",
+    );
+    wrong(
+        r#"{"N": 2, "B": [1, 2]}"#,
+        "sum(i in 0..N: B*x[i])",
+        "unknown-symbol at B: `B` has a value for each site and needs an index",
+    );
+    wrong(
+        r#"{"N": 2, "B": [1, 2]}"#,
+        "sum(i in 0..N-1: B[i+2]*x[i])",
+        "domain at B[i+2]: this site is beyond the end",
+    );
+    wrong(
+        r#"{"N": 2, "x": [1, 2]}"#,
+        "sum(i in 0..N: x[i])",
+        "duplicate-name at \"x\": `x`",
+    );
+    wrong(
+        r#"{"N": 2, "B": {"values": [1, 2], "file": "B.npy"}}"#,
+        sum,
+        "schema at {: the parameter `B` has both `values` and `file`",
+    );
 }

@@ -45,43 +45,36 @@ fn body(extra: Keys<'_>) -> String {
     system(&base, extra)
 }
 
-/// Sites of a family are alike: a few that are not are written out.
+/// What differs from site to site is a list of values.
 #[test]
-fn coefficients_of_a_family_do_not_depend_on_the_site() {
-    let few = r#""cos(0)*x1*x2 + cos(1)*x2*x3 + cos(2)*x3*x1""#;
-    let out = body(&[("algebra", r#""so(3)^3""#), ("hamiltonian", few)]);
-    let helps = &["write the copies out", "no index in the state"];
+fn coefficients_of_a_family_that_differ_are_listed() {
+    let values = r#"{"N": 8, "B": {"values": [1, "1/2", 0, 3, -1, 2, 5, 1e-3]}}"#;
+    let out = |sum: &str| ring(&[("parameters", values), ("hamiltonian", sum)]);
+    let helps = &["a parameter with a list", "`B[i]` in a sum"];
     for (index, sum) in [
         ("i", "sum(i in 0..N: cos(i)*x[i]*x[i+1])"),
         ("k", "sum(k in 0..N-1: x[k] + k*y[k])"),
         ("site", "sum(site in 0..N: x[site]^site)"),
     ] {
         let says = format!("`{index}` is the index of the sum and no number");
+        let listed = format!("\"sum({index} in 0..N: B[{index}]*x[{index}])\"");
         let sum = format!("{sum:?}");
-        leads_out(&ring(&[("hamiltonian", &sum)]), &says, helps, &out);
+        leads_out(&ring(&[("hamiltonian", &sum)]), &says, helps, &out(&listed));
     }
-    let each = body(&[
-        ("algebra", r#""so(3)^2""#),
-        ("parameters", r#"{"B1": 1, "B2": 2}"#),
-        ("hamiltonian", r#""B1*x1 + B2*x2""#),
-    ]);
-    let field = ("hamiltonian", r#""sum(i in 0..N: B[i]*x[i])""#);
-    leads_out(&ring(&[field]), "`B` has an index", helps, &each);
-    for value in [
-        "[1, 2]",
-        r#"{"values": [1, 2]}"#,
-        r#"{"value": [1, 2]}"#,
-        r#"{"default": [1]}"#,
-    ] {
-        let parameters = format!(r#"{{"N": 8, "B": {value}}}"#);
-        let (_, diagnostics) = run(&ring(&[("parameters", &parameters), field]));
+    let field = r#""sum(i in 0..N: B[i]*x[i])""#;
+    let unknown = ring(&[("hamiltonian", field)]);
+    leads_out(&unknown, "`B` has an index", helps, &out(field));
+    // a list where there are no sites
+    for value in ["[1, 2]", r#"{"values": [1, 2]}"#, r#"{"file": "B.npy"}"#] {
+        let parameters = format!(r#"{{"B": {value}}}"#);
+        let (_, diagnostics) = run(&body(&[("parameters", &parameters)]));
         let first = &diagnostics[0];
-        assert_eq!(first.message, "the parameter `B` is one number, not a list");
-        let help = first.help.as_deref().unwrap_or_default();
-        assert!(
-            help.contains("`B1`, `B2`, `B3`") && help.contains("so(3)^3"),
-            "{help}"
-        );
+        let expected = match value.contains("file") {
+            true => "`B.npy` cannot be read here",
+            false => "`B` has a value for each site of a family, and this declaration is none",
+        };
+        assert_eq!(first.message, expected);
+        assert!(first.help.is_some());
     }
 }
 

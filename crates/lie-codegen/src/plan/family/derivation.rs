@@ -2,12 +2,12 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::{Family, FamilyForm, FamilyPiece, FamilyPieces, Sum};
+use super::{Data, Family, FamilyForm, FamilyPiece, FamilyPieces, Sum};
 use crate::derive::{Argument, Kernel, Source, action};
-use crate::model;
+use crate::model::{self, data_number, data_symbol};
 use crate::plan::constants::Table;
 use crate::plan::function::Function;
-use crate::plan::planner::Planner;
+use crate::plan::planner::{Planner, described};
 use crate::structure::family::Form;
 use crate::structure::separable;
 use lie_symbolic::symbolic::{ExprId, Symbol};
@@ -54,7 +54,10 @@ impl<'p, 'm> Derivation<'p, 'm> {
         [
             Argument {
                 name: "at",
-                symbols: places.map(Symbol::Coordinate).collect(),
+                symbols: places
+                    .map(Symbol::Coordinate)
+                    .chain((0..self.family.data_names.len()).map(data_symbol))
+                    .collect(),
             },
             Argument {
                 name: "weights",
@@ -111,7 +114,14 @@ impl<'p, 'm> Derivation<'p, 'm> {
                     .position(|s| *s == [row - down, column - right])?;
                 Some(Symbol::Coordinate(moved * n + place % n))
             }
-            _ => None,
+            symbol => {
+                let (number, count) = (data_number(symbol)?, self.family.data.len());
+                let [row, column] = slots[number / count];
+                let moved = slots
+                    .iter()
+                    .position(|s| *s == [row - down, column - right])?;
+                Some(data_symbol(moved * count + number % count))
+            }
         };
         let graph = &mut self.planner.source.graph;
         let symbols = expressions.iter().flat_map(|e| graph.symbols(*e));
@@ -158,6 +168,20 @@ impl<'p, 'm> Derivation<'p, 'm> {
             sizes: family.sizes.clone(),
             offsets: family.slots.clone(),
             own: family.own,
+            data: family
+                .data
+                .iter()
+                .map(|data| Data {
+                    name: data.name.clone(),
+                    doc: described(
+                        &data.name,
+                        data.unit.as_deref(),
+                        data.description.as_deref(),
+                    ),
+                    bits: data.values.iter().map(|value| value.to_bits()).collect(),
+                    unused: data.unused,
+                })
+                .collect(),
             sums: family
                 .sums
                 .iter()
@@ -267,7 +291,7 @@ impl<'p, 'm> Derivation<'p, 'm> {
         let (mut kinds, mut needed) = (Vec::new(), BTreeSet::new());
         for piece in found {
             let place = kinds.len();
-            let mut share = None;
+            let (mut share, mut second) = (None, None);
             let (form, rate) = match piece.form {
                 Form::Site(a, slope) => {
                     needed.insert(a);
@@ -282,17 +306,41 @@ impl<'p, 'm> Derivation<'p, 'm> {
                     needed.extend(both);
                     (FamilyForm::Product(both), factor)
                 }
+                Form::Pair(both, [slope, of_other]) => {
+                    needed.extend(both);
+                    second = Some(of_other);
+                    (FamilyForm::Pair(both), slope)
+                }
                 Form::Exchange(rate) => (FamilyForm::Exchange, rate),
             };
             let formula = "the speed along the flow of a piece";
-            let arguments = vec![own.clone(), sums.clone()];
-            let kernel = Kernel::scalar("rate", formula, arguments, rate);
-            let label = format!("rate of piece {place}");
+            let mut arguments = vec![own.clone(), sums.clone()];
+            if !self.family.data.is_empty() {
+                // the coefficients stand behind the coordinates of all slots, of which the rate has those of the site alone
+                let data = (0..self.family.data_names.len()).map(data_symbol);
+                let skipped = self.family.names.iter().map(|_| Symbol::Time);
+                arguments.push(Argument {
+                    name: "at",
+                    symbols: skipped.chain(data).collect(),
+                });
+            }
+            if second.is_some() {
+                let n = self.n();
+                arguments.push(Argument {
+                    name: "other",
+                    symbols: (n..2 * n).map(Symbol::Coordinate).collect(),
+                });
+            }
+            let mut of_piece = |label: &str, rate| {
+                let kernel = Kernel::scalar("rate", formula, arguments.clone(), rate);
+                self.function(&format!("{label} {place}"), &kernel)
+            };
             kinds.push(FamilyPiece {
                 offset: piece.offset,
                 spans: piece.spans,
                 form,
-                rate: self.function(&label, &kernel),
+                rate: of_piece("rate of piece", rate),
+                second: second.map(|slope| of_piece("rate of the second sites of piece", slope)),
                 share,
             });
         }

@@ -2,6 +2,8 @@
 
 mod derivation;
 
+use std::sync::Arc;
+
 use super::constants::Table;
 use super::function::Function;
 use super::names::Names;
@@ -24,6 +26,8 @@ pub struct Family {
     pub offsets: Vec<[i64; 2]>,
     /// The slot of the site itself.
     pub own: usize,
+    /// What has a value for each site.
+    pub data: Vec<Data>,
     /// The sums.
     pub sums: Vec<Sum>,
     /// Whether some `dF/dT_k` depends on the state.
@@ -52,6 +56,26 @@ pub struct Family {
     pub pieces: Option<FamilyPieces>,
 }
 
+/// A coefficient that has a value for each site.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Data {
+    /// Its name.
+    pub name: String,
+    /// What it is, for people.
+    pub doc: String,
+    /// The values of the declaration, by their bits.
+    pub bits: Arc<[u64]>,
+    /// The number of last rows and columns of which no sum asks for the value.
+    pub unused: [usize; 2],
+}
+
+impl Data {
+    /// The values of the declaration, site after site.
+    pub fn values(&self) -> impl ExactSizeIterator<Item = f64> {
+        self.bits.iter().map(|bits| f64::from_bits(*bits))
+    }
+}
+
 /// The pieces of the Hamiltonian of a family.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct FamilyPieces {
@@ -70,8 +94,11 @@ pub struct FamilyPiece {
     pub spans: [Option<(usize, usize)>; 2],
     /// What it is.
     pub form: FamilyForm,
-    /// The derivative of a function of one coordinate, the factor of a product, or the rate of an exchange.
+    /// The derivative of a function of one coordinate, or of one of two by that of the first site, the factor of a product, or the
+    /// rate of an exchange.
     pub rate: Function,
+    /// The derivative of a function of two coordinates by that of the second site.
+    pub second: Option<Function>,
     /// What a site adds to the sums of which it is a function.
     pub share: Option<Function>,
 }
@@ -85,6 +112,8 @@ pub enum FamilyForm {
     Collective(usize),
     /// A product of a coordinate of each site.
     Product([usize; 2]),
+    /// Another function of a coordinate of each site.
+    Pair([usize; 2]),
     /// The exchange of two spins.
     Exchange,
 }
@@ -113,14 +142,22 @@ impl Family {
             .chain(self.pieces.iter().flat_map(|pieces| {
                 let turns = pieces.turns.iter().map(|(_, function, _)| function);
                 let kinds = pieces.kinds.iter();
-                let kinds = kinds.flat_map(|kind| [&kind.rate].into_iter().chain(&kind.share));
+                let kinds = kinds.flat_map(|kind| {
+                    let more = kind.second.iter().chain(&kind.share);
+                    [&kind.rate].into_iter().chain(more)
+                });
                 kinds.chain(turns)
             }))
     }
 
-    /// The number of coordinates in all slots together.
+    /// The number of coordinates and coefficients in all slots together.
     pub fn places(&self) -> usize {
-        self.offsets.len() * self.coordinates.len()
+        self.offsets.len() * (self.coordinates.len() + self.data.len())
+    }
+
+    /// The number of coefficients in all slots together.
+    pub fn data_places(&self) -> usize {
+        self.offsets.len() * self.data.len()
     }
 }
 
@@ -134,6 +171,12 @@ pub(super) fn plan(structure: &Structure, family: &model::Family) -> Plan {
     });
     let of_sums = (0..family.sums.len()).map(|k| format!("_w{k}"));
     names.coordinates = of_slots.chain(of_sums).collect();
+    let data = family.data.len();
+    let of_slots = (0..family.data_names.len()).map(|number| {
+        let (slot, name) = (number / data, &family.data[number % data].name);
+        format!("_{slot}{name}")
+    });
+    names.data = of_slots.collect();
     let mut planner = Planner {
         structure,
         source: Source::new(structure),

@@ -174,6 +174,26 @@ impl Printer<'_> {
             None => quote! { ::core::option::Option::None },
         };
         let degree = option(family.degree);
+        let data = (!family.data.is_empty()).then(|| {
+            let count = index(family.data.len());
+            let arms = by_place(
+                self.data_fields()
+                    .iter()
+                    .map(|field| quote! { &self.#field }),
+            );
+            quote! {
+                fn data_count(&self) -> usize {
+                    #count
+                }
+
+                fn data(&self, _index: usize) -> &[S] {
+                    match _index {
+                        #arms
+                        _ => &[],
+                    }
+                }
+            }
+        });
         let (mean, count) = (family.mean_field, index(family.casimirs.len()));
         let coordinates = by_place(family.coordinates.iter().map(|name| quote! { #name }));
         let casimirs = by_place(family.casimirs.iter().map(|(name, ..)| quote! { #name }));
@@ -207,6 +227,8 @@ impl Printer<'_> {
                 const TERMS: [::lie_runtime::family::Term<'static>; #t] = [#(#terms),*];
                 TERMS[_index]
             }
+
+            #data
 
             fn has_mean_field(&self) -> bool {
                 #mean

@@ -16,6 +16,11 @@ fn turn(a: usize) -> Ident {
     ident(&format!("_turn_{a}"))
 }
 
+/// The rate of the second sites of a piece.
+fn second(place: usize) -> Ident {
+    ident(&format!("_second_{place}"))
+}
+
 /// The rate of a piece.
 fn rate(place: usize) -> Ident {
     ident(&format!("_rate_{place}"))
@@ -25,18 +30,28 @@ impl Printer<'_> {
     /// The impl of `Pieces`, and the actions that it needs.
     pub(super) fn pieces_of_family(&self, family: &Family, pieces: &FamilyPieces) -> TokenStream {
         let sites = self.system_name();
-        let [c, _, t] = self.counts(family);
+        let [c, p, t] = self.counts(family);
+        let differ = !family.data.is_empty();
+        let around = differ.then(|| quote! { , _at: &[S; #p] });
         let kinds = pieces.kinds.iter().map(|kind| {
             let [down, right] = kind.offset.map(Literal::i64_unsuffixed);
             let spans = kind.spans.iter().map(span);
             let collective = kind.share.is_some();
             quote! { ::lie_runtime::family::Kind { offset: [#down, #right], spans: [#(#spans),*], collective: #collective } }
         });
-        let rates = pieces.kinds.iter().enumerate().map(|(place, kind)| {
-            let (name, body) = (rate(place), self.kernel(&kind.rate, 1));
+        let rates = pieces.kinds.iter().enumerate().flat_map(|(place, kind)| {
+            let of_second = kind.second.iter();
+            let of_second = of_second.map(move |function| (second(place), kind, function));
+            [(rate(place), kind, &kind.rate)]
+                .into_iter()
+                .chain(of_second)
+        });
+        let rates = rates.map(|(name, kind, function)| {
+            let other = kind.second.is_some().then(|| quote! { , _other: &[S; #c] });
+            let body = self.kernel(function, 1);
             quote! {
                 #[inline]
-                fn #name(&self, _one: &[S; #c], _weights: &[S; #t]) -> S { #body }
+                fn #name(&self, _one: &[S; #c], _weights: &[S; #t] #around #other) -> S { #body }
             }
         });
         let shares = pieces.kinds.iter().enumerate().filter_map(|(place, kind)| {
@@ -46,6 +61,25 @@ impl Printer<'_> {
         });
         let turns = self.turns(family, pieces);
         let [exchanges, flows] = self.flows_of_pieces(family, pieces);
+        let exchange = match differ {
+            false => quote! { fn exchange(&self, _kind: usize) -> ::core::option::Option<S> },
+            true => quote! {
+                fn exchange(&self, _kind: usize) -> ::core::option::Option<S> {
+                    ::core::option::Option::None
+                }
+
+                #[inline]
+                fn exchange_of(&self, _kind: usize, _at: &[S; #p]) -> ::core::option::Option<S>
+            },
+        };
+        let flow = match differ {
+            false => quote! {
+                fn flow(&self, _kind: usize, _t: S, _sums: &[S; #t], _one: &mut [S; #c], _other: &mut [S; #c])
+            },
+            true => quote! {
+                fn flow_of(&self, _kind: usize, _t: S, (_sums, _at): (&[S; #t], &[S; #p]), _one: &mut [S; #c], _other: &mut [S; #c])
+            },
+        };
         quote! {
             #[allow(non_snake_case, clippy::many_single_char_names, clippy::possible_missing_comma)]
             impl<S: ::lie_runtime::Scalar> #sites<S> {
@@ -60,7 +94,7 @@ impl Printer<'_> {
                 }
 
                 #[inline]
-                fn exchange(&self, _kind: usize) -> ::core::option::Option<S> {
+                #exchange {
                     match _kind {
                         #(#exchanges)*
                         _ => ::core::option::Option::None,
@@ -76,7 +110,7 @@ impl Printer<'_> {
                 }
 
                 #[inline]
-                fn flow(&self, _kind: usize, _t: S, _sums: &[S; #t], _one: &mut [S; #c], _other: &mut [S; #c]) {
+                #flow {
                     match _kind {
                         #(#flows)*
                         _ => {}
@@ -113,23 +147,35 @@ impl Printer<'_> {
     /// The arms for exchanges, by their rate, and for other pieces, by their flow.
     fn flows_of_pieces(&self, family: &Family, pieces: &FamilyPieces) -> [Vec<TokenStream>; 2] {
         let [c, _, t] = self.counts(family);
+        let at = (!family.data.is_empty()).then(|| quote! { , _at });
         let (mut exchanges, mut flows) = (Vec::new(), Vec::new());
         for (place, kind) in pieces.kinds.iter().enumerate() {
-            let (rate, place) = (rate(place), index(place));
+            let (kind_place, rate, place) = (place, rate(place), index(place));
             match kind.form {
                 FamilyForm::Exchange => exchanges.push(quote! {
-                    #place => ::core::option::Option::Some(self.#rate(&[S::zero(); #c], &[S::zero(); #t])),
+                    #place => ::core::option::Option::Some(self.#rate(&[S::zero(); #c], &[S::zero(); #t] #at)),
                 }),
                 FamilyForm::Site(a) | FamilyForm::Collective(a) => {
                     let turn = turn(a);
-                    flows.push(quote! { #place => self.#turn(self.#rate(_one, _sums) * _t, _one), });
+                    flows.push(quote! { #place => self.#turn(self.#rate(_one, _sums #at) * _t, _one), });
+                }
+                FamilyForm::Pair([a, b]) => {
+                    let (first, last, of_second) = (turn(a), turn(b), second(kind_place));
+                    flows.push(quote! {
+                        #place => {
+                            let _first = self.#rate(_one, _sums #at, _other) * _t;
+                            let _second = self.#of_second(_one, _sums #at, _other) * _t;
+                            self.#first(_first, _one);
+                            self.#last(_second, _other);
+                        }
+                    });
                 }
                 FamilyForm::Product([a, b]) => {
                     let (first, second) = (turn(a), turn(b));
                     let (a, b) = (index(a), index(b));
                     flows.push(quote! {
                         #place => {
-                            let _rate = self.#rate(_one, _sums) * _t;
+                            let _rate = self.#rate(_one, _sums #at) * _t;
                             let (_first, _second) = (_rate * _other[#b], _rate * _one[#a]);
                             self.#first(_first, _one);
                             self.#second(_second, _other);

@@ -30,6 +30,8 @@ pub struct Codes {
 pub struct PieceCodes {
     pub form: FamilyForm,
     pub rate: usize,
+    /// Of the second sites of a function of two coordinates.
+    pub second: Option<usize>,
     pub share: Option<usize>,
     /// The turns about its coordinates.
     pub turns: Vec<Turn>,
@@ -104,10 +106,12 @@ impl Codes {
                 pieces.push(PieceCodes {
                     form: piece.form,
                     rate: making.push(Code::from_kernel(&piece.rate, 1)),
+                    second: (piece.second.as_ref())
+                        .map(|rate| making.push(Code::from_kernel(rate, 1))),
                     share: share.map(|share| making.push(Code::from_kernel(share, sums))),
                     turns: match piece.form {
                         FamilyForm::Site(a) | FamilyForm::Collective(a) => turns_of(&[a]),
-                        FamilyForm::Product(both) => turns_of(&both),
+                        FamilyForm::Product(both) | FamilyForm::Pair(both) => turns_of(&both),
                         FamilyForm::Exchange => Vec::new(),
                     },
                 });

@@ -86,6 +86,11 @@ impl<S: Scalar> FamilySite<S> {
         }
     }
 
+    /// The number of coordinates and coefficients of all slots.
+    fn places(&self) -> usize {
+        self.plan().places()
+    }
+
     /// What a kernel gives: so many numbers.
     fn vector(&self, code: usize, arguments: [&[S]; 2], count: usize) -> FewOf<S> {
         let mut out = zeros(count);
@@ -95,10 +100,7 @@ impl<S: Scalar> FamilySite<S> {
 
     /// Runs a kernel of a site with its neighbours at each site of a stretch.
     fn along(&self, code: usize, stretch: &Stretch<'_, S>, weights: &[S], to: &mut [&mut [S]]) {
-        let (dimension, offsets) = (self.dimension(), self.offsets());
-        let columns: FewOf<&[S]> = Few::make(dimension * offsets.len(), |place| {
-            stretch.part(offsets[place / dimension], place % dimension)
-        });
+        let columns = stretch.around(self);
         let frame = self.values.frame([&[], weights, &[], &[]], &[], &[]);
         self.values.machine.run_columns(code, &columns, &frame, to);
     }
@@ -137,6 +139,12 @@ impl<S: Scalar> Sites<S> for FamilySite<S> {
             slots: &self.plan().sums[index].slots,
             spans: codes::spans(&self.plan().sums[index].spans),
         }
+    }
+    fn data_count(&self) -> usize {
+        self.values.data.len()
+    }
+    fn data(&self, index: usize) -> &[S] {
+        &self.values.data[index]
     }
     fn has_mean_field(&self) -> bool {
         self.plan().mean_field

@@ -20,25 +20,43 @@ fn turn<S: Scalar>(values: &Values<S>, turn: &Turn, angle: S, site: &mut [S]) {
     update(&turn.updates, &results, site);
 }
 
+/// A rate of a piece.
+fn rate<S: Scalar>(values: &Values<S>, code: usize, arguments: [&[S]; ARGUMENTS]) -> S {
+    let mut rate = [S::zero()];
+    let frame = values.frame(arguments, &[], &[]);
+    values.run(code, &frame, [&mut rate, &mut []]);
+    rate[0]
+}
+
 /// The flow of a piece over a time t.
 fn flow<S: Scalar>(
     values: &Values<S>,
     piece: &PieceCodes,
     t: S,
-    sums: &[S],
+    [sums, at]: [&[S]; 2],
     one: &mut [S],
     other: &mut [S],
 ) {
-    let rate = |one: &[S]| values.number(piece.rate, [one, sums]) * t;
+    let speed = |one: &[S]| rate(values, piece.rate, [one, sums, at, &[]]) * t;
     match (piece.form, piece.turns.as_slice()) {
+        (FamilyForm::Pair(_), [first, second]) => {
+            let arguments = match values.data.is_empty() {
+                true => [one, sums, other, &[]],
+                false => [one, sums, at, other],
+            };
+            let speed = |code| rate(values, code, arguments) * t;
+            let speeds = [Some(piece.rate), piece.second].map(|code| code.map_or(S::zero(), speed));
+            turn(values, first, speeds[0], one);
+            turn(values, second, speeds[1], other);
+        }
         (FamilyForm::Product([a, b]), [first, second]) => {
-            let rate = rate(one);
-            let (of_first, of_second) = (rate * other[b], rate * one[a]);
+            let speed = speed(one);
+            let (of_first, of_second) = (speed * other[b], speed * one[a]);
             turn(values, first, of_first, one);
             turn(values, second, of_second, other);
         }
         (_, [only]) => {
-            let angle = rate(one);
+            let angle = speed(one);
             turn(values, only, angle, one);
         }
         _ => unreachable!("exchanges are turns about the sum of both sites, which the core does"),
@@ -51,9 +69,14 @@ impl<S: Scalar> Pieces<S> for FamilySite<S> {
     }
 
     fn exchange(&self, kind: usize) -> Option<S> {
+        self.exchange_of(kind, &zeros(self.places()))
+    }
+
+    fn exchange_of(&self, kind: usize, at: &FewOf<S>) -> Option<S> {
         let piece = &self.codes().pieces[kind];
         let (site, sums) = (zeros(self.dimension()), zeros(self.count()));
-        (piece.form == FamilyForm::Exchange).then(|| self.values.number(piece.rate, [&site, &sums]))
+        let is_one = piece.form == FamilyForm::Exchange;
+        is_one.then(|| rate(&self.values, piece.rate, [&site, &sums, at, &[]]))
     }
 
     fn share(&self, kind: usize, one: &FewOf<S>) -> FewOf<S> {
@@ -63,23 +86,34 @@ impl<S: Scalar> Pieces<S> for FamilySite<S> {
         }
     }
 
-    fn flow(&self, kind: usize, t: S, sums: &FewOf<S>, one: &mut FewOf<S>, other: &mut FewOf<S>) {
-        flow(
-            &self.values,
-            &self.codes().pieces[kind],
-            t,
-            sums,
-            one,
-            other,
-        );
+    fn flow_of(
+        &self,
+        kind: usize,
+        t: S,
+        (sums, at): (&FewOf<S>, &FewOf<S>),
+        one: &mut FewOf<S>,
+        other: &mut FewOf<S>,
+    ) {
+        let piece = &self.codes().pieces[kind];
+        flow(&self.values, piece, t, [sums, at], one, other);
     }
 
-    fn flows(&self, kind: usize, t: S, sums: &FewOf<S>, strip: &Strip, mu: &mut [S]) {
+    fn flows(
+        &self,
+        kind: usize,
+        t: S,
+        (sums, data): (&FewOf<S>, &[S]),
+        strip: &Strip,
+        mu: &mut [S],
+    ) {
         let Some(wide) = &self.wide else {
-            return site_by_site(self, kind, t, sums, strip, mu);
+            return site_by_site(self, kind, t, (sums, data), strip, mu);
         };
         let (piece, dimension, count) = (&self.codes().pieces[kind], self.dimension(), strip.count);
         let part = |site: usize, k: usize| k * strip.sites + strip.places[site];
+        // the coefficients stand behind the coordinates of all slots
+        let mut at = zeros(self.places());
+        let coordinates = self.offsets().len() * dimension;
         let sites = 1 + usize::from(strip.bonds);
         let (t, sums) = (t.widen(), Few::make(sums.len(), |k| sums[k].widen()));
         let mut both = [zeros(dimension), zeros(dimension)];
@@ -89,8 +123,12 @@ impl<S: Scalar> Pieces<S> for FamilySite<S> {
                     *x = eight(&mu[part(site, k)..][..count], i);
                 }
             }
+            let parts = data.chunks_exact(strip.sites);
+            for (x, part) in at[coordinates..].iter_mut().zip(parts) {
+                *x = eight(&part[strip.places[0]..][..count], i);
+            }
             let [one, other] = &mut both;
-            flow(wide, piece, t, &sums, one, other);
+            flow(wide, piece, t, [&sums, &at], one, other);
             let lanes = EIGHT.min(count - i);
             for (site, values) in both.iter().enumerate().take(sites) {
                 for (k, x) in values.iter().enumerate() {

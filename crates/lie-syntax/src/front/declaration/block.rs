@@ -1,6 +1,7 @@
 //! The blocks `algebra`, `realization` and `parameters`, and lists of names.
 
 use super::entry::{Entry, inside};
+use super::family;
 use super::statement::Statement;
 use crate::ast::{Algebra, Expr, Matrix, Name, Parameter, Realization};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
@@ -281,6 +282,11 @@ pub fn parameters(entries: Vec<Entry<'_>>, report: &mut Report) -> Parameters {
             }));
             continue;
         };
+        if let Some(list) = inside(value, Delimiter::Bracket) {
+            let data = family::data(list, name, entry.description(), report);
+            parameters.sites.extend(data);
+            continue;
+        }
         parameters.names.push(name.clone());
         let (value, positive) = positive(value, report);
         if value.is_empty() {

@@ -3,11 +3,11 @@
 use super::block::names;
 use super::entry::{compact, inside};
 use super::statement::Statement;
-use crate::ast::{Name, Start};
+use crate::ast::{Name, SiteData, SiteValues, Start};
 use crate::diagnostic::{Diagnostic, Kind, Report};
-use crate::front::families;
 use crate::front::reader::Read;
 use crate::front::token::{Delimiter, Token, TokenKind, span, split_commas};
+use crate::front::{families, item};
 
 /// The names of the state, and of a family their indices.
 pub fn state(statement: &Statement<'_>, report: &mut Report) -> (Vec<Name>, Vec<Name>) {
@@ -38,6 +38,51 @@ pub fn algebra(statement: &Statement<'_>, report: &mut Report) -> Option<Read> {
             None
         }
     }
+}
+
+/// `[1, 2, 1/2]`, or of a lattice `[[1, 2], [3, 4]]`: the values of a coefficient, site after site.
+pub fn data(
+    list: &[Token],
+    name: Name,
+    description: Option<String>,
+    report: &mut Report,
+) -> Option<SiteData> {
+    let origin = span(list).unwrap_or(name.origin);
+    let parts = split_commas(list);
+    let rows: Option<Vec<&[Token]>> = parts
+        .iter()
+        .map(|part| inside(part, Delimiter::Bracket))
+        .collect();
+    let rows: Option<Vec<_>> = rows.map(|rows| rows.into_iter().map(split_commas).collect());
+    let shape = match rows.as_deref() {
+        Some([first, rest @ ..]) if rest.iter().all(|row| row.len() == first.len()) => {
+            vec![rest.len() + 1, first.len()]
+        }
+        Some([_, ..]) => {
+            let message = format!("the rows of `{}` have different lengths", name.text);
+            let help = "write a row of values for each row of the lattice";
+            report.push(Diagnostic::new(Kind::Syntax, origin, message).help(help));
+            return None;
+        }
+        _ => vec![parts.len()],
+    };
+    let entries = rows.map_or(parts, |rows| rows.concat()).into_iter();
+    let entries = entries.map(|entry| match entry {
+        [] => {
+            report.push(item::missing_constant(origin));
+            None
+        }
+        entry => item::constant(entry, report),
+    });
+    let entries: Vec<_> = entries.collect();
+    Some(SiteData {
+        values: SiteValues::Written(entries.into_iter().collect::<Option<_>>()?),
+        name,
+        shape,
+        origin,
+        unit: None,
+        description,
+    })
 }
 
 /// `= random(unit-sphere, 1)`

@@ -2,7 +2,7 @@
 
 use schemars::JsonSchema;
 
-use super::{Algebra, DescribedObservable, DescribedParameter, Numbers, Random};
+use super::{Algebra, DescribedObservable, DescribedParameter, Numbers, PerSite, Random};
 
 /// The name of an algebra, or what it consists of.
 #[derive(JsonSchema)]
@@ -118,6 +118,21 @@ pub enum Parameter {
     Text(String),
     /// Default and description.
     Described(DescribedParameter),
+    /// A value for each site of a family.
+    Values(SiteValues),
+    /// The same with a description, or from a file.
+    PerSite(PerSite),
+}
+
+/// A value for each site.
+#[derive(JsonSchema)]
+#[schemars(untagged)]
+#[expect(dead_code, reason = "the variants describe the schema")]
+pub enum SiteValues {
+    /// Of a chain.
+    Chain(Vec<Constant>),
+    /// Of a lattice, row by row.
+    Lattice(Vec<Vec<Constant>>),
 }
 
 /// A function of the state that is recorded beside it.

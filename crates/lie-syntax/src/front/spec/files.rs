@@ -4,7 +4,11 @@ use crate::diagnostic::Report;
 use crate::front::json::{self, Type, Value};
 
 /// The keys whose texts are paths, by the way to them; `*` stands for every key.
-const WAYS: [&[&str]; 2] = [&["functions", "*", "table"], &["initial", "npy"]];
+const WAYS: [&[&str]; 3] = [
+    &["functions", "*", "table"],
+    &["initial", "npy"],
+    &["parameters", "*", "file"],
+];
 
 /// The paths of the files that the text of a spec names, as they stand there: relative to its folder.
 pub fn files(text: &str) -> Vec<String> {
@@ -43,9 +47,10 @@ mod tests {
         let text = r#"{
             "name": "a.csv",
             "functions": { "drag": { "table": "dr\u0061g.csv" }, "lift": { "table": [[0, 1]], "outside": "b.csv" } },
-            "initial": { "npy": "chain.npy" }
+            "initial": { "npy": "chain.npy" },
+            "parameters": { "B": { "file": "B.npy" }, "J": { "values": [1, 2], "unit": "J.npy" }, "N": 2 }
         }"#;
-        assert_eq!(files(text), ["drag.csv", "chain.npy"]);
+        assert_eq!(files(text), ["drag.csv", "chain.npy", "B.npy"]);
         assert!(files(r#"{ "initial": [1, "1/2"], "functions": 3 }"#).is_empty());
         assert!(files("{").is_empty());
     }

@@ -1,6 +1,8 @@
 //! The key `parameters`.
 
-use super::quantity;
+use std::path::Path;
+
+use super::{quantity, sites};
 use crate::ast::{Name, Parameter};
 use crate::diagnostic::{Diagnostic, Kind, Report};
 use crate::front::json::{Type, Value};
@@ -10,7 +12,8 @@ use crate::front::schema::DescribedParameter;
 use crate::front::{item, prose};
 
 /// Reads the parameters. Keys are the user's names here, so a repeated one is a repeated name, which later checks know.
-pub fn read(value: Value<'_>, report: &mut Report) -> Parameters {
+/// Those of a family may have a value for each site, which files may give, relative to a folder.
+pub fn read(value: Value<'_>, folder: Option<&Path>, report: &mut Report) -> Parameters {
     let mut parameters = Parameters::default();
     if value.kind() != Type::Object {
         report.push(wrong_type(&value, "`parameters`", "an object"));
@@ -19,12 +22,12 @@ pub fn read(value: Value<'_>, report: &mut Report) -> Parameters {
     for member in value.members(report) {
         let name = item::name(&member.key.tokens(), member.key.extent(), report);
         let what = format!("the parameter `{}`", member.key.text.escape_debug());
-        parameters.names.extend(name.clone());
-        if let Some(list) = list(member.value) {
-            let message = format!("{what} is one number, not a list");
-            report.push(Diagnostic::new(Kind::Schema, list.head(), message).help(LIST));
+        if sites::is_list(member.value) {
+            let data = sites::read(member.value, &what, name, folder, report);
+            parameters.sites.extend(data);
             continue;
         }
+        parameters.names.extend(name.clone());
         let parameter = if member.value.kind() == Type::Object {
             described(member.value, &what, name, report)
         } else {
@@ -41,27 +44,6 @@ pub fn read(value: Value<'_>, report: &mut Report) -> Parameters {
         parameters.whole.extend(parameter);
     }
     parameters
-}
-
-/// What to do in place of a list of values.
-const LIST: &str = "declare a parameter for each entry, such as `B1`, `B2`, `B3`; those of a family are the same at all sites: \
-                    for a few sites write the copies out, `\"algebra\": \"so(3)^3\"` without an index in the state, so that the \
-                    coordinates are x1, y1, z1, x2, …";
-
-/// The list that somebody gives as the value of a parameter, alone or in an object.
-fn list(value: Value<'_>) -> Option<Value<'_>> {
-    let mut ignored = Report::new();
-    let inner = match value.kind() {
-        Type::Object => value.members(&mut ignored).into_iter().find_map(|member| {
-            let key = &*member.key.text;
-            ["values", "value", "default"]
-                .contains(&key)
-                .then_some(member.value)
-        }),
-        _ => Some(value),
-    };
-    ignored.ignore("the object is read again");
-    inner.filter(|value| value.kind() == Type::Array)
 }
 
 fn described(

@@ -1,0 +1,229 @@
+//! The coefficients of a family that have a value for each site.
+
+use std::path::Path;
+
+use super::quantity;
+use crate::ast::{Expr, Name, SiteData, SiteValues};
+use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
+use crate::front::json::{Type, Value};
+use crate::front::object::{Object, list, string};
+use crate::front::schema::PerSite;
+use crate::front::{file, npy, prose};
+
+/// The values and how many there are along each axis.
+type Read = (SiteValues, Vec<usize>);
+
+/// What to write.
+const FORMS: &str = "write a value for each site, `{\"values\": [1, 2, 3]}`, or name a file, `{\"file\": \"B.npy\"}`";
+
+/// Whether a parameter has a value for each site.
+pub fn is_list(value: Value<'_>) -> bool {
+    let mut ignored = Report::new();
+    let found = match value.kind() {
+        Type::Array => true,
+        Type::Object => value.members(&mut ignored).iter().any(|member| {
+            let of_many = ["values", "file"].contains(&&*member.key.text);
+            of_many || member.value.kind() == Type::Array
+        }),
+        _ => false,
+    };
+    ignored.ignore("the value is read again");
+    found
+}
+
+/// Reads `[1, 2]`, `{"values": [1, 2]}` or `{"file": "B.npy"}`, the path relative to a folder.
+pub fn read(
+    value: Value<'_>,
+    what: &str,
+    name: Option<Name>,
+    folder: Option<&Path>,
+    report: &mut Report,
+) -> Option<SiteData> {
+    if value.kind() == Type::Array {
+        let (values, shape) = written(value, what, report)?;
+        return Some(SiteData {
+            name: name?,
+            values,
+            shape,
+            origin: value.head(),
+            unit: None,
+            description: None,
+        });
+    }
+    let object = Object::read(value, what, PerSite::KEYS, report)?;
+    object.require(what, PerSite::REQUIRED, report);
+    let mut text = |key: &str, place: &str| string(object.get(key)?, place, report);
+    let (unit, description) = (text("unit", "`unit`"), text("description", "`description`"));
+    let unit = unit.map(|text| prose::inline(&text, "the unit", report));
+    let description = description.map(|text| prose::paragraph(&text, "the description", report));
+    let (origin, (values, shape)) = match (object.get("values"), object.get("file")) {
+        (Some(values), None) => (values.head(), written(values, what, report)?),
+        (None, Some(path)) => {
+            let text = string(path, "`file`", report)?;
+            let read = of_file(&text.text, text.extent(), folder);
+            let read = read.map_err(|mistake| report.push(mistake)).ok()?;
+            (text.extent(), read)
+        }
+        (one, other) => {
+            let message = match one.and(other) {
+                Some(_) => format!("{what} has both `values` and `file`"),
+                None => format!("{what} has a list, and neither `values` nor `file`"),
+            };
+            report.push(Diagnostic::new(Kind::Schema, value.head(), message).help(FORMS));
+            return None;
+        }
+    };
+    Some(SiteData {
+        name: name?,
+        values,
+        shape,
+        origin,
+        unit,
+        description,
+    })
+}
+
+/// A list, or of a lattice a list of rows of one length.
+fn written(value: Value<'_>, what: &str, report: &mut Report) -> Option<Read> {
+    let elements = list(value, what, report)?;
+    let rows = elements.iter().any(|element| element.kind() == Type::Array);
+    if !rows {
+        let entries = entries(elements, what, report)?;
+        let shape = vec![entries.len()];
+        return Some((SiteValues::Written(entries), shape));
+    }
+    let mut all = Vec::new();
+    let mut length = None;
+    let count = elements.len();
+    for row in elements {
+        let of_row = list(row, &format!("a row of {what}"), report)?;
+        if *length.get_or_insert(of_row.len()) != of_row.len() {
+            let message = format!("the rows of {what} have different lengths");
+            let help = "write a row of values for each row of the lattice";
+            report.push(Diagnostic::new(Kind::Schema, row.head(), message).help(help));
+            return None;
+        }
+        all.extend(entries(of_row, what, report)?);
+    }
+    Some((
+        SiteValues::Written(all),
+        vec![count, length.unwrap_or_default()],
+    ))
+}
+
+fn entries(elements: Vec<Value<'_>>, what: &str, report: &mut Report) -> Option<Vec<Expr>> {
+    let what = format!("a value of {what}");
+    let entries = elements
+        .into_iter()
+        .map(|value| quantity(value, &what, None, report));
+    entries.collect::<Vec<_>>().into_iter().collect()
+}
+
+/// The numbers of a file in NumPy's format, or of one with a number in each line, of a lattice a row.
+fn of_file(path: &str, origin: Origin, folder: Option<&Path>) -> Result<Read, Diagnostic> {
+    let shown = path.escape_debug();
+    let refuse = |kind, message: String, help: &str| {
+        Err(Diagnostic::new(kind, origin, message).help(help.to_owned()))
+    };
+    let Some(folder) = folder else {
+        let message = format!("`{shown}` cannot be read here");
+        let help = "give the values as a list, `{\"values\": [1, 2, 3]}`; only the command `lie` and the macro read files";
+        return refuse(Kind::Io, message, help);
+    };
+    let bytes = match file::read(&folder.join(path)) {
+        Ok(bytes) => bytes,
+        Err(error) => {
+            let message = format!("the values `{shown}` cannot be read: {error}");
+            let help = "give the path of a file, relative to the folder of the spec";
+            return refuse(Kind::Io, message, help);
+        }
+    };
+    if bytes.len() > file::MAX_BYTES {
+        let message = format!("{shown} has more than {} MB", file::MAX_BYTES >> 20);
+        return refuse(Kind::Limit, message, "take fewer sites");
+    }
+    let ends = |end: &str| {
+        let given = Path::new(path).extension();
+        given.is_some_and(|given| given.eq_ignore_ascii_case(end))
+    };
+    let (values, shape) = if ends("npy") {
+        match npy::parse(&bytes) {
+            Ok(array) => (array.values, array.shape),
+            Err(fault) => return refuse(Kind::Io, format!("{shown}: {}", fault.text), fault.help),
+        }
+    } else if ends("csv") || ends("txt") {
+        match lines(&bytes) {
+            Ok(found) => found,
+            Err(wrong) => {
+                let help = "write a number in each line, of a lattice a row of numbers with commas";
+                return refuse(Kind::Schema, format!("{shown}: {wrong}"), help);
+            }
+        }
+    } else {
+        let message = format!("`{shown}` is no file of numbers by its name");
+        let help = "write the values by `numpy.save(\"B.npy\", B)`, or a number in each line of a file whose name ends in .csv";
+        return refuse(Kind::Schema, message, help);
+    };
+    if let Some(at) = values.iter().position(|value| !value.is_finite()) {
+        let message = format!("{shown}: number {at} is {}", values[at]);
+        return refuse(Kind::Number, message, "give each site a finite number");
+    }
+    Ok((SiteValues::Read(values), shape))
+}
+
+/// The numbers of lines; blank ones and those that begin with `#` do not count.
+fn lines(bytes: &[u8]) -> Result<(Vec<f64>, Vec<usize>), String> {
+    let text = str::from_utf8(bytes).map_err(|_| "it is not UTF-8".to_owned())?;
+    let text = text.trim_start_matches('\u{feff}');
+    let (mut values, mut rows, mut width) = (Vec::new(), 0, None);
+    for (number, line) in text.lines().enumerate() {
+        let line = line.trim();
+        if line.is_empty() || line.starts_with('#') {
+            continue;
+        }
+        let before = values.len();
+        for part in line.split([',', ';', '\t', ' ']).map(str::trim) {
+            if part.is_empty() {
+                continue;
+            }
+            let value = part.parse::<f64>();
+            values.push(value.map_err(|_| {
+                let part = part.escape_debug();
+                format!("line {}: `{part}` is no number", number + 1)
+            })?);
+        }
+        let count = values.len() - before;
+        if *width.get_or_insert(count) != count {
+            return Err(format!(
+                "line {} has {count} numbers, others have not",
+                number + 1
+            ));
+        }
+        rows += 1;
+    }
+    let width = width.unwrap_or_default();
+    let shape = match rows <= 1 || width == 1 {
+        true => vec![values.len()],
+        false => vec![rows, width],
+    };
+    Ok((values, shape))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_are_numbers_or_rows() {
+        let read = |text: &str| lines(text.as_bytes());
+        let flat = Ok((vec![1.0, 2.0, -3e-1], vec![3]));
+        assert_eq!(read("# B\n1\n\n2\r\n-3e-1\n"), flat);
+        assert_eq!(read("1, 2, -0.3"), flat);
+        let rows = Ok((vec![1.0, 2.0, 3.0, 4.0], vec![2, 2]));
+        assert_eq!(read("1,2\n3 4\n"), rows);
+        assert_eq!(read("# none"), Ok((vec![], vec![0])));
+        for wrong in ["1,2\n3\n", "B\n1\n", "1\n2,x\n"] {
+            assert!(read(wrong).is_err(), "{wrong}");
+        }
+    }
+}
