@@ -144,6 +144,7 @@ fn same_errors(methods: &str, way: &str, others: &[&str], least: usize) {
 }
 
 #[test]
+#[ignore = "half a minute, it builds a program: .ci/nightly runs it"]
 fn a_program_and_the_command_give_the_same_errors() {
     same_errors("midpoint,gauss4,rk4,dopri5", "--compile", &[""], 15);
 }

@@ -285,6 +285,7 @@ fn damage(path: &Path, change: &dyn Fn(&mut Vec<u8>)) {
 
 /// Truncated, and of its length with other content.
 #[test]
+#[ignore = "half a minute of builds: .ci/nightly runs it"]
 fn a_damaged_program_is_built_again() {
     let folder = folder();
     let name = format!("Damaged{}", std::process::id());

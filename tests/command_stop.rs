@@ -250,6 +250,7 @@ fn gone(programs: &[String]) -> bool {
 
 #[test]
 #[cfg(target_os = "linux")]
+#[ignore = "half a minute, it builds three programs: .ci/nightly runs it"]
 fn measuring_programs_end_with_the_command() {
     let body = "specs/so3_free_rigid_body.json --compile --quiet --methods gonzalez";
     for call in [

@@ -39,8 +39,9 @@ fn deviations<M: Method<f64, FreeRigidBodySystem>>(method: M, steps: f64) -> (f6
 }
 
 macro_rules! long {
-    ($($name:ident, $steps:literal: $($method:expr),*;)*) => { $(
+    ($($(#[$attribute:meta])* $name:ident, $steps:literal: $($method:expr),*;)*) => { $(
         #[test]
+        $(#[$attribute])*
         fn $name() {
             $({
                 let (momentum, orthogonal) = deviations($method, $steps);
@@ -53,6 +54,7 @@ macro_rules! long {
 }
 
 long! {
+    #[ignore = "half a minute: .ci/nightly runs it"]
     a_million, 1e6: LieMidpoint::exp(), MoserVeselov, Isospectral4::new(), Rkmk4, Splitting2::new(), LieEuler;
     retractions, 1e5: LieMidpoint::exp(), LieMidpoint::cayley(), OrbitEnergy::gonzalez();
     generating_functions, 1e5: Generating4::exp(), Generating4::cayley(), Generating6::exp(), GeneratingSecondKind2;

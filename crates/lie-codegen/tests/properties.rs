@@ -139,8 +139,19 @@ fn check(system: &random::System, offset: f64) -> Result<(), TestCaseError> {
 
 #[test]
 fn programs_equal_exact_evaluation_on_random_systems() {
+    random_systems(12);
+}
+
+#[test]
+#[ignore = "minutes: .ci/nightly runs it"]
+fn programs_equal_exact_evaluation_on_many_random_systems() {
+    random_systems(120);
+}
+
+/// So many of them.
+fn random_systems(cases: u32) {
     let config = Config {
-        cases: 48,
+        cases,
         max_global_rejects: 4000,
         failure_persistence: None,
         ..Config::default()
