@@ -38,7 +38,7 @@ fn check_says_how_large_a_family_is_and_what_applies() {
     let why = "splitting: none: H mixes sums over `x` and over `y`";
     assert!(run.stdout.contains(why), "{}", run.stdout);
     let run = lie("check tests/data/families/open_chain.json").ok();
-    let why = "splitting: none: `z[i]` and `y[i+1]` are coupled by more than a product";
+    let why = "splitting: none: `x[i-1]`, `y[i]` and `z[i+1]` are coupled by more than products";
     assert!(run.stdout.contains(why), "{}", run.stdout);
 }
 

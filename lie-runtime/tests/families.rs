@@ -286,7 +286,7 @@ fn coefficients_are_those_of_their_site() {
                 if j < 4 {
                     let exchange = x(i, j) * x(i, j + 1) + y(i, j) * y(i, j + 1);
                     let exchange = exchange + z(i, j) * z(i, j + 1);
-                    h -= values(&lattice.J, 4 * i + j) * exchange;
+                    h -= values(&lattice.J, 5 * i + j) * exchange;
                 }
             }
         }

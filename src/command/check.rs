@@ -15,6 +15,7 @@ use lie_codegen::methods::{Choice, refusal};
 use lie_codegen::structure::{Effort, Structure};
 use lie_in_process::report::{Report, sites};
 use lie_in_process::request::{self, Request, several};
+use lie_in_process::words::counted;
 use lie_program::protocol::Start;
 use serde_json::Value;
 
@@ -221,7 +222,17 @@ fn write_family(
     writeln!(
         text,
         "  {lattice} sites: dimension {dimension}, generic rank {rank}, {corank} independent Casimirs"
-    )
+    )?;
+    for data in model.family.iter().flat_map(|family| &family.data) {
+        let values = counted(data.values.len() as u64, "value");
+        let [least, most] = data.range();
+        writeln!(
+            text,
+            "  {}: {values} from {least} to {most}, one for each site",
+            data.name
+        )?;
+    }
+    Ok(())
 }
 
 /// What the system is: its rank, its functions, its Casimirs.

@@ -8,12 +8,12 @@ pub use lie_syntax::ast::Start;
 /// [`Symbol::Input`] of the first coefficient that differs from site to site.
 const DATA: usize = 1 << 22;
 
-/// Coefficient j of the site in slot s is number `s d + j` of these symbols, d the number of coefficients.
+/// The symbol of the coefficient at a place of [`Family::data_places`].
 pub fn data_symbol(number: usize) -> Symbol {
     Symbol::Input(DATA + number)
 }
 
-/// The number of a symbol of [`data_symbol`].
+/// The place of a symbol of [`data_symbol`].
 pub fn data_number(symbol: Symbol) -> Option<usize> {
     match symbol {
         Symbol::Input(place) => place.checked_sub(DATA).filter(|number| *number < DATA),
@@ -35,7 +35,9 @@ pub struct Family {
     pub names: Vec<String>,
     /// What has a value for each site.
     pub data: Vec<SiteData>,
-    /// The names of these coefficients, such as `B[i+1]`, slot after slot.
+    /// Of what sums and motions of sites depend on the slot, and which coefficient it is.
+    pub data_places: Vec<[usize; 2]>,
+    /// Its names, such as `B[i+1]`.
     pub data_names: Vec<String>,
     /// The sums `T_k`; `Symbol::Coordinate(slots n + k)` in H.
     pub sums: Vec<SiteSum>,
@@ -63,12 +65,25 @@ pub struct SiteData {
     pub name: String,
     /// Its values, site after site.
     pub values: Arc<[f64]>,
-    /// The number of last rows and columns of which no sum asks for the value.
-    pub unused: [usize; 2],
+    /// Rows and columns of a lattice, of which there is a value for each site.
+    pub sizes: Option<[usize; 2]>,
+    /// The number of last sites of a chain of which no sum asks for the value, so that it may be left out.
+    pub unused: usize,
     /// Unit, for people, as Markdown within a line.
     pub unit: Option<String>,
     /// Description, for people, as Markdown.
     pub description: Option<String>,
+}
+
+impl SiteData {
+    /// The smallest and the largest value.
+    pub fn range(&self) -> [f64; 2] {
+        let values = self.values.iter();
+        values.fold(
+            [f64::INFINITY, f64::NEG_INFINITY],
+            |[least, most], value| [value.min(least), value.max(most)],
+        )
+    }
 }
 
 /// A sum over sites.
@@ -83,6 +98,16 @@ pub struct SiteSum {
 }
 
 impl Family {
+    /// The symbol of a coefficient as seen from the site in a slot.
+    pub fn data_from(&self, symbol: Symbol, slot: usize) -> Option<Symbol> {
+        let [at, which] = self.data_places[data_number(symbol)?];
+        let ([row, column], [down, right]) = (self.slots[at], self.slots[slot]);
+        let moved = [row - down, column - right];
+        let mut places = self.data_places.iter();
+        let place = places.position(|[slot, other]| self.slots[*slot] == moved && *other == which);
+        place.map(data_symbol)
+    }
+
     /// The seed of a random initial state.
     pub fn seed(&self) -> Option<u64> {
         match self.start {

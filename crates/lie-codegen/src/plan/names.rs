@@ -15,7 +15,7 @@ pub struct Names {
     pub basis: Vec<String>,
     /// The parameters.
     pub parameters: Vec<String>,
-    /// Of a family the coefficients that differ from site to site, slot after slot.
+    /// Of a family the coefficients that differ from site to site, by their places.
     pub data: Vec<String>,
 }
 

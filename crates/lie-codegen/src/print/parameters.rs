@@ -86,6 +86,8 @@ impl Printer<'_> {
             }}
         });
         let listed: Vec<TokenStream> = listed.collect();
+        let defaults = (!data.is_empty())
+            .then(|| quote! { let _default = <Self as ::core::default::Default>::default(); });
         let marker = names.is_empty().then(|| {
             quote! { #[doc(hidden)] pub _scalar: ::core::marker::PhantomData<S> }
         });
@@ -136,7 +138,8 @@ impl Printer<'_> {
                 #[doc = " The parameters from their values, in the order of the declaration."]
                 #[must_use]
                 pub fn from_values(_values: &[S; #count]) -> Self {
-                    Self { #(#names: _values[#places],)* #(#data: #listed,)* #marker_value }
+                    #defaults
+                    Self { #(#names: _values[#places],)* #(#data: _default.#data,)* #marker_value }
                 }
 
                 #[doc = #what]
@@ -190,9 +193,9 @@ impl Printer<'_> {
         let (fields, given) = (self.data_fields(), self.data_names());
         let padded = self.data().iter().zip(&fields).zip(&given);
         let padded = padded.map(|((data, field), given)| {
-            let (text, [rows, columns]) = (&data.name, data.unused.map(index));
+            let (text, unused) = (&data.name, index(data.unused));
             quote! {
-                let #field = ::lie_runtime::family::values(&self.#given, #text, _sizes, [#rows, #columns])?;
+                let #field = ::lie_runtime::family::values(&self.#given, #text, _sizes, #unused)?;
             }
         });
         let padded: Vec<TokenStream> = padded.collect();

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::model::{Family, Model, SiteSum, data_number, data_symbol};
+use crate::model::{Family, Model, SiteSum, data_number};
 use crate::structure::separable;
 use crate::structure::spins::Spin;
 use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
@@ -247,16 +247,10 @@ impl Search<'_> {
 
     /// An expression at the site of a summand, its coefficients as those around the site in a slot.
     fn around(&mut self, expression: ExprId, slot: usize) -> ExprId {
-        let (slots, count) = (&self.family.slots, self.family.data.len());
-        let [down, right] = slots[slot];
         let symbols = self.graph.symbols(expression).into_iter();
-        let numbers: Vec<usize> = symbols.filter_map(data_number).collect();
-        let moved = numbers.into_iter().filter_map(|number| {
-            let [row, column] = slots[number / count];
-            let moved = [row - down, column - right];
-            let place = slots.iter().position(|slot| *slot == moved)?;
-            let symbol = data_symbol(place * count + number % count);
-            Some((data_symbol(number), self.graph.symbol(symbol)))
+        let moved = symbols.filter_map(|symbol| {
+            let moved = self.family.data_from(symbol, slot)?;
+            Some((symbol, self.graph.symbol(moved)))
         });
         let moved: BTreeMap<Symbol, ExprId> = moved.collect();
         self.graph
@@ -272,6 +266,16 @@ impl Search<'_> {
             Some((moved(first, distance[axis]), moved(left, -distance[axis])))
         };
         [moved(0), moved(1)]
+    }
+
+    /// Whether a slope changes with a coordinate, also where its derivative by that is 0: the slope of `abs(x - y)` jumps.
+    fn depends(&mut self, slope: ExprId, place: usize) -> bool {
+        let other = self.graph.symbol(Symbol::Step);
+        let moved = self.graph.substitute(&[slope], &|symbol| {
+            (symbol == Symbol::Coordinate(place)).then_some(other)
+        })[0];
+        let change = self.graph.sub(slope, moved);
+        !self.graph.is_zero(change)
     }
 
     /// The function of two coordinates that a summand contains, if no other coordinate is mixed with these.
@@ -330,11 +334,17 @@ impl Search<'_> {
                 let factor = self
                     .graph
                     .derivative(slope, Symbol::Coordinate(other * n + b));
-                if self.graph.is_zero(factor) {
-                    continue;
+                let places = [one * n + a, other * n + b];
+                let product = !self.graph.is_zero(factor);
+                if !product {
+                    let back = self
+                        .graph
+                        .derivative(density, Symbol::Coordinate(places[1]));
+                    if !self.depends(slope, places[1]) && !self.depends(back, places[0]) {
+                        continue;
+                    }
                 }
-                if !self.graph.coordinates(factor).is_empty() {
-                    let places = [one * n + a, other * n + b];
+                if !product || !self.graph.coordinates(factor).is_empty() {
                     self.pair(density, places, sum)?;
                     done.extend(places);
                     continue;
@@ -408,8 +418,7 @@ impl Search<'_> {
             }
             let slope = self.graph.derivative(density, Symbol::Coordinate(place));
             for other in self.graph.coordinates(slope) {
-                let mixed = self.graph.derivative(slope, Symbol::Coordinate(other));
-                if other != place && !self.graph.is_zero(mixed) {
+                if other != place && self.depends(slope, other) {
                     let names = &self.family.names;
                     return Err(format!("H mixes `{}` and `{}`", names[place], names[other]));
                 }

@@ -54,8 +54,7 @@ pub struct Term<'a> {
 
 /// The coordinates of a site.
 pub type Site<K, S> = Of<<K as Sites<S>>::Site, S>;
-/// The coordinates of a site and of its neighbours, slot after slot, then in the same order the coefficients that differ from
-/// site to site.
+/// The coordinates of a site and of its neighbours, slot after slot, then the coefficients of [`Sites::data_places`].
 pub type Around<K, S> = Of<<K as Sites<S>>::Around, S>;
 /// A number for each sum.
 pub type Sums<K, S> = Of<<K as Sites<S>>::Sums, S>;
@@ -63,12 +62,12 @@ pub type Sums<K, S> = Of<<K as Sites<S>>::Sums, S>;
 /// One site of a family: its coordinates, on which and on those of its neighbours (in slots, itself among them) sums depend.
 ///
 /// Generated, with straight-line kernels over arrays; lengths that are found at run time have another [`Shape`]. `at` are the
-/// coordinates of a site and of its neighbours, slot after slot, and behind them their coefficients; `weights[k]` is `dF/dT_k`, which is asked for only where it
+/// coordinates of a site and of its neighbours, slot after slot, and behind them coefficients that differ from site to site; `weights[k]` is `dF/dT_k`, which is asked for only where it
 /// is no constant.
 pub trait Sites<S: Scalar>: Clone {
     /// How many coordinates a site has.
     type Site: Shape;
-    /// How many coordinates and coefficients all slots have.
+    /// How many coordinates all slots have, and coefficients that kernels read.
     type Around: Shape;
     /// How many sums there are.
     type Sums: Shape;
@@ -89,9 +88,9 @@ pub trait Sites<S: Scalar>: Clone {
     fn count(&self) -> usize;
     /// A sum.
     fn term(&self, index: usize) -> Term<'_>;
-    /// How many coefficients have a value for each site.
-    fn data_count(&self) -> usize {
-        0
+    /// Which coefficients that have a value for each site kernels read: the slot, and which of them it is.
+    fn data_places(&self) -> &[[usize; 2]] {
+        &[]
     }
     /// The values of such a coefficient, site after site.
     fn data(&self, _index: usize) -> &[S] {

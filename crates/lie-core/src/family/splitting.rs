@@ -75,7 +75,7 @@ pub trait Pieces<S: Scalar>: Sites<S> {
     }
 
     /// The flow of a piece over a time t for many sites or bonds of a state: [`Pieces::flow`] of each. `data` are the coefficients
-    /// of all slots, of each as many as there are sites, in the order of the state.
+    /// that kernels read, of each as many as there are sites, in the order of the state.
     #[inline(always)]
     fn flows(
         &self,
@@ -91,7 +91,7 @@ pub trait Pieces<S: Scalar>: Sites<S> {
 
 /// The number of coordinates and coefficients in all slots.
 fn around<S: Scalar, K: Sites<S>>(kernels: &K) -> usize {
-    kernels.offsets().len() * (kernels.dimension() + kernels.data_count())
+    kernels.offsets().len() * kernels.dimension() + kernels.data_places().len()
 }
 
 /// The coefficients around the site at a place, behind coordinates that nobody reads.
@@ -177,7 +177,7 @@ pub struct FamilyFlows<'a, S, K> {
     family: &'a Family<K>,
     columns: Columns,
     pieces: Vec<Piece<S>>,
-    /// The coefficients of all slots, of each as many as there are sites, in the order of the states.
+    /// The coefficients that kernels read, of each as many as there are sites, in the order of the states.
     data: Vec<S>,
     /// A bound of the squares of all spins, which exchanges ask for.
     largest: S,
@@ -208,7 +208,7 @@ where
         let columns = Columns::new(family.sizes()[1], modulus);
         let data = data(family, columns);
         for piece in &mut pieces {
-            piece.exchange = rate(family, &data, piece);
+            piece.exchange = rate(family, (&data, columns), piece);
         }
         Self {
             family,
@@ -320,20 +320,18 @@ where
     }
 }
 
-/// The coefficients of all slots in the order of the columns.
+/// The coefficients that kernels read, in the order of the columns.
 fn data<S: Scalar, K: Sites<S>>(family: &Family<K>, order: Columns) -> Vec<S> {
     let (kernels, [rows, columns]) = (family.kernels(), family.sizes());
-    let count = kernels.data_count();
-    let mut all = std::vec![S::zero(); count * kernels.offsets().len() * family.count()];
+    let places = kernels.data_places();
+    let mut all = std::vec![S::zero(); places.len() * family.count()];
     let mut parts = all.chunks_exact_mut(family.count());
-    for &offset in kernels.offsets() {
-        for (number, part) in (0..count).zip(&mut parts) {
-            let values = kernels.data(number);
-            for row in 0..rows {
-                for column in 0..columns {
-                    let site = family.neighbour([row, column], offset);
-                    part[row * columns + order.place(column)] = values[site];
-                }
+    for (&[slot, which], part) in places.iter().zip(&mut parts) {
+        let (values, offset) = (kernels.data(which), kernels.offsets()[slot]);
+        for row in 0..rows {
+            for column in 0..columns {
+                let site = family.neighbour([row, column], offset);
+                part[row * columns + order.place(column)] = values[site];
             }
         }
     }
@@ -343,21 +341,24 @@ fn data<S: Scalar, K: Sites<S>>(family: &Family<K>, order: Columns) -> Vec<S> {
 /// The rate of a piece, if it is an exchange.
 fn rate<S: Scalar, K: Pieces<S>>(
     family: &Family<K>,
-    data: &[S],
+    (data, order): (&[S], Columns),
     piece: &Piece<S>,
 ) -> Option<Rate<S>> {
     let (kernels, count) = (family.kernels(), family.count());
     if data.is_empty() {
         return kernels.exchange(piece.place).map(Rate::Same);
     }
-    let rate = |place| {
-        let at = coefficients(kernels, data, count, place);
-        kernels.exchange_of(piece.place, &at)
-    };
-    let rates: Vec<S> = (0..count).map(rate).collect::<Option<_>>()?;
-    let most = rates
-        .iter()
-        .fold(S::zero(), |most, rate| most.max(rate.abs()));
+    let ([rows, columns], spans) = (family.sizes(), piece.kind.spans);
+    // bonds alone count: behind the ends of a chain there are no values
+    let (mut rates, mut most) = (std::vec![S::zero(); count], S::zero());
+    for row in spans[0].range(rows) {
+        for column in spans[1].range(columns) {
+            let place = row * columns + order.place(column);
+            let at = coefficients(kernels, data, count, place);
+            rates[place] = kernels.exchange_of(piece.place, &at)?;
+            most = most.max(rates[place].abs());
+        }
+    }
     Some(Rate::Each(rates, most))
 }
 

@@ -57,11 +57,14 @@ impl<'m, S: Scalar> Stretch<'m, S> {
         'm: 'a,
     {
         let (dimension, offsets) = (sites.dimension(), sites.offsets());
-        let (coordinates, count) = (dimension * offsets.len(), sites.data_count());
-        K::Around::make(coordinates + count * offsets.len(), |place| {
+        let (coordinates, places) = (dimension * offsets.len(), sites.data_places());
+        K::Around::make(coordinates + places.len(), |place| {
             match place.checked_sub(coordinates) {
                 None => self.part(offsets[place / dimension], place % dimension),
-                Some(place) => self.along(sites.data(place % count), offsets[place / count]),
+                Some(place) => {
+                    let [slot, which] = places[place];
+                    self.along(sites.data(which), offsets[slot])
+                }
             }
         })
     }
@@ -146,15 +149,16 @@ impl<K> Family<K> {
     {
         let kernels = self.kernels();
         let (dimension, offsets) = (kernels.dimension(), kernels.offsets());
-        let (coordinates, count) = (dimension * offsets.len(), kernels.data_count());
-        K::Around::make(coordinates + count * offsets.len(), |place| {
+        let (coordinates, places) = (dimension * offsets.len(), kernels.data_places());
+        K::Around::make(coordinates + places.len(), |place| {
             match place.checked_sub(coordinates) {
                 None => {
                     let site = self.neighbour(site, offsets[place / dimension]);
                     mu[place % dimension * self.count() + site]
                 }
                 Some(place) => {
-                    kernels.data(place % count)[self.neighbour(site, offsets[place / count])]
+                    let [slot, which] = places[place];
+                    kernels.data(which)[self.neighbour(site, offsets[slot])]
                 }
             }
         })

@@ -39,8 +39,8 @@ pub fn size<S: Scalar>(value: S, name: &'static str) -> Result<usize, ParameterE
     }
 }
 
-/// The values of a coefficient that differs from site to site, as many as there are sites: in place of those of last rows and
-/// columns that are left out, of which no sum asks for more than `unused`, stands 0.
+/// The values of a coefficient that differs from site to site, as many as there are sites: in place of those of the last sites of a
+/// chain that are left out, of which no sum asks for more than `unused`, stands 0.
 ///
 /// # Errors
 /// There are other numbers of values and of sites.
@@ -48,27 +48,20 @@ pub fn values<S: Scalar>(
     given: &[S],
     name: &'static str,
     [rows, columns]: [usize; 2],
-    unused: [usize; 2],
+    unused: usize,
 ) -> Result<Vec<S>, ParameterError> {
-    let all = (0..=unused[0].min(rows)).flat_map(|below| {
-        let behind = 0..=unused[1].min(columns);
-        behind.map(move |behind| [rows - below, columns - behind])
-    });
-    let mut fitting = all.filter(|[rows, columns]| rows * columns == given.len());
-    let Some([present, width]) = fitting.next() else {
+    let left_out = if rows == 1 { unused } else { 0 };
+    let count = rows * columns;
+    if given.len() > count || count - given.len() > left_out {
         return Err(ParameterError {
             name,
             expression: name,
             fault: ParameterFault::NotOneForEachSite,
         });
-    };
-    let value = |site: usize| {
-        let (row, column) = (site / columns, site % columns);
-        let there = row < present && column < width;
-        there.then(|| given[row * width + column])
-    };
-    let values = (0..rows * columns).map(|site| value(site).unwrap_or(S::zero()));
-    Ok(values.collect())
+    }
+    let mut values = given.to_vec();
+    values.resize(count, S::zero());
+    Ok(values)
 }
 
 /// What there is of each Casimir of a site, over all sites.

@@ -185,7 +185,12 @@ impl Dynamic<f64> {
 fn data(all: &[Data], sizes: [usize; 2]) -> Result<Arc<[Vec<f64>]>, ParameterError> {
     let columns = all.iter().map(|data| {
         let given: Vec<f64> = data.values().collect();
-        values(&given, names::text(&data.name), sizes, data.unused)
+        let name = names::text(&data.name);
+        match data.sizes.is_some_and(|of_values| of_values != sizes) {
+            // the rows of another lattice
+            true => values(&[], name, sizes, 0),
+            false => values(&given, name, sizes, data.unused),
+        }
     });
     columns.collect()
 }

@@ -5,8 +5,18 @@ use lie_codegen::structure::Structure;
 use lie_codegen::structure::integrals::brackets;
 use serde_json::{Map, Value, json};
 
-/// Adds first integrals with their brackets, and observables, where there are some.
+/// Adds first integrals with their brackets, observables, and what has a value for each site, where there are some.
 pub fn add(model: &Structure, report: &mut Map<String, Value>) {
+    let data = model.family.iter().flat_map(|family| &family.data);
+    let data: Vec<Value> = data
+        .map(|data| {
+            let [least, most] = data.range();
+            json!({ "name": data.name, "count": data.values.len(), "min": least, "max": most })
+        })
+        .collect();
+    if !data.is_empty() {
+        report.insert("per_site".into(), data.into());
+    }
     let of = |kind: QuantityKind| {
         let quantities = model.quantities.iter();
         quantities.filter(move |quantity| quantity.kind == kind)

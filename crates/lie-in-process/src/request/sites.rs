@@ -94,7 +94,10 @@ impl Planner<'_> {
 
     /// What is said of a coefficient that has no value for each of so many sites.
     fn without_values(&self, family: &Family, sizes: [usize; 2]) -> Option<Message> {
-        let fits = |data: &&SiteData| values(&data.values, "", sizes, data.unused).is_ok();
+        let fits = |data: &&SiteData| match data.sizes {
+            Some(of_values) => of_values == sizes,
+            None => values(&data.values, "", sizes, data.unused).is_ok(),
+        };
         let data = family.data.iter().find(|data| !fits(data))?;
         let sites = match sizes {
             [1, columns] => counted(columns as u64, "site"),

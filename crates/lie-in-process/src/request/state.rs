@@ -121,6 +121,13 @@ impl Planner<'_> {
             let known = known.as_str();
             let Some(index) = names.iter().position(|name| *name == known) else {
                 let message = name.wrong(format!("unknown parameter `{known}`"));
+                let data = self
+                    .spec
+                    .model
+                    .family
+                    .iter()
+                    .flat_map(|family| &family.data);
+                let mut data = data.map(|data| &data.name);
                 let mut inputs = self.spec.model.inputs.iter();
                 let help = match did_you_mean(known, names.iter().copied()) {
                     _ if inputs.any(|input| input.name == known) => format!(
@@ -129,6 +136,9 @@ impl Planner<'_> {
                             Front::Command => format!("write `--input {known}=FILE`"),
                             Front::Call => format!("write `inputs={{\"{known}\": ...}}`"),
                         }
+                    ),
+                    _ if data.any(|name| name == known) => format!(
+                        "`{known}` has a value for each site: these stand in the spec, and no option changes them"
                     ),
                     Some(near) => format!("did you mean `{near}`?"),
                     None if names.is_empty() => "the system has no parameters".to_owned(),

@@ -27,6 +27,7 @@ pub fn couple(
         own: collected.slot([0, 0]),
         names: collected.names.clone(),
         data: data(family, collected, &model, mistakes)?,
+        data_places: collected.data_places.clone(),
         data_names: collected.data.clone(),
         sums: Vec::new(),
         energy: model.hamiltonian(),
@@ -52,9 +53,13 @@ fn sizes(
             ast::Size::Parameter(name) => {
                 let mut parameters = declaration.parameters.iter();
                 let Some(p) = parameters.position(|p| p.name.text == name.text) else {
-                    let message = format!("the number of sites `{}` is not declared", name.text);
+                    let mut data = family.data.iter();
+                    let message = match data.any(|data| data.name.text == name.text) {
+                        true => format!("the number of sites `{}` is a list", name.text),
+                        false => format!("the number of sites `{}` is not declared", name.text),
+                    };
                     let help = format!(
-                        "declare it as a parameter: `\"parameters\": {{\"{}\": 1000}}`",
+                        "declare it as a number: `\"parameters\": {{\"{}\": 1000}}`",
                         name.text
                     );
                     mistakes.push(
@@ -117,18 +122,27 @@ fn data(
             return None;
         }
         let unused_along = &unused[2 - sizes.len()..];
+        // a column or a row of numbers is a list
+        let mut shape: Vec<usize> = match data.shape.as_slice() {
+            [] => vec![values.len()],
+            [1, _] | [_, 1] if sizes.len() == 1 => vec![values.len()],
+            shape => shape.to_vec(),
+        };
+        let all: usize = sizes.iter().product();
+        if shape.len() == 1 && sizes.len() == 2 && values.len() == all {
+            shape.clone_from(&sizes);
+        }
         let fits = |(given, (size, unused)): (&usize, (&usize, &usize))| {
             given <= size && size - given <= *unused
         };
-        let shaped = data.shape.len() == sizes.len()
-            && data.shape.iter().zip(sizes.iter().zip(unused_along)).all(fits);
-        let flat = data.shape.len() == 1 && values.len() == sizes.iter().product::<usize>();
-        if !shaped && !flat {
+        let fits = shape.len() == sizes.len()
+            && shape.iter().zip(sizes.iter().zip(unused_along)).all(fits);
+        if !fits {
             let shown = |sizes: &[usize]| {
                 let sizes: Vec<String> = sizes.iter().map(usize::to_string).collect();
                 sizes.join(" x ")
             };
-            let (given, wanted) = (shown(&data.shape), shown(&sizes));
+            let (given, wanted) = (shown(&shape), shown(&sizes));
             let message = format!("`{name}` has {given} values, and there are {wanted} sites");
             let help = match unused_along.iter().any(|unused| *unused > 0) {
                 true => "give a value for each site; those at the end that no sum asks for may be left out",
@@ -137,10 +151,26 @@ fn data(
             mistakes.push(Diagnostic::new(Kind::StateLength, data.origin, message).help(help));
             return None;
         }
+        // of a lattice the values that are left out are filled in while it is known where they are
+        let values = match (shape.as_slice(), sizes.as_slice()) {
+            ([rows, width], [all_rows, columns]) => {
+                let value = |site: usize| {
+                    let (row, column) = (site / columns, site % columns);
+                    let there = row < *rows && column < *width;
+                    there.then(|| values[row * width + column]).unwrap_or(0.0)
+                };
+                (0..all_rows * columns).map(value).collect()
+            }
+            _ => values,
+        };
         Some(SiteData {
             name: name.clone(),
             values: values.into(),
-            unused: *unused,
+            sizes: match sizes.as_slice() {
+                [rows, columns] => Some([*rows, *columns]),
+                _ => None,
+            },
+            unused: unused[1],
             unit: data.unit.clone(),
             description: data.description.clone(),
         })

@@ -19,7 +19,9 @@ pub struct Collected {
     pub slots: Vec<[i64; 2]>,
     /// The names of all coordinates, slot after slot.
     pub names: Vec<String>,
-    /// Those of what has a value for each site.
+    /// Which slots and coefficients sums and motions depend on.
+    pub data_places: Vec<[usize; 2]>,
+    /// The names of these coefficients.
     pub data: Vec<String>,
     /// The number of last rows and columns of which no sum asks for a value.
     pub unused: Vec<[usize; 2]>,
@@ -35,6 +37,8 @@ pub struct Sum {
     pub sites: BTreeSet<[i64; 2]>,
     /// Of those whose coordinates are in it.
     pub moving: BTreeSet<[i64; 2]>,
+    /// The distances of coefficients in it, and which they are.
+    data: BTreeSet<([i64; 2], usize)>,
     /// Where it goes, by row and by column.
     pub spans: [Span; 2],
     /// Where it stands.
@@ -94,6 +98,7 @@ struct Reading<'a> {
     spans: Vec<Span>,
     sites: BTreeSet<[i64; 2]>,
     moving: BTreeSet<[i64; 2]>,
+    data: BTreeSet<([i64; 2], usize)>,
 }
 
 impl<'a> Sums<'a> {
@@ -126,15 +131,30 @@ impl<'a> Sums<'a> {
             .iter()
             .flat_map(|slot| state.iter().map(|name| named(&name.text, &indices, *slot)))
             .collect();
-        let data = self.family.data.iter().map(|data| &data.name.text);
-        let data = slots
+        // the motion of a site asks for those of the summands that it is in
+        let mut asked = BTreeSet::new();
+        for sum in &self.found {
+            for from in sum.moving.iter().chain(&[[0, 0]]) {
+                let apart = |at: &[i64; 2]| [at[0] - from[0], at[1] - from[1]];
+                asked.extend(sum.data.iter().map(|(at, which)| (apart(at), *which)));
+            }
+        }
+        let name = |which: usize| &self.family.data[which].name.text;
+        let data = asked
             .iter()
-            .flat_map(|slot| data.clone().map(|name| named(name, &indices, *slot)))
+            .map(|(at, which)| named(name(*which), &indices, *at))
+            .collect();
+        let slots: Vec<[i64; 2]> = slots.into_iter().collect();
+        let slot = |at| slots.iter().position(|slot| *slot == at);
+        let data_places = asked
+            .into_iter()
+            .filter_map(|(at, which)| Some([slot(at)?, which]))
             .collect();
         let unused = self.unused.iter();
         Collected {
-            slots: slots.into_iter().collect(),
+            slots,
             names,
+            data_places,
             data,
             unused: unused.map(|unused| unused.unwrap_or_default()).collect(),
             sums: self.found,
@@ -197,6 +217,7 @@ impl<'a> Sums<'a> {
             spans: Vec::new(),
             sites: BTreeSet::new(),
             moving: BTreeSet::new(),
+            data: BTreeSet::new(),
         };
         let mut body = expr;
         for size in &self.family.sizes {
@@ -253,6 +274,7 @@ impl<'a> Sums<'a> {
             body,
             sites: reading.sites,
             moving: reading.moving,
+            data: reading.data,
             spans: [span(0), span(1)],
             origin: expr.origin,
         });
@@ -267,6 +289,7 @@ impl<'a> Sums<'a> {
     fn fresh(&self, index: &Name, mistakes: &mut Vec<Diagnostic>) -> Option<()> {
         let declaration = self.declaration;
         let parameters = declaration.parameters.iter().map(|p| &p.name);
+        let parameters = parameters.chain(self.family.data.iter().map(|data| &data.name));
         let lets = declaration.lets.iter().map(|(name, _)| name);
         let taken = declaration.state.iter().chain(parameters).chain(lets);
         if taken.clone().any(|name| name.text == index.text) {
@@ -338,7 +361,10 @@ impl<'a> Sums<'a> {
         reading.sites.insert(distance);
         match data {
             None => drop(reading.moving.insert(distance)),
-            Some(place) => self.asked(place, distance, &reading.spans),
+            Some(place) => {
+                reading.data.insert((distance, place));
+                self.asked(place, distance, &reading.spans);
+            }
         }
         Some(Expr {
             kind: ExprKind::Name {
@@ -368,7 +394,16 @@ impl Sums<'_> {
 
 /// A Casimir of a site, written with or without the index of the family.
 pub fn on_site(expr: &Expr, family: &Family, mistakes: &mut Vec<Diagnostic>) -> Option<Expr> {
+    let differs = |name: &str| family.data.iter().any(|data| data.name.text == name);
     mapped(expr, &mut |part| match &part.kind {
+        ExprKind::Name { name, .. } if differs(name) => {
+            let message = format!(
+                "`{name}` differs from site to site, and a Casimir is the same function at each"
+            );
+            let help = "write it in coordinates and in parameters that are one number";
+            mistakes.push(Diagnostic::new(Kind::UnknownSymbol, part.origin, message).help(help));
+            None
+        }
         ExprKind::IndexedSum { .. } => {
             let message = "a Casimir of a family is one of a site";
             let help = "write it without the sum, such as `x[i]^2 + y[i]^2 + z[i]^2`";

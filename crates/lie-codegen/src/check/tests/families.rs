@@ -225,6 +225,19 @@ fn pieces_of_functions_of_sums_and_of_longer_summands_are_found() {
         pieces("sum(i in 0..N: x[i]*y[i] + exp(x[i] - x[i+1]))"),
         err("`x[i]`, `x[i+1]` and `y[i]` are coupled by more than products")
     );
+    // a slope that jumps depends on the other coordinate, although its derivative by it is 0
+    assert_eq!(
+        pieces("sum(i in 0..N: abs(x[i] - x[i+1]) + z[i]^2)"),
+        ok("f(x, x[+1]), f(z)")
+    );
+    assert_eq!(
+        pieces("sum(i in 0..N: max(x[i], 2*y[i+1]))"),
+        ok("f(x, y[+1])")
+    );
+    for mixed in ["abs(x[i] - y[i])", "abs(x[i] + x[i+1] + x[i+2])"] {
+        let found = pieces(&format!("sum(i in 0..N: {mixed})"));
+        assert!(found.is_err(), "{mixed}: {found:?}");
+    }
     assert_eq!(
         pieces("sum(i in 0..N: cos(x[i])*y[i+2]^2 + z[i]*z[i+2] + z[i])"),
         ok("f(x, y[+2]), z*z[+2], f(z)")
@@ -310,10 +323,8 @@ fn coefficients_have_a_value_for_each_site() {
         .map(|data| (&*data.name, &*data.values, data.unused))
         .collect();
     // of couplings of bonds the last one is not asked for
-    let expected: [(&str, &[f64], [usize; 2]); 2] = [
-        ("B", &[1.0, 0.25, 2.0, 3.0], [0, 0]),
-        ("J", &[1.0, 2.0, 3.0], [0, 1]),
-    ];
+    let expected: [(&str, &[f64], usize); 2] =
+        [("B", &[1.0, 0.25, 2.0, 3.0], 0), ("J", &[1.0, 2.0, 3.0], 1)];
     assert_eq!(data, expected);
     // coefficients are no coordinates
     assert_eq!(family.degree, Some(2));

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::{Data, Family, FamilyForm, FamilyPiece, FamilyPieces, Sum};
 use crate::derive::{Argument, Kernel, Source, action};
-use crate::model::{self, data_number, data_symbol};
+use crate::model::{self, data_symbol};
 use crate::plan::constants::Table;
 use crate::plan::function::Function;
 use crate::plan::planner::{Planner, described};
@@ -114,14 +114,7 @@ impl<'p, 'm> Derivation<'p, 'm> {
                     .position(|s| *s == [row - down, column - right])?;
                 Some(Symbol::Coordinate(moved * n + place % n))
             }
-            symbol => {
-                let (number, count) = (data_number(symbol)?, self.family.data.len());
-                let [row, column] = slots[number / count];
-                let moved = slots
-                    .iter()
-                    .position(|s| *s == [row - down, column - right])?;
-                Some(data_symbol(moved * count + number % count))
-            }
+            symbol => self.family.data_from(symbol, slot),
         };
         let graph = &mut self.planner.source.graph;
         let symbols = expressions.iter().flat_map(|e| graph.symbols(*e));
@@ -168,6 +161,7 @@ impl<'p, 'm> Derivation<'p, 'm> {
             sizes: family.sizes.clone(),
             offsets: family.slots.clone(),
             own: family.own,
+            data_places: family.data_places.clone(),
             data: family
                 .data
                 .iter()
@@ -179,6 +173,7 @@ impl<'p, 'm> Derivation<'p, 'm> {
                         data.description.as_deref(),
                     ),
                     bits: data.values.iter().map(|value| value.to_bits()).collect(),
+                    sizes: data.sizes,
                     unused: data.unused,
                 })
                 .collect(),

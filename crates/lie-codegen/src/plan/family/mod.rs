@@ -28,6 +28,8 @@ pub struct Family {
     pub own: usize,
     /// What has a value for each site.
     pub data: Vec<Data>,
+    /// Which slots and coefficients kernels read.
+    pub data_places: Vec<[usize; 2]>,
     /// The sums.
     pub sums: Vec<Sum>,
     /// Whether some `dF/dT_k` depends on the state.
@@ -65,8 +67,10 @@ pub struct Data {
     pub doc: String,
     /// The values of the declaration, by their bits.
     pub bits: Arc<[u64]>,
-    /// The number of last rows and columns of which no sum asks for the value.
-    pub unused: [usize; 2],
+    /// Rows and columns of a lattice, of which there is a value for each site.
+    pub sizes: Option<[usize; 2]>,
+    /// The number of last sites of a chain of which no sum asks for the value, so that it may be left out.
+    pub unused: usize,
 }
 
 impl Data {
@@ -152,12 +156,7 @@ impl Family {
 
     /// The number of coordinates and coefficients in all slots together.
     pub fn places(&self) -> usize {
-        self.offsets.len() * (self.coordinates.len() + self.data.len())
-    }
-
-    /// The number of coefficients in all slots together.
-    pub fn data_places(&self) -> usize {
-        self.offsets.len() * self.data.len()
+        self.offsets.len() * self.coordinates.len() + self.data_places.len()
     }
 }
 
@@ -171,12 +170,10 @@ pub(super) fn plan(structure: &Structure, family: &model::Family) -> Plan {
     });
     let of_sums = (0..family.sums.len()).map(|k| format!("_w{k}"));
     names.coordinates = of_slots.chain(of_sums).collect();
-    let data = family.data.len();
-    let of_slots = (0..family.data_names.len()).map(|number| {
-        let (slot, name) = (number / data, &family.data[number % data].name);
-        format!("_{slot}{name}")
-    });
-    names.data = of_slots.collect();
+    let places = family.data_places.iter();
+    names.data = places
+        .map(|[slot, which]| format!("_{slot}{}", family.data[*which].name))
+        .collect();
     let mut planner = Planner {
         structure,
         source: Source::new(structure),

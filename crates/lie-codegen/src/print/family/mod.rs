@@ -175,15 +175,19 @@ impl Printer<'_> {
         };
         let degree = option(family.degree);
         let data = (!family.data.is_empty()).then(|| {
-            let count = index(family.data.len());
+            let places = family.data_places.iter();
+            let places = places.map(|place| {
+                let [slot, which] = place.map(index);
+                quote! { [#slot, #which] }
+            });
             let arms = by_place(
                 self.data_fields()
                     .iter()
                     .map(|field| quote! { &self.#field }),
             );
             quote! {
-                fn data_count(&self) -> usize {
-                    #count
+                fn data_places(&self) -> &[[usize; 2]] {
+                    &[#(#places),*]
                 }
 
                 fn data(&self, _index: usize) -> &[S] {

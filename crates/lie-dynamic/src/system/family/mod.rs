@@ -140,8 +140,8 @@ impl<S: Scalar> Sites<S> for FamilySite<S> {
             spans: codes::spans(&self.plan().sums[index].spans),
         }
     }
-    fn data_count(&self) -> usize {
-        self.values.data.len()
+    fn data_places(&self) -> &[[usize; 2]] {
+        &self.plan().data_places
     }
     fn data(&self, index: usize) -> &[S] {
         &self.values.data[index]

@@ -182,10 +182,15 @@ fn lines(bytes: &[u8]) -> Result<(Vec<f64>, Vec<usize>), String> {
             continue;
         }
         let before = values.len();
-        for part in line.split([',', ';', '\t', ' ']).map(str::trim) {
-            if part.is_empty() {
-                continue;
+        let parts: Vec<&str> = match (line.contains(','), line.contains(';')) {
+            (true, true) => {
+                return Err(format!("line {} has commas and semicolons", number + 1));
             }
+            (true, false) => line.split(',').map(str::trim).collect(),
+            (false, true) => line.split(';').map(str::trim).collect(),
+            (false, false) => line.split_whitespace().collect(),
+        };
+        for part in parts {
             let value = part.parse::<f64>();
             values.push(value.map_err(|_| {
                 let part = part.escape_debug();
@@ -201,11 +206,7 @@ fn lines(bytes: &[u8]) -> Result<(Vec<f64>, Vec<usize>), String> {
         }
         rows += 1;
     }
-    let width = width.unwrap_or_default();
-    let shape = match rows <= 1 || width == 1 {
-        true => vec![values.len()],
-        false => vec![rows, width],
-    };
+    let shape = vec![rows, width.unwrap_or_default()];
     Ok((values, shape))
 }
 
@@ -216,13 +217,17 @@ mod tests {
     #[test]
     fn lines_are_numbers_or_rows() {
         let read = |text: &str| lines(text.as_bytes());
-        let flat = Ok((vec![1.0, 2.0, -3e-1], vec![3]));
-        assert_eq!(read("# B\n1\n\n2\r\n-3e-1\n"), flat);
-        assert_eq!(read("1, 2, -0.3"), flat);
+        let column = Ok((vec![1.0, 2.0, -3e-1], vec![3, 1]));
+        assert_eq!(read("# B\n1\n\n2\r\n-3e-1\n"), column);
+        let row = Ok((vec![1.0, 2.0, -3e-1], vec![1, 3]));
+        assert_eq!(read("1, 2, -0.3"), row);
+        assert_eq!(read("1; 2;-0.3"), row);
         let rows = Ok((vec![1.0, 2.0, 3.0, 4.0], vec![2, 2]));
         assert_eq!(read("1,2\n3 4\n"), rows);
-        assert_eq!(read("# none"), Ok((vec![], vec![0])));
-        for wrong in ["1,2\n3\n", "B\n1\n", "1\n2,x\n"] {
+        assert_eq!(read("# none"), Ok((vec![], vec![0, 0])));
+        for wrong in [
+            "1,2\n3\n", "B\n1\n", "1\n2,x\n", "1,2,,3", "1,2,", "1,5;2,5",
+        ] {
             assert!(read(wrong).is_err(), "{wrong}");
         }
     }
