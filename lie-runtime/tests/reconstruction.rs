@@ -2,7 +2,8 @@
 
 use crate::systems;
 
-use lie_runtime::driver::{Chart, Reconstruction};
+use core::f64::consts::FRAC_PI_2;
+use lie_runtime::driver::{Chart, EulerSequence, Reconstruction};
 use lie_runtime::prelude::*;
 use nalgebra::SVector;
 use systems::rigid_body::RigidBody;
@@ -68,7 +69,7 @@ fn a_method_of_coadjoint_form_keeps_the_momentum_in_space() {
                 let last = rows.last().expect("rows");
                 let matrix = match chart {
                     Chart::Matrix => last.clone(),
-                    Chart::Quaternion => rotation(last),
+                    Chart::Quaternion | Chart::Euler(_) => rotation(last),
                 };
                 assert!(distance(&spatial(&matrix, &end), &start) < 1e-14);
                 // it has gone somewhere, and stays a rotation
@@ -170,4 +171,164 @@ fn the_matrix_stays_a_rotation() {
         "{:e}",
         defect(group.element())
     );
+}
+
+/// `g0 g` of rotations by rows.
+fn times(a: &[f64], b: &[f64]) -> Row {
+    let entry = |k: usize| (0..3).map(|j| a[3 * (k / 3) + j] * b[3 * j + k % 3]).sum();
+    (0..9).map(entry).collect()
+}
+
+fn apart(a: &[f64], b: &[f64]) -> f64 {
+    let pairs = a.iter().zip(b);
+    pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
+/// The rows of a run from a group element, given in the chart; from the identity where there is none.
+fn from(chart: Chart, element: Option<&[f64]>, options: &Options) -> Vec<Row> {
+    let system = RigidBody::<f64>::default();
+    let mut group = Reconstruction::new(&system, chart);
+    if let Some(element) = element {
+        group = group.at(element).expect("as many entries");
+    }
+    let problem = Problem::new(system, BODY, (0.0, 10.0));
+    solve_observed(&problem, LieMidpoint::exp(), options, &mut group).expect("the steps converge");
+    group.rows().to_vec()
+}
+
+/// An attitude, in its charts.
+fn charts(sequence: EulerSequence) -> [(Chart, Row); 3] {
+    let angles = [0.7, -0.4 + FRAC_PI_2, 2.9];
+    let q = sequence.quaternion(angles);
+    [
+        (Chart::Matrix, rotation(&q)),
+        (Chart::Quaternion, q.to_vec()),
+        (Chart::Euler(sequence), angles.to_vec()),
+    ]
+}
+
+/// The equations on the group are left-invariant: from g0 on the motion is `g0 g`, g being that from the identity on.
+#[test]
+fn a_run_from_an_attitude_is_turned_by_it() {
+    let options = Options::new(0.1);
+    let identity = from(Chart::Matrix, None, &options);
+    for sequence in EulerSequence::ALL {
+        let all = charts(sequence);
+        let start = all[0].1.clone();
+        for (chart, element) in all {
+            let rows = from(chart, Some(&element), &options);
+            assert!(apart(&rows[0], &element) < 1e-15, "{chart:?}");
+            assert_eq!(rows.len(), identity.len());
+            for (row, alone) in rows.iter().zip(&identity) {
+                let matrix = match chart {
+                    Chart::Matrix => row.clone(),
+                    Chart::Quaternion => rotation(row),
+                    Chart::Euler(s) => rotation(&s.quaternion([row[0], row[1], row[2]])),
+                };
+                let error = apart(&matrix, &times(&start, alone));
+                assert!(error < 3e-14, "{chart:?}: {error:e}");
+            }
+            // it is no other than the left product
+            let last = identity.last().expect("rows");
+            assert!(apart(&times(last, &start), &times(&start, last)) > 0.1);
+        }
+    }
+}
+
+/// The angles go beyond half a turn, without jumps from step to step, and rows off the grid leave them as they are.
+#[test]
+fn angles_are_continuous() {
+    let chart = Chart::Euler(EulerSequence::Zxz);
+    let step = Options::new(0.02);
+    let rows = from(chart, Some(&[0.0, 1.0, 0.0]), &step);
+    for pair in rows.windows(2) {
+        assert!(apart(&pair[0], &pair[1]) < 0.2, "{pair:?}");
+    }
+    let end = rows.last().expect("rows");
+    assert!(end[0].abs() > 3.0 * FRAC_PI_2, "{end:?}");
+    let times = vec![2.0, 2.007, 10.0];
+    let few = from(
+        chart,
+        Some(&[0.0, 1.0, 0.0]),
+        &step.clone().save(Save::At(times)),
+    );
+    assert_eq!((&few[0], &few[2]), (&rows[100], end));
+    assert_ne!(few[0], few[1]);
+}
+
+/// A rotation about the first axis, on the way of which `zxz` is locked twice a turn: the middle angle goes on.
+#[test]
+fn a_gimbal_lock_is_passed() {
+    let ball = RigidBody {
+        inertia: [1.0, 1.0, 1.0],
+    };
+    for (sequence, turning, mu) in [
+        (EulerSequence::Zxz, 1, [1.0, 0.0, 0.0]),
+        (EulerSequence::Zyx, 1, [0.0, 1.0, 0.0]),
+        (EulerSequence::Xyz, 1, [0.0, 1.0, 0.0]),
+    ] {
+        let mut group = Reconstruction::new(&ball, Chart::Euler(sequence));
+        let problem = Problem::new(ball, mu, (0.0, 10.0));
+        // pi/2 is a step, and so in each lock a row
+        let options = Options::new(FRAC_PI_2 / 8.0);
+        solve_observed(&problem, LieMidpoint::exp(), &options, &mut group).expect("it turns");
+        for (step, row) in group.rows().iter().enumerate().take(48) {
+            let mut expected = [0.0; 3];
+            expected[turning] = FRAC_PI_2 / 8.0 * step as f64;
+            assert!(apart(row, &expected) < 1e-12, "{sequence:?}: {row:?}");
+        }
+    }
+}
+
+/// What goes on from a memory has the same bits; entries and memories of other lengths are refused.
+#[test]
+fn a_memory_goes_on_bit_by_bit() {
+    let system = RigidBody::<f64>::default();
+    for (chart, element) in charts(EulerSequence::Yxz) {
+        let group = || Reconstruction::new(&system, chart);
+        let problem = |span| Problem::new(system, [0.8, 0.0, 0.0], span);
+        let run = |span, mut group: Reconstruction<f64, _>| {
+            let options = Options::new(0.125).save(Save::Ends);
+            solve_observed(&problem(span), LieMidpoint::exp(), &options, &mut group)
+                .expect("it turns");
+            group
+        };
+        let start = group().at(&element).expect("as many");
+        let half = run((0.0, 4.0), start.clone());
+        let rest = group().beginning_at(&half.memory()).expect("a memory");
+        let rest = run((4.0, 8.0), rest);
+        assert_eq!(rest.memory(), run((0.0, 8.0), start).memory());
+        assert!(group().at(&element[1..]).is_none());
+        assert!(group().beginning_at(&half.memory()[1..]).is_none());
+        assert!(group().at_matrix(&[1.0; 4]).is_none());
+    }
+}
+
+/// A matrix with few digits is made orthogonal, and is a start in every chart.
+#[test]
+fn a_matrix_is_a_start_in_every_chart() {
+    let system = RigidBody::<f64>::default();
+    let [(_, matrix), (_, quaternion), _] = charts(EulerSequence::Zyz);
+    let few: Row = matrix.iter().map(|x| (x * 1e5).round() / 1e5).collect();
+    assert!(defect(&few) > 1e-6);
+    let at = |chart| {
+        Reconstruction::new(&system, chart)
+            .at_matrix(&few)
+            .expect("of its size")
+    };
+    let made = at(Chart::Matrix).element().to_vec();
+    assert!(defect(&made) < 1e-15 && apart(&made, &matrix) < 1e-5);
+    let sign = quaternion[0].signum();
+    let expected: Row = quaternion.iter().map(|q| sign * q).collect();
+    assert!(apart(at(Chart::Quaternion).element(), &expected) < 1e-5);
+    for sequence in EulerSequence::ALL {
+        let angles = at(Chart::Euler(sequence)).element().to_vec();
+        let back = rotation(&sequence.quaternion([angles[0], angles[1], angles[2]]));
+        assert!(apart(&back, &made) < 1e-14, "{sequence:?}");
+    }
+    let doubled = quaternion.iter().map(|q| 2.0 * q).collect::<Row>();
+    let unit = Reconstruction::new(&system, Chart::Quaternion)
+        .at(&doubled)
+        .expect("four");
+    assert!(apart(unit.element(), &quaternion) < 1e-15);
 }

@@ -30,7 +30,21 @@ pub fn columns(chart: Chart, size: usize) -> Vec<String> {
     match chart {
         Chart::Matrix => crate::model::configuration::entries_of("g", size),
         Chart::Quaternion => (0..4).map(|k| format!("q{k}")).collect(),
+        Chart::Euler(_) => ["phi", "theta", "psi"].map(str::to_owned).into(),
     }
+}
+
+/// A chart as a path in generated code.
+fn path(chart: Chart) -> TokenStream {
+    let name = match chart {
+        Chart::Matrix => quote! { Matrix },
+        Chart::Quaternion => quote! { Quaternion },
+        Chart::Euler(sequence) => {
+            let name = format_ident!("{sequence:?}");
+            quote! { Euler(::lie_runtime::driver::EulerSequence::#name) }
+        }
+    };
+    quote! { ::lie_runtime::driver::Chart::#name }
 }
 
 /// The method that confirms the reference solution of `lie bench`: one that needs no matrix for a family.
@@ -309,9 +323,9 @@ fn entry(choice: &Choice, purpose: Purpose) -> TokenStream {
     };
     let composed = choice.solved() != choice;
     if let Purpose::OnGroup(chart) = purpose {
-        let chart = format_ident!("{chart:?}");
+        let chart = path(chart);
         return quote! {
-            .on_group(#label, ::lie_runtime::driver::Chart::#chart, |#argument| #constructor)
+            .on_group(#label, #chart, |#argument| #constructor)
         };
     }
     let function = match purpose {

@@ -1,12 +1,15 @@
 //! Structure that some algebras and Hamiltonians have and some methods need: a matrix representation,
 //! factors so(3), the inertia of a rigid body in n dimensions.
 
+pub mod euler;
 mod lifts;
+pub mod rotation;
 
 use crate::matrix::SquareMatrix;
 use crate::poisson::{LiePoisson, Poisson};
 use crate::scalar::Scalar;
 use crate::state::State;
+pub use euler::EulerSequence;
 pub use lifts::{
     CollectivePoisson, ColumnPoisson, Columns, SpinPoisson, UnitaryPoisson, VectorPoisson,
 };
@@ -88,6 +91,9 @@ pub enum Chart {
     /// As a unit quaternion `(q0, q1, q2, q3)`, the real part first, where the matrices are rotations in three
     /// dimensions. It is normalised after every step; its sign changes continuously.
     Quaternion,
+    /// As Euler angles `(phi, theta, psi)` in radians, where the matrices are rotations in three dimensions. They are followed
+    /// from step to step, so that they are continuous; see [`euler`].
+    Euler(EulerSequence),
 }
 
 /// A Hamiltonian system on `T*G`: the Hamiltonian `H(g, mu)` is not invariant under the group, and the state

@@ -184,6 +184,9 @@ pub enum OptionError {
     /// A milestone of another run.
     #[error("the milestone is not one of this run: {0}")]
     Milestone(&'static str),
+    /// A group element that is none of the chart.
+    #[error("the group element at the start has another number of entries than its chart")]
+    Element,
     /// `Save::Every(0)`, or an interval that is not a finite number other than zero of the step's
     /// sign.
     #[error("states can be saved every 1, 2, 3, … steps or at a positive interval of time")]

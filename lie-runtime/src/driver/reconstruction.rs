@@ -19,14 +19,15 @@
 //! [doi:10.1088/0305-4470/39/42/006](https://doi.org/10.1088/0305-4470/39/42/006).
 #![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
 
+use super::element::Element;
 use super::group_matrix::{GroupMatrix, exponential, rational};
 use super::observer::{Motion, Observer, Progress};
-use crate::generic::{gauss_ratio, gauss_weight, quaternion_product as product};
+use crate::generic::{gauss_ratio, gauss_weight};
 use crate::methods::{Retraction, RungeKutta};
 use crate::scalar::{Scalar, largest};
 use crate::state::State;
-pub use crate::structure::Chart;
-use crate::structure::{Group, MatrixGroup};
+use crate::structure::MatrixGroup;
+pub use crate::structure::{Chart, EulerSequence};
 use core::ops::ControlFlow;
 
 /// `B_k/k!` of the even Bernoulli numbers from `B_2` on: the series of `dexp^-1` beyond `1 - ad/2`.
@@ -58,11 +59,9 @@ const SWEEPS: usize = 60;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Reconstruction<S, V> {
-    chart: Chart,
-    matrix: GroupMatrix<S>,
-    quaternion: [S; 4],
+    element: Element<S>,
     /// Where a shorter step to a row off the grid began.
-    kept: Option<(GroupMatrix<S>, [S; 4])>,
+    kept: Option<Element<S>>,
     velocities: Vec<V>,
     rows: Vec<Vec<S>>,
 }
@@ -70,70 +69,71 @@ pub struct Reconstruction<S, V> {
 impl<S: Scalar, V: State<S>> Reconstruction<S, V> {
     /// Beginning at the identity.
     pub fn new<P: MatrixGroup<S, State = V>>(system: &P, chart: Chart) -> Self {
-        let mut quaternion = [S::zero(); 4];
-        quaternion[0] = S::one();
         Self {
-            chart,
-            matrix: GroupMatrix::identity(system.group().size),
-            quaternion,
+            element: Element::identity(&system.group(), chart),
             kept: None,
             velocities: Vec::new(),
             rows: Vec::new(),
         }
     }
 
-    /// The same beginning where another one was, with its entries in the chart; none if these are not as many.
-    pub fn beginning_at(mut self, element: &[S]) -> Option<Self> {
-        let entries = match self.chart {
-            Chart::Matrix => self.matrix.entries_mut(),
-            Chart::Quaternion => &mut self.quaternion,
-        };
-        if entries.len() != element.len() {
-            return None;
-        }
-        entries.copy_from_slice(element);
+    /// The same beginning at a group element, given by its entries in the chart: a matrix by rows, a quaternion that is
+    /// normalised, or Euler angles of any size; none if they are not as many.
+    ///
+    /// The element g0 stands on the left of the motion from the identity on, `g = g0 g_id`, of a right-invariant system on
+    /// its right. A matrix that ought to be orthogonal is made so, see [`Reconstruction::at_matrix`].
+    ///
+    /// ```
+    /// use core::f64::consts::PI;
+    /// use lie_runtime::driver::{Chart, EulerSequence, Reconstruction};
+    /// use lie_runtime::prelude::*;
+    /// # include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/systems/rigid_body.rs"));
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// let system = RigidBody::<f64>::default();
+    /// let chart = Chart::Euler(EulerSequence::Zxz);
+    /// let mut angles = Reconstruction::new(&system, chart).at(&[0.1, PI / 3.0, 0.2]).unwrap();
+    /// let problem = Problem::new(system, [0.8, 0.1, 0.6], (0.0, 10.0));
+    /// solve_observed(&problem, LieMidpoint::exp(), &Options::new(0.1), &mut angles)?;
+    /// assert_eq!(angles.rows()[0], [0.1, PI / 3.0, 0.2]);
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn at(mut self, element: &[S]) -> Option<Self> {
+        self.element.set(element)?;
         Some(self)
+    }
+
+    /// The same beginning at a group element, given by its matrix by rows in any chart, such as `initial_attitude()` of a
+    /// system that declares it; none if it has another size.
+    ///
+    /// Two steps of Newton's iteration take the matrix of an orthogonal group to the nearest orthogonal one, from 1e-4 to
+    /// round-off. Of the two quaternions of a rotation that with a positive real part is taken, and the Euler angles are those of
+    /// [`EulerSequence::angles`].
+    pub fn at_matrix(mut self, rows: &[S]) -> Option<Self> {
+        self.element.set_matrix(rows)?;
+        Some(self)
+    }
+
+    /// The same going on where another one was, by its [`memory`](Reconstruction::memory), bit by bit; none if that is one of
+    /// another chart.
+    pub fn beginning_at(mut self, memory: &[S]) -> Option<Self> {
+        self.element.recall(memory)?;
+        Some(self)
+    }
+
+    /// From what another one can go on: the group element in the chart, of Euler angles the quaternion before them.
+    pub fn memory(&self) -> Vec<S> {
+        self.element.memory()
     }
 
     /// The group element where the run is, in the chart.
     pub fn element(&self) -> &[S] {
-        match self.chart {
-            Chart::Matrix => self.matrix.entries(),
-            Chart::Quaternion => &self.quaternion,
-        }
+        self.element.entries()
     }
 
     /// The group element at each saved state, in the chart.
     pub fn rows(&self) -> &[Vec<S>] {
         &self.rows
-    }
-
-    /// `g F` in place of g, or `F^-1 g` of a right-invariant system.
-    fn advance(&mut self, group: &Group<'_>, factor: &GroupMatrix<S>) {
-        match self.chart {
-            Chart::Matrix => {
-                self.matrix = if group.right {
-                    factor.inverse().times(&self.matrix)
-                } else {
-                    self.matrix.times(factor)
-                };
-                if group.orthogonal {
-                    // else the round-off of a steady rotation would add up
-                    self.matrix.orthogonalize();
-                }
-            }
-            Chart::Quaternion => {
-                let [real, x, y, z] = quaternion_of(factor);
-                let moved = if group.right {
-                    product([real, -x, -y, -z], self.quaternion)
-                } else {
-                    product(self.quaternion, [real, x, y, z])
-                };
-                let square = moved.iter().fold(S::zero(), |sum, &q| sum + q * q);
-                let inverse = S::one() / square.sqrt();
-                self.quaternion = moved.map(|entry| entry * inverse);
-            }
-        }
     }
 
     fn take<P: MatrixGroup<S, State = V>>(&mut self, system: &P, motion: &Motion<'_, V>) {
@@ -153,7 +153,7 @@ impl<S: Scalar, V: State<S>> Reconstruction<S, V> {
                         factor
                     }
                 };
-                self.advance(&system.group(), &factor);
+                self.element.advance(&system.group(), &factor);
             }
             Motion::Velocity(method, stage, xi) => {
                 if stage.index == 0 {
@@ -169,7 +169,7 @@ impl<S: Scalar, V: State<S>> Reconstruction<S, V> {
                 self.velocities.push(velocity);
                 if self.velocities.len() == stage.count {
                     let factor = self.collocate(system, method);
-                    self.advance(&system.group(), &factor);
+                    self.element.advance(&system.group(), &factor);
                 }
             }
         }
@@ -268,13 +268,12 @@ impl<S: Scalar, P: MatrixGroup<S>> Observer<S, P> for Reconstruction<S, P::State
     }
 
     fn leave_grid(&mut self) {
-        self.kept = Some((self.matrix.clone(), self.quaternion));
+        self.kept = Some(self.element.clone());
     }
 
     fn return_to_grid(&mut self) {
-        if let Some((matrix, quaternion)) = self.kept.take() {
-            self.matrix = matrix;
-            self.quaternion = quaternion;
+        if let Some(element) = self.kept.take() {
+            self.element = element;
         }
     }
 
@@ -341,38 +340,4 @@ fn combine<S: Scalar, V: State<S>>(weights: &[S], slopes: &[V], out: &mut V) {
     for (&weight, slope) in weights.iter().zip(slopes) {
         out.axpy(weight, slope);
     }
-}
-
-/// The unit quaternion of a rotation by less than half a turn, `q0 > 0`: of the columns of the matrix `4 q q^T`
-/// the one with the largest diagonal entry, divided by its length.
-fn quaternion_of<S: Scalar>(r: &GroupMatrix<S>) -> [S; 4] {
-    let [x, y, z] = [r.at(0, 0), r.at(1, 1), r.at(2, 2)];
-    let one = S::one();
-    let [a, b, c] = [
-        r.at(2, 1) - r.at(1, 2),
-        r.at(0, 2) - r.at(2, 0),
-        r.at(1, 0) - r.at(0, 1),
-    ];
-    let [p, q, s] = [
-        r.at(0, 1) + r.at(1, 0),
-        r.at(2, 0) + r.at(0, 2),
-        r.at(1, 2) + r.at(2, 1),
-    ];
-    let columns = [
-        [one + x + y + z, a, b, c],
-        [a, one + x - y - z, p, q],
-        [b, p, one - x + y - z, s],
-        [c, q, s, one - x - y + z],
-    ];
-    let mut best = columns[0];
-    let mut size = columns[0][0];
-    for (index, column) in columns.iter().enumerate().skip(1) {
-        let larger = size.less(column[index]);
-        size = S::select(larger, column[index], size);
-        best = core::array::from_fn(|k| S::select(larger, column[k], best[k]));
-    }
-    let square = best.iter().fold(S::zero(), |sum, &q| sum + q * q);
-    let sign = S::select(best[0].less(S::zero()), -one, one);
-    let inverse = sign / square.sqrt();
-    best.map(|entry| entry * inverse)
 }

@@ -4,6 +4,7 @@
 //! from the `libm` crate, lane by lane. Nothing is contracted to a fused multiply-add: the same input gives the same bits on every
 //! machine, and a lane gives the bits of the scalar run.
 
+mod branch;
 mod dual;
 pub(crate) mod elementary;
 mod float;
@@ -17,6 +18,7 @@ mod primitive;
 mod registers;
 mod truncated;
 
+pub use branch::nearest_branch;
 pub use dual::Dual;
 #[cfg(feature = "lanes")]
 pub use lanes::{F32x8, F64x4, F64x8, Mask32x8, Mask64x4, Mask64x8};
