@@ -185,7 +185,18 @@ fn declaration(spec: &Map<String, Value>) -> String {
             None => {}
         }
     }
-    body
+    body + &spec.get("attitude").map_or_else(String::new, attitude)
+}
+
+/// The block of the group element at the start.
+fn attitude(declared: &Value) -> String {
+    let declared = declared.as_object().into_iter().flatten();
+    let each = declared.map(|(key, value)| match value {
+        Value::String(axes) => format!(" {key} = {axes};"),
+        _ if value[0].is_array() => format!(" {key} = {};", rows_of(value)),
+        _ => format!(" {key} = [{}];", list(value)),
+    });
+    format!("attitude {{{} }}\n", each.collect::<String>())
 }
 
 /// The tokens without doc comments, which say in words what only one of the two forms has.
@@ -269,6 +280,66 @@ fn tables_and_cases_are_the_same_in_both() {
             &body.replacen("<", ">=", 1).replacen("(2, 3)", "(2, 4)", 1),
         ));
         assert_ne!(one, changed.to_string(), "{path}");
+    }
+}
+
+#[test]
+fn attitudes_are_the_same_in_both() {
+    let mut spec = read(Path::new("tests/data/declarations/pass/attitude.json"));
+    spec.insert("methods".into(), serde_json::json!(["gauss4"]));
+    let mut all = Vec::new();
+    for group in [true, false] {
+        for form in [
+            serde_json::json!({ "euler": "zxz", "angles": ["a", "pi/2", "-a^2"] }),
+            serde_json::json!({ "quaternion": ["cos(a)", 0, "sin(a)", 0] }),
+            serde_json::json!({ "matrix": [[0, -1, 0], ["cos(a)", 0, "-sin(a)"], ["sin(a)", 0, "cos(a)"]] }),
+        ] {
+            spec.insert("attitude".into(), form);
+            if !group {
+                spec.remove("group");
+                spec.insert("hamiltonian".into(), "a*x^2 + y^2 + z^2/3".into());
+            }
+            let body = declaration(&spec);
+            let (one, other) = (
+                without_docs(from_spec(&spec)).to_string(),
+                without_docs(from_macro(&body)).to_string(),
+            );
+            assert!(!other.contains("compile_error"), "{body}\n{other}");
+            assert_eq!(one, other, "{body}");
+            all.push(one);
+        }
+    }
+    all.dedup();
+    assert_eq!(all.len(), 6);
+}
+
+#[test]
+fn mistakes_in_attitudes_of_a_macro_have_remedies() {
+    for (block, says) in [
+        ("", "has no entries"),
+        ("quaternion = [1, 0, 0];", "3 entries, and needs 4"),
+        ("quaternion = [1, 0, 0, 0]; euler = zxz;", "given twice"),
+        (
+            "quaternion = [1, 0, 0, 0]; quaternion = [1, 0, 0, 0];",
+            "stands twice",
+        ),
+        ("quaternion = 1;", "list of 4 numbers"),
+        (
+            "euler = zz; angles = [0, 1, 0];",
+            "`zz` is no sequence of axes",
+        ),
+        ("euler = zxz; angle = [0, 1, 0];", "has no `angle`"),
+        ("quaternion = [1, 1, 0, 0];", "its norm is 1.414"),
+    ] {
+        let body = format!(
+            "pub system Broken; algebra = so(3); state x, y, z; hamiltonian = x^2 + y^2/3; attitude {{ {block} }}"
+        );
+        let text = from_macro(&body).to_string();
+        assert_eq!(text.matches("compile_error").count(), 1, "{block}: {text}");
+        assert!(
+            text.contains(says) && text.contains("help: "),
+            "{block}: {text}"
+        );
     }
 }
 

@@ -115,7 +115,7 @@ pub fn run(spec: &Spec, request: &Request) -> Result<(Plan, Run), Vec<Message>> 
         (Ok(plan), Ok(start)) => {
             let (method, values) = (&plan.method, &start.parameters);
             let bound = request::bound_to_itself(&spec.model, method, values, request.front);
-            let run = plan.run(start.named(spec));
+            let run = plan.run_of(&spec.model, start.named(spec));
             bound.map_or(Ok((plan, run)), |message| Err(vec![message]))
         }
         (plan, start) => {

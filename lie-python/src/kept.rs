@@ -122,7 +122,7 @@ pub fn start(
     let values = values.as_deref().unwrap_or(&declaration.facts.defaults);
     let initial = match x0.is_none() {
         true => spec.model.initial_values(values)?,
-        false => spec.model.complete_state(&numbers(x0)?)?,
+        false => spec.model.complete_state(&numbers(x0)?, values)?,
     };
     let fits = spec.fault(&initial, values).is_none();
     fits.then_some(Start {

@@ -114,14 +114,21 @@ impl Core {
     }
 
     /// The states for those that a user gives: all coordinates, or without what carries the time, or without the group
-    /// element; none where there are more or fewer.
-    fn complete(&self, py: Python<'_>, given: Vec<Vec<f64>>) -> Option<Vec<Vec<f64>>> {
+    /// element, for values of the parameters of each or of all; none where there are more or fewer.
+    fn complete(
+        &self,
+        py: Python<'_>,
+        given: Vec<Vec<f64>>,
+        parameters: Vec<Vec<f64>>,
+    ) -> Option<Vec<Vec<f64>>> {
         let all = self.0.facts.names.len();
         if given.iter().all(|state| state.len() == all) {
             return Some(given);
         }
         self.0.with_model(py, |model| {
-            let states = given.iter().map(|state| model.complete_state(state));
+            let values = parameters.iter().cycle().take(given.len());
+            let states = given.iter().zip(values);
+            let states = states.map(|(state, values)| model.complete_state(state, values));
             states.collect()
         })
     }
@@ -244,7 +251,7 @@ impl Core {
         let Some((prepared, start)) = kept::again(&self.0, options, x0, named) else {
             return Ok(None);
         };
-        let run = prepared.plan.run(start);
+        let run = prepared.plan.run_of(&self.0.spec().model, start);
         trajectory::of_prepared(py, &self.0, (&prepared, run), None).map(Some)
     }
 

@@ -281,7 +281,7 @@ pub fn of_prepared<'py>(
         more.set_item("seed", plan.held.seed)?;
     }
     if let Some(chart) = plan.chart {
-        more.set_item("quaternion", chart == Chart::Quaternion)?;
+        more.set_item("matrix", chart == Chart::Matrix)?;
         more.set_item("group", heard.elements.into_pyarray(py))?;
     }
     if let Some(last) = heard.events.last().filter(|event| event.stops) {

@@ -264,6 +264,9 @@ fn write_system(model: &Structure, text: &mut String) -> std::fmt::Result {
     if let Some(configuration) = &model.configuration {
         writeln!(text, "  {}", configuration.description())?;
     }
+    if let Some(attitude) = model.display_attitude() {
+        writeln!(text, "  attitude at the start: {attitude}")?;
+    }
     if let Some(lagrangian) = model.energy.lagrangian() {
         if let Some(discrete) = lagrangian.discrete {
             writeln!(text, "  l_d = {}", model.display(discrete.value))?;

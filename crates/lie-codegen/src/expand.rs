@@ -166,6 +166,7 @@ fn stub(parsed: &Parsed, name: &Name) -> TokenStream {
                 ::core::result::Result::Ok(#system { _scalar: ::core::marker::PhantomData })
             }
             pub fn initial_state(&self) -> #vector { <#vector>::repeat(S::zero()) }
+            pub fn initial_attitude(&self) -> &'static [S] { &[] }
         }
         #[derive(Clone, Debug, PartialEq)]
         #visibility struct #system<S = f64> { _scalar: ::core::marker::PhantomData<S> }

@@ -47,10 +47,11 @@ type Integrate<P> = dyn Fn(
     &Problem<f64, P>,
     &Options,
     Option<Option<&TakenUp<P>>>,
+    &[f64],
     &mut RowWriter<'_, '_>,
 ) -> Result<(Stats, Status), IntegrateError>;
 
-/// Where a run is taken up, with the group element there.
+/// Where a run is taken up, with the memory of what follows the group element.
 type TakenUp<P> = (Milestone<<P as Poisson<f64>>::State>, Vec<f64>);
 
 /// A program for one system and some methods.
@@ -78,10 +79,11 @@ impl<P: Poisson<f64>> Program<P> {
         id: &str,
         make: impl Fn(&Tolerances) -> M + 'static,
     ) -> Self {
-        let run: Box<Integrate<P>> = Box::new(move |tolerances, problem, options, from, rows| {
-            let from = milestone::<P>(from);
-            go(problem, make(tolerances), options, from, rows)
-        });
+        let run: Box<Integrate<P>> =
+            Box::new(move |tolerances, problem, options, from, _, rows| {
+                let from = milestone::<P>(from);
+                go(problem, make(tolerances), options, from, rows)
+            });
         self.methods.push((id.to_owned(), run));
         self
     }
@@ -93,11 +95,12 @@ impl<P: Poisson<f64>> Program<P> {
         id: &str,
         make: impl Fn(&Tolerances) -> Box<dyn AnyMethod<f64, P>> + 'static,
     ) -> Self {
-        let run: Box<Integrate<P>> = Box::new(move |tolerances, problem, options, from, rows| {
-            let method = make(tolerances);
-            let from = milestone::<P>(from);
-            go(problem, Forgotten(method.as_ref()), options, from, rows)
-        });
+        let run: Box<Integrate<P>> =
+            Box::new(move |tolerances, problem, options, from, _, rows| {
+                let method = make(tolerances);
+                let from = milestone::<P>(from);
+                go(problem, Forgotten(method.as_ref()), options, from, rows)
+            });
         self.methods.push((id.to_owned(), run));
         self
     }
@@ -113,11 +116,12 @@ impl<P: Poisson<f64>> Program<P> {
     where
         P: MatrixGroup<f64>,
     {
-        let run: Box<Integrate<P>> = Box::new(move |tolerances, problem, options, from, rows| {
-            let mut rows = on_group(&problem.system, chart, from, rows)?;
-            let from = milestone::<P>(from);
-            go(problem, make(tolerances), options, from, &mut rows)
-        });
+        let run: Box<Integrate<P>> =
+            Box::new(move |tolerances, problem, options, from, element, rows| {
+                let mut rows = on_group(&problem.system, chart, (from, element), rows)?;
+                let from = milestone::<P>(from);
+                go(problem, make(tolerances), options, from, &mut rows)
+            });
         self.methods.push((id.to_owned(), run));
         self
     }
@@ -133,18 +137,19 @@ impl<P: Poisson<f64>> Program<P> {
     where
         P: MatrixGroup<f64>,
     {
-        let run: Box<Integrate<P>> = Box::new(move |tolerances, problem, options, from, rows| {
-            let mut rows = on_group(&problem.system, chart, from, rows)?;
-            let from = milestone::<P>(from);
-            let method = make(tolerances);
-            go(
-                problem,
-                Forgotten(method.as_ref()),
-                options,
-                from,
-                &mut rows,
-            )
-        });
+        let run: Box<Integrate<P>> =
+            Box::new(move |tolerances, problem, options, from, element, rows| {
+                let mut rows = on_group(&problem.system, chart, (from, element), rows)?;
+                let from = milestone::<P>(from);
+                let method = make(tolerances);
+                go(
+                    problem,
+                    Forgotten(method.as_ref()),
+                    options,
+                    from,
+                    &mut rows,
+                )
+            });
         self.methods.push((id.to_owned(), run));
         self
     }
@@ -200,6 +205,7 @@ impl<P: Poisson<f64>> Program<P> {
             &problem,
             &options,
             wanted.then_some(from.as_ref()),
+            &request.element,
             &mut rows,
         );
         rows.finish();
@@ -243,17 +249,21 @@ fn go<P: Poisson<f64>, M: Method<f64, P>>(
     }
 }
 
-/// What writes rows with the group element, which begins where it was at a milestone.
+/// What writes rows with the group element, which begins where it was at a milestone, else at the element that is given for the
+/// start.
 fn on_group<'r, 's, 'o, P: MatrixGroup<f64>>(
     system: &P,
     chart: Chart,
-    from: Option<Option<&TakenUp<P>>>,
+    (from, element): (Option<Option<&TakenUp<P>>>, &[f64]),
     rows: &'r mut RowWriter<'s, 'o>,
 ) -> Result<OnGroup<'r, 's, 'o, P::State>, IntegrateError> {
     let mut reconstruction = Reconstruction::new(system, chart);
-    if let Some(Some((_, element))) = from {
-        let there = reconstruction.beginning_at(element);
+    if let Some(Some((_, memory))) = from {
+        let there = reconstruction.beginning_at(memory);
         reconstruction = there.ok_or(OptionError::Milestone("its group element is another one"))?;
+    } else if !element.is_empty() {
+        let there = reconstruction.at(element);
+        reconstruction = there.ok_or(OptionError::Element)?;
     }
     Ok(OnGroup {
         reconstruction,

@@ -346,8 +346,8 @@ impl<P: MatrixGroup<f64>> Observer<f64, P> for OnGroup<'_, '_, '_, P::State> {
     }
 
     fn milestone(&mut self, _system: &P, milestone: &driver::Milestone<P::State>) {
-        let element = self.reconstruction.element();
-        self.rows.milestone(milestone, element);
+        let memory = self.reconstruction.memory();
+        self.rows.milestone(milestone, &memory);
     }
 
     fn row(&mut self, system: &P, time: f64, mu: &P::State) -> ControlFlow<()> {

@@ -87,6 +87,7 @@ fn request(method: &str, step: f64, times: Times, initial: &[f64]) -> Run {
         keep: Keep::NOTHING,
         density: Density::Constant,
         assess: 0,
+        element: Vec::new(),
         from_milestone: None,
         milestones: Milestones::None,
         curve: false,

@@ -34,7 +34,7 @@ class Check:
     ``dimension``: of the Poisson space, in which a Hamiltonian that depends on the time has three coordinates more than the user
     gave. ``generic_rank``: of the Poisson matrix at a generic state. ``initial_rank``: at the initial state, ``None`` without
     one. ``casimirs``: a list of :class:`Casimir`, functionally independent. ``acting``: what acts beside the Hamiltonian, each with
-    its formula. ``integrals``, ``observables``: those that are declared, by name. ``independent_casimirs``: how many there can be.
+    its formula. ``attitude``: the group element at the start, if it is declared. ``integrals``, ``observables``: those that are declared, by name. ``independent_casimirs``: how many there can be.
     ``algebra``: the name of the algebra, if it was recognised. ``algebra_class``: "abelian", "nilpotent", "solvable",
     "semisimple", "reductive", "unimodular", each true or false. ``series``: dimensions of the derived and of the lower central
     series, of centre and radical. ``killing``: the signature of the Killing form. The last four are ``None`` where there is
@@ -56,6 +56,7 @@ class Check:
         self.acting: list[tuple[str, str]] = [
             (row["what"], row["formula"]) for row in found["acting"]
         ]
+        self.attitude: str | None = found.get("attitude")
         integrals, observables = found.get("integrals", []), found.get("observables", [])
         self.integrals: dict[str, str] = {row["name"]: row["expression"] for row in integrals}
         self.observables: dict[str, str] = {row["name"]: row["expression"] for row in observables}
@@ -93,6 +94,8 @@ class Check:
             text = f"{casimir.expression} ({casimir.kind}{changed})"
             lines.append((f"Casimir {casimir.name}", text))
         lines.extend(self.acting)
+        if self.attitude is not None:
+            lines.append(("attitude at the start", self.attitude))
         lines.extend((f"integral {name}", text) for name, text in self.integrals.items())
         if len(self.casimirs) < self.independent_casimirs:
             lines.append(("Casimirs", f"{len(self.casimirs)} of {self.independent_casimirs} known"))

@@ -61,7 +61,7 @@ class Function:
         }.get(name, (n, n))
         self._shown, self._time = core.shown(), core.time()
         # what the user does not give: the constants of a state of the larger space
-        whole = [] if self._time is None else (core.complete([[0.0] * n]) or [[]])[0]
+        whole = [] if self._time is None else (core.complete([[0.0] * n], [values]) or [[]])[0]
         self._template = np.asarray(whole, dtype=np.float64)
 
     def __reduce__(self) -> tuple[object, ...]:

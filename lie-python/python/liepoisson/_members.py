@@ -24,7 +24,7 @@ def members_of(system: Declared, x0: Any, parameters: Mapping[str, Any]) -> Arra
         raise ValueError("a parameter is an empty array: there are no members")
     if system._core.family:
         return _each(members_of_family(system, x0, parameters), parameters)
-    return _each(_members_of_one(system, x0), parameters)
+    return _each(_members_of_one(system, x0, parameters), parameters)
 
 
 def _each(starts: Array, parameters: Mapping[str, Any]) -> Array:
@@ -33,11 +33,16 @@ def _each(starts: Array, parameters: Mapping[str, Any]) -> Array:
     return np.repeat(starts, members, axis=0) if len(starts) == 1 else starts
 
 
-def _members_of_one(system: Declared, x0: npt.ArrayLike) -> Array:
+def _members_of_one(
+    system: Declared, x0: npt.ArrayLike, parameters: Mapping[str, Any]
+) -> Array:
     starts = np.ascontiguousarray(np.atleast_2d(floats(x0, "x0")))
     n = system.dimension
     if starts.ndim == 2 and starts.shape[1] != len(system._core.coordinates):
-        complete = system._core.complete(starts.tolist())
+        # the group element at the start may depend on parameters
+        starts = _each(starts, parameters)
+        values = table_of(system, parameters, len(starts))
+        complete = system._core.complete(starts.tolist(), values.tolist())
         if complete is not None:
             return np.asarray(complete, dtype=np.float64).reshape(len(starts), -1)
     elif starts.ndim == 2:
@@ -103,7 +108,7 @@ def drawn(
             )
     first = {name: np.ravel(value)[0] for name, value in parameters.items()}
     family = system._core.family
-    around = members_of_family(system, x0, first) if family else _members_of_one(system, x0)
+    around = members_of_family(system, x0, first) if family else _members_of_one(system, x0, first)
     if len(around) != 1:
         raise ValueError(f"members are drawn around one state, and x0 has {len(around)}")
     if isinstance(spread, str) and spread.strip() == "orbit":

@@ -72,7 +72,7 @@ class Solution:
         self.density: str | None = None
         #: The seed of the noise, where there is some.
         self.seed: int | None = None
-        #: The group element at each row, shape (m, s, s) or (m, 4), where it was asked for.
+        #: The group element at each row, shape (m, s, s), or (m, 4) of quaternions, (m, 3) of Euler angles, where it was asked for.
         self.group: Array | None = None
 
     @cached_property

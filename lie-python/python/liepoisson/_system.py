@@ -79,8 +79,9 @@ class System(Declared):
         order. Parameters are given by name, or in ``parameters`` where a name is also an argument (``parameters={"h": 2}``). What is left out comes from the
         declaration; its words ``step``, ``from``, ``until`` and ``initial`` are taken for ``h``, ``t0``, ``t`` and ``x0`` too. ``rtol`` and ``atol`` are those of dopri5. ``iteration`` ("automatic", "newton", "simplified",
         "fixed-point"), ``newton_tolerance`` (in units of round-off), ``max_iterations`` and ``converge`` ("state", "map",
-        "tolerance") are for the solver of implicit methods. ``group="matrix"`` or ``"quaternion"`` follows the group element
-        from the identity on (``run.group``).
+        "tolerance") are for the solver of implicit methods. ``group="matrix"`` follows the group element from the declared
+        ``attitude`` or the identity on (``run.group``); for rotations ``"quaternion"``, the real part first, or Euler angles in
+        radians such as ``"euler:zxz"`` for g = Rz(phi) Rx(theta) Rz(psi), which are continuous along the run.
 
         ``keep=["energy", "casimirs"]``, or one of them, brings the state back behind each step of taylor, dopri5 or rk4 to the
         values at the start: they are kept to round-off. The steps are no Poisson maps for that, and ``run.kept`` says what was.
@@ -157,7 +158,7 @@ class System(Declared):
         if "group" in found:
             elements = np.asarray(found["group"]).reshape(len(solution.t), -1)
             size = round(elements.shape[1] ** 0.5)
-            solution.group = elements if found["quaternion"] else elements.reshape(-1, size, size)
+            solution.group = elements.reshape(-1, size, size) if found["matrix"] else elements
         solution.density = found.get("density")
         solution.seed = found.get("seed")
         if "note" in found:

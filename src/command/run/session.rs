@@ -213,7 +213,7 @@ impl Session<'_> {
                 stream: member.point as u64,
                 ..plan.held.clone()
             },
-            ..plan.run(member.start.clone())
+            ..plan.run_of(&self.spec.model, member.start.clone())
         };
         if let Some(place) = &place {
             reception.take_up(place).map_err(|error| self.lost(error))?;

@@ -10,6 +10,7 @@ pub mod quadratic;
 pub mod rank;
 pub mod representation;
 mod ring;
+pub mod rotating;
 mod sparse;
 mod triple;
 

@@ -64,6 +64,7 @@ pub fn assemble(whole: &Whole<'_>, system: System, proven: Proven) -> Model {
         methods: declaration.methods.clone(),
         initial: lowered.initial,
         initial_origins: initial_origins.collect(),
+        attitude: lowered.attitude,
         run: declaration.run.clone(),
         generic_rank: 0,
         initial_rank: None,

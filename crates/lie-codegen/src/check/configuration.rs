@@ -81,6 +81,7 @@ pub fn extended(
     let mut whole = declaration.clone();
     added.names(&mut whole.state);
     if let Some(initial) = &declaration.initial {
+        mistakes.extend(twice(declaration, configuration, initial, origin));
         let complete = configuration.complete(initial, |value| added.exact(value.clone()));
         if complete.is_none() {
             mistakes.push(incomplete(declaration, configuration, initial, origin));
@@ -162,6 +163,23 @@ impl Added<'_> {
             algebra.matrices = builder.matrices();
         }
     }
+}
+
+/// Entries of the group element in the initial state, where `attitude` gives them.
+fn twice(
+    declaration: &Declaration,
+    configuration: &Configuration,
+    initial: &[Expr],
+    origin: Origin,
+) -> Option<Diagnostic> {
+    let (own, entries) = (declaration.state.len(), configuration.entries().len());
+    let given = declaration.attitude.is_some() && entries > 0 && initial.len() == own + entries;
+    given.then(|| {
+        let place = declaration.initial_origin.unwrap_or(origin);
+        let message = "the initial group element is given twice: by `initial` and by `attitude`";
+        Diagnostic::new(Kind::StateLength, place, message)
+            .help("write the momenta alone in `initial`, or remove `attitude`")
+    })
 }
 
 /// An initial state that has neither the values of the declared coordinates nor those of all.

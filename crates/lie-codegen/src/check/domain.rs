@@ -1,5 +1,6 @@
 //! The domain: the Hamiltonian, its gradient and the Casimirs must be finite where a run begins.
 
+use super::attitude;
 use super::velocity::velocity;
 use crate::model::{Bracket, Energy, Model, QuantityKind};
 use lie_symbolic::exact::Rational;
@@ -54,6 +55,8 @@ pub struct Domain {
     functions: Vec<(ExprId, String)>,
     /// All that they are made of: children come before parents.
     parts: Vec<ExprId>,
+    /// Whether the initial group element depends on parameters; one that does not was looked at with the declaration.
+    attitude_varies: bool,
 }
 
 impl Domain {
@@ -64,7 +67,10 @@ impl Domain {
         // what a function of the user is at a state is known at run time
         functions.retain(|(id, _)| graph.own_functions(*id).is_empty());
         let roots: Vec<ExprId> = functions.iter().map(|(id, _)| *id).collect();
+        let attitude = model.attitude.iter();
+        let mut entries = attitude.flat_map(|attitude| &attitude.entries);
         Self {
+            attitude_varies: entries.any(|entry| !graph.symbols(*entry).is_empty()),
             parts: graph.dependencies(&roots),
             graph,
             functions,
@@ -78,6 +84,14 @@ impl Domain {
             return Some(Fault {
                 coordinate: Some(i),
                 message,
+            });
+        }
+        if self.attitude_varies
+            && let Some(wrong) = attitude::violation(model, parameters)
+        {
+            return Some(Fault {
+                coordinate: None,
+                message: wrong.message,
             });
         }
         if let Some(fault) = outside_the_group(model, mu) {

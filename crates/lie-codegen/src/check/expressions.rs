@@ -5,8 +5,10 @@ use super::coordinates::Whole;
 use super::environment::{Allowed, Environment};
 use super::lower::Lowering;
 use super::poisson::{self, Entry};
-use super::{defaults, driving, exactness, initial, lets, opaque, parameters, realization};
-use crate::model::{Acting, Parameter, Realization};
+use super::{
+    attitude, defaults, driving, exactness, initial, lets, opaque, parameters, realization,
+};
+use crate::model::{Acting, Attitude, Parameter, Realization};
 use lie_symbolic::exact::Rational;
 use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 use lie_syntax::ast;
@@ -40,6 +42,8 @@ pub struct Lowered {
     pub realization: Option<Realization>,
     /// The initial state.
     pub initial: Option<Vec<ExprId>>,
+    /// The initial group element.
+    pub attitude: Option<Attitude>,
 }
 
 /// Lowers everything, so that the mistakes of all expressions are found together.
@@ -92,6 +96,7 @@ pub fn lower(
         mistakes,
     );
     let initial = initial::initial_state(declaration, &mut graph, &environment, mistakes);
+    let attitude = attitude::initial_element(whole, &mut graph, &environment, mistakes);
     mistakes.extend(opaque::own_functions(
         declaration,
         &graph,
@@ -101,7 +106,7 @@ pub fn lower(
     if super::has_errors(mistakes) {
         return None;
     }
-    let (algebra, parameters) = (algebra?, parameters?);
+    let (algebra, parameters, attitude) = (algebra?, parameters?, attitude?);
     let defaults = defaults::exact_defaults(declaration, algebra.as_ref(), &parameters);
     Some(Lowered {
         graph,
@@ -116,6 +121,7 @@ pub fn lower(
         observables: observables.into_iter().collect::<Option<_>>()?,
         events: events.into_iter().collect::<Option<_>>()?,
         realization: realization?,
-        initial: initial?,
+        initial: attitude::among_coordinates(configuration, initial?, attitude.as_ref()),
+        attitude,
     })
 }

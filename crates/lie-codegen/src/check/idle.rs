@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 
 use crate::model::{Bracket, Model};
 use lie_symbolic::symbolic::Symbol;
-use lie_syntax::ast::{Declaration, Expr, ExprKind, Name, Size, Structure};
+use lie_syntax::ast::{Attitude, Declaration, Expr, ExprKind, Name, Size, Structure};
 use lie_syntax::diagnostic::{Diagnostic, Kind};
 
 /// Warnings of parameters and abbreviations that no expression mentions, of brackets that are all
@@ -99,6 +99,7 @@ fn mentioned(declaration: &Declaration) -> BTreeSet<&str> {
         pending.extend(realization.start.iter().flatten());
     }
     pending.extend(declaration.initial.iter().flatten());
+    pending.extend(declaration.attitude.iter().flat_map(Attitude::entries));
     let names = pending.into_iter().flat_map(Expr::parts);
     let names = names.filter_map(|part| match &part.kind {
         ExprKind::Name { name, .. } => Some(name.as_str()),

@@ -5,6 +5,7 @@
 
 mod algebra;
 mod assembly;
+mod attitude;
 mod breadth;
 mod casimirs;
 mod cocycle;
@@ -99,10 +100,10 @@ fn stages(declaration: &Declaration, mistakes: &mut Vec<Diagnostic>) -> Option<M
     let mut system = system::system(&whole, lowered, &name, mistakes)?;
     let proven = identities::identities(&whole, &mut system, &name, mistakes)?;
     let model = assembly::assemble(&whole, system, proven);
-    mistakes.extend(domain::initial_domain(
-        &model,
-        whole.declaration.initial_origin,
-    ));
+    mistakes.extend(attitude::mistake(&model).or_else(|| {
+        let place = whole.declaration.initial_origin;
+        domain::initial_domain(&model, place)
+    }));
     if has_errors(mistakes) {
         return None;
     }

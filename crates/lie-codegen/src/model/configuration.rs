@@ -54,6 +54,15 @@ impl Configuration {
         self.momenta - usize::from(self.time)
     }
 
+    /// The size of the matrices of the group, of those in the algebra of all coordinates: the blocks of the time and of what is held come
+    /// last, and beside a group element there are two.
+    pub fn size_of_group(&self, whole: usize) -> usize {
+        match &self.group {
+            Some((_, size)) => *size,
+            None => whole - TIME_BLOCK - HELD_BLOCK * self.held.len(),
+        }
+    }
+
     /// What the coordinates are.
     pub fn description(&self) -> String {
         let own = self.own_momenta();

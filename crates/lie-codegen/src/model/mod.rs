@@ -1,5 +1,6 @@
 //! The checked model: everything that derivation and emission need, with no mistake left in it.
 
+mod attitude;
 mod bracket;
 mod casimir;
 pub mod configuration;
@@ -15,6 +16,7 @@ use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 use lie_syntax::ast::{Invariance, Name, RunOption};
 use lie_syntax::diagnostic::Origin;
 
+pub use attitude::{Attitude, Form};
 pub use bracket::{Algebra, Bracket, PoissonMatrix, bracket_of};
 pub use casimir::{Casimir, CasimirKind};
 pub use configuration::Configuration;
@@ -173,6 +175,8 @@ pub struct Model {
     pub initial: Option<Vec<ExprId>>,
     /// Where its entries stand.
     pub initial_origins: Vec<Origin>,
+    /// The initial group element.
+    pub attitude: Option<Attitude>,
     /// Defaults of the run.
     pub run: Vec<RunOption>,
     /// Rank of the Poisson matrix at a generic point and for generic values of the parameters.
@@ -237,13 +241,22 @@ impl Model {
         (0..self.dimension()).filter(|i| !hidden(i)).collect()
     }
 
-    /// The state for the values that a user gives: all coordinates, or of a system on `T*G` the momenta alone,
-    /// at the identity. `None` where the number of values is another.
-    pub fn complete_state(&self, given: &[f64]) -> Option<Vec<f64>> {
-        match &self.configuration {
-            Some(configuration) => configuration.complete(given, Rational::to_f64),
-            None => (given.len() == self.dimension()).then(|| given.to_vec()),
+    /// The state for the values that a user gives: all coordinates, or of a system on `T*G` the momenta alone, at the declared
+    /// attitude for these parameters or at the identity. `None` where the number of values is another.
+    pub fn complete_state(&self, given: &[f64], parameters: &[f64]) -> Option<Vec<f64>> {
+        let Some(configuration) = &self.configuration else {
+            return (given.len() == self.dimension()).then(|| given.to_vec());
+        };
+        let mut state = configuration.complete(given, Rational::to_f64)?;
+        if let Some(attitude) = &self.attitude
+            && given.len() == configuration.own_momenta()
+        {
+            let rows = attitude.rows(&self.graph, parameters);
+            let entries = state[configuration.momenta..].iter_mut().zip(rows);
+            let entries = entries.take(configuration.entries().len());
+            entries.for_each(|(entry, value)| *entry = value);
         }
+        Some(state)
     }
 
     /// The name of a symbol.
@@ -318,10 +331,19 @@ impl Model {
 
     /// The initial state for given values of the parameters.
     pub fn initial_values(&self, parameters: &[f64]) -> Option<Vec<f64>> {
-        let value = |symbol| match symbol {
-            Symbol::Parameter(p) => parameters[p],
-            _ => f64::NAN,
-        };
-        Some(self.graph.evaluate_all(self.initial.as_ref()?, &value))
+        Some(at_parameters(
+            &self.graph,
+            self.initial.as_ref()?,
+            parameters,
+        ))
     }
+}
+
+/// Expressions at values of the parameters, of which alone they are made.
+fn at_parameters(graph: &Graph, roots: &[ExprId], parameters: &[f64]) -> Vec<f64> {
+    let value = |symbol| match symbol {
+        Symbol::Parameter(p) => parameters[p],
+        _ => f64::NAN,
+    };
+    graph.evaluate_all(roots, &value)
 }

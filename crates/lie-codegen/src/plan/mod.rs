@@ -58,6 +58,8 @@ pub struct Plan {
     pub defaults: Code,
     /// The initial state for given parameters, if one is declared.
     pub initial: Option<Code>,
+    /// The matrix of the initial group element by rows, if one is declared.
+    pub attitude: Option<Code>,
     /// What is computed once from the parameters.
     pub constants: Constants,
     /// The system: its facts and the kernels of its traits.

@@ -108,6 +108,8 @@ impl<'a> Planner<'a> {
         let constants = self.prepared(&table, "_k");
         let initial = self.structure.initial.as_ref();
         let initial = initial.map(|initial| self.preparation(initial));
+        let attitude = self.structure.attitude.as_ref();
+        let attitude = attitude.map(|attitude| self.preparation(&attitude.matrix));
         let (splitting, generic) = match splitting {
             Some(Ok(splitting)) => (Some(splitting), generic),
             Some(Err(key)) => (None, [generic, vec![key]].concat()),
@@ -119,6 +121,7 @@ impl<'a> Planner<'a> {
             parameters: parameters(self.structure),
             defaults,
             initial,
+            attitude,
             constants,
             system,
             structure,

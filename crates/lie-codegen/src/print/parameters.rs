@@ -100,6 +100,7 @@ impl Printer<'_> {
             " If a constant that the system needs is not finite, such as the inverse of a zero."
         };
         let initial = self.initial_state();
+        let attitude = self.initial_attitude();
         let family = self.plan.family.is_some();
         let make = ident(if family { "sites" } else { "system" });
         let what = if family {
@@ -150,6 +151,7 @@ impl Printer<'_> {
                     #build
                 }
                 #initial
+                #attitude
             }
         }
     }
@@ -165,6 +167,21 @@ impl Printer<'_> {
             pub fn initial_state(&self) -> ::lie_runtime::__private::SVector<S, #n> {
                 #statements
                 ::lie_runtime::__private::SVector::from([#(#values),*])
+            }
+        })
+    }
+
+    /// The declared group element at the start, for the parameters at hand.
+    fn initial_attitude(&self) -> Option<TokenStream> {
+        let attitude = self.plan.attitude.as_ref()?;
+        let (statements, values) = self.of_parameters(attitude, &|name| quote! { self.#name });
+        let n = index(values.len());
+        Some(quote! {
+            #[doc = " The group element at the start, as the declaration has it: its matrix by rows, for `Reconstruction::at_matrix`."]
+            #[must_use]
+            pub fn initial_attitude(&self) -> [S; #n] {
+                #statements
+                [#(#values),*]
             }
         })
     }

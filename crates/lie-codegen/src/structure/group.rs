@@ -1,10 +1,9 @@
 //! The group of the declared matrices, on which the motion beside that of mu goes.
 
-use std::ops::Range;
-
 use super::Structure;
-use crate::model::configuration::{HELD_BLOCK, TIME_BLOCK};
+use crate::algebra::rotating;
 use crate::model::{Bracket, Model};
+use lie_core::structure::Chart;
 use lie_symbolic::exact::Rational;
 use lie_syntax::ast::Invariance;
 
@@ -24,32 +23,13 @@ pub struct Group {
 impl Group {
     /// Whether the matrices are antisymmetric of size 3: the group is that of rotations.
     pub fn is_rotations(&self) -> bool {
-        self.size == 3
-            && self.matrices.iter().all(|matrix| {
-                let pairs = (0..3).flat_map(|i| (0..=i).map(move |j| (i, j)));
-                let mut sums = pairs.map(|(i, j)| &matrix[i][j] + &matrix[j][i]);
-                sums.all(|sum| sum.is_zero())
-            })
+        rotating::are_rotations(self.size, &self.matrices)
     }
 
     /// Whether the leading block of three rows and columns of every group element is a rotation, and not of all of them the
-    /// identity: the blocks of the algebra are antisymmetric, and nothing of the other rows and columns comes into them.
+    /// identity.
     pub fn turns_space(&self) -> bool {
-        let zero = |rows: Range<usize>, columns: Range<usize>| {
-            self.matrices.iter().all(|matrix| {
-                let mut rows = matrix[rows.clone()].iter();
-                rows.all(|row| row[columns.clone()].iter().all(Rational::is_zero))
-            })
-        };
-        let antisymmetric = |matrix: &Vec<Vec<Rational>>| {
-            let mut pairs = (0..3).flat_map(|i| (0..=i).map(move |j| (i, j)));
-            pairs.all(|(i, j)| (&matrix[i][j] + &matrix[j][i]).is_zero())
-        };
-        self.size >= 3
-            && self.matrices.iter().all(antisymmetric)
-            && !zero(0..3, 0..3)
-            // the block of a product is the product of the blocks where one of the corners beside it is empty
-            && (zero(3..self.size, 0..3) || zero(0..3, 3..self.size))
+        rotating::turn_space(self.size, &self.matrices)
     }
 }
 
@@ -58,31 +38,21 @@ pub fn group(model: &Model) -> Option<Group> {
     if model.family.is_some() {
         return None;
     }
-    let Bracket::Lie(algebra) = &model.bracket else {
-        return None;
-    };
-    let representation = algebra.representation.as_ref()?;
     let configuration = model.configuration.as_ref();
     if configuration.is_some_and(|c| c.group.is_some()) {
         return None;
     }
-    // the blocks of the time and of what is held come last
-    let behind = configuration.map_or(0, |c| TIME_BLOCK + HELD_BLOCK * c.held.len());
-    let size = representation.dimension - behind;
-    let block = |matrix: &Vec<Vec<Rational>>| {
-        let rows = matrix.iter().take(size);
-        rows.map(|row| row[..size].to_vec()).collect()
-    };
+    let (size, matrices) = model.group_matrices()?;
     Some(Group {
         size,
-        matrices: representation.matrices.iter().map(block).collect(),
-        closed: representation.dual.is_some(),
+        matrices,
+        closed: model.bracket.representation()?.dual.is_some(),
         right: model.invariance == Invariance::Right,
     })
 }
 
 /// Why a chart of the group cannot be had, with a remedy.
-pub fn refusal(structure: &Structure, quaternion: bool) -> Option<(String, String)> {
+pub fn refusal(structure: &Structure, chart: Chart) -> Option<(String, String)> {
     let Some(group) = &structure.group else {
         return Some(match &structure.bracket {
             _ if structure.family.is_some() => (
@@ -103,12 +73,15 @@ pub fn refusal(structure: &Structure, quaternion: bool) -> Option<(String, Strin
             ),
         });
     };
-    (quaternion && !group.is_rotations()).then(|| {
-        (
-            "quaternions are for matrices of rotations in three dimensions, antisymmetric of size 3".into(),
-            "write `matrix`".into(),
-        )
-    })
+    let what = match chart {
+        Chart::Matrix => return None,
+        Chart::Quaternion => "quaternions",
+        Chart::Euler(_) => "Euler angles",
+    };
+    let reason = format!(
+        "{what} are for matrices of rotations in three dimensions, antisymmetric of size 3"
+    );
+    (!group.is_rotations()).then(|| (reason, "write `matrix`".into()))
 }
 
 #[cfg(test)]

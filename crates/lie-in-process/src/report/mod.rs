@@ -104,6 +104,8 @@ impl Report {
         });
         if let Some(report) = report.as_object_mut() {
             recorded::add(model, report);
+            let attitude = model.display_attitude();
+            report.extend(attitude.map(|text| ("attitude".to_owned(), text.into())));
         }
         report
     }

@@ -169,7 +169,8 @@ request! {
     word gradient "gradient" "NAME";
     /// Poisson tensor of gonzalez, mean-value, itoh-abe: midpoint or mean
     word tensor "tensor" "NAME";
-    /// Writes the group element beside mu, from the identity on: matrix, or quaternion for rotations
+    /// Writes the group element beside mu, from the declared attitude or the identity on: matrix; for rotations quaternion, or
+    /// euler:zxz with any axes, angles in radians that are followed from step to step
     word group "group" "CHART";
     /// Relative tolerance of dopri5 (default 1e-6), taylor and lie-taylor (default 1e-15)
     quantity rtol "rtol" "TOL";

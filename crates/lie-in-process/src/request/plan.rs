@@ -1,6 +1,7 @@
 //! One method and one start: the request over the spec's `run` over defaults, everything checked.
 
 use lie_codegen::methods::{Choice, OptionError};
+use lie_codegen::model::{Model, Parameter};
 use lie_codegen::program::Chart;
 use lie_codegen::structure::group;
 use lie_program::protocol::{Held, Milestones, Run, Sources, Start, Times, Tolerances};
@@ -54,11 +55,27 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// What a run from a start is asked for.
+    /// What a run of a system from a start is asked for, with the group element that it declares.
+    pub fn run_of(&self, model: &Model, start: Start) -> Run {
+        let parameters = model.parameters.iter();
+        let value = |p: &Parameter| start.parameters.get(&p.name).copied();
+        let parameters = parameters.map(|p| value(p).unwrap_or(p.default_value));
+        let parameters: Vec<f64> = parameters.collect();
+        let element = self
+            .chart
+            .and_then(|chart| model.initial_element(chart, &parameters));
+        Run {
+            element: element.unwrap_or_default(),
+            ..self.run(start)
+        }
+    }
+
+    /// The same from the identity on.
     pub fn run(&self, start: Start) -> Run {
         Run {
             method: self.method.label(),
             start,
+            element: Vec::new(),
             pace: self.pace.0,
             from: self.from,
             times: self.times.clone(),
@@ -331,18 +348,23 @@ impl<'a> Planner<'a> {
 
     fn chart(&mut self) -> Option<Chart> {
         let given = self.option("group")?;
-        let chart = match given.text.trim() {
-            "matrix" => Chart::Matrix,
-            "quaternion" => Chart::Quaternion,
-            other => {
-                let message = given.wrong(format!("unknown form of the group element `{other}`"));
-                self.mistakes
-                    .push(message.help("write `matrix` or `quaternion`"));
-                return None;
+        let text = given.text.trim();
+        let chart = match (text, text.strip_prefix("euler:")) {
+            ("matrix", _) => Ok(Chart::Matrix),
+            ("quaternion", _) => Ok(Chart::Quaternion),
+            (_, Some(axes)) => axes.parse().map(Chart::Euler).map_err(|wrong| {
+                given
+                    .wrong(format!("`{axes}`: {wrong}"))
+                    .help("write `euler:zxz` or `euler:zyx`")
+            }),
+            _ => {
+                let message = given.wrong(format!("unknown form of the group element `{text}`"));
+                Err(message
+                    .help("write `matrix`, `quaternion`, or Euler angles such as `euler:zxz`"))
             }
         };
-        let quaternion = chart == Chart::Quaternion;
-        if let Some((reason, help)) = group::refusal(&self.spec.model, quaternion) {
+        let chart = self.keep(chart)?;
+        if let Some((reason, help)) = group::refusal(&self.spec.model, chart) {
             self.mistakes.push(given.wrong(reason).help(help));
             return None;
         }

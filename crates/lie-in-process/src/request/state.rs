@@ -67,7 +67,7 @@ impl Planner<'_> {
             }
             None => {
                 let wanted = model.shown_coordinates().len();
-                (wanted, model.complete_state(values))
+                (wanted, model.complete_state(values, parameters))
             }
         };
         let Some(state) = state else {
@@ -211,7 +211,10 @@ impl Planner<'_> {
         let dimension = model.shown_coordinates().len();
         let values = if let Some(given) = self.requested("initial") {
             let parts = given.split();
-            if model.complete_state(&vec![0.0; parts.len()]).is_none() {
+            if model
+                .complete_state(&vec![0.0; parts.len()], parameters)
+                .is_none()
+            {
                 let text = match parts.as_slice() {
                     [_] if without_commas(&given.text) => {
                         "no commas stand between these numbers".to_owned()
@@ -234,7 +237,7 @@ impl Planner<'_> {
             });
             let values: Vec<Option<f64>> = values.collect();
             let values: Option<Vec<f64>> = values.into_iter().collect();
-            model.complete_state(&values?)?
+            model.complete_state(&values?, parameters)?
         } else if let Some(values) = model.initial_values(parameters) {
             values
         } else {

@@ -93,7 +93,7 @@ impl Milestone {
         })
     }
 
-    /// The group element.
+    /// The memory of what follows the group element.
     pub(crate) fn element(&self) -> Vec<f64> {
         numbers(&self.element)
     }

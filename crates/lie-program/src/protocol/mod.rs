@@ -48,6 +48,9 @@ pub struct Run {
     pub method: String,
     /// Where it starts.
     pub start: Start,
+    /// The group element there, in its chart; nothing for the identity.
+    #[serde(default, skip_serializing_if = "Vec::is_empty", with = "number::list")]
+    pub element: Vec<f64>,
     /// The step size, or a tolerance.
     #[serde(with = "words::PaceInWords")]
     pub pace: Pace,

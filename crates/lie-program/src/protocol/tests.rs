@@ -15,6 +15,7 @@ fn run(times: Times) -> Run {
         keep: Keep::ENERGY,
         density: Density::Reversible,
         assess: 0,
+        element: vec![0.1 + 0.2, 1e-300],
         from_milestone: None,
         milestones: Milestones::Every(5000),
         curve: true,

@@ -4,6 +4,7 @@
 //! long sum cannot exhaust the stack. Names may carry indices and sums may run over an index:
 //! families of systems need both, so they are in the tree from the start.
 
+mod attitude;
 mod driving;
 pub mod names;
 mod parts;
@@ -14,6 +15,7 @@ use crate::diagnostic::Origin;
 use lie_symbolic::exact::Rational;
 use lie_symbolic::symbolic::Opaque;
 
+pub use attitude::{Attitude, AttitudeForm};
 pub use driving::{Dissipation, DissipationKind, Input, Metric, Noise};
 pub use recorded::{Event, Observable};
 pub use runtime::{NoPath, Runtime};
@@ -377,6 +379,8 @@ pub struct Declaration {
     pub initial: Option<Vec<Expr>>,
     /// Where `initial` stands.
     pub initial_origin: Option<Origin>,
+    /// The initial group element.
+    pub attitude: Option<Attitude>,
     /// Defaults of `lie run`.
     pub run: Vec<RunOption>,
 }

@@ -1,6 +1,7 @@
 //! The body of the macro: statements to the syntax tree.
 
 mod acting;
+mod attitude;
 mod block;
 
 mod entry;
@@ -371,6 +372,11 @@ impl Entries for Parts<'_> {
     fn initial(&self, _: &[Name], names: &Names, report: &mut Report) -> Vec<Expr> {
         let statement = self.first("initial");
         statement.map_or_else(Vec::new, |s| lists::initial(s, names, report))
+    }
+
+    fn attitude(&self, names: &Names, report: &mut Report) -> Option<super::attitude::Written> {
+        let statement = self.first("attitude")?;
+        attitude::read(&statement.block(report)?, statement.origin, names, report)
     }
 
     fn start(&self, report: &mut Report) -> Option<Start> {

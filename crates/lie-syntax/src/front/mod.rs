@@ -13,6 +13,7 @@ pub mod vocabulary;
 
 pub mod place;
 
+mod attitude;
 mod driving;
 mod equations;
 mod expression;

@@ -7,7 +7,7 @@ use std::borrow::Cow;
 use super::tables::{self, Tables};
 use super::token::Token;
 use super::vectors::{self, Declared};
-use super::{Body, Names, Parsed, driving, equations, expression, item};
+use super::{Body, Names, Parsed, attitude, driving, equations, expression, item};
 use crate::ast::{
     Algebra, Declaration, Energy, Event, Expr, Family, Input, Invariance, Name, Observable,
     OwnFunction, Parameter, Realization, RunOption, SiteData, Size, Start, Structure,
@@ -15,11 +15,12 @@ use crate::ast::{
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 
 /// What belongs to an algebra, and stands beside no `poisson`.
-const OF_ALGEBRA: [&str; 5] = [
+const OF_ALGEBRA: [&str; 6] = [
     "lagrangian",
     "discrete_lagrangian",
     "invariance",
     "group",
+    "attitude",
     "realization",
 ];
 
@@ -116,6 +117,8 @@ pub trait Entries {
     fn own_functions(&self, report: &mut Report) -> Vec<OwnFunction>;
     /// The initial state in these names.
     fn initial(&self, state: &[Name], names: &Names, report: &mut Report) -> Vec<Expr>;
+    /// The initial group element in these names.
+    fn attitude(&self, names: &Names, report: &mut Report) -> Option<attitude::Written>;
     /// The initial state of a family.
     fn start(&self, report: &mut Report) -> Option<Start>;
     /// Description and references, for people.
@@ -234,6 +237,11 @@ fn remainder<E: Entries>(
     let initial_origin = entries.place("initial");
     let listed = initial_origin.filter(|_| parsed.indices.is_empty());
     let initial = listed.map(|_| entries.initial(&parsed.state, &constants, report));
+    let attitude = entries.place("attitude").map(|_| {
+        let written = entries.attitude(&constants, report)?;
+        let read = written.attitude(E::FORM);
+        read.map_err(|mistake| report.push(*mistake)).ok()
+    });
     let (description, references) = entries.prose(report);
     let run = entries.run(report);
     Some(Declaration {
@@ -262,6 +270,7 @@ fn remainder<E: Entries>(
         invariance: invariance?,
         initial,
         initial_origin,
+        attitude: without_mistake(attitude)?,
         run,
     })
 }

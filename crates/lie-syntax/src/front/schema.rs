@@ -108,6 +108,9 @@ objects! {
         "invariance" invariance: Option<Invariance>,
         /// Initial state: numbers or exact expressions in parameters.
         "initial" initial: Option<Initial>,
+        /// The group element at the start, where a run follows it or its entries are coordinates; the identity where it is absent. It
+        /// takes body axes to those of space.
+        "attitude" attitude: Option<Attitude>,
         /// Defaults of `lie run`.
         "run" run: Option<Run>,
     }
@@ -179,6 +182,19 @@ objects! {
         "direction" direction: Option<i8>,
         /// Whether the first of them ends the run.
         "stop" stop: Option<bool>,
+    }
+
+    /// A group element in one of three ways: `quaternion`, `matrix`, `euler` with `angles`. The entries are numbers or exact
+    /// expressions in parameters.
+    struct Attitude requires [] {
+        /// A unit quaternion of a rotation, the real part first.
+        "quaternion" quaternion: Option<[Constant; 4]>,
+        /// A matrix by rows, of the size of those of the algebra.
+        "matrix" matrix: Option<Vec<Vec<Constant>>>,
+        /// The axes of Euler angles: g = R_a(phi) R_b(theta) R_c(psi) for `abc`.
+        "euler" euler: Option<EulerAxes>,
+        /// The angles phi, theta, psi in radians.
+        "angles" angles: Option<[Constant; 3]>,
     }
 
     /// A random initial state of a family.
@@ -286,7 +302,7 @@ objects! {
         "gradient" gradient: Option<String>,
         /// Poisson tensor of a discrete gradient method.
         "tensor" tensor: Option<String>,
-        /// How the group element is written beside mu, if it is: `matrix` or `quaternion`.
+        /// How the group element is written beside mu, if it is: `matrix`, `quaternion`, or `euler:zxz` and other axes.
         "group" group: Option<String>,
         /// Relative tolerance.
         "rtol" rtol: Option<Constant>,

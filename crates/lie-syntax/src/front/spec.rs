@@ -1,6 +1,7 @@
 //! The spec file: JSON to the syntax tree.
 
 mod algebra;
+mod attitude;
 mod driving;
 mod events;
 mod files;
@@ -228,6 +229,10 @@ impl Entries for Object<'_> {
     fn initial(&self, state: &[Name], names: &Names, report: &mut Report) -> Vec<Expr> {
         let value = self.get("initial");
         value.map_or_else(Vec::new, |v| initial(v, state, names, report))
+    }
+
+    fn attitude(&self, names: &Names, report: &mut Report) -> Option<super::attitude::Written> {
+        attitude::read(self.get("attitude")?, names, report)
     }
 
     fn start(&self, report: &mut Report) -> Option<Start> {

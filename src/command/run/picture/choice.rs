@@ -185,7 +185,9 @@ fn attitude(spec: &Spec, several: &Several, given: &OptionValue) -> Result<Kind,
         true => Ok(Kind::Attitude),
         false => {
             let message = given.wrong("the group element is not followed");
-            Err(message.help("add `--group matrix`, or `--group quaternion` for rotations"))
+            Err(message.help(
+                "add `--group matrix`, or for rotations `--group quaternion` or Euler angles",
+            ))
         }
     }
 }

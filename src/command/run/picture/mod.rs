@@ -6,6 +6,7 @@ mod quaternions;
 #[cfg(feature = "raster")]
 mod raster;
 mod section;
+mod tip;
 
 use lie_dynamic::Dynamic;
 use lie_in_process::request::{Plan, Several};
@@ -16,12 +17,13 @@ use lie_poisson::plot::view::{OnSurface, View};
 use lie_poisson::plot::{Plot, are_dots};
 use lie_program::protocol::Start;
 use lie_runtime::Poisson as _;
-use lie_runtime::driver::Pace;
+use lie_runtime::driver::{Chart, Pace};
 
 pub use choice::{Kind, kind};
 pub use file::{Form, form};
 use quaternions::Quaternions;
 use section::Section;
+use tip::tip;
 
 use super::layout::Layout;
 use crate::build;
@@ -48,6 +50,7 @@ pub struct Picture<'a> {
     /// The names of runs that stopped early, and when.
     stopped: Vec<(String, f64)>,
     drawn: Drawn,
+    chart: Option<Chart>,
     quaternions: Quaternions,
     /// Rows that were drawn.
     rows: u64,
@@ -87,6 +90,7 @@ impl<'a> Picture<'a> {
             subtitle: String::new(),
             stopped: Vec::new(),
             drawn: Drawn::Nothing(kind),
+            chart: None,
             quaternions: Quaternions::default(),
             rows: 0,
             of_run: 0,
@@ -98,6 +102,7 @@ impl<'a> Picture<'a> {
     /// Begins a further run.
     pub fn begin(&mut self, name: &str, plan: &Plan, start: &Start) {
         self.end_run();
+        self.chart = plan.chart;
         self.quaternions = Quaternions::of(plan.chart, self.layout.element);
         if let Drawn::Nothing(kind) = self.drawn {
             self.subtitle = self.second_line(plan);
@@ -240,7 +245,7 @@ impl<'a> Picture<'a> {
                 }
             }
             Drawn::Attitude(curves) => {
-                let tip = tip(&row[self.layout.element..]);
+                let tip = tip(self.chart, &row[self.layout.element..]);
                 if let Some(curve) = curves.last_mut() {
                     curve.push(&tip, &tip);
                 }
@@ -267,7 +272,7 @@ impl<'a> Picture<'a> {
                 }
             }
             Drawn::Attitude(curves) => {
-                let tip = tip(&row[self.layout.element..]);
+                let tip = tip(self.chart, &row[self.layout.element..]);
                 if let Some(curve) = curves.last_mut() {
                     curve.between(&tip, &tip);
                 }
@@ -358,48 +363,4 @@ pub fn energy(system: &Dynamic<f64>, point: &Point) -> (f64, Point) {
         system.hamiltonian(&state),
         [gradient[0], gradient[1], gradient[2]],
     )
-}
-
-/// The third column of a rotation: nine entries, row after row, or a quaternion, the real part first.
-fn tip(element: &[f64]) -> Point {
-    match *element {
-        [w, x, y, z] => [
-            2.0 * (x * z + w * y),
-            2.0 * (y * z - w * x),
-            1.0 - 2.0 * (x * x + y * y),
-        ],
-        _ => {
-            let size = element.len().isqrt();
-            [0, 1, 2].map(|row| element.get(row * size + 2).copied().unwrap_or(f64::NAN))
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn quaternions_and_matrices_point_the_same_way() {
-        // turned by 2 a about (1, 2, 2)/3
-        let (s, c) = 0.4_f64.sin_cos();
-        let [x, y, z] = [1.0, 2.0, 2.0].map(|u| s * u / 3.0);
-        let matrix = [
-            1.0 - 2.0 * (y * y + z * z),
-            2.0 * (x * y - c * z),
-            2.0 * (x * z + c * y),
-            2.0 * (x * y + c * z),
-            1.0 - 2.0 * (x * x + z * z),
-            2.0 * (y * z - c * x),
-            2.0 * (x * z - c * y),
-            2.0 * (y * z + c * x),
-            1.0 - 2.0 * (x * x + y * y),
-        ];
-        let (a, b) = (tip(&matrix), tip(&[c, x, y, z]));
-        for (a, b) in a.iter().zip(b) {
-            assert!((a - b).abs() < 1e-15);
-        }
-        assert!((a[0] * a[0] + a[1] * a[1] + a[2] * a[2] - 1.0).abs() < 1e-15);
-        assert!((a[2] - 1.0).abs() > 0.1);
-    }
 }

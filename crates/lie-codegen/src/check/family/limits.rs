@@ -26,6 +26,10 @@ pub fn violations(declaration: &Declaration, family: &Family) -> Vec<Diagnostic>
         let message = "the group element of a family is not followed";
         refuse(name.origin, message, "remove `group`");
     }
+    if let Some(attitude) = &declaration.attitude {
+        let message = "the group elements of the sites of a family are not followed";
+        refuse(attitude.origin, message, "remove `attitude`");
+    }
     if let Some(place) = declaration.place_of_driving() {
         let message = "forces, dissipation, noise and inputs of a family are not built yet";
         let help = "remove them, or declare the sites as one system: `so(3)^3` without an index in the state";

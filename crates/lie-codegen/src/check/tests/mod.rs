@@ -1,4 +1,5 @@
 mod algebra;
+mod attitude;
 mod branches;
 mod casimirs;
 mod choices;

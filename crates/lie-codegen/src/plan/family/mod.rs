@@ -205,6 +205,7 @@ impl Planner<'_> {
             parameters: parameters(self.structure),
             defaults,
             initial: None,
+            attitude: None,
             constants,
             system: System {
                 hamiltonian_degree: family.degree,

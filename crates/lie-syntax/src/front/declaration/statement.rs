@@ -35,6 +35,7 @@ const KEYWORDS: &[(&str, Follows)] = &[
     ("methods", Follows::Equals),
     ("invariance", Follows::Equals),
     ("initial", Follows::Equals),
+    ("attitude", Follows::Block),
     ("crate", Follows::Equals),
     ("spec", Follows::Equals),
 ];

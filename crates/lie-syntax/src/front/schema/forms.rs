@@ -159,6 +159,25 @@ pub enum Times {
     List(Vec<Constant>),
 }
 
+/// The axes of Euler angles.
+#[derive(JsonSchema)]
+#[schemars(rename_all = "lowercase")]
+#[expect(dead_code, reason = "the variants describe the schema")]
+pub enum EulerAxes {
+    Xyx,
+    Xyz,
+    Xzx,
+    Xzy,
+    Yxy,
+    Yxz,
+    Yzx,
+    Yzy,
+    Zxy,
+    Zxz,
+    Zyx,
+    Zyz,
+}
+
 /// Left or right invariance.
 #[derive(JsonSchema)]
 #[schemars(rename_all = "lowercase")]

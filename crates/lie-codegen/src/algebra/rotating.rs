@@ -1,0 +1,45 @@
+//! Which matrices turn the space of three dimensions.
+
+use lie_symbolic::exact::Rational;
+use std::ops::Range;
+
+type Matrix = Vec<Vec<Rational>>;
+
+/// Whether the leading block of so many rows and columns is antisymmetric.
+fn is_antisymmetric(matrix: &Matrix, size: usize) -> bool {
+    let mut pairs = (0..size).flat_map(|i| (0..=i).map(move |j| (i, j)));
+    pairs.all(|(i, j)| (&matrix[i][j] + &matrix[j][i]).is_zero())
+}
+
+/// Whether matrices of a size are antisymmetric: those of their group are orthogonal.
+pub fn are_orthogonal(size: usize, matrices: &[Matrix]) -> bool {
+    matrices.iter().all(|matrix| is_antisymmetric(matrix, size))
+}
+
+/// Whether matrices are antisymmetric of size 3: their group is that of rotations.
+pub fn are_rotations(size: usize, matrices: &[Matrix]) -> bool {
+    size == 3 && are_orthogonal(size, matrices)
+}
+
+/// Whether the entries in these rows and columns are zero in all matrices.
+pub fn are_zero(matrices: &[Matrix], rows: Range<usize>, columns: Range<usize>) -> bool {
+    matrices.iter().all(|matrix| {
+        let mut rows = matrix[rows.clone()].iter();
+        rows.all(|row| row[columns.clone()].iter().all(Rational::is_zero))
+    })
+}
+
+/// Whether the leading block of three rows and columns of every element of their group is a rotation, and not of all of them the
+/// identity: the blocks of the algebra are antisymmetric, and nothing of the other rows and columns comes into them.
+pub fn turn_space(size: usize, matrices: &[Matrix]) -> bool {
+    size >= 3
+        && matrices.iter().all(|matrix| is_antisymmetric(matrix, 3))
+        && !are_zero(matrices, 0..3, 0..3)
+        // the block of a product is the product of the blocks where one of the corners beside it is empty
+        && (are_zero(matrices, 3..size, 0..3) || are_zero(matrices, 0..3, 3..size))
+}
+
+/// Whether they turn space, and move nothing else within itself: the group has a rotation alone, with an identity behind it.
+pub fn have_rotations(size: usize, matrices: &[Matrix]) -> bool {
+    turn_space(size, matrices) && are_zero(matrices, 3..size, 3..size)
+}
