@@ -1,5 +1,6 @@
 """Runs the Python of the book, of the README and of docs/python.md: the blocks of a page in one namespace, in a folder
-with a copy of `specs`. A block of text behind one of Python is what that one prints; with `--update` it is written anew.
+with a copy of `specs` and the files that the page shows behind `<!-- file: NAME -->`. A block of text behind one of Python
+is what that one prints; with `--update` it is written anew.
 
     python lab/tools/book.py [--update] [PAGE …]
     python lab/tools/book.py --links FOLDER
@@ -21,14 +22,17 @@ from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
 ROOT = Path(__file__).resolve().parents[2]
-PAGES = ROOT / "book" / "src"
+PAGES = ROOT / "docs" / "book" / "src"
 OTHERS = [ROOT / "README.md", ROOT / "docs" / "python.md"]
+FILE = re.compile(r"^<!-- file: (\S+) -->\n```\w+\n(.*?)^```\n", re.M | re.S)
 BLOCK = re.compile(r"^```python\n(.*?)^```\n(?:\n```text\n(?!\$ )(.*?)^```\n)?", re.M | re.S)
 
 
 def run(page: Path, update: bool) -> int:
     """Runs the blocks of a page; the number of those that print something else."""
     text = page.read_text(encoding="utf-8")
+    for name, content in FILE.findall(text):
+        Path(name).write_text(content, encoding="utf-8")
     scope: dict[str, object] = {"__name__": "__book__"}
     pieces, position, wrong = [], 0, 0
     for block in BLOCK.finditer(text):
@@ -100,7 +104,10 @@ def main() -> None:
         return
     os.environ["MPLBACKEND"] = "Agg"
     names = [name for name in sys.argv[1:] if name != "--update"]
-    pages = [PAGES / name for name in names] or [*OTHERS, *sorted(PAGES.rglob("*.md"))]
+    book = sorted(PAGES.rglob("*.md"))
+    if not book:
+        raise SystemExit(f"no pages in {PAGES}")
+    pages = [PAGES / name for name in names] or [*OTHERS, *book]
     pages = [page.resolve() for page in pages]
     wrong = blocks = 0
     for page in pages:

@@ -3,7 +3,7 @@
 //!
 //! `LIE_UPDATE_GOLDEN=1 cargo test --test book` writes outputs, pictures and the generated pages anew. `LIE_BOOK_ALL=1`
 //! runs what needs cargo and minutes too. Blocks of Rust are doctests of the root package; those of Python are run by
-//! `.ci/book`.
+//! `lab/tools/book.py`.
 
 #[path = "../common/mod.rs"]
 mod common;
