@@ -33,7 +33,9 @@ pub fn header(rows: u64, shape: &[usize]) -> Vec<u8> {
     let mut header = b"\x93NUMPY\x01\x00".to_vec();
     header.extend_from_slice(&((LENGTH - 10) as u16).to_le_bytes());
     let sizes = shape.iter().map(|size| format!(", {size}"));
-    let shape = format!("({rows}{})", sizes.collect::<String>());
+    // one number in parentheses is no tuple
+    let comma = if shape.is_empty() { "," } else { "" };
+    let shape = format!("({rows}{}{comma})", sizes.collect::<String>());
     let text = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': {shape}, }}");
     header.extend_from_slice(text.as_bytes());
     header.resize(LENGTH - 1, b' ');
@@ -74,5 +76,22 @@ impl Form for Npy {
 
     fn patches_its_start(&self) -> bool {
         true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_shape_is_a_tuple_of_python() {
+        let shape = |sizes: &[usize]| {
+            let bytes = array(sizes, &vec![0.0; sizes.iter().product()]);
+            let header = String::from_utf8_lossy(&bytes[10..LENGTH]).into_owned();
+            let shape = header.split("'shape': ").nth(1);
+            shape.map(|rest| rest.trim_end().to_owned())
+        };
+        assert_eq!(shape(&[3]).as_deref(), Some("(3,), }"));
+        assert_eq!(shape(&[2, 3]).as_deref(), Some("(2, 3), }"));
     }
 }
