@@ -135,13 +135,16 @@ impl Within<'_> {
 }
 
 /// Whether the group keeps the Euclidean norm of the coordinates, as a compact one does in a basis that suits it: then each
-/// orbit is bounded, and has a uniform distribution. Asked at random elements and states.
+/// orbit is bounded, and has a uniform distribution. Asked at random elements and states; what carries the time is none of these.
 pub fn keeps_norm(system: &Dynamic<f64>) -> bool {
     let mut source = stream(0, 0);
     let size = Poisson::<f64>::dimension(system);
+    let clock = Poisson::<f64>::clock(system);
+    let carries = |place| clock.is_some_and(|clock| clock.holds(place));
     let mut image = vec![0.0; size];
     (0..8).all(|_| {
-        let mut vector = || -> Vec<f64> { (0..size).map(|_| source.normal()).collect() };
+        let mut entry = |place| if carries(place) { 0.0 } else { source.normal() };
+        let mut vector = || -> Vec<f64> { (0..size).map(&mut entry).collect() };
         let (xi, mu) = (vector(), vector());
         system.ad_star(&xi, &mu, &mut image);
         let parts = mu.iter().zip(&image).map(|(a, b)| a * b);
@@ -241,6 +244,26 @@ mod tests {
             }
             assert!(far > 0.01, "{name}, {spread:?}: {far}");
         }
+    }
+
+    #[test]
+    fn what_carries_the_time_is_not_drawn() {
+        let (system, initial, orbits) = system_of(
+            r#"{"name": "Spin", "algebra": "so(3)", "state": ["x", "y", "z"], "hamiltonian": "-z", "initial": [1, 0, 0],
+                "dissipation": [{"kind": "double-bracket", "strength": 1, "temperature": "1/2"}]}"#,
+        );
+        assert!(keeps_norm(&system));
+        let draw = Draw {
+            count: 2000,
+            seed: 3,
+            spread: Spread::Orbit,
+        };
+        let within = draw.within(&system, orbits);
+        let mut states = (0..2000).map(|number| within.state(&initial, number));
+        assert!(states.all(|state| state[3..] == initial[3..]));
+        let parts = (0..2000).map(|number| within.state(&initial, number)[..3].to_vec());
+        let found = uneven(parts);
+        assert!(found < 4.0, "{found}");
     }
 
     #[test]

@@ -30,7 +30,7 @@ pub struct Directions {
 }
 
 impl Directions {
-    /// Those of a system. A family has the same at each site.
+    /// Those of a system. A family has the same at each site. What carries the time has none.
     pub fn of(system: &Dynamic<f64>) -> Self {
         let all = Poisson::<f64>::dimension(system);
         let sites = system.sizes().map_or(1, |[rows, columns]| rows * columns);
@@ -38,7 +38,8 @@ impl Directions {
         let mut scales = vec![0.0; size];
         let mut rows: Vec<Vec<(usize, f64)>> = vec![Vec::new(); size];
         let (mut xi, mut mu, mut image) = (vec![0.0; all], vec![0.0; all], vec![0.0; all]);
-        for k in 0..size {
+        let clock = Poisson::<f64>::clock(system);
+        for k in (0..size).filter(|k| !clock.is_some_and(|clock| clock.holds(*k))) {
             xi[k * sites] = 1.0;
             for j in 0..size {
                 mu[j * sites] = 1.0;

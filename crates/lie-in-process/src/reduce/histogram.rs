@@ -5,7 +5,7 @@ use std::io::{self, Read};
 
 use lie_dynamic::Dynamic;
 use lie_runtime::matrix::SquareMatrix as _;
-use lie_runtime::{Poisson, Scalar};
+use lie_runtime::{Clock, Poisson, Scalar};
 use serde::{Deserialize, Serialize};
 
 use crate::memory;
@@ -46,7 +46,9 @@ const POINTS: i32 = 8;
 fn has_spheres(system: &Dynamic<f64>) -> bool {
     let size = Poisson::<f64>::dimension(system);
     let clock = Poisson::<f64>::clock(system);
-    let places = (0..size).filter(|&place| clock.is_none_or(|clock| !clock.holds(place)));
+    // behind the time are its unit and what is held over a step
+    let is_own = |clock: Clock, place| place < clock.time && place != clock.momentum;
+    let places = (0..size).filter(|&place| clock.is_none_or(|clock| is_own(clock, place)));
     let Ok(places) = <[usize; 3]>::try_from(places.collect::<Vec<_>>()) else {
         return false;
     };
@@ -205,6 +207,26 @@ fn states(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use lie_codegen::compile::compile_spec;
+
+    /// What carries the time and what is held over a step take no sphere away.
+    #[test]
+    fn a_spin_at_a_temperature_has_spheres() {
+        for (hamiltonian, spheres) in [("-z", true), ("-z + t*x", true), ("-z + k*x", false)] {
+            let basis = match spheres {
+                true => r#""algebra": "so(3)", "state": ["x", "y", "z"]"#,
+                false => r#""algebra": "so(3) + R", "state": ["x", "y", "z", "k"]"#,
+            };
+            let model = compile_spec(&format!(
+                r#"{{"name": "Spin", {basis}, "hamiltonian": "{hamiltonian}",
+                    "dissipation": [{{"kind": "double-bracket", "strength": 1, "temperature": 1}}]}}"#
+            ))
+            .unwrap();
+            let system = crate::declared(&model).unwrap();
+            let system = system.system(&model.defaults()).unwrap();
+            assert_eq!(has_spheres(&system), spheres, "{hamiltonian}");
+        }
+    }
 
     fn bytes(numbers: &[f64]) -> Vec<u8> {
         numbers.iter().flat_map(|x| x.to_le_bytes()).collect()
