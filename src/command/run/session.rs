@@ -252,6 +252,8 @@ impl Session<'_> {
         let mut options = self.spec.model.run.iter();
         let of_spec = options.find(|option| option.name.text == "method");
         let of_spec = of_spec.and_then(|option| option.values.first());
+        let id = plan.method.id();
+        let of_spec = of_spec.filter(|(method, _)| method.trim() != id);
         let replaced = of_spec.map_or(String::new(), |(method, _)| {
             format!(" in place of {}, which the spec names", method.trim())
         });
@@ -262,7 +264,6 @@ impl Session<'_> {
             ),
             false => "something is to be kept, and it is explicit, as a projection behind its steps needs".to_owned(),
         };
-        let id = plan.method.id();
         let text = format!("{id} was picked{replaced}: {why}; --method chooses another");
         render::say(&folded(&text));
     }
