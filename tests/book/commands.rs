@@ -1,7 +1,7 @@
 //! Commands and specs of the pages.
 //!
-//! A page has a folder of its own, with a copy of `specs`. A JSON block behind `<!-- file: NAME -->` is written there, any
-//! other one must be a spec that compiles. A block of `sh` holds calls of `lie` that must succeed. A block of `text` that
+//! A page has a folder of its own, with a copy of `specs`. A block behind `<!-- file: NAME -->` is written there; any other one
+//! of JSON must be a spec that compiles. A block of `sh` holds calls of `lie` that must succeed. A block of `text` that
 //! begins with `$ lie` shows calls with what they print; a line `…` stands for any lines. One behind `<!-- from: PATH -->`
 //! has lines of that document. Pictures that are drawn are those in `pictures`.
 
@@ -149,19 +149,19 @@ fn excerpt(block: &Block, wrong: &mut Vec<String>) {
     }
 }
 
-/// A block of JSON: a file for the calls behind it, or a spec.
-fn specification(folder: &Path, block: &Block, wrong: &mut Vec<String>) {
-    let name = block.before.strip_prefix("<!-- file: ");
-    match name.and_then(|name| name.strip_suffix(" -->")) {
-        Some(name) => fs::write(folder.join(name), &block.text).expect("the file is written"),
-        None => {
-            if let Err(error) = compile_spec(&block.text) {
-                wrong.push(format!(
-                    "line {}: the spec is refused: {error:?}",
-                    block.line
-                ));
-            }
-        }
+/// The name of the file that a block is, for the calls behind it.
+fn file(block: &Block) -> Option<&str> {
+    let name = block.before.strip_prefix("<!-- file: ")?;
+    name.strip_suffix(" -->")
+}
+
+/// A block of JSON that is no file: a spec.
+fn specification(block: &Block, wrong: &mut Vec<String>) {
+    if let Err(error) = compile_spec(&block.text) {
+        wrong.push(format!(
+            "line {}: the spec is refused: {error:?}",
+            block.line
+        ));
     }
 }
 
@@ -184,8 +184,12 @@ fn run_page(name: &str) -> Vec<String> {
     let (text, mut wrong) = (page(name), Vec::new());
     let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
     for block in &blocks(&text) {
+        if let Some(name) = file(block) {
+            fs::write(folder.join(name), &block.text).expect("the file is written");
+            continue;
+        }
         match block.language.as_str() {
-            "json" => specification(folder, block, &mut wrong),
+            "json" => specification(block, &mut wrong),
             "sh" => {
                 for call in block.text.lines().filter(|call| !is_slow(call) || all()) {
                     let (succeeded, printed) = run(folder, call);
