@@ -179,6 +179,7 @@ impl Printer<'_> {
         Some(quote! {
             #[doc = " The group element at the start, as the declaration has it: its matrix by rows, for `Reconstruction::at_matrix`."]
             #[must_use]
+            #[allow(clippy::possible_missing_comma)]
             pub fn initial_attitude(&self) -> [S; #n] {
                 #statements
                 [#(#values),*]
