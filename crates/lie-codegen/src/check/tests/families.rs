@@ -349,7 +349,7 @@ fn coefficients_have_a_value_for_each_site() {
     wrong(
         r#"{"N": 2, "B": [1, "1/0"]}"#,
         sum,
-        "domain at 1/0: division by zero",
+        "number at 0: division by zero",
     );
     wrong(
         r#"{"N": 2, "B": [1, 2]}"#,
@@ -376,4 +376,34 @@ fn coefficients_have_a_value_for_each_site() {
         sum,
         "schema at {: the parameter `B` has both `values` and `file`",
     );
+}
+
+/// Where values of a lattice are left out is known while their rows are.
+#[test]
+fn values_of_a_lattice_keep_their_rows() {
+    let lattice = |values: &str| {
+        let parameters = format!(r#"{{"N": 2, "M": 3, "K": {values}}}"#);
+        ring(&[
+            ("algebra", r#""so(3)^(N, M)""#),
+            ("state", r#"["x[i, j]", "y[i, j]", "z[i, j]"]"#),
+            ("parameters", &parameters),
+            (
+                "hamiltonian",
+                r#""sum(i in 0..N, j in 0..M-1: K[i, j]*z[i, j]*z[i, j+1])""#,
+            ),
+        ])
+    };
+    for (given, values) in [
+        ("[[1, 2], [3, 4]]", [1.0, 2.0, 0.0, 3.0, 4.0, 0.0]),
+        ("[[1, 2, 5], [3, 4, 6]]", [1.0, 2.0, 5.0, 3.0, 4.0, 6.0]),
+        ("[1, 2, 5, 3, 4, 6]", [1.0, 2.0, 5.0, 3.0, 4.0, 6.0]),
+    ] {
+        let model = model(&lattice(given));
+        let data = &model.family.as_ref().expect("a family").data[0];
+        assert_eq!((&*data.values, data.sizes), (&values[..], Some([2, 3])));
+    }
+    for (given, found) in [("[[1, 2, 3]]", "1 x 3"), ("[1, 2, 3, 4]", "4")] {
+        let says = format!("state-length at [: `K` has {found} values, and there are 2 x 3 sites");
+        expect(&lattice(given), &[&says]);
+    }
 }
