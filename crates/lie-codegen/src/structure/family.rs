@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use crate::model::{Family, Model, SiteSum, data_number};
 use crate::structure::separable;
 use crate::structure::spins::Spin;
-use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
+use lie_symbolic::symbolic::{ExprId, Function, Graph, Node, Symbol};
 
 /// A piece, the same for all sites that it goes over.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -270,12 +270,17 @@ impl Search<'_> {
 
     /// Whether a slope changes with a coordinate, also where its derivative by that is 0: the slope of `abs(x - y)` jumps.
     fn depends(&mut self, slope: ExprId, place: usize) -> bool {
-        let other = self.graph.symbol(Symbol::Step);
-        let moved = self.graph.substitute(&[slope], &|symbol| {
-            (symbol == Symbol::Coordinate(place)).then_some(other)
-        })[0];
-        let change = self.graph.sub(slope, moved);
-        !self.graph.is_zero(change)
+        let symbol = Symbol::Coordinate(place);
+        let change = self.graph.derivative(slope, symbol);
+        if !self.graph.is_zero(change) {
+            return true;
+        }
+        let parts = self.graph.dependencies(&[slope]).into_iter();
+        let mut conditions = parts.filter_map(|part| match self.graph.node(part) {
+            Node::Call(Function::Below, arguments) => Some(arguments[0]),
+            _ => None,
+        });
+        conditions.any(|condition| self.graph.symbols(condition).contains(&symbol))
     }
 
     /// The function of two coordinates that a summand contains, if no other coordinate is mixed with these.
@@ -285,20 +290,24 @@ impl Search<'_> {
         let both = places.map(|place| place % n);
         let slopes = places.map(|place| self.graph.derivative(density, Symbol::Coordinate(place)));
         for slope in slopes {
-            let mixed = self.graph.coordinates(slope);
-            if let Some(third) = mixed.iter().find(|place| !places.contains(place)) {
-                let names = [places[0], places[1], *third].map(|place| &self.family.names[place]);
+            let others = self.graph.coordinates(slope).into_iter();
+            let mut others = others.filter(|place| !places.contains(place));
+            if let Some(third) = others.find(|place| self.depends(slope, *place)) {
+                let names = [places[0], places[1], third].map(|place| &self.family.names[place]);
                 return Err(format!(
                     "`{}`, `{}` and `{}` are coupled by more than products",
                     names[0], names[1], names[2]
                 ));
             }
         }
+        let zero = self.graph.integer(0);
         let stands_for = [both[0], n + both[1]];
         let symbols = stands_for.map(|place| self.graph.symbol(Symbol::Coordinate(place)));
         let slopes = self.graph.substitute(&slopes, &|symbol| match symbol {
             Symbol::Coordinate(place) if place == places[0] => Some(symbols[0]),
             Symbol::Coordinate(place) if place == places[1] => Some(symbols[1]),
+            // the slopes do not depend on the others
+            Symbol::Coordinate(_) => Some(zero),
             _ => None,
         });
         let slopes = [slopes[0], slopes[1]].map(|slope| self.around(slope, one));

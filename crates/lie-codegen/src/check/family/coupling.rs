@@ -157,7 +157,11 @@ fn data(
                 let value = |site: usize| {
                     let (row, column) = (site / columns, site % columns);
                     let there = row < *rows && column < *width;
-                    there.then(|| values[row * width + column]).unwrap_or(0.0)
+                    if there {
+                        values[row * width + column]
+                    } else {
+                        0.0
+                    }
                 };
                 (0..all_rows * columns).map(value).collect()
             }

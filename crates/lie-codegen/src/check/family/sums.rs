@@ -382,9 +382,8 @@ impl Sums<'_> {
         let before = 2 - spans.len();
         let unused = |axis: usize| {
             let span = axis.checked_sub(before).and_then(|axis| spans[axis]);
-            span.map_or(0, |(_, left)| {
-                left.saturating_sub_signed(distance[axis] as isize)
-            })
+            let left = span.map_or(0, |(_, left)| left as i64 - distance[axis]);
+            usize::try_from(left).unwrap_or(0)
         };
         let found = [unused(0), unused(1)];
         let known = self.unused[place].get_or_insert(found);

@@ -225,6 +225,11 @@ fn pieces_of_functions_of_sums_and_of_longer_summands_are_found() {
         pieces("sum(i in 0..N: x[i]*y[i] + exp(x[i] - x[i+1]))"),
         err("`x[i]`, `x[i+1]` and `y[i]` are coupled by more than products")
     );
+    // a common factor stands before the sum of the products
+    assert_eq!(
+        pieces("-J*sum(i in 0..N: x[i]*x[i+1] + x[i]*x[i+2])"),
+        ok("x*x[+1], x*x[+2]")
+    );
     // a slope that jumps depends on the other coordinate, although its derivative by it is 0
     assert_eq!(
         pieces("sum(i in 0..N: abs(x[i] - x[i+1]) + z[i]^2)"),
@@ -369,7 +374,7 @@ fn coefficients_have_a_value_for_each_site() {
     wrong(
         r#"{"N": 2, "x": [1, 2]}"#,
         "sum(i in 0..N: x[i])",
-        "duplicate-name at \"x\": `x`",
+        "duplicate-name at x: the parameter `x` has the name of a coordinate",
     );
     wrong(
         r#"{"N": 2, "B": {"values": [1, 2], "file": "B.npy"}}"#,
