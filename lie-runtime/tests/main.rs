@@ -22,7 +22,6 @@ mod lanes;
 mod orders;
 mod own_step;
 mod passive;
-mod projection;
 mod quantities;
 mod reconstruction;
 mod sites;
