@@ -71,7 +71,7 @@ def test_entries_of_the_state_begin_there() -> None:
     values = [0.5, 1.5, -1.0]
     rows = system.ensemble([1, 2, 3], "gauss4", h=0.1, t=1, every=10, a=values)
     for member, a in enumerate(values):
-        assert np.allclose(rows[member][0, 3:12], about(2, a).ravel(), atol=1e-15)
+        assert np.allclose(rows.mu[member, 0, 3:], about(2, a).ravel(), atol=1e-15)
 
 
 def test_what_is_wrong_is_said() -> None:

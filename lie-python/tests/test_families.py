@@ -99,3 +99,21 @@ def test_no_family_has_no_sites() -> None:
     body = lp.System(algebra="so(3)", state=["x", "y", "z"], hamiltonian="x^2/2 + y^2/4 + z^2/6")
     with pytest.raises(AttributeError, match="is no family"):
         print(body.run(x0=[1, 0, 0], t=0.1).sites)
+
+
+def test_values_of_sites_are_arrays() -> None:
+    fields = np.array([1.0, -0.5, 2.0, 0.25])
+    chain = lp.System(
+        algebra="so(3)^N",
+        state=["x[i]", "y[i]", "z[i]"],
+        parameters={"N": 4, "B": fields},
+        hamiltonian="sum(i in 0..N: B[i]*z[i])",
+        initial={"random": "unit-sphere", "seed": 1},
+    )
+    found = chain.run("splitting2", h=0.1, t=1)
+    start, end = found.mu[0].reshape(3, 4), found.mu[-1].reshape(3, 4)
+    # x' = B y, y' = -B x: each turns about z by the angle of its field
+    turned = (start[0] + 1j * start[1]) * np.exp(-1j * fields)
+    assert np.allclose(end[0] + 1j * end[1], turned, atol=1e-13)
+    with pytest.raises(lp.DeclarationError, match="`B` has 4 values, and there are 5 sites"):
+        lp.System(chain.text.replace('"N": 4', '"N": 5'))
