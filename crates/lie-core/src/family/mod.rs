@@ -21,6 +21,7 @@ mod exchange;
 mod initial;
 mod matrix;
 mod parts;
+mod rates;
 mod shape;
 mod sites;
 mod splitting;

@@ -9,6 +9,7 @@ use super::bonds::Bonds;
 use super::columns::Columns;
 use super::energy::Totals;
 use super::exchange::Exchange;
+use super::rates::{Rate, around, coefficients, data, rate};
 use super::shape::Shape as _;
 use super::sites::{Around, Site, Sums};
 use super::stencil::wrapped;
@@ -89,26 +90,6 @@ pub trait Pieces<S: Scalar>: Sites<S> {
     }
 }
 
-/// The number of coordinates and coefficients in all slots.
-fn around<S: Scalar, K: Sites<S>>(kernels: &K) -> usize {
-    kernels.offsets().len() * kernels.dimension() + kernels.data_places().len()
-}
-
-/// The coefficients around the site at a place, behind coordinates that nobody reads.
-#[inline(always)]
-fn coefficients<S: Scalar, K: Sites<S>>(
-    kernels: &K,
-    data: &[S],
-    sites: usize,
-    place: usize,
-) -> Around<K, S> {
-    let coordinates = kernels.offsets().len() * kernels.dimension();
-    K::Around::make(around(kernels), |k| match k.checked_sub(coordinates) {
-        Some(number) => data[number * sites + place],
-        None => S::zero(),
-    })
-}
-
 /// [`Pieces::flow`] of one site or bond of a strip after the other.
 #[inline(always)]
 pub fn site_by_site<S: Scalar, K: Pieces<S>>(
@@ -164,14 +145,6 @@ struct Piece<S> {
     exchange: Option<Rate<S>>,
 }
 
-/// The rate of exchanges.
-enum Rate<S> {
-    /// The same for all bonds.
-    Same(S),
-    /// One for each bond, at the place of its first site, and the largest size of them.
-    Each(Vec<S>, S),
-}
-
 /// The flows of the pieces of a family. They act on states in an order of their own, see [`PieceFlows::gather`].
 pub struct FamilyFlows<'a, S, K> {
     family: &'a Family<K>,
@@ -208,7 +181,7 @@ where
         let columns = Columns::new(family.sizes()[1], modulus);
         let data = data(family, columns);
         for piece in &mut pieces {
-            piece.exchange = rate(family, (&data, columns), piece);
+            piece.exchange = rate(family, (&data, columns), (piece.place, piece.kind));
         }
         Self {
             family,
@@ -318,48 +291,6 @@ where
             });
         }
     }
-}
-
-/// The coefficients that kernels read, in the order of the columns.
-fn data<S: Scalar, K: Sites<S>>(family: &Family<K>, order: Columns) -> Vec<S> {
-    let (kernels, [rows, columns]) = (family.kernels(), family.sizes());
-    let places = kernels.data_places();
-    let mut all = std::vec![S::zero(); places.len() * family.count()];
-    let mut parts = all.chunks_exact_mut(family.count());
-    for (&[slot, which], part) in places.iter().zip(&mut parts) {
-        let (values, offset) = (kernels.data(which), kernels.offsets()[slot]);
-        for row in 0..rows {
-            for column in 0..columns {
-                let site = family.neighbour([row, column], offset);
-                part[row * columns + order.place(column)] = values[site];
-            }
-        }
-    }
-    all
-}
-
-/// The rate of a piece, if it is an exchange.
-fn rate<S: Scalar, K: Pieces<S>>(
-    family: &Family<K>,
-    (data, order): (&[S], Columns),
-    piece: &Piece<S>,
-) -> Option<Rate<S>> {
-    let (kernels, count) = (family.kernels(), family.count());
-    if data.is_empty() {
-        return kernels.exchange(piece.place).map(Rate::Same);
-    }
-    let ([rows, columns], spans) = (family.sizes(), piece.kind.spans);
-    // bonds alone count: behind the ends of a chain there are no values
-    let (mut rates, mut most) = (std::vec![S::zero(); count], S::zero());
-    for row in spans[0].range(rows) {
-        for column in spans[1].range(columns) {
-            let place = row * columns + order.place(column);
-            let at = coefficients(kernels, data, count, place);
-            rates[place] = kernels.exchange_of(piece.place, &at)?;
-            most = most.max(rates[place].abs());
-        }
-    }
-    Some(Rate::Each(rates, most))
 }
 
 impl Strip {

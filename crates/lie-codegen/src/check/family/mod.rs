@@ -4,5 +4,6 @@
 mod bounds;
 pub mod coupling;
 pub mod limits;
+mod parts;
 pub mod sites;
 mod sums;

@@ -1,6 +1,7 @@
 //! A family as one site, on which nothing acts, and the sums that act on it.
 
-use super::sums::{Collected, Sums, on_site};
+use super::parts::on_site;
+use super::sums::{Collected, Sums};
 use lie_symbolic::exact::Rational;
 use lie_syntax::ast::{Casimir, Declaration, Energy, Expr, ExprKind, Family, Name};
 use lie_syntax::diagnostic::Diagnostic;

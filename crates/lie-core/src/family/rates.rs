@@ -1,0 +1,78 @@
+//! The coefficients of the pieces of a family in the order of their states, and the rates of exchanges.
+
+use super::columns::Columns;
+use super::shape::Shape as _;
+use super::sites::Around;
+use super::{Family, Kind, Pieces, Sites};
+use crate::scalar::Scalar;
+use std::vec::Vec;
+
+/// The rate of exchanges.
+pub(super) enum Rate<S> {
+    /// The same for all bonds.
+    Same(S),
+    /// One for each bond, at the place of its first site, and the largest size of them.
+    Each(Vec<S>, S),
+}
+
+/// The number of coordinates and coefficients in all slots.
+pub(super) fn around<S: Scalar, K: Sites<S>>(kernels: &K) -> usize {
+    kernels.offsets().len() * kernels.dimension() + kernels.data_places().len()
+}
+
+/// The coefficients around the site at a place, behind coordinates that nobody reads.
+#[inline(always)]
+pub(super) fn coefficients<S: Scalar, K: Sites<S>>(
+    kernels: &K,
+    data: &[S],
+    sites: usize,
+    place: usize,
+) -> Around<K, S> {
+    let coordinates = kernels.offsets().len() * kernels.dimension();
+    K::Around::make(around(kernels), |k| match k.checked_sub(coordinates) {
+        Some(number) => data[number * sites + place],
+        None => S::zero(),
+    })
+}
+
+/// The coefficients that kernels read, in the order of the columns.
+pub(super) fn data<S: Scalar, K: Sites<S>>(family: &Family<K>, order: Columns) -> Vec<S> {
+    let (kernels, [rows, columns]) = (family.kernels(), family.sizes());
+    let places = kernels.data_places();
+    let mut all = std::vec![S::zero(); places.len() * family.count()];
+    let mut parts = all.chunks_exact_mut(family.count());
+    for (&[slot, which], part) in places.iter().zip(&mut parts) {
+        let (values, offset) = (kernels.data(which), kernels.offsets()[slot]);
+        for row in 0..rows {
+            for column in 0..columns {
+                let site = family.neighbour([row, column], offset);
+                part[row * columns + order.place(column)] = values[site];
+            }
+        }
+    }
+    all
+}
+
+/// The rate of a piece, if it is an exchange.
+pub(super) fn rate<S: Scalar, K: Pieces<S>>(
+    family: &Family<K>,
+    (data, order): (&[S], Columns),
+    (number, kind): (usize, Kind),
+) -> Option<Rate<S>> {
+    let (kernels, count) = (family.kernels(), family.count());
+    if data.is_empty() {
+        return kernels.exchange(number).map(Rate::Same);
+    }
+    let ([rows, columns], spans) = (family.sizes(), kind.spans);
+    // bonds alone count: behind the ends of a chain there are no values
+    let (mut rates, mut most) = (std::vec![S::zero(); count], S::zero());
+    for row in spans[0].range(rows) {
+        for column in spans[1].range(columns) {
+            let place = row * columns + order.place(column);
+            let at = coefficients(kernels, data, count, place);
+            rates[place] = kernels.exchange_of(number, &at)?;
+            most = most.max(rates[place].abs());
+        }
+    }
+    Some(Rate::Each(rates, most))
+}
