@@ -20,6 +20,8 @@ use lie_runtime::{LiePoisson, Poisson, lie_poisson};
 use random::Random;
 use wasmi_engine::Wasmi;
 
+lie_poisson! { spec = "tests/data/families/damped_chain.json"; }
+lie_poisson! { spec = "tests/data/families/damped_lattice.json"; }
 lie_poisson! { spec = "tests/data/families/disordered_chain.json"; }
 lie_poisson! { spec = "tests/data/families/disordered_lattice.json"; }
 lie_poisson! { spec = "tests/data/families/fput_chain.json"; }
@@ -224,4 +226,12 @@ fn functions_of_two_coordinates() {
     compare("toda_ring", &ring, &[], splittings!());
     let chain = FputChain::new().system().unwrap();
     compare("fput_chain", &chain, &[], splittings!());
+}
+
+#[test]
+fn what_acts_on_sites() {
+    let chain = DampedChain::new().system().unwrap();
+    compare("damped_chain", &chain, &[], methods!());
+    let lattice = DampedLattice::new().system().unwrap();
+    compare("damped_lattice", &lattice, &[], methods!());
 }

@@ -264,7 +264,10 @@ impl Declaration {
     /// The places of the coordinates of a system that users give.
     pub fn shown_coordinates(&self, system: &Dynamic<f64>) -> Vec<usize> {
         match self.facts.family {
-            true => (0..system.dimension()).collect(),
+            true => (0..system
+                .clock()
+                .map_or(system.dimension(), |clock| clock.momentum))
+                .collect(),
             false => self.facts.shown.clone(),
         }
     }

@@ -99,8 +99,10 @@ impl Core {
     /// The names of the coordinates of all sites of a family for these parameters.
     fn names_of_sites(&self, py: Python<'_>, parameters: Vec<f64>) -> PyResult<Vec<String>> {
         let system = self.0.system(py, &parameters)?;
-        let names = (0..system.dimension()).map(|place| system.coordinate(place).to_owned());
-        Ok(names.collect())
+        let shown = self.0.shown_coordinates(&system).into_iter();
+        Ok(shown
+            .map(|place| system.coordinate(place).to_owned())
+            .collect())
     }
 
     /// The declared initial state for these parameters.

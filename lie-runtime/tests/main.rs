@@ -12,6 +12,7 @@ mod density;
 mod driver;
 mod events;
 mod families;
+mod families_acting;
 mod family_splittings;
 mod forces;
 mod functions;

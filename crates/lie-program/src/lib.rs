@@ -33,7 +33,7 @@ use lie_runtime::{MatrixGroup, ParameterError, Poisson};
 pub use protocol::Tolerances;
 use protocol::{End, Found, Milestones, Obstacle, Run, Stop, Work};
 use rows::OnGroup;
-pub use rows::RowWriter;
+pub use rows::{RowWriter, shown};
 use session::Session;
 use std::io::{BufRead, Write};
 use std::process::ExitCode;

@@ -171,7 +171,7 @@ impl<'s, 'o> RowWriter<'s, 'o> {
         let quantities = self.quantities.at(system, mu);
         for numbers in [
             &[time],
-            mu.as_slice(),
+            &mu.as_slice()[..shown(system)],
             &[energy],
             &self.casimirs,
             quantities,
@@ -186,7 +186,7 @@ impl<'s, 'o> RowWriter<'s, 'o> {
     }
 
     fn announce<P: Poisson<f64>>(&mut self, system: &P, element: usize) {
-        let dimension = system.dimension();
+        let dimension = shown(system);
         let names = || (0..dimension).map(|k| system.coordinate(k).to_owned());
         let coordinates = match system.sites() {
             Some(_) => Coordinates::OfSites(dimension),
@@ -203,6 +203,12 @@ impl<'s, 'o> RowWriter<'s, 'o> {
         self.block.width = columns.width();
         self.session.mentions(Found::Columns(columns));
     }
+}
+
+/// How many coordinates stand in a row: of a family those of its sites.
+pub fn shown<P: Poisson<f64>>(system: &P) -> usize {
+    let carried = system.sites().and(system.clock());
+    carried.map_or(system.dimension(), |clock| clock.momentum)
 }
 
 /// Whether to go on; why not, the session knows.

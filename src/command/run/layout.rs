@@ -111,20 +111,21 @@ impl Layout {
             watched: None,
         };
         if model.driving.is_some() {
-            layout.watch_balance(model);
+            layout.watch_balance(model, 1);
         }
         layout
     }
 
-    /// Watches the energy without the work of forces and dissipation in place of the energy.
-    fn watch_balance(&mut self, model: &Structure) {
+    /// Watches the energy without the work of forces and dissipation in place of the energy; each Casimir has so many columns.
+    fn watch_balance(&mut self, model: &Structure, each: usize) {
         let energy = self.states + 1;
-        let casimirs = model.casimirs.iter().map(|casimir| casimir.kept);
+        let casimirs = model.casimirs.iter();
+        let casimirs = casimirs.flat_map(|casimir| std::iter::repeat_n(casimir.kept, each));
         let quantities = model.quantities.iter().map(|quantity| quantity.kind);
         let quantities = quantities.map(|kind| kind == QuantityKind::Integral);
         let kept = (energy + 1..).zip(casimirs.chain(quantities));
         let (kept, changed): (Vec<_>, Vec<_>) = kept.partition(|(_, kept)| *kept);
-        let work = energy + 1 + model.casimirs.len();
+        let work = energy + 1 + each * model.casimirs.len();
         let columns = |places: Vec<(usize, bool)>| places.into_iter().map(|(place, _)| place);
         let mut watched: Vec<Watched> = (0..energy).map(Watched::Column).collect();
         // noise is no work
@@ -161,13 +162,21 @@ impl Layout {
                 names.push(format!("{}_{what}", casimir.name));
             }
         }
-        Self {
-            invariants: states + 1..names.len(),
+        let casimirs = names.len();
+        for quantity in &model.quantities {
+            names.push(&quantity.name);
+        }
+        let mut layout = Self {
+            invariants: states + 1..casimirs,
             element: names.len(),
             columns: names,
             states,
             watched: None,
+        };
+        if model.driving.is_some() {
+            layout.watch_balance(model, lie_runtime::family::STATISTICS.len());
         }
+        layout
     }
 
     /// Where the columns that are shown stand in the rows of a program; none where it does not have them.
@@ -180,7 +189,9 @@ impl Layout {
         let known = match &columns.coordinates {
             // the order of a family is that of its sites
             Coordinates::OfSites(count) => {
-                let same = *count == self.states && *casimirs == columns.casimirs;
+                let same = *count == self.states
+                    && *casimirs == columns.casimirs
+                    && *quantities == columns.quantities;
                 return same.then(|| Places::All(columns.width()));
             }
             Coordinates::Named(known) => known,

@@ -6,7 +6,8 @@
 
 pub mod held;
 mod metric;
-mod work;
+pub mod motion;
+pub mod work;
 
 use super::constant_value;
 use super::coordinates::Whole;
@@ -15,25 +16,26 @@ use super::environment::Allowed;
 use super::matrix;
 use super::poisson::Entry;
 use crate::algebra::StructureConstants;
-use crate::model::{Acting, Driving, Energy, Input, Model, PoissonMatrix};
+use crate::model::{Acting, Driving, Energy, Input, Model};
 use lie_symbolic::exact::Rational;
 use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 use lie_syntax::ast::{Declaration, DissipationKind, Expr, ExprKind, Metric, Name, Noise};
 use lie_syntax::diagnostic::{Diagnostic, Kind, Origin};
 use metric::{Checks, Rows};
-use work::{Loud, Work};
+use motion::{Written, motion};
+use work::Work;
 
-/// Lowers what acts; `None` where an expression is wrong, which is reported.
+/// Lowers what acts, functions of what is allowed; `None` where an expression is wrong, which is reported.
 pub fn acting(
-    whole: &Whole<'_>,
+    declaration: &Declaration,
+    allowed: Allowed,
     lower: &mut dyn FnMut(&Expr, Allowed) -> Option<ExprId>,
 ) -> Option<Vec<Acting>> {
-    let declaration = &*whole.declaration;
     let mut all = Vec::new();
     let mut complete = true;
     for (name, value) in &declaration.forces {
         let place = declaration.state.iter().position(|c| c.text == name.text);
-        let force = place.zip(lower(value, Allowed::State));
+        let force = place.zip(lower(value, allowed));
         complete &= force.is_some();
         all.extend(force.map(|(place, value)| Acting::Force(place, value)));
     }
@@ -60,8 +62,8 @@ pub fn acting(
             }
             DissipationKind::Metriplectic { entropy, metric } => {
                 let (Metric::Entries(given) | Metric::Factor(given)) = metric;
-                let given = rows(given, Allowed::State);
-                let entropy = lower(entropy, Allowed::State);
+                let given = rows(given, allowed);
+                let entropy = lower(entropy, allowed);
                 entropy.zip(given).map(|(s, k)| Acting::Metriplectic(s, k))
             }
             DissipationKind::Rayleigh { matrix } => {
@@ -78,11 +80,11 @@ pub fn acting(
     }
     for noise in &declaration.noise {
         let found = match noise {
-            Noise::Hamiltonian(value) => lower(value, Allowed::State).map(Acting::HamiltonianNoise),
+            Noise::Hamiltonian(value) => lower(value, allowed).map(Acting::HamiltonianNoise),
             Noise::Force(parts) => {
                 let part = |(name, value): &(Name, Expr)| {
                     let place = declaration.state.iter().position(|c| c.text == name.text);
-                    place.zip(lower(value, Allowed::State))
+                    place.zip(lower(value, allowed))
                 };
                 let parts: Vec<Option<(usize, ExprId)>> = parts.iter().map(part).collect();
                 let parts: Option<Vec<_>> = parts.into_iter().collect();
@@ -98,11 +100,11 @@ pub fn acting(
 /// What dissipation promises and does not hold at values of the parameters: why, as text with a remedy.
 pub fn violation(model: &Model, values: &[f64]) -> Option<Diagnostic> {
     let driving = model.driving.as_ref()?;
-    let name = |symbol| model.symbol_name(symbol);
-    let configuration = model.configuration.as_ref()?;
+    let name = |symbol| model.acting_name(symbol);
+    let own = (model.configuration.as_ref()).map_or(model.dimension(), |c| c.own_momenta());
     let checks = Checks {
         origin: model.name_origin,
-        own: configuration.own_momenta(),
+        own,
         defaults: values,
         name: &name,
     };
@@ -143,7 +145,7 @@ pub struct Sources<'a> {
 pub fn driving(
     graph: &mut Graph,
     sources: &Sources<'_>,
-    mut declared: Vec<Acting>,
+    declared: Vec<Acting>,
     mistakes: &mut Vec<Diagnostic>,
 ) -> Option<Driving> {
     let declaration = &*sources.whole.declaration;
@@ -166,128 +168,23 @@ pub fn driving(
         sources.constants,
         sources.brackets,
     );
+    let first = declaration.dimension() - configuration.held.len() + declaration.inputs.len();
+    let rate = |process| Symbol::Coordinate(first + process);
     let mut work = Work {
         own,
+        first: 0,
+        time: clock.time,
         slopes: slopes(graph, energy.value, declaration.dimension()),
         matrix,
+        rate: &rate,
         graph,
     };
-    let zero = work.graph.integer(0);
-    let nothing = vec![zero; declaration.dimension()];
-    let (mut force, mut damping) = (nothing.clone(), nothing.clone());
-    // what noise adds to both, which is no work
-    let mut noise = Loud {
-        force: nothing.clone(),
-        damping: nothing,
-        next: declaration.dimension() - configuration.held.len() + declaration.inputs.len(),
+    let written = Written {
+        declaration,
+        defaults: sources.defaults,
+        name: sources.name,
     };
-    let mut dissipations = declaration.dissipation.iter();
-    let (mut dissipation, mut before) = (None, None);
-    let count = mistakes.len();
-    for acting in &mut declared {
-        let own_entry = matches!(
-            acting,
-            Acting::DoubleBracket(..) | Acting::Metriplectic(..) | Acting::Rayleigh(_)
-        );
-        if own_entry {
-            dissipation = dissipations.next();
-        }
-        let checks = Checks {
-            origin: dissipation.map_or(declaration.name.origin, |d| d.origin),
-            own,
-            defaults: sources.defaults,
-            name: sources.name,
-        };
-        match acting {
-            Acting::Force(place, value) => force[*place] = work.graph.add(force[*place], *value),
-            Acting::Rayleigh(rows) => {
-                mistakes.extend(checks.damps(work.graph, "the matrix R", rows));
-                work.add_rayleigh(rows, &mut force);
-            }
-            Acting::DoubleBracket(strength, metric) => {
-                mistakes.extend(checks.strength(work.graph, *strength));
-                if let Some(rows) = metric {
-                    let symmetric = checks.symmetric(work.graph, "the metric G", rows);
-                    let wrong =
-                        symmetric.or_else(|| checks.damps(work.graph, "the metric G", rows));
-                    mistakes.extend(wrong);
-                }
-                work.add_double_bracket(*strength, metric.as_ref(), &mut damping, clock.time);
-            }
-            Acting::Metriplectic(entropy, rows) => {
-                let held = clock.time..declaration.dimension();
-                let symbols = work.graph.symbols(*entropy).into_iter();
-                let mut outside = symbols.filter(
-                    |symbol| matches!(symbol, Symbol::Coordinate(place) if held.contains(place)),
-                );
-                if outside.next().is_some() {
-                    let message = "the entropy depends on the time or on an input, and would change without the motion";
-                    let help = "write a function of the state and of parameters";
-                    let mistake = Diagnostic::new(Kind::Dissipation, checks.origin, message);
-                    mistakes.push(mistake.help(help));
-                }
-                let factor = matches!(
-                    dissipation.map(|d| &d.kind),
-                    Some(DissipationKind::Metriplectic {
-                        metric: Metric::Factor(_),
-                        ..
-                    })
-                );
-                let found = work.metriplectic(*entropy, rows, factor, &checks);
-                mistakes.extend(found.map(|k| *rows = k).err());
-                work.add_metriplectic(*entropy, rows, &mut force);
-            }
-            Acting::HamiltonianNoise(function) => {
-                work.add_hamiltonian_noise(*function, &mut noise, clock.time)
-            }
-            Acting::ForceNoise(parts) => {
-                let rate = noise.rate(work.graph);
-                for (place, value) in parts {
-                    let part = work.graph.mul(*value, rate);
-                    noise.force[*place] = work.graph.add(noise.force[*place], part);
-                }
-            }
-            Acting::Temperature(temperature) => {
-                mistakes.extend(checks.temperature(work.graph, *temperature));
-                let wrong = match &before {
-                    Some(Acting::DoubleBracket(strength, metric)) => work.warm(
-                        &checks,
-                        (*temperature, Some(*strength)),
-                        metric.as_ref(),
-                        &mut noise,
-                        clock.time,
-                    ),
-                    Some(Acting::Rayleigh(rows)) => work.warm(
-                        &checks,
-                        (*temperature, None),
-                        Some(rows),
-                        &mut noise,
-                        clock.time,
-                    ),
-                    _ => None,
-                };
-                mistakes.extend(wrong);
-            }
-        }
-        before = Some(acting.clone());
-    }
-    if mistakes.len() > count {
-        return None;
-    }
-    let power = work.power(&force);
-    damping[clock.time] = work.graph.add(damping[clock.time], power);
-    for (sum, part) in force.iter_mut().zip(&noise.force) {
-        *sum = work.graph.add(*sum, *part);
-    }
-    for (sum, part) in damping.iter_mut().zip(&noise.damping) {
-        *sum = work.graph.add(*sum, *part);
-    }
-    Some(Driving {
-        force,
-        damping,
-        declared,
-        noises: configuration.held.len() - declaration.inputs.len(),
-    })
+    motion(&mut work, &written, declared, mistakes)
 }
 
 /// What no driven system is yet, or can be.

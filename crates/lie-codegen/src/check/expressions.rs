@@ -77,7 +77,7 @@ pub fn lower(
             }
         },
     );
-    let acting = driving::acting(whole, &mut lower);
+    let acting = driving::acting(&whole.declaration, Allowed::State, &mut lower);
     let casimirs = declaration.casimirs.iter();
     let casimirs: Vec<_> = casimirs.map(|c| lower(&c.value, Allowed::State)).collect();
     let integrals = declaration.integrals.iter();

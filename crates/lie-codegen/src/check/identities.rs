@@ -3,7 +3,6 @@
 use std::collections::HashSet;
 
 use super::coordinates::Whole;
-use super::names::WORK;
 use super::system::System;
 use super::{casimirs, cocycle, events, integrals, jacobi, naming, poisson_map, sign};
 use crate::model::{Bracket, Casimir, Event, PoissonMatrix, Quantity, QuantityKind};
@@ -123,14 +122,7 @@ fn quantities(whole: &Whole<'_>, system: &mut System) -> Vec<Quantity> {
     let clock = whole.configuration.as_ref().and_then(|c| c.clock());
     let work = clock.filter(|_| system.driving.is_some()).map(|clock| {
         let momentum = lowered.graph.symbol(Symbol::Coordinate(clock.momentum));
-        Quantity {
-            name: WORK.to_owned(),
-            origin: declaration.name.origin,
-            expr: lowered.graph.neg(momentum),
-            kind: QuantityKind::Work,
-            unwrap: false,
-            multivalued: false,
-        }
+        Quantity::work(declaration.name.origin, lowered.graph.neg(momentum))
     });
     let held = whole.configuration.iter().flat_map(|c| c.held_places());
     let inputs = declaration.inputs.iter().zip(held);

@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use crate::model::WORK;
 use lie_syntax::ast::names::{is_keyword, is_reserved};
 use lie_syntax::ast::{Declaration, Name, Realization};
 use lie_syntax::diagnostic::{Diagnostic, Kind};
@@ -11,8 +12,6 @@ const TYPES: &[&str] = &[
     "S", "bool", "char", "f32", "f64", "i8", "i16", "i32", "i64", "i128", "isize", "str", "u8",
     "u16", "u32", "u64", "u128", "usize",
 ];
-/// The column of the work of forces and damping.
-pub const WORK: &str = "work";
 /// So many elements of a basis are listed.
 const MOST_LISTED: usize = 8;
 

@@ -13,7 +13,7 @@ pub fn refusal(structure: &Structure, choice: &Choice) -> Option<(String, String
         return refusal(structure, base);
     }
     if let Some(pieces) = &structure.family_pieces {
-        return family(pieces.as_ref().err(), choice);
+        return driven(structure, choice).or_else(|| family(pieces.as_ref().err(), choice));
     }
     let model = &structure.model;
     let whole = bracket(model, choice).or_else(|| driven(model, choice));
@@ -109,8 +109,14 @@ fn driven(model: &Model, choice: &Choice) -> Option<(String, String)> {
             "a double bracket damps, and the step is made of a gradient of H, which its generator is not"
         }
     };
-    let help = "use `gauss16` or `taylor`, which take the whole field, or leave `forces` and `dissipation` out";
-    Some((what.into(), help.into()))
+    let others = match model.family {
+        Some(_) => "`gauss16` or `rk4`",
+        None => "`gauss16` or `taylor`",
+    };
+    let help = format!(
+        "use {others}, which take the whole field, or leave `forces` and `dissipation` out"
+    );
+    Some((what.into(), help))
 }
 
 /// Why coefficients for two pieces are not for this many.

@@ -86,10 +86,31 @@ impl Model {
         declared.map(|acting| self.words(acting)).collect()
     }
 
+    /// The name of a symbol of what acts, of a family at a site.
+    pub fn acting_name(&self, symbol: Symbol) -> String {
+        let of_site = self.family.as_ref().and_then(|family| match symbol {
+            Symbol::Coordinate(place) => family.names.get(place),
+            symbol => family.data_names.get(super::data_number(symbol)?),
+        });
+        of_site.cloned().unwrap_or_else(|| self.symbol_name(symbol))
+    }
+
+    fn display_acting(&self, expression: ExprId) -> String {
+        (self.graph).display(expression, &|symbol| self.acting_name(symbol))
+    }
+
+    /// The name of a coordinate on which something acts.
+    fn target(&self, place: usize) -> &str {
+        match &self.family {
+            Some(family) => &family.names[family.own * self.dimension() + place],
+            None => &self.coordinates[place].text,
+        }
+    }
+
     fn words(&self, acting: &Acting) -> (String, String) {
         let matrix = |rows: &[Vec<ExprId>]| {
             let row = |row: &Vec<ExprId>| {
-                let entries: Vec<String> = row.iter().map(|e| self.display(*e)).collect();
+                let entries: Vec<String> = row.iter().map(|e| self.display_acting(*e)).collect();
                 format!("[{}]", entries.join(", "))
             };
             let rows: Vec<String> = rows.iter().map(row).collect();
@@ -97,17 +118,17 @@ impl Model {
         };
         match acting {
             Acting::Force(place, value) => {
-                let name = format!("force on {}", self.coordinates[*place].text);
-                (name, self.display(*value))
+                let name = format!("force on {}", self.target(*place));
+                (name, self.display_acting(*value))
             }
             Acting::DoubleBracket(strength, metric) => {
                 let metric = metric.as_ref().map_or("1".to_owned(), |rows| matrix(rows));
-                let strength = self.display(*strength);
+                let strength = self.display_acting(*strength);
                 let name = "double bracket, mu' += c ad*_{G ad*_{grad H} mu} mu";
                 (name.to_owned(), format!("c = {strength}, G = {metric}"))
             }
             Acting::Metriplectic(entropy, metric) => {
-                let entropy = self.display(*entropy);
+                let entropy = self.display_acting(*entropy);
                 let name = "metriplectic, mu' += K grad S";
                 (
                     name.to_owned(),
@@ -122,16 +143,12 @@ impl Model {
                 let name = "noise along a Hamiltonian, Stratonovich";
                 (
                     name.to_owned(),
-                    format!("sigma = {}", self.display(*function)),
+                    format!("sigma = {}", self.display_acting(*function)),
                 )
             }
             Acting::ForceNoise(parts) => {
                 let part = |(place, value): &(usize, ExprId)| {
-                    format!(
-                        "{}: {}",
-                        self.coordinates[*place].text,
-                        self.display(*value)
-                    )
+                    format!("{}: {}", self.target(*place), self.display_acting(*value))
                 };
                 let parts: Vec<String> = parts.iter().map(part).collect();
                 (
@@ -141,7 +158,7 @@ impl Model {
             }
             Acting::Temperature(value) => {
                 let name = "with its noise at the temperature";
-                (name.to_owned(), self.display(*value))
+                (name.to_owned(), self.display_acting(*value))
             }
         }
     }

@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use lie_symbolic::symbolic::{ExprId, Symbol};
+use super::Model;
+use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 pub use lie_syntax::ast::Start;
 
 /// [`Symbol::Input`] of the first coefficient that differs from site to site.
@@ -11,6 +12,11 @@ const DATA: usize = 1 << 22;
 /// The symbol of the coefficient at a place of [`Family::data_places`].
 pub fn data_symbol(number: usize) -> Symbol {
     Symbol::Input(DATA + number)
+}
+
+/// The symbol of a component of dH/dmu at a site, in what acts there.
+pub fn slope_symbol(coordinate: usize) -> Symbol {
+    Symbol::Input(coordinate)
 }
 
 /// The place of a symbol of [`data_symbol`].
@@ -98,9 +104,24 @@ pub struct SiteSum {
 }
 
 impl Family {
+    /// The symbol of the rate of a Wiener process of the site.
+    pub fn rate_symbol(&self, process: usize) -> Symbol {
+        data_symbol(self.data_places.len() + process)
+    }
+
+    /// Functions of the n coordinates of a site at the site itself, in its slot.
+    pub fn at_own(&self, graph: &mut Graph, functions: &[ExprId], n: usize) -> Vec<ExprId> {
+        let own = (0..n).map(|k| graph.symbol(Symbol::Coordinate(self.own * n + k)));
+        let own: Vec<ExprId> = own.collect();
+        graph.substitute(functions, &|symbol| match symbol {
+            Symbol::Coordinate(k) => own.get(k).copied(),
+            _ => None,
+        })
+    }
+
     /// The symbol of a coefficient as seen from the site in a slot.
     pub fn data_from(&self, symbol: Symbol, slot: usize) -> Option<Symbol> {
-        let [at, which] = self.data_places[data_number(symbol)?];
+        let [at, which] = *self.data_places.get(data_number(symbol)?)?;
         let ([row, column], [down, right]) = (self.slots[at], self.slots[slot]);
         let moved = [row - down, column - right];
         let mut places = self.data_places.iter();
@@ -124,6 +145,17 @@ impl Family {
             [rows, columns, ..] => Some([size(rows)?, size(columns)?]),
             [] => None,
         }
+    }
+}
+
+impl Model {
+    /// The state of a family for the coordinates of so many sites: what is carried beside them is 0, and the unit.
+    pub fn complete_sites(&self, mut of_sites: Vec<f64>, sites: usize) -> Vec<f64> {
+        if let Some(driving) = &self.driving {
+            of_sites.extend([0.0, 0.0, 1.0]);
+            of_sites.resize(of_sites.len() + driving.noises * sites, 0.0);
+        }
+        of_sites
     }
 }
 

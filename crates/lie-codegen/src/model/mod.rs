@@ -21,8 +21,8 @@ pub use bracket::{Algebra, Bracket, PoissonMatrix, bracket_of};
 pub use casimir::{Casimir, CasimirKind};
 pub use configuration::Configuration;
 pub use driving::{Acting, Driving, Input};
-pub use family::{Family, SiteData, SiteSum, Size, Start, data_number, data_symbol};
-pub use quantity::{Event, Quantity, QuantityKind};
+pub use family::{Family, SiteData, SiteSum, Size, Start, data_number, data_symbol, slope_symbol};
+pub use quantity::{Event, Quantity, QuantityKind, WORK};
 pub use realization::{CANONICAL, Descent, Realization};
 
 /// A parameter of the system.

@@ -59,7 +59,22 @@ pub struct Event {
     pub rule: EventRule,
 }
 
+/// The column of the work of forces and damping.
+pub const WORK: &str = "work";
+
 impl Quantity {
+    /// The work of what acts, as a function of the state.
+    pub fn work(origin: Origin, expr: ExprId) -> Self {
+        Self {
+            name: WORK.to_owned(),
+            origin,
+            expr,
+            kind: QuantityKind::Work,
+            unwrap: false,
+            multivalued: false,
+        }
+    }
+
     /// Whether its drift is an error of the method.
     pub fn is_conserved(&self) -> bool {
         self.kind == QuantityKind::Integral && !self.multivalued

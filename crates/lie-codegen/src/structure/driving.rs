@@ -25,13 +25,17 @@ pub fn mark_kept(model: &Model, casimirs: &mut [Casimir], graph: &mut Graph) {
             let parts: Vec<_> = parts
                 .map(|(i, force)| {
                     let slope = graph.derivative(casimir.expr, Symbol::Coordinate(i));
+                    let slope = match &model.family {
+                        Some(family) => family.at_own(graph, &[slope], model.dimension())[0],
+                        None => slope,
+                    };
                     graph.mul(slope, *force)
                 })
                 .collect();
             graph.sum(&parts)
         })
         .collect();
-    let name = |symbol| model.symbol_name(symbol);
+    let name = |symbol| model.acting_name(symbol);
     for (casimir, rate) in casimirs.iter_mut().zip(rates) {
         let budget = Budget::new(WORK);
         casimir.kept = Prover::new(graph, &budget, &driving.force, &name).vanishes(rate);

@@ -121,9 +121,9 @@ pub fn structure(mut model: Model, effort: Effort) -> Structure {
         Some(separable::pieces(model.bracket.algebra()?, coordinates))
     });
     let splitting = found::search(&model, &casimirs, pieces.as_deref());
-    let family_pieces = model.family.as_ref().map(|family| {
-        let found = family::pieces(&model, family, few);
-        found.map(Arc::new)
+    let family_pieces = model.family.as_ref().map(|family| match &model.driving {
+        Some(_) => Err("what acts beside H has no exact flow".into()),
+        None => family::pieces(&model, family, few).map(Arc::new),
     });
     let motion = integrable::motion(&model, few);
     let directions = Arc::new(directions::directions(&model));

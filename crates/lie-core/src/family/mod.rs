@@ -15,6 +15,7 @@
 #![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
 
 mod bonds;
+mod carried;
 mod columns;
 mod energy;
 mod exchange;

@@ -1,5 +1,7 @@
 //! The vector field a few sites at a time.
 
+use super::energy::Totals;
+use super::shape::Fixed;
 use super::sites::Sums;
 use super::{Family, Sites};
 use crate::scalar::Scalar;
@@ -9,6 +11,9 @@ use std::vec::Vec;
 /// Sites whose slopes are computed one behind the other: with eight stages each they and what they are computed from fit into the
 /// cache.
 const PART: usize = 128;
+
+/// The power of what acts on sites, which is 0 where nothing does.
+pub(super) type Power<S> = Totals<Fixed<1>, S>;
 
 impl<K> Family<K> {
     /// The vector field on some columns of a row, `inner` being those of the row that have all neighbours.
@@ -20,22 +25,32 @@ impl<K> Family<K> {
         inner: Range<usize>,
         weights: &Sums<K, S>,
         out: &mut [S],
+        power: &mut Power<S>,
     ) where
         K: Sites<S>,
     {
-        let [_, columns] = self.sizes();
+        let (kernels, [_, columns]) = (self.kernels(), self.sizes());
         let at_ends = [0..inner.start, inner.end..columns];
         let outer = at_ends.map(|end| end.start.max(part.start)..end.end.min(part.end));
         for column in outer.into_iter().flatten() {
             let site = row * columns + column;
             let slope = self.slope(mu, [row, column], weights);
-            let field = self.kernels().ad_star(&slope, &self.site(mu, site));
+            if kernels.acts() {
+                let (field, part) = kernels.act(&slope, &self.around(mu, [row, column]));
+                self.set_site(out, site, field.as_ref());
+                power.add(&[part]);
+                continue;
+            }
+            let field = kernels.ad_star(&slope, &self.site(mu, site));
             self.set_site(out, site, field.as_ref());
         }
         let inner = inner.start.max(part.start)..inner.end.min(part.end);
         if !inner.is_empty() {
             let stretch = self.stretch(mu, row, inner);
-            self.kernels().fields(&stretch, weights, out);
+            match kernels.acts() {
+                true => power.add(&[kernels.driven_fields(&stretch, weights, out)]),
+                false => kernels.fields(&stretch, weights, out),
+            }
         }
     }
 
@@ -69,6 +84,10 @@ impl<K> Family<K> {
         K: Sites<S>,
     {
         let (count, [rows, columns]) = (self.count(), self.sizes());
+        let carried = self.kernels().dimension() * count..mu.len();
+        if !carried.is_empty() {
+            before(mu, carried.clone());
+        }
         let of_sites = |sites: &Range<usize>, done: &mut dyn FnMut(Range<usize>)| {
             let coordinates = 0..self.kernels().dimension();
             coordinates.for_each(|k| done(k * count + sites.start..k * count + sites.end));
@@ -86,6 +105,7 @@ impl<K> Family<K> {
             false => self.reach(),
         };
         let is_local = |sites: &Range<usize>| local <= sites.start && sites.end + local <= count;
+        let mut power = Power::new(1);
         for at_ends in [false, true] {
             if at_ends {
                 set_to(count, mu);
@@ -105,10 +125,14 @@ impl<K> Family<K> {
                     if !at_ends {
                         set_to(sites.end + local, mu);
                     }
-                    self.field_of_row(mu, (row, part), inner.clone(), &weights, out);
+                    self.field_of_row(mu, (row, part), inner.clone(), &weights, out, &mut power);
                     of_sites(&sites, &mut |entries| after(out, entries));
                 }
             }
+        }
+        if !carried.is_empty() {
+            self.set_carried(out, [-power.end()[0], S::one()]);
+            after(out, carried);
         }
     }
 }

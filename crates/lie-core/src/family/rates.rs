@@ -3,6 +3,7 @@
 use super::columns::Columns;
 use super::shape::Shape as _;
 use super::sites::Around;
+use super::stencil::around;
 use super::{Family, Kind, Pieces, Sites};
 use crate::scalar::Scalar;
 use std::vec::Vec;
@@ -13,11 +14,6 @@ pub(super) enum Rate<S> {
     Same(S),
     /// One for each bond, at the place of its first site, and the largest size of them.
     Each(Vec<S>, S),
-}
-
-/// The number of coordinates and coefficients in all slots.
-pub(super) fn around<S: Scalar, K: Sites<S>>(kernels: &K) -> usize {
-    kernels.offsets().len() * kernels.dimension() + kernels.data_places().len()
 }
 
 /// The coefficients around the site at a place, behind coordinates that nobody reads.

@@ -54,7 +54,8 @@ pub struct Term<'a> {
 
 /// The coordinates of a site.
 pub type Site<K, S> = Of<<K as Sites<S>>::Site, S>;
-/// The coordinates of a site and of its neighbours, slot after slot, then the coefficients of [`Sites::data_places`].
+/// The coordinates of a site and of its neighbours, slot after slot, then the coefficients of [`Sites::data_places`] and the rates of the
+/// Wiener processes of the site.
 pub type Around<K, S> = Of<<K as Sites<S>>::Around, S>;
 /// A number for each sum.
 pub type Sums<K, S> = Of<<K as Sites<S>>::Sums, S>;
@@ -96,6 +97,22 @@ pub trait Sites<S: Scalar>: Clone {
     fn data(&self, _index: usize) -> &[S] {
         &[]
     }
+    /// Whether forces, damping or noise act on a site beside H.
+    fn acts(&self) -> bool {
+        false
+    }
+    /// Whether forces are among that: coadjoint orbits are left.
+    fn is_forced(&self) -> bool {
+        false
+    }
+    /// The number of Wiener processes of a site.
+    fn noise_count(&self) -> usize {
+        0
+    }
+    /// Whether the motion keeps a Casimir of a site.
+    fn casimir_is_kept(&self, _index: usize) -> bool {
+        true
+    }
     /// Whether some `dF/dT_k` depends on the state.
     fn has_mean_field(&self) -> bool;
     /// The total degree of H, where it is a polynomial.
@@ -124,6 +141,16 @@ pub trait Sites<S: Scalar>: Clone {
     /// `dF/dT_k`; those that are constant may be left 0.
     fn weights(&self, totals: &Sums<Self, S>) -> Sums<Self, S>;
 
+    /// The motion of a site from `dH/dmu` there, and the power of what acts on it: `ad*_xi mu + F` with `xi = dH/dmu + c G ad*_(dH/dmu) mu`
+    /// and what noise adds, and `<F, dH/dmu> - c <v, G v>` with `v = ad*_(dH/dmu) mu`. Where nothing acts nobody asks.
+    fn act(&self, _slope: &Site<Self, S>, _at: &Around<Self, S>) -> (Site<Self, S>, S) {
+        unreachable!("nothing acts beside H")
+    }
+    /// The same of a site of which every sum has all summands.
+    fn driven(&self, at: &Around<Self, S>, weights: &Sums<Self, S>) -> (Site<Self, S>, S) {
+        (self.field(at, weights), S::zero())
+    }
+
     /// `[xi, eta]` of the algebra of a site.
     fn ad(&self, xi: &Site<Self, S>, eta: &Site<Self, S>) -> Site<Self, S>;
     /// `ad*_xi mu` of the algebra of a site.
@@ -150,6 +177,23 @@ pub trait Sites<S: Scalar>: Clone {
                 to[i] = *value;
             }
         }
+    }
+
+    /// [`Sites::driven`] of each site of a stretch, into a state; the power of all of them, added one after the other.
+    #[inline(always)]
+    fn driven_fields(&self, stretch: &Stretch<'_, S>, weights: &Sums<Self, S>, out: &mut [S]) -> S {
+        let along = stretch.around(self);
+        let mut to = stretch.in_state::<Self::Site>(self.dimension(), out);
+        let mut power = S::zero();
+        for i in 0..stretch.len() {
+            let at = gathered::<Self::Around, S>(along.as_ref(), i);
+            let (field, part) = self.driven(&at, weights);
+            for (to, value) in to.as_mut().iter_mut().zip(field.as_ref()) {
+                to[i] = *value;
+            }
+            power += part;
+        }
+        power
     }
 
     /// The summands of all sites of a stretch, added one after the other.

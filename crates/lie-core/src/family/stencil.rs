@@ -6,6 +6,38 @@ use super::{Family, Sites, Span};
 use crate::scalar::Scalar;
 use core::ops::Range;
 
+/// So many numbers stand between the coordinates of the sites and the rates of Wiener processes: the momentum of the time, the time and the
+/// unit, where something acts beside H.
+pub(super) const CARRIED: usize = 3;
+
+/// What kernels of a site read at a place.
+enum Entry {
+    /// A coordinate of the site in a slot.
+    Coordinate(usize, usize),
+    /// The coefficient of the site in a slot.
+    Data(usize, usize),
+    /// The rate of a Wiener process of the site.
+    Rate(usize),
+}
+
+#[inline(always)]
+fn entry<S: Scalar, K: Sites<S>>(sites: &K, place: usize) -> Entry {
+    let (dimension, places) = (sites.dimension(), sites.data_places());
+    match place.checked_sub(dimension * sites.offsets().len()) {
+        None => Entry::Coordinate(place / dimension, place % dimension),
+        Some(place) => match places.get(place) {
+            Some([slot, which]) => Entry::Data(*slot, *which),
+            None => Entry::Rate(place - places.len()),
+        },
+    }
+}
+
+/// The number of coordinates and coefficients in all slots, and of rates of the site.
+pub(super) fn around<S: Scalar, K: Sites<S>>(sites: &K) -> usize {
+    let coordinates = sites.offsets().len() * sites.dimension();
+    coordinates + sites.data_places().len() + sites.noise_count()
+}
+
 /// An index modulo the size.
 #[inline]
 pub(super) fn wrapped(index: isize, size: usize) -> usize {
@@ -57,14 +89,13 @@ impl<'m, S: Scalar> Stretch<'m, S> {
         'm: 'a,
     {
         let (dimension, offsets) = (sites.dimension(), sites.offsets());
-        let (coordinates, places) = (dimension * offsets.len(), sites.data_places());
-        K::Around::make(coordinates + places.len(), |place| {
-            match place.checked_sub(coordinates) {
-                None => self.part(offsets[place / dimension], place % dimension),
-                Some(place) => {
-                    let [slot, which] = places[place];
-                    self.along(sites.data(which), offsets[slot])
-                }
+        K::Around::make(around(sites), |place| match entry(sites, place) {
+            Entry::Coordinate(slot, k) => self.part(offsets[slot], k),
+            Entry::Data(slot, which) => self.along(sites.data(which), offsets[slot]),
+            Entry::Rate(which) => {
+                let [rows, columns] = self.sizes;
+                let first = (dimension + which) * rows * columns + CARRIED;
+                self.along(&self.mu[first..], [0, 0])
             }
         })
     }
@@ -148,18 +179,15 @@ impl<K> Family<K> {
         K: Sites<S>,
     {
         let kernels = self.kernels();
-        let (dimension, offsets) = (kernels.dimension(), kernels.offsets());
-        let (coordinates, places) = (dimension * offsets.len(), kernels.data_places());
-        K::Around::make(coordinates + places.len(), |place| {
-            match place.checked_sub(coordinates) {
-                None => {
-                    let site = self.neighbour(site, offsets[place / dimension]);
-                    mu[place % dimension * self.count() + site]
-                }
-                Some(place) => {
-                    let [slot, which] = places[place];
-                    kernels.data(which)[self.neighbour(site, offsets[slot])]
-                }
+        let offsets = kernels.offsets();
+        K::Around::make(around(kernels), |place| match entry(kernels, place) {
+            Entry::Coordinate(slot, k) => {
+                mu[k * self.count() + self.neighbour(site, offsets[slot])]
+            }
+            Entry::Data(slot, which) => kernels.data(which)[self.neighbour(site, offsets[slot])],
+            Entry::Rate(which) => {
+                let first = (kernels.dimension() + which) * self.count() + CARRIED;
+                mu[first + self.neighbour(site, [0, 0])]
             }
         })
     }

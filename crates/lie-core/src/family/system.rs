@@ -1,6 +1,8 @@
 //! The system of a family: loops over the kernels of a site.
 
+use super::parts::Power;
 use super::{LateMatrix, Sites};
+use crate::clock::Clock;
 use crate::parameter::{ParameterError, ParameterFault};
 use crate::poisson::{LiePoisson, Poisson, Widen};
 use crate::scalar::Scalar;
@@ -109,7 +111,12 @@ impl<K> Family<K> {
             };
             let all = coordinates.map(|k| self.kernels.coordinate(k));
             let all = all.flat_map(|name| (0..self.count()).map(move |site| named(name, site)));
-            all.collect()
+            let carried = ["clock", "t", "unit"].map(str::to_owned);
+            let carried = carried.into_iter().filter(|_| self.kernels.acts());
+            let rates = 0..self.kernels.noise_count();
+            let rates = rates
+                .flat_map(|k| (0..self.count()).map(move |site| named(&format!("dW{k}"), site)));
+            all.chain(carried).chain(rates).collect()
         })
     }
 
@@ -165,7 +172,7 @@ where
     type Jacobian = LateMatrix<S>;
 
     fn dimension(&self) -> usize {
-        self.kernels.dimension() * self.count()
+        self.length()
     }
     fn name(&self) -> &str {
         self.kernels.name()
@@ -187,20 +194,58 @@ where
             .casimir_degree(index / 3)
             .filter(|_| index.is_multiple_of(3))
     }
+    fn casimir_is_kept(&self, index: usize) -> bool {
+        self.kernels.casimir_is_kept(index / 3)
+    }
     fn hamiltonian_degree(&self) -> Option<u32> {
         self.kernels.degree()
+    }
+    fn clock(&self) -> Option<Clock> {
+        let momentum = self.own();
+        self.kernels.acts().then_some(Clock {
+            momentum,
+            time: momentum + 1,
+        })
+    }
+    fn is_forced(&self) -> bool {
+        self.kernels.is_forced()
+    }
+    fn is_damped(&self) -> bool {
+        self.kernels.acts() && !self.kernels.is_forced()
+    }
+    fn noise_count(&self) -> usize {
+        self.kernels.noise_count() * self.count()
+    }
+    fn quantity_count(&self) -> usize {
+        usize::from(self.kernels.acts())
+    }
+    fn quantity_name(&self, _index: usize) -> &str {
+        "work"
+    }
+    fn quantities(&self, mu: &Vec<S>, out: &mut [S]) {
+        if let Some(work) = out.first_mut() {
+            *work = -mu[self.own()];
+        }
     }
     fn has_jacobian(&self) -> bool {
         false
     }
     fn zero_state(&self) -> Vec<S> {
-        std::vec![S::zero(); self.kernels.dimension() * self.count()]
+        std::vec![S::zero(); self.length()]
     }
     fn zero_jacobian(&self) -> LateMatrix<S> {
-        LateMatrix::new(self.kernels.dimension() * self.count())
+        LateMatrix::new(self.length())
     }
 
     fn hamiltonian(&self, mu: &Vec<S>) -> S {
+        let energy = self.energy(mu);
+        match mu.get(self.own()) {
+            Some(momentum) => energy + *momentum,
+            None => energy,
+        }
+    }
+
+    fn energy(&self, mu: &Vec<S>) -> S {
         self.kernels.energy(&self.totals(mu))
     }
 
@@ -213,6 +258,7 @@ where
                 self.set_site(out, row * columns + column, slope.as_ref());
             }
         }
+        self.set_carried(out, [S::one(), S::zero()]);
     }
 
     fn hessian(&self, mu: &Vec<S>, out: &mut LateMatrix<S>) {
@@ -223,16 +269,21 @@ where
         self.by_sites(out, |site, unit| {
             self.kernels.ad_star(unit, &self.site(mu, site))
         });
+        if self.kernels.acts() {
+            self.set_pair(mu, out);
+        }
     }
 
     #[inline]
     fn vector_field(&self, mu: &Vec<S>, out: &mut Vec<S>) {
         let weights = self.weights(mu);
         let [rows, columns] = self.sizes;
+        let mut power = Power::new(1);
         for row in 0..rows {
             let inner = self.inner::<S>(row);
-            self.field_of_row(mu, (row, 0..columns), inner, &weights, out);
+            self.field_of_row(mu, (row, 0..columns), inner, &weights, out, &mut power);
         }
+        self.set_carried(out, [-power.end()[0], S::one()]);
     }
 
     fn vector_field_by_parts(
@@ -286,6 +337,11 @@ where
             let value = self.kernels.ad(&self.site(xi, site), &self.site(eta, site));
             self.set_site(out, site, value.as_ref());
         }
+        self.set_carried(out, [S::zero(); 2]);
+        if self.kernels.acts() {
+            let [momentum, time, unit] = self.pair();
+            out[unit] = xi[momentum] * eta[time] - xi[time] * eta[momentum];
+        }
     }
     fn ad_star(&self, xi: &Vec<S>, mu: &Vec<S>, out: &mut Vec<S>) {
         for site in 0..self.count() {
@@ -294,11 +350,18 @@ where
                 .ad_star(&self.site(xi, site), &self.site(mu, site));
             self.set_site(out, site, value.as_ref());
         }
+        if self.kernels.acts() {
+            let [momentum, time, unit] = self.pair();
+            self.set_carried(out, [-xi[time] * mu[unit], xi[momentum] * mu[unit]]);
+        }
     }
     fn ad_star_matrix(&self, xi: &Vec<S>, out: &mut LateMatrix<S>) {
         self.by_sites(out, |site, unit| {
             self.kernels.ad_star(&self.site(xi, site), unit)
         });
+        if self.kernels.acts() {
+            self.set_pair_slope(xi, out);
+        }
     }
 }
 

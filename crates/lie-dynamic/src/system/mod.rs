@@ -167,7 +167,7 @@ impl Dynamic<f64> {
         };
         let seed = self.plan().family.as_ref()?.seed?;
         let dimension = self.plan().family.as_ref()?.coordinates.len();
-        Some(unit_spheres(family.count(), dimension, seed))
+        Some(family.state(unit_spheres(family.count(), dimension, seed)))
     }
 
     /// What a program makes of the parameters.

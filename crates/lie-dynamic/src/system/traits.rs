@@ -68,6 +68,9 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
         casimir.is_some_and(|casimir| casimir.multivalued)
     }
     fn casimir_is_kept(&self, index: usize) -> bool {
+        if let Some(family) = &self.family {
+            return Poisson::<S>::casimir_is_kept(family, index);
+        }
         let casimir = self.plan().system.casimirs.get(index);
         casimir.is_none_or(|casimir| casimir.kept)
     }
@@ -75,6 +78,9 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
         self.values.compiled.plan.system.poisson_degree
     }
     fn clock(&self) -> Option<Clock> {
+        if let Some(family) = &self.family {
+            return Poisson::<S>::clock(family);
+        }
         self.values.compiled.plan.system.clock
     }
     fn following(&self, mu: &Vec<S>) -> Option<Self> {
@@ -131,6 +137,11 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
         value[0]
     }
     fn energy(&self, mu: &Vec<S>) -> S {
+        if S::LOOPS
+            && let Some(family) = &self.family
+        {
+            return family.energy(mu);
+        }
         let Some(energy) = self.values.kernels().energy else {
             return self.hamiltonian(mu);
         };
@@ -189,9 +200,15 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
         self.values.compiled.plan.system.inputs[index].map(f64::from_bits)
     }
     fn noise_count(&self) -> usize {
+        if let Some(family) = &self.family {
+            return Poisson::<S>::noise_count(family);
+        }
         self.values.compiled.plan.system.noises
     }
     fn is_forced(&self) -> bool {
+        if let Some(family) = &self.family {
+            return Poisson::<S>::is_forced(family);
+        }
         self.values.compiled.plan.system.forced
     }
     fn force(&self, mu: &Vec<S>, out: &mut Vec<S>) {
@@ -209,6 +226,9 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
         }
     }
     fn is_damped(&self) -> bool {
+        if let Some(family) = &self.family {
+            return Poisson::<S>::is_damped(family);
+        }
         self.values.compiled.plan.system.damped
     }
     fn damping(&self, mu: &Vec<S>, v: &Vec<S>, out: &mut Vec<S>) {
@@ -276,18 +296,31 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
         }
     }
     fn quantity_count(&self) -> usize {
+        if let Some(family) = &self.family {
+            return Poisson::<S>::quantity_count(family);
+        }
         self.values.compiled.plan.system.quantities.len()
     }
     fn quantity_name(&self, index: usize) -> &str {
+        if let Some(family) = &self.family {
+            return Poisson::<S>::quantity_name(family, index);
+        }
         &self.values.compiled.plan.system.quantities[index].name
     }
     fn quantity_unwraps(&self, index: usize) -> bool {
-        self.values.compiled.plan.system.quantities[index].unwrap
+        let quantity = self.plan().system.quantities.get(index);
+        quantity.is_some_and(|quantity| quantity.unwrap)
     }
     fn quantity_is_conserved(&self, index: usize) -> bool {
-        self.values.compiled.plan.system.quantities[index].conserved
+        let quantity = self.plan().system.quantities.get(index);
+        quantity.is_some_and(|quantity| quantity.conserved)
     }
     fn quantities(&self, mu: &Vec<S>, out: &mut [S]) {
+        if S::LOOPS
+            && let Some(family) = &self.family
+        {
+            return family.quantities(mu, out);
+        }
         if let Some(code) = self.values.kernels().quantities {
             self.values.call(code, [mu, &[]], out, &mut []);
         }

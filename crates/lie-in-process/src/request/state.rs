@@ -62,8 +62,10 @@ impl Planner<'_> {
         let (wanted, state) = match &model.family {
             Some(family) => {
                 let [rows, columns] = family.sites(parameters).unwrap_or([1, 1]);
-                let wanted = rows * columns * model.dimension();
-                (wanted, (values.len() == wanted).then(|| values.to_vec()))
+                let sites = rows * columns;
+                let wanted = sites * model.dimension();
+                let whole = || model.complete_sites(values.to_vec(), sites);
+                (wanted, (values.len() == wanted).then(whole))
             }
             None => {
                 let wanted = model.shown_coordinates().len();
@@ -80,7 +82,7 @@ impl Planner<'_> {
             return None;
         };
         if model.family.is_some() {
-            let Some(text) = not_finite(model, &state) else {
+            let Some(text) = not_finite(model, values) else {
                 return Some(state);
             };
             let message = Message::new(Kind::Domain, text).at_place(place.clone());
@@ -206,7 +208,9 @@ impl Planner<'_> {
     fn initial(&mut self, parameters: &[f64]) -> Option<Vec<f64>> {
         let model = &self.spec.model;
         if let Some(family) = &model.family {
-            return self.family_state(family, parameters);
+            let [rows, columns] = family.sites(parameters).unwrap_or([1, 1]);
+            let of_sites = self.family_state(family, parameters)?;
+            return Some(model.complete_sites(of_sites, rows * columns));
         }
         let dimension = model.shown_coordinates().len();
         let values = if let Some(given) = self.requested("initial") {

@@ -100,7 +100,11 @@ fn groups<'a, P: Lift<f64>>(
         Group {
             fact: "energy",
             claimed: kept.keeps_energy(system),
-            members: vec![energy],
+            // what noise does to it is in no balance
+            members: match system.noise_count() {
+                0 => vec![energy],
+                _ => Vec::new(),
+            },
         },
         Group {
             fact: "quadratic Casimirs",

@@ -4,9 +4,9 @@
 
 use super::outside;
 use crate::facts::{Finding, Ground, Subject, spoiled};
-use lie_program::RowWriter;
 use lie_program::protocol::{Coordinates, Found, Message};
 use lie_program::session::Session;
+use lie_program::{RowWriter, shown};
 use lie_runtime::diagnostics::{AnyMethod, Forgotten};
 use lie_runtime::driver::{
     IntegrateError, Options, Problem, Quantities, Recorder, Save, Solution, Stats, Status,
@@ -120,7 +120,7 @@ where
         let rows: Vec<Row> = places.iter().map(|&k| expected[k].row.clone()).collect();
         let (solution, written) = run(&problem, method, &options)?;
         let recorded: Vec<Row> = (0..solution.len())
-            .map(|place| row_of(&solution, place))
+            .map(|place| row_of(system, &solution, place))
             .collect();
         for seen in [recorded, written] {
             worst = f64::max(worst, difference(&seen, &rows));
@@ -166,9 +166,9 @@ fn difference(rows: &[Row], expected: &[Row]) -> f64 {
     gaps.fold(0.0, f64::max)
 }
 
-fn row_of<V: State<f64>>(solution: &Solution<f64, V>, place: usize) -> Row {
+fn row_of<P: Poisson<f64>>(system: &P, solution: &Solution<f64, P::State>, place: usize) -> Row {
     let mut row = vec![solution.t[place]];
-    row.extend(solution.mu[place].as_slice());
+    row.extend(&solution.mu[place].as_slice()[..shown(system)]);
     row.push(solution.energy[place]);
     row.extend(&solution.casimirs[place]);
     row.extend(
@@ -244,7 +244,7 @@ fn row_at<P: Poisson<f64>>(
     let mut casimirs = vec![0.0; system.casimir_count()];
     system.casimirs(mu, &mut casimirs);
     let mut row = vec![time];
-    row.extend(mu.as_slice());
+    row.extend(&mu.as_slice()[..shown(system)]);
     row.push(system.energy(mu));
     row.extend(casimirs);
     row.extend(
@@ -301,7 +301,7 @@ fn rows<P: Poisson<f64>>(system: &P, said: Vec<Message<Found>>) -> Vec<Row> {
                         names.all(|(place, name)| system.coordinate(place) == name)
                     }
                     Coordinates::OfSites(count) => {
-                        system.sites().is_some() && *count == system.dimension()
+                        system.sites().is_some() && *count == shown(system)
                     }
                 };
             }

@@ -63,6 +63,30 @@ impl Dissipation {
         let entries = matrix.into_iter().flatten().flatten();
         scalar.into_iter().chain(&self.temperature).chain(entries)
     }
+
+    /// The same with other expressions; `None` where there is none for one of them.
+    pub fn mapped(&self, other: &mut dyn FnMut(&Expr) -> Option<Expr>) -> Option<Self> {
+        let mut found = self.clone();
+        let (scalar, matrix) = match &mut found.kind {
+            DissipationKind::DoubleBracket { strength, metric } => {
+                (Some(strength), metric.as_mut())
+            }
+            DissipationKind::Metriplectic { entropy, metric } => {
+                let (Metric::Entries(rows) | Metric::Factor(rows)) = metric;
+                (Some(entropy), Some(rows))
+            }
+            DissipationKind::Rayleigh { matrix } => (None, Some(matrix)),
+        };
+        let entries = matrix.into_iter().flatten().flatten();
+        for expression in scalar
+            .into_iter()
+            .chain(&mut found.temperature)
+            .chain(entries)
+        {
+            *expression = other(expression)?;
+        }
+        Some(found)
+    }
 }
 
 /// A Wiener process W, and what it does, in the sense of Stratonovich.

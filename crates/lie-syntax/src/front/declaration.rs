@@ -25,7 +25,7 @@ use super::reader::{self, Awaited, Entries, Line, Read, Recorded};
 use super::tables::Read as Table;
 use super::token::{Delimiter, Token, TokenKind, render, span, split_commas};
 use super::vectors::Declared;
-use super::{Body, Names, Parsed, driving, item, rust};
+use super::{Body, Names, Parsed, driving, families, item, rust};
 use crate::ast::{Expr, Input, Name, OwnFunction, Realization, RunOption, Start};
 use crate::ast::{NoPath, Runtime};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
@@ -289,7 +289,8 @@ impl Entries for Parts<'_> {
                 Cow::Borrowed(tokens) => tokens,
                 Cow::Owned(_) => continue,
             };
-            if let Some((name, value)) = item::definition(tokens, &what, line.place, report) {
+            let read = item::definition_of(families::target, tokens, &what, line.place, report);
+            if let Some((name, value)) = read {
                 let place = name.origin;
                 let tokens = value.into();
                 defined.push((name, Line { tokens, place }));

@@ -2,7 +2,7 @@
 
 use super::reader::Line;
 use super::vectors::Value;
-use super::{Names, expression, item};
+use super::{Names, expression, families, item};
 use crate::ast::{Dissipation, DissipationKind, Expr, Metric, Name, Noise};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::suggest::meant;
@@ -10,7 +10,7 @@ use crate::suggest::meant;
 /// The forces by coordinate, in the order of the state; a vector of coordinates stands for them.
 pub fn forces(
     lines: &[(Name, Line<'_>)],
-    state: &[Name],
+    (state, indices): (&[Name], &[Name]),
     names: &Names,
     report: &mut Report,
 ) -> Vec<(Name, Expr)> {
@@ -19,7 +19,7 @@ pub fn forces(
         let Some(value) = value(line, names, report) else {
             continue;
         };
-        let Some(parts) = parts(name, value, state, names, report) else {
+        let Some(parts) = parts(name, value, (state, indices), names, report) else {
             continue;
         };
         for (coordinate, value) in parts {
@@ -42,30 +42,44 @@ pub fn forces(
 fn parts(
     name: &Name,
     value: Value,
-    state: &[Name],
+    (state, indices): (&[Name], &[Name]),
     names: &Names,
     report: &mut Report,
 ) -> Option<Vec<(String, Expr)>> {
-    let is_coordinate = |text: &str| state.iter().any(|known| known.text == text);
+    let written: Vec<String> = state
+        .iter()
+        .map(|name| families::written(name, indices))
+        .collect();
+    let place = |text: &str| written.iter().position(|known| known == text);
     let mut mistake = |message: String, help: String| {
         report.push(Diagnostic::new(Kind::UnknownSymbol, name.origin, message).help(help));
         None
     };
-    if is_coordinate(&name.text) {
+    if let Some(place) = place(&name.text) {
         return match value {
-            Value::Scalar(value) => Some(vec![(name.text.clone(), value)]),
+            Value::Scalar(value) => Some(vec![(state[place].text.clone(), value)]),
             _ => mistake(
                 format!("the force on the coordinate `{}` is a vector", name.text),
                 "write a number for it, or name a vector of coordinates".into(),
             ),
         };
     }
-    let coordinates = names.vectors().coordinates(&name.text);
-    let coordinates = coordinates.filter(|all| all.iter().all(|text| is_coordinate(text)));
+    let of_site = families::written(
+        &Name {
+            text: String::new(),
+            ..name.clone()
+        },
+        indices,
+    );
+    let vector = name.text.strip_suffix(&of_site);
+    let coordinates = vector.and_then(|vector| names.vectors().coordinates(vector));
+    let declared = |text: &&str| state.iter().any(|known| known.text == **text);
+    let coordinates = coordinates.filter(|all| all.iter().all(|text| declared(&text)));
     let Some(coordinates) = coordinates else {
-        let known = state.iter().map(|known| known.text.as_str());
-        let near = meant(&name.text, known.clone());
-        let help = match near {
+        let known = written.iter().map(String::as_str);
+        let bare = state.iter().position(|known| known.text == name.text);
+        let near = bare.map(|place| written[place].as_str());
+        let help = match near.or_else(|| meant(&name.text, known.clone())) {
             Some(near) => format!("did you mean `{near}`?"),
             None => format!(
                 "a force is given for one of {}, or for a vector whose entries are coordinates",
@@ -112,7 +126,12 @@ pub enum Noisy<'a> {
 
 impl Noisy<'_> {
     /// What it declares; `None` where an expression is wrong, which is reported.
-    pub fn noise(&self, state: &[Name], names: &Names, report: &mut Report) -> Option<Noise> {
+    pub fn noise(
+        &self,
+        state: (&[Name], &[Name]),
+        names: &Names,
+        report: &mut Report,
+    ) -> Option<Noise> {
         match self {
             Self::Hamiltonian(line) => {
                 let what = ("the Hamiltonian of a noise", "sigma*x");

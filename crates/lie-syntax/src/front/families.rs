@@ -3,6 +3,7 @@
 //! The parser reads them into the tree; [`refuse`] turns them away where the declaration is none of a family.
 
 use super::expression::Parser;
+use super::item;
 use super::named;
 use super::reader::Read;
 use super::token::{Cursor, render, span};
@@ -213,6 +214,26 @@ pub(super) fn indexed_state(tokens: &[Token]) -> Option<(Name, Vec<Name>)> {
         _ => None,
     };
     Some((name(first)?, indices.filter(|_| brackets)?))
+}
+
+/// A coordinate of the state as it is written, of a family with its indices, `x[i]`: what a force is given for.
+pub(super) fn written(name: &Name, indices: &[Name]) -> String {
+    let indices: Vec<&str> = indices.iter().map(|index| index.text.as_str()).collect();
+    match indices.as_slice() {
+        [] => name.text.clone(),
+        indices => format!("{}[{}]", name.text, indices.join(", ")),
+    }
+}
+
+/// The name for which a force is given: a coordinate, one of a family with its indices, or a vector.
+pub(super) fn target(tokens: &[Token], place: Origin, report: &mut Report) -> Option<Name> {
+    match indexed_state(tokens) {
+        Some((name, indices)) => Some(Name {
+            text: written(&name, &indices),
+            origin: span(tokens).unwrap_or(place),
+        }),
+        None => item::name(tokens, place, report),
+    }
 }
 
 /// The names of a state, of a family with their indices, all the same.

@@ -90,6 +90,17 @@ pub fn definition<'a>(
     whole: Origin,
     report: &mut Report,
 ) -> Option<(Name, &'a [Token])> {
+    definition_of(name, tokens, what, whole, report)
+}
+
+/// `LEFT = expression` with a name that is read in another way.
+pub fn definition_of<'a>(
+    name: impl Fn(&[Token], Origin, &mut Report) -> Option<Name>,
+    tokens: &'a [Token],
+    what: &str,
+    whole: Origin,
+    report: &mut Report,
+) -> Option<(Name, &'a [Token])> {
     let mut cursor = Cursor::new(tokens);
     let left = cursor.take_until(|c| c.peek().is_some_and(equations::begins_sign));
     let Some(equals) = equations::sign(&mut cursor, report) else {

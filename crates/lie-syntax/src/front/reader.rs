@@ -200,7 +200,8 @@ fn remainder<E: Entries>(
     let lets = lets.collect();
     let energy = energy(entries, velocity, &names, report);
     let forces = entries.definitions("forces", report);
-    let forces = driving::forces(&forces, &parsed.state, &names, report);
+    let state = (&*parsed.state, &*parsed.indices);
+    let forces = driving::forces(&forces, state, &names, report);
     let dissipation = entries.dissipation(&names, report).into_iter();
     let dissipation = dissipation.filter_map(|entry| {
         let read = entry.kind(E::FORM);
@@ -208,7 +209,7 @@ fn remainder<E: Entries>(
     });
     let dissipation = dissipation.collect();
     let noise = entries.noise(report).into_iter();
-    let noise = noise.filter_map(|noisy| noisy.noise(&parsed.state, &names, report));
+    let noise = noise.filter_map(|noisy| noisy.noise(state, &names, report));
     let noise = noise.collect();
     let realization = entries.place("realization");
     let realization = realization.map(|_| entries.realization(&constants, report));

@@ -1,32 +1,43 @@
 //! The expressions of a driven system.
 
-use super::*;
+use super::metric::{Checks, Rows};
+use crate::model::PoissonMatrix;
+use lie_symbolic::exact::Rational;
+use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
+use lie_syntax::diagnostic::Diagnostic;
 
 /// What noise adds to the force and to the generator.
 pub struct Loud {
     pub force: Vec<ExprId>,
     pub damping: Vec<ExprId>,
-    /// The coordinate of the rate of the next Wiener process.
-    pub next: usize,
+    /// How many Wiener processes there are so far.
+    pub count: usize,
 }
 
 impl Loud {
     /// The rate `dW/dt` of the next Wiener process.
-    pub fn rate(&mut self, graph: &mut Graph) -> ExprId {
-        let place = self.next;
-        self.next += 1;
-        graph.symbol(Symbol::Coordinate(place))
+    pub fn rate(&mut self, work: &mut Work<'_>) -> ExprId {
+        let symbol = (work.rate)(self.count);
+        self.count += 1;
+        work.graph.symbol(symbol)
     }
 }
 
 /// What the expressions of a driven system are made of.
 pub struct Work<'a> {
     pub graph: &'a mut Graph,
-    /// How many coordinates were declared; they come first.
+    /// How many coordinates were declared.
     pub own: usize,
-    /// The gradient of H with the momentum of the time.
+    /// The first of them.
+    pub first: usize,
+    /// Where the generator has what the time takes, behind the declared coordinates.
+    pub time: usize,
+    /// The gradient of H, with all coordinates that go with the declared ones.
     pub slopes: Vec<ExprId>,
+    /// The brackets of these.
     pub matrix: PoissonMatrix,
+    /// The rates of Wiener processes.
+    pub rate: &'a dyn Fn(usize) -> Symbol,
 }
 
 impl Work<'_> {
@@ -68,7 +79,6 @@ impl Work<'_> {
         strength: ExprId,
         metric: Option<&Rows>,
         damping: &mut [ExprId],
-        time: usize,
     ) {
         let slopes = self.slopes.clone();
         let v = self.moved(&slopes);
@@ -83,17 +93,23 @@ impl Work<'_> {
             power.push(self.graph.mul(part, v));
         }
         let power = self.graph.sum(&power);
-        damping[time] = self.graph.sub(damping[time], power);
+        damping[self.time] = self.graph.sub(damping[self.time], power);
+    }
+
+    /// The derivatives of a function by the first so many coordinates.
+    fn derivatives(&mut self, function: ExprId, count: usize) -> Vec<ExprId> {
+        let coordinates = (self.first..self.first + count).map(Symbol::Coordinate);
+        coordinates
+            .map(|x| self.graph.derivative(function, x))
+            .collect()
     }
 
     /// `xi += grad sigma dW/dt`, without what that does to the momentum of the time.
-    pub fn add_hamiltonian_noise(&mut self, function: ExprId, noise: &mut Loud, time: usize) {
-        let rate = noise.rate(self.graph);
-        for (i, slope) in slopes(self.graph, function, self.slopes.len())
-            .into_iter()
-            .enumerate()
-        {
-            if i != time {
+    pub fn add_hamiltonian_noise(&mut self, function: ExprId, noise: &mut Loud) {
+        let rate = noise.rate(self);
+        let slopes = self.derivatives(function, self.slopes.len());
+        for (i, slope) in slopes.into_iter().enumerate() {
+            if i != self.time {
                 let part = self.graph.mul(slope, rate);
                 noise.damping[i] = self.graph.add(noise.damping[i], part);
             }
@@ -108,7 +124,6 @@ impl Work<'_> {
         (temperature, strength): (ExprId, Option<ExprId>),
         metric: Option<&Rows>,
         noise: &mut Loud,
-        time: usize,
     ) -> Option<Diagnostic> {
         if strength.is_none() {
             let rows = metric?;
@@ -129,7 +144,7 @@ impl Work<'_> {
         for (column, pivot) in columns.into_iter().zip(pivots) {
             let square = self.graph.mul(scale, pivot);
             let amplitude = self.graph.pow(square, &half);
-            let rate = noise.rate(self.graph);
+            let rate = noise.rate(self);
             let rate = self.graph.mul(amplitude, rate);
             let target = match strength {
                 Some(_) => &mut noise.damping,
@@ -141,7 +156,7 @@ impl Work<'_> {
             }
         }
         debug_assert!(
-            self.graph.is_zero(noise.damping[time]),
+            self.graph.is_zero(noise.damping[self.time]),
             "noise does no work"
         );
         None
@@ -150,10 +165,11 @@ impl Work<'_> {
     /// `sum_i dPi_ij/dx_i` for each declared coordinate j: zero where every Hamiltonian field has no divergence.
     pub fn divergence(&mut self) -> Vec<ExprId> {
         let mut terms = vec![Vec::new(); self.own];
+        let coordinate = |i: &usize| Symbol::Coordinate(self.first + i);
         for (i, j, entry) in &self.matrix.entries {
             if *i < self.own && *j < self.own {
-                terms[*j].push(self.graph.derivative(*entry, Symbol::Coordinate(*i)));
-                let other = self.graph.derivative(*entry, Symbol::Coordinate(*j));
+                terms[*j].push(self.graph.derivative(*entry, coordinate(i)));
+                let other = self.graph.derivative(*entry, coordinate(j));
                 terms[*i].push(self.graph.neg(other));
             }
         }
@@ -164,7 +180,7 @@ impl Work<'_> {
     }
 
     pub fn add_metriplectic(&mut self, entropy: ExprId, rows: &Rows, force: &mut [ExprId]) {
-        let slopes = slopes(self.graph, entropy, self.own);
+        let slopes = self.derivatives(entropy, self.own);
         for (slot, push) in force.iter_mut().zip(self.times(rows, &slopes)) {
             *slot = self.graph.add(*slot, push);
         }
@@ -184,7 +200,7 @@ impl Work<'_> {
         };
         checks.shape("the metric K", &rows).map_or(Ok(()), Err)?;
         let degenerate = self.times(&rows, &self.slopes.clone());
-        let mut slopes = slopes(self.graph, entropy, self.own);
+        let mut slopes = self.derivatives(entropy, self.own);
         slopes.resize(self.slopes.len(), self.graph.integer(0));
         let moved = self.moved(&self.slopes.clone());
         let products = moved.iter().zip(&slopes);

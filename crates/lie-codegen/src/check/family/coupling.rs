@@ -1,26 +1,28 @@
 //! The sums and the Hamiltonian of a family in the arena of the model of its site.
 
+use super::acting;
 use super::sites::SiteSums;
 use super::sums::{self, Collected};
+use crate::check::driving;
 use crate::check::environment::{Allowed, Environment};
 use crate::check::has_errors;
 use crate::check::lets;
 use crate::check::lower::Lowering;
-use crate::model::{Family, Model, SiteData, SiteSum, Size, data_symbol};
+use crate::model::{Driving, Family, Model, Quantity, SiteData, SiteSum, Size, data_symbol};
 use lie_symbolic::prove::degree;
 use lie_symbolic::symbolic::{Graph, Symbol};
-use lie_syntax::ast::{self, Declaration, Name, SiteValues};
+use lie_syntax::ast::{self, Declaration, Expr, Name, SiteValues};
 use lie_syntax::diagnostic::{Diagnostic, Kind};
 
 /// Makes the model of a site that of the family; `None` if there are mistakes.
 pub fn couple(
     declaration: &Declaration,
     family: &ast::Family,
-    acting: &SiteSums,
+    of_site: &SiteSums,
     mut model: Model,
     mistakes: &mut Vec<Diagnostic>,
 ) -> Option<Model> {
-    let collected = &acting.collected;
+    let collected = &of_site.collected;
     let known = Family {
         sizes: sizes(declaration, family, &model, mistakes)?,
         slots: collected.slots.clone(),
@@ -34,7 +36,13 @@ pub fn couple(
         degree: None,
         start: family.start.clone(),
     };
-    model.family = Some(summed(declaration, &mut model, acting, known, mistakes)?);
+    let (coupled, driving) = summed(declaration, &mut model, of_site, known, mistakes)?;
+    if driving.is_some() {
+        // what is carried beside the sites has no symbol in their functions
+        let none = model.graph.integer(0);
+        model.quantities = vec![Quantity::work(declaration.name.origin, none)];
+    }
+    (model.family, model.driving) = (Some(coupled), driving);
     model.methods.clone_from(&declaration.methods);
     model.run.clone_from(&declaration.run);
     (!has_errors(mistakes)).then_some(model)
@@ -186,11 +194,11 @@ fn data(
 fn summed(
     declaration: &Declaration,
     model: &mut Model,
-    acting: &SiteSums,
+    of_site: &SiteSums,
     known: Family,
     mistakes: &mut Vec<Diagnostic>,
-) -> Option<Family> {
-    let collected = &acting.collected;
+) -> Option<(Family, Option<Driving>)> {
+    let collected = &of_site.collected;
     let names = &known.names;
     let totals = (0..collected.sums.len()).map(sums::total);
     let place = declaration.name.origin;
@@ -202,7 +210,10 @@ fn summed(
                 origin: place,
             })
             .collect(),
-        lets: acting.lets.clone(),
+        lets: of_site.lets.clone(),
+        forces: of_site.acting.forces.clone(),
+        dissipation: of_site.acting.dissipation.clone(),
+        noise: of_site.acting.noise.clone(),
         ..declaration.clone()
     };
     let mut environment = Environment::new(&widened);
@@ -212,10 +223,11 @@ fn summed(
     let graph = &mut model.graph;
     lets::abbreviations(&widened, graph, &mut environment, mistakes);
     let mut lower =
-        |expr, allowed| Lowering::new(graph, &environment, mistakes, allowed).lower(expr);
+        |expr: &Expr, allowed| Lowering::new(graph, &environment, mistakes, allowed).lower(expr);
     let summands = collected.sums.iter();
     let summands: Vec<_> = summands.map(|s| lower(&s.body, Allowed::Site)).collect();
-    let energy = lower(&acting.energy, Allowed::State);
+    let energy = lower(&of_site.energy, Allowed::State);
+    let beside = driving::acting(&widened, Allowed::Site, &mut lower);
     let first = names.len();
     let of_a_sum = |symbol: &Symbol| matches!(symbol, Symbol::Coordinate(k) if *k >= first);
     let mut sums = Vec::new();
@@ -232,13 +244,20 @@ fn summed(
         });
     }
     let energy = energy?;
+    let driving = match widened.is_driven() {
+        true => Some(acting::motion(&widened, model, &known, beside?, mistakes)?),
+        false => None,
+    };
+    let graph = &mut model.graph;
     let mut of_summands = sums.iter().map(|s| degree::degree(graph, s.summand));
     let inner = of_summands.try_fold(0, |most: u32, degree| Some(most.max(degree?)));
     let outer = degree::degree(graph, energy);
-    Some(Family {
+    let degree = outer.zip(inner).map(|(outer, inner)| outer * inner);
+    let family = Family {
         sums,
         energy,
-        degree: outer.zip(inner).map(|(outer, inner)| outer * inner),
+        degree,
         ..known
-    })
+    };
+    Some((family, driving))
 }

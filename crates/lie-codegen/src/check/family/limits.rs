@@ -1,6 +1,6 @@
 //! What a family of systems cannot have.
 
-use lie_syntax::ast::{Declaration, Energy, Family, Structure};
+use lie_syntax::ast::{Declaration, Dissipation, DissipationKind, Energy, Family, Structure};
 use lie_syntax::diagnostic::{Diagnostic, Kind};
 
 /// What a family cannot have.
@@ -30,10 +30,17 @@ pub fn violations(declaration: &Declaration, family: &Family) -> Vec<Diagnostic>
         let message = "the group elements of the sites of a family are not followed";
         refuse(attitude.origin, message, "remove `attitude`");
     }
-    if let Some(place) = declaration.place_of_driving() {
-        let message = "forces, dissipation, noise and inputs of a family are not built yet";
+    if let Some(input) = declaration.inputs.first() {
+        let message = "a family has no inputs";
         let help = "remove them, or declare the sites as one system: `so(3)^3` without an index in the state";
-        refuse(place, message, help);
+        refuse(input.name.origin, message, help);
+    }
+    let mut dissipation = declaration.dissipation.iter();
+    let metriplectic = |d: &&Dissipation| matches!(d.kind, DissipationKind::Metriplectic { .. });
+    if let Some(entry) = dissipation.find(metriplectic) {
+        let message = "the metric of a family acts at each site, where H is shared with others: K grad H = 0 is not proven";
+        let help = "use `double-bracket` or `rayleigh`, or declare the sites as one system: `so(3)^3` without an index in the state";
+        refuse(entry.origin, message, help);
     }
     if let Some(event) = declaration.events.first() {
         let message = "events of a family are not found";

@@ -3,7 +3,9 @@
 use super::parts::on_site;
 use super::sums::{Collected, Sums};
 use lie_symbolic::exact::Rational;
-use lie_syntax::ast::{Casimir, Declaration, Energy, Expr, ExprKind, Family, Name};
+use lie_syntax::ast::{
+    Casimir, Declaration, Dissipation, Energy, Expr, ExprKind, Family, Name, Noise,
+};
 use lie_syntax::diagnostic::Diagnostic;
 
 /// What acts on the sites of a family.
@@ -14,6 +16,15 @@ pub struct SiteSums {
     pub energy: Expr,
     /// The sums.
     pub collected: Collected,
+    /// What acts on a site beside the Hamiltonian, its coordinates under the names of their slots.
+    pub acting: Beside,
+}
+
+/// Forces, dissipation and noise at a site.
+pub struct Beside {
+    pub forces: Vec<(Name, Expr)>,
+    pub dissipation: Vec<Dissipation>,
+    pub noise: Vec<Noise>,
 }
 
 /// Takes a family apart into the declaration of one site and sums; `None` if there are mistakes.
@@ -29,6 +40,7 @@ pub fn sites(
         .filter_map(|(name, value)| Some((name.clone(), sums.outside(value, mistakes)?)))
         .collect();
     let energy = sums.outside(declaration.energy.expression(), mistakes);
+    let acting = beside(declaration, &mut sums, mistakes);
     let collected = sums.collected();
     let zero = Expr {
         kind: ExprKind::Number(Rational::ZERO),
@@ -44,6 +56,9 @@ pub fn sites(
         casimirs: casimirs.collect(),
         energy: Energy::Hamiltonian(zero),
         family: None,
+        forces: Vec::new(),
+        dissipation: Vec::new(),
+        noise: Vec::new(),
         lets: Vec::new(),
         methods: Vec::new(),
         run: Vec::new(),
@@ -54,6 +69,46 @@ pub fn sites(
         lets,
         energy: energy.filter(|_| mistakes.is_empty())?,
         collected,
+        acting,
     };
     Some((site, sums))
+}
+
+/// What acts on a site.
+fn beside(
+    declaration: &Declaration,
+    sums: &mut Sums<'_>,
+    mistakes: &mut Vec<Diagnostic>,
+) -> Beside {
+    let forces = at_site(&declaration.forces, sums, mistakes);
+    let noise = declaration.noise.iter().filter_map(|noise| match noise {
+        Noise::Hamiltonian(value) => Some(Noise::Hamiltonian(sums.acting(value, mistakes)?)),
+        Noise::Force(parts) => Some(Noise::Force(at_site(parts, sums, mistakes))),
+    });
+    let noise = noise.collect();
+    let dissipation = declaration.dissipation.iter();
+    let dissipation = dissipation
+        .filter_map(|entry| entry.mapped(&mut |value| sums.acting(value, mistakes)))
+        .collect();
+    Beside {
+        forces,
+        dissipation,
+        noise,
+    }
+}
+
+/// Forces on coordinates, at a site.
+fn at_site(
+    parts: &[(Name, Expr)],
+    sums: &mut Sums<'_>,
+    mistakes: &mut Vec<Diagnostic>,
+) -> Vec<(Name, Expr)> {
+    let part = |(name, value): &(Name, Expr)| {
+        let name = Name {
+            text: sums.own(&name.text),
+            origin: name.origin,
+        };
+        Some((name, sums.acting(value, mistakes)?))
+    };
+    parts.iter().filter_map(part).collect()
 }

@@ -74,6 +74,18 @@ impl Collected {
     }
 }
 
+fn indices(family: &Family) -> Vec<String> {
+    family.indices.iter().map(|i| i.text.clone()).collect()
+}
+
+/// The answer to a sum in what acts on a site.
+pub fn far(origin: Origin) -> Diagnostic {
+    let message =
+        "what acts on a site depends on it and on sites near by, and this is a sum over sites";
+    let help = "couple all sites in the Hamiltonian; a force at a site may depend on its neighbours, as in `-k*(x[i] - x[i+1])`";
+    Diagnostic::new(Kind::Syntax, origin, message).help(help)
+}
+
 /// The answer to a sum within another one.
 pub fn within(origin: Origin) -> Diagnostic {
     Diagnostic::new(
@@ -89,6 +101,8 @@ pub struct Sums<'a> {
     declaration: &'a Declaration,
     family: &'a Family,
     found: Vec<Sum>,
+    /// The sites and the coefficients that what acts on a site depends on.
+    acting: (BTreeSet<[i64; 2]>, BTreeSet<([i64; 2], usize)>),
     /// Of each coefficient how many last rows and columns no sum has asked for; none before one asks.
     unused: Vec<Option<[usize; 2]>>,
 }
@@ -109,17 +123,46 @@ impl<'a> Sums<'a> {
             declaration,
             family,
             found: Vec::new(),
+            acting: Default::default(),
             unused: vec![None; family.data.len()],
         }
     }
 
     fn indices(&self) -> Vec<String> {
-        self.family.indices.iter().map(|i| i.text.clone()).collect()
+        indices(self.family)
+    }
+
+    /// The name of a coordinate of the site on which something acts.
+    pub fn own(&self, name: &str) -> String {
+        named(name, &self.indices(), [0, 0])
+    }
+
+    /// An expression of what acts on a site, its coordinates under the names of their slots.
+    pub fn acting(&mut self, expr: &Expr, mistakes: &mut Vec<Diagnostic>) -> Option<Expr> {
+        let mut reading = Reading {
+            variables: self.family.indices.iter().collect(),
+            spans: vec![None; self.family.indices.len()],
+            sites: BTreeSet::new(),
+            moving: BTreeSet::new(),
+            data: BTreeSet::new(),
+        };
+        let expr = mapped(expr, &mut |part| match &part.kind {
+            ExprKind::IndexedSum { .. } => {
+                mistakes.push(far(part.origin));
+                None
+            }
+            _ => self.at_site(part, &mut reading, mistakes),
+        });
+        self.acting.0.extend(reading.moving);
+        self.acting.1.extend(reading.data);
+        expr
     }
 
     /// All that were found.
     pub fn collected(self) -> Collected {
-        let mut slots = BTreeSet::from([[0, 0]]);
+        let mut slots = self.acting.0;
+        slots.insert([0, 0]);
+        slots.extend(self.acting.1.iter().map(|(at, _)| *at));
         for sum in &self.found {
             for one in &sum.sites {
                 slots.insert(*one);
@@ -127,13 +170,14 @@ impl<'a> Sums<'a> {
                 slots.extend(others.map(|other| [other[0] - one[0], other[1] - one[1]]));
             }
         }
-        let (state, indices) = (&self.declaration.state, self.indices());
+        let indices: Vec<String> = indices(self.family);
+        let state = &self.declaration.state;
         let names = slots
             .iter()
             .flat_map(|slot| state.iter().map(|name| named(&name.text, &indices, *slot)))
             .collect();
         // the motion of a site asks for those of the summands that it is in
-        let mut asked = BTreeSet::new();
+        let mut asked = self.acting.1;
         for sum in &self.found {
             for from in sum.moving.iter().chain(&[[0, 0]]) {
                 let apart = |at: &[i64; 2]| [at[0] - from[0], at[1] - from[1]];
@@ -244,27 +288,7 @@ impl<'a> Sums<'a> {
                 mistakes.push(within(part.origin));
                 None
             }
-            ExprKind::Name { name, index: None } if self.is_coordinate(name) => {
-                mistakes.push(self.without_index(name, part.origin));
-                None
-            }
-            ExprKind::Name { name, index: None } if self.data(name).is_some() => {
-                mistakes.push(self.without_site(name, part.origin));
-                None
-            }
-            ExprKind::Name { name, index: None }
-                if reading.variables.iter().any(|v| v.text == *name) =>
-            {
-                let message = format!("`{name}` is the index of the sum and no number");
-                let mistake = Diagnostic::new(Kind::UnknownSymbol, part.origin, message);
-                mistakes.push(mistake.help(DIFFERENT));
-                None
-            }
-            ExprKind::Name {
-                name,
-                index: Some(index),
-            } => self.coordinate(name, index, part.origin, &mut reading, mistakes),
-            _ => Some(part.clone()),
+            _ => self.at_site(part, &mut reading, mistakes),
         })?;
         let span = |axis: usize| {
             let before = 2 - reading.spans.len();
@@ -284,6 +308,38 @@ impl<'a> Sums<'a> {
             kind: ExprKind::Name { name, index: None },
             origin: expr.origin,
         })
+    }
+
+    /// What stands at a site: coordinates and coefficients under the names of their slots.
+    fn at_site(
+        &mut self,
+        part: &Expr,
+        reading: &mut Reading<'_>,
+        mistakes: &mut Vec<Diagnostic>,
+    ) -> Option<Expr> {
+        match &part.kind {
+            ExprKind::Name { name, index: None } if self.is_coordinate(name) => {
+                mistakes.push(self.without_index(name, part.origin));
+                None
+            }
+            ExprKind::Name { name, index: None } if self.data(name).is_some() => {
+                mistakes.push(self.without_site(name, part.origin));
+                None
+            }
+            ExprKind::Name { name, index: None }
+                if reading.variables.iter().any(|v| v.text == *name) =>
+            {
+                let message = format!("`{name}` is an index and no number");
+                let mistake = Diagnostic::new(Kind::UnknownSymbol, part.origin, message);
+                mistakes.push(mistake.help(DIFFERENT));
+                None
+            }
+            ExprKind::Name {
+                name,
+                index: Some(index),
+            } => self.coordinate(name, index, part.origin, reading, mistakes),
+            _ => Some(part.clone()),
+        }
     }
 
     /// Reports the index of a sum that is another name too.

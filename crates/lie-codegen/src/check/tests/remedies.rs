@@ -56,7 +56,7 @@ fn coefficients_of_a_family_that_differ_are_listed() {
         ("k", "sum(k in 0..N-1: x[k] + k*y[k])"),
         ("site", "sum(site in 0..N: x[site]^site)"),
     ] {
-        let says = format!("`{index}` is the index of the sum and no number");
+        let says = format!("`{index}` is an index and no number");
         let listed = format!("\"sum({index} in 0..N: B[{index}]*x[{index}])\"");
         let sum = format!("{sum:?}");
         leads_out(&ring(&[("hamiltonian", &sum)]), &says, helps, &out(&listed));

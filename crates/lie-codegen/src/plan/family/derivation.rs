@@ -2,9 +2,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::{Data, Family, FamilyForm, FamilyPiece, FamilyPieces, Sum};
+use super::{Data, Driven, Family, FamilyForm, FamilyPiece, FamilyPieces, SiteCasimir, Sum};
 use crate::derive::{Argument, Kernel, Source, action};
-use crate::model::{self, data_symbol};
+use crate::model::{self, data_symbol, slope_symbol};
 use crate::plan::constants::Table;
 use crate::plan::function::Function;
 use crate::plan::planner::{Planner, described};
@@ -48,6 +48,11 @@ impl<'p, 'm> Derivation<'p, 'm> {
         self.planner.source.dimension
     }
 
+    /// The number of coefficients, and of rates of Wiener processes.
+    fn coefficients(&self) -> usize {
+        self.family.data_names.len() + super::noises(self.planner.structure)
+    }
+
     fn at(&self) -> [Argument; 2] {
         let places = 0..self.family.names.len();
         let sums = places.end..places.end + self.family.sums.len();
@@ -56,7 +61,7 @@ impl<'p, 'm> Derivation<'p, 'm> {
                 name: "at",
                 symbols: places
                     .map(Symbol::Coordinate)
-                    .chain((0..self.family.data_names.len()).map(data_symbol))
+                    .chain((0..self.coefficients()).map(data_symbol))
                     .collect(),
             },
             Argument {
@@ -130,7 +135,7 @@ impl<'p, 'm> Derivation<'p, 'm> {
 
     pub(super) fn family(mut self) -> Family {
         let family = self.family;
-        let (slopes, field) = self.slopes_and_field();
+        let (slopes, field, driven) = self.slopes_and_field();
         let summands: Vec<ExprId> = family
             .sums
             .iter()
@@ -189,6 +194,7 @@ impl<'p, 'm> Derivation<'p, 'm> {
             degree: family.degree,
             seed: family.seed(),
             field,
+            driven,
             slopes,
             summands,
             energy,
@@ -200,9 +206,8 @@ impl<'p, 'm> Derivation<'p, 'm> {
         }
     }
 
-    fn slopes_and_field(&mut self) -> (Vec<(usize, usize, Function)>, Function) {
+    fn slopes_and_field(&mut self) -> (Vec<(usize, usize, Function)>, Function, Option<Driven>) {
         let (n, family) = (self.n(), self.family);
-        let own = family.own * n..(family.own + 1) * n;
         let mut terms: Vec<Vec<ExprId>> = vec![Vec::new(); n];
         let mut slopes = Vec::new();
         for (k, sum) in family.sums.iter().enumerate() {
@@ -227,17 +232,70 @@ impl<'p, 'm> Derivation<'p, 'm> {
         }
         let source = &mut self.planner.source;
         let gradient: Vec<ExprId> = terms.iter().map(|terms| source.graph.sum(terms)).collect();
-        let mu: Vec<ExprId> = own
-            .map(|i| source.graph.symbol(Symbol::Coordinate(i)))
-            .collect();
-        let field = source.ad_star_of(&gradient, &mu);
+        let (motion, driven) = self.driven();
+        let source = &mut self.planner.source;
+        let field = match motion {
+            None => {
+                let mu = own(source, family, n);
+                source.ad_star_of(&gradient, &mu)
+            }
+            Some(motion) => source.graph.substitute(&motion, &|symbol| {
+                let mut slopes = (0..n).map(slope_symbol).zip(&gradient);
+                slopes
+                    .find(|(slope, _)| *slope == symbol)
+                    .map(|(_, value)| *value)
+            }),
+        };
         let field: Vec<ExprId> = field.into_iter().map(|f| source.graph.tidy(f)).collect();
-        let formula = (
-            "field",
-            "`mu_i' = ad*_(dH/dmu_i) mu_i` of a site with all its neighbours",
-        );
+        let formula = match &driven {
+            None => "`mu_i' = ad*_(dH/dmu_i) mu_i` of a site with all its neighbours",
+            Some(_) => {
+                "`mu_i' = ad*_xi mu_i + F` of a site with all its neighbours, and the power behind it"
+            }
+        };
         let at = self.at().to_vec();
-        (slopes, self.vector("field of a site", formula, at, &field))
+        let field = self.vector("field of a site", ("field", formula), at, &field);
+        (slopes, field, driven)
+    }
+
+    /// The motion of a site from dH/dmu there, and the power behind it, where something acts beside H.
+    fn driven(&mut self) -> (Option<Vec<ExprId>>, Option<Driven>) {
+        let (n, family, structure) = (self.n(), self.family, self.planner.structure);
+        let Some(driving) = &structure.driving else {
+            return (None, None);
+        };
+        let source = &mut self.planner.source;
+        let mu = own(source, family, n);
+        let slopes: Vec<Symbol> = (0..n).map(slope_symbol).collect();
+        let xi: Vec<ExprId> = (slopes.iter().zip(&driving.damping))
+            .map(|(slope, more)| {
+                let (slope, more) = (source.graph.symbol(*slope), source.graph.as_written(*more));
+                source.graph.add(slope, more)
+            })
+            .collect();
+        let mut motion = source.ad_star_of(&xi, &mu);
+        for (sum, force) in motion.iter_mut().zip(&driving.force) {
+            let force = source.graph.as_written(*force);
+            *sum = source.graph.add(*sum, force);
+        }
+        motion.push(source.graph.as_written(driving.damping[n]));
+        let tidy: Vec<ExprId> = motion.iter().map(|f| source.graph.tidy(*f)).collect();
+        let [at, _] = self.at();
+        let slope = Argument {
+            name: "slope",
+            symbols: slopes,
+        };
+        let formula = (
+            "act",
+            "`mu_i' = ad*_xi mu_i + F`, from `dH/dmu_i`, and the power behind it",
+        );
+        let act = self.vector("motion of a site", formula, vec![slope, at], &tidy);
+        let driven = Driven {
+            act,
+            forced: driving.is_forced(&structure.graph),
+            noises: driving.noises,
+        };
+        (Some(motion), Some(driven))
     }
 
     /// The bracket and the coadjoint action.
@@ -312,7 +370,7 @@ impl<'p, 'm> Derivation<'p, 'm> {
             let mut arguments = vec![own.clone(), sums.clone()];
             if !self.family.data.is_empty() {
                 // the coefficients stand behind the coordinates of all slots, of which the rate has those of the site alone
-                let data = (0..self.family.data_names.len()).map(data_symbol);
+                let data = (0..self.coefficients()).map(data_symbol);
                 let skipped = self.family.names.iter().map(|_| Symbol::Time);
                 arguments.push(Argument {
                     name: "at",
@@ -363,7 +421,7 @@ impl<'p, 'm> Derivation<'p, 'm> {
     }
 
     /// The Casimirs of a site, in the coordinates of slot 0.
-    fn casimirs(&mut self) -> Vec<(String, Option<u32>, [Function; 2])> {
+    fn casimirs(&mut self) -> Vec<SiteCasimir> {
         let n = self.n();
         let model = self.planner.structure;
         let mut casimirs = Vec::new();
@@ -382,8 +440,21 @@ impl<'p, 'm> Derivation<'p, 'm> {
             let formula = ("casimir_gradient", "`out = dC/dmu_i`");
             let label = format!("casimir_gradient {}", casimir.name);
             let gradient = self.vector(&label, formula, vec![argument], &gradient);
-            casimirs.push((casimir.name.clone(), casimir.degree, [value, gradient]));
+            casimirs.push(SiteCasimir {
+                name: casimir.name.clone(),
+                degree: casimir.degree,
+                kept: casimir.kept,
+                value,
+                gradient,
+            });
         }
         casimirs
     }
+}
+
+/// The coordinates of the site itself.
+fn own(source: &mut Source, family: &model::Family, n: usize) -> Vec<ExprId> {
+    let places = family.own * n..(family.own + 1) * n;
+    let symbols = places.map(|place| source.graph.symbol(Symbol::Coordinate(place)));
+    symbols.collect()
 }

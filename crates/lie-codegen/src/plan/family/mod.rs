@@ -38,8 +38,10 @@ pub struct Family {
     pub degree: Option<u32>,
     /// The seed of a random initial state.
     pub seed: Option<u64>,
-    /// The vector field of a site with all its neighbours.
+    /// The vector field of a site with all its neighbours; where something acts beside H, with the power behind it.
     pub field: Function,
+    /// What acts beside H.
+    pub driven: Option<Driven>,
     /// The derivative of each summand by the coordinates in each of its slots, times `dF/dT_k`.
     pub slopes: Vec<(usize, usize, Function)>,
     /// The summands.
@@ -52,10 +54,36 @@ pub struct Family {
     pub ad: Function,
     /// Its coadjoint action.
     pub ad_star: Function,
-    /// The Casimirs of a site with their names and degrees, and their gradients.
-    pub casimirs: Vec<(String, Option<u32>, [Function; 2])>,
+    /// The Casimirs of a site.
+    pub casimirs: Vec<SiteCasimir>,
     /// The pieces of H, where their flows are exact.
     pub pieces: Option<FamilyPieces>,
+}
+
+/// What acts on a site beside H.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Driven {
+    /// The vector field of a site from dH/dmu there, and the power behind it.
+    pub act: Function,
+    /// Whether forces are among it.
+    pub forced: bool,
+    /// The number of Wiener processes of a site.
+    pub noises: usize,
+}
+
+/// A Casimir of a site.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct SiteCasimir {
+    /// Its name.
+    pub name: String,
+    /// Its total degree, if it is a polynomial.
+    pub degree: Option<u32>,
+    /// Whether the motion keeps it.
+    pub kept: bool,
+    /// Its value.
+    pub value: Function,
+    /// Its gradient.
+    pub gradient: Function,
 }
 
 /// A coefficient that has a value for each site.
@@ -134,10 +162,12 @@ pub struct Sum {
 impl Family {
     /// All kernels.
     pub fn functions(&self) -> impl Iterator<Item = &Function> {
-        let casimirs = self.casimirs.iter().flat_map(|(_, _, functions)| functions);
+        let casimirs = self.casimirs.iter();
+        let casimirs = casimirs.flat_map(|casimir| [&casimir.value, &casimir.gradient]);
         let mean = self.mean_field.then_some(&self.weights);
         [&self.field]
             .into_iter()
+            .chain(self.driven.iter().map(|driven| &driven.act))
             .chain(self.slopes.iter().map(|(_, _, function)| function))
             .chain([&self.summands, &self.energy])
             .chain(mean)
@@ -154,10 +184,23 @@ impl Family {
             }))
     }
 
-    /// The number of coordinates and coefficients in all slots together.
+    /// The number of coordinates and coefficients in all slots together, and of rates of Wiener processes of the site.
     pub fn places(&self) -> usize {
-        self.offsets.len() * self.coordinates.len() + self.data_places.len()
+        self.offsets.len() * self.coordinates.len() + self.data_places.len() + self.noises()
     }
+
+    /// The number of Wiener processes of a site.
+    pub fn noises(&self) -> usize {
+        self.driven.as_ref().map_or(0, |driven| driven.noises)
+    }
+}
+
+/// The number of Wiener processes of a site.
+fn noises(structure: &Structure) -> usize {
+    structure
+        .driving
+        .as_ref()
+        .map_or(0, |driving| driving.noises)
 }
 
 /// The plan of a family.
@@ -173,6 +216,7 @@ pub(super) fn plan(structure: &Structure, family: &model::Family) -> Plan {
     let places = family.data_places.iter();
     names.data = places
         .map(|[slot, which]| format!("_{slot}{}", family.data[*which].name))
+        .chain((0..noises(structure)).map(|process| format!("_dw{process}")))
         .collect();
     let mut planner = Planner {
         structure,

@@ -51,6 +51,11 @@ impl Printer<'_> {
         let row = (family.sizes.len() == 1).then(|| quote! { 1, });
         let initial = family.seed.map(|seed| {
             let seed = Literal::u64_unsuffixed(seed);
+            let sites = quote! { ::lie_runtime::family::unit_spheres(rows * columns, #c, #seed) };
+            let state = match &family.driven {
+                Some(_) => quote! { self.system()?.state(#sites) },
+                None => sites,
+            };
             quote! {
                 #[doc = " The initial state of the declaration: a point on the unit sphere for each site, at random."]
                 #[doc = ""]
@@ -58,7 +63,7 @@ impl Printer<'_> {
                 #[doc = " If a number of sites is none."]
                 pub fn initial_state(&self) -> ::core::result::Result<::std::vec::Vec<S>, ::lie_runtime::ParameterError> {
                     let [rows, columns] = self.sizes()?;
-                    ::core::result::Result::Ok(::lie_runtime::family::unit_spheres(rows * columns, #c, #seed))
+                    ::core::result::Result::Ok(#state)
                 }
             }
         });
@@ -96,9 +101,8 @@ impl Printer<'_> {
         let [c, p, t] = self.counts(family);
         let facts = self.facts_of_sites(family);
         let at = quote! { _at: &[S; #p] };
-        let weights = quote! { _weights: &[S; #t] };
         let vector = quote! { [S; #c] };
-        let field = self.kernel(&family.field, family.coordinates.len());
+        let field = self.field_of_site(family);
         let slopes = self.slopes_of_sums(family);
         let summands = self.kernel(&family.summands, family.sums.len());
         let energy = self.kernel(&family.energy, 1);
@@ -106,8 +110,8 @@ impl Printer<'_> {
         let ad = self.kernel(&family.ad, family.coordinates.len());
         let ad_star = self.kernel(&family.ad_star, family.coordinates.len());
         let casimirs = self.casimirs_of_site(family);
-        let [of_field, of_summands, of_energy] =
-            [&family.field, &family.summands, &family.energy].map(|function| self.docs(function));
+        let [of_summands, of_energy] =
+            [&family.summands, &family.energy].map(|function| self.docs(function));
         quote! {
             #[allow(non_snake_case, clippy::many_single_char_names, clippy::possible_missing_comma)]
             impl<S: ::lie_runtime::Scalar> ::lie_runtime::family::Sites<S> for #sites<S> {
@@ -119,9 +123,7 @@ impl Printer<'_> {
 
                 #facts
 
-                #of_field
-                #[inline(always)]
-                fn field(&self, #at, #weights) -> #vector { #field }
+                #field
 
                 #slopes
 
@@ -150,6 +152,40 @@ impl Printer<'_> {
                     self._over(::lie_runtime::Dual::constant_of)
                 }
             }
+        }
+    }
+
+    /// The vector field of a site, and what acts on it.
+    fn field_of_site(&self, family: &Family) -> TokenStream {
+        let [c, p, t] = self.counts(family);
+        let size = family.coordinates.len();
+        let (at, weights) = (quote! { _at: &[S; #p] }, quote! { _weights: &[S; #t] });
+        let docs = self.docs(&family.field);
+        let Some(driven) = &family.driven else {
+            let field = self.kernel(&family.field, size);
+            return quote! {
+                #docs
+                #[inline(always)]
+                fn field(&self, #at, #weights) -> [S; #c] { #field }
+            };
+        };
+        let names: Vec<_> = (0..size).map(|k| ident(&format!("_f{k}"))).collect();
+        let both = |function: &Function| {
+            let body = self.kernel(function, size + 1);
+            quote! { let [#(#names,)* _power] = { #body }; ([#(#names),*], _power) }
+        };
+        let (field, act) = (both(&family.field), both(&driven.act));
+        let of_act = self.docs(&driven.act);
+        quote! {
+            #[inline(always)]
+            fn field(&self, _at: &[S; #p], _weights: &[S; #t]) -> [S; #c] { self.driven(_at, _weights).0 }
+
+            #docs
+            #[inline(always)]
+            fn driven(&self, #at, #weights) -> ([S; #c], S) { #field }
+
+            #of_act
+            fn act(&self, _slope: &[S; #c], #at) -> ([S; #c], S) { #act }
         }
     }
 
@@ -200,9 +236,39 @@ impl Printer<'_> {
         });
         let (mean, count) = (family.mean_field, index(family.casimirs.len()));
         let coordinates = by_place(family.coordinates.iter().map(|name| quote! { #name }));
-        let casimirs = by_place(family.casimirs.iter().map(|(name, ..)| quote! { #name }));
-        let degrees = family.casimirs.iter();
-        let degrees = by_place(degrees.map(|(_, degree, _)| option(*degree)));
+        let names = family.casimirs.iter().map(|casimir| &casimir.name);
+        let casimirs = by_place(names.map(|name| quote! { #name }));
+        let degrees = family.casimirs.iter().map(|casimir| casimir.degree);
+        let degrees = by_place(degrees.map(option));
+        let acting = family.driven.as_ref().map(|driven| {
+            let (forced, noises) = (driven.forced, index(driven.noises));
+            let lost = (0..)
+                .zip(&family.casimirs)
+                .filter(|(_, casimir)| !casimir.kept);
+            let lost: Vec<_> = lost.map(|(place, _)| index(place)).collect();
+            let kept = (!lost.is_empty()).then(|| {
+                quote! {
+                    fn casimir_is_kept(&self, _index: usize) -> bool {
+                        ![#(#lost),*].contains(&_index)
+                    }
+                }
+            });
+            quote! {
+                fn acts(&self) -> bool {
+                    true
+                }
+
+                fn is_forced(&self) -> bool {
+                    #forced
+                }
+
+                fn noise_count(&self) -> usize {
+                    #noises
+                }
+
+                #kept
+            }
+        });
         quote! {
             fn name(&self) -> &str {
                 #name
@@ -233,6 +299,8 @@ impl Printer<'_> {
             }
 
             #data
+
+            #acting
 
             fn has_mean_field(&self) -> bool {
                 #mean
@@ -290,13 +358,11 @@ impl Printer<'_> {
         let [c, ..] = self.counts(family);
         let places: Vec<_> = (0..family.casimirs.len()).map(index).collect();
         let size = family.coordinates.len();
-        let bodies = |which: usize, size: usize| -> Vec<TokenStream> {
-            let functions = family.casimirs.iter().map(|(_, _, both)| &both[which]);
-            functions
-                .map(|function| self.kernel(function, size))
-                .collect()
-        };
-        let (values, gradients) = (bodies(0, 1), bodies(1, size));
+        let casimirs = family.casimirs.iter();
+        let values = casimirs
+            .clone()
+            .map(|casimir| self.kernel(&casimir.value, 1));
+        let gradients = casimirs.map(|casimir| self.kernel(&casimir.gradient, size));
         quote! {
             fn casimir(&self, _index: usize, _mu: &[S; #c]) -> S {
                 match _index {

@@ -13,6 +13,7 @@ use std::collections::HashMap;
 pub struct Codes {
     pub offsets: Vec<[isize; 2]>,
     pub field: usize,
+    pub act: Option<usize>,
     pub slopes: HashMap<(usize, usize), usize>,
     pub summands: usize,
     pub energy: usize,
@@ -70,10 +71,12 @@ impl Codes {
             .collect();
         let casimirs = family.casimirs.iter();
         let casimirs = casimirs
-            .map(|(_, _, [value, gradient])| [kernel(value, 1), kernel(gradient, site)])
+            .map(|casimir| [kernel(&casimir.value, 1), kernel(&casimir.gradient, site)])
             .collect();
-        let [field, ad, ad_star] =
-            [&family.field, &family.ad, &family.ad_star].map(|function| kernel(function, site));
+        let driven = family.driven.as_ref();
+        let field = kernel(&family.field, site + driven.iter().len());
+        let act = driven.map(|driven| kernel(&driven.act, site + 1));
+        let [ad, ad_star] = [&family.ad, &family.ad_star].map(|function| kernel(function, site));
         let [summands, weights] =
             [&family.summands, &family.weights].map(|function| kernel(function, sums));
         let energy = kernel(&family.energy, 1);
@@ -120,6 +123,7 @@ impl Codes {
         Self {
             offsets: family.offsets.iter().map(|o| offset(*o)).collect(),
             field,
+            act,
             slopes,
             summands,
             energy,

@@ -98,6 +98,13 @@ impl<S: Scalar> FamilySite<S> {
         out
     }
 
+    /// What a kernel gives: a vector, and the power behind it.
+    fn with_power(&self, code: usize, arguments: [&[S]; 2]) -> (FewOf<S>, S) {
+        let mut all = self.vector(code, arguments, self.plan().coordinates.len() + 1);
+        let power = all.pop().unwrap_or(S::zero());
+        (all, power)
+    }
+
     /// Runs a kernel of a site with its neighbours at each site of a stretch.
     fn along(&self, code: usize, stretch: &Stretch<'_, S>, weights: &[S], to: &mut [&mut [S]]) {
         let columns = stretch.around(self);
@@ -156,14 +163,41 @@ impl<S: Scalar> Sites<S> for FamilySite<S> {
         self.plan().casimirs.len()
     }
     fn casimir_name(&self, index: usize) -> &str {
-        &self.plan().casimirs[index].0
+        &self.plan().casimirs[index].name
     }
     fn casimir_degree(&self, index: usize) -> Option<u32> {
-        self.plan().casimirs[index].1
+        self.plan().casimirs[index].degree
+    }
+    fn casimir_is_kept(&self, index: usize) -> bool {
+        self.plan().casimirs[index].kept
+    }
+    fn acts(&self) -> bool {
+        self.plan().driven.is_some()
+    }
+    fn is_forced(&self) -> bool {
+        self.plan()
+            .driven
+            .as_ref()
+            .is_some_and(|driven| driven.forced)
+    }
+    fn noise_count(&self) -> usize {
+        self.plan().noises()
     }
 
     fn field(&self, at: &FewOf<S>, weights: &FewOf<S>) -> FewOf<S> {
-        self.vector(self.codes().field, [at, weights], self.dimension())
+        match self.acts() {
+            true => self.driven(at, weights).0,
+            false => self.vector(self.codes().field, [at, weights], self.dimension()),
+        }
+    }
+    fn driven(&self, at: &FewOf<S>, weights: &FewOf<S>) -> (FewOf<S>, S) {
+        self.with_power(self.codes().field, [at, weights])
+    }
+    fn act(&self, slope: &FewOf<S>, at: &FewOf<S>) -> (FewOf<S>, S) {
+        match self.codes().act {
+            Some(code) => self.with_power(code, [slope, at]),
+            None => unreachable!("nothing acts beside H"),
+        }
     }
     fn slope(&self, term: usize, slot: usize, at: &FewOf<S>, weights: &FewOf<S>) -> FewOf<S> {
         match self.codes().slopes.get(&(term, slot)) {
@@ -211,6 +245,15 @@ impl<S: Scalar> Sites<S> for FamilySite<S> {
     fn fields(&self, stretch: &Stretch<'_, S>, weights: &FewOf<S>, out: &mut [S]) {
         let mut to = stretch.in_state::<Few>(self.dimension(), out);
         self.along(self.codes().field, stretch, weights, &mut to);
+    }
+
+    fn driven_fields(&self, stretch: &Stretch<'_, S>, weights: &FewOf<S>, out: &mut [S]) -> S {
+        let mut powers: SmallVec<[S; MANY]> = smallvec![S::zero(); stretch.len()];
+        let mut to = stretch.in_state::<Few>(self.plan().coordinates.len(), out);
+        to.push(&mut powers);
+        self.along(self.codes().field, stretch, weights, &mut to);
+        drop(to);
+        powers.iter().fold(S::zero(), |sum, power| sum + *power)
     }
 
     fn sum(&self, stretch: &Stretch<'_, S>) -> FewOf<S> {

@@ -6,7 +6,7 @@ use crate::ast::{Input, Name};
 use crate::diagnostic::{Diagnostic, Kind, Report};
 use crate::front::reader::Line;
 use crate::front::token::{Delimiter, TokenKind, split_commas};
-use crate::front::{Names, driving, item};
+use crate::front::{Names, driving, families, item};
 
 /// `{ double-bracket(strength = alpha, metric = [[1, 0], [0, 2]]); }`; one with a mistake is left out.
 pub fn dissipation(block: &[Entry<'_>], names: &Names, report: &mut Report) -> Vec<driving::Entry> {
@@ -59,7 +59,8 @@ pub fn noise<'a>(block: &[Entry<'a>], report: &mut Report) -> Vec<driving::Noisy
                 let parts = inside(rest, Delimiter::Parenthesis).unwrap_or_default();
                 let mut lines = Vec::new();
                 for part in split_commas(parts) {
-                    let parts = item::definition(part, "a force", place, report);
+                    let parts =
+                        item::definition_of(families::target, part, "a force", place, report);
                     lines.extend(parts.map(|(name, value)| {
                         let (tokens, place) = (value.into(), name.origin);
                         (name, Line { tokens, place })

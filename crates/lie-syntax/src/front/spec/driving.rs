@@ -6,7 +6,7 @@ use crate::diagnostic::{Diagnostic, Kind, Report};
 use crate::front::json::{Type, Value};
 use crate::front::object::{Object, list, string, wrong_type};
 use crate::front::reader::Line;
-use crate::front::{Names, driving, expression, item, schema};
+use crate::front::{Names, driving, expression, families, item, schema};
 
 /// `{"m1": "-k*m1"}`: names, each with an expression.
 pub fn definitions(value: Value<'_>, key: &str, report: &mut Report) -> Vec<(Name, Line<'static>)> {
@@ -16,7 +16,7 @@ pub fn definitions(value: Value<'_>, key: &str, report: &mut Report) -> Vec<(Nam
     }
     let mut defined = Vec::new();
     for member in value.members(report) {
-        let name = item::name(&member.key.tokens(), member.key.extent(), report);
+        let name = families::target(&member.key.tokens(), member.key.extent(), report);
         let what = format!("a value of `{key}`");
         let line = line(member.value, &what, report);
         defined.extend(name.zip(line));
