@@ -239,3 +239,47 @@ fn what_cannot_act_on_a_site_is_refused_where_it_stands() {
         split.stderr
     );
 }
+
+#[test]
+fn observables_are_functions_of_sums() {
+    let observables = json!({
+        "m": "sum(i in 0..N: z[i])/N",
+        "bonds": "-sum(i in 0..N-1: x[i]*x[i+1] + y[i]*y[i+1] + z[i]*z[i+1])",
+        "phi": { "expression": "atan2(sum(i in 0..N: y[i]), sum(i in 0..N: x[i]))", "unwrap": true }
+    });
+    let spec = with(free(), "observables", observables);
+    let spec = with(spec, "parameters", json!({ "N": 40, "T": 0.3 }));
+    for (spec, first) in [
+        (spec.clone(), "work"),
+        (with(spec, "dissipation", json!([])), "C1_max"),
+    ] {
+        let run = run(&spec, "--at 0,1,2,20 --step 0.05").ok();
+        let (names, rows) = run.csv();
+        let place = |name: &str| names.iter().position(|known| known == name).unwrap();
+        assert_eq!(place("bonds"), place(first) + 1);
+        for row in &rows {
+            let site = |k: usize, i: usize| row[1 + 40 * k + i];
+            let m = (0..40).map(|i| site(2, i)).sum::<f64>() / 40.0;
+            let bond = |i: usize| (0..3).map(|k| site(k, i) * site(k, i + 1)).sum::<f64>();
+            let bonds = -(0..39).map(bond).sum::<f64>();
+            let sum = |k: usize| (0..40).map(|i| site(k, i)).sum::<f64>();
+            let phi = sum(1).atan2(sum(0));
+            let turned = (row[place("phi")] - phi) / std::f64::consts::TAU;
+            assert!((row[place("m")] - m).abs() < 1e-14);
+            assert!((row[place("bonds")] - bonds).abs() < 1e-13);
+            assert!((turned - turned.round()).abs() < 1e-12, "{turned}");
+            // the energy has sums of its own
+            let energy = row[place("energy")];
+            assert!((energy - 40.0 * m).abs() < 1e-12, "{energy}");
+        }
+        let phi = rows[3][place("phi")] - rows[0][place("phi")];
+        assert!(first == "work" || phi.abs() > 12.0, "counted turns: {phi}");
+    }
+    let checked = lie("check tests/data/families/damped_chain.json")
+        .ok()
+        .stdout;
+    assert!(
+        checked.contains("magnetisation = sum(i in 0..N: z[i])/N"),
+        "{checked}"
+    );
+}

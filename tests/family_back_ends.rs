@@ -9,9 +9,10 @@ mod random;
 mod wasmi_engine;
 
 use bits::{Differences, entries, kernels, trajectory};
-use lie_codegen::compile::compile_spec;
+use lie_codegen::compile::compile_spec_in;
 use lie_codegen::methods::{Choice, applicability};
 use lie_codegen::plan::plan;
+use lie_codegen::structure::Effort;
 use lie_dynamic::{Dynamic, Engine, Interpreted, method};
 use lie_jit::{Jit, JitWith, Registers};
 use lie_runtime::diagnostics::AnyMethod;
@@ -25,6 +26,7 @@ lie_poisson! { spec = "tests/data/families/damped_lattice.json"; }
 lie_poisson! { spec = "tests/data/families/disordered_chain.json"; }
 lie_poisson! { spec = "tests/data/families/disordered_lattice.json"; }
 lie_poisson! { spec = "tests/data/families/fput_chain.json"; }
+lie_poisson! { spec = "tests/data/families/frustrated_net.json"; }
 lie_poisson! { spec = "tests/data/families/heisenberg_chain.json"; }
 lie_poisson! { spec = "tests/data/families/lattice.json"; }
 lie_poisson! { spec = "tests/data/families/mean_field.json"; }
@@ -65,7 +67,9 @@ fn compare<P: LiePoisson<f64, State = Vec<f64>>>(
         "{}/tests/data/families/{spec}.json",
         env!("CARGO_MANIFEST_DIR")
     );
-    let model = compile_spec(&std::fs::read_to_string(file).unwrap()).unwrap();
+    let folder = std::path::Path::new(&file).parent();
+    let text = std::fs::read_to_string(&file).unwrap();
+    let model = compile_spec_in(&text, folder, Effort::Declaration).unwrap();
     let listed = |id: &str| methods.iter().any(|(label, _)| *label == id);
     for (id, reason) in applicability(&model) {
         let composed = id.starts_with("compose");
@@ -234,4 +238,10 @@ fn what_acts_on_sites() {
     compare("damped_chain", &chain, &[], methods!());
     let lattice = DampedLattice::new().system().unwrap();
     compare("damped_lattice", &lattice, &[], methods!());
+}
+
+#[test]
+fn bonds_between_any_two_sites() {
+    let net = FrustratedNet::new().system().unwrap();
+    compare("frustrated_net", &net, &[], methods!());
 }

@@ -379,9 +379,21 @@ fn a_spec_by_path_gives_the_items_of_the_spec() {
     // Behind the items stands what makes cargo watch the file, without the machine's path to it.
     let rest = items.strip_prefix(&expected).expect("the items come first");
     assert!(
-        rest.contains("include_str") && !items.contains(env!("CARGO_MANIFEST_DIR")),
+        rest.contains("include_bytes") && !items.contains(env!("CARGO_MANIFEST_DIR")),
         "{rest}"
     );
+}
+
+#[test]
+fn files_that_a_spec_names_are_read_and_watched() {
+    let path = "tests/data/families/frustrated_net";
+    let tokens: TokenStream = format!("spec = \"{path}.json\";").parse().expect("tokens");
+    let items = expand_macro(tokens, Path::new(env!("CARGO_MANIFEST_DIR"))).to_string();
+    for file in ["json", "csv"] {
+        let watched = format!("\"/\" , \"{path}.{file}\"");
+        assert!(items.contains(&watched), "{watched}: {items}");
+    }
+    assert!(!items.contains("compile_error"), "{items}");
 }
 
 #[test]

@@ -112,7 +112,13 @@ impl Core {
         parameters: Vec<f64>,
     ) -> PyResult<Option<Bound<'py, PyArray1<f64>>>> {
         let system = self.0.system(py, &parameters)?;
-        Ok(system.initial_state().map(|state| state.into_pyarray(py)))
+        let shown = self.0.shown_coordinates(&system).len();
+        Ok(system.initial_state().map(|mut state| {
+            if self.0.facts.family {
+                state.truncate(shown);
+            }
+            state.into_pyarray(py)
+        }))
     }
 
     /// The states for those that a user gives: all coordinates, or without what carries the time, or without the group
@@ -124,13 +130,20 @@ impl Core {
         parameters: Vec<Vec<f64>>,
     ) -> Option<Vec<Vec<f64>>> {
         let all = self.0.facts.names.len();
-        if given.iter().all(|state| state.len() == all) {
+        if !self.0.facts.family && given.iter().all(|state| state.len() == all) {
             return Some(given);
         }
         self.0.with_model(py, |model| {
             let values = parameters.iter().cycle().take(given.len());
             let states = given.iter().zip(values);
-            let states = states.map(|(state, values)| model.complete_state(state, values));
+            let states = states.map(|(state, values)| match &model.family {
+                Some(family) => {
+                    let [rows, columns] = family.sites(values)?;
+                    let (sites, fits) = (rows * columns, state.len() == rows * columns * all);
+                    fits.then(|| model.complete_sites(state.clone(), sites))
+                }
+                None => model.complete_state(state, values),
+            });
             states.collect()
         })
     }

@@ -13,6 +13,7 @@ mod driver;
 mod events;
 mod families;
 mod families_acting;
+mod families_bonds;
 mod family_splittings;
 mod forces;
 mod functions;

@@ -17,6 +17,7 @@ use lie_in_process::report::{Report, sites};
 use lie_in_process::request::{self, Request, several};
 use lie_in_process::words::counted;
 use lie_program::protocol::Start;
+use lie_syntax::ast::BONDS;
 use serde_json::Value;
 
 use super::{args, print};
@@ -224,6 +225,10 @@ fn write_family(
         "  {lattice} sites: dimension {dimension}, generic rank {rank}, {corank} independent Casimirs"
     )?;
     for data in model.family.iter().flat_map(|family| &family.data) {
+        if data.name == BONDS {
+            writeln!(text, "  bonds: {}", data.values.len() / 3)?;
+            continue;
+        }
         let values = counted(data.values.len() as u64, "value");
         let [least, most] = data.range();
         writeln!(

@@ -53,6 +53,9 @@ pub fn kernels<P: Poisson<f64>>(system: &P, mu: &[f64]) -> Vec<(&'static str, Ve
     let mut casimirs = vec![0.0; system.casimir_count()];
     system.casimirs(&state, &mut casimirs);
     found.push(("casimirs", casimirs));
+    let mut quantities = vec![0.0; system.quantity_count()];
+    system.quantities(&state, &mut quantities);
+    found.push(("quantities", quantities));
     for index in 0..system.casimir_count() {
         system.casimir_gradient(index, &state, &mut out);
         found.push(("casimir_gradient", out.as_slice().to_vec()));

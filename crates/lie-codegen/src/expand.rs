@@ -60,13 +60,23 @@ fn expand_spec(parsed: &Parsed, path: &Name, manifest: &Path) -> TokenStream {
             return failure(parsed, &[diagnostic]);
         }
     };
-    let written = &path.text;
-    let track = quote! {
-        const _: &::core::primitive::str =
-            ::core::include_str!(::core::concat!(::core::env!("CARGO_MANIFEST_DIR"), "/", #written));
-    };
+    // cargo looks at these again: the spec, and the files that it names
+    let folder = Path::new(&path.text).parent().unwrap_or(Path::new(""));
+    let named = spec::files(&text).into_iter().map(|file| folder.join(file));
+    let there = named.filter(|file| manifest.join(file).is_file());
+    let tracked = there.filter_map(|file| file.to_str().map(str::to_owned));
+    let tracked = [path.text.clone()].into_iter().chain(tracked);
+    let track: TokenStream = tracked
+        .map(|written| {
+            quote! {
+                const _: &[::core::primitive::u8] = ::core::include_bytes!(
+                    ::core::concat!(::core::env!("CARGO_MANIFEST_DIR"), "/", #written)
+                );
+            }
+        })
+        .collect();
     let mut report = Report::new();
-    let mut read = spec::read(&text, &mut report);
+    let mut read = spec::read_in(&text, place.parent(), &mut report);
     read.visibility = parsed.visibility.clone();
     read.runtime = parsed.runtime.clone();
     match compile_read(&read, report) {

@@ -29,6 +29,8 @@ pub enum ParameterFault {
     NotASize,
     /// The parameter has a value for each site of a family, and another number of values.
     NotOneForEachSite,
+    /// A row of the bonds does not join two sites of the family.
+    NoBond,
 }
 
 impl fmt::Display for ParameterError {
@@ -48,6 +50,10 @@ impl fmt::Display for ParameterError {
             ParameterFault::NotOneForEachSite => write!(
                 f,
                 "the parameter `{name}` has a value for each site of the family, and there are other numbers of values and of sites"
+            ),
+            ParameterFault::NoBond => write!(
+                f,
+                "a row of `{name}` joins no two sites of the family: it has the numbers of two of them, from 0 on, and a value"
             ),
             ParameterFault::NotPositive => {
                 write!(

@@ -64,7 +64,17 @@ def members_of_family(system: Declared, x0: npt.ArrayLike, parameters: Mapping[s
     given = floats(x0, "x0")
     one = given.shape in ((sites[0].dimension,), (*sites[0].shape, sites[0].each))
     states = [sites[0].state(member) for member in np.atleast_1d(given[None] if one else given)]
-    return np.reshape(states, (len(states), sites[0].dimension))
+    given = np.reshape(states, (len(states), sites[0].dimension))
+    # what is carried beside the sites where something acts on them
+    values = table_of(system, parameters, len(given)) if len(given) > 1 else first_of(system, parameters)
+    complete = system._core.complete(given.tolist(), values.tolist())
+    return given if complete is None else np.asarray(complete, dtype=np.float64)
+
+
+def first_of(system: Declared, parameters: Mapping[str, Any]) -> Array:
+    """The values of the parameters of the first member."""
+    first = {name: np.ravel(value)[0] for name, value in parameters.items()}
+    return np.asarray([system._values(first)], dtype=np.float64)
 
 
 def table_of(system: Declared, parameters: Mapping[str, Any], members: int) -> Array:

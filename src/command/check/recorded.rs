@@ -21,7 +21,7 @@ pub(super) fn write(model: &Structure, text: &mut String) -> std::fmt::Result {
         }
         for quantity in quantities {
             let angle = if quantity.unwrap { ", unwrapped" } else { "" };
-            let (name, value) = (&quantity.name, model.display(quantity.expr));
+            let (name, value) = (&quantity.name, model.display_quantity(quantity));
             writeln!(text, "    {name} = {value}{angle}")?;
         }
         if kind == QuantityKind::Integral {

@@ -72,7 +72,7 @@ pub fn formulas(model: &Structure) -> Vec<(&'static str, Vec<String>)> {
             .iter()
             .filter(|quantity| quantity.kind == kind);
         let formulas = quantities.map(|quantity| {
-            let text = format!("{} = {}", quantity.name, model.display(quantity.expr));
+            let text = format!("{} = {}", quantity.name, model.display_quantity(quantity));
             formula(&text, &names)
         });
         let formulas: Vec<String> = formulas.collect();

@@ -25,7 +25,10 @@ pub fn name_spaces(declaration: &Declaration) -> Vec<Diagnostic> {
     let state = &declaration.state;
     let velocity = declaration.energy.velocity();
     let parameters = declaration.parameters.iter().map(|p| &p.name);
-    let parameters = parameters.chain(declaration.site_data().iter().map(|data| &data.name));
+    let family = declaration.family.as_ref();
+    let bonds = family.and_then(|family| family.bonds.as_ref());
+    let data = declaration.site_data().iter().chain(bonds);
+    let parameters = parameters.chain(data.map(|data| &data.name));
     let lets = declaration.lets.iter().map(|(name, _)| name);
     let casimirs = declaration.casimirs.iter().filter_map(|c| c.name.as_ref());
     for name in [&declaration.name]

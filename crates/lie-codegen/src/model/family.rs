@@ -43,8 +43,10 @@ pub struct Family {
     pub data: Vec<SiteData>,
     /// Of what sums and motions of sites depend on the slot, and which coefficient it is.
     pub data_places: Vec<[usize; 2]>,
-    /// Its names, such as `B[i+1]`.
+    /// Its names, such as `B[i+1]`, and behind them those of the second site of a bond and of its value, where there are bonds.
     pub data_names: Vec<String>,
+    /// Whether the last of `data` are bonds: rows `i, j, value`.
+    pub has_bonds: bool,
     /// The sums `T_k`; `Symbol::Coordinate(slots n + k)` in H.
     pub sums: Vec<SiteSum>,
     /// H.
@@ -97,8 +99,12 @@ impl SiteData {
 pub struct SiteSum {
     /// The summand.
     pub summand: ExprId,
-    /// The slots whose coordinates it depends on.
+    /// The slots whose coordinates H depends on by it; none of a sum for observables alone.
     pub slots: Vec<usize>,
+    /// Whether it goes over bonds.
+    pub over_bonds: bool,
+    /// Whether H depends on it, and not observables alone.
+    pub moves: bool,
     /// For each axis the first site and the number of sites behind the last one; none where it goes over all.
     pub spans: [Option<(usize, usize)>; 2],
 }
@@ -106,7 +112,12 @@ pub struct SiteSum {
 impl Family {
     /// The symbol of the rate of a Wiener process of the site.
     pub fn rate_symbol(&self, process: usize) -> Symbol {
-        data_symbol(self.data_places.len() + process)
+        data_symbol(self.data_names.len() + process)
+    }
+
+    /// The symbol of a coordinate of the second site of a bond; behind them that of its value.
+    pub fn bond_symbol(&self, coordinate: usize) -> Symbol {
+        data_symbol(self.data_places.len() + coordinate)
     }
 
     /// Functions of the n coordinates of a site at the site itself, in its slot.
@@ -157,6 +168,20 @@ impl Model {
         }
         of_sites
     }
+}
+
+/// What is wrong with rows `i, j, value` of bonds between so many sites.
+pub fn wrong_bond(rows: &[f64], sites: usize) -> Option<String> {
+    let site = |place: f64| place >= 0.0 && place.fract() == 0.0 && place < sites as f64;
+    rows.chunks_exact(3)
+        .enumerate()
+        .find_map(|(number, bond)| match *bond {
+            [i, j, _] if !site(i) || !site(j) => Some(format!(
+                "bond {number} joins the sites {i} and {j}, and there are {sites} sites"
+            )),
+            [i, j, _] if i == j => Some(format!("bond {number} joins the site {i} to itself")),
+            _ => None,
+        })
 }
 
 impl Size {

@@ -21,7 +21,9 @@ pub use bracket::{Algebra, Bracket, PoissonMatrix, bracket_of};
 pub use casimir::{Casimir, CasimirKind};
 pub use configuration::Configuration;
 pub use driving::{Acting, Driving, Input};
-pub use family::{Family, SiteData, SiteSum, Size, Start, data_number, data_symbol, slope_symbol};
+pub use family::{
+    Family, SiteData, SiteSum, Size, Start, data_number, data_symbol, slope_symbol, wrong_bond,
+};
 pub use quantity::{Event, Quantity, QuantityKind, WORK};
 pub use realization::{CANONICAL, Descent, Realization};
 
@@ -283,8 +285,20 @@ impl Model {
         self.graph.display(expr, &|symbol| self.symbol_name(symbol))
     }
 
+    /// A recorded function as text.
+    pub fn display_quantity(&self, quantity: &Quantity) -> String {
+        match &self.family {
+            Some(family) => self.display_of_sums(family, quantity.expr),
+            None => self.display(quantity.expr),
+        }
+    }
+
     /// The Hamiltonian of a family as text, sums written out.
     pub fn display_of_family(&self, family: &Family) -> String {
+        self.display_of_sums(family, family.energy)
+    }
+
+    fn display_of_sums(&self, family: &Family, function: ExprId) -> String {
         let sizes = family.sizes.iter().map(|size| match size {
             Size::Number(count) => count.to_string(),
             Size::Parameter(p) => self.parameters[*p].name.clone(),
@@ -301,7 +315,7 @@ impl Model {
                 Some((first, left)) => format!("{name} in {first}..{size}-{left}"),
             }
         };
-        self.graph.display(family.energy, &|symbol| match symbol {
+        self.graph.display(function, &|symbol| match symbol {
             Symbol::Coordinate(place) => {
                 let Some(sum) = place
                     .checked_sub(family.names.len())
@@ -309,18 +323,25 @@ impl Model {
                 else {
                     return family.names[place].clone();
                 };
+                if sum.over_bonds {
+                    return format!("sum(bonds: {})", self.display_at_site(family, sum.summand));
+                }
                 let ranges = sizes.iter().enumerate().map(|size| range(size, &sum.spans));
                 let ranges: Vec<String> = ranges.collect();
-                let summand = self.graph.display(sum.summand, &|symbol| match symbol {
-                    Symbol::Coordinate(place) => family.names[place].clone(),
-                    other => match data_number(other) {
-                        Some(number) => family.data_names[number].clone(),
-                        None => self.symbol_name(other),
-                    },
-                });
+                let summand = self.display_at_site(family, sum.summand);
                 format!("sum({}: {summand})", ranges.join(", "))
             }
             other => self.symbol_name(other),
+        })
+    }
+
+    fn display_at_site(&self, family: &Family, summand: ExprId) -> String {
+        self.graph.display(summand, &|symbol| match symbol {
+            Symbol::Coordinate(place) => family.names[place].clone(),
+            other => match data_number(other) {
+                Some(number) => family.data_names[number].clone(),
+                None => self.symbol_name(other),
+            },
         })
     }
 

@@ -73,10 +73,11 @@ impl Printer<'_> {
             self.of_parameters(&self.plan.defaults, &|_| quote! { S::zero() });
         let (data, listed) = (self.data_names(), self.data());
         let described = listed.iter().map(|data| {
-            format!(
-                " {} A value for each site, of a lattice row after row.",
-                data.doc
-            )
+            let what = match data.bonds {
+                true => "Three numbers for each: i, j, value.",
+                false => "A value for each site, of a lattice row after row.",
+            };
+            format!(" {} {what}", data.doc)
         });
         let listed = listed.iter().map(|data| {
             let values = data.values().map(Literal::f64_suffixed);
@@ -212,6 +213,11 @@ impl Printer<'_> {
         let padded = self.data().iter().zip(&fields).zip(&given);
         let padded = padded.map(|((data, field), given)| {
             let (text, unused) = (&data.name, index(data.unused));
+            if data.bonds {
+                return quote! {
+                    let #field = ::lie_runtime::family::bonds(&self.#given, #text, _sizes)?;
+                };
+            }
             quote! {
                 let #field = ::lie_runtime::family::values(&self.#given, #text, _sizes, #unused)?;
             }

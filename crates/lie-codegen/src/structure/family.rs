@@ -103,7 +103,11 @@ pub fn pieces(model: &Model, family: &Family, spins: Option<&[Spin]>) -> Result<
         found: Vec::new(),
     };
     search.collective()?;
-    for (k, sum) in family.sums.iter().enumerate() {
+    let moving = family.sums.iter().enumerate();
+    for (k, sum) in moving.filter(|(_, sum)| sum.moves) {
+        if sum.over_bonds {
+            return Err("bonds between any two sites are in no order".into());
+        }
         search.sum(k, sum)?;
     }
     let found = search.found;

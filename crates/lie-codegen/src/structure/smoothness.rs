@@ -40,7 +40,8 @@ fn of_family(model: &Model, family: &Family) -> Vec<Joint> {
             None => model.symbol_name(other),
         },
     };
-    let summands = family.sums.iter().map(|sum| sum.summand);
+    let moving = family.sums.iter().filter(|sum| sum.moves);
+    let summands = moving.map(|sum| sum.summand);
     let mut all: Vec<Joint> = Vec::new();
     for function in summands.chain([family.energy]) {
         for joint in find_joints(&model.graph, function, &sites) {

@@ -62,6 +62,7 @@ impl<K> Family<K> {
                 totals.add(self.kernels().sum(&stretch).as_ref());
             }
         }
+        self.add_bonds(mu, |summands| totals.add(summands.as_ref()));
         totals.end()
     }
 

@@ -20,6 +20,7 @@ mod columns;
 mod energy;
 mod exchange;
 mod initial;
+mod links;
 mod matrix;
 mod parts;
 mod rates;
@@ -30,6 +31,7 @@ mod stencil;
 mod system;
 
 pub use initial::{SplitMix, unit_spheres};
+pub use links::bonds;
 pub use matrix::LateMatrix;
 pub use shape::{Fixed, Of, Shape};
 pub use sites::{Around, Site, Sites, Span, Sums, Term};

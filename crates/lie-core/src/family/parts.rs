@@ -23,18 +23,24 @@ impl<K> Family<K> {
         mu: &[S],
         (row, part): (usize, Range<usize>),
         inner: Range<usize>,
-        weights: &Sums<K, S>,
+        (weights, of_bonds): (&Sums<K, S>, &[S]),
         out: &mut [S],
         power: &mut Power<S>,
     ) where
         K: Sites<S>,
     {
         let (kernels, [_, columns]) = (self.kernels(), self.sizes());
+        // where something acts, its part of the slope is not the slope's part of the field
+        let inner = match kernels.acts() && !of_bonds.is_empty() {
+            true => 0..0,
+            false => inner,
+        };
         let at_ends = [0..inner.start, inner.end..columns];
         let outer = at_ends.map(|end| end.start.max(part.start)..end.end.min(part.end));
         for column in outer.into_iter().flatten() {
             let site = row * columns + column;
             let slope = self.slope(mu, [row, column], weights);
+            let slope = self.with_bonds(slope, of_bonds, site);
             if kernels.acts() {
                 let (field, part) = kernels.act(&slope, &self.around(mu, [row, column]));
                 self.set_site(out, site, field.as_ref());
@@ -46,10 +52,33 @@ impl<K> Family<K> {
         }
         let inner = inner.start.max(part.start)..inner.end.min(part.end);
         if !inner.is_empty() {
-            let stretch = self.stretch(mu, row, inner);
+            let stretch = self.stretch(mu, row, inner.clone());
             match kernels.acts() {
                 true => power.add(&[kernels.driven_fields(&stretch, weights, out)]),
                 false => kernels.fields(&stretch, weights, out),
+            }
+            if !of_bonds.is_empty() {
+                self.add_field(mu, row, inner, of_bonds, out);
+            }
+        }
+    }
+
+    /// Adds what slopes by bonds do to the sites of some columns.
+    fn add_field<S: Scalar>(
+        &self,
+        mu: &[S],
+        row: usize,
+        columns: Range<usize>,
+        slopes: &[S],
+        out: &mut [S],
+    ) where
+        K: Sites<S>,
+    {
+        for site in columns.map(|column| row * self.sizes()[1] + column) {
+            let (slope, at) = (self.site(slopes, site), self.site(mu, site));
+            let field = self.kernels().ad_star(&slope, &at);
+            for (k, value) in field.as_ref().iter().enumerate() {
+                out[k * self.count() + site] += *value;
             }
         }
     }
@@ -99,7 +128,8 @@ impl<K> Family<K> {
                 set = end;
             }
         };
-        let local = match self.kernels().has_mean_field() {
+        let far = self.kernels().has_mean_field() || !self.kernels().bonds().is_empty();
+        let local = match far {
             // every site depends on all
             true => count,
             false => self.reach(),
@@ -110,10 +140,11 @@ impl<K> Family<K> {
             if at_ends {
                 set_to(count, mu);
             }
-            let weights = match at_ends || !self.kernels().has_mean_field() {
+            let weights = match at_ends || !far {
                 true => self.weights(mu),
                 false => continue,
             };
+            let whole = (&weights, &*self.of_bonds(mu, &weights));
             for row in 0..rows {
                 let inner = self.inner::<S>(row);
                 for start in (0..columns).step_by(PART) {
@@ -125,7 +156,7 @@ impl<K> Family<K> {
                     if !at_ends {
                         set_to(sites.end + local, mu);
                     }
-                    self.field_of_row(mu, (row, part), inner.clone(), &weights, out, &mut power);
+                    self.field_of_row(mu, (row, part), inner.clone(), whole, out, &mut power);
                     of_sites(&sites, &mut |entries| after(out, entries));
                 }
             }

@@ -141,6 +141,46 @@ pub trait Sites<S: Scalar>: Clone {
     /// `dF/dT_k`; those that are constant may be left 0.
     fn weights(&self, totals: &Sums<Self, S>) -> Sums<Self, S>;
 
+    /// The bonds between any two sites, for each the sites i and j and a value.
+    fn bonds(&self) -> &[S] {
+        &[]
+    }
+    /// What a bond adds to the sums.
+    fn bond_summands(
+        &self,
+        _one: &Site<Self, S>,
+        _other: &Site<Self, S>,
+        _value: S,
+    ) -> Sums<Self, S> {
+        unreachable!("there are no bonds")
+    }
+    /// What it adds to dH/dmu at its sites.
+    fn bond_slopes(
+        &self,
+        _one: &Site<Self, S>,
+        _other: &Site<Self, S>,
+        _value: S,
+        _weights: &Sums<Self, S>,
+    ) -> [Site<Self, S>; 2] {
+        unreachable!("there are no bonds")
+    }
+    /// The number of functions of the sums that are recorded.
+    fn observable_count(&self) -> usize {
+        0
+    }
+    /// The name of one.
+    fn observable_name(&self, _index: usize) -> &str {
+        ""
+    }
+    /// Whether it is an angle, whose jumps by 2 pi a driver takes out along a run.
+    fn observable_unwraps(&self, _index: usize) -> bool {
+        false
+    }
+    /// Its value.
+    fn observable(&self, _index: usize, _totals: &Sums<Self, S>) -> S {
+        S::zero()
+    }
+
     /// The motion of a site from `dH/dmu` there, and the power of what acts on it: `ad*_xi mu + F` with `xi = dH/dmu + c G ad*_(dH/dmu) mu`
     /// and what noise adds, and `<F, dH/dmu> - c <v, G v>` with `v = ad*_(dH/dmu) mu`. Where nothing acts nobody asks.
     fn act(&self, _slope: &Site<Self, S>, _at: &Around<Self, S>) -> (Site<Self, S>, S) {

@@ -133,6 +133,14 @@ impl<K> Family<K> {
         })
     }
 
+    /// Which observable a recorded function is; none of the work, which stands before them.
+    fn observable<S: Scalar>(&self, quantity: usize) -> Option<usize>
+    where
+        K: Sites<S>,
+    {
+        quantity.checked_sub(usize::from(self.kernels.acts()))
+    }
+
     /// The sum of a Casimir over all sites, and the smallest and the largest value.
     fn statistics<S: Scalar>(&self, mu: &[S], index: usize) -> [S; 3]
     where
@@ -217,14 +225,29 @@ where
         self.kernels.noise_count() * self.count()
     }
     fn quantity_count(&self) -> usize {
-        usize::from(self.kernels.acts())
+        usize::from(self.kernels.acts()) + self.kernels.observable_count()
     }
-    fn quantity_name(&self, _index: usize) -> &str {
-        "work"
+    fn quantity_name(&self, index: usize) -> &str {
+        match self.observable(index) {
+            Some(index) => self.kernels.observable_name(index),
+            None => "work",
+        }
+    }
+    fn quantity_unwraps(&self, index: usize) -> bool {
+        let observable = self.observable(index);
+        observable.is_some_and(|index| self.kernels.observable_unwraps(index))
     }
     fn quantities(&self, mu: &Vec<S>, out: &mut [S]) {
-        if let Some(work) = out.first_mut() {
-            *work = -mu[self.own()];
+        if self.kernels.acts() {
+            out[0] = -mu[self.own()];
+        }
+        if self.kernels.observable_count() > 0 {
+            let totals = self.totals(mu);
+            for (place, value) in out.iter_mut().enumerate() {
+                if let Some(index) = self.observable(place) {
+                    *value = self.kernels.observable(index, &totals);
+                }
+            }
         }
     }
     fn has_jacobian(&self) -> bool {
@@ -251,10 +274,12 @@ where
 
     fn gradient(&self, mu: &Vec<S>, out: &mut Vec<S>) {
         let weights = self.weights(mu);
+        let of_bonds = self.of_bonds(mu, &weights);
         let [rows, columns] = self.sizes;
         for row in 0..rows {
             for column in 0..columns {
                 let slope = self.slope(mu, [row, column], &weights);
+                let slope = self.with_bonds(slope, &of_bonds, row * columns + column);
                 self.set_site(out, row * columns + column, slope.as_ref());
             }
         }
@@ -277,11 +302,12 @@ where
     #[inline]
     fn vector_field(&self, mu: &Vec<S>, out: &mut Vec<S>) {
         let weights = self.weights(mu);
+        let whole = (&weights, &*self.of_bonds(mu, &weights));
         let [rows, columns] = self.sizes;
         let mut power = Power::new(1);
         for row in 0..rows {
             let inner = self.inner::<S>(row);
-            self.field_of_row(mu, (row, 0..columns), inner, &weights, out, &mut power);
+            self.field_of_row(mu, (row, 0..columns), inner, whole, out, &mut power);
         }
         self.set_carried(out, [-power.end()[0], S::one()]);
     }

@@ -18,7 +18,7 @@ use family::{FamilySite, sizes};
 use lie_codegen::plan::{Code as Program, Data, Plan};
 use lie_core::parameter::{ParameterError, all_finite, all_positive};
 use lie_runtime::Scalar;
-use lie_runtime::family::{Family, unit_spheres, values};
+use lie_runtime::family::{Family, bonds, unit_spheres, values};
 use lie_symbolic::schedule::Operation;
 use lie_symbolic::symbolic::{self, Symbol};
 use std::sync::Arc;
@@ -186,6 +186,9 @@ fn data(all: &[Data], sizes: [usize; 2]) -> Result<Arc<[Vec<f64>]>, ParameterErr
     let columns = all.iter().map(|data| {
         let given: Vec<f64> = data.values().collect();
         let name = names::text(&data.name);
+        if data.bonds {
+            return bonds(&given, name, sizes);
+        }
         match data.sizes.is_some_and(|of_values| of_values != sizes) {
             // the rows of another lattice
             true => values(&[], name, sizes, 0),

@@ -308,8 +308,10 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
         &self.values.compiled.plan.system.quantities[index].name
     }
     fn quantity_unwraps(&self, index: usize) -> bool {
-        let quantity = self.plan().system.quantities.get(index);
-        quantity.is_some_and(|quantity| quantity.unwrap)
+        if let Some(family) = &self.family {
+            return Poisson::<S>::quantity_unwraps(family, index);
+        }
+        self.plan().system.quantities[index].unwrap
     }
     fn quantity_is_conserved(&self, index: usize) -> bool {
         let quantity = self.plan().system.quantities.get(index);

@@ -3,17 +3,23 @@
 use lie_codegen::model::QuantityKind;
 use lie_codegen::structure::Structure;
 use lie_codegen::structure::integrals::brackets;
+use lie_syntax::ast::BONDS;
 use serde_json::{Map, Value, json};
 
 /// Adds first integrals with their brackets, observables, and what has a value for each site, where there are some.
 pub fn add(model: &Structure, report: &mut Map<String, Value>) {
     let data = model.family.iter().flat_map(|family| &family.data);
     let data: Vec<Value> = data
+        .filter(|data| data.name != BONDS)
         .map(|data| {
             let [least, most] = data.range();
             json!({ "name": data.name, "count": data.values.len(), "min": least, "max": most })
         })
         .collect();
+    if let Some(family) = model.family.as_ref().filter(|family| family.has_bonds) {
+        let bonds = family.data.last().map_or(0, |bonds| bonds.values.len() / 3);
+        report.insert("bonds".into(), bonds.into());
+    }
     if !data.is_empty() {
         report.insert("per_site".into(), data.into());
     }
@@ -34,7 +40,7 @@ pub fn add(model: &Structure, report: &mut Map<String, Value>) {
     }
     let observables: Vec<Value> = of(QuantityKind::Observable)
         .map(|q| {
-            let expression = model.display(q.expr);
+            let expression = model.display_quantity(q);
             json!({ "name": q.name, "expression": expression, "unwrap": q.unwrap })
         })
         .collect();

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use lie_codegen::methods::Choice;
-use lie_codegen::model::{Family, SiteData, Start};
+use lie_codegen::model::{Family, SiteData, Start, wrong_bond};
 use lie_codegen::structure::Structure;
 use lie_runtime::family::{unit_spheres, values};
 use lie_syntax::diagnostic::{Kind, Origin};
@@ -94,11 +94,21 @@ impl Planner<'_> {
 
     /// What is said of a coefficient that has no value for each of so many sites.
     fn without_values(&self, family: &Family, sizes: [usize; 2]) -> Option<Message> {
+        let [rows, columns] = sizes;
+        if let Some(data) = family.data.last().filter(|_| family.has_bonds)
+            && let Some(fault) = wrong_bond(&data.values, rows * columns)
+        {
+            let option = self.request.front.option("param");
+            let message = Message::new(Kind::Domain, fault).at_option(&option);
+            return Some(message.help("take as many sites as the bonds join"));
+        }
+        let of_sites = family.data.iter();
+        let of_sites = of_sites.take(family.data.len() - usize::from(family.has_bonds));
         let fits = |data: &&SiteData| match data.sizes {
             Some(of_values) => of_values == sizes,
             None => values(&data.values, "", sizes, data.unused).is_ok(),
         };
-        let data = family.data.iter().find(|data| !fits(data))?;
+        let data = of_sites.into_iter().find(|data| !fits(data))?;
         let sites = match sizes {
             [1, columns] => counted(columns as u64, "site"),
             [rows, columns] => format!("{rows} x {columns} sites"),

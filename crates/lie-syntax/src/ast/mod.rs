@@ -117,9 +117,14 @@ pub struct Family {
     pub indices: Vec<Name>,
     /// What has a value for each site.
     pub data: Vec<SiteData>,
+    /// Bonds between any two sites: rows `i, j, value`.
+    pub bonds: Option<SiteData>,
     /// Where a run starts.
     pub start: Option<Start>,
 }
+
+/// The word for bonds, in a sum in the place of an index.
+pub const BONDS: &str = "bonds";
 
 /// A coefficient of a family that has a value for each site, `B[i]` in its sums.
 #[derive(Clone, Debug)]

@@ -6,7 +6,7 @@ mod block;
 
 mod entry;
 mod events;
-mod family;
+pub(super) mod family;
 mod functions;
 mod lists;
 mod observables;
@@ -26,7 +26,7 @@ use super::tables::Read as Table;
 use super::token::{Delimiter, Token, TokenKind, render, span, split_commas};
 use super::vectors::Declared;
 use super::{Body, Names, Parsed, driving, families, item, rust};
-use crate::ast::{Expr, Input, Name, OwnFunction, Realization, RunOption, Start};
+use crate::ast::{Expr, Input, Name, OwnFunction, Realization, RunOption, SiteData, Start};
 use crate::ast::{NoPath, Runtime};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 
@@ -378,6 +378,10 @@ impl Entries for Parts<'_> {
     fn attitude(&self, names: &Names, report: &mut Report) -> Option<super::attitude::Written> {
         let statement = self.first("attitude")?;
         attitude::read(&statement.block(report)?, statement.origin, names, report)
+    }
+
+    fn bonds(&self, report: &mut Report) -> Option<SiteData> {
+        family::rows(self.first("bonds")?, report)
     }
 
     fn start(&self, report: &mut Report) -> Option<Start> {

@@ -8,8 +8,9 @@ use super::named;
 use super::reader::Read;
 use super::token::{Cursor, render, span};
 use super::token::{Delimiter, Token, TokenKind};
-use crate::ast::{Expr, ExprKind, Index, Name, Size};
+use crate::ast::{BONDS, Expr, ExprKind, Index, Name, Size};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
+use lie_symbolic::exact::Rational;
 
 /// Reports indexed names and sums; whether there were none.
 pub fn refuse(expression: &Expr, report: &mut Report) -> bool {
@@ -74,10 +75,40 @@ pub fn indexed_name(name: &Token, index: &[Token], origin: Origin) -> Diagnostic
 /// The rest of `sum(i in from..to: body)`, or of `sum(i in from..to, j in from..to: body)`, after the word `sum`.
 pub(super) fn indexed_sum<'a>(parser: &mut Parser<'a>, word: &'a Token) -> Option<Expr> {
     let open = parser.cursor.advance()?;
+    let over_bonds = parser.cursor.peek().filter(|token| token.is_word(BONDS));
+    if let Some(bonds) = over_bonds
+        && parser.cursor.ahead(1).is_some_and(|token| token.is(':'))
+    {
+        parser.cursor.advance();
+        return over(parser, word, open, vec![of_bonds(bonds.origin)]);
+    }
     let mut ranges = vec![range(parser, word)?];
     while parser.cursor.eat(',').is_some() {
         ranges.push(range(parser, word)?);
     }
+    over(parser, word, open, ranges)
+}
+
+/// The index of a sum with its ends.
+type Range = (Name, Expr, Expr);
+
+/// A sum over bonds has their word in the place of an index, and no ends.
+fn of_bonds(origin: Origin) -> Range {
+    let text = BONDS.to_owned();
+    let none = Expr {
+        kind: ExprKind::Number(Rational::ZERO),
+        origin,
+    };
+    (Name { text, origin }, none.clone(), none)
+}
+
+/// `: body)`
+fn over<'a>(
+    parser: &mut Parser<'a>,
+    word: &'a Token,
+    open: &'a Token,
+    ranges: Vec<Range>,
+) -> Option<Expr> {
     expect(parser, ':', word)?;
     let body = parser.sum()?;
     let origin = word

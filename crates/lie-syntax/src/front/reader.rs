@@ -119,6 +119,8 @@ pub trait Entries {
     fn initial(&self, state: &[Name], names: &Names, report: &mut Report) -> Vec<Expr>;
     /// The initial group element in these names.
     fn attitude(&self, names: &Names, report: &mut Report) -> Option<attitude::Written>;
+    /// The bonds of a family.
+    fn bonds(&self, report: &mut Report) -> Option<SiteData>;
     /// The initial state of a family.
     fn start(&self, report: &mut Report) -> Option<Start>;
     /// Description and references, for people.
@@ -159,11 +161,18 @@ pub fn finish<E: Entries>(
     let declaration = remainder(entries, &parsed, algebra, parameters.whole, report);
     let indices = parsed.indices.clone();
     let start = (!indices.is_empty()).then(|| entries.start(report));
+    let bonds = entries.bonds(report);
+    if let (Some(bonds), true) = (&bonds, indices.is_empty()) {
+        let message = "`bonds` join the sites of a family, and this declaration is none";
+        let help = "a family has an algebra such as `so(3)^N` and a state such as `x[i]`";
+        report.push(Diagnostic::new(Kind::Schema, bonds.origin, message).help(help));
+    }
     let declaration = declaration.map(|declaration| Declaration {
         family: (!indices.is_empty()).then(|| Family {
             sizes,
             indices,
             data,
+            bonds,
             start: start.flatten(),
         }),
         ..declaration

@@ -102,6 +102,8 @@ objects! {
         "observables" observables: Option<BTreeMap<String, Observable>>,
         /// Functions of state, parameters, abbreviations and the time `t` by name, whose zeros along a run are found.
         "events" events: Option<BTreeMap<String, Event>>,
+        /// Bonds between any two sites of a family: the path of a file with `i,j,value` in each line, or such rows; `sum(bonds: value*x[i]*x[j])`.
+        "bonds" bonds: Option<Bonds>,
         /// Ids of the methods that get fused code.
         "methods" methods: Option<Vec<String>>,
         /// `left` (the default): mu' = ad*_(grad H) mu; `right`: the opposite sign.

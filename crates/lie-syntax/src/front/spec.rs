@@ -26,7 +26,9 @@ use super::schema::Spec;
 use super::tables::Read as Table;
 use super::vectors::Declared;
 use super::{Names, Parsed, expression, families, file, item, number, prose};
-use crate::ast::{Expr, ExprKind, Input, Name, OwnFunction, Realization, RunOption, Start};
+use crate::ast::{
+    Expr, ExprKind, Input, Name, OwnFunction, Realization, RunOption, SiteData, Start,
+};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 
 /// The only version of the format.
@@ -233,6 +235,10 @@ impl Entries for Object<'_> {
 
     fn attitude(&self, names: &Names, report: &mut Report) -> Option<super::attitude::Written> {
         attitude::read(self.get("attitude")?, names, report)
+    }
+
+    fn bonds(&self, report: &mut Report) -> Option<SiteData> {
+        sites::bonds(self.get("bonds")?, self.folder(), report)
     }
 
     fn start(&self, report: &mut Report) -> Option<Start> {

@@ -8,10 +8,12 @@ use crate::check::environment::{Allowed, Environment};
 use crate::check::has_errors;
 use crate::check::lets;
 use crate::check::lower::Lowering;
-use crate::model::{Driving, Family, Model, Quantity, SiteData, SiteSum, Size, data_symbol};
-use lie_symbolic::prove::degree;
+use crate::model::{
+    self, Driving, Family, Model, Quantity, QuantityKind, SiteData, SiteSum, Size, data_symbol,
+};
+use lie_symbolic::prove::{branches, degree};
 use lie_symbolic::symbolic::{Graph, Symbol};
-use lie_syntax::ast::{self, Declaration, Expr, Name, SiteValues};
+use lie_syntax::ast::{self, BONDS, Declaration, Expr, Name, SiteValues};
 use lie_syntax::diagnostic::{Diagnostic, Kind};
 
 /// Makes the model of a site that of the family; `None` if there are mistakes.
@@ -23,25 +25,43 @@ pub fn couple(
     mistakes: &mut Vec<Diagnostic>,
 ) -> Option<Model> {
     let collected = &of_site.collected;
+    let mut data = data(family, collected, &model, mistakes)?;
+    let mut data_names = collected.data.clone();
+    if let Some(given) = &family.bonds {
+        let count = sizes(declaration, family, &model, mistakes)?;
+        let count = count.first().and_then(|size| size.value(&model.defaults()));
+        data.push(bonds(given, count.unwrap_or(1), mistakes)?);
+        let other = if family.indices.iter().any(|index| index.text == "j") {
+            "k"
+        } else {
+            "j"
+        };
+        let names = declaration.state.iter();
+        data_names.extend(names.map(|name| format!("{}[{other}]", name.text)));
+        data_names.push("value".to_owned());
+    }
     let known = Family {
         sizes: sizes(declaration, family, &model, mistakes)?,
         slots: collected.slots.clone(),
         own: collected.slot([0, 0]),
         names: collected.names.clone(),
-        data: data(family, collected, &model, mistakes)?,
+        data,
+        has_bonds: family.bonds.is_some(),
         data_places: collected.data_places.clone(),
-        data_names: collected.data.clone(),
+        data_names,
         sums: Vec::new(),
         energy: model.hamiltonian(),
         degree: None,
         start: family.start.clone(),
     };
-    let (coupled, driving) = summed(declaration, &mut model, of_site, known, mistakes)?;
-    if driving.is_some() {
-        // what is carried beside the sites has no symbol in their functions
-        let none = model.graph.integer(0);
-        model.quantities = vec![Quantity::work(declaration.name.origin, none)];
-    }
+    let (coupled, driving, observables) =
+        summed(declaration, &mut model, of_site, known, mistakes)?;
+    // what is carried beside the sites has no symbol in their functions
+    let none = model.graph.integer(0);
+    let work = driving
+        .as_ref()
+        .map(|_| Quantity::work(declaration.name.origin, none));
+    model.quantities = work.into_iter().chain(observables).collect();
     (model.family, model.driving) = (Some(coupled), driving);
     model.methods.clone_from(&declaration.methods);
     model.run.clone_from(&declaration.run);
@@ -90,6 +110,52 @@ fn sizes(
     found.into_iter().collect()
 }
 
+/// The numbers of a list, or of a file.
+fn numbers(data: &ast::SiteData, mistakes: &mut Vec<Diagnostic>) -> Option<Vec<f64>> {
+    let name = &data.name.text;
+    let values: Vec<f64> = match &data.values {
+        SiteValues::Read(values) => values.clone(),
+        SiteValues::Written(entries) => {
+            let mut graph = Graph::default();
+            let environment = Environment::default();
+            let lowered = entries.iter().map(|entry| {
+                let value = Lowering::new(&mut graph, &environment, mistakes, Allowed::Constants)
+                    .lower(entry)?;
+                Some(graph.evaluate(value, &|_| f64::NAN))
+            });
+            lowered
+                .collect::<Vec<_>>()
+                .into_iter()
+                .collect::<Option<_>>()?
+        }
+    };
+    if let Some(at) = values.iter().position(|value| !value.is_finite()) {
+        let message = format!("value {at} of `{name}` is not finite in double precision");
+        let help = "give each site a finite number";
+        mistakes.push(Diagnostic::new(Kind::Number, data.origin, message).help(help));
+        return None;
+    }
+    Some(values)
+}
+
+/// The bonds, between sites that there are at the default size.
+fn bonds(data: &ast::SiteData, count: usize, mistakes: &mut Vec<Diagnostic>) -> Option<SiteData> {
+    let values = numbers(data, mistakes)?;
+    if let Some(fault) = model::wrong_bond(&values, count) {
+        let mistake = Diagnostic::new(Kind::Domain, data.origin, fault);
+        mistakes.push(mistake.help("sites count from 0 to N-1; give a bond two of them"));
+        return None;
+    }
+    Some(SiteData {
+        name: BONDS.to_owned(),
+        values: values.into(),
+        sizes: None,
+        unused: 0,
+        unit: None,
+        description: Some("The bonds: two sites and a value of each.".to_owned()),
+    })
+}
+
 /// The values of what differs from site to site, as many as there are sites at the default sizes.
 fn data(
     family: &ast::Family,
@@ -110,25 +176,7 @@ fn data(
     let all = family.data.iter().zip(&collected.unused);
     let all = all.map(|(data, unused)| {
         let name = &data.name.text;
-        let values: Vec<f64> = match &data.values {
-            SiteValues::Read(values) => values.clone(),
-            SiteValues::Written(entries) => {
-                let mut graph = Graph::default();
-                let environment = Environment::default();
-                let lowered = entries.iter().map(|entry| {
-                    let value = Lowering::new(&mut graph, &environment, mistakes, Allowed::Constants)
-                        .lower(entry)?;
-                    Some(graph.evaluate(value, &|_| f64::NAN))
-                });
-                lowered.collect::<Vec<_>>().into_iter().collect::<Option<_>>()?
-            }
-        };
-        if let Some(at) = values.iter().position(|value| !value.is_finite()) {
-            let message = format!("value {at} of `{name}` is not finite in double precision");
-            let help = "give each site a finite number";
-            mistakes.push(Diagnostic::new(Kind::Number, data.origin, message).help(help));
-            return None;
-        }
+        let values = numbers(data, mistakes)?;
         let unused_along = &unused[2 - sizes.len()..];
         // a column or a row of numbers is a list
         let mut shape: Vec<usize> = match data.shape.as_slice() {
@@ -197,7 +245,7 @@ fn summed(
     of_site: &SiteSums,
     known: Family,
     mistakes: &mut Vec<Diagnostic>,
-) -> Option<(Family, Option<Driving>)> {
+) -> Option<(Family, Option<Driving>, Vec<Quantity>)> {
     let collected = &of_site.collected;
     let names = &known.names;
     let totals = (0..collected.sums.len()).map(sums::total);
@@ -217,8 +265,13 @@ fn summed(
         ..declaration.clone()
     };
     let mut environment = Environment::new(&widened);
-    for (number, name) in known.data_names.iter().enumerate() {
+    for (number, name) in collected.data.iter().enumerate() {
         environment.bind_symbol(name, data_symbol(number));
+    }
+    if known.has_bonds {
+        for (place, name) in collected.other.iter().enumerate() {
+            environment.bind_symbol(name, known.bond_symbol(place));
+        }
     }
     let graph = &mut model.graph;
     lets::abbreviations(&widened, graph, &mut environment, mistakes);
@@ -227,29 +280,49 @@ fn summed(
     let summands = collected.sums.iter();
     let summands: Vec<_> = summands.map(|s| lower(&s.body, Allowed::Site)).collect();
     let energy = lower(&of_site.energy, Allowed::State);
+    let observables: Vec<_> = (of_site.observables.iter())
+        .map(|observable| Some((observable, lower(&observable.value, Allowed::State)?)))
+        .collect();
     let beside = driving::acting(&widened, Allowed::Site, &mut lower);
     let first = names.len();
     let of_a_sum = |symbol: &Symbol| matches!(symbol, Symbol::Coordinate(k) if *k >= first);
+    let energy = energy?;
+    let in_energy = graph.symbols(energy);
     let mut sums = Vec::new();
-    for (summand, sum) in summands.into_iter().zip(&collected.sums) {
-        let summand = summand?;
+    for (k, (summand, sum)) in summands.into_iter().zip(&collected.sums).enumerate() {
+        let (summand, moves) = (summand?, in_energy.contains(&Symbol::Coordinate(first + k)));
         if graph.symbols(summand).iter().any(of_a_sum) {
             mistakes.push(sums::within(sum.origin));
             return None;
         }
         sums.push(SiteSum {
             summand,
-            slots: sum.moving.iter().map(|o| collected.slot(*o)).collect(),
+            slots: match moves {
+                true => sum.moving.iter().map(|o| collected.slot(*o)).collect(),
+                false => Vec::new(),
+            },
             spans: sum.spans,
+            over_bonds: sum.over_bonds,
+            moves,
         });
     }
-    let energy = energy?;
+    let observables: Option<Vec<_>> = observables.into_iter().collect();
+    let observables = observables?.into_iter().map(|(observable, expr)| Quantity {
+        name: observable.name.text.clone(),
+        origin: observable.value.origin,
+        expr,
+        kind: QuantityKind::Observable,
+        unwrap: observable.unwrap,
+        multivalued: branches::jumps(graph, expr),
+    });
+    let observables = observables.collect();
     let driving = match widened.is_driven() {
         true => Some(acting::motion(&widened, model, &known, beside?, mistakes)?),
         false => None,
     };
     let graph = &mut model.graph;
-    let mut of_summands = sums.iter().map(|s| degree::degree(graph, s.summand));
+    let moving = sums.iter().filter(|sum| sum.moves);
+    let mut of_summands = moving.map(|s| degree::degree(graph, s.summand));
     let inner = of_summands.try_fold(0, |most: u32, degree| Some(most.max(degree?)));
     let outer = degree::degree(graph, energy);
     let degree = outer.zip(inner).map(|(outer, inner)| outer * inner);
@@ -259,5 +332,5 @@ fn summed(
         degree,
         ..known
     };
-    Some((family, driving))
+    Some((family, driving, observables))
 }

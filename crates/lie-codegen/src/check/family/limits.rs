@@ -47,10 +47,10 @@ pub fn violations(declaration: &Declaration, family: &Family) -> Vec<Diagnostic>
         let help = "remove it, or declare the sites as one system: `so(3)^3` without an index in the state";
         refuse(event.name.origin, message, help);
     }
-    if let Some((name, what)) = declaration.quantities().next() {
-        let message = format!("a family has no {what} of its own");
-        let help = "remove it: the columns of a run are coordinates, energy and Casimirs, from which it can be computed";
-        refuse(name.origin, &message, help);
+    if let Some((name, _)) = declaration.integrals.first() {
+        let message = "first integrals of a family are not proven";
+        let help = "remove it, or declare it among the `observables`: a function of sums such as `sum(i in 0..N: z[i])`";
+        refuse(name.origin, message, help);
     }
     if let Some(realization) = &declaration.realization {
         let message = "a family takes no realization";

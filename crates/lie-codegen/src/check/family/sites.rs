@@ -4,7 +4,7 @@ use super::parts::on_site;
 use super::sums::{Collected, Sums};
 use lie_symbolic::exact::Rational;
 use lie_syntax::ast::{
-    Casimir, Declaration, Dissipation, Energy, Expr, ExprKind, Family, Name, Noise,
+    Casimir, Declaration, Dissipation, Energy, Expr, ExprKind, Family, Name, Noise, Observable,
 };
 use lie_syntax::diagnostic::Diagnostic;
 
@@ -14,6 +14,8 @@ pub struct SiteSums {
     pub lets: Vec<(Name, Expr)>,
     /// The Hamiltonian, with names for sums.
     pub energy: Expr,
+    /// The observables, with names for sums.
+    pub observables: Vec<Observable>,
     /// The sums.
     pub collected: Collected,
     /// What acts on a site beside the Hamiltonian, its coordinates under the names of their slots.
@@ -40,6 +42,13 @@ pub fn sites(
         .filter_map(|(name, value)| Some((name.clone(), sums.outside(value, mistakes)?)))
         .collect();
     let energy = sums.outside(declaration.energy.expression(), mistakes);
+    let observables = declaration.observables.iter().filter_map(|observable| {
+        Some(Observable {
+            value: sums.outside(&observable.value, mistakes)?,
+            ..observable.clone()
+        })
+    });
+    let observables = observables.collect();
     let acting = beside(declaration, &mut sums, mistakes);
     let collected = sums.collected();
     let zero = Expr {
@@ -59,6 +68,7 @@ pub fn sites(
         forces: Vec::new(),
         dissipation: Vec::new(),
         noise: Vec::new(),
+        observables: Vec::new(),
         lets: Vec::new(),
         methods: Vec::new(),
         run: Vec::new(),
@@ -68,6 +78,7 @@ pub fn sites(
     let sums = SiteSums {
         lets,
         energy: energy.filter(|_| mistakes.is_empty())?,
+        observables,
         collected,
         acting,
     };

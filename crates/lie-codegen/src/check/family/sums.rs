@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::bounds::{self, Span};
 use super::parts::mapped;
-use lie_syntax::ast::{Declaration, Expr, ExprKind, Family, Index, Name};
+use lie_syntax::ast::{BONDS, Declaration, Expr, ExprKind, Family, Index, Name};
 use lie_syntax::diagnostic::{Diagnostic, Kind, Origin};
 
 /// What to do where sites differ.
@@ -26,6 +26,8 @@ pub struct Collected {
     pub data: Vec<String>,
     /// The number of last rows and columns of which no sum asks for a value.
     pub unused: Vec<[usize; 2]>,
+    /// The names of the coordinates of the second site of a bond, and of its value.
+    pub other: Vec<String>,
     /// The sums.
     pub sums: Vec<Sum>,
 }
@@ -42,6 +44,8 @@ pub struct Sum {
     data: BTreeSet<([i64; 2], usize)>,
     /// Where it goes, by row and by column.
     pub spans: [Span; 2],
+    /// Whether it goes over bonds, with [`Collected::other`] for their second sites.
+    pub over_bonds: bool,
     /// Where it stands.
     pub origin: Origin,
 }
@@ -76,6 +80,14 @@ impl Collected {
 
 fn indices(family: &Family) -> Vec<String> {
     family.indices.iter().map(|i| i.text.clone()).collect()
+}
+
+/// The value of a bond, under a name that nobody can write.
+const BOND_VALUE: &str = "bond value";
+
+/// The name of a coordinate of the second site of a bond.
+fn second(name: &str) -> String {
+    format!("second {name}")
 }
 
 /// The answer to a sum in what acts on a site.
@@ -196,7 +208,9 @@ impl<'a> Sums<'a> {
             .filter_map(|(at, which)| Some([slot(at)?, which]))
             .collect();
         let unused = self.unused.iter();
+        let other = state.iter().map(|name| second(&name.text));
         Collected {
+            other: other.chain([BOND_VALUE.to_owned()]).collect(),
             slots,
             names,
             data_places,
@@ -214,8 +228,7 @@ impl<'a> Sums<'a> {
                 index: Some(_),
             } => {
                 let message = format!("`{name}` has an index and stands in no sum");
-                let help =
-                    "a Hamiltonian of a family is a function of sums such as `sum(i in 0..N: …)`";
+                let help = "H and observables of a family are functions of sums such as `sum(i in 0..N: …)`";
                 mistakes.push(Diagnostic::new(Kind::Syntax, expr.origin, message).help(help));
                 None
             }
@@ -265,6 +278,11 @@ impl<'a> Sums<'a> {
             data: BTreeSet::new(),
         };
         let mut body = expr;
+        if let ExprKind::IndexedSum { index, body, .. } = &expr.kind
+            && index.text == BONDS
+        {
+            return self.over_bonds(body, expr.origin, mistakes);
+        }
         for size in &self.family.sizes {
             let ExprKind::IndexedSum {
                 index,
@@ -301,13 +319,106 @@ impl<'a> Sums<'a> {
             moving: reading.moving,
             data: reading.data,
             spans: [span(0), span(1)],
+            over_bonds: false,
             origin: expr.origin,
         });
+        Some(self.last(expr.origin))
+    }
+
+    /// The name of the sum that was found last.
+    fn last(&self, origin: Origin) -> Expr {
         let name = total(self.found.len() - 1);
-        Some(Expr {
+        Expr {
             kind: ExprKind::Name { name, index: None },
-            origin: expr.origin,
-        })
+            origin,
+        }
+    }
+
+    /// A sum over bonds becomes a name: the first site of a bond has the index of the state, the second one another.
+    fn over_bonds(
+        &mut self,
+        body: &Expr,
+        origin: Origin,
+        mistakes: &mut Vec<Diagnostic>,
+    ) -> Option<Expr> {
+        let [own] = self.family.indices.as_slice() else {
+            let message = "bonds join the sites of a chain, and these have two indices";
+            let help = "number the sites by one index, `so(3)^N` with `x[i]`: with bonds they may be those of any lattice";
+            mistakes.push(Diagnostic::new(Kind::Syntax, origin, message).help(help));
+            return None;
+        };
+        if self.family.bonds.is_none() {
+            let message = "the sum goes over bonds, and none are declared";
+            let help = "add `\"bonds\": \"FILE.csv\"` with `i,j,value` in each line";
+            mistakes.push(Diagnostic::new(Kind::UnknownSymbol, origin, message).help(help));
+            return None;
+        }
+        let mut other: Option<String> = None;
+        let body = mapped(body, &mut |part| {
+            let mut fail = |message: String, help: &str| {
+                let mistake = Diagnostic::new(Kind::Syntax, part.origin, message);
+                mistakes.push(mistake.help(help));
+                None
+            };
+            let named = |name: String| {
+                Some(Expr {
+                    kind: ExprKind::Name { name, index: None },
+                    origin: part.origin,
+                })
+            };
+            match &part.kind {
+                ExprKind::IndexedSum { .. } => {
+                    mistakes.push(within(part.origin));
+                    None
+                }
+                ExprKind::Name { name, index: None } if name == "value" => {
+                    named(BOND_VALUE.to_owned())
+                }
+                ExprKind::Name { name, index: None } if self.is_coordinate(name) => {
+                    mistakes.push(self.without_index(name, part.origin));
+                    None
+                }
+                ExprKind::Name {
+                    name,
+                    index: Some(index),
+                } => {
+                    let variable = index.variable.as_ref().map(|variable| &variable.text);
+                    let (Some(variable), 0, None) = (variable, index.offset, &index.second) else {
+                        let message =
+                            format!("`{name}` has another index than that of a site of the bond");
+                        return fail(message, "write `x[i]` and `x[j]` for the two sites");
+                    };
+                    if !self.is_coordinate(name) {
+                        let message = format!("`{name}` has an index and is no coordinate");
+                        return fail(message, "a bond has its coordinates and `value`");
+                    }
+                    if *variable == own.text {
+                        return named(self.own(name));
+                    }
+                    let known = other.get_or_insert_with(|| variable.clone());
+                    match known == variable {
+                        true => named(second(name)),
+                        false => {
+                            let message = format!(
+                                "`{name}[{variable}]` is of a third site, and a bond joins two"
+                            );
+                            fail(message, "write `x[i]` and `x[j]` for the two sites")
+                        }
+                    }
+                }
+                _ => Some(part.clone()),
+            }
+        })?;
+        self.found.push(Sum {
+            body,
+            sites: BTreeSet::new(),
+            moving: BTreeSet::new(),
+            data: BTreeSet::new(),
+            spans: [None, None],
+            over_bonds: true,
+            origin,
+        });
+        Some(self.last(origin))
     }
 
     /// What stands at a site: coordinates and coefficients under the names of their slots.

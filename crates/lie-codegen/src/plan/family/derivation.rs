@@ -2,20 +2,23 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::{Data, Driven, Family, FamilyForm, FamilyPiece, FamilyPieces, SiteCasimir, Sum};
+use super::{
+    BondFunctions, Data, Family, FamilyForm, FamilyPiece, FamilyPieces, Observed, SiteCasimir, Sum,
+};
 use crate::derive::{Argument, Kernel, Source, action};
-use crate::model::{self, data_symbol, slope_symbol};
+use crate::model::{self, QuantityKind, data_symbol};
 use crate::plan::constants::Table;
 use crate::plan::function::Function;
 use crate::plan::planner::{Planner, described};
 use crate::structure::family::Form;
 use crate::structure::separable;
 use lie_symbolic::symbolic::{ExprId, Symbol};
+use lie_syntax::ast::BONDS;
 
 /// The derivation of the kernels.
 pub(super) struct Derivation<'p, 'm> {
-    planner: &'p mut Planner<'m>,
-    family: &'m model::Family,
+    pub(super) planner: &'p mut Planner<'m>,
+    pub(super) family: &'m model::Family,
     /// `dF/dT_k`: an expression in the parameters, or the symbol of a weight.
     weights: Vec<ExprId>,
     /// `dF/dT_k` where it depends on the state, else 0.
@@ -44,16 +47,20 @@ impl<'p, 'm> Derivation<'p, 'm> {
         }
     }
 
-    fn n(&self) -> usize {
+    pub(super) fn n(&self) -> usize {
         self.planner.source.dimension
     }
 
-    /// The number of coefficients, and of rates of Wiener processes.
-    fn coefficients(&self) -> usize {
-        self.family.data_names.len() + super::noises(self.planner.structure)
+    /// The coefficients, and the rates of Wiener processes.
+    fn coefficients(&self) -> impl Iterator<Item = Symbol> + use<> {
+        let first = self.family.data_names.len();
+        let rates = first..first + super::noises(self.planner.structure);
+        (0..self.family.data_places.len())
+            .chain(rates)
+            .map(data_symbol)
     }
 
-    fn at(&self) -> [Argument; 2] {
+    pub(super) fn at(&self) -> [Argument; 2] {
         let places = 0..self.family.names.len();
         let sums = places.end..places.end + self.family.sums.len();
         [
@@ -61,7 +68,7 @@ impl<'p, 'm> Derivation<'p, 'm> {
                 name: "at",
                 symbols: places
                     .map(Symbol::Coordinate)
-                    .chain((0..self.coefficients()).map(data_symbol))
+                    .chain(self.coefficients())
                     .collect(),
             },
             Argument {
@@ -76,7 +83,7 @@ impl<'p, 'm> Derivation<'p, 'm> {
         self.planner.labelled(label, kernel, &mut Table::default())
     }
 
-    fn vector(
+    pub(super) fn vector(
         &mut self,
         label: &str,
         (name, formula): (&'static str, &'static str),
@@ -94,7 +101,7 @@ impl<'p, 'm> Derivation<'p, 'm> {
     }
 
     /// The derivative of a summand by the coordinates in a slot, times the weight of its sum.
-    fn slope(&mut self, k: usize, slot: usize) -> Vec<ExprId> {
+    pub(super) fn slope(&mut self, k: usize, slot: usize) -> Vec<ExprId> {
         let (n, weight) = (self.n(), self.weights[k]);
         let graph = &mut self.planner.source.graph;
         let summand = graph.as_written(self.family.sums[k].summand);
@@ -108,7 +115,7 @@ impl<'p, 'm> Derivation<'p, 'm> {
     }
 
     /// The expressions with each site moved, so that the one in `slot` comes to stand at the site itself.
-    fn moved(&mut self, expressions: &[ExprId], slot: usize) -> Vec<ExprId> {
+    pub(super) fn moved(&mut self, expressions: &[ExprId], slot: usize) -> Vec<ExprId> {
         let (n, slots) = (self.n(), &self.family.slots);
         let [down, right] = slots[slot];
         let place = |symbol: Symbol| match symbol {
@@ -139,8 +146,12 @@ impl<'p, 'm> Derivation<'p, 'm> {
         let summands: Vec<ExprId> = family
             .sums
             .iter()
-            .map(|sum| self.planner.source.graph.as_written(sum.summand))
+            .map(|sum| match sum.over_bonds {
+                true => self.planner.source.graph.integer(0),
+                false => self.planner.source.graph.as_written(sum.summand),
+            })
             .collect();
+        let bonds = self.bonds();
         let at = self.at().to_vec();
         let formula = ("summands", "`out_k = s_k(mu_i, …)`");
         let summands = self.vector("summands", formula, at, &summands);
@@ -152,6 +163,7 @@ impl<'p, 'm> Derivation<'p, 'm> {
         let formula = ("weights", "`out_k = dF/dT_k`");
         let at = self.at().to_vec();
         let weights = self.vector("weights", formula, at, &mean);
+        let observables = self.observables();
         let zero = self.planner.source.graph.integer(0);
         let mean_field = mean.iter().any(|slope| *slope != zero);
         let [ad, ad_star] = self.brackets();
@@ -180,6 +192,7 @@ impl<'p, 'm> Derivation<'p, 'm> {
                     bits: data.values.iter().map(|value| value.to_bits()).collect(),
                     sizes: data.sizes,
                     unused: data.unused,
+                    bonds: family.has_bonds && data.name == BONDS,
                 })
                 .collect(),
             sums: family
@@ -190,6 +203,7 @@ impl<'p, 'm> Derivation<'p, 'm> {
                     spans: sum.spans,
                 })
                 .collect(),
+            bonds,
             mean_field,
             degree: family.degree,
             seed: family.seed(),
@@ -199,6 +213,7 @@ impl<'p, 'm> Derivation<'p, 'm> {
             summands,
             energy,
             weights,
+            observables,
             ad,
             ad_star,
             casimirs: self.casimirs(),
@@ -206,96 +221,65 @@ impl<'p, 'm> Derivation<'p, 'm> {
         }
     }
 
-    fn slopes_and_field(&mut self) -> (Vec<(usize, usize, Function)>, Function, Option<Driven>) {
+    /// What a bond adds to sums and slopes.
+    fn bonds(&mut self) -> Option<BondFunctions> {
         let (n, family) = (self.n(), self.family);
-        let mut terms: Vec<Vec<ExprId>> = vec![Vec::new(); n];
-        let mut slopes = Vec::new();
-        for (k, sum) in family.sums.iter().enumerate() {
-            for &slot in &sum.slots {
-                let slope = self.slope(k, slot);
-                let label = format!(
-                    "slope of sum {k} by {}",
-                    family.names[slot * n..(slot + 1) * n].join(", ")
-                );
-                let formula = (
-                    "slope",
-                    "`out = dF/dT_k ds_k/dmu`, at the site of the summand",
-                );
-                let at = self.at().to_vec();
-                slopes.push((k, slot, self.vector(&label, formula, at, &slope)));
-                let moved = self.moved(&slope, slot);
-                terms
-                    .iter_mut()
-                    .zip(moved)
-                    .for_each(|(all, one)| all.push(one));
+        if !family.has_bonds {
+            return None;
+        }
+        let zero = self.planner.source.graph.integer(0);
+        let own: Vec<Symbol> = (0..n)
+            .map(|k| Symbol::Coordinate(family.own * n + k))
+            .collect();
+        let other: Vec<Symbol> = (0..n).map(|k| family.bond_symbol(k)).collect();
+        let (mut summands, mut terms) = (Vec::new(), vec![Vec::new(); 2 * n]);
+        for (sum, weight) in family.sums.iter().zip(&self.weights) {
+            let graph = &mut self.planner.source.graph;
+            if !sum.over_bonds {
+                summands.push(zero);
+                continue;
+            }
+            let summand = graph.as_written(sum.summand);
+            summands.push(summand);
+            for (terms, symbol) in terms.iter_mut().zip(own.iter().chain(&other)) {
+                let slope = graph.derivative(summand, *symbol);
+                terms.push(graph.mul(*weight, slope));
             }
         }
-        let source = &mut self.planner.source;
-        let gradient: Vec<ExprId> = terms.iter().map(|terms| source.graph.sum(terms)).collect();
-        let (motion, driven) = self.driven();
-        let source = &mut self.planner.source;
-        let field = match motion {
-            None => {
-                let mu = own(source, family, n);
-                source.ad_star_of(&gradient, &mu)
-            }
-            Some(motion) => source.graph.substitute(&motion, &|symbol| {
-                let mut slopes = (0..n).map(slope_symbol).zip(&gradient);
-                slopes
-                    .find(|(slope, _)| *slope == symbol)
-                    .map(|(_, value)| *value)
-            }),
-        };
-        let field: Vec<ExprId> = field.into_iter().map(|f| source.graph.tidy(f)).collect();
-        let formula = match &driven {
-            None => "`mu_i' = ad*_(dH/dmu_i) mu_i` of a site with all its neighbours",
-            Some(_) => {
-                "`mu_i' = ad*_xi mu_i + F` of a site with all its neighbours, and the power behind it"
-            }
-        };
-        let at = self.at().to_vec();
-        let field = self.vector("field of a site", ("field", formula), at, &field);
-        (slopes, field, driven)
+        let graph = &mut self.planner.source.graph;
+        let slopes: Vec<ExprId> = terms.iter().map(|terms| graph.sum(terms)).collect();
+        let slopes: Vec<ExprId> = slopes.into_iter().map(|slope| graph.tidy(slope)).collect();
+        let argument = |name, symbols| Argument { name, symbols };
+        let [_, weights] = self.at();
+        let arguments = vec![
+            argument("one", own),
+            weights,
+            argument("other", other),
+            argument("value", vec![family.bond_symbol(n)]),
+        ];
+        let formula = ("bond_summands", "`out_k = s_k(mu_i, mu_j, value)`");
+        let summands = self.vector("summands of a bond", formula, arguments.clone(), &summands);
+        let formula = ("bond_slopes", "`out = dH/dmu` at both sites of a bond");
+        let slopes = self.vector("slopes of a bond", formula, arguments, &slopes);
+        Some(BondFunctions { summands, slopes })
     }
 
-    /// The motion of a site from dH/dmu there, and the power behind it, where something acts beside H.
-    fn driven(&mut self) -> (Option<Vec<ExprId>>, Option<Driven>) {
-        let (n, family, structure) = (self.n(), self.family, self.planner.structure);
-        let Some(driving) = &structure.driving else {
-            return (None, None);
-        };
-        let source = &mut self.planner.source;
-        let mu = own(source, family, n);
-        let slopes: Vec<Symbol> = (0..n).map(slope_symbol).collect();
-        let xi: Vec<ExprId> = (slopes.iter().zip(&driving.damping))
-            .map(|(slope, more)| {
-                let (slope, more) = (source.graph.symbol(*slope), source.graph.as_written(*more));
-                source.graph.add(slope, more)
-            })
-            .collect();
-        let mut motion = source.ad_star_of(&xi, &mu);
-        for (sum, force) in motion.iter_mut().zip(&driving.force) {
-            let force = source.graph.as_written(*force);
-            *sum = source.graph.add(*sum, force);
-        }
-        motion.push(source.graph.as_written(driving.damping[n]));
-        let tidy: Vec<ExprId> = motion.iter().map(|f| source.graph.tidy(*f)).collect();
-        let [at, _] = self.at();
-        let slope = Argument {
-            name: "slope",
-            symbols: slopes,
-        };
-        let formula = (
-            "act",
-            "`mu_i' = ad*_xi mu_i + F`, from `dH/dmu_i`, and the power behind it",
-        );
-        let act = self.vector("motion of a site", formula, vec![slope, at], &tidy);
-        let driven = Driven {
-            act,
-            forced: driving.is_forced(&structure.graph),
-            noises: driving.noises,
-        };
-        (Some(motion), Some(driven))
+    /// What is recorded of the sums.
+    fn observables(&mut self) -> Vec<Observed> {
+        let quantities = self.planner.structure.quantities.iter();
+        let observables = quantities.filter(|q| q.kind == QuantityKind::Observable);
+        let observables = observables.map(|quantity| {
+            let value = self.planner.source.graph.as_written(quantity.expr);
+            let formula = "a function of the sums over all sites";
+            let at = self.at().to_vec();
+            let kernel = Kernel::scalar("observable", formula, at, value);
+            Observed {
+                name: quantity.name.clone(),
+                unwrap: quantity.unwrap,
+                value: self.function(&format!("observable {}", quantity.name), &kernel),
+            }
+        });
+        observables.collect()
     }
 
     /// The bracket and the coadjoint action.
@@ -370,7 +354,7 @@ impl<'p, 'm> Derivation<'p, 'm> {
             let mut arguments = vec![own.clone(), sums.clone()];
             if !self.family.data.is_empty() {
                 // the coefficients stand behind the coordinates of all slots, of which the rate has those of the site alone
-                let data = (0..self.coefficients()).map(data_symbol);
+                let data = self.coefficients();
                 let skipped = self.family.names.iter().map(|_| Symbol::Time);
                 arguments.push(Argument {
                     name: "at",
@@ -450,11 +434,4 @@ impl<'p, 'm> Derivation<'p, 'm> {
         }
         casimirs
     }
-}
-
-/// The coordinates of the site itself.
-fn own(source: &mut Source, family: &model::Family, n: usize) -> Vec<ExprId> {
-    let places = family.own * n..(family.own + 1) * n;
-    let symbols = places.map(|place| source.graph.symbol(Symbol::Coordinate(place)));
-    symbols.collect()
 }

@@ -1,6 +1,7 @@
 //! The kernels of a family: those of one site and of the sums that it takes part in.
 
 mod derivation;
+mod motion;
 
 use std::sync::Arc;
 
@@ -32,6 +33,8 @@ pub struct Family {
     pub data_places: Vec<[usize; 2]>,
     /// The sums.
     pub sums: Vec<Sum>,
+    /// What a bond adds to sums and slopes; the last of `data` are the bonds then.
+    pub bonds: Option<BondFunctions>,
     /// Whether some `dF/dT_k` depends on the state.
     pub mean_field: bool,
     /// The total degree of H, if it is a polynomial.
@@ -50,6 +53,8 @@ pub struct Family {
     pub energy: Function,
     /// `dF/dT_k` where they depend on the state.
     pub weights: Function,
+    /// What is recorded of the sums.
+    pub observables: Vec<Observed>,
     /// The bracket of the algebra of a site.
     pub ad: Function,
     /// Its coadjoint action.
@@ -69,6 +74,26 @@ pub struct Driven {
     pub forced: bool,
     /// The number of Wiener processes of a site.
     pub noises: usize,
+}
+
+/// What a bond adds.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct BondFunctions {
+    /// To the sums, 0 to those that do not go over bonds.
+    pub summands: Function,
+    /// To dH/dmu at its first site, and behind it at the second one.
+    pub slopes: Function,
+}
+
+/// A function of the sums that is recorded.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Observed {
+    /// Its name.
+    pub name: String,
+    /// Whether its jumps by 2 pi are taken out along a run.
+    pub unwrap: bool,
+    /// Its value.
+    pub value: Function,
 }
 
 /// A Casimir of a site.
@@ -99,6 +124,8 @@ pub struct Data {
     pub sizes: Option<[usize; 2]>,
     /// The number of last sites of a chain of which no sum asks for the value, so that it may be left out.
     pub unused: usize,
+    /// Whether these are the bonds: two sites and a value of each.
+    pub bonds: bool,
 }
 
 impl Data {
@@ -170,6 +197,12 @@ impl Family {
             .chain(self.driven.iter().map(|driven| &driven.act))
             .chain(self.slopes.iter().map(|(_, _, function)| function))
             .chain([&self.summands, &self.energy])
+            .chain(
+                self.bonds
+                    .iter()
+                    .flat_map(|bonds| [&bonds.summands, &bonds.slopes]),
+            )
+            .chain(self.observables.iter().map(|observed| &observed.value))
             .chain(mean)
             .chain([&self.ad, &self.ad_star])
             .chain(casimirs)
@@ -216,6 +249,17 @@ pub(super) fn plan(structure: &Structure, family: &model::Family) -> Plan {
     let places = family.data_places.iter();
     names.data = places
         .map(|[slot, which]| format!("_{slot}{}", family.data[*which].name))
+        .chain(
+            family
+                .has_bonds
+                .then(|| {
+                    let second = structure.coordinates.iter();
+                    let second = second.map(|name| format!("_other{}", name.text));
+                    second.chain(["_value".to_owned()])
+                })
+                .into_iter()
+                .flatten(),
+        )
         .chain((0..noises(structure)).map(|process| format!("_dw{process}")))
         .collect();
     let mut planner = Planner {

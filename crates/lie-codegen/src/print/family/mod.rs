@@ -1,5 +1,6 @@
 //! The kernels of a family as an impl of `Sites`, and the type of the system.
 
+mod acting;
 mod pieces;
 
 use proc_macro2::{Literal, TokenStream};
@@ -107,6 +108,8 @@ impl Printer<'_> {
         let summands = self.kernel(&family.summands, family.sums.len());
         let energy = self.kernel(&family.energy, 1);
         let of_sums = self.kernel(&family.weights, family.sums.len());
+        let observables = self.observables_of_sums(family);
+        let bonds = self.bonds_of_family(family);
         let ad = self.kernel(&family.ad, family.coordinates.len());
         let ad_star = self.kernel(&family.ad_star, family.coordinates.len());
         let casimirs = self.casimirs_of_site(family);
@@ -136,6 +139,10 @@ impl Printer<'_> {
 
                 fn weights(&self, _weights: &[S; #t]) -> [S; #t] { #of_sums }
 
+                #bonds
+
+                #observables
+
                 #[inline]
                 fn ad(&self, _xi: &#vector, _eta: &#vector) -> #vector { #ad }
 
@@ -152,40 +159,6 @@ impl Printer<'_> {
                     self._over(::lie_runtime::Dual::constant_of)
                 }
             }
-        }
-    }
-
-    /// The vector field of a site, and what acts on it.
-    fn field_of_site(&self, family: &Family) -> TokenStream {
-        let [c, p, t] = self.counts(family);
-        let size = family.coordinates.len();
-        let (at, weights) = (quote! { _at: &[S; #p] }, quote! { _weights: &[S; #t] });
-        let docs = self.docs(&family.field);
-        let Some(driven) = &family.driven else {
-            let field = self.kernel(&family.field, size);
-            return quote! {
-                #docs
-                #[inline(always)]
-                fn field(&self, #at, #weights) -> [S; #c] { #field }
-            };
-        };
-        let names: Vec<_> = (0..size).map(|k| ident(&format!("_f{k}"))).collect();
-        let both = |function: &Function| {
-            let body = self.kernel(function, size + 1);
-            quote! { let [#(#names,)* _power] = { #body }; ([#(#names),*], _power) }
-        };
-        let (field, act) = (both(&family.field), both(&driven.act));
-        let of_act = self.docs(&driven.act);
-        quote! {
-            #[inline(always)]
-            fn field(&self, _at: &[S; #p], _weights: &[S; #t]) -> [S; #c] { self.driven(_at, _weights).0 }
-
-            #docs
-            #[inline(always)]
-            fn driven(&self, #at, #weights) -> ([S; #c], S) { #field }
-
-            #of_act
-            fn act(&self, _slope: &[S; #c], #at) -> ([S; #c], S) { #act }
         }
     }
 
@@ -240,35 +213,7 @@ impl Printer<'_> {
         let casimirs = by_place(names.map(|name| quote! { #name }));
         let degrees = family.casimirs.iter().map(|casimir| casimir.degree);
         let degrees = by_place(degrees.map(option));
-        let acting = family.driven.as_ref().map(|driven| {
-            let (forced, noises) = (driven.forced, index(driven.noises));
-            let lost = (0..)
-                .zip(&family.casimirs)
-                .filter(|(_, casimir)| !casimir.kept);
-            let lost: Vec<_> = lost.map(|(place, _)| index(place)).collect();
-            let kept = (!lost.is_empty()).then(|| {
-                quote! {
-                    fn casimir_is_kept(&self, _index: usize) -> bool {
-                        ![#(#lost),*].contains(&_index)
-                    }
-                }
-            });
-            quote! {
-                fn acts(&self) -> bool {
-                    true
-                }
-
-                fn is_forced(&self) -> bool {
-                    #forced
-                }
-
-                fn noise_count(&self) -> usize {
-                    #noises
-                }
-
-                #kept
-            }
-        });
+        let acting = self.facts_of_acting(family);
         quote! {
             fn name(&self) -> &str {
                 #name

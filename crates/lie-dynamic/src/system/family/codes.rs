@@ -18,6 +18,9 @@ pub struct Codes {
     pub summands: usize,
     pub energy: usize,
     pub weights: usize,
+    pub observables: Vec<usize>,
+    /// What a bond adds to sums and to slopes.
+    pub bonds: Option<[usize; 2]>,
     pub ad: usize,
     pub ad_star: usize,
     /// Of each Casimir the value and the gradient.
@@ -80,6 +83,12 @@ impl Codes {
         let [summands, weights] =
             [&family.summands, &family.weights].map(|function| kernel(function, sums));
         let energy = kernel(&family.energy, 1);
+        let bonds = family.bonds.as_ref();
+        let bonds = bonds.map(|of| [kernel(&of.summands, sums), kernel(&of.slopes, 2 * site)]);
+        let observables = family.observables.iter();
+        let observables = observables
+            .map(|observed| kernel(&observed.value, 1))
+            .collect();
         let (mut kinds, mut pieces) = (Vec::new(), Vec::new());
         if let Some(of_family) = &family.pieces {
             let turns = of_family
@@ -127,6 +136,8 @@ impl Codes {
             slopes,
             summands,
             energy,
+            observables,
+            bonds,
             weights,
             ad,
             ad_star,

@@ -7,6 +7,7 @@ mod pieces;
 pub(crate) use codes::Codes;
 
 use crate::compiled::Values;
+use crate::engine::ARGUMENTS;
 use crate::system::names;
 use lie_codegen::model::Size;
 use lie_codegen::plan;
@@ -103,6 +104,17 @@ impl<S: Scalar> FamilySite<S> {
         let mut all = self.vector(code, arguments, self.plan().coordinates.len() + 1);
         let power = all.pop().unwrap_or(S::zero());
         (all, power)
+    }
+
+    /// What a kernel of a bond gives: so many numbers.
+    fn of_bond(&self, which: usize, arguments: [&[S]; ARGUMENTS], count: usize) -> FewOf<S> {
+        let Some(codes) = self.codes().bonds else {
+            unreachable!("there are no bonds")
+        };
+        let mut out = zeros(count);
+        let frame = self.values.frame(arguments, &[], &[]);
+        self.values.run(codes[which], &frame, [&mut out, &mut []]);
+        out
     }
 
     /// Runs a kernel of a site with its neighbours at each site of a stretch.
@@ -213,6 +225,41 @@ impl<S: Scalar> Sites<S> for FamilySite<S> {
     }
     fn weights(&self, totals: &FewOf<S>) -> FewOf<S> {
         self.vector(self.codes().weights, [&[], totals], self.count())
+    }
+
+    fn bonds(&self) -> &[S] {
+        match (&self.codes().bonds, &*self.values.data) {
+            (Some(_), [.., bonds]) => bonds,
+            _ => &[],
+        }
+    }
+    fn bond_summands(&self, one: &FewOf<S>, other: &FewOf<S>, value: S) -> FewOf<S> {
+        self.of_bond(0, [one, &[], other, &[value]], self.count())
+    }
+    fn bond_slopes(
+        &self,
+        one: &FewOf<S>,
+        other: &FewOf<S>,
+        value: S,
+        weights: &FewOf<S>,
+    ) -> [FewOf<S>; 2] {
+        let n = self.dimension();
+        let mut first = self.of_bond(1, [one, weights, other, &[value]], 2 * n);
+        let second = first.drain(n..).collect();
+        [first, second]
+    }
+    fn observable_count(&self) -> usize {
+        self.plan().observables.len()
+    }
+    fn observable_name(&self, index: usize) -> &str {
+        &self.plan().observables[index].name
+    }
+    fn observable_unwraps(&self, index: usize) -> bool {
+        self.plan().observables[index].unwrap
+    }
+    fn observable(&self, index: usize, totals: &FewOf<S>) -> S {
+        let code = self.codes().observables[index];
+        self.values.number(code, [&[], totals])
     }
 
     fn ad(&self, xi: &FewOf<S>, eta: &FewOf<S>) -> FewOf<S> {

@@ -3,8 +3,8 @@
 use super::block::names;
 use super::entry::{compact, inside};
 use super::statement::Statement;
-use crate::ast::{Name, SiteData, SiteValues, Start};
-use crate::diagnostic::{Diagnostic, Kind, Report};
+use crate::ast::{BONDS, Name, SiteData, SiteValues, Start};
+use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::front::reader::Read;
 use crate::front::token::{Delimiter, Token, TokenKind, span, split_commas};
 use crate::front::{families, item};
@@ -82,6 +82,48 @@ pub fn data(
         origin,
         unit: None,
         description,
+    })
+}
+
+/// `= [[0, 1, 1], [1, 5, 1/2]]`: rows of bonds.
+pub fn rows(statement: &Statement<'_>, report: &mut Report) -> Option<SiteData> {
+    let list = match statement.value(report)? {
+        [one] => inside(std::slice::from_ref(one), Delimiter::Bracket),
+        list => inside(list, Delimiter::Bracket),
+    };
+    let origin = statement.origin;
+    let name = Name {
+        text: BONDS.to_owned(),
+        origin,
+    };
+    let read = data(list.unwrap_or_default(), name, None, report)?;
+    bonds(read.values, read.shape, origin, report)
+}
+
+/// Bonds of these numbers, three for each.
+pub fn bonds(
+    values: SiteValues,
+    shape: Vec<usize>,
+    origin: Origin,
+    report: &mut Report,
+) -> Option<SiteData> {
+    if shape.last() != Some(&3) || shape.len() != 2 {
+        let message = "a bond is two sites and a number";
+        let help = "write `i,j,value` in each line of a file, or `[[0, 1, 1], [1, 5, 1/2]]`";
+        report.push(Diagnostic::new(Kind::Schema, origin, message).help(help));
+        return None;
+    }
+    let name = Name {
+        text: BONDS.to_owned(),
+        origin,
+    };
+    Some(SiteData {
+        name,
+        values,
+        shape,
+        origin,
+        unit: None,
+        description: None,
     })
 }
 

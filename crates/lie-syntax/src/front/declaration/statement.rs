@@ -32,6 +32,7 @@ const KEYWORDS: &[(&str, Follows)] = &[
     ("integrals", Follows::Block),
     ("observables", Follows::Block),
     ("events", Follows::Block),
+    ("bonds", Follows::Equals),
     ("methods", Follows::Equals),
     ("invariance", Follows::Equals),
     ("initial", Follows::Equals),

@@ -135,6 +135,17 @@ pub enum SiteValues {
     Lattice(Vec<Vec<Constant>>),
 }
 
+/// Bonds between two sites.
+#[derive(JsonSchema)]
+#[schemars(untagged)]
+#[expect(dead_code, reason = "the variants describe the schema")]
+pub enum Bonds {
+    /// The path of a file, relative to that of the spec: CSV, or what `numpy.save` wrote.
+    File(String),
+    /// `[i, j, value]` for each bond.
+    Rows(Vec<Vec<Constant>>),
+}
+
 /// A function of the state that is recorded beside it.
 #[derive(JsonSchema)]
 #[schemars(untagged)]

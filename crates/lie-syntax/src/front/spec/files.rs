@@ -4,7 +4,8 @@ use crate::diagnostic::Report;
 use crate::front::json::{self, Type, Value};
 
 /// The keys whose texts are paths, by the way to them; `*` stands for every key.
-const WAYS: [&[&str]; 3] = [
+const WAYS: [&[&str]; 4] = [
+    &["bonds"],
     &["functions", "*", "table"],
     &["initial", "npy"],
     &["parameters", "*", "file"],
@@ -47,10 +48,10 @@ mod tests {
         let text = r#"{
             "name": "a.csv",
             "functions": { "drag": { "table": "dr\u0061g.csv" }, "lift": { "table": [[0, 1]], "outside": "b.csv" } },
-            "initial": { "npy": "chain.npy" },
+            "bonds": "bonds.csv", "initial": { "npy": "chain.npy" },
             "parameters": { "B": { "file": "B.npy" }, "J": { "values": [1, 2], "unit": "J.npy" }, "N": 2 }
         }"#;
-        assert_eq!(files(text), ["drag.csv", "chain.npy", "B.npy"]);
+        assert_eq!(files(text), ["bonds.csv", "drag.csv", "chain.npy", "B.npy"]);
         assert!(files(r#"{ "initial": [1, "1/2"], "functions": 3 }"#).is_empty());
         assert!(files("{").is_empty());
     }

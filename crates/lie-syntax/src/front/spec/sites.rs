@@ -5,6 +5,7 @@ use std::path::Path;
 use super::quantity;
 use crate::ast::{Expr, Name, SiteData, SiteValues};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
+use crate::front::declaration::family;
 use crate::front::json::{Type, Value};
 use crate::front::object::{Object, list, string};
 use crate::front::schema::PerSite;
@@ -12,6 +13,9 @@ use crate::front::{file, npy, prose};
 
 /// The values and how many there are along each axis.
 type Read = (SiteValues, Vec<usize>);
+
+/// The names of the columns of bonds, which may stand above them.
+const BOND: [&str; 3] = ["i", "j", "value"];
 
 /// What to write.
 const FORMS: &str = "write a value for each site, `{\"values\": [1, 2, 3]}`, or name a file, `{\"file\": \"B.npy\"}`";
@@ -81,6 +85,23 @@ pub fn read(
         unit,
         description,
     })
+}
+
+/// Reads bonds: `"FILE.csv"`, the path relative to a folder, or `[[0, 1, "1/2"]]`.
+pub fn bonds(value: Value<'_>, folder: Option<&Path>, report: &mut Report) -> Option<SiteData> {
+    let what = "`bonds`";
+    let (origin, (values, shape)) = match value.kind() {
+        Type::String => {
+            let text = string(value, what, report)?;
+            let read = of_file(&text.text, text.extent(), folder);
+            (
+                text.extent(),
+                read.map_err(|mistake| report.push(mistake)).ok()?,
+            )
+        }
+        _ => (value.head(), written(value, what, report)?),
+    };
+    family::bonds(values, shape, origin, report)
 }
 
 /// A list, or of a lattice a list of rows of one length.
@@ -181,6 +202,9 @@ fn lines(bytes: &[u8]) -> Result<(Vec<f64>, Vec<usize>), String> {
         if line.is_empty() || line.starts_with('#') {
             continue;
         }
+        if rows == 0 && BOND.iter().copied().eq(line.split(',').map(str::trim)) {
+            continue;
+        }
         let before = values.len();
         let parts: Vec<&str> = match (line.contains(','), line.contains(';')) {
             (true, true) => {
@@ -225,6 +249,8 @@ mod tests {
         let rows = Ok((vec![1.0, 2.0, 3.0, 4.0], vec![2, 2]));
         assert_eq!(read("1,2\n3 4\n"), rows);
         assert_eq!(read("# none"), Ok((vec![], vec![0, 0])));
+        let bond = Ok((vec![0.0, 3.0, 0.5], vec![1, 3]));
+        assert_eq!(read("i, j,value\n0,3,0.5\n"), bond);
         for wrong in [
             "1,2\n3\n", "B\n1\n", "1\n2,x\n", "1,2,,3", "1,2,", "1,5;2,5",
         ] {
