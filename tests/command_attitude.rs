@@ -4,6 +4,8 @@
 mod common;
 #[path = "common/resume.rs"]
 mod resume;
+#[path = "common/rotation.rs"]
+mod rotation;
 
 use std::fs;
 
@@ -71,22 +73,11 @@ fn by_hand(mut mu: [f64; 3], mut q: Quaternion, until: f64) -> Quaternion {
 
 /// The rotation of a row by rows of its matrix, in any chart.
 fn rotation(element: &[f64]) -> Vec<f64> {
-    let [w, x, y, z] = match *element {
-        [w, x, y, z] => [w, x, y, z],
-        [phi, theta, psi] => zxz([phi, theta, psi]),
-        _ => return element.to_vec(),
-    };
-    vec![
-        1.0 - 2.0 * (y * y + z * z),
-        2.0 * (x * y - w * z),
-        2.0 * (x * z + w * y),
-        2.0 * (x * y + w * z),
-        1.0 - 2.0 * (x * x + z * z),
-        2.0 * (y * z - w * x),
-        2.0 * (x * z - w * y),
-        2.0 * (y * z + w * x),
-        1.0 - 2.0 * (x * x + y * y),
-    ]
+    match *element {
+        [_, _, _, _] => rotation::rotation(element),
+        [phi, theta, psi] => rotation::rotation(&zxz([phi, theta, psi])),
+        _ => element.to_vec(),
+    }
 }
 
 fn distance(a: &[f64], b: &[f64]) -> f64 {

@@ -2,6 +2,8 @@
 
 #[path = "common/attitude.rs"]
 mod attitude;
+#[path = "common/rotation.rs"]
+mod rotation;
 #[macro_use]
 #[path = "common/systems.rs"]
 mod systems;
@@ -13,6 +15,7 @@ use lie_runtime::methods::{Cayley, Exp, Method};
 use lie_runtime::prelude::*;
 use lie_runtime::structure::Entry;
 use lie_runtime::{MatrixGroup, MatrixPoisson, State};
+use rotation::rotation;
 use systems::{Declared, HeavyTop, KirchhoffBody, ManakovTop};
 
 lie_poisson! {
@@ -260,23 +263,8 @@ fn a_right_invariant_system_moves_from_the_left() {
             100.0 * h,
             Chart::Quaternion,
         );
-        assert!(distance(&matrix_of(&quaternion.element), g) < 1e-14);
+        assert!(distance(&rotation(&quaternion.element), g) < 1e-14);
     }
-}
-
-fn matrix_of(q: &[f64]) -> Vec<f64> {
-    let [a, b, c, d] = [q[0], q[1], q[2], q[3]];
-    vec![
-        1.0 - 2.0 * (c * c + d * d),
-        2.0 * (b * c - a * d),
-        2.0 * (b * d + a * c),
-        2.0 * (b * c + a * d),
-        1.0 - 2.0 * (b * b + d * d),
-        2.0 * (c * d - a * b),
-        2.0 * (b * d - a * c),
-        2.0 * (c * d + a * b),
-        1.0 - 2.0 * (b * b + c * c),
-    ]
 }
 
 #[test]

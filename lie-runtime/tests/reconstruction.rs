@@ -1,11 +1,15 @@
 //! The group element beside a run: the spatial momentum, the two charts, rows off the grid.
 
+#[path = "../../tests/common/rotation.rs"]
+mod rotation;
+
 use crate::systems;
 
 use core::f64::consts::FRAC_PI_2;
 use lie_runtime::driver::{Chart, EulerSequence, Reconstruction};
 use lie_runtime::prelude::*;
 use nalgebra::SVector;
+use rotation::rotation;
 use systems::rigid_body::RigidBody;
 use systems::{distance, state};
 
@@ -26,22 +30,6 @@ fn run(method: impl Method<f64, RigidBody>, chart: Chart, options: &Options) -> 
 /// `R mu` for a matrix by rows: the momentum in space.
 fn spatial(matrix: &[f64], mu: &[f64]) -> SVector<f64, 3> {
     SVector::from_fn(|row, _| (0..3).map(|k| matrix[3 * row + k] * mu[k]).sum())
-}
-
-/// The matrix of a unit quaternion.
-fn rotation(q: &[f64]) -> Row {
-    let [w, x, y, z] = [q[0], q[1], q[2], q[3]];
-    vec![
-        1.0 - 2.0 * (y * y + z * z),
-        2.0 * (x * y - w * z),
-        2.0 * (x * z + w * y),
-        2.0 * (x * y + w * z),
-        1.0 - 2.0 * (x * x + z * z),
-        2.0 * (y * z - w * x),
-        2.0 * (x * z - w * y),
-        2.0 * (y * z + w * x),
-        1.0 - 2.0 * (x * x + y * y),
-    ]
 }
 
 /// The largest entry of `R^T R - 1`.

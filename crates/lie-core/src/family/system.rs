@@ -3,7 +3,6 @@
 use super::parts::Power;
 use super::{LateMatrix, Sites};
 use crate::clock::Clock;
-use crate::parameter::{ParameterError, ParameterFault};
 use crate::poisson::{LiePoisson, Poisson, Widen};
 use crate::scalar::Scalar;
 use core::ops::Range;
@@ -22,48 +21,6 @@ pub struct Family<K> {
     /// The names of the coordinates, made when somebody asks for one: a large family is integrated without.
     coordinates: OnceLock<Vec<String>>,
     casimirs: OnceLock<Vec<String>>,
-}
-
-/// The number of sites along one axis, from the value of a parameter.
-///
-/// # Errors
-/// It is no whole number between 1 and `2^31`.
-pub fn size<S: Scalar>(value: S, name: &'static str) -> Result<usize, ParameterError> {
-    let number = value.to_f64();
-    if number >= 1.0 && number <= (1_u64 << 31) as f64 && number as usize as f64 == number {
-        Ok(number as usize)
-    } else {
-        Err(ParameterError {
-            name,
-            expression: name,
-            fault: ParameterFault::NotASize,
-        })
-    }
-}
-
-/// The values of a coefficient that differs from site to site, as many as there are sites: in place of those of the last sites of a
-/// chain that are left out, of which no sum asks for more than `unused`, stands 0.
-///
-/// # Errors
-/// There are other numbers of values and of sites.
-pub fn values<S: Scalar>(
-    given: &[S],
-    name: &'static str,
-    [rows, columns]: [usize; 2],
-    unused: usize,
-) -> Result<Vec<S>, ParameterError> {
-    let left_out = if rows == 1 { unused } else { 0 };
-    let count = rows * columns;
-    if given.len() > count || count - given.len() > left_out {
-        return Err(ParameterError {
-            name,
-            expression: name,
-            fault: ParameterFault::NotOneForEachSite,
-        });
-    }
-    let mut values = given.to_vec();
-    values.resize(count, S::zero());
-    Ok(values)
 }
 
 /// What there is of each Casimir of a site, over all sites.

@@ -74,7 +74,7 @@ fn parts(
     let vector = name.text.strip_suffix(&of_site);
     let coordinates = vector.and_then(|vector| names.vectors().coordinates(vector));
     let declared = |text: &&str| state.iter().any(|known| known.text == **text);
-    let coordinates = coordinates.filter(|all| all.iter().all(|text| declared(&text)));
+    let coordinates = coordinates.filter(|all| all.iter().all(declared));
     let Some(coordinates) = coordinates else {
         let known = written.iter().map(String::as_str);
         let bare = state.iter().position(|known| known.text == name.text);

@@ -1,9 +1,15 @@
 //! The sums of a Hamiltonian, and the sites that their summands depend on.
 
+mod acting;
+mod bonds;
+mod collected;
+
 use std::collections::BTreeSet;
 
 use super::bounds::{self, Span};
 use super::parts::mapped;
+pub use acting::far;
+pub use collected::Collected;
 use lie_syntax::ast::{BONDS, Declaration, Expr, ExprKind, Family, Index, Name};
 use lie_syntax::diagnostic::{Diagnostic, Kind, Origin};
 
@@ -13,24 +19,6 @@ const DIFFERENT: &str = "what differs from site to site is a parameter with a li
 
 /// Names for the index of a sum.
 const INDICES: [&str; 6] = ["i", "j", "k", "l", "m", "site"];
-
-/// A sum as it was written.
-pub struct Collected {
-    /// The distances of all sites that a summand or the motion of a site depends on.
-    pub slots: Vec<[i64; 2]>,
-    /// The names of all coordinates, slot after slot.
-    pub names: Vec<String>,
-    /// Which slots and coefficients sums and motions depend on.
-    pub data_places: Vec<[usize; 2]>,
-    /// The names of these coefficients.
-    pub data: Vec<String>,
-    /// The number of last rows and columns of which no sum asks for a value.
-    pub unused: Vec<[usize; 2]>,
-    /// The names of the coordinates of the second site of a bond, and of its value.
-    pub other: Vec<String>,
-    /// The sums.
-    pub sums: Vec<Sum>,
-}
 
 /// One sum.
 pub struct Sum {
@@ -70,32 +58,8 @@ fn named(name: &str, indices: &[String], [down, right]: [i64; 2]) -> String {
     format!("{name}[{}]", indices.join(","))
 }
 
-impl Collected {
-    /// The slot of a distance.
-    pub fn slot(&self, distance: [i64; 2]) -> usize {
-        let found = self.slots.iter().position(|slot| *slot == distance);
-        found.unwrap_or_default()
-    }
-}
-
 fn indices(family: &Family) -> Vec<String> {
     family.indices.iter().map(|i| i.text.clone()).collect()
-}
-
-/// The value of a bond, under a name that nobody can write.
-const BOND_VALUE: &str = "bond value";
-
-/// The name of a coordinate of the second site of a bond.
-fn second(name: &str) -> String {
-    format!("second {name}")
-}
-
-/// The answer to a sum in what acts on a site.
-pub fn far(origin: Origin) -> Diagnostic {
-    let message =
-        "what acts on a site depends on it and on sites near by, and this is a sum over sites";
-    let help = "couple all sites in the Hamiltonian; a force at a site may depend on its neighbours, as in `-k*(x[i] - x[i+1])`";
-    Diagnostic::new(Kind::Syntax, origin, message).help(help)
 }
 
 /// The answer to a sum within another one.
@@ -113,10 +77,17 @@ pub struct Sums<'a> {
     declaration: &'a Declaration,
     family: &'a Family,
     found: Vec<Sum>,
-    /// The sites and the coefficients that what acts on a site depends on.
-    acting: (BTreeSet<[i64; 2]>, BTreeSet<([i64; 2], usize)>),
+    /// What depends on a site beside the sums.
+    acting: Near,
     /// Of each coefficient how many last rows and columns no sum has asked for; none before one asks.
     unused: Vec<Option<[usize; 2]>>,
+}
+
+/// Sites and coefficients at distances.
+#[derive(Default)]
+struct Near {
+    sites: BTreeSet<[i64; 2]>,
+    data: BTreeSet<([i64; 2], usize)>,
 }
 
 /// A sum that is being read.
@@ -135,89 +106,13 @@ impl<'a> Sums<'a> {
             declaration,
             family,
             found: Vec::new(),
-            acting: Default::default(),
+            acting: Near::default(),
             unused: vec![None; family.data.len()],
         }
     }
 
     fn indices(&self) -> Vec<String> {
         indices(self.family)
-    }
-
-    /// The name of a coordinate of the site on which something acts.
-    pub fn own(&self, name: &str) -> String {
-        named(name, &self.indices(), [0, 0])
-    }
-
-    /// An expression of what acts on a site, its coordinates under the names of their slots.
-    pub fn acting(&mut self, expr: &Expr, mistakes: &mut Vec<Diagnostic>) -> Option<Expr> {
-        let mut reading = Reading {
-            variables: self.family.indices.iter().collect(),
-            spans: vec![None; self.family.indices.len()],
-            sites: BTreeSet::new(),
-            moving: BTreeSet::new(),
-            data: BTreeSet::new(),
-        };
-        let expr = mapped(expr, &mut |part| match &part.kind {
-            ExprKind::IndexedSum { .. } => {
-                mistakes.push(far(part.origin));
-                None
-            }
-            _ => self.at_site(part, &mut reading, mistakes),
-        });
-        self.acting.0.extend(reading.moving);
-        self.acting.1.extend(reading.data);
-        expr
-    }
-
-    /// All that were found.
-    pub fn collected(self) -> Collected {
-        let mut slots = self.acting.0;
-        slots.insert([0, 0]);
-        slots.extend(self.acting.1.iter().map(|(at, _)| *at));
-        for sum in &self.found {
-            for one in &sum.sites {
-                slots.insert(*one);
-                let others = sum.sites.iter();
-                slots.extend(others.map(|other| [other[0] - one[0], other[1] - one[1]]));
-            }
-        }
-        let indices: Vec<String> = indices(self.family);
-        let state = &self.declaration.state;
-        let names = slots
-            .iter()
-            .flat_map(|slot| state.iter().map(|name| named(&name.text, &indices, *slot)))
-            .collect();
-        // the motion of a site asks for those of the summands that it is in
-        let mut asked = self.acting.1;
-        for sum in &self.found {
-            for from in sum.moving.iter().chain(&[[0, 0]]) {
-                let apart = |at: &[i64; 2]| [at[0] - from[0], at[1] - from[1]];
-                asked.extend(sum.data.iter().map(|(at, which)| (apart(at), *which)));
-            }
-        }
-        let name = |which: usize| &self.family.data[which].name.text;
-        let data = asked
-            .iter()
-            .map(|(at, which)| named(name(*which), &indices, *at))
-            .collect();
-        let slots: Vec<[i64; 2]> = slots.into_iter().collect();
-        let slot = |at| slots.iter().position(|slot| *slot == at);
-        let data_places = asked
-            .into_iter()
-            .filter_map(|(at, which)| Some([slot(at)?, which]))
-            .collect();
-        let unused = self.unused.iter();
-        let other = state.iter().map(|name| second(&name.text));
-        Collected {
-            other: other.chain([BOND_VALUE.to_owned()]).collect(),
-            slots,
-            names,
-            data_places,
-            data,
-            unused: unused.map(|unused| unused.unwrap_or_default()).collect(),
-            sums: self.found,
-        }
     }
 
     /// An expression outside of sums, with a name for each of them.
@@ -332,93 +227,6 @@ impl<'a> Sums<'a> {
             kind: ExprKind::Name { name, index: None },
             origin,
         }
-    }
-
-    /// A sum over bonds becomes a name: the first site of a bond has the index of the state, the second one another.
-    fn over_bonds(
-        &mut self,
-        body: &Expr,
-        origin: Origin,
-        mistakes: &mut Vec<Diagnostic>,
-    ) -> Option<Expr> {
-        let [own] = self.family.indices.as_slice() else {
-            let message = "bonds join the sites of a chain, and these have two indices";
-            let help = "number the sites by one index, `so(3)^N` with `x[i]`: with bonds they may be those of any lattice";
-            mistakes.push(Diagnostic::new(Kind::Syntax, origin, message).help(help));
-            return None;
-        };
-        if self.family.bonds.is_none() {
-            let message = "the sum goes over bonds, and none are declared";
-            let help = "add `\"bonds\": \"FILE.csv\"` with `i,j,value` in each line";
-            mistakes.push(Diagnostic::new(Kind::UnknownSymbol, origin, message).help(help));
-            return None;
-        }
-        let mut other: Option<String> = None;
-        let body = mapped(body, &mut |part| {
-            let mut fail = |message: String, help: &str| {
-                let mistake = Diagnostic::new(Kind::Syntax, part.origin, message);
-                mistakes.push(mistake.help(help));
-                None
-            };
-            let named = |name: String| {
-                Some(Expr {
-                    kind: ExprKind::Name { name, index: None },
-                    origin: part.origin,
-                })
-            };
-            match &part.kind {
-                ExprKind::IndexedSum { .. } => {
-                    mistakes.push(within(part.origin));
-                    None
-                }
-                ExprKind::Name { name, index: None } if name == "value" => {
-                    named(BOND_VALUE.to_owned())
-                }
-                ExprKind::Name { name, index: None } if self.is_coordinate(name) => {
-                    mistakes.push(self.without_index(name, part.origin));
-                    None
-                }
-                ExprKind::Name {
-                    name,
-                    index: Some(index),
-                } => {
-                    let variable = index.variable.as_ref().map(|variable| &variable.text);
-                    let (Some(variable), 0, None) = (variable, index.offset, &index.second) else {
-                        let message =
-                            format!("`{name}` has another index than that of a site of the bond");
-                        return fail(message, "write `x[i]` and `x[j]` for the two sites");
-                    };
-                    if !self.is_coordinate(name) {
-                        let message = format!("`{name}` has an index and is no coordinate");
-                        return fail(message, "a bond has its coordinates and `value`");
-                    }
-                    if *variable == own.text {
-                        return named(self.own(name));
-                    }
-                    let known = other.get_or_insert_with(|| variable.clone());
-                    match known == variable {
-                        true => named(second(name)),
-                        false => {
-                            let message = format!(
-                                "`{name}[{variable}]` is of a third site, and a bond joins two"
-                            );
-                            fail(message, "write `x[i]` and `x[j]` for the two sites")
-                        }
-                    }
-                }
-                _ => Some(part.clone()),
-            }
-        })?;
-        self.found.push(Sum {
-            body,
-            sites: BTreeSet::new(),
-            moving: BTreeSet::new(),
-            data: BTreeSet::new(),
-            spans: [None, None],
-            over_bonds: true,
-            origin,
-        });
-        Some(self.last(origin))
     }
 
     /// What stands at a site: coordinates and coefficients under the names of their slots.

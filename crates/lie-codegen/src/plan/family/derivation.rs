@@ -2,11 +2,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::{
-    BondFunctions, Data, Family, FamilyForm, FamilyPiece, FamilyPieces, Observed, SiteCasimir, Sum,
-};
+use super::{Data, Family, FamilyForm, FamilyPiece, FamilyPieces, SiteCasimir, Sum};
 use crate::derive::{Argument, Kernel, Source, action};
-use crate::model::{self, QuantityKind, data_symbol};
+use crate::model::{self, data_symbol};
 use crate::plan::constants::Table;
 use crate::plan::function::Function;
 use crate::plan::planner::{Planner, described};
@@ -20,7 +18,7 @@ pub(super) struct Derivation<'p, 'm> {
     pub(super) planner: &'p mut Planner<'m>,
     pub(super) family: &'m model::Family,
     /// `dF/dT_k`: an expression in the parameters, or the symbol of a weight.
-    weights: Vec<ExprId>,
+    pub(super) weights: Vec<ExprId>,
     /// `dF/dT_k` where it depends on the state, else 0.
     mean: Vec<ExprId>,
 }
@@ -78,7 +76,7 @@ impl<'p, 'm> Derivation<'p, 'm> {
         ]
     }
 
-    fn function(&mut self, label: &str, kernel: &Kernel) -> Function {
+    pub(super) fn function(&mut self, label: &str, kernel: &Kernel) -> Function {
         let label = label.to_owned();
         self.planner.labelled(label, kernel, &mut Table::default())
     }
@@ -219,67 +217,6 @@ impl<'p, 'm> Derivation<'p, 'm> {
             casimirs: self.casimirs(),
             pieces: self.pieces(),
         }
-    }
-
-    /// What a bond adds to sums and slopes.
-    fn bonds(&mut self) -> Option<BondFunctions> {
-        let (n, family) = (self.n(), self.family);
-        if !family.has_bonds {
-            return None;
-        }
-        let zero = self.planner.source.graph.integer(0);
-        let own: Vec<Symbol> = (0..n)
-            .map(|k| Symbol::Coordinate(family.own * n + k))
-            .collect();
-        let other: Vec<Symbol> = (0..n).map(|k| family.bond_symbol(k)).collect();
-        let (mut summands, mut terms) = (Vec::new(), vec![Vec::new(); 2 * n]);
-        for (sum, weight) in family.sums.iter().zip(&self.weights) {
-            let graph = &mut self.planner.source.graph;
-            if !sum.over_bonds {
-                summands.push(zero);
-                continue;
-            }
-            let summand = graph.as_written(sum.summand);
-            summands.push(summand);
-            for (terms, symbol) in terms.iter_mut().zip(own.iter().chain(&other)) {
-                let slope = graph.derivative(summand, *symbol);
-                terms.push(graph.mul(*weight, slope));
-            }
-        }
-        let graph = &mut self.planner.source.graph;
-        let slopes: Vec<ExprId> = terms.iter().map(|terms| graph.sum(terms)).collect();
-        let slopes: Vec<ExprId> = slopes.into_iter().map(|slope| graph.tidy(slope)).collect();
-        let argument = |name, symbols| Argument { name, symbols };
-        let [_, weights] = self.at();
-        let arguments = vec![
-            argument("one", own),
-            weights,
-            argument("other", other),
-            argument("value", vec![family.bond_symbol(n)]),
-        ];
-        let formula = ("bond_summands", "`out_k = s_k(mu_i, mu_j, value)`");
-        let summands = self.vector("summands of a bond", formula, arguments.clone(), &summands);
-        let formula = ("bond_slopes", "`out = dH/dmu` at both sites of a bond");
-        let slopes = self.vector("slopes of a bond", formula, arguments, &slopes);
-        Some(BondFunctions { summands, slopes })
-    }
-
-    /// What is recorded of the sums.
-    fn observables(&mut self) -> Vec<Observed> {
-        let quantities = self.planner.structure.quantities.iter();
-        let observables = quantities.filter(|q| q.kind == QuantityKind::Observable);
-        let observables = observables.map(|quantity| {
-            let value = self.planner.source.graph.as_written(quantity.expr);
-            let formula = "a function of the sums over all sites";
-            let at = self.at().to_vec();
-            let kernel = Kernel::scalar("observable", formula, at, value);
-            Observed {
-                name: quantity.name.clone(),
-                unwrap: quantity.unwrap,
-                value: self.function(&format!("observable {}", quantity.name), &kernel),
-            }
-        });
-        observables.collect()
     }
 
     /// The bracket and the coadjoint action.

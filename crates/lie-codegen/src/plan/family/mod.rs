@@ -2,6 +2,7 @@
 
 mod derivation;
 mod motion;
+mod sums;
 
 use std::sync::Arc;
 
