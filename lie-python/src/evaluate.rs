@@ -125,7 +125,7 @@ pub fn evaluate<'py>(
                 Python::attach(|py| py.check_signals())?;
                 looked = Instant::now();
             }
-            evaluation.at(&row.to_vec(), &mut values);
+            evaluation.at(&system.completed(row.to_vec()), &mut values);
         }
         Ok::<_, PyErr>(values)
     })?;

@@ -117,3 +117,51 @@ def test_values_of_sites_are_arrays() -> None:
     assert np.allclose(end[0] + 1j * end[1], turned, atol=1e-13)
     with pytest.raises(lp.DeclarationError, match="`B` has 4 values, and there are 5 sites"):
         lp.System(chain.text.replace('"N": 4', '"N": 5'))
+
+
+def test_damping_noise_and_observables() -> None:
+    spins = lp.System(
+        name="Spins",
+        algebra="so(3)^N",
+        state=["x[i]", "y[i]", "z[i]"],
+        parameters={"N": 400, "T": 0.3},
+        hamiltonian="sum(i in 0..N: z[i])",
+        dissipation=[{"kind": "double-bracket", "strength": 1, "temperature": "T"}],
+        observables={"m": "sum(i in 0..N: z[i])/N"},
+        initial={"random": "unit-sphere", "seed": 1},
+    )
+    run = spins.run("gauss8", h=0.1, t=8, seed=7)
+    assert (run.seed, run.mu.shape, run.sites.shape) == (7, (81, 1200), (81, 400, 3))
+    assert np.allclose(run["m"], run.sites[..., 2].mean(axis=1), atol=1e-14)
+    # L(1/T) within four errors of 400 spins
+    assert abs(run["m"][-1] + 1 / np.tanh(1 / 0.3) - 0.3) < 4 * np.sqrt(1 / 3 / 400)
+    assert np.abs(np.linalg.norm(run.sites, axis=2) - 1).max() < 1e-13
+    cold = spins.run("gauss8", h=0.1, t=2, T=0, N=5)
+    assert np.all(np.diff(cold.energy) < 0) and cold["work"][-1] < -1
+    assert np.allclose(cold.energy - cold["work"], cold.energy[0], atol=1e-13)
+    again = spins.run("gauss8", h=0.1, t=2, T=0, x0=cold.sites[0], N=5)
+    assert np.array_equal(again.mu, cold.mu)
+    ends = spins.ensemble(members=3, seed=2, t=1, N=5, method="gauss8", h=0.1)
+    assert ends.mu.shape == (3, 15) and not np.array_equal(ends.mu[0], ends.mu[1])
+    field = spins.function("vector_field", N=5)(cold.mu[0])
+    slope = np.array([0.0, 0.0, 1.0])
+    moved = np.cross(cold.sites[0], slope)
+    assert np.allclose(field.reshape(3, 5).T, moved + np.cross(cold.sites[0], moved), atol=1e-15)
+
+
+def test_bonds_between_any_two_sites() -> None:
+    bonds = [[i, (i + 1) % 12, 1] for i in range(12)]
+    by_bonds = lp.System(
+        **{
+            **RING,
+            "bonds": bonds,
+            "hamiltonian": "-J*sum(bonds: value*(x[i]*x[j] + y[i]*y[j] + z[i]*z[j]))",
+        }
+    )
+    one, other = (system.run("gauss8", h=0.1, t=3) for system in (by_bonds, lp.System(**RING)))
+    assert np.allclose(one.mu, other.mu, atol=1e-12)
+    assert r"\mathrm{bonds}" in by_bonds.latex()
+    with pytest.raises(lp.DeclarationError, match="joins the sites 0 and 12, and there are 12 sites"):
+        lp.System(**{**RING, "bonds": [[0, 12, 1]], "hamiltonian": "sum(bonds: value*x[i]*x[j])"})
+    with pytest.raises(ValueError, match="joins the sites"):
+        by_bonds.run("gauss8", h=0.1, t=1, N=5)

@@ -75,6 +75,10 @@ impl Notation for MathMl {
         format!("<munderover><mo>∑</mo><mrow>{below}</mrow><mrow>{above}</mrow></munderover>{body}")
     }
 
+    fn sum_of_bonds(&self, body: &str) -> String {
+        format!("<munder><mo>∑</mo><mtext>bonds</mtext></munder>{body}")
+    }
+
     fn cases(&self, [left, right]: [&str; 2], [yes, no]: [&str; 2]) -> String {
         let row = |value: &str, condition: &str| {
             format!("<mtr><mtd>{value}</mtd><mtd>{condition}</mtd></mtr>")

@@ -170,6 +170,15 @@ impl Dynamic<f64> {
         Some(family.state(unit_spheres(family.count(), dimension, seed)))
     }
 
+    /// The state of a family for the coordinates of its sites; of other systems it is the state.
+    #[must_use]
+    pub fn completed(&self, state: Vec<f64>) -> Vec<f64> {
+        match &self.family {
+            Some(family) => family.state(state),
+            None => state,
+        }
+    }
+
     /// What a program makes of the parameters.
     fn constants_of(&self, program: &Program) -> Vec<f64> {
         let code = Code::from_program(program);

@@ -107,6 +107,10 @@ impl Notation for Latex {
         format!(r"\sum_{{{from} \le {index} < {to}}} {body}")
     }
 
+    fn sum_of_bonds(&self, body: &str) -> String {
+        format!(r"\sum_{{\mathrm{{bonds}}}} {body}")
+    }
+
     fn cases(&self, [left, right]: [&str; 2], [yes, no]: [&str; 2]) -> String {
         format!(
             r"\begin{{cases}}{} & {left} < {right} \\ {} & \text{{otherwise}}\end{{cases}}",

@@ -3,7 +3,7 @@
 mod latex;
 
 use lie_codegen::structure::Structure;
-use lie_syntax::ast::{Expr, ExprKind, Index};
+use lie_syntax::ast::{BONDS, Expr, ExprKind, Index};
 use lie_syntax::diagnostic::Report;
 use lie_syntax::front::{Names, PIECEWISE, parse_expression_text};
 
@@ -35,6 +35,8 @@ pub trait Notation {
     fn product(&self, factors: &[String]) -> String;
     /// A sum over sites, `from <= index < to`.
     fn sum(&self, index: &str, range: [&str; 2], body: &str) -> String;
+    /// A sum over the bonds of a family.
+    fn sum_of_bonds(&self, body: &str) -> String;
     /// The first value where the left side is smaller, else the second.
     fn cases(&self, sides: [&str; 2], values: [&str; 2]) -> String;
     /// A function of its arguments.
@@ -207,6 +209,10 @@ impl Walk<'_> {
                 function,
                 arguments,
             } => (self.call(&function.text, arguments), Binding::Power),
+            ExprKind::IndexedSum { index, body, .. } if index.text == BONDS => (
+                self.0.sum_of_bonds(&self.of(body, Binding::Product)),
+                Binding::Sum,
+            ),
             ExprKind::IndexedSum {
                 index,
                 from,
