@@ -292,6 +292,8 @@ pub fn of_prepared<'py>(
         more.set_item("events", events(py, declaration, &heard.events, dimension)?)?;
     }
     let rows = heard.times.len();
+    // rows of a family have its sites, without what is carried beside them
+    let width = heard.states.len().checked_div(rows).unwrap_or(dimension);
     let quantities = declaration.facts.quantities.len();
     if quantities > 0 {
         more.set_item(
@@ -301,7 +303,7 @@ pub fn of_prepared<'py>(
     }
     Ok((
         heard.times.into_pyarray(py),
-        by_rows(py, heard.states, (rows, dimension)),
+        by_rows(py, heard.states, (rows, width)),
         heard.energies.into_pyarray(py),
         by_rows(py, heard.casimirs, (rows, casimirs)),
         prepared.label.clone_ref(py),
