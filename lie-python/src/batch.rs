@@ -124,9 +124,23 @@ pub fn ensemble<'py>(
             return Err(PyRuntimeError::new_err(text));
         }
     }
-    let found = collected(starts.shape()[1], members).map_err(of_system)?;
-    let shape = [starts.shape()[0], found.times.len(), starts.shape()[1]];
-    let states = found.states.into_pyarray(py).reshape(shape)?;
+    let length = starts.shape()[1];
+    let found = collected(length, members).map_err(of_system)?;
+    // of a family the coordinates of its sites, which are first
+    let parameters = parameters.as_array();
+    let first = parameters.rows().into_iter().next().map(|row| row.to_vec());
+    let width = declaration.with_model(py, |model| {
+        let family = model.family.as_ref()?;
+        let [rows, columns] = family.sites(&first?)?;
+        Some(rows * columns * model.dimension())
+    });
+    let (mut states, width) = (found.states, width.unwrap_or(length));
+    if width < length {
+        let rows = states.chunks_exact(length);
+        states = rows.flat_map(|row| &row[..width]).copied().collect();
+    }
+    let shape = [starts.shape()[0], found.times.len(), width];
+    let states = states.into_pyarray(py).reshape(shape)?;
     Ok((found.times.into_pyarray(py), states, found.failures, note))
 }
 
