@@ -283,3 +283,145 @@ fn observables_are_functions_of_sums() {
         "{checked}"
     );
 }
+
+#[test]
+fn bonds_of_a_file_join_sites_that_there_are() {
+    let net = "tests/data/bonds/net.json";
+    let run = lie(&format!("run {net} --at 2")).ok();
+    let (_, rows) = run.csv();
+    let bonds = fs::read_to_string("tests/data/bonds/net.csv").unwrap();
+    let bonds: Vec<Vec<f64>> = (bonds.lines().skip(1))
+        .map(|line| {
+            line.split(',')
+                .map(|number| number.parse().unwrap())
+                .collect()
+        })
+        .collect();
+    let site = |k: usize, i: f64| rows[0][1 + 9 * k + i as usize];
+    let energy = |bond: &Vec<f64>| {
+        let product = |k: usize| site(k, bond[0]) * site(k, bond[1]);
+        -bond[2] * (0..3).map(product).sum::<f64>()
+    };
+    let expected: f64 = bonds.iter().map(energy).sum();
+    assert!((rows[0][28] - expected).abs() < 1e-14, "{expected}");
+    let few = lie(&format!("run {net} --param N=5 --at 2"));
+    let few = few.error("domain", "command line: --param");
+    assert!(few.stderr.contains("there are 5 sites"), "{}", few.stderr);
+    let split = lie(&format!("run {net} --method splitting2"));
+    assert!(split.stderr.contains("are in no order"), "{}", split.stderr);
+}
+
+/// Two spins and a bond that is not symmetric, with the index that is given.
+fn pair(index: &str) -> Value {
+    json!({
+        "name": "Pair",
+        "algebra": "so(3)^N",
+        "state": ["x", "y", "z"].map(|name| format!("{name}[{index}]")),
+        "parameters": { "N": 2 },
+        "bonds": [[0, 1, 2]],
+        "hamiltonian": "sum(bonds: value*z[i]^2*x[j])",
+        "initial": { "random": "unit-sphere", "seed": 3 },
+        "run": { "method": "gauss8", "step": 0.1, "at": [0, 1] }
+    })
+}
+
+#[test]
+fn the_sites_of_a_bond_are_i_and_j_whatever_the_index_of_the_state() {
+    let runs = ["i", "j", "k"].map(|index| run(&pair(index), "").ok().csv().1);
+    assert_eq!(runs[0], runs[1]);
+    assert_eq!(runs[0], runs[2]);
+    let row = &runs[0][0];
+    assert!(
+        (row[7] - 2.0 * row[5] * row[5] * row[2]).abs() < 1e-15,
+        "{row:?}"
+    );
+    let refused = |spec: &Value, expected: &str| {
+        let found = run(spec, "");
+        assert_eq!(found.code, Some(2), "{}", found.stderr);
+        assert!(
+            found.stderr.contains(expected),
+            "{expected}: {}",
+            found.stderr
+        );
+    };
+    let spec = pair("i");
+    let of = |key: &str, value: Value| with(spec.clone(), key, value);
+    refused(
+        &of("hamiltonian", json!("sum(bonds: x[i]*x[k])")),
+        "`x[k]` is of no site of the bond",
+    );
+    refused(
+        &of("parameters", json!({ "N": 2, "value": 3 })),
+        "`value` is the number of a bond",
+    );
+    refused(
+        &of("bonds", json!([[0, 0, 1]])),
+        "joins the site 0 to itself",
+    );
+    refused(
+        &of("bonds", json!([[0, 1]])),
+        "a bond is two sites and a number",
+    );
+    refused(
+        &of("hamiltonian", json!("sum(bonds in 0..N: x[bonds])")),
+        "`bonds` is the word for bonds",
+    );
+    let unused = run(&of("hamiltonian", json!("sum(i in 0..N: x[i])")), "").ok();
+    assert!(
+        unused.stderr.contains("no sum goes over the bonds"),
+        "{}",
+        unused.stderr
+    );
+    let given = run(&spec, "--param bonds=3");
+    assert!(
+        given.stderr.contains("no option changes them"),
+        "{}",
+        given.stderr
+    );
+}
+
+#[test]
+fn columns_have_names_of_their_own() {
+    let spec = with(
+        free(),
+        "observables",
+        json!({ "C1_mean": "sum(i in 0..N: z[i])/N" }),
+    );
+    let (names, _) = run(&spec, "--param N=3 --at 1").ok().csv();
+    assert!(names.contains(&"C2_mean".to_owned()), "{names:?}");
+    let of_names = names.iter().filter(|name| *name == "C1_mean");
+    assert_eq!(of_names.count(), 1, "{names:?}");
+}
+
+#[test]
+fn what_does_not_apply_to_driven_families_is_not_offered() {
+    let kept = run(
+        &free(),
+        "--param N=3 --param T=0 --method rk4 --at 1 --keep energy",
+    );
+    let kept = kept.error("option", "command line: --keep");
+    assert!(
+        kept.stderr.contains("more than H acts on it"),
+        "{}",
+        kept.stderr
+    );
+    let folder = folder();
+    let path = folder.path().join("spec.json");
+    fs::write(&path, free().to_string()).unwrap();
+    let checked = lie(&format!("check {} --json", path.display())).ok().stdout;
+    let checked: Value = serde_json::from_str(&checked).unwrap();
+    assert!(
+        checked["methods"]["compose4"].is_string(),
+        "{}",
+        checked["methods"]
+    );
+    let chain = lie("check tests/data/families/heisenberg_chain.json --json")
+        .ok()
+        .stdout;
+    let chain: Value = serde_json::from_str(&chain).unwrap();
+    assert!(
+        chain["methods"]["compose4"].is_null(),
+        "{}",
+        chain["methods"]
+    );
+}

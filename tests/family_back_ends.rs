@@ -9,10 +9,9 @@ mod random;
 mod wasmi_engine;
 
 use bits::{Differences, entries, kernels, trajectory};
-use lie_codegen::compile::compile_spec_in;
+use lie_codegen::compile::compile_spec;
 use lie_codegen::methods::{Choice, applicability};
 use lie_codegen::plan::plan;
-use lie_codegen::structure::Effort;
 use lie_dynamic::{Dynamic, Engine, Interpreted, method};
 use lie_jit::{Jit, JitWith, Registers};
 use lie_runtime::diagnostics::AnyMethod;
@@ -67,9 +66,7 @@ fn compare<P: LiePoisson<f64, State = Vec<f64>>>(
         "{}/tests/data/families/{spec}.json",
         env!("CARGO_MANIFEST_DIR")
     );
-    let folder = std::path::Path::new(&file).parent();
-    let text = std::fs::read_to_string(&file).unwrap();
-    let model = compile_spec_in(&text, folder, Effort::Declaration).unwrap();
+    let model = compile_spec(&std::fs::read_to_string(file).unwrap()).unwrap();
     let listed = |id: &str| methods.iter().any(|(label, _)| *label == id);
     for (id, reason) in applicability(&model) {
         let composed = id.starts_with("compose");

@@ -386,7 +386,7 @@ fn a_spec_by_path_gives_the_items_of_the_spec() {
 
 #[test]
 fn files_that_a_spec_names_are_read_and_watched() {
-    let path = "tests/data/families/frustrated_net";
+    let path = "tests/data/bonds/net";
     let tokens: TokenStream = format!("spec = \"{path}.json\";").parse().expect("tokens");
     let items = expand_macro(tokens, Path::new(env!("CARGO_MANIFEST_DIR"))).to_string();
     for file in ["json", "csv"] {

@@ -221,7 +221,9 @@ pub fn at<'py>(
     run.times = prepared.plan.times.clone();
     let dimension = run.start.initial.len();
     let (heard, _) = make(py, declaration, (&prepared, run), None)?;
-    Ok(by_rows(py, heard.states, (heard.times.len(), dimension)))
+    let rows = heard.times.len();
+    let width = heard.states.len().checked_div(rows).unwrap_or(dimension);
+    Ok(by_rows(py, heard.states, (rows, width)))
 }
 
 /// A run of a request, and what is kept of it for a call with the same options.

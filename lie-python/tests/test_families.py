@@ -139,6 +139,8 @@ def test_damping_noise_and_observables() -> None:
     cold = spins.run("gauss8", h=0.1, t=2, T=0, N=5)
     assert np.all(np.diff(cold.energy) < 0) and cold["work"][-1] < -1
     assert np.allclose(cold.energy - cold["work"], cold.energy[0], atol=1e-13)
+    assert list(cold.drift) == ["C1_mean", "C1_min", "C1_max"]
+    assert np.array_equal(cold.at([1.0])[0], cold.mu[10])
     again = spins.run("gauss8", h=0.1, t=2, T=0, x0=cold.sites[0], N=5)
     assert np.array_equal(again.mu, cold.mu)
     ends = spins.ensemble(members=3, seed=2, t=1, N=5, method="gauss8", h=0.1)

@@ -187,8 +187,8 @@ class Solution:
 
     def _invariants(self) -> list[tuple[str, Array]]:
         """What ought to be constant, by name."""
-        # where H depends on the time the energy is no constant
-        driven = self._system._core.time() is not None
+        # where H depends on the time, or more than H acts, the energy is no constant
+        driven = self._system._core.time() is not None or "work" in self.quantities
         energy = [] if driven else [("energy", self.energy)]
         conserved = [name for name, kept in self._system._core.quantities if kept]
         integrals = [(name, self.quantities[name]) for name in conserved if name in self.quantities]

@@ -47,7 +47,7 @@ pub use milestone::{Division, MILESTONE, Milestone};
 pub use observer::{EveryStep, Motion, Observer, Progress};
 pub use options::{OptionError, Options, Pace, Save};
 pub use pace::{Assessed, Chosen};
-pub use philox::{Wiener, philox};
+pub use philox::{MOST_PROCESSES, Wiener, philox};
 pub use problem::{IntoState, Problem, set_time};
 pub use quantities::Quantities;
 pub use reconstruction::{Chart, EulerSequence, Reconstruction};

@@ -28,8 +28,10 @@ pub fn philox(mut counter: [u32; 4], mut key: [u32; 2]) -> [u32; 4] {
     counter
 }
 
-/// So many processes have streams of their own within a stream.
+/// So many pairs of processes have streams of their own within a stream.
 const PROCESSES: u64 = 1 << 24;
+/// The most processes of a run: more would have the numbers of another stream.
+pub const MOST_PROCESSES: usize = 2 << 24;
 
 /// Wiener processes.
 #[derive(Clone, Debug)]

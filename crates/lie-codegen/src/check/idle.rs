@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 
 use crate::model::{Bracket, Model};
 use lie_symbolic::symbolic::Symbol;
-use lie_syntax::ast::{Attitude, Declaration, Expr, ExprKind, Name, Size, Structure};
+use lie_syntax::ast::{Attitude, BONDS, Declaration, Expr, ExprKind, Name, Size, Structure};
 use lie_syntax::diagnostic::{Diagnostic, Kind};
 
 /// Warnings of parameters and abbreviations that no expression mentions, of brackets that are all
@@ -33,13 +33,22 @@ fn unused(declaration: &Declaration) -> Vec<Diagnostic> {
     let lets = lets.map(|(name, _)| (name, "abbreviation"));
     let all = parameters.chain(lets);
     let unused = all.filter(|(name, _)| !mentioned.contains(name.text.as_str()));
+    let bonds = declaration
+        .family
+        .as_ref()
+        .and_then(|family| family.bonds.as_ref());
+    let bonds = bonds.filter(|_| !mentioned.contains(BONDS)).map(|bonds| {
+        Diagnostic::new(Kind::Unused, bonds.origin, "no sum goes over the bonds")
+            .help("write `sum(bonds: value*x[i]*x[j])`, or remove them")
+            .warning()
+    });
     let warning = |(name, what): (&Name, &str)| {
         let message = format!("the {what} `{}` is not used", name.text);
         Diagnostic::new(Kind::Unused, name.origin, message)
             .help("remove it, or use it in an expression")
             .warning()
     };
-    unused.map(warning).collect()
+    unused.map(warning).chain(bonds).collect()
 }
 
 /// A sum of brackets that are zero, or a constant H: every state is at rest.
@@ -103,6 +112,7 @@ fn mentioned(declaration: &Declaration) -> BTreeSet<&str> {
     let names = pending.into_iter().flat_map(Expr::parts);
     let names = names.filter_map(|part| match &part.kind {
         ExprKind::Name { name, .. } => Some(name.as_str()),
+        ExprKind::IndexedSum { index, .. } if index.text == BONDS => Some(BONDS),
         _ => None,
     });
     names.collect()

@@ -340,6 +340,15 @@ fn cayley(model: &Model) -> Option<&'static str> {
     }
 }
 
+/// Why there is nothing to compose: the midpoint rule applies to every system but families, whose splittings may.
+fn composed(structure: &Structure) -> Option<String> {
+    let of_family = structure.family_pieces.as_ref()?.as_ref().err()?;
+    let why = "no symmetric method of order 2 applies";
+    Some(format!(
+        "{why}: H does not consist of pieces with exact flows: {of_family}"
+    ))
+}
+
 /// The kind of the mistake to ask for a method of a system that cannot carry it.
 pub fn kind_of_refusal(choice: &Choice) -> Kind {
     match choice.solved() {
@@ -355,8 +364,7 @@ pub fn applicability(structure: &Structure) -> Vec<(&'static str, Option<String>
         .map(|method| {
             let composition = method.id.starts_with("compose");
             let reason = match Choice::from_id(method.id) {
-                // the midpoint rule applies to every system
-                _ if composition => None,
+                _ if composition => composed(structure),
                 Err(unusable) => Some(unusable.message),
                 Ok(choice) => refusal(structure, &choice).map(|(reason, _)| reason),
             };

@@ -324,7 +324,7 @@ impl Model {
                     return family.names[place].clone();
                 };
                 if sum.over_bonds {
-                    return format!("sum(bonds: {})", self.display_at_site(family, sum.summand));
+                    return format!("sum(bonds: {})", self.display_of_bond(family, sum.summand));
                 }
                 let ranges = sizes.iter().enumerate().map(|size| range(size, &sum.spans));
                 let ranges: Vec<String> = ranges.collect();
@@ -332,6 +332,19 @@ impl Model {
                 format!("sum({}: {summand})", ranges.join(", "))
             }
             other => self.symbol_name(other),
+        })
+    }
+
+    /// A summand of bonds, whose first site has the index i.
+    fn display_of_bond(&self, family: &Family, summand: ExprId) -> String {
+        self.graph.display(summand, &|symbol| match symbol {
+            Symbol::Coordinate(place) => {
+                format!("{}[i]", self.coordinates[place % self.dimension()].text)
+            }
+            other => match data_number(other) {
+                Some(number) => family.data_names[number].clone(),
+                None => self.symbol_name(other),
+            },
         })
     }
 

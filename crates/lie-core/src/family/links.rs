@@ -32,69 +32,94 @@ pub fn bonds<S: Scalar>(
     }
 }
 
-impl<K> Family<K> {
-    /// The bonds: their sites with their coordinates, and their values.
-    fn links<S: Scalar>(&self, mu: &[S]) -> impl Iterator<Item = ([usize; 2], [Site<K, S>; 2], S)>
-    where
-        K: Sites<S>,
-    {
-        self.kernels()
-            .bonds()
-            .as_chunks::<3>()
-            .0
-            .iter()
-            .map(|[i, j, value]| {
-                let sites = [i, j].map(|place| place.to_f64() as usize);
-                (sites, sites.map(|site| self.site(mu, site)), *value)
-            })
-    }
+/// The bonds of each site: those of site i are `ends[starts[i]..starts[i + 1]]`, a bond and which of its sites it is.
+#[derive(Clone, Debug)]
+pub(super) struct Adjacency {
+    starts: Vec<usize>,
+    ends: Vec<(usize, usize)>,
+}
 
+/// The sites of a bond.
+fn sites<S: Scalar>([i, j, _]: &[S; 3]) -> [usize; 2] {
+    [i, j].map(|place| place.to_f64() as usize)
+}
+
+impl Adjacency {
+    /// Of so many sites, in the order of the bonds.
+    fn new<S: Scalar>(bonds: &[[S; 3]], count: usize) -> Self {
+        let all = || bonds.iter().map(sites);
+        let mut starts = std::vec![0; count + 1];
+        all().flatten().for_each(|site| starts[site + 1] += 1);
+        (0..count).for_each(|site| starts[site + 1] += starts[site]);
+        let (mut next, mut ends) = (starts.clone(), std::vec![(0, 0); 2 * bonds.len()]);
+        for (bond, sites) in all().enumerate() {
+            for (which, site) in sites.into_iter().enumerate() {
+                ends[next[site]] = (bond, which);
+                next[site] += 1;
+            }
+        }
+        Self { starts, ends }
+    }
+}
+
+impl<K> Family<K> {
     /// What the bonds add to the sums, one after the other.
     pub(super) fn add_bonds<S: Scalar>(&self, mu: &[S], mut add: impl FnMut(&Sums<K, S>))
     where
         K: Sites<S>,
     {
-        for (_, [one, other], value) in self.links(mu) {
-            add(&self.kernels().bond_summands(&one, &other, value));
+        for bond in self.kernels().bonds().as_chunks::<3>().0 {
+            let [one, other] = sites(bond).map(|site| self.site(mu, site));
+            add(&self.kernels().bond_summands(&one, &other, bond[2]));
         }
     }
 
-    /// What the bonds add to dH/dmu, in the order of a state; nothing where there are none.
-    pub(super) fn of_bonds<S: Scalar>(&self, mu: &[S], weights: &Sums<K, S>) -> Vec<S>
-    where
-        K: Sites<S>,
-    {
-        if self.kernels().bonds().is_empty() {
-            return Vec::new();
-        }
-        let mut slopes = std::vec![S::zero(); self.own()];
-        for (sites, [one, other], value) in self.links(mu) {
-            let both = self.kernels().bond_slopes(&one, &other, value, weights);
-            for (site, slope) in sites.into_iter().zip(both) {
-                for (k, slope) in slope.as_ref().iter().enumerate() {
-                    slopes[k * self.count() + site] += *slope;
-                }
-            }
-        }
-        slopes
-    }
-
-    /// dH/dmu at a site, with what the bonds add.
+    /// dH/dmu at a site, with what its bonds add.
     pub(super) fn with_bonds<S: Scalar>(
         &self,
-        slope: Site<K, S>,
-        of_bonds: &[S],
+        mut slope: Site<K, S>,
+        mu: &[S],
         site: usize,
+        weights: &Sums<K, S>,
     ) -> Site<K, S>
     where
         K: Sites<S>,
     {
-        if of_bonds.is_empty() {
+        let bonds = self.kernels().bonds().as_chunks::<3>().0;
+        if bonds.is_empty() {
             return slope;
         }
-        let slope = slope.as_ref();
-        K::Site::make(slope.len(), |k| {
-            slope[k] + of_bonds[k * self.count() + site]
-        })
+        let adjacency = self
+            .adjacency
+            .get_or_init(|| Adjacency::new(bonds, self.count()));
+        for (bond, which) in &adjacency.ends[adjacency.starts[site]..adjacency.starts[site + 1]] {
+            let bond = &bonds[*bond];
+            let [one, other] = sites(bond).map(|site| self.site(mu, site));
+            let both = self.kernels().bond_slopes(&one, &other, bond[2], weights);
+            let more = both[*which].as_ref().iter();
+            (slope.as_mut().iter_mut().zip(more)).for_each(|(slope, more)| *slope += *more);
+        }
+        slope
+    }
+
+    /// Adds what bonds do to the sites of some columns of a row.
+    pub(super) fn add_field_of_bonds<S: Scalar>(
+        &self,
+        mu: &[S],
+        sites: core::ops::Range<usize>,
+        weights: &Sums<K, S>,
+        out: &mut [S],
+    ) where
+        K: Sites<S>,
+    {
+        let kernels = self.kernels();
+        for site in sites {
+            let none = K::Site::make(kernels.dimension(), |_| S::zero());
+            let slope = self.with_bonds(none, mu, site, weights);
+            let field = kernels.ad_star(&slope, &self.site(mu, site));
+            for (k, value) in field.as_ref().iter().enumerate() {
+                out[k * self.count() + site] += *value;
+            }
+        }
     }
 }

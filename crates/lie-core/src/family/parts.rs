@@ -23,15 +23,16 @@ impl<K> Family<K> {
         mu: &[S],
         (row, part): (usize, Range<usize>),
         inner: Range<usize>,
-        (weights, of_bonds): (&Sums<K, S>, &[S]),
+        weights: &Sums<K, S>,
         out: &mut [S],
         power: &mut Power<S>,
     ) where
         K: Sites<S>,
     {
         let (kernels, [_, columns]) = (self.kernels(), self.sizes());
-        // where something acts, its part of the slope is not the slope's part of the field
-        let inner = match kernels.acts() && !of_bonds.is_empty() {
+        // where something acts, the field is no sum of what parts of the slope make
+        let bonds = !kernels.bonds().is_empty();
+        let inner = match kernels.acts() && bonds {
             true => 0..0,
             false => inner,
         };
@@ -40,7 +41,7 @@ impl<K> Family<K> {
         for column in outer.into_iter().flatten() {
             let site = row * columns + column;
             let slope = self.slope(mu, [row, column], weights);
-            let slope = self.with_bonds(slope, of_bonds, site);
+            let slope = self.with_bonds(slope, mu, site, weights);
             if kernels.acts() {
                 let (field, part) = kernels.act(&slope, &self.around(mu, [row, column]));
                 self.set_site(out, site, field.as_ref());
@@ -57,28 +58,9 @@ impl<K> Family<K> {
                 true => power.add(&[kernels.driven_fields(&stretch, weights, out)]),
                 false => kernels.fields(&stretch, weights, out),
             }
-            if !of_bonds.is_empty() {
-                self.add_field(mu, row, inner, of_bonds, out);
-            }
-        }
-    }
-
-    /// Adds what slopes by bonds do to the sites of some columns.
-    fn add_field<S: Scalar>(
-        &self,
-        mu: &[S],
-        row: usize,
-        columns: Range<usize>,
-        slopes: &[S],
-        out: &mut [S],
-    ) where
-        K: Sites<S>,
-    {
-        for site in columns.map(|column| row * self.sizes()[1] + column) {
-            let (slope, at) = (self.site(slopes, site), self.site(mu, site));
-            let field = self.kernels().ad_star(&slope, &at);
-            for (k, value) in field.as_ref().iter().enumerate() {
-                out[k * self.count() + site] += *value;
+            if bonds {
+                let sites = row * columns + inner.start..row * columns + inner.end;
+                self.add_field_of_bonds(mu, sites, weights, out);
             }
         }
     }
@@ -144,7 +126,6 @@ impl<K> Family<K> {
                 true => self.weights(mu),
                 false => continue,
             };
-            let whole = (&weights, &*self.of_bonds(mu, &weights));
             for row in 0..rows {
                 let inner = self.inner::<S>(row);
                 for start in (0..columns).step_by(PART) {
@@ -156,7 +137,7 @@ impl<K> Family<K> {
                     if !at_ends {
                         set_to(sites.end + local, mu);
                     }
-                    self.field_of_row(mu, (row, part), inner.clone(), whole, out, &mut power);
+                    self.field_of_row(mu, (row, part), inner.clone(), &weights, out, &mut power);
                     of_sites(&sites, &mut |entries| after(out, entries));
                 }
             }

@@ -1,5 +1,6 @@
 //! The system of a family: loops over the kernels of a site.
 
+use super::links::Adjacency;
 use super::parts::Power;
 use super::{LateMatrix, Sites};
 use crate::clock::Clock;
@@ -21,6 +22,8 @@ pub struct Family<K> {
     /// The names of the coordinates, made when somebody asks for one: a large family is integrated without.
     coordinates: OnceLock<Vec<String>>,
     casimirs: OnceLock<Vec<String>>,
+    /// The bonds of each site, found when they are asked for.
+    pub(super) adjacency: OnceLock<Adjacency>,
 }
 
 /// What there is of each Casimir of a site, over all sites.
@@ -34,6 +37,7 @@ impl<K> Family<K> {
             sizes,
             coordinates: OnceLock::new(),
             casimirs: OnceLock::new(),
+            adjacency: OnceLock::new(),
         }
     }
 
@@ -231,12 +235,11 @@ where
 
     fn gradient(&self, mu: &Vec<S>, out: &mut Vec<S>) {
         let weights = self.weights(mu);
-        let of_bonds = self.of_bonds(mu, &weights);
         let [rows, columns] = self.sizes;
         for row in 0..rows {
             for column in 0..columns {
                 let slope = self.slope(mu, [row, column], &weights);
-                let slope = self.with_bonds(slope, &of_bonds, row * columns + column);
+                let slope = self.with_bonds(slope, mu, row * columns + column, &weights);
                 self.set_site(out, row * columns + column, slope.as_ref());
             }
         }
@@ -259,12 +262,11 @@ where
     #[inline]
     fn vector_field(&self, mu: &Vec<S>, out: &mut Vec<S>) {
         let weights = self.weights(mu);
-        let whole = (&weights, &*self.of_bonds(mu, &weights));
         let [rows, columns] = self.sizes;
         let mut power = Power::new(1);
         for row in 0..rows {
             let inner = self.inner::<S>(row);
-            self.field_of_row(mu, (row, 0..columns), inner, whole, out, &mut power);
+            self.field_of_row(mu, (row, 0..columns), inner, &weights, out, &mut power);
         }
         self.set_carried(out, [-power.end()[0], S::one()]);
     }

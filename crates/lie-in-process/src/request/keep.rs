@@ -100,7 +100,8 @@ impl Planner<'_> {
     /// Whether the energy is constant.
     fn energy(&self, word: &OptionValue) -> Result<(), Message> {
         let model = &self.spec.model;
-        if model.configuration.as_ref().is_none_or(|it| !it.time) {
+        let timed = model.configuration.as_ref().is_some_and(|it| it.time);
+        if !timed && model.driving.is_none() {
             return Ok(());
         }
         let why = match &model.driving {

@@ -5,6 +5,7 @@ use std::path::Path;
 use lie_codegen::methods::Choice;
 use lie_codegen::model::{Family, SiteData, Start, wrong_bond};
 use lie_codegen::structure::Structure;
+use lie_runtime::driver::MOST_PROCESSES;
 use lie_runtime::family::{unit_spheres, values};
 use lie_syntax::diagnostic::{Kind, Origin};
 use lie_syntax::front::npy::{self, Array};
@@ -54,6 +55,23 @@ impl Planner<'_> {
             let message = Message::new(Kind::Limit, text).at_option(&option);
             let message = message.help("take fewer sites, or a machine with more memory");
             self.mistakes.push(message.with_fault(Fault::Memory));
+            return None;
+        }
+        let noises = self
+            .spec
+            .model
+            .driving
+            .as_ref()
+            .map_or(0, |driving| driving.noises);
+        if noises * sites > MOST_PROCESSES {
+            let text = format!(
+                "{} have {} Wiener processes, and a run has at most {MOST_PROCESSES}",
+                counted(sites as u64, "site"),
+                noises * sites,
+            );
+            let option = self.request.front.option("param");
+            let message = Message::new(Kind::Limit, text).at_option(&option);
+            self.mistakes.push(message.help("take fewer sites"));
             return None;
         }
         let Some(given) = self.requested("initial") else {

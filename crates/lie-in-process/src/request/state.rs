@@ -1,6 +1,7 @@
 //! Parameters and the initial state.
 
 use lie_codegen::check::violation;
+use lie_syntax::ast::BONDS;
 use lie_syntax::diagnostic::Kind;
 use lie_syntax::front::names::normalised;
 use lie_syntax::suggest::did_you_mean;
@@ -139,6 +140,9 @@ impl Planner<'_> {
                             Front::Call => format!("write `inputs={{\"{known}\": ...}}`"),
                         }
                     ),
+                    _ if known == BONDS && data.any(|name| name == known) => {
+                        "`bonds` stand in the spec, and no option changes them".to_owned()
+                    }
                     _ if data.any(|name| name == known) => format!(
                         "`{known}` has a value for each site: these stand in the spec, and no option changes them"
                     ),

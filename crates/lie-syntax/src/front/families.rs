@@ -134,6 +134,12 @@ fn range<'a>(parser: &mut Parser<'a>, word: &'a Token) -> Option<(Name, Expr, Ex
             origin: t.origin,
         })
     });
+    if index.as_ref().is_some_and(|index| index.text == BONDS) {
+        let message = "`bonds` is the word for bonds in a sum, and no index of sites";
+        let help = "write `sum(bonds: value*x[i]*x[j])`, or another name for the index";
+        parser.fail(Diagnostic::new(Kind::Syntax, word.origin, message).help(help));
+        return None;
+    }
     let has_in = parser.cursor.ahead(1).is_some_and(|t| t.is_word("in"));
     let (Some(index), true) = (index, has_in) else {
         parser.fail(malformed(word.origin));
@@ -263,6 +269,16 @@ pub(super) fn target(tokens: &[Token], place: Origin, report: &mut Report) -> Op
             text: written(&name, &indices),
             origin: span(tokens).unwrap_or(place),
         }),
+        None if tokens
+            .get(1)
+            .is_some_and(|token| token.kind == TokenKind::Open(Delimiter::Bracket)) =>
+        {
+            let message = "a force is given for a coordinate as it stands in the state";
+            let help = "write `x[i]` where the state of a family has `x[i]`, else the name alone";
+            let place = span(tokens).unwrap_or(place);
+            report.push(Diagnostic::new(Kind::Syntax, place, message).help(help));
+            None
+        }
         None => item::name(tokens, place, report),
     }
 }

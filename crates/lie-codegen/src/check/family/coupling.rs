@@ -11,6 +11,7 @@ use crate::check::lower::Lowering;
 use crate::model::{
     self, Driving, Family, Model, Quantity, QuantityKind, SiteData, SiteSum, Size, data_symbol,
 };
+use lie_core::family::STATISTICS;
 use lie_symbolic::prove::{branches, degree};
 use lie_symbolic::symbolic::{Graph, Symbol};
 use lie_syntax::ast::{self, BONDS, Declaration, Expr, Name, SiteValues};
@@ -31,13 +32,8 @@ pub fn couple(
         let count = sizes(declaration, family, &model, mistakes)?;
         let count = count.first().and_then(|size| size.value(&model.defaults()));
         data.push(bonds(given, count.unwrap_or(1), mistakes)?);
-        let other = if family.indices.iter().any(|index| index.text == "j") {
-            "k"
-        } else {
-            "j"
-        };
         let names = declaration.state.iter();
-        data_names.extend(names.map(|name| format!("{}[{other}]", name.text)));
+        data_names.extend(names.map(|name| format!("{}[j]", name.text)));
         data_names.push("value".to_owned());
     }
     let known = Family {
@@ -62,6 +58,23 @@ pub fn couple(
         .as_ref()
         .map(|_| Quantity::work(declaration.name.origin, none));
     model.quantities = work.into_iter().chain(observables).collect();
+    for quantity in &model.quantities {
+        // a Casimir of a site has columns of its own
+        let of_casimir = STATISTICS
+            .iter()
+            .find_map(|what| quantity.name.strip_suffix(what)?.strip_suffix('_'));
+        let Some(casimir) = of_casimir else { continue };
+        if model
+            .declared_casimirs
+            .iter()
+            .any(|known| known.name == casimir)
+        {
+            let message = format!("`{}` is a column of the Casimir {casimir}", quantity.name);
+            let mistake = Diagnostic::new(Kind::DuplicateName, quantity.origin, message);
+            mistakes.push(mistake.help("choose another name"));
+        }
+        model.taken.insert(casimir.to_owned());
+    }
     (model.family, model.driving) = (Some(coupled), driving);
     model.methods.clone_from(&declaration.methods);
     model.run.clone_from(&declaration.run);
@@ -152,7 +165,7 @@ fn bonds(data: &ast::SiteData, count: usize, mistakes: &mut Vec<Diagnostic>) -> 
         sizes: None,
         unused: 0,
         unit: None,
-        description: Some("The bonds: two sites and a value of each.".to_owned()),
+        description: Some("The bonds: two sites and a value of each".to_owned()),
     })
 }
 

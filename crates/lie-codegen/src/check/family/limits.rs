@@ -52,6 +52,26 @@ pub fn violations(declaration: &Declaration, family: &Family) -> Vec<Diagnostic>
         let help = "remove it, or declare it among the `observables`: a function of sums such as `sum(i in 0..N: z[i])`";
         refuse(name.origin, message, help);
     }
+    if let Some(bonds) = &family.bonds {
+        if family.indices.len() > 1 {
+            let message = "bonds join the sites of a chain, and these have two indices";
+            let help = "number the sites by one index, `so(3)^N` with `x[i]`: with bonds they may be those of any lattice";
+            refuse(bonds.origin, message, help);
+        }
+        let parameters = declaration.parameters.iter().map(|p| &p.name);
+        let lets = declaration.lets.iter().map(|(name, _)| name);
+        let data = family.data.iter().map(|data| &data.name);
+        let mut names = declaration
+            .state
+            .iter()
+            .chain(parameters)
+            .chain(lets)
+            .chain(data);
+        if let Some(name) = names.find(|name| name.text == "value") {
+            let message = "`value` is the number of a bond in sums over bonds";
+            refuse(name.origin, message, "choose another name");
+        }
+    }
     if let Some(realization) = &declaration.realization {
         let message = "a family takes no realization";
         refuse(realization.origin, message, "remove `realization`");

@@ -107,8 +107,11 @@ pub fn bonds(
     origin: Origin,
     report: &mut Report,
 ) -> Option<SiteData> {
-    if shape.last() != Some(&3) || shape.len() != 2 {
-        let message = "a bond is two sites and a number";
+    if shape.last() != Some(&3) || shape.len() != 2 || shape[0] == 0 {
+        let message = match shape.contains(&0) {
+            true => "there are no bonds",
+            false => "a bond is two sites and a number",
+        };
         let help = "write `i,j,value` in each line of a file, or `[[0, 1, 1], [1, 5, 1/2]]`";
         report.push(Diagnostic::new(Kind::Schema, origin, message).help(help));
         return None;

@@ -17,6 +17,25 @@ type Read = (SiteValues, Vec<usize>);
 /// The names of the columns of bonds, which may stand above them.
 const BOND: [&str; 3] = ["i", "j", "value"];
 
+/// What to do about a file that cannot be read, one without numbers, and a number that is not finite.
+struct Help {
+    list: &'static str,
+    lines: &'static str,
+    finite: &'static str,
+}
+
+const OF_SITES: Help = Help {
+    list: "give the values as a list, `{\"values\": [1, 2, 3]}`; only the command `lie` and the macro read files",
+    lines: "write a number in each line, of a lattice a row of numbers with commas",
+    finite: "give each site a finite number",
+};
+
+const OF_BONDS: Help = Help {
+    list: "give rows, `[[0, 1, 1], [1, 5, \"1/2\"]]`; only the command `lie` and the macro read files",
+    lines: "write `i,j,value` in each line",
+    finite: "give each bond two sites and a finite number",
+};
+
 /// What to write.
 const FORMS: &str = "write a value for each site, `{\"values\": [1, 2, 3]}`, or name a file, `{\"file\": \"B.npy\"}`";
 
@@ -64,7 +83,7 @@ pub fn read(
         (Some(values), None) => (values.head(), written(values, what, report)?),
         (None, Some(path)) => {
             let text = string(path, "`file`", report)?;
-            let read = of_file(&text.text, text.extent(), folder);
+            let read = of_file(&text.text, text.extent(), folder, &OF_SITES);
             let read = read.map_err(|mistake| report.push(mistake)).ok()?;
             (text.extent(), read)
         }
@@ -93,7 +112,7 @@ pub fn bonds(value: Value<'_>, folder: Option<&Path>, report: &mut Report) -> Op
     let (origin, (values, shape)) = match value.kind() {
         Type::String => {
             let text = string(value, what, report)?;
-            let read = of_file(&text.text, text.extent(), folder);
+            let read = of_file(&text.text, text.extent(), folder, &OF_BONDS);
             (
                 text.extent(),
                 read.map_err(|mistake| report.push(mistake)).ok()?,
@@ -141,15 +160,19 @@ fn entries(elements: Vec<Value<'_>>, what: &str, report: &mut Report) -> Option<
 }
 
 /// The numbers of a file in NumPy's format, or of one with a number in each line, of a lattice a row.
-fn of_file(path: &str, origin: Origin, folder: Option<&Path>) -> Result<Read, Diagnostic> {
+fn of_file(
+    path: &str,
+    origin: Origin,
+    folder: Option<&Path>,
+    help: &Help,
+) -> Result<Read, Diagnostic> {
     let shown = path.escape_debug();
     let refuse = |kind, message: String, help: &str| {
         Err(Diagnostic::new(kind, origin, message).help(help.to_owned()))
     };
     let Some(folder) = folder else {
         let message = format!("`{shown}` cannot be read here");
-        let help = "give the values as a list, `{\"values\": [1, 2, 3]}`; only the command `lie` and the macro read files";
-        return refuse(Kind::Io, message, help);
+        return refuse(Kind::Io, message, help.list);
     };
     let bytes = match file::read(&folder.join(path)) {
         Ok(bytes) => bytes,
@@ -176,8 +199,7 @@ fn of_file(path: &str, origin: Origin, folder: Option<&Path>) -> Result<Read, Di
         match lines(&bytes) {
             Ok(found) => found,
             Err(wrong) => {
-                let help = "write a number in each line, of a lattice a row of numbers with commas";
-                return refuse(Kind::Schema, format!("{shown}: {wrong}"), help);
+                return refuse(Kind::Schema, format!("{shown}: {wrong}"), help.lines);
             }
         }
     } else {
@@ -187,7 +209,7 @@ fn of_file(path: &str, origin: Origin, folder: Option<&Path>) -> Result<Read, Di
     };
     if let Some(at) = values.iter().position(|value| !value.is_finite()) {
         let message = format!("{shown}: number {at} is {}", values[at]);
-        return refuse(Kind::Number, message, "give each site a finite number");
+        return refuse(Kind::Number, message, help.finite);
     }
     Ok((SiteValues::Read(values), shape))
 }

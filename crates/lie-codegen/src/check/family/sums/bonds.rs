@@ -15,26 +15,19 @@ pub fn second(name: &str) -> String {
 }
 
 impl Sums<'_> {
-    /// A sum over bonds becomes a name: the first site of a bond has the index of the state, the second one another.
+    /// A sum over bonds becomes a name: the first site of a bond has the index i, the second one j, whatever the index of the state is.
     pub(super) fn over_bonds(
         &mut self,
         body: &Expr,
         origin: Origin,
         mistakes: &mut Vec<Diagnostic>,
     ) -> Option<Expr> {
-        let [own] = self.family.indices.as_slice() else {
-            let message = "bonds join the sites of a chain, and these have two indices";
-            let help = "number the sites by one index, `so(3)^N` with `x[i]`: with bonds they may be those of any lattice";
-            mistakes.push(Diagnostic::new(Kind::Syntax, origin, message).help(help));
-            return None;
-        };
         if self.family.bonds.is_none() {
             let message = "the sum goes over bonds, and none are declared";
             let help = "add `\"bonds\": \"FILE.csv\"` with `i,j,value` in each line";
             mistakes.push(Diagnostic::new(Kind::UnknownSymbol, origin, message).help(help));
             return None;
         }
-        let mut other: Option<String> = None;
         let body = mapped(body, &mut |part| {
             let mut fail = |message: String, help: &str| {
                 let mistake = Diagnostic::new(Kind::Syntax, part.origin, message);
@@ -73,16 +66,11 @@ impl Sums<'_> {
                         let message = format!("`{name}` has an index and is no coordinate");
                         return fail(message, "a bond has its coordinates and `value`");
                     }
-                    if *variable == own.text {
-                        return named(self.own(name));
-                    }
-                    let known = other.get_or_insert_with(|| variable.clone());
-                    match known == variable {
-                        true => named(second(name)),
-                        false => {
-                            let message = format!(
-                                "`{name}[{variable}]` is of a third site, and a bond joins two"
-                            );
+                    match variable.as_str() {
+                        "i" => named(self.own(name)),
+                        "j" => named(second(name)),
+                        _ => {
+                            let message = format!("`{name}[{variable}]` is of no site of the bond");
                             fail(message, "write `x[i]` and `x[j]` for the two sites")
                         }
                     }
