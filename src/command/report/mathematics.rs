@@ -54,10 +54,12 @@ pub fn formulas(model: &Structure) -> Vec<(&'static str, Vec<String>)> {
     }
     let casimirs = model.casimirs.iter();
     let casimirs = casimirs.map(|casimir| {
-        formula(
-            &format!("{} = {}", casimir.name, model.display(casimir.expr)),
-            &names,
-        )
+        let text = format!("{} = {}", casimir.name, model.display(casimir.expr));
+        let formula = formula(&text, &names);
+        match casimir.kept {
+            true => formula,
+            false => format!("{formula}<p>It is not kept: what acts changes it.</p>"),
+        }
     });
     let casimirs: Vec<String> = casimirs.collect();
     if !casimirs.is_empty() {

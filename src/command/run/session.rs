@@ -5,6 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use lie_codegen::model::Driving;
 use lie_in_process::request::{Member, Several};
 use lie_program::protocol::{Held, Obstacle};
 use lie_runtime::driver::{Density, Pace};
@@ -258,10 +259,20 @@ impl Session<'_> {
             format!(" in place of {}, which the spec names", method.trim())
         });
         let why = match plan.kept(self.spec).is_empty() {
-            true => format!(
-                "it applies to every system, has order {}, and keeps quadratic Casimirs and a quadratic energy to round-off",
-                plan.method.entry().map_or(0, |entry| entry.order)
-            ),
+            true => {
+                let order = plan.method.entry().map_or(0, |entry| entry.order);
+                let model = &self.spec.model;
+                let forced = |driving: &Driving| driving.is_forced(&model.graph);
+                match &model.driving {
+                    None => format!(
+                        "it applies to every system, has order {order}, and keeps quadratic Casimirs and a quadratic energy to round-off"
+                    ),
+                    Some(driving) if !forced(driving) => format!(
+                        "it applies to every system, has order {order}, and keeps quadratic Casimirs to round-off"
+                    ),
+                    Some(_) => format!("it applies to every system and has order {order}"),
+                }
+            }
             false => "something is to be kept, and it is explicit, as a projection behind its steps needs".to_owned(),
         };
         let text = format!("{id} was picked{replaced}: {why}; --method chooses another");

@@ -20,10 +20,12 @@ enum Entry {
     Rate(usize),
 }
 
+/// What kernels of a site read, place by place.
 #[inline(always)]
-fn entry<S: Scalar, K: Sites<S>>(sites: &K, place: usize) -> Entry {
+fn entries<S: Scalar, K: Sites<S>>(sites: &K) -> impl Fn(usize) -> Entry {
     let (dimension, places) = (sites.dimension(), sites.data_places());
-    match place.checked_sub(dimension * sites.offsets().len()) {
+    let coordinates = dimension * sites.offsets().len();
+    move |place| match place.checked_sub(coordinates) {
         None => Entry::Coordinate(place / dimension, place % dimension),
         Some(place) => match places.get(place) {
             Some([slot, which]) => Entry::Data(*slot, *which),
@@ -89,7 +91,8 @@ impl<'m, S: Scalar> Stretch<'m, S> {
         'm: 'a,
     {
         let (dimension, offsets) = (sites.dimension(), sites.offsets());
-        K::Around::make(around(sites), |place| match entry(sites, place) {
+        let entry = entries(sites);
+        K::Around::make(around(sites), |place| match entry(place) {
             Entry::Coordinate(slot, k) => self.part(offsets[slot], k),
             Entry::Data(slot, which) => self.along(sites.data(which), offsets[slot]),
             Entry::Rate(which) => {
@@ -180,7 +183,8 @@ impl<K> Family<K> {
     {
         let kernels = self.kernels();
         let offsets = kernels.offsets();
-        K::Around::make(around(kernels), |place| match entry(kernels, place) {
+        let entry = entries(kernels);
+        K::Around::make(around(kernels), |place| match entry(place) {
             Entry::Coordinate(slot, k) => {
                 mu[k * self.count() + self.neighbour(site, offsets[slot])]
             }
