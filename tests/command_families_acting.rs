@@ -313,10 +313,11 @@ fn bonds_of_a_file_join_sites_that_there_are() {
 
 /// Two spins and a bond that is not symmetric, with the index that is given.
 fn pair(index: &str) -> Value {
+    let state = ["x", "y", "z"].map(|name| format!("{name}[{index}]"));
     json!({
         "name": "Pair",
         "algebra": "so(3)^N",
-        "state": ["x", "y", "z"].map(|name| format!("{name}[{index}]")),
+        "state": state,
         "parameters": { "N": 2 },
         "bonds": [[0, 1, 2]],
         "hamiltonian": "sum(bonds: value*z[i]^2*x[j])",
