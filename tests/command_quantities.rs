@@ -354,8 +354,19 @@ fn names_and_forms_are_checked() {
         "hamiltonian": "sum(i in 0..N: x[i]*x[i+1])",
         "observables": { "first": "x[0]" }
     });
+    let said = check(&chain).error("syntax", "").stderr;
+    assert!(
+        said.contains("observables of a family are functions of sums"),
+        "{said}"
+    );
+    let mut chain = chain;
+    chain["observables"] = json!({});
+    chain["integrals"] = json!(["m = sum(i in 0..N: z[i])"]);
     let said = check(&chain).error("schema", "").stderr;
-    assert!(said.contains("a family has no observable"), "{said}");
+    assert!(
+        said.contains("first integrals of a family are not proven"),
+        "{said}"
+    );
 }
 
 #[test]
