@@ -16,22 +16,13 @@ fn points_picture_and_table() {
     );
     let run = lie(&format!(
         "bench specs/so3_nonpolynomial.json --methods midpoint,gauss4,rk4,dopri5 --until 2 --budget 0.002 --quiet \
-         --compile --out {} --plot {}",
+         --out {} --plot {}",
         out.display(),
         plot.display()
     ))
     .ok();
     assert!(run.stderr.is_empty(), "{}", run.stderr);
-    let built = "measured: a program built by cargo";
-    assert!(run.stdout.contains(built), "{}", run.stdout);
-    for name in [
-        "midpoint",
-        "gauss4",
-        "rk4",
-        "dopri5",
-        "ode_solvers Dopri5",
-        "ode_solvers Dop853",
-    ] {
+    for name in ["midpoint", "gauss4", "rk4", "dopri5"] {
         assert!(
             run.stdout.lines().any(|line| line.starts_with(name)),
             "{name}: {}",
@@ -146,6 +137,14 @@ fn same_errors(methods: &str, way: &str, others: &[&str], least: usize) {
 #[test]
 #[ignore = "half a minute, it builds a program: .ci/nightly runs it"]
 fn a_program_and_the_command_give_the_same_errors() {
+    let run = lie("bench specs/so3_nonpolynomial.json --methods midpoint --until 2 --budget 0.002 --quiet --compile").ok();
+    for said in [
+        "measured: a program built by cargo",
+        "\node_solvers Dopri5",
+        "\node_solvers Dop853",
+    ] {
+        assert!(run.stdout.contains(said), "{said}: {}", run.stdout);
+    }
     same_errors("midpoint,gauss4,rk4,dopri5", "--compile", &[""], 15);
 }
 
@@ -245,7 +244,7 @@ fn rows(spec: &str, flags: &str) -> BTreeMap<String, Vec<Vec<String>>> {
     let folder = folder();
     let out = folder.path().join("points.csv");
     lie(&format!(
-        "bench specs/{spec}.json --budget 0.002 --compile --quiet {flags} --out {}",
+        "bench specs/{spec}.json --budget 0.004 --quiet {flags} --out {}",
         out.display()
     ))
     .ok();
@@ -276,7 +275,7 @@ const BODY: &str = "--methods midpoint,rk4,dopri5 --until 10";
 
 /// Where the halving of a step divides an error by 2^order.
 fn falls_by(errors: &[f64], order: i32) -> bool {
-    let ratio = errors[3] / errors[4];
+    let ratio = errors[2] / errors[3];
     (0.7..1.4).contains(&(ratio / 2_f64.powi(order)))
 }
 
@@ -290,7 +289,7 @@ fn invariants_against_run_time() {
     for method in ["midpoint", "gauss4"] {
         assert!(casimirs[method][0] < 1e-14, "{method}: {casimirs:?}");
     }
-    for method in ["rk4", "dopri5", "ode_solvers Dopri5", "ode_solvers Dop853"] {
+    for method in ["rk4", "dopri5"] {
         assert!(casimirs[method][0] > 1e-8, "{method}: {casimirs:?}");
     }
     let energy = errors(

@@ -120,7 +120,7 @@ fn the_spatial_momentum_moves_by_the_force() {
 
 #[test]
 fn damping_keeps_the_orbit() {
-    /// The change of the Casimir over 200 steps.
+    /// The change of the Casimir over 60 steps.
     fn change<P: Poisson<f64>, M: Method<f64, P>>(system: &P, method: &M, start: &[f64]) -> f64 {
         let mut mu = state(system, start);
         let casimir = |mu: &P::State| {
@@ -129,7 +129,7 @@ fn damping_keeps_the_orbit() {
             value[0]
         };
         let before = casimir(&mu);
-        steps(system, method, 0.1, 200, &mut mu).expect("the steps converge");
+        steps(system, method, 0.1, 60, &mut mu).expect("the steps converge");
         (casimir(&mu) - before).abs()
     }
     fn check<M: Method<f64, DrivenBody> + Facts>(method: M) {

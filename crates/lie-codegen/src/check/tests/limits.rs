@@ -70,9 +70,15 @@ fn powers() {
     expect(&hamiltonian("(-2)^x"), &["number at (-2)"]);
 }
 
+/// A chain of 400 names, each the one before it in place of `#`.
+fn chain(first: &str, step: &str) -> String {
+    let mut lets = vec![format!("a0 = {first}")];
+    lets.extend((1..400).map(|i| format!("a{i} = {}", step.replace('#', &format!("a{}", i - 1)))));
+    so3(&[("let", &format!("{lets:?}")), ("hamiltonian", r#""a399""#)])
+}
+
 /// It ends at all: where a limit is missing, it takes longer than anybody waits, or all memory.
-#[test]
-fn hostile_input_ends() {
+fn ends(hostile_input: fn()) {
     let (tell, told) = std::sync::mpsc::channel();
     let work = std::thread::spawn(move || {
         hostile_input();
@@ -83,49 +89,59 @@ fn hostile_input_ends() {
     work.join().expect("what is asserted").expect("heard");
 }
 
-fn hostile_input() {
-    let chain = |first: &str, step: &str| {
-        let mut lets = vec![format!("a0 = {first}")];
-        lets.extend(
-            (1..400).map(|i| format!("a{i} = {}", step.replace('#', &format!("a{}", i - 1)))),
-        );
-        so3(&[("let", &format!("{lets:?}")), ("hamiltonian", r#""a399""#)])
-    };
-    for (first, step) in [
-        ("3^900", "#*#"),
-        ("x", "#^7"),
-        ("x + 1/3", "#*3^900"),
-        ("2*x", "#^30"),
-    ] {
-        let found = errors(&chain(first, step));
-        assert!(
-            !found.is_empty() && found[0].starts_with("limit"),
-            "{first} {step}: {found:#?}"
-        );
-    }
-    // These stay small in the arena, but their derivatives do not.
-    let product = (0..3000)
-        .map(|i| format!("(x + {i})"))
-        .collect::<Vec<_>>()
-        .join("*");
-    for text in [chain("x + y", "exp(-#)"), hamiltonian(&product)] {
-        let found = errors(&text);
-        assert!(
-            found.len() == 1 && found[0].starts_with("limit") && found[0].contains("derivatives"),
-            "{found:#?}"
-        );
-    }
-    model(&chain("x", "#*# + y"));
-    let wide = vec!["x"; 20_000].join(" + ");
-    model(&hamiltonian(&wide));
-    let waves = (1..2000)
-        .map(|i| format!("sin({i}*x + y)"))
-        .collect::<Vec<_>>()
-        .join(" + ");
-    model(&hamiltonian(&waves));
-    // A Casimir whose normal form would be huge is refused, not expanded.
-    let huge = r#"["C = (x + y + z + x*y*z)^300*(x - y)^200"]"#;
-    assert!(errors(&so3(&[("casimirs", huge)]))[0].starts_with("casimir"));
+#[test]
+fn chains_of_names_end() {
+    ends(|| {
+        for (first, step) in [
+            ("3^900", "#*#"),
+            ("x", "#^7"),
+            ("x + 1/3", "#*3^900"),
+            ("2*x", "#^30"),
+        ] {
+            let found = errors(&chain(first, step));
+            assert!(
+                !found.is_empty() && found[0].starts_with("limit"),
+                "{first} {step}: {found:#?}"
+            );
+        }
+        model(&chain("x", "#*# + y"));
+    });
+}
+
+/// These stay small in the arena, but their derivatives do not.
+#[test]
+fn derivatives_end() {
+    ends(|| {
+        let product = (0..3000)
+            .map(|i| format!("(x + {i})"))
+            .collect::<Vec<_>>()
+            .join("*");
+        for text in [chain("x + y", "exp(-#)"), hamiltonian(&product)] {
+            let found = errors(&text);
+            assert!(
+                found.len() == 1
+                    && found[0].starts_with("limit")
+                    && found[0].contains("derivatives"),
+                "{found:#?}"
+            );
+        }
+    });
+}
+
+#[test]
+fn long_sums_end() {
+    ends(|| {
+        let wide = vec!["x"; 20_000].join(" + ");
+        model(&hamiltonian(&wide));
+        let waves = (1..2000)
+            .map(|i| format!("sin({i}*x + y)"))
+            .collect::<Vec<_>>()
+            .join(" + ");
+        model(&hamiltonian(&waves));
+        // A Casimir whose normal form would be huge is refused, not expanded.
+        let huge = r#"["C = (x + y + z + x*y*z)^300*(x - y)^200"]"#;
+        assert!(errors(&so3(&[("casimirs", huge)]))[0].starts_with("casimir"));
+    });
 }
 
 #[test]
