@@ -105,6 +105,10 @@ pub trait Poisson<S: Scalar>: Sized {
     fn clock(&self) -> Option<Clock> {
         None
     }
+    /// Whether H does not depend on the time, which a state may carry for what acts beside H.
+    fn is_autonomous(&self) -> bool {
+        self.clock().is_none()
+    }
     /// How many functions of the time [`Poisson::joints`] writes.
     fn joint_count(&self) -> usize {
         0
@@ -178,6 +182,36 @@ pub trait Poisson<S: Scalar>: Sized {
         if self.is_damped() {
             generic::add_damping_slope(self, mu, out);
         }
+    }
+
+    /// Whether a part of the force is metriplectic: `K grad S` with an entropy S and a metric K >= 0 such that `K grad H = 0` and
+    /// `{S, H} = 0`. Methods along discrete gradients of the field then keep H and have S grow, both to round-off.
+    fn is_metriplectic(&self) -> bool {
+        false
+    }
+    /// The entropy S(mu), a function of the declared coordinates, which come before the momentum of the time.
+    fn entropy(&self, _mu: &Self::State) -> S {
+        S::zero()
+    }
+    /// The total degree of the entropy, where it is a polynomial and that is known.
+    fn entropy_degree(&self) -> Option<u32> {
+        None
+    }
+    /// Its gradient: `out_i = dS/dmu_i`.
+    fn entropy_gradient(&self, _mu: &Self::State, out: &mut Self::State) {
+        out.fill(S::zero());
+    }
+    /// Its Hessian: `out_ij = d^2S/dmu_i dmu_j`.
+    fn entropy_hessian(&self, _mu: &Self::State, out: &mut Self::Jacobian) {
+        *out = self.zero_jacobian();
+    }
+    /// The metric K(mu), with no entries beside those of the declared coordinates.
+    fn metric(&self, _mu: &Self::State, out: &mut Self::Jacobian) {
+        *out = self.zero_jacobian();
+    }
+    /// The derivative of the metric against a fixed vector: `out_ij = d(K(mu) v)_i/dmu_j`.
+    fn metric_slope(&self, _mu: &Self::State, _v: &Self::State, out: &mut Self::Jacobian) {
+        *out = self.zero_jacobian();
     }
 
     /// How many inputs are among the coordinates: they are set from outside, constant along the motion, and follow the unit beside the time

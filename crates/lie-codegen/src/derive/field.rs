@@ -20,6 +20,9 @@ pub(super) fn kernels(source: &mut Source, derivatives: bool) -> Vec<Kernel> {
         kernels.extend(motion(source, hamiltonian.value, derivatives));
     }
     kernels.extend(driving(source));
+    if derivatives {
+        kernels.extend(metriplectic(source));
+    }
     let matrix = poisson_matrix(source);
     let [of_matrix, ..] = formulas(source.is_lie());
     let arguments = vec![mu(source)];
@@ -113,6 +116,62 @@ fn driving(source: &mut Source) -> Vec<Kernel> {
     push(source, names, &generator);
     kernels.extend(damping(source));
     kernels
+}
+
+/// The entropy and the metric of a metriplectic term, with their derivatives.
+fn metriplectic(source: &mut Source) -> Vec<Kernel> {
+    let Some((entropy, rows)) = source.metriplectic() else {
+        return Vec::new();
+    };
+    let zero = source.graph.integer(0);
+    let mut metric = vec![vec![zero; source.dimension]; source.dimension];
+    for (row, given) in metric.iter_mut().zip(rows) {
+        row[..given.len()].copy_from_slice(&given);
+    }
+    let gradient = source.jacobian_of(&[entropy]).concat();
+    let hessian = source.jacobian_of(&gradient);
+    let v = source.block(Block::Xi);
+    let moved: Vec<ExprId> = metric
+        .iter()
+        .map(|row| {
+            let pairs = row.iter().zip(&v);
+            let parts: Vec<ExprId> = pairs.map(|(k, v)| source.graph.mul(*k, *v)).collect();
+            source.graph.sum(&parts)
+        })
+        .collect();
+    let slope = source.jacobian_of(&moved);
+    let at = mu(source);
+    let along = Argument {
+        name: "xi",
+        symbols: source.symbols(Block::Xi),
+    };
+    let arguments = || vec![at.clone()];
+    let graph = &source.graph;
+    vec![
+        Kernel::scalar("entropy", "`S(mu)`", arguments(), entropy),
+        Kernel::vector(
+            graph,
+            "entropy_gradient",
+            "`out_i = dS/dmu_i`",
+            arguments(),
+            &gradient,
+        ),
+        Kernel::matrix(
+            graph,
+            "entropy_hessian",
+            "`out_ij = d^2S/dmu_i dmu_j`",
+            arguments(),
+            &hessian,
+        ),
+        Kernel::matrix(graph, "metric", "`out_ij = K_ij`", arguments(), &metric),
+        Kernel::matrix(
+            graph,
+            "metric_slope",
+            "`out_ij = d(K xi)_i/dmu_j` at a fixed vector xi",
+            vec![at.clone(), along],
+            &slope,
+        ),
+    ]
 }
 
 /// What the double brackets make of a covector: `sum c G v`.

@@ -37,6 +37,7 @@ pub(crate) use splitting::{Definitions, action};
 pub use splitting::{PieceKernel, Update};
 pub(crate) use tape::{Tangents, Tape};
 
+use crate::model::Acting;
 use lie_symbolic::symbolic::{ExprId, Symbol};
 
 /// Vector arguments of kernels besides the state; each has n symbols.
@@ -187,6 +188,20 @@ impl Source {
         let driving = self.driving.as_ref()?;
         let driving = Some(driving).filter(|driving| driving.is_forced(&self.graph))?;
         Some(driving.force.clone())
+    }
+
+    /// The entropy and the metric, where one metriplectic term acts, and its entropy depends on the declared coordinates alone.
+    pub(crate) fn metriplectic(&self) -> Option<(ExprId, Vec<Vec<ExprId>>)> {
+        let mut found = None;
+        for acting in &self.driving.as_ref()?.declared {
+            if let Acting::Metriplectic(entropy, metric) = acting
+                && found.replace((*entropy, metric.clone())).is_some()
+            {
+                return None;
+            }
+        }
+        let outside = |symbol| matches!(symbol, Symbol::Coordinate(place) if place >= self.own());
+        found.filter(|(entropy, _)| !self.graph.symbols(*entropy).into_iter().any(outside))
     }
 
     /// `f = Pi(mu) xi + F`

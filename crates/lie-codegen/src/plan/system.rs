@@ -7,6 +7,8 @@ use crate::methods::Choice;
 use crate::model::Model;
 use crate::model::{self, QuantityKind};
 use lie_core::{Clock, EventRule};
+use lie_symbolic::prove::degree::degree;
+use lie_symbolic::symbolic::Symbol;
 
 /// What a system says of itself, and its kernels by trait.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -17,12 +19,16 @@ pub struct System {
     pub poisson_degree: Option<u32>,
     /// Where the time is among the coordinates, if H depends on it.
     pub clock: Option<Clock>,
+    /// Whether H does not depend on the time.
+    pub autonomous: bool,
     /// How many functions of the time are 0 where branches of H meet.
     pub joints: usize,
     /// Whether forces act.
     pub forced: bool,
     /// Whether the generator of the motion is not the gradient of H.
     pub damped: bool,
+    /// The entropy of a metriplectic term that has a discrete form.
+    pub entropy: Option<Entropy>,
     /// The inputs, each with the bits of the time between samplings where it has one.
     pub inputs: Vec<Option<u64>>,
     /// The number of Wiener processes.
@@ -66,6 +72,13 @@ pub struct Casimir {
     pub kept: bool,
     /// Its gradient; `None` where a method needs nothing but the field.
     pub gradient: Option<Function>,
+}
+
+/// What is known of the entropy of a metriplectic term.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Entropy {
+    /// Its total degree, if it is a polynomial.
+    pub degree: Option<u32>,
 }
 
 /// A function of the state that is recorded.
@@ -171,9 +184,11 @@ impl Planner<'_> {
                 .matrix()
                 .and_then(|matrix| matrix.degree),
             clock: self.source.clock(),
+            autonomous: self.is_autonomous(),
             joints,
             forced: self.source.force().is_some(),
             damped: self.source.is_damped(),
+            entropy: self.entropy(derivatives),
             inputs: model_inputs(self.structure),
             noises: self.structure.driving.as_ref().map_or(0, |d| d.noises),
             casimirs,
@@ -192,6 +207,26 @@ impl Planner<'_> {
             lagrangian,
             discrete: self.functions(&discrete),
         }
+    }
+
+    fn is_autonomous(&self) -> bool {
+        let time = self
+            .source
+            .clock()
+            .map(|clock| Symbol::Coordinate(clock.time));
+        let energy = self.source.energy.expression();
+        // a Legendre transform takes the time with it
+        let depends =
+            |time| energy.is_none_or(|h| self.source.graph.symbols(h.energy).contains(&time));
+        !time.is_some_and(depends)
+    }
+
+    /// The entropy of a metriplectic term, where a method may use it.
+    fn entropy(&self, derivatives: bool) -> Option<Entropy> {
+        let (entropy, _) = self.source.metriplectic().filter(|_| derivatives)?;
+        Some(Entropy {
+            degree: degree(&self.source.graph, entropy),
+        })
     }
 
     /// The total degree of H in the coordinates, where it is a polynomial in them.

@@ -16,7 +16,14 @@ impl Printer<'_> {
         let of_h = degree("hamiltonian_degree", plan.hamiltonian_degree);
         let of_matrix = degree("poisson_degree", plan.poisson_degree);
         let casimirs = self.facts_of_casimirs();
-        let driven = [("is_forced", plan.forced), ("is_damped", plan.damped)];
+        let driven = [
+            ("is_forced", plan.forced),
+            ("is_damped", plan.damped),
+            ("is_metriplectic", plan.entropy.is_some()),
+            ("is_autonomous", plan.clock.is_some() && plan.autonomous),
+        ];
+        let of_entropy = plan.entropy.and_then(|entropy| entropy.degree);
+        let of_entropy = degree("entropy_degree", of_entropy);
         let driven = driven
             .into_iter()
             .filter(|(_, holds)| *holds)
@@ -66,6 +73,7 @@ impl Printer<'_> {
             #clock
             #joints
             #(#driven)*
+            #of_entropy
             #casimirs
             #quantities
             #held

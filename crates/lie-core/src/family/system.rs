@@ -169,6 +169,9 @@ where
     fn hamiltonian_degree(&self) -> Option<u32> {
         self.kernels.degree()
     }
+    fn is_autonomous(&self) -> bool {
+        true
+    }
     fn clock(&self) -> Option<Clock> {
         let momentum = self.own();
         self.kernels.acts().then_some(Clock {

@@ -13,7 +13,7 @@ use crate::state::State;
 /// with the discrete gradient, and no function of the state.
 #[derive(Clone, Debug)]
 pub(super) struct Beside<V, M> {
-    middle: V,
+    pub(super) middle: V,
     /// The force, 0 where none acts.
     pub(super) force: V,
     /// `c G v`, 0 where nothing damps.

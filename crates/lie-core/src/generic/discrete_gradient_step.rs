@@ -4,6 +4,7 @@ use super::acting::Acting;
 use super::beside::Beside;
 use super::discrete_gradient::DiscreteGradient;
 use super::kernels::multiply;
+use super::metriplectic::Growth;
 use super::tensor::{MidpointTensor, PoissonTensor};
 use crate::clock::Clock;
 use crate::equation::Equation;
@@ -19,7 +20,7 @@ use crate::state::State;
 /// first derivative. Start: `mu + h f(mu)`.
 ///
 /// Where something damps, `g + c G T g` takes the place of g, and where forces act, `F(m)` is added, both at `m = (mu + u)/2`: H changes
-/// by `h <F(m), g> - h c <T g, G T g>` exactly.
+/// by `h <F(m), g> - h c <T g, G T g>` exactly. A metriplectic term `K grad S` has a form of its own, with which H stays and S never falls.
 #[derive(Debug)]
 pub struct DiscreteGradientStep<'a, S: Scalar, P: Poisson<S>, G, T = MidpointTensor> {
     system: &'a P,
@@ -32,6 +33,7 @@ pub struct DiscreteGradientStep<'a, S: Scalar, P: Poisson<S>, G, T = MidpointTen
     poisson_matrix: P::Jacobian,
     derivative: P::Jacobian,
     beside: Acting<Beside<P::State, P::Jacobian>>,
+    growth: Option<Growth<S, P>>,
 }
 
 impl<'a, S: Scalar, P: Poisson<S>, G: DiscreteGradient<S, P>> DiscreteGradientStep<'a, S, P, G> {
@@ -62,6 +64,7 @@ where
             poisson_matrix: system.zero_jacobian(),
             derivative: system.zero_jacobian(),
             beside: Acting::of(system, || Beside::new(system)),
+            growth: Growth::of(system),
         }
     }
 
@@ -80,8 +83,44 @@ where
         multiply(matrix, &self.xi, &mut self.field);
         if let Some(beside) = self.beside.get_mut(self.system) {
             beside.set_middle(self.system, &self.base, unknown);
+            if let Some(growth) = &mut self.growth {
+                let motion = [&self.xi, &self.field];
+                growth.replace(
+                    self.system,
+                    motion,
+                    [&beside.middle, unknown],
+                    &mut beside.force,
+                );
+            }
             beside.act(self.system, matrix, &mut self.xi, &mut self.field);
         }
+    }
+
+    /// The derivative of what is metriplectic, with the discrete gradient and its derivative already computed; uses the matrix.
+    fn linearize_growth(&mut self, unknown: &P::State, matrix: &mut P::Jacobian) {
+        let (Some(growth), Some(beside)) = (&mut self.growth, self.beside.get_mut(self.system))
+        else {
+            return;
+        };
+        let (system, base) = (self.system, &self.base);
+        let tensor = &mut self.poisson_matrix;
+        self.tensor.matrix(system, base, unknown, self.step, tensor);
+        self.tensor
+            .slope(system, base, unknown, self.step, &self.xi, matrix);
+        for row in 0..system.dimension() {
+            for column in 0..system.dimension() {
+                let mut sum = matrix.get(row, column);
+                for inner in 0..system.dimension() {
+                    sum += tensor.get(row, inner) * self.derivative.get(inner, column);
+                }
+                matrix.set(row, column, sum);
+            }
+        }
+        multiply(tensor, &self.xi, &mut self.field);
+        beside.set_middle(system, base, unknown);
+        let motion = [&self.xi, &self.field];
+        let slopes = [&self.derivative, &*matrix];
+        growth.linearize(system, motion, [&beside.middle, unknown], slopes);
     }
 
     /// `r = u - mu - h T g` with the discrete gradient already computed.
@@ -106,6 +145,9 @@ where
     fn set_base(&mut self, mu: &P::State) {
         self.base.copy_from(mu);
         self.gradient.set_start(self.system, mu);
+        if let Some(growth) = &mut self.growth {
+            growth.set_start(self.system, mu);
+        }
     }
 
     fn initial_guess(&mut self, unknown: &mut P::State) {
@@ -123,6 +165,7 @@ where
         let derivative = &mut self.derivative;
         self.gradient
             .linearize(self.system, unknown, &mut self.xi, derivative);
+        self.linearize_growth(unknown, matrix);
         if self.system.is_damped() {
             self.set_slope(unknown, matrix);
         }
@@ -151,6 +194,9 @@ where
                 }
                 if let Some(beside) = self.beside.get(self.system) {
                     sum += beside.slope(row, column);
+                }
+                if let Some(growth) = &self.growth {
+                    sum += growth.slope(row, column);
                 }
                 let identity = if row == column { S::one() } else { S::zero() };
                 matrix.set(row, column, identity - self.step * sum);

@@ -76,6 +76,7 @@ mod kernels;
 mod lifts;
 mod matrix_stages;
 mod mean_gradients;
+mod metriplectic;
 mod midpoint_force;
 mod orbit_beside;
 mod orbit_energy;
@@ -111,7 +112,8 @@ pub use coordinate_flows::{CoordinateFlows, piece_direction};
 pub use dexp_slope::dexp_dual_slope;
 pub use discrete_body::DiscreteBody;
 pub use discrete_gradient::{
-    DiscreteGradient, GonzalezGradient, ItohAbeGradient, MeanValueGradient, inverse_length,
+    DiscreteGradient, Energy, Entropy, Function, GonzalezGradient, ItohAbeGradient,
+    MeanValueGradient, inverse_length,
 };
 pub use discrete_gradient_step::DiscreteGradientStep;
 pub use discrete_top::DiscreteTop;

@@ -48,9 +48,12 @@ impl<S: Scalar> Quadrature<S> {
     /// `degree - 1`: exact where H is a polynomial of known degree, with 10 nodes elsewhere, or twice the degree if that is
     /// more.
     pub fn of_hamiltonian<P: Poisson<S>>(system: &P, degree: usize) -> Self {
-        let needed = system
-            .hamiltonian_degree()
-            .map(|of_h| (degree * of_h as usize).div_ceil(2));
+        Self::of_degree(system.hamiltonian_degree(), degree)
+    }
+
+    /// The same for a function of a degree, of which nothing is known where there is none.
+    pub fn of_degree(of_function: Option<u32>, degree: usize) -> Self {
+        let needed = of_function.map(|of_function| (degree * of_function as usize).div_ceil(2));
         Self {
             exact: needed.is_some_and(|needed| needed <= MAX_NODES),
             ..Self::gauss(needed.unwrap_or(DEFAULT_NODES.max(2 * degree)))

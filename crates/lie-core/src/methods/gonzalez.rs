@@ -12,6 +12,9 @@
 //! Where forces act, `$h F(m)$` is added, and where a double bracket damps, `$\overline\nabla H + c\, G\, \Pi(m) \overline\nabla H$` takes the place of the
 //! discrete gradient: the energy changes by `$h\, \langle F(m), \overline\nabla H \rangle - h\, c\, \langle v, G v \rangle$` with `$v = \Pi(m) \overline\nabla H$`, to round-off.
 //!
+//! Where a metriplectic term `$K \nabla S$` acts, `$P K(m) P\, \overline\nabla S$` takes its place, `$P$` the projection along the discrete gradient of H: H
+//! stays, and S grows by `$h\, \langle P \overline\nabla S, K P \overline\nabla S \rangle \geq 0$`, to round-off.
+//!
 //! With another tensor in place of `$\Pi(m)$`: [`WithTensor`](super::WithTensor).
 //!
 //! The quotient loses digits where d is small. [`GonzalezGradient`](crate::generic::GonzalezGradient)

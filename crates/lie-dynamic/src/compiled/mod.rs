@@ -36,6 +36,8 @@ pub(crate) struct Kernels {
     pub joints: Place,
     /// Of the force and of the generator, each with its slope.
     pub driving: [Place; 5],
+    /// The entropy, its gradient and Hessian, the metric and its slope.
+    pub metriplectic: [Place; 5],
     pub quantities: Place,
     pub events: Place,
     pub casimir_gradients: Vec<Place>,
@@ -249,6 +251,14 @@ impl CodeBuilder {
                 "generator",
                 "generator_slope",
                 "damping",
+            ]
+            .map(place),
+            metriplectic: [
+                "entropy",
+                "entropy_gradient",
+                "entropy_hessian",
+                "metric",
+                "metric_slope",
             ]
             .map(place),
             quantities: place("quantities"),

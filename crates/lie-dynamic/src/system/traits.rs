@@ -251,6 +251,39 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
             None => self.hessian(mu, out),
         }
     }
+    fn is_autonomous(&self) -> bool {
+        self.values.compiled.plan.system.autonomous
+    }
+    fn is_metriplectic(&self) -> bool {
+        self.values.compiled.plan.system.entropy.is_some()
+    }
+    fn entropy(&self, mu: &Vec<S>) -> S {
+        let mut value = [S::zero()];
+        let code = require(self.values.kernels().metriplectic[0]);
+        self.values.call(code, [mu, &[]], &mut value, &mut []);
+        value[0]
+    }
+    fn entropy_degree(&self) -> Option<u32> {
+        self.values.compiled.plan.system.entropy?.degree
+    }
+    fn entropy_gradient(&self, mu: &Vec<S>, out: &mut Vec<S>) {
+        let code = require(self.values.kernels().metriplectic[1]);
+        self.values.call(code, [mu, &[]], out, &mut []);
+    }
+    fn entropy_hessian(&self, mu: &Vec<S>, out: &mut LateMatrix<S>) {
+        let code = require(self.values.kernels().metriplectic[2]);
+        self.values
+            .call(code, [mu, &[]], &mut [], out.as_mut_slice());
+    }
+    fn metric(&self, mu: &Vec<S>, out: &mut LateMatrix<S>) {
+        let code = require(self.values.kernels().metriplectic[3]);
+        self.values
+            .call(code, [mu, &[]], &mut [], out.as_mut_slice());
+    }
+    fn metric_slope(&self, mu: &Vec<S>, v: &Vec<S>, out: &mut LateMatrix<S>) {
+        let code = require(self.values.kernels().metriplectic[4]);
+        self.values.call(code, [mu, v], &mut [], out.as_mut_slice());
+    }
     fn vector_field(&self, mu: &Vec<S>, out: &mut Vec<S>) {
         if S::LOOPS
             && let Some(family) = &self.family

@@ -299,10 +299,12 @@ impl Planner<'_> {
             system: System {
                 hamiltonian_degree: family.degree,
                 poisson_degree: None,
+                autonomous: true,
                 clock: None,
                 joints: 0,
                 forced: false,
                 damped: false,
+                entropy: None,
                 inputs: Vec::new(),
                 noises: 0,
                 casimirs: Vec::new(),

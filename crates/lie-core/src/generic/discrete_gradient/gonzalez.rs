@@ -1,6 +1,9 @@
 //! The midpoint discrete gradient of Gonzalez.
 
+use core::marker::PhantomData;
+
 use super::DiscreteGradient;
+use super::function::{Energy, Function};
 use super::resolution::{Mean, Rule, difference_serves, largest};
 use crate::clock::holds;
 use crate::matrix::SquareMatrix;
@@ -17,11 +20,14 @@ use crate::state::State;
 ///
 /// The numerator of a is `int_0^1 <grad H(x + s d) - grad H(m), d> ds`; which of the two forms is taken
 /// decides the round-off of either, per lane. It vanishes for a quadratic H.
+///
+/// So for another [`Function`] in place of H, whose d has no entries for what the function does not depend on.
 #[derive(Clone, Debug)]
-pub struct GonzalezGradient<S: Scalar, P: Poisson<S>> {
+pub struct GonzalezGradient<S: Scalar, P: Poisson<S>, F = Energy> {
+    function: PhantomData<F>,
     rule: Rule<S>,
     start: P::State,
-    energy: S,
+    before: S,
     middle: P::State,
     /// d divided by its largest entry, which keeps squares from overflow.
     direction: P::State,
@@ -31,28 +37,26 @@ pub struct GonzalezGradient<S: Scalar, P: Poisson<S>> {
     hessian: P::Jacobian,
 }
 
-impl<S: Scalar, P: Poisson<S>> GonzalezGradient<S, P> {
+impl<S: Scalar, P: Poisson<S>, F: Function<S, P>> GonzalezGradient<S, P, F> {
     /// Sets midpoint and direction, writes the gradient at the midpoint, and returns the correction
     /// `a |d|` along the direction.
     fn correction(&mut self, system: &P, end: &P::State, out: &mut P::State) -> S {
         let half = S::ratio(1.0, 2.0);
         let (x, y) = (self.start.as_slice(), end.as_slice());
         let size = self.size(system, end);
-        let momentum = system.clock().map(|clock| clock.momentum);
         let moved = x.iter().zip(y).enumerate();
-        let moved = moved.filter(|(i, _)| Some(*i) != momentum);
+        let moved = moved.filter(|(i, _)| F::counts(system, *i));
         let length = largest(moved.map(|(_, (&x, &y))| y - x));
         let flat = length.less_equal(S::epsilon() * size);
         self.length = S::select(flat, S::zero(), length);
         let inverse = S::one() / S::select(flat, S::one(), length);
         for index in 0..system.dimension() {
             self.middle.as_mut_slice()[index] = half * (x[index] + y[index]);
-            self.direction.as_mut_slice()[index] = (y[index] - x[index]) * inverse;
+            let counts = F::counts(system, index);
+            let along = (y[index] - x[index]) * inverse;
+            self.direction.as_mut_slice()[index] = if counts { along } else { S::zero() };
         }
-        if let Some(momentum) = momentum {
-            self.direction.as_mut_slice()[momentum] = S::zero();
-        }
-        system.gradient(&self.middle, out);
+        F::gradient(system, &self.middle, out);
         let numerator = if self.rule.exact {
             self.integral(system, out).value
         } else {
@@ -88,7 +92,7 @@ impl<S: Scalar, P: Poisson<S>> GonzalezGradient<S, P> {
             self.point.copy_from(&self.middle);
             let shift = rule.offset(node) * self.length;
             self.point.axpy(shift, &self.direction);
-            system.gradient(&self.point, &mut self.gradient);
+            F::gradient(system, &self.point, &mut self.gradient);
             let mut value = S::zero();
             for (index, &e) in self.direction.as_slice().iter().enumerate() {
                 let entry = self.gradient.as_slice()[index];
@@ -101,17 +105,16 @@ impl<S: Scalar, P: Poisson<S>> GonzalezGradient<S, P> {
 
     /// The same by whichever form keeps its digits, where H is no polynomial of known degree.
     fn numerator(&mut self, system: &P, end: &P::State, at_middle: &P::State, inverse: S) -> S {
-        let after = system.energy(end);
+        let after = F::value(system, end);
         let (mut along, mut terms, mut size) = (S::zero(), S::zero(), S::zero());
-        let momentum = system.clock().map(|clock| clock.momentum);
         let entries = at_middle.as_slice().iter().enumerate();
-        for (index, &entry) in entries.filter(|(i, _)| Some(*i) != momentum) {
+        for (index, &entry) in entries.filter(|(i, _)| F::counts(system, *i)) {
             along += entry * self.direction.as_slice()[index];
             terms += (entry * self.middle.as_slice()[index]).abs();
             size = size.max(entry.abs());
         }
-        let difference = (after - self.energy) * inverse - along;
-        let energy = self.energy.abs() + after.abs() + terms;
+        let difference = (after - self.before) * inverse - along;
+        let energy = self.before.abs() + after.abs() + terms;
         let serves = difference_serves(energy, size * self.length);
         if serves.all() {
             return difference;
@@ -122,13 +125,16 @@ impl<S: Scalar, P: Poisson<S>> GonzalezGradient<S, P> {
     }
 }
 
-impl<S: Scalar, P: Poisson<S>> DiscreteGradient<S, P> for GonzalezGradient<S, P> {
+impl<S: Scalar, P: Poisson<S>, F: Function<S, P>> DiscreteGradient<S, P>
+    for GonzalezGradient<S, P, F>
+{
     fn new(system: &P) -> Self {
         let zero = system.zero_state();
         Self {
-            rule: Rule::of_hamiltonian(system),
+            function: PhantomData,
+            rule: Rule::of(F::degree(system)),
             start: zero.clone(),
-            energy: S::zero(),
+            before: S::zero(),
             middle: zero.clone(),
             direction: zero.clone(),
             length: S::zero(),
@@ -141,7 +147,7 @@ impl<S: Scalar, P: Poisson<S>> DiscreteGradient<S, P> for GonzalezGradient<S, P>
     fn set_start(&mut self, system: &P, start: &P::State) {
         self.start.copy_from(start);
         if !self.rule.exact {
-            self.energy = system.energy(start);
+            self.before = F::value(system, start);
         }
     }
 
@@ -159,8 +165,8 @@ impl<S: Scalar, P: Poisson<S>> DiscreteGradient<S, P> for GonzalezGradient<S, P>
     ) {
         let half = S::ratio(1.0, 2.0);
         let correction = self.correction(system, end, out);
-        system.gradient(end, &mut self.gradient);
-        system.hessian(&self.middle, &mut self.hessian);
+        F::gradient(system, end, &mut self.gradient);
+        F::hessian(system, &self.middle, &mut self.hessian);
         // what the correction adds to the derivative is of the order of d; where that is below the
         // root of epsilon, so is its round-off, and neither counts
         let size = self.size(system, end);
@@ -169,7 +175,6 @@ impl<S: Scalar, P: Poisson<S>> DiscreteGradient<S, P> for GonzalezGradient<S, P>
         let inverse = S::select(near, S::zero(), inverse);
         let square = self.square(near);
         let slope = correction * inverse;
-        let momentum = system.clock().map(|clock| clock.momentum);
         for row in 0..system.dimension() {
             let mut bent = self.gradient.as_slice()[row] - out.as_slice()[row];
             for column in 0..system.dimension() {
@@ -184,7 +189,7 @@ impl<S: Scalar, P: Poisson<S>> DiscreteGradient<S, P> for GonzalezGradient<S, P>
             for column in 0..system.dimension() {
                 let mut entry = half * self.hessian.get(row, column);
                 entry += along * self.point.as_slice()[column];
-                if row == column && momentum != Some(row) {
+                if row == column && F::counts(system, row) {
                     entry += slope;
                 }
                 derivative.set(row, column, entry);

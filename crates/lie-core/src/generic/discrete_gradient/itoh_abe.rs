@@ -253,7 +253,7 @@ impl<S: Scalar, P: Poisson<S>> DiscreteGradient<S, P> for ItohAbeGradient<S, P> 
     fn new(system: &P) -> Self {
         let zero = system.zero_state();
         Self {
-            rule: Rule::of_hamiltonian(system),
+            rule: Rule::of(system.hamiltonian_degree()),
             start: zero.clone(),
             corner: zero.clone(),
             gradient: zero.clone(),

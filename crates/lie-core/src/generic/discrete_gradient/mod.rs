@@ -1,10 +1,13 @@
 //! Discrete gradients: `g(x, y)` with `<g(x, y), y - x> = H(y) - H(x)` and `g(x, x) = grad H(x)`.
 
+mod function;
 mod gonzalez;
 mod itoh_abe;
 mod mean_value;
 mod resolution;
 
+pub(super) use function::declared;
+pub use function::{Energy, Entropy, Function};
 pub use gonzalez::GonzalezGradient;
 pub use itoh_abe::ItohAbeGradient;
 pub use mean_value::MeanValueGradient;

@@ -12,7 +12,6 @@
 //! All thresholds are ratios of like quantities: there is no absolute scale.
 
 use crate::generic::quadrature::{MAX_NODES, Quadrature, legendre_polynomial};
-use crate::poisson::Poisson;
 use crate::scalar::Scalar;
 
 /// The difference serves while its round-off is below that many times the gradient's.
@@ -34,9 +33,9 @@ pub(super) struct Rule<S> {
 }
 
 impl<S: Scalar> Rule<S> {
-    /// The rule for increments of H.
-    pub(super) fn of_hamiltonian<P: Poisson<S>>(system: &P) -> Self {
-        Self::new(Quadrature::of_hamiltonian(system, 1))
+    /// The rule for increments of a function of that degree.
+    pub(super) fn of(degree: Option<u32>) -> Self {
+        Self::new(Quadrature::of_degree(degree, 1))
     }
 
     fn new(quadrature: Quadrature<S>) -> Self {
