@@ -1,5 +1,8 @@
 //! Calls of `lie` on their way: signals to them, their end, and what they show on a terminal.
 
+// Each test file uses its own part of this.
+#![allow(dead_code)]
+
 use std::fmt::Write as _;
 use std::fs::File;
 use std::io::Read as _;
@@ -15,7 +18,7 @@ use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 use signal_hook::flag::register_conditional_default;
 
-use super::Run;
+use crate::common::Run;
 
 /// Nothing takes so long on a machine that works, however busy: whoever waits for longer fails.
 const PATIENCE: Duration = Duration::from_secs(600);

@@ -1,5 +1,8 @@
 //! Numbers by a seed.
 
+// Each test file uses its own part of this.
+#![allow(dead_code)]
+
 /// Numbers between -1 and 1 from a seed (splitmix64).
 pub struct Random(pub u64);
 

@@ -1,5 +1,8 @@
 //! The matrix of a rotation.
 
+// Each test file uses its own part of this.
+#![allow(dead_code)]
+
 /// The matrix of a unit quaternion (w, x, y, z), row by row.
 pub fn rotation(quaternion: &[f64]) -> Vec<f64> {
     let [w, x, y, z] = [0, 1, 2, 3].map(|k| quaternion[k]);

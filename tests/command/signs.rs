@@ -1,11 +1,9 @@
 //! Directions: motions are those of textbooks, and what would run backwards in time is told.
 
-mod common;
-
 use std::path::Path;
 
-use common::markdown::{blocks, links, read};
-use common::{Run, command, folder, lie};
+use crate::common::markdown::{blocks, links, read};
+use crate::common::{Run, command, folder, lie};
 use lie_codegen::compile::compile_spec;
 use lie_in_process::report::signs;
 use lie_program::protocol::Start;

@@ -1,8 +1,6 @@
 //! `lie verify`: claims against measurements.
 
-mod common;
-
-use common::{command, folder, lie, spec};
+use crate::common::{command, folder, lie, spec};
 
 #[test]
 fn all_claims_of_a_few_methods_hold() {
@@ -111,7 +109,7 @@ fn wrong_options() {
         "--methods",
         "rk4 --retraction exp",
     ];
-    common::Run::from(command(option).output().expect("lie starts"))
+    crate::common::Run::from(command(option).output().expect("lie starts"))
         .error("method", "command line: --methods");
     let foreign = [
         "verify",
@@ -119,7 +117,7 @@ fn wrong_options() {
         "--methods",
         "splitting2,rk4 --x y",
     ];
-    common::Run::from(command(foreign).output().expect("lie starts"))
+    crate::common::Run::from(command(foreign).output().expect("lie starts"))
         .error("method", "command line: --methods");
 }
 
@@ -127,7 +125,7 @@ fn wrong_options() {
 fn a_system_at_rest_cannot_be_measured() {
     let folder = folder();
     let path = spec(folder.path(), |spec| spec["hamiltonian"] = "1".into());
-    let run: common::Run = command([
+    let run: crate::common::Run = command([
         "verify".as_ref(),
         path.as_os_str(),
         "--methods".as_ref(),
@@ -142,7 +140,7 @@ fn a_system_at_rest_cannot_be_measured() {
 
 /// `lie verify` with a program in the place of the built one, which says that it has found this.
 #[cfg(unix)]
-fn with_program(found: &[serde_json::Value]) -> common::Run {
+fn with_program(found: &[serde_json::Value]) -> crate::common::Run {
     use std::os::unix::fs::PermissionsExt as _;
     let folder = folder();
     let path = spec(folder.path(), |spec| spec["name"] = "Lied".into());

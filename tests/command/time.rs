@@ -1,8 +1,6 @@
 //! Systems whose Hamiltonian depends on the time, by the command: the time over long runs, and runs from another time than 0.
 
-mod common;
-
-use common::{Run, lie};
+use crate::common::{Run, lie};
 
 const ROTATION: &str = "tests/data/driven/rotation.json";
 const OSCILLATOR: &str = "tests/data/driven/oscillator.json";
@@ -144,8 +142,8 @@ fn the_energy_is_that_of_the_row() {
 
 /// The error at t = 2.05 of a rotation whose rate has a joint at t = 1/3, by steps that do not meet it, forwards or backwards.
 fn across(rate: &str, method: &str, exact: f64, backwards: bool) -> f64 {
-    let folder = common::folder();
-    let path = common::spec(folder.path(), |spec| {
+    let folder = crate::common::folder();
+    let path = crate::common::spec(folder.path(), |spec| {
         spec["algebra"] = serde_json::json!("so(3)");
         spec["parameters"] = serde_json::json!({ "c": { "default": "1/3" } });
         spec["hamiltonian"] = serde_json::json!(format!("z*({rate})"));

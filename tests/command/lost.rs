@@ -1,14 +1,12 @@
 //! Nothing is lost: files that are read stay, and what fails does not take the rest with it.
 #![cfg(unix)]
 
-mod common;
-
 use std::fs;
 use std::os::unix::fs::symlink;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use common::{Run, command, folder, lie};
+use crate::common::{Run, command, folder, lie};
 
 /// A body with a table, in a folder.
 fn prepared(folder: &Path) {
@@ -33,7 +31,7 @@ fn within(folder: &Path, call: &str) -> Run {
 fn shell(folder: &Path, script: &str) -> Run {
     let mut shell = Command::new("bash");
     let shell = shell.args(["-c", script, env!("CARGO_BIN_EXE_lie")]);
-    let shell = shell.env("LIE_CACHE_DIR", common::cache());
+    let shell = shell.env("LIE_CACHE_DIR", crate::common::cache());
     shell.current_dir(folder).output().unwrap().into()
 }
 
@@ -357,7 +355,7 @@ fn lines_of_json_survive_a_kill() {
 #[test]
 fn a_driven_system_has_no_error_of_its_energy() {
     let folder = folder();
-    let path = common::spec(folder.path(), |spec| {
+    let path = crate::common::spec(folder.path(), |spec| {
         spec["hamiltonian"] = "x^2/2 + y^2/4 + z^2/6 + cos(t)*x".into();
     });
     let run = lie(&format!("run {} --method gauss4 --until 3", path.display())).ok();
@@ -368,7 +366,7 @@ fn a_driven_system_has_no_error_of_its_energy() {
         run.stderr
     );
     assert!(run.stdout.starts_with("t,x,y,z,energy"));
-    let constant = common::spec(folder.path(), |_| {});
+    let constant = crate::common::spec(folder.path(), |_| {});
     let run = lie(&format!(
         "run {} --method gauss4 --until 3",
         constant.display()

@@ -1,12 +1,10 @@
 //! Searches and measurements that could go on for ever, or say more than they know.
 
-mod common;
-
-use common::{folder, lie};
+use crate::common::{folder, lie};
 
 /// Calls `lie` with a file that holds a spec.
 #[track_caller]
-fn with_spec(command: &str, spec: &str, flags: &str) -> common::Run {
+fn with_spec(command: &str, spec: &str, flags: &str) -> crate::common::Run {
     let folder = folder();
     let path = folder.path().join("system.json");
     std::fs::write(&path, spec).expect("writable");
@@ -84,7 +82,7 @@ fn a_tolerance_beyond_a_singularity() {
 /// lost 1.1e-12 of its length.
 #[test]
 fn small_parts_of_slow_iterations_are_at_rest() {
-    let spec = include_str!("data/slow_top.json");
+    let spec = include_str!("../data/slow_top.json");
     for method in ["gauss16", "cohen-hairer16"] {
         let flags =
             format!("--method {method} --step 2.6434950789188334 --until 528.6990157837666");

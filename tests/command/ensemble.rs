@@ -2,16 +2,12 @@
 
 #![cfg(unix)]
 
-mod common;
 #[allow(dead_code)]
-#[path = "common/process.rs"]
-mod process;
-
 use std::fs;
 use std::path::Path;
 
-use common::{Run, command, folder, lie};
-use process::{ended, signal, start, wait_for_bytes};
+use crate::common::{Run, command, folder, lie};
+use crate::process::{ended, signal, start, wait_for_bytes};
 use serde_json::Value;
 
 const BODY: &str = "specs/so3_free_rigid_body.json";

@@ -1,8 +1,6 @@
 //! Every method in other units: a state times a power of two, at the step that makes the same motion of it.
 
-mod common;
-
-use common::{Run, lie};
+use crate::common::{Run, lie};
 
 /// A spec, a state, and how its coordinates change with the unit: as that power of it.
 type System = (&'static str, &'static [f64], &'static [i32]);

@@ -1,8 +1,6 @@
 //! Steps that would leave the coadjoint orbit, and what the command says instead.
 
-mod common;
-
-use common::{Run, command, folder};
+use crate::common::{Run, command, folder};
 use serde_json::{Value, json};
 
 /// Calls `lie` on a spec of this JSON.

@@ -1,11 +1,9 @@
 //! Inputs and noise at the command: tables, seeds, threads and shares.
 
-mod common;
-
 use std::fs;
 use std::path::Path;
 
-use common::{Run, folder, lie};
+use crate::common::{Run, folder, lie};
 use serde_json::{Value, json};
 
 /// A body with a torque from outside, and with a moment of inertia from there too.

@@ -1,8 +1,6 @@
 //! `lie new` and `lie cache`.
 
-mod common;
-
-use common::{Run, command, folder};
+use crate::common::{Run, command, folder};
 
 /// Runs `lie` in a folder.
 fn lie_in(folder: &std::path::Path, arguments: &[&str]) -> Run {

@@ -1,8 +1,6 @@
 //! `lie check`, `lie expand` and `lie run` on families.
 
-mod common;
-
-use common::{folder, lie};
+use crate::common::{folder, lie};
 
 const CHAIN: &str = "tests/data/families/heisenberg_chain.json";
 

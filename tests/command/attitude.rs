@@ -1,16 +1,10 @@
 //! The key `attitude` at the command: where the group element begins, in every chart and form, with checkpoints and pictures.
 #![cfg(unix)]
 
-mod common;
-#[path = "common/resume.rs"]
-mod resume;
-#[path = "common/rotation.rs"]
-mod rotation;
-
 use std::fs;
 
-use common::{folder, lie, spec};
-use resume::within;
+use crate::common::{folder, lie, spec};
+use crate::resuming::within;
 use serde_json::{Value, json};
 
 const ANGLES: [f64; 3] = [0.5, 1.0, -2.0];
@@ -74,8 +68,8 @@ fn by_hand(mut mu: [f64; 3], mut q: Quaternion, until: f64) -> Quaternion {
 /// The rotation of a row by rows of its matrix, in any chart.
 fn rotation(element: &[f64]) -> Vec<f64> {
     match *element {
-        [_, _, _, _] => rotation::rotation(element),
-        [phi, theta, psi] => rotation::rotation(&zxz([phi, theta, psi])),
+        [_, _, _, _] => crate::rotation::rotation(element),
+        [phi, theta, psi] => crate::rotation::rotation(&zxz([phi, theta, psi])),
         _ => element.to_vec(),
     }
 }
@@ -226,7 +220,7 @@ fn a_run_that_was_ended_goes_on_with_its_angles() {
         within(here.path(), "resume whole.ck").ok();
         let again = fs::read_to_string(here.path().join("whole.csv")).unwrap();
         assert!(rows == again, "{chart}: other rows");
-        let (_, rows) = common::csv(&rows);
+        let (_, rows) = crate::common::csv(&rows);
         assert!(
             distance(&rotation(&rows[0][6..]), &rotation(&zxz(ANGLES))) < 1e-14
                 || chart == "euler:xyz"

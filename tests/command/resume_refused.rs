@@ -1,15 +1,11 @@
 //! What `lie resume` does not go on with, and what a run cannot keep a checkpoint of.
 #![cfg(unix)]
 
-mod common;
-#[path = "common/resume.rs"]
-mod resume;
-
 use std::fs;
 use std::path::Path;
 
-use common::folder;
-use resume::{forged, prepared, within};
+use crate::common::folder;
+use crate::resuming::{forged, prepared, within};
 
 #[test]
 fn what_does_not_fit_is_refused() {

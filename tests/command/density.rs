@@ -1,9 +1,7 @@
 //! `--density reversible`: what the command says of steps that follow the motion, and what it refuses. What the steps are is tested with the
 //! driver, in `lie-runtime/tests/density.rs`.
 
-mod common;
-
-use common::lie;
+use crate::common::lie;
 
 /// An orbit with e = 0.9 from its pericentre on, ten periods.
 const PLANET: &str = "run tests/data/planet.json --method gauss16 --until 60";

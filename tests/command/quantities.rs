@@ -1,11 +1,9 @@
 //! First integrals and observables: columns of `lie run`, and what is said of those that are none.
 
-mod common;
-
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
-use common::{Run, folder, lie};
+use crate::common::{Run, folder, lie};
 use serde_json::{Value, json};
 
 /// Lagrange's top: the momentum about its own axis is constant beside the Casimirs.
@@ -169,7 +167,7 @@ fn a_run_goes_on_with_its_angles() {
     .ok();
     // ended by its own time, and made longer by a checkpoint of one that goes further
     let (first, second) = (at("ck"), at("part.csv"));
-    let mut child = common::command(
+    let mut child = crate::common::command(
         format!("{whole} --checkpoint {first} --checkpoint-every 2000 --out {second}").split(' '),
     )
     .spawn()

@@ -1,11 +1,9 @@
 //! `lie report`: one page of HTML.
 
-mod common;
-
 use std::path::Path;
 use std::process::Command;
 
-use common::{Run, command, folder, spec};
+use crate::common::{Run, command, folder, spec};
 
 fn report(arguments: &[&str], out: &Path) -> Run {
     let mut call = command(std::iter::once("report").chain(arguments.iter().copied()));

@@ -1,10 +1,8 @@
 //! `lie run --plot FILE --picture KIND`.
 
-mod common;
-
 use std::path::Path;
 
-use common::{folder, lie};
+use crate::common::{folder, lie};
 
 /// The polylines of a picture that have something in their attributes, in pixels.
 fn lines(svg: &str, attribute: &str) -> Vec<Vec<(f64, f64)>> {
@@ -85,7 +83,7 @@ fn a_section_has_a_point_for_each_passage() {
         .find(|line| line.contains("stroke-linecap=\"round\""))
         .expect("dots");
     let rows = std::fs::read_to_string(folder.path().join("rows.csv")).expect("rows");
-    let (header, rows) = common::csv(&rows);
+    let (header, rows) = crate::common::csv(&rows);
     let place = header
         .iter()
         .position(|name| name == "m1")

@@ -1,8 +1,6 @@
 //! Joints by the command: runs by series whose steps end there, and what `lie check` says.
 
-mod common;
-
-use common::{folder, lie, spec};
+use crate::common::{folder, lie, spec};
 
 /// A body whose inertia differs on the two sides of x = 0, and its state at t = 20, from an extrapolation method in 32 digits.
 const ENERGY: &str = "x^2/2 + y^2/3 + z^2/5 + piecewise(x < 0: 3*x^2, x^2/7)";

@@ -1,10 +1,8 @@
 //! The command line: mistakes, their places and their remedies. Nothing here compiles anything.
 
-mod common;
-
 use std::process::Stdio;
 
-use common::{command, folder, lie, spec};
+use crate::common::{command, folder, lie, spec};
 
 #[test]
 fn every_mistake_of_the_command_line_is_an_option_error() {

@@ -1,10 +1,8 @@
 //! `lie run` from the spec to the rows: it generates, compiles and runs.
 
-mod common;
-
 use std::path::Path;
 
-use common::{Run, csv, folder, lie, spec};
+use crate::common::{Run, csv, folder, lie, spec};
 
 const BODY: &str = "run specs/so3_free_rigid_body.json --quiet";
 
@@ -229,7 +227,7 @@ fn the_form_of_the_output() {
     assert!(npy.starts_with(b"\x93NUMPY") && String::from_utf8_lossy(&npy).contains("(11, 6)"));
     assert_eq!(npy.len(), 128 + 11 * 6 * 8);
     // The same through a pipe, where nothing can be rewound.
-    let piped = common::command(base.split(' ').chain(["--format", "npy"]))
+    let piped = crate::common::command(base.split(' ').chain(["--format", "npy"]))
         .output()
         .expect("lie starts");
     assert_eq!(piped.stdout, npy);

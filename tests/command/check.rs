@@ -1,8 +1,6 @@
 //! `lie check` and `lie expand` on sound and on broken specs.
 
-mod common;
-
-use common::{folder, lie, spec};
+use crate::common::{folder, lie, spec};
 
 #[test]
 fn the_specs_of_the_repository_are_sound() {
@@ -162,7 +160,8 @@ fn lifts_are_refused_because_of_the_time_where_that_is_why() {
         let call = format!("run {} --until 1 --step 0.1 --method", path.display());
         let mut call: Vec<&str> = call.split(' ').collect();
         call.push(method);
-        let run = common::Run::from(common::command(call).output().expect("lie starts"));
+        let run =
+            crate::common::Run::from(crate::common::command(call).output().expect("lie starts"));
         let run = run.error("method", "command line: --method");
         let said = run.stderr.split_whitespace().collect::<Vec<_>>().join(" ");
         assert!(said.contains("the time makes that larger"), "{said}");

@@ -1,8 +1,6 @@
 //! `lie stress`: the limits of methods.
 
-mod common;
-
-use common::{folder, lie};
+use crate::common::{folder, lie};
 
 fn number(text: &str) -> f64 {
     text.parse().expect("a number")

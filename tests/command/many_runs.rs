@@ -1,8 +1,6 @@
 //! Several runs by one call of `lie run`: methods, values of parameters, initial states.
 
-mod common;
-
-use common::{Run, csv, folder, lie};
+use crate::common::{Run, csv, folder, lie};
 
 const BODY: &str = "run specs/so3_free_rigid_body.json --step 0.1 --until 1";
 
@@ -71,7 +69,7 @@ fn options_go_to_the_methods_that_have_them() {
     let mut call: Vec<&str> = BODY.split(' ').chain(["--quiet", "--out", &path]).collect();
     call.extend(["--method", "lie-midpoint --retraction cayley", "--method"]);
     call.push("lie-midpoint");
-    let output = common::command(call).output().expect("lie runs");
+    let output = crate::common::command(call).output().expect("lie runs");
     assert!(output.status.success());
     let text = std::fs::read_to_string(&out).expect("rows");
     let value: serde_json::Value = serde_json::from_str(&text).expect("JSON");
@@ -252,7 +250,7 @@ fn an_option_behind_a_method_and_as_a_flag_is_refused_where_no_other_method_take
     let of = |other: &str| {
         let label = "lie-midpoint --retraction cayley";
         let methods = ["--method", other, "--method", label, "--retraction", "exp"];
-        let output = common::command(BODY.split_whitespace().chain(methods)).output();
+        let output = crate::common::command(BODY.split_whitespace().chain(methods)).output();
         let output = output.expect("lie starts");
         let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
         (output.status.code(), stderr)

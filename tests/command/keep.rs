@@ -1,9 +1,7 @@
 //! `--keep`: energy and Casimirs by a projection behind the steps of explicit methods. What it does to steps is tested with the driver,
 //! in `lie-runtime/tests/projection.rs`.
 
-mod common;
-
-use common::{folder, lie, spec};
+use crate::common::{folder, lie, spec};
 use serde_json::Value;
 
 const TOP: &str = "run specs/se3_heavy_top.json --until 20 --step 0.1";

@@ -1,24 +1,16 @@
 //! `lie run --checkpoint` and `lie resume`: a run that was ended goes on as if it had not been.
 #![cfg(unix)]
 
-mod common;
 #[allow(dead_code)]
-#[path = "common/process.rs"]
-mod process;
 #[allow(dead_code)]
-#[path = "common/random.rs"]
-mod random;
-#[path = "common/resume.rs"]
-mod resume;
-
 use std::fs;
 use std::path::Path;
 use std::process::Stdio;
 use std::time::Duration;
 
-use common::{Run, command, folder};
-use random::Random;
-use resume::{arguments, forged, prepared, within};
+use crate::common::{Run, command, folder};
+use crate::random::Random;
+use crate::resuming::{arguments, forged, prepared, within};
 
 /// What is said of the errors.
 fn errors(run: &Run) -> &str {
@@ -268,7 +260,7 @@ fn two_hundred_runs_that_are_killed_go_on() {
 /// Waits until a checkpoint speaks of steps.
 #[track_caller]
 fn wait_for_place(path: &Path) {
-    process::wait("a checkpoint", || {
+    crate::process::wait("a checkpoint", || {
         fs::read_to_string(path).is_ok_and(|text| text.contains("milestone"))
     });
 }
@@ -277,14 +269,14 @@ fn wait_for_place(path: &Path) {
 #[track_caller]
 fn cut_short(here: &Path, signal: &str) -> Run {
     let call = "run body.json --method rk4 --step 0.01 --until 1e9 --out rows.csv --checkpoint ck --checkpoint-every 1";
-    let child = process::start(
+    let child = crate::process::start(
         command(arguments(call))
             .current_dir(here)
             .stderr(Stdio::piped()),
     );
     wait_for_place(&here.join("ck"));
-    process::signal(child.id(), signal);
-    process::ended(child)
+    crate::process::signal(child.id(), signal);
+    crate::process::ended(child)
 }
 
 #[test]

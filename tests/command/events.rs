@@ -1,10 +1,8 @@
 //! Events of a run: the table, what stops, what is refused.
 
-mod common;
-
 use std::path::Path;
 
-use common::{Run, csv, folder, lie};
+use crate::common::{Run, csv, folder, lie};
 use serde_json::{Value, json};
 
 /// A body of revolution: x + i y = r exp(-i z t) with z = 1.7, up to the sign of the rotation.
@@ -180,7 +178,9 @@ fn a_run_that_goes_on_has_those_before() {
         )
     };
     lie(&call("whole")).ok();
-    let mut child = common::command(call("part").split(' ')).spawn().unwrap();
+    let mut child = crate::common::command(call("part").split(' '))
+        .spawn()
+        .unwrap();
     while std::fs::metadata(at("part.csv")).map_or(true, |file| file.len() < 4000) {
         if child.try_wait().unwrap().is_some() {
             break;

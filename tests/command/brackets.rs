@@ -1,8 +1,6 @@
 //! The command on systems whose bracket is not that of an algebra alone.
 
-mod common;
-
-use common::{folder, lie};
+use crate::common::{folder, lie};
 use serde_json::{Value, json};
 
 fn check(path: &str) -> Value {

@@ -1,12 +1,10 @@
 //! How `lie run --compile` builds: once, offline first, safely beside others, and what it says if it cannot.
 #![cfg(unix)]
 
-mod common;
-
 use std::os::unix::fs::PermissionsExt as _;
 use std::path::{Path, PathBuf};
 
-use common::{Run, command, folder, lie, spec};
+use crate::common::{Run, command, folder, lie, spec};
 
 const FLAGS: [&str; 7] = [
     "--compile",
@@ -267,7 +265,8 @@ fn only_program(cache: &Path) -> PathBuf {
 
 /// The program of a declaration of this name.
 fn program_of(name: &str) -> PathBuf {
-    let programs = std::fs::read_dir(common::cache().join("programs")).expect("the programs");
+    let programs =
+        std::fs::read_dir(crate::common::cache().join("programs")).expect("the programs");
     let mut folders = programs.flatten().map(|entry| entry.path());
     let folder = folders.find(|folder| {
         let source = std::fs::read_to_string(folder.join("main.rs")).unwrap_or_default();
@@ -512,7 +511,7 @@ fn ordinary_runs_leave_no_drafts_behind() {
     lie("run specs/so3_free_rigid_body.json --compile --quiet --method rk4 --step 0.1 --until 0.2")
         .ok();
     for folder in ["", "runtime"] {
-        for entry in std::fs::read_dir(common::cache().join(folder))
+        for entry in std::fs::read_dir(crate::common::cache().join(folder))
             .into_iter()
             .flatten()
             .flatten()
@@ -527,7 +526,7 @@ fn ordinary_runs_leave_no_drafts_behind() {
 fn to_show_the_cache_does_not_make_it() {
     let folder = folder();
     let cache = folder.path().join("none/cache");
-    let mut show = common::command(["cache"]);
+    let mut show = crate::common::command(["cache"]);
     let output = show
         .env("LIE_CACHE_DIR", &cache)
         .output()

@@ -1,10 +1,8 @@
 //! Damping, forces and noise on families at the command.
 
-mod common;
-
 use std::fs;
 
-use common::{Run, folder, lie};
+use crate::common::{Run, folder, lie};
 use serde_json::{Value, json};
 
 /// Spins in a field, which do not know of each other.

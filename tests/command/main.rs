@@ -1,0 +1,42 @@
+//! The command: `lie`, called as a user would.
+
+#[path = "../common/mod.rs"]
+mod common;
+#[path = "../common/process.rs"]
+mod process;
+#[path = "../common/random.rs"]
+mod random;
+#[path = "../common/resuming.rs"]
+mod resuming;
+#[path = "../common/rotation.rs"]
+mod rotation;
+
+mod acting;
+mod attitude;
+mod bounds;
+mod brackets;
+mod build;
+mod check;
+mod density;
+mod ensemble;
+mod events;
+mod families;
+mod families_acting;
+mod joints;
+mod keep;
+mod line;
+mod lost;
+mod many_runs;
+mod new;
+mod orbits;
+mod pictures;
+mod quantities;
+mod report;
+mod resume;
+mod resume_refused;
+mod run;
+mod signs;
+mod stress;
+mod time;
+mod units;
+mod verify;
