@@ -2,7 +2,6 @@
 
 #![cfg(unix)]
 
-#[allow(dead_code)]
 use std::fs;
 use std::path::Path;
 

@@ -10,6 +10,46 @@ const END: [f64; 3] = [
     0.897_723_877_165_692_5,
 ];
 
+/// A force that is switched off, and one that acts on one side of a plane; its end is from an extrapolation method.
+#[test]
+fn a_tolerance_without_a_method_is_met_across_joints() {
+    let folder = folder();
+    let path = spec(folder.path(), |spec| {
+        *spec = serde_json::json!({
+            "name": "Switched",
+            "algebra": "so(3)",
+            "state": ["x", "y", "z"],
+            "hamiltonian": "x^2/4 + y^2/3 + z^2/2",
+            "forces": { "x": "piecewise(t < 5: 1/5, 0)", "y": "-max(y, 0)/10" },
+            "initial": [0.5, 0.6, 0.7]
+        });
+    });
+    let end = [
+        1.576_009_908_754_72,
+        -0.253_392_603_106_295,
+        -0.756_173_447_885_1,
+    ];
+    let error = |options: &str| {
+        let run = lie(&format!(
+            "run {} --tol 1e-10 --at 10 {options}",
+            path.display()
+        ))
+        .ok();
+        let row = run.csv().1[0].clone();
+        let pairs = row[1..4].iter().zip(&end);
+        let error = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        (error, run.stderr)
+    };
+    let (found, said) = error("");
+    assert!(found < 1e-9, "{found:e} {said}");
+    assert!(
+        said.contains("taylor was picked: branches of H or of a force meet"),
+        "{said}"
+    );
+    // the control: steps that cross them
+    assert!(error("--method gauss16").0 > 1e-7);
+}
+
 #[test]
 fn runs_by_series_are_right_across_joints() {
     let folder = folder();

@@ -1,8 +1,6 @@
 //! `lie run --checkpoint` and `lie resume`: a run that was ended goes on as if it had not been.
 #![cfg(unix)]
 
-#[allow(dead_code)]
-#[allow(dead_code)]
 use std::fs;
 use std::path::Path;
 use std::process::Stdio;

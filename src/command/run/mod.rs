@@ -6,6 +6,7 @@ mod events;
 mod keeper;
 pub mod layout;
 pub mod outputs;
+mod picked;
 pub mod picture;
 mod reception;
 pub mod said;

@@ -5,7 +5,6 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use lie_codegen::model::Driving;
 use lie_in_process::request::{Member, Several};
 use lie_program::protocol::{Held, Obstacle};
 use lie_runtime::driver::{Density, Pace};
@@ -15,6 +14,7 @@ use super::checkpoint::refused;
 use super::events::{self, Table};
 use super::keeper::{Keeper, Unwritten};
 use super::layout::Layout;
+use super::picked;
 use super::picture::{Form, Picture, rounded};
 use super::reception::{Received, Reception};
 use super::said::{
@@ -55,7 +55,7 @@ impl Session<'_> {
     ) -> Result<u8, Failure> {
         let clock = Instant::now();
         if !self.flags.quiet {
-            self.say_what_was_picked();
+            picked::say(self.spec, &self.several.plans);
         }
         let mut tally = Tally::new(self.several);
         let mut ended = Ok(0);
@@ -243,40 +243,6 @@ impl Session<'_> {
         };
         let received = reception.finish(word(&outcome));
         Ok((outcome, received.map_err(|error| self.lost(error))?))
-    }
-
-    /// Why the method is the one it is, where a tolerance has chosen it.
-    fn say_what_was_picked(&self) {
-        let Some(plan) = self.several.plans.iter().find(|plan| plan.picked) else {
-            return;
-        };
-        let mut options = self.spec.model.run.iter();
-        let of_spec = options.find(|option| option.name.text == "method");
-        let of_spec = of_spec.and_then(|option| option.values.first());
-        let id = plan.method.id();
-        let of_spec = of_spec.filter(|(method, _)| method.trim() != id);
-        let replaced = of_spec.map_or(String::new(), |(method, _)| {
-            format!(" in place of {}, which the spec names", method.trim())
-        });
-        let why = match plan.kept(self.spec).is_empty() {
-            true => {
-                let order = plan.method.entry().map_or(0, |entry| entry.order);
-                let model = &self.spec.model;
-                let forced = |driving: &Driving| driving.is_forced(&model.graph);
-                match &model.driving {
-                    None => format!(
-                        "it applies to every system, has order {order}, and keeps quadratic Casimirs and a quadratic energy to round-off"
-                    ),
-                    Some(driving) if !forced(driving) => format!(
-                        "it applies to every system, has order {order}, and keeps quadratic Casimirs to round-off"
-                    ),
-                    Some(_) => format!("it applies to every system and has order {order}"),
-                }
-            }
-            false => "something is to be kept, and it is explicit, as a projection behind its steps needs".to_owned(),
-        };
-        let text = format!("{id} was picked{replaced}: {why}; --method chooses another");
-        render::say(&folded(&text));
     }
 
     /// Says what a run has done.

@@ -20,6 +20,8 @@ const METHODS: [&str; 2] = ["lie-midpoint", "midpoint"];
 const OF_TOLERANCE: &str = "gauss16";
 const OF_LOOSE_TOLERANCE: &str = "gauss8";
 const LOOSE: f64 = 1e-4;
+/// That of a tolerance where branches meet: its steps end there.
+const OF_JOINTS: (&str, Choice) = ("taylor", Choice::Taylor);
 /// That of a system by a discrete Lagrangian in coordinates of the exponential map.
 const DISCRETE: &str = "discrete-euler-poincare";
 
@@ -285,6 +287,16 @@ impl<'a> Planner<'a> {
         given.is_some_and(|tolerance| tolerance >= LOOSE)
     }
 
+    /// Whether H or a force has branches that meet, and a method's steps can end there.
+    fn has_joints(&self) -> bool {
+        let model = &self.spec.model;
+        let noisy = model
+            .driving
+            .as_ref()
+            .is_some_and(|driving| driving.noises > 0);
+        !model.joints.is_empty() && !noisy && method::applies(OF_JOINTS.1, model).is_ok()
+    }
+
     /// The method as it is given, or the usual one.
     fn label(&self) -> OptionValue {
         let picks = self.picks();
@@ -300,6 +312,8 @@ impl<'a> Planner<'a> {
         let keeping = self.keeping().filter(|_| picks);
         let usual = if let Some(keeping) = keeping {
             keeping
+        } else if picks && self.has_joints() {
+            OF_JOINTS.0
         } else if picks && self.is_loose() {
             OF_LOOSE_TOLERANCE
         } else if picks || model.family.is_some() {
