@@ -1,6 +1,6 @@
 //! What acts beside the Hamiltonian: forces and dissipation, in the form that both front ends hand on.
 
-use super::reader::Line;
+use super::entries::Line;
 use super::vectors::Value;
 use super::{Names, expression, families, item};
 use crate::ast::{Dissipation, DissipationKind, Expr, Metric, Name, Noise};

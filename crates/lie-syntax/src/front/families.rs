@@ -2,10 +2,10 @@
 //!
 //! The parser reads them into the tree; [`refuse`] turns them away where the declaration is none of a family.
 
+use super::entries::Read;
 use super::expression::Parser;
 use super::item;
 use super::named;
-use super::reader::Read;
 use super::token::{Cursor, render, span};
 use super::token::{Delimiter, Token, TokenKind};
 use crate::ast::{BONDS, Expr, ExprKind, Index, Name, Size};

@@ -15,6 +15,7 @@ pub mod place;
 
 mod attitude;
 mod driving;
+mod entries;
 mod equations;
 mod expression;
 mod families;

@@ -19,9 +19,10 @@ use std::path::Path;
 pub use files::files;
 use quote::quote;
 
+use super::entries::{Awaited, Entries, Line, Read, Recorded};
 use super::json::{self, Type, Value};
 use super::object::{Object, as_list, list, parts, string, wrong_type};
-use super::reader::{self, Awaited, Entries, Line, Read, Recorded};
+use super::reader;
 use super::schema::Spec;
 use super::tables::Read as Table;
 use super::vectors::Declared;

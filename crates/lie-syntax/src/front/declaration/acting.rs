@@ -4,7 +4,7 @@ use super::entry::{Entry, compact, inside};
 use super::vectors;
 use crate::ast::{Input, Name};
 use crate::diagnostic::{Diagnostic, Kind, Report};
-use crate::front::reader::Line;
+use crate::front::entries::Line;
 use crate::front::token::{Delimiter, TokenKind, split_commas};
 use crate::front::{Names, driving, families, item};
 

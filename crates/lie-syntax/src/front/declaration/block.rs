@@ -5,8 +5,8 @@ use super::family;
 use super::statement::Statement;
 use crate::ast::{Algebra, Expr, Matrix, Name, Parameter, Realization};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
+use crate::front::entries::{Line, Parameters, Read};
 use crate::front::named::{self, Changes};
-use crate::front::reader::{Line, Parameters, Read};
 use crate::front::token::{Delimiter, Token, span, split_commas};
 use crate::front::{Names, item};
 

@@ -1,8 +1,8 @@
 //! Blocks, their entries and doc comments.
 
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
+use crate::front::entries::Line;
 use crate::front::mistakes;
-use crate::front::reader::Line;
 use crate::front::token::{Cursor, Delimiter, Token, TokenKind, render_whole};
 
 /// One `…;` in a block.

@@ -3,8 +3,8 @@
 use super::entry::Entry;
 use crate::ast::Name;
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
+use crate::front::entries::{Awaited, Line};
 use crate::front::item;
-use crate::front::reader::{Awaited, Line};
 use crate::front::token::{Token, render, span, split_commas};
 
 /// `{ down = z, direction -1, stop; }`

@@ -5,7 +5,7 @@ use super::entry::{compact, inside};
 use super::statement::Statement;
 use crate::ast::{BONDS, Name, SiteData, SiteValues, Start};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
-use crate::front::reader::Read;
+use crate::front::entries::Read;
 use crate::front::token::{Delimiter, Token, TokenKind, span, split_commas};
 use crate::front::{families, item};
 

@@ -2,8 +2,8 @@
 
 use super::entry::Entry;
 use crate::diagnostic::{Diagnostic, Kind, Report};
+use crate::front::entries::{Line, Recorded};
 use crate::front::item;
-use crate::front::reader::{Line, Recorded};
 use crate::front::token::{Token, split_commas};
 
 /// `{ height = z; phi = atan2(y, x), unwrap; }`

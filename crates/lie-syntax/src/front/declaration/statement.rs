@@ -2,8 +2,8 @@
 
 use super::entry::{Entry, docs, inside, split};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
+use crate::front::entries::Line;
 use crate::front::habits;
-use crate::front::reader::Line;
 use crate::front::token::{Cursor, Delimiter, Token, TokenKind, render};
 use crate::suggest::meant;
 

@@ -8,7 +8,7 @@ use crate::constructors::{
     Acted, Central, Constants, Entries, Matrices, NamedAlgebra, changed, extended, semidirect,
 };
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
-use crate::front::reader::{Line, Read};
+use crate::front::entries::{Line, Read};
 use crate::front::token::span;
 use crate::front::{Names, item};
 use crate::linear::{Scope, WORK, rational, rational_form};

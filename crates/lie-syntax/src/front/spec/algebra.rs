@@ -3,10 +3,10 @@
 use super::{line, quantity};
 use crate::ast::{Algebra, Bracket, Matrix};
 use crate::diagnostic::{Kind, Report};
+use crate::front::entries::{Entries as _, Read};
 use crate::front::json::{Type, Value};
 use crate::front::named::{self, Changes};
 use crate::front::object::{Object, list, wrong_type};
-use crate::front::reader::{Entries as _, Read};
 use crate::front::schema;
 use crate::front::{Names, families, item};
 

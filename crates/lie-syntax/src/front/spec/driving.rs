@@ -3,9 +3,9 @@
 use super::{line, quantity, vectors};
 use crate::ast::{Input, Name};
 use crate::diagnostic::{Diagnostic, Kind, Report};
+use crate::front::entries::Line;
 use crate::front::json::{Type, Value};
 use crate::front::object::{Object, list, string, wrong_type};
-use crate::front::reader::Line;
 use crate::front::{Names, driving, expression, families, item, schema};
 
 /// `{"m1": "-k*m1"}`: names, each with an expression.

@@ -2,10 +2,10 @@
 
 use super::line;
 use crate::diagnostic::{Diagnostic, Kind, Report};
+use crate::front::entries::Awaited;
 use crate::front::item;
 use crate::front::json::{Type, Value};
 use crate::front::object::{Object, wrong_type};
-use crate::front::reader::Awaited;
 use crate::front::schema::Event;
 
 /// Reads events by their names. One with a mistake is left out.

@@ -2,10 +2,10 @@
 
 use super::line;
 use crate::diagnostic::Report;
+use crate::front::entries::{Line, Recorded};
 use crate::front::item;
 use crate::front::json::{Type, Value};
 use crate::front::object::{Object, wrong_type};
-use crate::front::reader::{Line, Recorded};
 use crate::front::schema::DescribedObservable;
 
 /// Reads observables by their names. One with a mistake is left out.

@@ -5,9 +5,9 @@ use std::path::Path;
 use super::{quantity, sites};
 use crate::ast::{Name, Parameter};
 use crate::diagnostic::{Diagnostic, Kind, Report};
+use crate::front::entries::Parameters;
 use crate::front::json::{Type, Value};
 use crate::front::object::{Object, string, wrong_type};
-use crate::front::reader::Parameters;
 use crate::front::schema::DescribedParameter;
 use crate::front::{item, prose};
 

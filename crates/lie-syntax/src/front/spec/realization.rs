@@ -3,9 +3,9 @@
 use super::quantity;
 use crate::ast::Realization;
 use crate::diagnostic::Report;
+use crate::front::entries::{Entries as _, Line};
 use crate::front::json::Value;
 use crate::front::object::Object;
-use crate::front::reader::{Entries as _, Line};
 use crate::front::schema;
 use crate::front::{Names, item};
 
