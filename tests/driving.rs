@@ -50,6 +50,18 @@ lie_poisson! {
     methods = [gauss4, gauss6, gauss8, gauss16, midpoint, rk4, dopri5, taylor];
 }
 
+lie_poisson! {
+    /// The pushed body by its Lagrangian.
+    system ByLagrangian;
+    algebra = so(3);
+    state x, y, z;
+    velocity u, v, w;
+    vectors { m = (x, y, z); b = (1/3, 0, 1); }
+    lagrangian = (u^2 + 2*v^2 + 3*w^2)/2;
+    forces { m = cos(t)*b - norm(m)*m/4; }
+    dissipation { rayleigh(matrix = [[1/10, 0, 0], [0, 1/5, 0], [0, 0, 0]]); }
+}
+
 const START: [f64; 3] = [0.8, 0.3, -0.5];
 
 /// The state with the coordinates that carry the time.
@@ -173,35 +185,61 @@ fn a_moment_stays_on_its_sphere_for_long() {
     );
 }
 
+type State = <PushedSystem<f64> as Poisson<f64>>::State;
+
+/// Where the pushed body is at t = 2.
+fn pushed() -> State {
+    let system = Pushed::new().system().expect("a system");
+    *run(system, Gauss16, 0.01, 2.0).mu.last().expect("a row")
+}
+
+/// The order of the error there by two steps.
+fn order<P, M>(make: impl Fn() -> P, method: M, steps: [f64; 2], exact: &State) -> f64
+where
+    P: Poisson<f64, State = State>,
+    M: Method<f64, P> + Copy,
+{
+    let error = |step: f64| {
+        let end = run(make(), method, step, 2.0);
+        let end = end.mu.last().expect("a row");
+        // p too: the work has the order of the motion
+        let pairs = end.as_slice().iter().zip(exact.as_slice()).take(4);
+        pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    };
+    (error(steps[0]) / error(steps[1])).log2()
+}
+
+fn near(found: f64, order: u32) {
+    let above = found - f64::from(order);
+    assert!((-0.3..0.8).contains(&above), "{found} for {order}");
+}
+
+/// The generated code of a Lagrangian beside which something acts has its variational methods, with the motion of the Hamiltonian.
+#[test]
+fn variational_methods_keep_their_orders_under_forces() {
+    let exact = &pushed();
+    let system = || ByLagrangian::new().system().expect("a system");
+    near(order(system, Variational2::exp(), [0.02, 0.01], exact), 2);
+    near(order(system, Variational4::exp(), [0.1, 0.05], exact), 4);
+    near(order(system, Variational6::exp(), [0.2, 0.1], exact), 6);
+    let end = run(system(), Variational6::exp(), 0.05, 2.0);
+    let end = end.mu.last().expect("a row");
+    assert!((end - exact).amax() < 1e-9);
+    let start = State::from(start());
+    assert!((start - exact).amax() > 0.1, "the control: it has moved");
+}
+
 /// Orders by slope against a run of `gauss16` with small steps.
 #[test]
 fn methods_keep_their_orders_under_forces() {
-    let until = 2.0;
-    let exact = run(
-        Pushed::new().system().expect("a system"),
-        Gauss16,
-        0.01,
-        until,
-    );
-    let exact = exact.mu.last().expect("a row");
-    fn slope<M: Method<f64, PushedSystem<f64>> + Copy>(
-        method: M,
-        steps: [f64; 2],
-        exact: &<PushedSystem<f64> as Poisson<f64>>::State,
-    ) -> f64 {
-        let error = |step: f64| {
-            let end = run(Pushed::new().system().expect("a system"), method, step, 2.0);
-            let end = end.mu.last().expect("a row");
-            // p too: the work has the order of the motion
-            let pairs = end.as_slice().iter().zip(exact.as_slice()).take(4);
-            pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
-        };
-        (error(steps[0]) / error(steps[1])).log2()
+    let exact = &pushed();
+    fn slope<M>(method: M, steps: [f64; 2], exact: &State) -> f64
+    where
+        M: Method<f64, PushedSystem<f64>> + Copy,
+    {
+        let system = || Pushed::new().system().expect("a system");
+        order(system, method, steps, exact)
     }
-    let near = |found: f64, order: u32| {
-        let above = found - f64::from(order);
-        assert!((-0.3..0.8).contains(&above), "{found} for {order}");
-    };
     near(
         slope(ImplicitMidpoint, [0.02, 0.01], exact),
         ImplicitMidpoint::ORDER,

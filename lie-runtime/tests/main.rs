@@ -20,6 +20,7 @@ mod functions;
 mod generating;
 mod joints;
 mod kernels;
+mod lagrange_alembert;
 mod lanes;
 mod orders;
 mod own_step;

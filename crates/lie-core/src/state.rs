@@ -203,22 +203,24 @@ one_part!(
     core::mem::swap
 );
 
-/// The unknowns of a method with several stages, one part per stage.
+/// The unknowns of a method with several stages: the parts of each, one after the other; a stage is one part, or stages itself.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stages<V, const STAGES: usize>(pub [V; STAGES]);
 
 impl<S: Scalar, V: Unknown<S>, const STAGES: usize> Unknown<S> for Stages<V, STAGES> {
     #[inline(always)]
     fn parts(&self) -> usize {
-        STAGES
+        STAGES * self.0[0].parts()
     }
     #[inline(always)]
     fn part(&self, index: usize) -> &[S] {
-        self.0[index].part(0)
+        let parts = self.0[0].parts();
+        self.0[index / parts].part(index % parts)
     }
     #[inline(always)]
     fn part_mut(&mut self, index: usize) -> &mut [S] {
-        self.0[index].part_mut(0)
+        let parts = self.0[0].parts();
+        self.0[index / parts].part_mut(index % parts)
     }
 }
 
@@ -237,6 +239,16 @@ mod tests {
         stages.set_entry(3, f64::NAN);
         assert!(Unknown::<f64>::max_norm(&stages).is_nan());
         assert!(!Unknown::<f64>::finite(&stages));
+    }
+
+    #[test]
+    fn stages_of_stages_are_indexed_part_after_part() {
+        let mut stages = Stages([Stages([[1.0], [2.0]]), Stages([[3.0], [-4.0]])]);
+        assert_eq!(Unknown::<f64>::parts(&stages), 4);
+        assert_eq!(Unknown::<f64>::entry(&stages, 2), 3.0);
+        stages.set_entry(1, 7.0);
+        assert_eq!(stages.0[0].0[1], [7.0]);
+        assert_eq!(Unknown::<f64>::max_norm(&stages), 7.0);
     }
 
     #[test]

@@ -96,6 +96,7 @@ pub mod affine_line;
 pub mod body4;
 pub mod damped_body;
 pub mod driven_body;
+pub mod driven_top;
 pub mod folded;
 pub mod forced_top;
 pub mod heavy_top;

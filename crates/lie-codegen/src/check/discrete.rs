@@ -38,7 +38,7 @@ pub fn elsewhere(origin: Origin) -> Diagnostic {
     Diagnostic::new(
         Kind::Legendre,
         origin,
-        "a discrete Lagrangian needs the Lie–Poisson bracket of an algebra, and no dependence on the time",
+        "a discrete Lagrangian needs the Lie–Poisson bracket of an algebra, no dependence on the time, and nothing that acts beside it",
     )
     .help("declare a `hamiltonian` or a `lagrangian`")
 }

@@ -93,7 +93,7 @@ impl Motion<'_> {
                 model::Energy::Lagrangian(lagrangian, hamiltonian)
             }
             // one that depends on the group element or the time is none on the algebra alone
-            Transform::Exact(hamiltonian) => model::Energy::Expression(hamiltonian),
+            Transform::Exact(hamiltonian) => model::Energy::Transformed(hamiltonian),
         })
     }
 }

@@ -35,10 +35,7 @@ impl Motion<'_> {
         function: ExprId,
         scratch: &mut Graph,
     ) -> Option<Diagnostic> {
-        let hamiltonian = match self.energy {
-            Energy::Expression(h) | Energy::Lagrangian(_, h) => h.value,
-            Energy::Legendre(_, function) => *function,
-        };
+        let hamiltonian = self.energy.value(|hamiltonian| hamiltonian.value);
         let bracket = bracket_of(scratch, &self.matrix.entries, function, hamiltonian);
         let driven = self.driven(function, scratch);
         let bracket = scratch.add(bracket, driven);

@@ -112,7 +112,7 @@ fn not_quadratic(lagrangian: &Lagrangian<'_>) -> Diagnostic {
         Kind::Legendre,
         lagrangian.origin,
         "the Lagrangian is not quadratic in the velocity, or could not be shown to be: then it cannot depend on the \
-         group element or the time, and the bracket must be the bracket of an algebra",
+         group element or the time, nothing may act beside it, and the bracket must be the bracket of an algebra",
     )
     .help("the Legendre transform of such Lagrangians is not built yet; give the Hamiltonian `H(mu) = <mu, xi> - l(xi)`")
 }

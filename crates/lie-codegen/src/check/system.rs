@@ -67,10 +67,7 @@ pub fn system(
     }
     let place = declaration.algebra().map(|algebra| algebra.origin);
     let place = place.unwrap_or(declaration.place());
-    let hamiltonian = match &energy {
-        Energy::Expression(hamiltonian) | Energy::Lagrangian(_, hamiltonian) => hamiltonian.value,
-        Energy::Legendre(_, function) => *function,
-    };
+    let hamiltonian = energy.value(|hamiltonian| hamiltonian.value);
     let hamiltonian = (hamiltonian, declaration.energy.expression().origin);
     let origins = declaration.casimirs.iter().map(|c| c.value.origin);
     let casimirs = lowered.casimirs.iter().copied().zip(origins);

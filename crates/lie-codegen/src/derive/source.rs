@@ -99,10 +99,16 @@ impl Source {
         self.is_lie().then_some(&*self.structure)
     }
 
-    /// The number of momenta of a system on `T*G`, which are its first coordinates.
+    /// The number of momenta of a system on `T*G`, or of one by a Lagrangian with the time beside it; they are its first coordinates.
     pub fn momenta(&self) -> Option<usize> {
         let configuration = self.lie()?.configuration.as_ref()?;
-        configuration.group.as_ref().map(|_| configuration.momenta)
+        let known = configuration.group.is_some() || self.is_transformed();
+        known.then_some(configuration.momenta)
+    }
+
+    /// Whether H is the Legendre transform of a Lagrangian that is none on an algebra alone.
+    pub fn is_transformed(&self) -> bool {
+        matches!(self.energy, Energy::Transformed(_))
     }
 
     fn representation(&self) -> Option<&Representation> {
@@ -203,6 +209,7 @@ fn energy(model: &Model, written: impl Fn(ExprId) -> ExprId) -> Energy {
     };
     match model.energy.clone() {
         Energy::Expression(h) => Energy::Expression(of_h(h)),
+        Energy::Transformed(h) => Energy::Transformed(of_h(h)),
         Energy::Lagrangian(l, h) => Energy::Lagrangian(of_l(l), of_h(h)),
         Energy::Legendre(l, function) => Energy::Legendre(of_l(l), function),
     }

@@ -1,7 +1,7 @@
 //! Which methods a system can carry.
 
 use super::{CATALOGUE, Choice, Lift, Pieces, Retraction, Scheme, Tensor};
-use crate::model::{Acting, Bracket, Descent, Discrete, Model};
+use crate::model::{Acting, Bracket, Descent, Discrete, Energy, Model};
 use crate::structure::{
     Structure, found, inertia, integrable, lifts, matrices, separable, spins, unitary, vectors,
 };
@@ -99,14 +99,15 @@ fn driven(model: &Model, choice: &Choice) -> Option<(String, String)> {
         bends && !method.damping,
     ) {
         (false, false) => return None,
-        (true, _) if driving.pushes() => {
-            "forces act beside the Hamiltonian, and the step has no form with them"
-        }
         (true, _) => {
-            "dissipation or noise acts beside the Hamiltonian, and the step has no form with it"
+            let acts = match driving.pushes() {
+                true => "forces act beside the Hamiltonian",
+                false => "dissipation or noise acts beside the Hamiltonian",
+            };
+            format!("{acts}, and {}", without_forces(choice))
         }
         (false, true) => {
-            "a double bracket damps, and the step is made of a gradient of H, which its generator is not"
+            "a double bracket damps, and the step is made of a gradient of H, which its generator is not".into()
         }
     };
     let others = match model.family {
@@ -116,7 +117,25 @@ fn driven(model: &Model, choice: &Choice) -> Option<(String, String)> {
     let help = format!(
         "use {others}, which take the whole field, or leave `forces` and `dissipation` out"
     );
-    Some((what.into(), help))
+    Some((what, help))
+}
+
+/// What leaves no place for a force in the step of a method.
+fn without_forces(choice: &Choice) -> &'static str {
+    match choice {
+        Choice::Exact => "the closed solution is that of H alone",
+        Choice::Splitting(..) => "no flow of what acts is known in closed form",
+        Choice::Generating(..) | Choice::GeneratingSecondKind2 => {
+            "the generating function is one of H alone"
+        }
+        Choice::LieTaylor => "the step moves along the coadjoint orbit, which what acts leaves",
+        Choice::Collective(..) | Choice::Isospectral(_) | Choice::SphericalMidpoint => {
+            "the space over the momenta has no force that moves them off their orbit"
+        }
+        Choice::MoserVeselov => "the discrete body is a free one",
+        Choice::DiscreteEulerPoincare(_) => "a discrete Lagrangian has the motion without it",
+        _ => "the step has no form with it",
+    }
 }
 
 /// Why coefficients for two pieces are not for this many.
@@ -199,21 +218,32 @@ fn own_joints(structure: &Structure) -> Option<(String, String)> {
 /// Why a method for Lagrangians does not apply.
 fn lagrangian(model: &Model, choice: &Choice) -> Option<(String, String)> {
     match choice {
-        Choice::Variational(order, _) if model.energy.lagrangian().is_none() => Some((
-            if model.configuration.is_some() {
-                "the method is for reduced Lagrangians, without the group element and without the time"
-            } else {
-                "the method needs a Lagrangian, and the system is given by its Hamiltonian"
-            }
-            .into(),
-            format!(
-                "declare `velocity` and `lagrangian` instead of `hamiltonian`, or use `generating{order}`, which is a \
-                 Poisson map of the same order"
-            ),
-        )),
-        Choice::DiscreteEulerPoincare(_)
-            if discrete(model).is_none() =>
+        Choice::Variational(_, Retraction::Cayley)
+            if matches!(model.energy, Energy::Transformed(_)) =>
         {
+            let message = "with the Cayley map the method is for reduced Lagrangians, without group element, time and forces";
+            let help =
+                "use `variational2` with `--retraction exp`, or `lie-midpoint --retraction cayley`";
+            Some((message.into(), help.into()))
+        }
+        Choice::Variational(order, _) if matches!(model.energy, Energy::Expression(_)) => {
+            let other = match (&model.driving, order) {
+                (None, order) => {
+                    format!("`generating{order}`, which is a Poisson map of the same order")
+                }
+                (Some(_), 2) => "`lie-midpoint`, which carries forces in the same way".into(),
+                (Some(_), order) => {
+                    format!("`compose{order}(lie-midpoint)`, which has the same order")
+                }
+            };
+            Some((
+                "the method needs a Lagrangian, and the system is given by its Hamiltonian".into(),
+                format!(
+                    "declare `velocity` and `lagrangian` instead of `hamiltonian`, or use {other}"
+                ),
+            ))
+        }
+        Choice::DiscreteEulerPoincare(_) if discrete(model).is_none() => {
             let message = "the method needs a discrete Lagrangian, and the system declares none";
             let help = "declare `discrete_lagrangian`; for a system with a `lagrangian` use `variational2`";
             Some((message.into(), help.into()))

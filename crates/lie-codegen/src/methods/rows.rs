@@ -46,6 +46,8 @@ pub enum Carrier {
     Lagrangian,
     /// The same with a closed representation.
     ClosedLagrangian,
+    /// Those by a Lagrangian that carry the group element or the time.
+    LagrangianOnGroup,
     /// Those by a discrete Lagrangian.
     DiscreteLagrangian,
     /// The same with a closed representation.

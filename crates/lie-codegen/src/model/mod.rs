@@ -52,9 +52,11 @@ pub struct Parameter {
 /// before that it is an expression.
 #[derive(Clone, Debug)]
 pub enum Energy<H = Hamiltonian> {
-    /// A Hamiltonian. It was declared, or is the Legendre transform of a Lagrangian that depends on the group element or
-    /// the time as well.
+    /// A Hamiltonian that was declared.
     Expression(H),
+    /// The Legendre transform of a Lagrangian that is none on an algebra alone: the space carries the group element or the time, or the
+    /// bracket is another one.
+    Transformed(H),
     /// A reduced Lagrangian and its Legendre transform, an expression in mu.
     Lagrangian(Lagrangian, H),
     /// A reduced Lagrangian whose velocity for a momentum is found by Newton's iteration when it is needed. The
@@ -67,10 +69,20 @@ impl<H> Energy<H> {
     /// The Hamiltonian, where it is an expression in mu alone, which methods can take apart.
     pub fn expression(&self) -> Option<&H> {
         match self {
-            Energy::Expression(hamiltonian) | Energy::Lagrangian(_, hamiltonian) => {
-                Some(hamiltonian)
-            }
+            Energy::Expression(hamiltonian)
+            | Energy::Transformed(hamiltonian)
+            | Energy::Lagrangian(_, hamiltonian) => Some(hamiltonian),
             Energy::Legendre(..) => None,
+        }
+    }
+
+    /// The function whose derivatives by the coordinates are the gradient: H, of [`Energy::Legendre`] in mu and its velocity.
+    pub fn value(&self, of: impl FnOnce(&H) -> ExprId) -> ExprId {
+        match self {
+            Energy::Expression(hamiltonian)
+            | Energy::Transformed(hamiltonian)
+            | Energy::Lagrangian(_, hamiltonian) => of(hamiltonian),
+            Energy::Legendre(_, function) => *function,
         }
     }
 
@@ -78,7 +90,7 @@ impl<H> Energy<H> {
     pub fn lagrangian(&self) -> Option<&Lagrangian> {
         match self {
             Energy::Lagrangian(lagrangian, _) | Energy::Legendre(lagrangian, _) => Some(lagrangian),
-            Energy::Expression(_) => None,
+            Energy::Expression(_) | Energy::Transformed(_) => None,
         }
     }
 
@@ -86,6 +98,7 @@ impl<H> Energy<H> {
     pub fn with<K>(self, of: impl FnOnce(H) -> K) -> Energy<K> {
         match self {
             Energy::Expression(hamiltonian) => Energy::Expression(of(hamiltonian)),
+            Energy::Transformed(hamiltonian) => Energy::Transformed(of(hamiltonian)),
             Energy::Lagrangian(lagrangian, hamiltonian) => {
                 Energy::Lagrangian(lagrangian, of(hamiltonian))
             }
@@ -221,12 +234,7 @@ impl Model {
 
     /// The Hamiltonian in mu; of [`Energy::Legendre`] in mu and its velocity.
     pub fn hamiltonian(&self) -> ExprId {
-        match &self.energy {
-            Energy::Expression(hamiltonian) | Energy::Lagrangian(_, hamiltonian) => {
-                hamiltonian.value
-            }
-            Energy::Legendre(_, function) => *function,
-        }
+        self.energy.value(|hamiltonian| hamiltonian.value)
     }
 
     /// How many independent Casimirs a user may look for. The unit beside the time is one that nobody has to

@@ -96,6 +96,7 @@ impl Planner<'_> {
             Carrier::BodyOfMany => matches!(source.body(), Some(Body::Many { .. })),
             Carrier::Lagrangian => source.energy.lagrangian().is_some(),
             Carrier::ClosedLagrangian => source.energy.lagrangian().is_some() && closed,
+            Carrier::LagrangianOnGroup => source.is_transformed() && source.momenta().is_some(),
             Carrier::DiscreteLagrangian => source.discrete().is_some(),
             Carrier::ClosedDiscreteLagrangian => source.discrete().is_some() && closed,
         }

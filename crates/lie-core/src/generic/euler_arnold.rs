@@ -1,5 +1,6 @@
 //! The two halves of a step on `T*G` as equations.
 
+use super::acting::Acting;
 use super::dexp_slope::DexpSlope;
 use super::series::coadjoint_action_in;
 use crate::clock::{Clock, holds};
@@ -30,7 +31,8 @@ pub enum Half {
 ///   state is `(mu' - h F(a1, m), a1)`.
 ///
 /// Both are products of two coadjoint actions, of `exp(xi)` and of `exp(h (0, dH/da))`, so the coadjoint orbit
-/// is kept to round-off whatever the error of the unknown. Jacobians: by the derivatives of `phi1(ad*_xi) nu`, and
+/// is kept to round-off whatever the error of the unknown. Where forces act they are added to F, at the same place, and where damping does
+/// the generator takes the place of the gradient of H: the spatial momentum changes by exactly the impulses at both ends. Jacobians: by the derivatives of `phi1(ad*_xi) nu`, and
 /// `exp(A) = 1 + A phi1(A)`.
 #[derive(Debug)]
 pub struct EulerArnoldHalf<'a, S: Scalar, P: CotangentPoisson<S>> {
@@ -50,6 +52,8 @@ pub struct EulerArnoldHalf<'a, S: Scalar, P: CotangentPoisson<S>> {
     /// (0, h dH/da)
     force: P::State,
     hessian: P::Jacobian,
+    /// The derivative of the force, where one acts.
+    slope: Acting<P::Jacobian>,
     series: DexpSlope<P::State, P::Jacobian, S>,
     /// `phi1(ad*_direction)` of the start.
     sum: P::State,
@@ -72,6 +76,7 @@ impl<'a, S: Scalar, P: CotangentPoisson<S>> EulerArnoldHalf<'a, S, P> {
             direction: zero.clone(),
             force: zero.clone(),
             hessian: system.zero_jacobian(),
+            slope: Acting::of(system, || system.zero_jacobian()),
             series: DexpSlope::new(&zero, system.zero_jacobian()),
             sum: zero.clone(),
             columns: core::array::from_fn(|_| zero.clone()),
@@ -83,9 +88,9 @@ impl<'a, S: Scalar, P: CotangentPoisson<S>> EulerArnoldHalf<'a, S, P> {
         self.half = half;
     }
 
-    /// Splits `h grad H` at the point into the direction and the force.
+    /// Splits h times the generator at the point into the direction and the force.
     fn split_gradient(&mut self) {
-        self.system.gradient(&self.point, &mut self.gradient);
+        self.system.generator(&self.point, &mut self.gradient);
         self.direction.fill(S::zero());
         self.force.fill(S::zero());
         for (index, &slope) in self.gradient.as_slice().iter().enumerate() {
@@ -112,6 +117,21 @@ impl<'a, S: Scalar, P: CotangentPoisson<S>> EulerArnoldHalf<'a, S, P> {
         }
     }
 
+    /// Adds h times the force that acts at the point.
+    fn push_acting(
+        (system, step): (&P, S),
+        point: &P::State,
+        into: &mut P::State,
+        free: &mut P::State,
+    ) {
+        if system.is_forced() {
+            system.force(point, free);
+            for index in 0..system.momenta() {
+                into.as_mut_slice()[index] += step * free.as_slice()[index];
+            }
+        }
+    }
+
     /// Sets the sum.
     fn momentum(&mut self) {
         let (system, series) = (self.system, &mut self.series);
@@ -126,6 +146,8 @@ impl<'a, S: Scalar, P: CotangentPoisson<S>> EulerArnoldHalf<'a, S, P> {
         self.start.copy_from(&self.base);
         let free = &mut self.columns[0];
         Self::push_force(self.system, &self.force, &self.base, &mut self.start, free);
+        let of_step = (self.system, self.step);
+        Self::push_acting(of_step, &self.point, &mut self.start, free);
     }
 
     /// Second half: the configuration a1 for the element x, by the action on the whole state.
@@ -156,7 +178,7 @@ impl<'a, S: Scalar, P: CotangentPoisson<S>> EulerArnoldHalf<'a, S, P> {
             }
             Half::Second => {
                 self.solve_point(unknown);
-                self.system.gradient(&self.point, &mut self.gradient);
+                self.system.generator(&self.point, &mut self.gradient);
                 for (index, out) in residual.as_mut_slice().iter_mut().enumerate() {
                     let velocity = self.step * self.gradient.as_slice()[index];
                     *out = unknown.as_slice()[index] - self.size * velocity;
@@ -166,7 +188,10 @@ impl<'a, S: Scalar, P: CotangentPoisson<S>> EulerArnoldHalf<'a, S, P> {
     }
 
     fn linearize_first(&mut self, matrix: &mut P::MomentumMatrix) {
-        self.system.hessian(&self.point, &mut self.hessian);
+        self.system.generator_slope(&self.point, &mut self.hessian);
+        if let Some(slope) = self.slope.get_mut(self.system) {
+            self.system.force_slope(&self.point, slope);
+        }
         let [along, force, total, free] = &mut self.columns;
         for column in 0..self.system.momenta() {
             along.fill(S::zero());
@@ -181,6 +206,11 @@ impl<'a, S: Scalar, P: CotangentPoisson<S>> EulerArnoldHalf<'a, S, P> {
                 part.as_mut_slice()[row] = self.step * self.hessian.get(row, column);
             }
             Self::push_force(self.system, force, &self.base, total, free);
+            if let Some(slope) = self.slope.get(self.system) {
+                for row in 0..self.system.momenta() {
+                    total.as_mut_slice()[row] += self.step * slope.get(row, column);
+                }
+            }
             self.series
                 .along_both(self.system, &self.direction, along, total);
             for row in 0..self.system.momenta() {
@@ -191,7 +221,7 @@ impl<'a, S: Scalar, P: CotangentPoisson<S>> EulerArnoldHalf<'a, S, P> {
     }
 
     fn linearize_second(&mut self, matrix: &mut P::MomentumMatrix) {
-        self.system.hessian(&self.point, &mut self.hessian);
+        self.system.generator_slope(&self.point, &mut self.hessian);
         let [unit, total, first, second] = &mut self.columns;
         for column in 0..self.system.momenta() {
             unit.fill(S::zero());
@@ -244,7 +274,7 @@ impl<'a, S: Scalar, P: CotangentPoisson<S>> EulerArnoldHalf<'a, S, P> {
 
     /// The force at the point, the direction kept.
     fn set_force(&mut self) {
-        self.system.gradient(&self.point, &mut self.gradient);
+        self.system.generator(&self.point, &mut self.gradient);
         self.force.fill(S::zero());
         for index in self.system.momenta()..self.system.dimension() {
             self.force.as_mut_slice()[index] = self.step * self.gradient.as_slice()[index];
@@ -291,7 +321,7 @@ impl<S: Scalar, P: CotangentPoisson<S>> Equation<S> for EulerArnoldHalf<'_, S, P
         self.point.axpy(half, &self.gradient);
         if self.half == Half::Second {
             let point = self.point.clone();
-            self.system.gradient(&point, &mut self.point);
+            self.system.generator(&point, &mut self.point);
             for entry in self.point.as_mut_slice() {
                 *entry *= self.step * self.size;
             }
@@ -330,6 +360,8 @@ impl<S: Scalar, P: CotangentPoisson<S>> Equation<S> for EulerArnoldHalf<'_, S, P
                 mu.copy_from(&self.columns[2]);
                 let free = &mut self.columns[0];
                 Self::push_force(self.system, &self.force, &self.point, mu, free);
+                let of_step = (self.system, self.step);
+                Self::push_acting(of_step, &self.point, mu, free);
             }
         }
     }

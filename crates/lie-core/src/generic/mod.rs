@@ -121,7 +121,7 @@ pub use euler_arnold::{EulerArnoldHalf, Half};
 pub use exp_midpoint::{ExpMidpoint, ExpRetraction};
 pub use exp_variational::{ExpDiscrete, ExpVariational};
 pub use free_body::{FreeBody, principal_axes};
-pub use galerkin::GalerkinStep;
+pub use galerkin::{GalerkinOnGroup, GalerkinStep};
 pub use gauss::Gauss;
 pub use generating::{
     CayleyGenerating4, Generating2, Generating4, Generating6, SecondKind2, linearize_by_duals,

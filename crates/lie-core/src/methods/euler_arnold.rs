@@ -20,6 +20,9 @@
 //! symplectic form of `T*G` (the Poisson structure of the semidirect product) for every Hamiltonian; g stays in
 //! the group. Where H is the sum of a function of mu and one of g it is the Störmer–Verlet method.
 //!
+//! Forces that act beside H are subtracted from F, and with damping `$\xi$` is the generator of the motion: `$B_h = A_{-h}^{-1}$` holds
+//! as before, and the step of order 2 is that of the discrete Lagrange–d'Alembert principle with half of the impulse at each end.
+//!
 //! Needs: a system on `T*G` ([`CotangentPoisson`]), declared with a group element.
 //!
 //! References: N. Bou-Rabee, J. E. Marsden, "Hamilton–Pontryagin integrators on Lie groups", Foundations of
@@ -47,6 +50,8 @@ impl Facts for EulerArnold2 {
     const SYMMETRIC: bool = true;
     const EXPLICIT: bool = false;
     const PRESERVES: Preserves = Preserves::POISSON;
+    const FORCES: bool = true;
+    const DAMPING: bool = true;
 }
 
 impl<S: Scalar, P: CotangentPoisson<S>> Method<S, P> for EulerArnold2 {

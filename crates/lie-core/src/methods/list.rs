@@ -127,12 +127,12 @@ macro_rules! for_each_method {
             { "commutator-free" ALGEBRA CMO
                 [CommutatorFree4] [CommutatorFree4] [CommutatorFree4] { explicit } }
             { "variational integrator (discrete Euler–Poincaré)" LAGRANGIAN MPS
-                [Variational(2, Retraction::Exp)] [Variational2<Exp>] [Variational2::exp()] { [variational2 Lagrangian ExpVariational] }
+                [Variational(2, Retraction::Exp)] [Variational2<Exp>] [Variational2::exp()] { [variational2 Lagrangian ExpVariational] [variational2_on_group LagrangianOnGroup GalerkinOnGroup 1] }
                 [Variational(2, Retraction::Cayley)] [Variational2<Cayley>] [Variational2::cayley()] { [variational_cayley ClosedLagrangian CayleyVariational] } }
             { "variational integrator (Lie-group Galerkin)" "a system given by its Lagrangian" LEOK
-                [Variational(4, Retraction::Exp)] [Variational4<Exp>] [Variational4::exp()] { [variational4 Lagrangian GalerkinStep 2] } }
+                [Variational(4, Retraction::Exp)] [Variational4<Exp>] [Variational4::exp()] { [variational4 Lagrangian GalerkinStep 2] [variational4_on_group LagrangianOnGroup GalerkinOnGroup 2] } }
             { "variational integrator (Lie-group Galerkin)" "a system given by its Lagrangian" LEOK
-                [Variational(6, Retraction::Exp)] [Variational6<Exp>] [Variational6::exp()] { [variational6 Lagrangian GalerkinStep 3] } }
+                [Variational(6, Retraction::Exp)] [Variational6<Exp>] [Variational6::exp()] { [variational6 Lagrangian GalerkinStep 3] [variational6_on_group LagrangianOnGroup GalerkinOnGroup 3] } }
             { "step of a declared discrete Lagrangian; its order is at least 1" DISCRETE MPS
                 [DiscreteEulerPoincare(Retraction::Exp)] [DiscreteEulerPoincare<Exp>] [DiscreteEulerPoincare::exp()] { [discrete DiscreteLagrangian ExpDiscrete] }
                 [DiscreteEulerPoincare(Retraction::Cayley)] [DiscreteEulerPoincare<Cayley>] [DiscreteEulerPoincare::cayley()] { [discrete_cayley ClosedDiscreteLagrangian CayleyDiscrete] } }

@@ -35,7 +35,8 @@
 //!
 //! Where forces act or damping does, `$\mu' = \Pi(\mu)\, \xi(\mu) + F(\mu)$` ([`Poisson`](crate::Poisson)), [`Facts::FORCES`] and [`Facts::DAMPING`] say
 //! which methods apply. Those that take the field alone are what they are. Explicit methods of the algebra act by the affine flows
-//! `$\exp(\mathrm{ad}^*_x)\, \mu + \varphi_1(\mathrm{ad}^*_x)\, K$` of pairs (x, K), [`LieMidpoint`] by the principle of Lagrange and d'Alembert. Discrete
+//! `$\exp(\mathrm{ad}^*_x)\, \mu + \varphi_1(\mathrm{ad}^*_x)\, K$` of pairs (x, K), [`LieMidpoint`], [`Variational`] and [`EulerArnold2`] by the principle of
+//! Lagrange and d'Alembert. Discrete
 //! gradients, [`OrbitEnergy`] and [`CohenHairer`] balance the energy to round-off. Damping leaves every method of the algebra on the orbit.
 //!
 //! [`Rk4`] and [`Dopri5`] keep no structure: they are there to compare with. A [`Projection`] keeps energy and Casimirs of any method. What a method keeps is data,
@@ -176,4 +177,4 @@ pub use taylor::{Taylor, TaylorDevelopment};
 pub use tensor::{
     AlongGradient, MeanTensor, MidpointTensor, PoissonTensor, TensorFacts, WithTensor,
 };
-pub use variational::{Variational, Variational2, Variational4, Variational6};
+pub use variational::{OnGroup, Variational, Variational2, Variational4, Variational6};

@@ -19,12 +19,28 @@
 //! \xi_i = \mathrm{dexp}_{-\theta(c_i)}\, \theta'(c_i)
 //! ```
 //!
-//! All are Poisson maps, keep every Casimir and the coadjoint orbit, and the energy without drift though not
-//! exactly. Order 2 is symmetric and makes the steps of [`LieMidpoint`] of the Legendre transform; the others are
+//! Where a Lagrangian depends on the group element or the time, or forces act or damping does, the same path is that of phase space, with a
+//! momentum `$m_i$` at each node: the discrete Lagrange–d'Alembert principle
+//!
+//! ```math
+//! \delta\, h \sum_i b_i \bigl(\langle m_i, \xi_i \rangle - H(m_i, g_i)\bigr) + h \sum_i b_i\, \langle F_i, g_i^{-1} \delta g_i \rangle
+//! = \langle \mu_1, g_1^{-1} \delta g_1 \rangle - \langle \mu, g^{-1} \delta g \rangle,
+//! \qquad g_i = g \exp \theta(c_i)
+//! ```
+//!
+//! where `$\xi_i$` is the velocity that belongs to `$m_i$`, with damping the generator of the motion. The order stays, and the spatial momentum
+//! changes by exactly the impulses `$h b_i F_i$`, those of a potential among them, each carried to space by the group element of its node:
+//!
+//! ```math
+//! \mathrm{Ad}^*_{g_1^{-1}}\, \mu_1 - \mathrm{Ad}^*_{g^{-1}}\, \mu = h \sum_i b_i\, \mathrm{Ad}^*_{g_i^{-1}}\, F_i
+//! ```
+//!
+//! Without forces and damping all are Poisson maps, keep every Casimir and the coadjoint orbit, and the energy without drift though not
+//! exactly. Order 2 is symmetric and makes, of a reduced Lagrangian, the steps of [`LieMidpoint`] of the Legendre transform; the others are
 //! symmetric up to terms of their error only, because the coordinates are centred at the left end of the step.
 //!
-//! Needs: a system by its Lagrangian, `$l'$` and `$l''$`, ad, ad*, and for the Cayley map the triple product. Newton's
-//! matrix is exact: analytic for order 2, by dual numbers for the others.
+//! Needs: a system by its Lagrangian, `$l'$` and `$l''$`, ad, ad*, and for the Cayley map, which is for reduced Lagrangians, the triple
+//! product; in phase space the Legendre transform alone. Newton's matrix is exact: analytic for order 2, by dual numbers for the others.
 //!
 //! References: J. E. Marsden, S. Pekarsky, S. Shkoller, "Discrete Euler–Poincaré and Lie–Poisson
 //! equations", Nonlinearity 12 (1999) 1647–1662,
@@ -33,7 +49,9 @@
 //! Computational Mathematics 9 (2009) 197–219,
 //! [doi:10.1007/s10208-008-9030-4](https://doi.org/10.1007/s10208-008-9030-4);
 //! J. Hall, M. Leok, "Lie group spectral variational integrators", Foundations of Computational Mathematics
-//! 17 (2017) 199–257, [doi:10.1007/s10208-015-9287-3](https://doi.org/10.1007/s10208-015-9287-3).
+//! 17 (2017) 199–257, [doi:10.1007/s10208-015-9287-3](https://doi.org/10.1007/s10208-015-9287-3);
+//! J. E. Marsden, M. West, "Discrete mechanics and variational integrators", Acta Numerica 10 (2001) 357–514, section 3,
+//! [doi:10.1017/S096249290100006X](https://doi.org/10.1017/S096249290100006X).
 #![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
 
 #[cfg(doc)]
@@ -56,8 +74,13 @@ pub type Variational4<T = Exp> = Variational<T, 4>;
 /// Order 6: `Variational6::exp()`.
 pub type Variational6<T = Exp> = Variational<T, 6>;
 
+/// In place of a retraction: paths by the exponential map in phase space, which is what a system takes that carries the group element or the
+/// time. A method with [`Exp`] finds them by itself where they are the equation of the system.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct OnGroup;
+
 macro_rules! variational {
-    ($retraction:ident, $constructor:ident, $doc:literal: $($order:literal $id:literal),+) => {$(
+    ($retraction:ident, $constructor:ident, $forces:literal, $doc:literal: $($order:literal $id:literal),+) => {$(
         impl Variational<$retraction, $order> {
             #[doc = $doc]
             pub const fn $constructor() -> Self {
@@ -71,11 +94,14 @@ macro_rules! variational {
             const SYMMETRIC: bool = $order == 2;
             const EXPLICIT: bool = false;
             const PRESERVES: Preserves = Preserves::POISSON;
+            const FORCES: bool = $forces;
+            const DAMPING: bool = $forces;
         }
     )+};
 }
 
-variational!(Exp, exp, "With the exponential map.": 2 "variational2", 4 "variational4", 6 "variational6");
-variational!(Cayley, cayley, "With the Cayley map of the declared representation.": 2 "variational2");
+variational!(Exp, exp, true, "With the exponential map.": 2 "variational2", 4 "variational4", 6 "variational6");
+variational!(OnGroup, on_group, true, "With the exponential map, in phase space.": 2 "variational2", 4 "variational4", 6 "variational6");
+variational!(Cayley, cayley, false, "With the Cayley map of the declared representation.": 2 "variational2");
 
 by_equation!([T, const ORDER: u32] Variational<T, ORDER> where Self: Facts);

@@ -37,6 +37,14 @@ macro_rules! equations {
             }
         );
     };
+    // beside the group element or the time the method is another one
+    (
+        @row $choice:tt [$name:ident<Exp>] $equation:tt
+        [$key:ident LagrangianOnGroup $($other:tt)+]
+    ) => {
+        equations!(@row $choice [$name<Exp>] $equation);
+        equations!(@row $choice [$name<OnGroup>] [$key LagrangianOnGroup $($other)+]);
+    };
     // over a closed representation the method is another one
     (@row $choice:tt $type:tt $equation:tt [$key:ident Closed same $($other:tt)+]) => {
         equations!(@row $choice $type $equation);

@@ -181,7 +181,7 @@ pub(crate) fn implicit<S: Scalar>(choice: &Choice) -> Option<Method<S>> {
             }
         };
     }
-    if let Some(method) = of_one_stage(choice) {
+    if let Some(method) = by_equation_of_system(choice) {
         return Some(method);
     }
     lie_core::for_each_method!(rows! {});
@@ -193,14 +193,15 @@ pub(crate) fn has_equation(choice: &Choice) -> bool {
     implicit::<f64>(choice.solved()).is_some()
 }
 
-/// Those that depend on what the system has, with one stage.
-fn of_one_stage<S: Scalar>(choice: &Choice) -> Option<Method<S>> {
+/// Those whose equation depends on what the system has.
+fn by_equation_of_system<S: Scalar>(choice: &Choice) -> Option<Method<S>> {
     match choice {
         Choice::Isospectral(2) => Some(isospectral2(Claims::from_facts::<m::Isospectral2>())),
         Choice::Collective(2, Lift::Representation) => {
             let claims = Claims::from_facts::<m::Collective2<m::Representation>>();
             Some(isospectral2(claims))
         }
+        Choice::Variational(order, Retraction::Exp) => Some(variational(*order)),
         _ => None,
     }
 }
@@ -209,7 +210,7 @@ fn of_one_stage<S: Scalar>(choice: &Choice) -> Option<Method<S>> {
 fn by_system<S: Scalar>(choice: &Choice) -> Option<Method<S>> {
     match choice {
         Choice::Collective(order, Lift::Smallest) => Some(smallest(*order)),
-        _ => of_one_stage(choice),
+        _ => by_equation_of_system(choice),
     }
 }
 
@@ -280,6 +281,26 @@ fn isospectral2<S: Scalar>(claims: Claims) -> Method<S> {
     Box::new(WithClaims {
         claims,
         choose: Box::new(choose),
+    })
+}
+
+/// In phase space where the system carries the group element or the time.
+fn variational<S: Scalar>(order: u32) -> Method<S> {
+    fn make<S: Scalar>(order: u32, on_group: bool) -> Method<S> {
+        match (order, on_group) {
+            (2, false) => Box::new(m::Variational2::exp()),
+            (2, true) => Box::new(m::Variational2::on_group()),
+            (4, false) => Box::new(m::Variational4::exp()),
+            (4, true) => Box::new(m::Variational4::on_group()),
+            (_, false) => Box::new(m::Variational6::exp()),
+            (_, true) => Box::new(m::Variational6::on_group()),
+        }
+    }
+    Box::new(WithClaims {
+        claims: make::<S>(order, false).claims(),
+        choose: Box::new(move |system: &Dynamic<S>| {
+            make(order, system.plan().structure.momenta.is_some())
+        }),
     })
 }
 

@@ -1,6 +1,11 @@
 //! The equation of Lie-group Galerkin methods: discrete Lagrangians of higher order in exponential coordinates.
 
+mod body_velocity;
+mod on_group;
 mod path;
+mod phase_path;
+
+pub use on_group::GalerkinOnGroup;
 
 use super::kernels::multiply;
 use super::series::coadjoint_action_in;

@@ -1,13 +1,11 @@
 //! The path of a step, `exp(theta(t/h))` with a polynomial theta, and the derivatives of its action.
 
+use super::body_velocity::BodyVelocity;
 use crate::generic::series::{Scratch, dexp_dual_in};
 use crate::generic::tableau::gauss_tableau;
 use crate::lagrangian::LagrangianPoisson;
-use crate::scalar::{Mask, Scalar};
+use crate::scalar::Scalar;
 use crate::state::{Stages, State};
-
-/// More terms than the series of a path within one step needs: `|ad_theta|` up to 10.
-const TERMS: usize = 48;
 
 /// The path of a step over some scalar.
 pub(super) struct Path<S, V, const STAGES: usize> {
@@ -17,10 +15,9 @@ pub(super) struct Path<S, V, const STAGES: usize> {
     /// `h theta_i' = sum_j slopes_ij Theta_j`.
     pub(super) slopes: [[S; STAGES]; STAGES],
     pub(super) weights: [S; STAGES],
-    /// `ad_theta^k theta'`.
-    powers: [V; TERMS],
+    body: BodyVelocity<S, V>,
     pub(super) scratch: Scratch<V>,
-    columns: [V; 5],
+    columns: [V; 2],
 }
 
 impl<S: Scalar, V: State<S>, const STAGES: usize> Path<S, V, STAGES> {
@@ -35,7 +32,7 @@ impl<S: Scalar, V: State<S>, const STAGES: usize> Path<S, V, STAGES> {
             points: basis(lagrange),
             slopes: basis(lagrange_slope),
             weights: tableau.b,
-            powers: core::array::from_fn(|_| zero.clone()),
+            body: BodyVelocity::new(zero),
             scratch: Scratch::new(zero),
             columns: core::array::from_fn(|_| zero.clone()),
         }
@@ -69,9 +66,6 @@ impl<S: Scalar, V: State<S>, const STAGES: usize> Path<S, V, STAGES> {
 
     /// Adds what one node contributes to every `p_j`: with `m = l'(xi)` and q the derivative by theta of
     /// `<m, dexp_(-theta) theta'>`, it is `b (D_j (dexp_(-theta))* m + h P_j q)`.
-    ///
-    /// `xi = sum_k c_k w_k`, `c_k = (-1)^k/(k + 1)!`, `w_k = [theta, w_(k-1)]`, `w_0 = theta'`; backwards
-    /// `a_k = c_k m + ad*_theta a_(k+1)`, so that `a_0 = (dexp_(-theta))* m` and `q = -sum_(k>0) ad*_(w_(k-1)) a_k`.
     fn add_node<P>(
         &mut self,
         system: &P,
@@ -81,78 +75,21 @@ impl<S: Scalar, V: State<S>, const STAGES: usize> Path<S, V, STAGES> {
     ) where
         P: LagrangianPoisson<S, State = V>,
     {
-        let (coefficients, last) = self.velocity(system, node, controls);
-        let [theta, xi, momentum, adjoint, moved] = &mut self.columns;
-        system.momentum(xi, momentum);
-        // xi is no longer needed: its place takes q
-        let q = xi;
-        q.fill(S::zero());
-        adjoint.fill(S::zero());
-        for k in (0..=last).rev() {
-            system.ad_star(theta, adjoint, moved);
-            adjoint.copy_from(moved);
-            adjoint.axpy(coefficients[k], momentum);
-            if k > 0 {
-                system.ad_star(&self.powers[k - 1], adjoint, moved);
-                q.axpy(-S::one(), moved);
-            }
-        }
-        let weight = self.weights[node];
-        for (j, part) in out.0.iter_mut().enumerate() {
-            part.axpy(weight * self.slopes[node][j], adjoint);
-            part.axpy(weight * self.step * self.points[node][j], q);
-        }
-    }
-
-    /// Computes theta, the `w_k` and xi at a node: the first two columns and the powers. Returns the `c_k`, as far as they
-    /// are needed, and the last k; xi is no number where the series does not end.
-    fn velocity<P>(
-        &mut self,
-        system: &P,
-        node: usize,
-        controls: &Stages<V, STAGES>,
-    ) -> ([S; TERMS], usize)
-    where
-        P: LagrangianPoisson<S, State = V>,
-    {
-        let [theta, xi, ..] = &mut self.columns;
+        let [theta, other] = &mut self.columns;
         theta.fill(S::zero());
-        let first = &mut self.powers[0];
-        first.fill(S::zero());
+        other.fill(S::zero());
         for (j, control) in controls.0.iter().enumerate() {
             theta.axpy(self.points[node][j], control);
-            first.axpy(self.slopes[node][j] / self.step, control);
+            other.axpy(self.slopes[node][j] / self.step, control);
         }
-        xi.copy_from(first);
-        let unchanging = S::epsilon() * S::ratio(1.0, 8.0) * xi.max_norm();
-        let mut coefficients = [S::zero(); TERMS];
-        coefficients[0] = S::one();
-        let mut active = S::Mask::splat(true);
-        let mut small_before = S::Mask::splat(false);
-        let mut coefficient = S::one();
-        let mut last = 0;
-        for k in 1..TERMS {
-            let (before, after) = self.powers.split_at_mut(k);
-            let power = &mut after[0];
-            system.ad(theta, &before[k - 1], power);
-            coefficient *= S::ratio(-1.0, (k + 1) as f64);
-            coefficients[k] = S::select(active, coefficient, S::zero());
-            xi.axpy(coefficients[k], power);
-            last = k;
-            let small = (coefficient.abs() * power.max_norm()).less_equal(unchanging);
-            active = active & !(small & small_before);
-            small_before = small;
-            if !active.any() {
-                break;
-            }
+        self.body.set(system, theta, other);
+        system.momentum(&self.body.xi, other);
+        self.body.pull(system, theta, other);
+        let weight = self.weights[node];
+        for (j, part) in out.0.iter_mut().enumerate() {
+            part.axpy(weight * self.slopes[node][j], &self.body.adjoint);
+            part.axpy(weight * self.step * self.points[node][j], &self.body.slope);
         }
-        if active.any() {
-            let not_a_number = S::zero() / S::zero();
-            for entry in xi.as_mut_slice() {
-                *entry = S::select(active, not_a_number, *entry);
-            }
-        }
-        (coefficients, last)
     }
 }
 

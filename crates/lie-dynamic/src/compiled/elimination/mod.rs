@@ -53,15 +53,17 @@ impl<S: Scalar> Blocks<S> for LateMatrix<S> {
     }
 }
 
-impl<S: Scalar, const STAGES: usize> Blocks<S> for StageMatrix<LateMatrix<S>, STAGES> {
+impl<S, M: Blocks<S>, const STAGES: usize> Blocks<S> for StageMatrix<M, STAGES> {
     fn block_count(&self) -> usize {
-        STAGES
+        STAGES * self.0[0][0].block_count()
     }
     fn block(&self, row: usize, column: usize) -> &[S] {
-        self.0[row][column].as_slice()
+        let count = self.0[0][0].block_count();
+        self.0[row / count][column / count].block(row % count, column % count)
     }
     fn block_mut(&mut self, row: usize, column: usize) -> &mut [S] {
-        self.0[row][column].as_mut_slice()
+        let count = self.0[0][0].block_count();
+        self.0[row / count][column / count].block_mut(row % count, column % count)
     }
 }
 
