@@ -77,8 +77,9 @@ impl<S: Scalar, V: State<S>, const STAGES: usize> PhasePath<S, V, STAGES> {
             let [sum, total, ..] = &mut self.columns;
             total.fill(S::zero());
             total.axpy(-one, sum);
-            for j in 0..STAGES {
-                total.axpy(self.tableau.b[j] * (one - ratios[j]), &self.nodes[j].change);
+            let weights = self.tableau.b.iter().zip(ratios);
+            for (node, (&weight, &ratio)) in self.nodes.iter().zip(weights) {
+                total.axpy(weight * (one - ratio), &node.change);
             }
             self.nodes[i].of_momentum.axpy(one, total);
         }
