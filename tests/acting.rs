@@ -55,7 +55,8 @@ fn variational_methods_come_to_the_same_ends() {
         for (order, [long, short]) in [(2, [0.04, 0.02]), (4, [0.2, 0.1]), (6, [0.4, 0.2])] {
             let error = |step: f64| {
                 let until = reference.until;
-                let call = format!("run {path} --method variational{order} --step {step} --until {until}");
+                let call =
+                    format!("run {path} --method variational{order} --step {step} --until {until}");
                 let run = lie(&call).ok();
                 let (_, rows) = run.csv();
                 let last = &rows.last().unwrap()[1..];
@@ -90,7 +91,10 @@ fn variational_methods_take_forces_on_the_group() {
     std::fs::write(&path, spec.to_string()).unwrap();
     let path = path.display();
     let end = |method: &str, step: f64| -> Vec<f64> {
-        let run = lie(&format!("run {path} --method {method} --step {step} --until 2")).ok();
+        let run = lie(&format!(
+            "run {path} --method {method} --step {step} --until 2"
+        ))
+        .ok();
         run.csv().1.pop().unwrap()
     };
     let exact = end("gauss16", 0.1);
@@ -109,12 +113,17 @@ fn variational_methods_take_forces_on_the_group() {
         assert!(near, "{method}: {slope}");
     }
     for (method, reason) in [
-        ("variational2 --retraction cayley", "for reduced Lagrangians"),
+        (
+            "variational2 --retraction cayley",
+            "for reduced Lagrangians",
+        ),
         ("generating4", "the generating function is one of H alone"),
         ("discrete-euler-poincare", "has the motion without it"),
         ("exact", "the closed solution is that of H alone"),
     ] {
-        let refused = lie(&format!("run {path} --method {method} --step 0.1 --until 1"));
+        let refused = lie(&format!(
+            "run {path} --method {method} --step 0.1 --until 1"
+        ));
         let refused = refused.error("method", "command line: --method");
         assert!(refused.stderr.contains(reason), "{}", refused.stderr);
     }

@@ -1,6 +1,7 @@
 //! The catalogue of methods: ids, options, what they need, references. Order, symmetry and what a method preserves are
 //! the constants of its type in the numeric core.
 
+mod acting;
 mod applicability;
 mod choice;
 mod constructor;

@@ -73,13 +73,13 @@ impl<S: Scalar, V: State<S>, const STAGES: usize> PhasePath<S, V, STAGES> {
         }
         for i in 0..STAGES {
             // what changes from the node to the end
-            let (one, ratios) = (S::one(), &self.tableau.ratios[i]);
+            let one = S::one();
             let [sum, total, ..] = &mut self.columns;
             total.fill(S::zero());
             total.axpy(-one, sum);
-            let weights = self.tableau.b.iter().zip(ratios);
-            for (node, (&weight, &ratio)) in self.nodes.iter().zip(weights) {
-                total.axpy(weight * (one - ratio), &node.change);
+            let weights = self.tableau.b.iter().zip(&self.tableau.ratios[i]);
+            for ((&b, &ratio), node) in weights.zip(&self.nodes) {
+                total.axpy(b * (one - ratio), &node.change);
             }
             self.nodes[i].of_momentum.axpy(one, total);
         }
