@@ -180,8 +180,7 @@ fn refused<const WHAT: usize>(judge: &Judge) -> Vec<String> {
         },
         options: Options {
             seed: 3,
-            step: None,
-            reach: None,
+            ..Options::default()
         },
     };
     let line = serde_json::to_string(&request).expect("text");

@@ -123,8 +123,7 @@ fn examine<P: Lift<f64> + Clone + 'static>(
         },
         options: Options {
             seed: 3,
-            step: None,
-            reach: None,
+            ..Options::default()
         },
     };
     let line = serde_json::to_string(&request).expect("text");

@@ -13,8 +13,8 @@ use lie_program::protocol::Start;
 use pyo3::prelude::*;
 use std::collections::BTreeMap;
 
-/// A fact: the method, its name, what is claimed, what was measured, the bound, the verdict, a note, the step.
-type Fact = (String, String, f64, f64, f64, String, String, f64);
+/// A fact: the method, its name, what is claimed, what was measured, the bound, the verdict, a note, the step, the standard error.
+type Fact = (String, String, f64, f64, f64, String, String, f64, f64);
 
 /// What was found.
 #[derive(IntoPyObject)]
@@ -49,6 +49,7 @@ fn fact(row: Row) -> Fact {
         verdict.as_str().unwrap_or_default().to_owned(),
         finding.note.to_string(),
         finding.step,
+        finding.error,
     )
 }
 
@@ -75,7 +76,7 @@ impl Measurement for Verification {
         let value = |p: &Parameter| *start.parameters.get(&p.name).unwrap_or(&p.default_value);
         let parameters: Vec<f64> = parameters.map(value).collect();
         let evidence = Evidence::from_spec(text, model, &parameters);
-        let options = options(model, self.step, self.seed);
+        let options = options(model, &parameters, self.step, self.seed);
         Ok((options, Results::new(evidence)))
     }
 

@@ -92,6 +92,89 @@ fn as_json() {
     );
 }
 
+/// What is measured of a method on a spec with noise, as `lie verify --json` says it.
+fn on_noise(spec: &serde_json::Value, method: &str) -> serde_json::Value {
+    let folder = folder();
+    let path = folder.path().join("noise.json");
+    std::fs::write(&path, spec.to_string()).expect("it is written");
+    let call = format!(
+        "verify {} --methods {method} --quiet --json",
+        path.display()
+    );
+    let run = lie(&call).ok();
+    assert_eq!(run.stdout, lie(&call).ok().stdout, "the same seed");
+    let value: serde_json::Value = serde_json::from_str(&run.stdout).expect("JSON");
+    value["methods"][method].clone()
+}
+
+/// That an order is claimed and found, within three standard errors and a tenth.
+fn has_order(found: &serde_json::Value, fact: &str, order: f64) {
+    let found = &found[fact];
+    let number = |key: &str| {
+        found[key]
+            .as_f64()
+            .unwrap_or_else(|| panic!("{fact}: {found}"))
+    };
+    assert_eq!(found["verdict"], "holds", "{fact}: {found}");
+    assert_eq!(number("claim"), order, "{fact}: {found}");
+    let far = (number("measured") - order).abs();
+    assert!(far < 0.1 + 3.0 * number("error"), "{fact}: {found}");
+}
+
+/// A spin at a temperature: three noises that do not commute, and the density of Langevin.
+#[test]
+fn a_thermal_spin_has_its_orders_and_its_density() {
+    let spec = serde_json::json!({
+        "name": "Spin", "algebra": "so(3)", "state": ["x", "y", "z"], "hamiltonian": "z",
+        "parameters": { "T": 0.3 },
+        "dissipation": [{ "kind": "double-bracket", "strength": "1", "temperature": "T" }],
+        "initial": [0.6, 0, 0.8]
+    });
+    let found = on_noise(&spec, "lie-midpoint");
+    has_order(&found, "strong order", 0.5);
+    has_order(&found, "weak order", 1.0);
+    for fact in ["mean energy", "mean coordinates"] {
+        assert_eq!(found[fact]["verdict"], "holds", "{found}");
+        assert!(found[fact]["measured"].as_f64() < Some(0.02), "{found}");
+    }
+    // what the quadrature says of H is the function of Langevin, T - coth(1/T)
+    let note = found["mean energy"]["note"].as_str().expect("a note");
+    assert!(note.contains("where -0.7025 is exact"), "{note}");
+}
+
+/// Noises that commute have order 1 in the mean square: constant forces, of a temperature over the whole space.
+#[test]
+fn a_warm_body_has_order_one_and_the_density_of_gauss() {
+    let spec = serde_json::json!({
+        "name": "Warm", "algebra": "so(3)", "state": ["x", "y", "z"],
+        "hamiltonian": "x^2/2 + y^2 + z^2/4",
+        "dissipation": [{ "kind": "rayleigh", "matrix": [[1, 0, 0], [0, 1, 0], [0, 0, 1]], "temperature": "1/2" }],
+        "initial": [0.6, -0.5, 0.7]
+    });
+    let found = on_noise(&spec, "rk4");
+    has_order(&found, "strong order", 1.0);
+    // its means are so good that the samples do not resolve their error
+    assert_ne!(found["weak order"]["verdict"], "fails", "{found}");
+    assert_eq!(found["mean energy"]["verdict"], "holds", "{found}");
+    let note = found["mean energy"]["note"].as_str().expect("a note");
+    assert!(note.contains("where 0.7500 is exact"), "3/2 T: {note}");
+}
+
+/// Where another noise acts too no density is known, and the reason is said.
+#[test]
+fn a_density_that_is_not_known_is_not_measured() {
+    let spec = serde_json::json!({
+        "name": "Driven", "algebra": "so(3)", "state": ["x", "y", "z"], "hamiltonian": "z + x^2/4",
+        "dissipation": [{ "kind": "double-bracket", "strength": "1", "temperature": "1/2" }],
+        "noise": [{ "hamiltonian": "x/5" }],
+        "initial": [0.6, 0, 0.8]
+    });
+    let found = on_noise(&spec, "rk4");
+    let mean = &found["mean energy"];
+    assert_eq!(mean["verdict"], "absent", "{found}");
+    assert_eq!(mean["note"], "something without a temperature acts too");
+}
+
 #[test]
 fn wrong_options() {
     let verify = |rest: &str| lie(&format!("verify specs/so3_free_rigid_body.json {rest}"));

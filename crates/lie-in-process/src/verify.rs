@@ -9,11 +9,18 @@ use serde_json::{Value, json};
 use crate::evidence::Evidence;
 use crate::words::{number, short};
 
-/// What is asked for of a system, at a step or at one that is found.
-pub fn options(model: &Structure, step: Option<f64>, seed: u64) -> Options {
+mod thermal;
+
+/// What is asked for of a system with values of its parameters, at a step or at one that is found.
+pub fn options(model: &Structure, parameters: &[f64], step: Option<f64>, seed: u64) -> Options {
     let joints = &model.joints;
     let reach = (!joints.is_empty()).then(|| reached(joints, u32::MAX).unwrap_or(0));
-    Options { seed, step, reach }
+    Options {
+        seed,
+        step,
+        reach,
+        thermal: thermal::density(model, parameters),
+    }
 }
 
 /// One fact of one method.
@@ -51,6 +58,9 @@ impl Row {
         if finding.step.is_finite() {
             text.push_str(&format!(" with a step of {}", short(finding.step)));
         }
+        if finding.error.is_finite() {
+            text.push_str(&format!(", standard error {}", short(finding.error)));
+        }
         if !finding.note.is_empty() {
             text.push_str(&format!(" ({})", finding.note));
         }
@@ -64,12 +74,17 @@ impl Row {
             measured,
             bound,
             step,
+            error,
             ..
         } = self.finding;
-        json!({
+        let mut value = json!({
             "claim": number(claim), "measured": number(measured), "bound": number(bound),
             "verdict": self.finding.verdict, "note": self.finding.note, "step": number(step),
-        })
+        });
+        if error.is_finite() {
+            value["error"] = number(error);
+        }
+        value
     }
 }
 

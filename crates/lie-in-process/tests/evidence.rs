@@ -34,7 +34,7 @@ fn found(model: &Structure) -> Vec<Found> {
             initial: system.initial_state().unwrap(),
             ..Start::default()
         },
-        options: options(model, None, 1),
+        options: options(model, &values(model), None, 1),
     };
     let mut said = Vec::new();
     let mut session = Session::undisturbed(&mut said);

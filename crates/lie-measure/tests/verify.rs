@@ -28,8 +28,7 @@ where
         },
         options: Options {
             seed: 1,
-            step: None,
-            reach: None,
+            ..Options::default()
         },
     };
     let (input, mut writer) = io::pipe().expect("a pipe");

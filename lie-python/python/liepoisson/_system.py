@@ -352,7 +352,8 @@ class System(Declared):
 
         Without names, all methods that apply, at their default options. ``h`` is the step at which facts are
         measured; it is found where it is not given. The kernels of the system, from the vector field to the Casimirs, are compared with
-        the declaration as it was written. ``progress`` hears how far it is, as in :meth:`run`.
+        the declaration as it was written. Of a system with noise the strong and the weak order are measured along paths of ``seed``, and at
+        a temperature the means of long runs, against those of exp(-H/T). ``progress`` hears how far it is, as in :meth:`run`.
 
         >>> body = System(algebra="so(3)", state=["x", "y", "z"], hamiltonian="x^2/2 + y^2/4 + z^2/6")
         >>> found = body.verify("rk4", "lie-midpoint", x0=[0.8, 0.1, 0.6])

@@ -18,7 +18,7 @@ class Fact(NamedTuple):
     ``claim``: what is claimed, an order as a number, else 0. ``measured``: what was measured. ``bound``: the largest value at
     which a claim of 0 holds, the smallest at which an order does. ``verdict``: "holds", "fails", "not-measurable",
     "not-claimed" or "absent".
-    ``step``: the step of the measurement.
+    ``step``: the step of the measurement. ``error``: the standard error of what was measured along paths of noise, else not a number.
     """
 
     method: str
@@ -29,6 +29,7 @@ class Fact(NamedTuple):
     verdict: str
     note: str
     step: float
+    error: float = math.nan
 
 
 class Verification:
@@ -88,4 +89,5 @@ def _cell(fact: Fact) -> str:
     if fact.verdict == "absent" or math.isnan(fact.measured):
         return "–"
     sign = {"holds": " ✓", "fails": " ✗"}.get(fact.verdict, "")
-    return f"{fact.measured:.2g}{sign}"
+    error = "" if math.isnan(fact.error) else f" ± {fact.error:.1g}"
+    return f"{fact.measured:.2g}{error}{sign}"

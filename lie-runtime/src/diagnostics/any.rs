@@ -39,6 +39,18 @@ impl Claims {
         preserves: Preserves::NOTHING,
     };
 
+    /// The order in the mean square on noise in the sense of Stratonovich whose rate is held over each step (E. Wong, M. Zakai, 1965,
+    /// doi:10.1214/aoms/1177699916): 1 where the noises commute, 1/2 where the areas between them count. A method of order 1 takes
+    /// squares of increments wrong, and claims none.
+    pub fn strong_order(&self, commuting: bool) -> Option<f64> {
+        (self.order >= 2).then_some(if commuting { 1.0 } else { 0.5 })
+    }
+
+    /// The order of means of functions of the state on such noise.
+    pub fn weak_order(&self) -> Option<f64> {
+        (self.order >= 2).then_some(1.0)
+    }
+
     /// What a method says of itself.
     pub const fn from_facts<M: Facts>() -> Self {
         Self {

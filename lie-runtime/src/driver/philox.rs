@@ -61,12 +61,17 @@ impl Wiener {
         Self { bounded, ..self }
     }
 
+    /// The largest |z| of a bounded increment in a step of a size: `sqrt(2 k |ln h|)` with k = 2, and at least 2.
+    #[must_use]
+    pub fn bound(size: f64) -> f64 {
+        2.0 * size.abs().ln().abs().max(1.0).sqrt()
+    }
+
     /// The rates `dW/dt` of a step of a size by its number, `z/sqrt(|h|)`.
     pub fn rates<S: Scalar>(&self, step: u64, size: f64, out: &mut [S]) {
         let scale = 1.0 / size.abs().sqrt();
         let bound = match self.bounded {
-            // |z| <= sqrt(2 k |ln h|) with k = 2
-            true => 2.0 * size.abs().ln().abs().max(1.0).sqrt(),
+            true => Self::bound(size),
             false => f64::INFINITY,
         };
         for (process, rate) in out.iter_mut().take(self.processes).enumerate() {

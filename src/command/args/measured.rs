@@ -67,7 +67,7 @@ pub struct Verify {
     /// The step at which facts are measured (default: from the Jacobian of the vector field)
     #[arg(long, alias = "h", value_name = "H", allow_hyphen_values = true)]
     pub step: Option<Value>,
-    /// Seed of the states near the initial one
+    /// Seed of the states near the initial one, and of paths of noise
     #[arg(
         long,
         value_name = "N",

@@ -48,7 +48,7 @@ pub fn run(arguments: &args::Verify) -> Result<u8, Failure> {
     let interrupt = Interrupt::install();
     let program = bed.program(flags, Purpose::Verify, &interrupt)?;
     let model = &bed.spec.model;
-    let options = options(model, step, arguments.seed.into());
+    let options = options(model, &bed.point.parameters, step, arguments.seed.into());
     let (text, parameters) = (&bed.spec.source.text, &bed.point.parameters);
     let mut results = Results::new(Evidence::from_spec(text, model, parameters));
     let ended = bed.measure(flags, &program, options, &interrupt, &mut |found| {
@@ -83,7 +83,10 @@ pub fn run(arguments: &args::Verify) -> Result<u8, Failure> {
 
 /// What the table shows.
 fn cell(row: &Row) -> String {
-    let measured = short(row.finding.measured);
+    let mut measured = short(row.finding.measured);
+    if row.finding.error.is_finite() {
+        measured = format!("{measured} ± {}", short(row.finding.error));
+    }
     match row.finding.verdict {
         Verdict::Absent => "–".to_owned(),
         Verdict::Holds => format!("{measured} ✓"),
@@ -170,7 +173,9 @@ fn lines(rows: &[Row], facts: &[&str]) -> Vec<Vec<String>> {
     let mut lines = vec![header.map(str::to_owned).collect::<Vec<_>>()];
     for method in methods(rows) {
         let of = |fact: &&str| match by_place.get(&(method, *fact)) {
-            Some(row) if *fact == "order" => format!("{}: {}", row.finding.claim, cell(row)),
+            Some(row) if fact.ends_with("order") && row.is_claimed() => {
+                format!("{}: {}", row.finding.claim, cell(row))
+            }
             Some(row) => cell(row),
             None => "–".to_owned(),
         };

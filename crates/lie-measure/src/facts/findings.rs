@@ -21,6 +21,10 @@ pub enum Verdict {
     Absent,
 }
 
+fn nothing() -> f64 {
+    f64::NAN
+}
+
 /// One fact of a method on one system.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 pub struct Finding {
@@ -41,6 +45,9 @@ pub struct Finding {
     /// largest one that counts. Not a number where nothing was measured.
     #[serde(with = "number")]
     pub step: f64,
+    /// The standard error of what was measured from samples; not a number elsewhere.
+    #[serde(with = "number", default = "nothing")]
+    pub error: f64,
     /// What else there is to say.
     pub note: String,
 }
@@ -61,6 +68,7 @@ impl Finding {
             bound,
             verdict,
             step: f64::NAN,
+            error: f64::NAN,
             note: String::new(),
         }
     }
@@ -90,6 +98,7 @@ impl Finding {
             bound,
             verdict,
             step: f64::NAN,
+            error: f64::NAN,
             note: String::new(),
         }
     }
@@ -116,6 +125,7 @@ impl Finding {
             bound: 0.0,
             verdict: Verdict::Absent,
             step: f64::NAN,
+            error: f64::NAN,
             note: note.to_owned(),
         }
     }
@@ -123,6 +133,12 @@ impl Finding {
     /// Adds the step of the measurement.
     pub(super) fn at_step(mut self, step: f64) -> Self {
         self.step = step;
+        self
+    }
+
+    /// Adds the standard error.
+    pub(super) fn with_error(mut self, error: f64) -> Self {
+        self.error = error;
         self
     }
 

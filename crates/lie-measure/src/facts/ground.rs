@@ -1,6 +1,7 @@
 //! What all measurements on one system share.
 
 use super::group::{self, GroupCheck};
+use super::noise::{Noise, Thermal};
 use crate::integrals::{Integral, integrals};
 use crate::orbit::orbit_distance;
 use crate::random::Random;
@@ -41,6 +42,8 @@ pub struct Ground<P: Lift<f64>> {
     pub group: Option<GroupCheck<P>>,
     /// The largest order that is left where the motion crosses a joint of H; absent where H has none.
     pub reach: Option<u32>,
+    /// Paths of noise, where there is some.
+    pub noise: Option<Noise<P::State>>,
 }
 
 /// The distance of the second state from the orbit of the first.
@@ -135,7 +138,20 @@ impl<P: Lift<f64>> Ground<P> {
             orbit: None,
             group: None,
             reach: None,
+            noise: None,
         })
+    }
+
+    /// The same with paths of a seed where the system has noise, and with what is known of the density that it leaves invariant.
+    #[must_use]
+    pub fn with_noise(
+        self,
+        system: &P,
+        lifted: &P::Lifted,
+        noise: (u64, Option<&Thermal>),
+    ) -> Self {
+        let noise = Noise::new(system, lifted, &self, noise);
+        Self { noise, ..self }
     }
 
     /// The same for a system whose states lie on coadjoint orbits.

@@ -10,6 +10,7 @@ mod findings;
 mod ground;
 mod group;
 mod invariants;
+mod noise;
 mod order;
 mod plain;
 mod solver;
@@ -20,6 +21,7 @@ pub use findings::{Finding, Verdict};
 pub(crate) use ground::rate;
 pub use ground::{Exact, Ground, OrbitDistance};
 pub use group::GroupCheck;
+pub use noise::{Noise, Thermal};
 pub(crate) use order::relative_error;
 pub use plain::{PlainEnd, PlainSteps};
 
@@ -97,6 +99,14 @@ pub fn verify<P: Lift<f64>, E>(
     if let Some(check) = ground.group {
         next("group")?;
         findings.push(check(system, ground, method, subject.beside));
+    }
+    if let Some(noise) = &ground.noise {
+        next("strong order")?;
+        findings.push(noise.strong_order(system, method));
+        next("weak order")?;
+        findings.push(noise.weak_order(system, method));
+        next("means")?;
+        findings.extend(noise.means(system, method));
     }
     Ok(findings)
 }

@@ -8,7 +8,7 @@ mod outside;
 
 pub use found::{Found, Ground as GroundFound, Kernel, Reference};
 
-use crate::facts::{Ground, PlainSteps, Subject, broken_comparison, verify};
+use crate::facts::{Ground, PlainSteps, Subject, Thermal, broken_comparison, verify};
 use crate::random::Random;
 use controls::controls;
 use kernels::Kernels;
@@ -29,16 +29,19 @@ use std::process::ExitCode;
 use std::rc::Rc;
 
 /// What is measured.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Options {
-    /// Of the states near the initial one.
+    /// Of the states near the initial one, and of paths of noise.
     pub seed: u64,
     /// The step, where it is not found.
     pub step: Option<f64>,
     /// The largest order that is left where the motion crosses a joint of H; absent where H has none.
     #[serde(default)]
     pub reach: Option<u32>,
+    /// The density that temperatures leave invariant; absent where none is declared.
+    #[serde(default)]
+    pub thermal: Option<Thermal>,
 }
 
 talk!(Options, Found);
@@ -284,7 +287,12 @@ impl<P: Lift<f64> + Clone + 'static> Verify<P> {
         session: &mut Session<'_, Found>,
     ) -> Result<(), End> {
         let Built { system, mu } = self.blueprint.build(&request.start)?;
-        let Options { seed, step, reach } = request.options;
+        let Options {
+            seed,
+            step,
+            reach,
+            ref thermal,
+        } = request.options;
         let all = request.methods.len() as u64;
         session.stage(0, all, "the reference solution")?;
         let ground = Ground::new(&system, &mu, seed, step)
@@ -292,6 +300,8 @@ impl<P: Lift<f64> + Clone + 'static> Verify<P> {
         let more = self.grounds.iter();
         let ground = Ground { reach, ..ground };
         let ground = more.fold(ground, |ground, more| more(ground));
+        let lifted = system.lift();
+        let ground = ground.with_noise(&system, &lifted, (seed, thermal.as_ref()));
         session.found(Found::Ground(GroundFound {
             step: ground.step,
             span: ground.exact[0].span,
@@ -302,7 +312,6 @@ impl<P: Lift<f64> + Clone + 'static> Verify<P> {
         }));
         session.stage(0, all, "the kernels")?;
         self.evidence(&system, &ground, seed, session);
-        let lifted = system.lift();
         let values = self.blueprint.values(&request.start)?;
         for (done, label) in request.methods.iter().enumerate() {
             let done = done as u64;
