@@ -15,7 +15,7 @@ function open(keep) {
   const text = $("declaration").value, method = $("method").value;
   $("messages").replaceChildren(); $("equations").textContent = "";
   let found;
-  try { found = ask({ declaration: text, method: keep ? method : wanted(text), step: Number($("step").value) }); }
+  try { found = ask({ declaration: text, method: keep ? method : wanted(text), step: Number($("step").value), seed: Math.max(0, Math.trunc(Number($("seed").value))) || 1 }); }
   catch (error) { about = null; $("status").textContent = `a bug of the compiler: ${error}; please report it with the declaration, and load the page again`; return; }
   about = found.diagnostics || found.error ? null : found;
   for (const d of found.diagnostics || []) {
@@ -29,7 +29,14 @@ function open(keep) {
   const chosen = about.method.split(" ")[0];
   $("method").replaceChildren(...about.methods.map(id => new Option(id, id, false, id === chosen)));
   $("method").value = chosen;
-  state = { rows: [], t: 0, first: null, errors: [], stride: 1, count: 0, q: [1, 0, 0, 0], omega: null, tip: [], names: about.driven ? about.casimirs : ["energy", ...about.casimirs], stopped: null };
+  $("of-noise").hidden = !about.noises;
+  $("columns").hidden = !about.quantities.length && !about.events.length;
+  if (!keep) $("inputs").replaceChildren(...about.inputs.map(({ name, value }) => {
+    const label = document.createElement("label"), field = document.createElement("input");
+    field.value = value; field.dataset.name = name; field.inputMode = "decimal"; label.append(`${name} `, field, " ");
+    return label;
+  }));
+  state = { rows: [], columns: [], events: [], t: 0, first: null, errors: [], stride: 1, count: 0, q: [1, 0, 0, 0], omega: null, tip: [], names: about.invariants, stopped: null };
   advance(0);
 }
 
@@ -48,9 +55,13 @@ function show(line, column) {
 // ---- the run
 
 function advance(steps) {
-  const n = about.coordinates.length, answer = ask({ steps, every: Math.max(1, Math.ceil(steps / 12)) });
+  const n = about.coordinates.length, inputs = {};
+  for (const field of $("inputs").querySelectorAll("input")) { const value = Number(field.value); if (field.value.trim() && Number.isFinite(value)) inputs[field.dataset.name] = value; }
+  const answer = ask({ steps, every: Math.max(1, Math.ceil(steps / 12)), inputs });
+  state.events.push(...answer.events || []); if (state.events.length > 2000) state.events.splice(0, 500);
   for (const row of answer.rows || []) {
-    const t = row[0], mu = row.slice(1, n + 1), from = n + 1 + (about.driven ? 1 : 0), invariants = row.slice(from, from + state.names.length), omega = row.slice(-n).slice(0, 3);
+    const t = row[0], mu = row.slice(1, n + 1), from = n + 2, behind = from + state.names.length, invariants = row.slice(from, behind), omega = row.slice(-n).slice(0, 3);
+    state.columns.push([t, row[n + 1], ...row.slice(behind, behind + about.quantities.length)]); if (state.columns.length > 1500) state.columns.splice(0, 300);
     if (about.rotates && state.omega) turn(state.omega.map((w, k) => (w + omega[k]) / 2), t - state.t);
     state.omega = omega; state.t = t;
     state.rows.push([t, ...mu]); if (state.rows.length > 1500) state.rows.splice(0, 300);
@@ -65,7 +76,8 @@ function advance(steps) {
   }
   if (answer.stopped) { state.stopped = answer.stopped; setPlaying(false); }
   const errors = state.errors.at(-1);
-  $("status").textContent = state.stopped ?? `t = ${state.t.toPrecision(6)}` + (errors ? `; relative errors now: ${state.names.map((name, k) => `${name} ${errors[k + 1].toExponential(1)}`).join(", ")}` : "");
+  const last = state.events.at(-1), seen = last ? `; ${state.events.length} events, the last ${last.event} at t = ${last.t.toPrecision(6)}` : "";
+  $("status").textContent = state.stopped ?? `t = ${state.t.toPrecision(6)}` + (errors ? `; relative errors now: ${state.names.map((name, k) => `${name} ${errors[k + 1].toExponential(1)}`).join(", ")}` : "") + seen;
   draw();
 }
 
@@ -176,7 +188,7 @@ function drawBody() {
     const [x, y] = view.place(state.rows.at(-1).slice(1)); pen.fillStyle = COLOURS[1]; pen.beginPath(); pen.arc(x, y, 5, 0, 7); pen.fill();
   } else chart(pen, w, h, state.rows, about.coordinates, x => x, "coordinates", bends(state.rows.map(row => row.slice(1))));
 }
-function chart(pen, w, h, rows, names, scale, title, parts = 1) {
+function chart(pen, w, h, rows, names, scale, title, parts = 1, marks = []) {
   const left = 58, bottom = h - 24, right = w - 12, top = 26, shown = Math.min(names.length, 8);
   if (shown < names.length) title += ` (the first ${shown} of ${names.length})`;
   pen.textAlign = "left"; pen.fillText(title, left, 16);
@@ -194,6 +206,7 @@ function chart(pen, w, h, rows, names, scale, title, parts = 1) {
   const lines = logs ? Array.from({ length: high - low + 1 }, (_, k) => low + k).filter((_, k, all) => k % Math.ceil(all.length / 6) === 0) : [low, (low + high) / 2, high];
   for (const v of lines) { line(pen, [[left, Y(v)], [right, Y(v)]], grid, 1); pen.fillText(logs ? `1e${v}` : v.toPrecision(3), left - 6, Y(v) + 4); }
   pen.fillText(`t = ${t1.toPrecision(4)}`, right, h - 7); pen.textAlign = "left"; pen.fillText(t0.toPrecision(4), left, h - 7);
+  for (const { event, t } of marks) if (t >= t0 && t <= t1) line(pen, [[X(t), top], [X(t), bottom]], COLOURS[about.events.indexOf(event) % 8] + "66", 1);
   for (let k = 0; k < shown; k++) {
     const places = of => of.filter(row => scale(row[k + 1]) !== null).map(row => [X(row[0]), Y(scale(row[k + 1]))]);
     line(pen, places(drawn), COLOURS[k], 1.3);
@@ -202,6 +215,10 @@ function chart(pen, w, h, rows, names, scale, title, parts = 1) {
 }
 function draw() {
   drawBody();
+  if (about && state && !$("columns").hidden) {
+    const [pen, w, h] = paper($("columns"));
+    chart(pen, w, h, state.columns, ["energy", ...about.quantities], x => x, about.events.length ? `lines: ${about.events.join(", ")}` : "columns", 1, state.events);
+  }
   const [pen, w, h] = paper($("drift"));
   if (about && state) chart(pen, w, h, state.errors, state.names, v => v > 0 ? Math.log10(v) : null, "relative errors");
 }
@@ -219,7 +236,7 @@ canvas.onpointermove = event => {
 $("play").onclick = () => setPlaying(!playing);
 $("again").onclick = () => { setPlaying(true); open(true); };
 $("method").onchange = () => { setPlaying(true); open(true); };
-$("step").onchange = () => open(true);
+$("step").onchange = $("seed").onchange = () => { setPlaying(true); open(true); };
 let typed = 0;
 $("declaration").oninput = () => { clearTimeout(typed); typed = setTimeout(() => { setPlaying(true); open(false); }, 400); };
 $("examples").onchange = () => { $("declaration").value = $(`spec-${$("examples").value}`).textContent.trim(); setPlaying(true); open(false); };

@@ -4,12 +4,12 @@ use lie_codegen::compile::compile_spec;
 use lie_codegen::methods::{Choice, applicability, refusal};
 use lie_codegen::plan::plan;
 use lie_codegen::structure::Structure;
-use lie_dynamic::{Dynamic, Engine as _, Method, at_defaults};
-use lie_runtime::Poisson as _;
-use lie_runtime::newton::NewtonOptions;
+use lie_dynamic::{Dynamic, Engine as _, at_defaults};
 use lie_syntax::diagnostic::{Diagnostic, Kind, Origin};
 use lie_syntax::front::line_column;
 use serde_json::{Value, json};
+
+use crate::run::Run;
 
 #[cfg(target_arch = "wasm32")]
 use crate::linked::Linking as Running;
@@ -23,14 +23,6 @@ const MOST_STEPS: u64 = 100_000;
 #[derive(Default)]
 pub struct Session {
     run: Option<Run>,
-}
-
-struct Run {
-    system: Dynamic<f64>,
-    method: Method<f64>,
-    step: f64,
-    mu: Vec<f64>,
-    done: u64,
 }
 
 impl Session {
@@ -65,47 +57,17 @@ impl Session {
         };
         let steps = request["steps"].as_u64().unwrap_or(1).min(MOST_STEPS);
         let every = request["every"].as_u64().unwrap_or(1).max(1);
-        let mut rows = Vec::new();
-        if run.done == 0 {
-            rows.push(run.row());
-        }
-        let mut stopped = None;
-        // the stepper looks at the system, and the row at the state
-        let system = run.system.clone();
-        let mut stepper = run
-            .method
-            .any_stepper(&system, run.step, &NewtonOptions::default());
-        for _ in 0..steps {
-            if let Err(failure) = stepper.step(&mut run.mu) {
-                let t = run.done as f64 * run.step;
-                stopped = Some(format!(
-                    "the step from t = {t} failed: {}; {}",
-                    failure.reason,
-                    failure.reason.remedy()
-                ));
-                break;
-            }
-            run.done += 1;
-            if run.done.is_multiple_of(every) {
-                rows.push(run.row());
+        for (name, value) in request["inputs"].as_object().into_iter().flatten() {
+            let value = value.as_f64().filter(|value| value.is_finite());
+            let set = match value {
+                Some(value) => run.set_input(name, value),
+                None => Err(format!("the input `{name}` is not a number")),
+            };
+            if let Err(error) = set {
+                return json!({ "error": error });
             }
         }
-        json!({ "rows": rows, "stopped": stopped })
-    }
-}
-
-impl Run {
-    fn row(&self) -> Vec<f64> {
-        let mut casimirs = vec![0.0; self.system.casimir_count()];
-        self.system.casimirs(&self.mu, &mut casimirs);
-        let mut gradient = self.system.zero_state();
-        self.system.gradient(&self.mu, &mut gradient);
-        let mut row = vec![self.done as f64 * self.step];
-        row.extend(&self.mu);
-        row.push(self.system.energy(&self.mu));
-        row.extend(casimirs);
-        row.extend(gradient);
-        row
+        run.advance(steps, every)
     }
 }
 
@@ -165,25 +127,17 @@ fn opened(text: &str, request: &Value) -> Result<(Run, Value), Vec<Diagnostic>> 
             "add `\"initial\": [1, 0, 0]`".to_owned(),
         )
     })?;
-    let about = about(&model, &system, &choice, engine.name());
-    let run = Run {
-        system,
-        method,
-        step,
-        mu,
-        done: 0,
-    };
+    let mut about = about(&model, &choice, engine.name());
+    let seed = request["seed"].as_u64().unwrap_or(1);
+    let run = Run::new(system, method, (step, seed), mu);
+    if let (Some(about), Value::Object(more)) = (about.as_object_mut(), run.about()) {
+        about.extend(more);
+    }
     Ok((run, about))
 }
 
 /// What a page shows of a system.
-fn about(model: &Structure, system: &Dynamic<f64>, choice: &Choice, engine: &str) -> Value {
-    let coordinates: Vec<&str> = (0..system.dimension())
-        .map(|i| system.coordinate(i))
-        .collect();
-    let casimirs: Vec<&str> = (0..system.casimir_count())
-        .map(|i| system.casimir_name(i))
-        .collect();
+fn about(model: &Structure, choice: &Choice, engine: &str) -> Value {
     let methods = applicability(model)
         .into_iter()
         .filter(|(_, reason)| reason.is_none());
@@ -204,11 +158,8 @@ fn about(model: &Structure, system: &Dynamic<f64>, choice: &Choice, engine: &str
         "name": model.name,
         "method": choice.label(),
         "engine": engine,
-        "coordinates": coordinates,
-        "casimirs": casimirs,
         "rank": model.generic_rank,
         "rotates": rotates(model),
-        "driven": model.configuration.as_ref().is_some_and(|c| c.time),
         "methods": methods,
         "equations": equations,
     })
@@ -271,7 +222,10 @@ mod tests {
         assert_eq!(about["name"], "HeavyTop");
         assert_eq!(about["engine"], "interpreter");
         assert_eq!(about["rotates"], true);
-        assert_eq!(about["casimirs"], json!(["length2", "vertical_momentum"]));
+        assert_eq!(
+            about["invariants"],
+            json!(["energy", "length2", "vertical_momentum"])
+        );
         assert!(
             about["methods"]
                 .as_array()

@@ -3,16 +3,19 @@
 //! A page writes a request byte by byte, has it answered, and reads the answer byte by byte, so that no pointer crosses the
 //! border; kernels are linked beside that (`linked.rs`). Requests and answers are JSON:
 //!
-//! - `{"declaration": "…", "method": "lie-midpoint", "step": 0.01}` is answered by what the system is, or by
+//! - `{"declaration": "…", "method": "lie-midpoint", "step": 0.01, "seed": 1}` is answered by what the system is, or by
 //!   `{"diagnostics": [{"line", "column", "kind", "message", "help", "warning"}]}`;
-//! - `{"steps": 100, "every": 10}` goes on from where the run is, and is answered by `{"rows": […], "stopped": null}`. A row holds
-//!   t, the coordinates, the energy, the Casimirs, and the gradient of H.
+//! - `{"steps": 100, "every": 10, "inputs": {"u": 0.5}}` goes on from where the run is, with inputs held at these values, and is answered by
+//!   `{"rows": […], "events": [{"event", "t", "stops"}], "stopped": null}`. A row holds t, the coordinates without those that carry the time,
+//!   the energy, what is kept (the energy or its balance with the work, Casimirs, first integrals), the work, integrals, observables and inputs,
+//!   and the generator of the motion, without damping the gradient of H.
 
 #![warn(missing_docs)]
 
 mod answer;
 #[cfg(target_arch = "wasm32")]
 mod linked;
+mod run;
 
 pub use answer::Session;
 
