@@ -150,7 +150,7 @@ fn spin() -> Problem<f64, SpinSystem<f64>> {
     let system = Spin::new().system().expect("a system");
     let held = vec![0.0; system.noise_count()];
     let start = [&[0.6, 0.0, 0.8, 0.0, 0.0, 1.0][..], &held].concat();
-    let start: [f64; 10] = start.try_into().expect("a state");
+    let start: [f64; 11] = start.try_into().expect("a state");
     Problem::new(system, start, (0.0, 20.0))
 }
 

@@ -227,6 +227,11 @@ pub trait Poisson<S: Scalar>: Sized {
     fn noise_count(&self) -> usize {
         0
     }
+    /// Whether the last of them belongs to no noise, and its sign is a coin: steps that take several processes one after the other
+    /// take them in their order or against it, as it says.
+    fn tosses_coin(&self) -> bool {
+        false
+    }
 
     /// The number of declared functions of the state that [`Poisson::quantities`] writes: the work of the forces, first integrals,
     /// observables, inputs.

@@ -184,7 +184,11 @@ pub fn driving(
         defaults: sources.defaults,
         name: sources.name,
     };
-    motion(&mut work, &written, declared, mistakes)
+    let driving = motion(&mut work, &written, declared, mistakes)?;
+    Some(Driving {
+        noises: held::with_coin(driving.noises),
+        ..driving
+    })
 }
 
 /// What no driven system is yet, or can be.

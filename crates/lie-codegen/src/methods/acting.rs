@@ -2,10 +2,14 @@
 
 use super::Choice;
 use crate::model::{Acting, Model};
+use crate::structure::flows;
 
 /// Why a method does not apply where something acts beside the Hamiltonian.
 pub(super) fn driven(model: &Model, choice: &Choice) -> Option<(String, String)> {
     let (driving, method) = (model.driving.as_ref()?, choice.entry()?);
+    if matches!(choice, Choice::Splitting(..)) && model.family.is_none() {
+        return flows::unsplittable(model);
+    }
     let along = |acting: &Acting| {
         matches!(
             acting,

@@ -34,7 +34,7 @@ pub fn refusal(structure: &Structure, choice: &Choice) -> Option<(String, String
                     structure.pieces.as_ref().map_or(0, Vec::len),
                 ),
             };
-            why.or_else(|| near_integrable(*order, *scheme, count))
+            why.or_else(|| near_integrable(*order, *scheme, count + structure.pieces_beside()))
         }
         Choice::Generating(6, Retraction::Cayley) => Some((
             "the generating function of order 6 is known in exponential coordinates, not in those \
@@ -76,7 +76,7 @@ pub fn refusal(structure: &Structure, choice: &Choice) -> Option<(String, String
 fn near_integrable(order: u32, scheme: Scheme, pieces: usize) -> Option<(String, String)> {
     (scheme.is_near_integrable() && pieces > 2).then(|| {
         let message = format!(
-            "the coefficients `{}` are for two pieces of which one is small, and H has {pieces}",
+            "the coefficients `{}` are for two pieces of which one is small, and there are {pieces}",
             scheme.name()
         );
         (message, other_scheme(order))

@@ -13,7 +13,8 @@ pub struct Driving {
     pub damping: Vec<ExprId>,
     /// What was declared, in its order.
     pub declared: Vec<Acting>,
-    /// The number of Wiener processes, whose rates are the last of what is held.
+    /// The number of Wiener processes, whose rates are the last of what is held. Of several, but for families, the last is no noise: its
+    /// sign is the coin that tells in which order splittings take the others.
     pub noises: usize,
 }
 

@@ -145,6 +145,13 @@ fn held(plan: &System) -> Option<TokenStream> {
             }
         }
     });
+    let coin = (plan.noises > 1).then(|| {
+        quote! {
+            fn tosses_coin(&self) -> bool {
+                true
+            }
+        }
+    });
     Some(quote! {
         fn input_count(&self) -> usize {
             #inputs
@@ -155,6 +162,8 @@ fn held(plan: &System) -> Option<TokenStream> {
         fn noise_count(&self) -> usize {
             #noises
         }
+
+        #coin
     })
 }
 

@@ -7,6 +7,7 @@ pub mod directions;
 mod driving;
 pub mod exponential;
 pub mod family;
+pub mod flows;
 pub mod found;
 pub mod group;
 pub mod inertia;

@@ -56,7 +56,8 @@
 //! `$O(\varepsilon h^8 + \varepsilon^2 h^4)$` (McLachlan's (8, 4)); SBAB2 and SBAB4 are for `$\varepsilon A + B$`. For more pieces
 //! nothing of this holds.
 //!
-//! Needs: pieces ([`FoundPoisson`], [`SeparablePoisson`] for [`Coordinate`]); any Lie algebra.
+//! Needs: pieces ([`FoundPoisson`], [`SeparablePoisson`] for [`Coordinate`]); any Lie algebra. Linear friction, constant forces and noise along constant
+//! directions are pieces behind those of H ([`DrivenFlows`]).
 //!
 //! References: R. I. McLachlan, "Explicit Lie–Poisson integration and the Euler equations", Physical
 //! Review Letters 71 (1993) 3043–3046,
@@ -74,6 +75,7 @@ use super::facts::{Facts, Preserves};
 use super::stepper::{
     FactorSink, Method, Retraction, StepFailure, StepReport, Stepper, not_finite,
 };
+use crate::generic::DrivenFlows;
 use crate::newton::NewtonOptions;
 use crate::pieces::{FoundPoisson, PieceFlows, SeparablePoisson};
 use crate::scalar::{Mask, Scalar};
@@ -230,6 +232,7 @@ impl<const ORDER: u32, K> Facts for Splitting<ORDER, K> {
     const SYMMETRIC: bool = ORDER != 1;
     const EXPLICIT: bool = true;
     const PRESERVES: Preserves = Preserves::POISSON;
+    const FORCES: bool = true;
 }
 
 impl<S, P, const ORDER: u32> Method<S, P> for Splitting<ORDER, Coordinate>
@@ -238,12 +241,13 @@ where
     P: SeparablePoisson<S>,
 {
     type Stepper<'a>
-        = SplittingStepper<S, P::Flows<'a>>
+        = SplittingStepper<S, DrivenFlows<'a, P, P::Flows<'a>, P::State>>
     where
         P: 'a;
 
     fn stepper<'a>(&self, system: &'a P, h: S, _newton: &NewtonOptions) -> Self::Stepper<'a> {
-        self.over(system.flows(), system.zero_state(), h)
+        let flows = DrivenFlows::new(system, system.flows());
+        self.over(flows, system.zero_state(), h)
     }
 }
 
@@ -253,12 +257,13 @@ where
     P: FoundPoisson<S>,
 {
     type Stepper<'a>
-        = SplittingStepper<S, P::Found<'a>>
+        = SplittingStepper<S, DrivenFlows<'a, P, P::Found<'a>, P::State>>
     where
         P: 'a;
 
     fn stepper<'a>(&self, system: &'a P, h: S, _newton: &NewtonOptions) -> Self::Stepper<'a> {
-        self.over(system.found(), system.zero_state(), h)
+        let flows = DrivenFlows::new(system, system.found());
+        self.over(flows, system.zero_state(), h)
     }
 }
 

@@ -205,6 +205,9 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
         }
         self.values.compiled.plan.system.noises
     }
+    fn tosses_coin(&self) -> bool {
+        self.family.is_none() && self.values.compiled.plan.system.noises > 1
+    }
     fn is_forced(&self) -> bool {
         if let Some(family) = &self.family {
             return Poisson::<S>::is_forced(family);

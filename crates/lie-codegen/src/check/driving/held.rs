@@ -35,8 +35,14 @@ pub fn held(declaration: &Declaration, mistakes: &mut Vec<Diagnostic>) -> Vec<(S
         .iter()
         .filter(|d| d.temperature.is_some());
     let count = declaration.noise.len() + own * warm.count();
+    let count = with_coin(count);
     held.extend((1..=count).map(|k| (format!("_w{k}"), Rational::ZERO)));
     held
+}
+
+/// So many Wiener processes with the one whose sign is a coin, which several processes have.
+pub fn with_coin(processes: usize) -> usize {
+    processes + usize::from(processes > 1)
 }
 
 /// The inputs of a declaration that passed its checks.
