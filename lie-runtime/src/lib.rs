@@ -105,9 +105,9 @@ pub mod prelude {
         Generating2, Generating4, Generating6, GeneratingSecondKind2, Gonzalez, ImplicitMidpoint,
         Isospectral2, Isospectral4, Isospectral6, Isospectral8, Isospectral10, Isospectral12,
         Isospectral14, Isospectral16, ItohAbe, LieEuler, LieMidpoint, LieTaylor, MeanValue, Method,
-        MoserVeselov, OrbitEnergy, Rk4, Rkmk2, Rkmk3, Rkmk4, Rkmk6, Scheme, SphericalMidpoint,
-        Splitting1, Splitting2, Splitting4, Splitting6, Splitting8, Stepper, Taylor, Variational2,
-        Variational4, Variational6,
+        MoserVeselov, NinomiyaVictoir, OrbitEnergy, Rk4, Rkmk2, Rkmk3, Rkmk4, Rkmk6, Scheme,
+        SphericalMidpoint, Splitting1, Splitting2, Splitting4, Splitting6, Splitting8, Stepper,
+        Taylor, Variational2, Variational4, Variational6,
     };
     pub use crate::newton::{Convergence, Iteration, NewtonOptions};
     #[cfg(feature = "lanes")]

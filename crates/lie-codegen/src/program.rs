@@ -321,7 +321,6 @@ fn entry(choice: &Choice, purpose: Purpose) -> TokenStream {
     } else {
         quote! { _ }
     };
-    let composed = choice.solved() != choice;
     if let Purpose::OnGroup(chart) = purpose {
         let chart = path(chart);
         return quote! {
@@ -329,7 +328,7 @@ fn entry(choice: &Choice, purpose: Purpose) -> TokenStream {
         };
     }
     let function = match purpose {
-        Purpose::Verify if composed => format_ident!("composed"),
+        Purpose::Verify if choice.is_composed() => format_ident!("composed"),
         Purpose::Run => format_ident!("method"),
         _ if adaptive => format_ident!("adaptive"),
         _ => format_ident!("method"),

@@ -211,7 +211,7 @@ impl Work {
         for choice in &self.choices {
             let (label, choice) = (choice.label(), choice.clone());
             let series = matches!(choice, Choice::Taylor | Choice::LieTaylor);
-            let kind = if choice.solved() != &choice {
+            let kind = if choice.is_composed() {
                 Kind::Composed
             } else if choice.is_adaptive() && !series {
                 Kind::Adaptive

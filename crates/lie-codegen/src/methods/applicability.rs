@@ -66,6 +66,7 @@ pub fn refusal(structure: &Structure, choice: &Choice) -> Option<(String, String
         Choice::Collective(order, Lift::Unitary) => unitary::refusal(structure, *order),
         Choice::Collective(order, Lift::Smallest) => lifts::refusal(structure, *order),
         Choice::EulerArnold2 => cotangent(model),
+        Choice::NinomiyaVictoir => flows::unsteady_noise(model),
         Choice::SphericalMidpoint => spins::refusal(structure, None),
         Choice::MoserVeselov => inertia::refusal(structure),
         _ => None,

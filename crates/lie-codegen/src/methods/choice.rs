@@ -199,6 +199,7 @@ impl Choice {
             | Self::CrouchGrossman3
             | Self::CommutatorFree4
             | Self::EulerArnold2
+            | Self::NinomiyaVictoir
             | Self::OrbitEnergy(_) => true,
             _ => false,
         }
@@ -219,6 +220,11 @@ impl Choice {
     /// Whether its step needs nothing of the system but its field.
     pub fn follows_field(&self) -> bool {
         matches!(self, Self::Rk4 | Self::Dopri5 | Self::Taylor)
+    }
+
+    /// Whether its step consists of steps of another.
+    pub fn is_composed(&self) -> bool {
+        matches!(self, Self::Compose(..) | Self::NinomiyaVictoir)
     }
 
     /// The methods whose equations this one solves: itself, or the base of a composition.

@@ -17,6 +17,7 @@ const COLLECTIVE: &str = "a matrix representation closed under (abc + cba)/2, up
 const LINEAR: &str = "a direct sum of algebras so(3) (hopf), so(3) with vectors such as se(3) (quaternion), anti-Hermitian matrices such as those of su(n) and u(n) (unitary), else a matrix representation closed under (abc + cba)/2, up to matrices that commute with it";
 const SPINS: &str = "a direct sum of algebras so(3)";
 const EXPRESSION: &str = "a Hamiltonian with an expression";
+const NOISE: &str = "any Lie algebra, noise along constant directions";
 const SUM: &str = "H of functions of commuting coordinates and of Casimirs of subalgebras, or quadratic; for --pieces coordinate H = sum f_i(x_i)";
 
 const AKW: &str = "Austin, Krishnaprasad, Wang (1993), 10.1006/jcph.1993.1128";
@@ -39,6 +40,7 @@ const DG: &str = "Gonzalez (1996), 10.1007/BF02440162; McLachlan, Quispel, Robid
 const EF: &str = "Engø, Faltinsen (2001), 10.1137/S0036142999364212";
 const WW: &str = "Whittaker, Watson, A Course of Modern Analysis (1927), 10.1017/CBO9780511608759";
 const CH: &str = "Cohen, Hairer (2011), 10.1007/s10543-011-0310-z";
+const NV: &str = "Ninomiya, Victoir (2008), 10.1080/13504860701413958";
 const JZ: &str = "Jorba, Zou (2005), 10.1080/10586458.2005.10128904";
 const KL: &str =
     "Suzuki (1990), 10.1016/0375-9601(90)90962-N; Kahan, Li (1997), 10.1090/S0025-5718-97-00873-9";

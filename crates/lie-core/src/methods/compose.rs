@@ -176,10 +176,10 @@ struct Stages<S: Scalar, T: Stepper<S>> {
 }
 
 /// Passes factors on, in failed lanes those of no motion.
-struct Masked<'a, S: Scalar, V, K> {
-    sink: &'a mut K,
-    failed: S::Mask,
-    factor: &'a mut V,
+pub(super) struct Masked<'a, S: Scalar, V, K> {
+    pub(super) sink: &'a mut K,
+    pub(super) failed: S::Mask,
+    pub(super) factor: &'a mut V,
 }
 
 impl<S: Scalar, V: State<S>, K: FactorSink<V>> FactorSink<V> for Masked<'_, S, V, K> {
@@ -226,13 +226,7 @@ impl<S: Scalar, T: Stepper<S>> Stages<S, T> {
                     new.report
                 }
             };
-            total.evaluations += report.evaluations;
-            total.fixed_point += report.fixed_point;
-            total.iterations += report.iterations;
-            total.factorizations += report.factorizations;
-            total.residual = S::larger(total.residual, report.residual);
-            total.rejected += report.rejected;
-            total.pivoted |= report.pivoted;
+            total.add::<S>(&report);
             if failed_lanes::<S>(failure.as_ref()).all() {
                 break;
             }

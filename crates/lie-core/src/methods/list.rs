@@ -68,6 +68,8 @@ macro_rules! for_each_method {
                 /// `splitting1`, `splitting2`, `splitting4`, `splitting6`, `splitting8`; of order 1 the
                 /// scheme means nothing.
                 Splitting(u32, Scheme, Pieces),
+                /// `ninomiya-victoir`
+                NinomiyaVictoir,
                 /// `gonzalez`, `mean-value`, `itoh-abe`
                 DiscreteGradient(Gradient, Tensor),
                 /// `orbit-energy`
@@ -224,6 +226,8 @@ macro_rules! for_each_method {
                 [Splitting(6, Scheme::BlanesMoan, Pieces::Found)] [Splitting6] [Splitting6::new()] { splitting } }
             { "composed splitting" SUM MCL
                 [Splitting(8, Scheme::KahanLi, Pieces::Found)] [Splitting8] [Splitting8::new()] { splitting } }
+            { "Ninomiya–Victoir splitting of noise, weak order 2" NOISE NV
+                [NinomiyaVictoir] [NinomiyaVictoir] [NinomiyaVictoir] {} }
             { "midpoint discrete gradient" ANY DG
                 [DiscreteGradient(Gradient::Gonzalez, Tensor::Midpoint)] [Gonzalez] [Gonzalez] { [gonzalez Any DiscreteGradientStep of GonzalezGradient] }
                 [DiscreteGradient(Gradient::Gonzalez, Tensor::Mean)] [WithTensor<Gonzalez, MeanTensor>] [WithTensor::new(Gonzalez, MeanTensor)] {} }

@@ -38,6 +38,8 @@
 //! `$\exp(\mathrm{ad}^*_x)\, \mu + \varphi_1(\mathrm{ad}^*_x)\, K$` of pairs (x, K), [`LieMidpoint`], [`Variational`] and [`EulerArnold2`] by the principle of
 //! Lagrange and d'Alembert. Discrete
 //! gradients, [`OrbitEnergy`] and [`CohenHairer`] balance the energy to round-off. Damping leaves every method of the algebra on the orbit.
+//! Linear friction and noise along constant directions are pieces of a [`Splitting`]. Noise is held over a step, with weak order 1; [`Splitting2`] and
+//! [`NinomiyaVictoir`] have weak order 2.
 //!
 //! [`Rk4`] and [`Dopri5`] keep no structure: they are there to compare with. A [`Projection`] keeps energy and Casimirs of any method. What a method keeps is data,
 //! see [`Facts`].
@@ -100,6 +102,7 @@ mod made;
 pub mod mean_value;
 pub mod midpoint;
 pub mod moser_veselov;
+pub mod ninomiya_victoir;
 pub mod orbit_energy;
 pub mod projection;
 mod realized;
@@ -157,6 +160,7 @@ pub use made::Tolerances;
 pub use mean_value::MeanValue;
 pub use midpoint::ImplicitMidpoint;
 pub use moser_veselov::{MoserVeselov, MoserVeselovStepper};
+pub use ninomiya_victoir::{NinomiyaVictoir, NinomiyaVictoirStepper};
 pub use orbit_energy::OrbitEnergy;
 pub use projection::{Keep, Levels, MOST_LEVELS, Projection, Unkept};
 pub use realized::RealizedStepper;

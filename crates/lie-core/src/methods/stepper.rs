@@ -44,6 +44,17 @@ impl StepReport {
             pivoted: report.pivoted,
         }
     }
+
+    /// Adds the work of a part of the step.
+    pub(super) fn add<S: Scalar>(&mut self, part: &Self) {
+        self.evaluations += part.evaluations;
+        self.iterations += part.iterations;
+        self.fixed_point += part.fixed_point;
+        self.factorizations += part.factorizations;
+        self.residual = S::larger(self.residual, part.residual);
+        self.rejected += part.rejected;
+        self.pivoted |= part.pivoted;
+    }
 }
 
 /// A step that was refused in some lanes: their state is the one before the step. The other lanes

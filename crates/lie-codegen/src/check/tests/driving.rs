@@ -195,6 +195,66 @@ fn methods_of_the_hamiltonian_alone_are_refused_with_the_reason() {
     };
     assert!(why("gauss16").is_none());
     assert!(why("compose4(midpoint)").is_none());
-    let (reason, _) = why("splitting2").expect("a reason");
+    assert!(why("splitting2").is_none());
+    let (reason, _) = why("generating4").expect("a reason");
     assert!(reason.contains("beside the Hamiltonian"), "{reason}");
+}
+
+/// What acts is a piece of a splitting where its flow is known, which is proven, and refused with the term for which it is not.
+#[test]
+fn splittings_take_what_has_a_flow() {
+    use crate::methods::{Choice, refusal};
+    let why = |spec: &str, id: &str| {
+        let choice = Choice::from_id(id).expect("a method");
+        refusal(&model(spec), &choice).map_or(String::new(), |(reason, _)| reason)
+    };
+    for (key, value) in [
+        ("forces", r#"{"x": "-x/2", "z": "cos(t)*(1 - z)"}"#),
+        // linear once it is multiplied out
+        ("forces", r#"{"y": "(y - 1)^2 - y*(y + 3)"}"#),
+        (
+            "noise",
+            r#"[{"hamiltonian": "x - 2*z"}, {"force": {"y": "cos(t)"}}]"#,
+        ),
+    ] {
+        let spec = so3(&[(key, value)]);
+        for id in ["splitting2", "splitting6", "compose4(splitting2)"] {
+            assert_eq!(why(&spec, id), "", "{value}");
+        }
+    }
+    for (key, value, reason) in [
+        (
+            "forces",
+            r#"{"x": "-x^3"}"#,
+            "that on `x` is not linear in `x`",
+        ),
+        ("forces", r#"{"x": "-y"}"#, "that on `x` depends on `y`"),
+        (
+            "noise",
+            r#"[{"hamiltonian": "x^2"}]"#,
+            "its direction depends on `x`",
+        ),
+        (
+            "noise",
+            r#"[{"force": {"y": "z"}}]"#,
+            "its direction depends on `z`",
+        ),
+        (
+            "dissipation",
+            r#"[{"kind": "double-bracket", "strength": 1}]"#,
+            "a double bracket damps",
+        ),
+    ] {
+        let spec = so3(&[(key, value)]);
+        let found = why(&spec, "splitting2");
+        assert!(found.contains(reason), "{value}: {found}");
+    }
+    let free = so3(&[]);
+    assert!(why(&free, "ninomiya-victoir").contains("the method is for noise"));
+    let warm = so3(&[(
+        "dissipation",
+        r#"[{"kind": "double-bracket", "strength": 1, "temperature": "1/2"}]"#,
+    )]);
+    assert_eq!(why(&warm, "ninomiya-victoir"), "");
+    assert!(why(&warm, "splitting2").contains("a double bracket damps"));
 }
