@@ -216,9 +216,9 @@ fn the_spatial_momentum_moves_by_the_force() {
             };
             let mut carried = turned(along(&tableau.b).map(|x| -x), first(mu.as_slice()));
             let mut still = carried;
-            for i in 0..STAGES {
+            for (i, pair) in pairs.iter().enumerate().take(STAGES) {
                 let mut at = start;
-                at.as_mut_slice()[..4].copy_from_slice(pairs[i].0[1].as_slice());
+                at.as_mut_slice()[..4].copy_from_slice(pair.0[1].as_slice());
                 at[4] = start[4] + h * tableau.c[i];
                 let impulse = system.torque(&at).map(|f| h * tableau.b[i] * f);
                 let weights: Vec<f64> = (0..STAGES)

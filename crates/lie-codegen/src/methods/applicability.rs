@@ -4,7 +4,8 @@ use super::acting::driven;
 use super::{CATALOGUE, Choice, Lift, Pieces, Retraction, Scheme, Tensor};
 use crate::model::{Bracket, Descent, Discrete, Energy, Model};
 use crate::structure::{
-    Structure, found, inertia, integrable, lifts, matrices, separable, spins, unitary, vectors,
+    Structure, flows, found, inertia, integrable, lifts, matrices, separable, spins, unitary,
+    vectors,
 };
 use lie_syntax::diagnostic::Kind;
 
