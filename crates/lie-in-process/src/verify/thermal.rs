@@ -19,6 +19,9 @@ pub(super) fn density(model: &Structure, parameters: &[f64]) -> Option<Thermal> 
     };
     let temperature = declared.iter().find_map(warm)?;
     let unknown = |why: &str| Some(Thermal::Unknown(why.to_owned()));
+    if model.family.is_some() {
+        return unknown("no quadrature is made over the spins of a family");
+    }
     let (mut along, mut against) = (false, false);
     for pair in declared.chunks(2) {
         let [damping, noise] = pair else {

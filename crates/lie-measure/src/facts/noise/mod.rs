@@ -19,7 +19,7 @@ use lie_runtime::matrix::SquareMatrix;
 use lie_runtime::poisson::{Lift, Poisson};
 use lie_runtime::state::State;
 use paths::Places;
-use slope::Slope;
+use slope::{BATCHES, Slope};
 use stationary::Stationary;
 pub use stationary::Thermal;
 
@@ -29,6 +29,8 @@ const OF_MOTION: f64 = 0.4;
 const OF_NOISE: f64 = 0.1;
 /// Steps of the largest size over the span.
 const FEWEST: usize = 4;
+/// The fewest samples of a batch.
+const FEWEST_SAMPLES: usize = 2;
 /// How much smaller than the order a slope may be beside its statistical error: the steps of the ladder are no limit.
 const SLACK: f64 = 0.15;
 /// In standard errors of the slope.
@@ -82,6 +84,12 @@ impl<V: State<f64>> Noise<V> {
         };
         noise.exact = strong::exact(system, &noise);
         Some(noise)
+    }
+
+    /// The number of samples, so many in each batch of a system of three coordinates: more coordinates take longer, and have fewer.
+    fn samples(&self, of_batch: usize) -> usize {
+        let own = self.places.own().count();
+        BATCHES * (of_batch * 3 / own.max(3)).max(FEWEST_SAMPLES)
     }
 
     /// The order of a method in the mean square.

@@ -1,15 +1,15 @@
 //! The order in the mean square: the distance from the path that fine steps make of the same noise.
 
 use super::paths::{Increments, end};
-use super::slope::{BATCHES, Level, slope};
+use super::slope::{Level, slope};
 use super::{FEWEST, Finding, Noise, judged};
 use lie_runtime::diagnostics::AnyMethod;
 use lie_runtime::methods::Rk4;
 use lie_runtime::poisson::{Lift, Poisson};
 use lie_runtime::state::State;
 
-/// The paths.
-const PATHS: usize = 12 * BATCHES;
+/// The paths of a batch.
+const PATHS: usize = 12;
 /// Levels, each with steps of half the size.
 const LEVELS: u32 = 5;
 /// Steps of the paths that count as exact over the smallest ones of a level.
@@ -40,7 +40,7 @@ pub(super) fn exact<P: Poisson<f64>>(
         )?;
         Some((fine.in_steps(steps(LEVELS - 1)), end))
     };
-    (0..PATHS).filter_map(path).collect()
+    (0..noise.samples(PATHS)).filter_map(path).collect()
 }
 
 pub(super) fn finding<P: Lift<f64>>(
@@ -50,6 +50,7 @@ pub(super) fn finding<P: Lift<f64>>(
 ) -> Finding {
     const FACT: &str = "strong order";
     let claim = method.claims().strong_order(noise.commuting);
+    let paths = noise.samples(PATHS);
     let mut levels = Vec::new();
     for level in 0..LEVELS {
         let square = |(path, exact): &(Increments, P::State)| {
@@ -63,7 +64,7 @@ pub(super) fn finding<P: Lift<f64>>(
         };
         let h = noise.span / steps(level) as f64;
         // large steps that fail say nothing of the order
-        if noise.exact.len() == PATHS
+        if noise.exact.len() == paths
             && let Some(squares) = noise.exact.iter().map(square).collect::<Option<Vec<_>>>()
         {
             levels.push(Level::new(h, &squares));
@@ -76,5 +77,5 @@ pub(super) fn finding<P: Lift<f64>>(
         return Finding::at_least(FACT, true, f64::INFINITY, claim, claim)
             .note("exact to round-off".to_owned());
     }
-    judged(FACT, claim, slope(&levels, &roots), (PATHS, "paths"))
+    judged(FACT, claim, slope(&levels, &roots), (paths, "paths"))
 }

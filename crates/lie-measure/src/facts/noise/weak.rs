@@ -1,14 +1,14 @@
 //! The order of means: by how much the mean of functions of the state changes when steps are halved.
 
 use super::paths::{Increments, end};
-use super::slope::{BATCHES, Level, slope};
+use super::slope::{Level, slope};
 use super::{FEWEST, Finding, Noise, judged};
 use lie_runtime::diagnostics::AnyMethod;
 use lie_runtime::poisson::{Lift, Poisson};
 use lie_runtime::state::State;
 
-/// The samples of a level: means over a path, the one of opposite sign, and both with steps that change places.
-const SAMPLES: usize = 25 * BATCHES;
+/// The samples of a batch of a level: means over a path, the one of opposite sign, and both with steps that change places.
+const SAMPLES: usize = 25;
 /// Levels, each with steps of half the size.
 const LEVELS: u32 = 4;
 /// The most coordinates of which products are looked at.
@@ -41,6 +41,7 @@ pub(super) fn finding<P: Lift<f64>>(
     noise: &Noise<P::State>,
     method: &dyn AnyMethod<f64, P>,
 ) -> Finding {
+    let samples = noise.samples(SAMPLES);
     let mut levels = Vec::new();
     for level in 0..LEVELS {
         let steps = FEWEST << level;
@@ -66,7 +67,7 @@ pub(super) fn finding<P: Lift<f64>>(
             }
             Some(sum)
         };
-        if let Some(changes) = (0..SAMPLES).map(change).collect::<Option<Vec<_>>>() {
+        if let Some(changes) = (0..samples).map(change).collect::<Option<Vec<_>>>() {
             levels.push(Level::new(h, &changes));
         }
     }
@@ -74,7 +75,7 @@ pub(super) fn finding<P: Lift<f64>>(
         "weak order",
         method.claims().weak_order(),
         slope(&levels, &along_their_sum),
-        (SAMPLES, "samples of four paths"),
+        (samples, "samples of four paths"),
     )
 }
 
