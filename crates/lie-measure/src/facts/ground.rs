@@ -53,7 +53,10 @@ pub type OrbitDistance<P> = fn(&P, &<P as Poisson<f64>>::State, &<P as Poisson<f
 pub struct Exact<V> {
     /// The span.
     pub span: f64,
-    /// The states at its end, from each state of the ground.
+    /// Where they start: the states of the ground. Where several processes of noise act, without their rates: methods that take one process
+    /// after the other have the order that they claim for the motion alone, and a weak one for noise.
+    pub starts: Vec<V>,
+    /// The states at its end, from each of these.
     pub ends: Vec<V>,
     /// Their error, relative to the state.
     pub error: f64,
@@ -61,14 +64,25 @@ pub struct Exact<V> {
 
 impl<V: State<f64>> Exact<V> {
     fn new<P: Poisson<f64, State = V>>(system: &P, states: &[V], span: f64) -> Option<Self> {
+        let mut starts = states.to_vec();
+        if system.tosses_coin() {
+            let rates = system.dimension() - system.noise_count()..;
+            let all = starts.iter_mut();
+            all.for_each(|mu| mu.as_mut_slice()[rates.clone()].fill(0.0));
+        }
         let mut ends = Vec::new();
         let mut error = 0.0_f64;
-        for mu in states {
+        for mu in &starts {
             let solution = reference(system, mu, span)?;
             error = error.max(solution.error / solution.mu.max_norm());
             ends.push(solution.mu);
         }
-        Some(Self { span, ends, error })
+        Some(Self {
+            span,
+            starts,
+            ends,
+            error,
+        })
     }
 }
 
@@ -121,7 +135,7 @@ impl<P: Lift<f64>> Ground<P> {
             let longer = Exact::new(system, &states, span * step);
             exact.extend(longer.filter(|longer| longer.error <= RELIABLE));
         }
-        let kept = |integral: &Integral| holds(integral, &states, &exact);
+        let kept = |integral: &Integral| holds(integral, &exact);
         let mut linear = integrals(system, &states, false);
         linear.retain(kept);
         let mut quadratic = integrals(system, &states, true);
@@ -181,9 +195,9 @@ impl<P: Lift<f64>> Ground<P> {
 
 /// Whether a first integral that was found near the states holds along the solutions, which may lead
 /// far away: round-off in its coefficients counts there.
-fn holds<V: State<f64>>(integral: &Integral, states: &[V], exact: &[Exact<V>]) -> bool {
+fn holds<V: State<f64>>(integral: &Integral, exact: &[Exact<V>]) -> bool {
     exact.iter().all(|exact| {
-        states.iter().zip(&exact.ends).all(|(mu, end)| {
+        exact.starts.iter().zip(&exact.ends).all(|(mu, end)| {
             let (mu, end) = (mu.as_slice(), end.as_slice());
             let change = (integral.value(end) - integral.value(mu)).abs();
             change <= (100.0 * exact.error).max(1e-13) * integral.size(mu)

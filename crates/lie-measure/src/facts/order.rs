@@ -69,7 +69,7 @@ fn measured<P: Lift<f64>>(
     for exact in &ground.exact {
         let floor = NOISE * exact.error.max(f64::EPSILON);
         let measured = match adaptive {
-            Some(make) => by_tolerance(system, ground, exact, make, floor),
+            Some(make) => by_tolerance(system, exact, make, floor),
             None => by_step(system, ground, exact, method, floor),
         };
         let mut above: Vec<(f64, f64)> = measured.iter().filter(|p| p.1 > floor).copied().collect();
@@ -77,7 +77,7 @@ fn measured<P: Lift<f64>>(
         arrives |= measured.last().is_some_and(|last| last.1 <= floor);
         if adaptive.is_none() && slope(tail(&above, order)) < bound {
             // a method may amplify round-off, as differences divided by small increments do
-            above.retain(|&(h, error)| error > NOISE * noise(system, ground, exact, method, h));
+            above.retain(|&(h, error)| error > NOISE * noise(system, exact, method, h));
         }
         exact_everywhere &= measured.len() >= 3 && above.is_empty();
         if above.len() > best.len() || largest.is_nan() {
@@ -155,7 +155,6 @@ fn tail(points: &[(f64, f64)], order: u32) -> &[(f64, f64)] {
 /// How much the end of a run moves when its start moves by a few units of round-off, relative to the state.
 fn noise<P: Lift<f64>>(
     system: &P,
-    ground: &Ground<P>,
     exact: &Exact<P::State>,
     method: &dyn AnyMethod<f64, P>,
     h: f64,
@@ -164,7 +163,7 @@ fn noise<P: Lift<f64>>(
     let step = exact.span / steps as f64;
     let newton = NewtonOptions::default();
     let mut largest = 0.0_f64;
-    for mu in &ground.states {
+    for mu in &exact.starts {
         let end = |nudge: f64| {
             let mut state = mu.clone();
             for entry in state.as_mut_slice() {
@@ -224,7 +223,7 @@ fn by_step<P: Lift<f64>>(
             .min(method.claims().order),
     ) {
         let h = exact.span / steps as f64;
-        if let Some((error, _)) = error(system, ground, exact, method, h, steps) {
+        if let Some((error, _)) = error(system, exact, method, h, steps) {
             points.push((h.abs(), error));
             below += u32::from(error <= floor);
         }
@@ -238,7 +237,6 @@ fn by_step<P: Lift<f64>>(
 /// Errors of an adaptive method over the mean of its own steps.
 fn by_tolerance<P: Lift<f64>>(
     system: &P,
-    ground: &Ground<P>,
     exact: &Exact<P::State>,
     make: &dyn Fn(f64) -> Made<f64, P>,
     floor: f64,
@@ -247,11 +245,10 @@ fn by_tolerance<P: Lift<f64>>(
     for k in 0..24 {
         let tolerance = 10_f64.powf(-3.0 - 0.5 * f64::from(k));
         // one step of the grid: the span
-        let Some((error, stats)) = error(system, ground, exact, &*make(tolerance), exact.span, 1)
-        else {
+        let Some((error, stats)) = error(system, exact, &*make(tolerance), exact.span, 1) else {
             continue;
         };
-        let mean = exact.span.abs() * ground.states.len() as f64 / stats.accepted as f64;
+        let mean = exact.span.abs() * exact.starts.len() as f64 / stats.accepted as f64;
         if points.last().is_none_or(|last| mean < 0.9 * last.0) {
             points.push((mean, error));
         }
@@ -265,7 +262,6 @@ fn by_tolerance<P: Lift<f64>>(
 /// The largest error at the end of the span relative to the state, and the work of all runs.
 fn error<P: Lift<f64>>(
     system: &P,
-    ground: &Ground<P>,
     exact: &Exact<P::State>,
     method: &dyn AnyMethod<f64, P>,
     h: f64,
@@ -274,7 +270,7 @@ fn error<P: Lift<f64>>(
     let newton = NewtonOptions::default();
     let mut largest = 0.0_f64;
     let mut sum = Stats::default();
-    for (mu, end) in ground.states.iter().zip(&exact.ends) {
+    for (mu, end) in exact.starts.iter().zip(&exact.ends) {
         let mut state = mu.clone();
         let stats = method
             .any_stepper(system, h, &newton)

@@ -367,7 +367,7 @@ impl<P: Lift<f64> + Clone + 'static> Verify<P> {
             }
         }
         let exact = &ground.exact[0];
-        for (mu, end) in ground.states.iter().zip(&exact.ends) {
+        for (mu, end) in exact.starts.iter().zip(&exact.ends) {
             session.found(Found::Reference(Reference {
                 span: exact.span,
                 start: mu.as_slice().to_vec(),
