@@ -150,6 +150,6 @@ fn the_command_takes_them_for_two_pieces() {
     assert_ne!(saba.stdout, strang.stdout);
     let run = format!("{run} saba2 --pieces coordinate");
     let run = common::lie(&run).error("splitting", "command line: --method");
-    let why = "`saba2` are for two pieces of which one is small, and H has 3";
+    let why = "`saba2` are for two pieces of which one is small, and there are 3";
     assert!(run.stderr.contains(why), "{}", run.stderr);
 }

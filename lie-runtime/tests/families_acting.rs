@@ -82,8 +82,10 @@ fn places() -> Vec<usize> {
 fn what_acts_on_three_sites_is_what_acts_on_one_system() {
     let family = Chain::new().system().expect("sizes");
     let three = Three::new().system().expect("constants");
-    assert_eq!(family.dimension(), three.dimension());
-    assert_eq!((family.noise_count(), three.noise_count()), (15, 15));
+    // one system has a coin behind its noises
+    assert_eq!(family.dimension() + 1, three.dimension());
+    assert!(three.tosses_coin() && !family.tosses_coin());
+    assert_eq!((family.noise_count(), three.noise_count()), (15, 16));
     let places = places();
     let (mut moved, mut rates) = (0.0_f64, 0.0_f64);
     for seed in 0..20 {

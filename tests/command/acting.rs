@@ -362,3 +362,38 @@ fn a_metriplectic_body_keeps_its_energy() {
     let (drift, _) = run("midpoint");
     assert!(drift > 1e-5, "{drift:e}");
 }
+
+/// The work is that of the forces: what a noise does as a force is not in it, by no method.
+#[test]
+fn noise_does_no_work() {
+    let folder = folder();
+    let spec = json!({
+        "name": "Shaken",
+        "algebra": "so(3)",
+        "state": ["x", "y", "z"],
+        "hamiltonian": "x^2/2 + y^2/4 + z^2/6 + x*y*z/10",
+        "noise": [{ "force": { "y": "1/5", "z": "1/3" } }],
+        "initial": [0.8, 0.3, -0.5]
+    });
+    let spec = written(folder.path(), "shaken.json", &spec.to_string());
+    for method in [
+        "gauss6",
+        "gonzalez",
+        "mean-value",
+        "orbit-energy",
+        "cohen-hairer4",
+    ] {
+        let run = lie(&format!(
+            "run {spec} --method {method} --step 0.1 --until 10 --seed 3"
+        ))
+        .ok();
+        let (header, rows) = run.csv();
+        let place = |name: &str| header.iter().position(|column| column == name).unwrap();
+        let (work, energy) = (place("work"), place("energy"));
+        let worked = rows.iter().map(|row| row[work].abs()).fold(0.0, f64::max);
+        assert!(worked < 1e-14, "{method}: {worked:e}");
+        // the noise heats the body
+        let last = rows.last().unwrap();
+        assert!((last[energy] - rows[0][energy]).abs() > 1e-3, "{method}");
+    }
+}

@@ -111,7 +111,8 @@ impl Run {
             "quantities": quantities,
             "events": events,
             "inputs": inputs,
-            "noises": system.noise_count(),
+            // a coin is no noise
+            "noises": system.noise_count() - usize::from(system.tosses_coin()),
         })
     }
 

@@ -37,6 +37,12 @@ fn seeds_of_the_declarations() {
 fn seeds_of_the_specs() {
     let mut specs = files("../../specs");
     specs.extend(files("../../tests/data/declarations/pass"));
+    // no spec of these has noise
+    specs.push(
+        br#"{"format": 1, "name": "Warm", "algebra": "so(3)", "state": ["x", "y", "z"], "hamiltonian": "x^2 + z",
+            "dissipation": [{"kind": "double-bracket", "strength": "1/5", "temperature": "1/3"}]}"#
+            .to_vec(),
+    );
     let share = |start: usize| {
         let mut seen = std::collections::BTreeSet::new();
         for bytes in specs.iter().skip(start).step_by(2) {

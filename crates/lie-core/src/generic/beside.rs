@@ -1,6 +1,8 @@
 //! What acts beside the Hamiltonian in a step along a discrete gradient.
 
 use super::kernels::multiply;
+use super::noise::quieten;
+use crate::clock::Clock;
 use crate::matrix::SquareMatrix;
 use crate::poisson::Poisson;
 use crate::scalar::Scalar;
@@ -125,11 +127,36 @@ impl<V, M> Beside<V, M> {
                 power += force * velocity;
             }
         }
+        if system.noise_count() > 0 {
+            power -= self.power_of_noise(system, gradient, clock);
+        }
         let mut loss = S::zero();
         for (&v, &damping) in v.as_slice().iter().zip(self.damping.as_slice()) {
             loss += v * damping;
         }
         self.force.as_mut_slice()[clock.momentum] = loss - power;
+    }
+
+    /// What the noise in the force does, which is no work of the forces.
+    fn power_of_noise<S, P>(&mut self, system: &P, gradient: &V, clock: Clock) -> S
+    where
+        S: Scalar,
+        V: State<S>,
+        P: Poisson<S, State = V, Jacobian = M>,
+    {
+        let mut power = S::zero();
+        self.turned.copy_from(&self.middle);
+        for weight in [S::one(), -S::one()] {
+            system.force(&self.turned, &mut self.column);
+            let forces = self.column.as_slice().iter().zip(gradient.as_slice());
+            for (index, (&force, &velocity)) in forces.enumerate() {
+                if index != clock.momentum {
+                    power += weight * force * velocity;
+                }
+            }
+            quieten(system, &mut self.turned);
+        }
+        power
     }
 
     /// Sets the derivative of the force in the middle, times a weight.
