@@ -16,9 +16,8 @@ use crate::state::State;
 /// `K g = 0` and `s = 0`. The last term is there because a discrete step may have `{S, H}` not zero; it is, for one, where S is a
 /// quadratic Casimir.
 ///
-/// Source: the discrete form for one metric, `K = |grad H|^2 1 - grad H grad H^T`, is that of metriplectic integrators by discrete gradients
-/// (Bloch, Morrison, Ratiu, "Gradient flows in the normal and Kaehler metrics and triple bracket generated metriplectic
-/// systems", 2013, doi:10.1007/978-3-0348-0451-6_15, has the systems); the projection makes it one for every K.
+/// Systems of this kind on the dual of a Lie algebra: A. Bloch, M. Farré Puiggalí, D. Martín de Diego, "Metriplectic Euler–Poincaré equations:
+/// smooth and discrete dynamics", 2024, arXiv:2401.05220. The projection makes the discrete form one for every K.
 #[derive(Clone, Debug)]
 pub(super) struct Growth<S: Scalar, P: Poisson<S>> {
     entropy: GonzalezGradient<S, P, Entropy>,
