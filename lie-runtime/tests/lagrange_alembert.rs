@@ -10,43 +10,13 @@ use lie_runtime::methods::{
 };
 use lie_runtime::newton::NewtonOptions;
 use lie_runtime::prelude::*;
-use lie_runtime::{CotangentPoisson, Equation, Implicit, Lift, Poisson, Unknown};
-use nalgebra::{SMatrix, SVector};
+use lie_runtime::{Implicit, Lift, Poisson};
+use nalgebra::SVector;
 use systems::driven_body::{self, DrivenBody};
 use systems::driven_top::{DrivenTop, turned};
 use systems::heavy_top::{HeavyTop, START};
 use systems::quartic_lagrangian::{BODY, QuarticBody};
-use systems::{distance, state, steps};
-
-/// The momenta of the time and the three others of the driven body.
-impl<S: lie_runtime::Scalar> CotangentPoisson<S> for DrivenBody<S> {
-    type Momentum = SVector<S, 4>;
-    type MomentumMatrix = SMatrix<S, 4, 4>;
-    fn momenta(&self) -> usize {
-        4
-    }
-    fn zero_momentum(&self) -> Self::Momentum {
-        Self::Momentum::repeat(S::zero())
-    }
-    fn zero_momentum_matrix(&self) -> Self::MomentumMatrix {
-        Self::MomentumMatrix::repeat(S::zero())
-    }
-}
-
-/// Momenta alone: nothing is beside them.
-impl<S: lie_runtime::Scalar> CotangentPoisson<S> for QuarticBody {
-    type Momentum = SVector<S, 3>;
-    type MomentumMatrix = SMatrix<S, 3, 3>;
-    fn momenta(&self) -> usize {
-        3
-    }
-    fn zero_momentum(&self) -> Self::Momentum {
-        Self::Momentum::repeat(S::zero())
-    }
-    fn zero_momentum_matrix(&self) -> Self::MomentumMatrix {
-        Self::MomentumMatrix::repeat(S::zero())
-    }
-}
+use systems::{distance, jacobian_against_differences, state, steps};
 
 lie_runtime::generic_equations!([S: lie_runtime::Scalar] DrivenBody<S>, S: variational2_on_group, variational4_on_group, variational6_on_group);
 lie_runtime::generic_equations!([S: lie_runtime::Scalar] HeavyTop<S>, S: variational2_on_group, variational4_on_group, variational6_on_group);
@@ -305,29 +275,6 @@ fn damping_stays_on_the_orbit_and_order_two_is_symmetric() {
 #[test]
 fn jacobians_agree_with_differences() {
     let system = DrivenTop::new(0.3, true, Some(0.3));
-    let mut equation = system.equation(&Variational4::exp(), 0.4);
-    equation.set_base(&SVector::from(START));
-    let mut unknown = equation.zero_unknown();
-    equation.initial_guess(&mut unknown);
-    let (mut residual, mut matrix) = (unknown.clone(), equation.zero_matrix());
-    equation.linearize(&unknown, &mut residual, &mut matrix);
-    let mut largest = 0.0_f64;
-    for column in 0..unknown.len() {
-        let sides = [1e-5, -1e-5].map(|shift| {
-            let (mut moved, mut out) = (unknown.clone(), residual.clone());
-            moved.set_entry(column, unknown.entry(column) + shift);
-            equation.residual(&moved, &mut out);
-            out
-        });
-        for row in 0..unknown.len() {
-            let slope = (sides[0].entry(row) - sides[1].entry(row)) / 2e-5;
-            let entry = lie_runtime::SquareMatrix::get(&matrix, row, column);
-            assert!(
-                (slope - entry).abs() < 1e-8,
-                "({row}, {column}): {slope} {entry}"
-            );
-            largest = largest.max((entry - f64::from(u8::from(row == column))).abs());
-        }
-    }
+    let largest = jacobian_against_differences(&system, &Variational4::exp(), 0.4, &START);
     assert!(largest > 0.1, "it is not the identity alone: {largest}");
 }

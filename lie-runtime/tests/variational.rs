@@ -8,12 +8,12 @@ use lie_runtime::generic::{self, GalerkinStep};
 use lie_runtime::lagrangian::{
     DiscreteLagrangian, LagrangianOfStep, legendre, legendre_left, legendre_right,
 };
-use lie_runtime::methods::{Cayley, Exp, Facts, ImplicitStepper, Method, Variational};
+use lie_runtime::methods::{Cayley, Exp, Facts, ImplicitStepper, Method};
 use lie_runtime::prelude::*;
 use lie_runtime::{Equation, Implicit, Unknown};
 use nalgebra::{SMatrix, SVector};
 use systems::quartic_lagrangian::{BODY, LINE, QuarticBody, QuarticLine};
-use systems::{distance, state, steps};
+use systems::{distance, jacobian_against_differences, state, steps};
 
 /// `l'(xi)` at `xi = (0.9, 1.1)` of the system on aff(1).
 const LINE_START: [f64; 2] = [13.0 / 6.0, 2.4648];
@@ -276,37 +276,10 @@ fn one_stage_is_order_two() {
 /// The Jacobian of an equation against differences of its residual.
 #[test]
 fn jacobians_agree_with_differences() {
-    fn check<const ORDER: u32, T>(method: Variational<T, ORDER>)
-    where
-        QuarticBody: Implicit<f64, Variational<T, ORDER>>,
-    {
-        let mut equation = QuarticBody.equation(&method, 0.5);
-        equation.set_base(&SVector::from(BODY));
-        let mut unknown = equation.zero_unknown();
-        equation.initial_guess(&mut unknown);
-        let (mut residual, mut matrix) = (unknown.clone(), equation.zero_matrix());
-        equation.linearize(&unknown, &mut residual, &mut matrix);
-        for column in 0..unknown.len() {
-            let sides = [1e-5, -1e-5].map(|shift| {
-                let (mut moved, mut out) = (unknown.clone(), residual.clone());
-                moved.set_entry(column, unknown.entry(column) + shift);
-                equation.residual(&moved, &mut out);
-                out
-            });
-            for row in 0..unknown.len() {
-                let slope = (sides[0].entry(row) - sides[1].entry(row)) / 2e-5;
-                let entry = matrix.get(row, column);
-                assert!(
-                    (slope - entry).abs() < 1e-8,
-                    "order {ORDER} ({row}, {column}): {slope} {entry}"
-                );
-            }
-        }
-    }
-    check(Variational2::exp());
-    check(Variational2::cayley());
-    check(Variational4::exp());
-    check(Variational6::exp());
+    jacobian_against_differences(&QuarticBody, &Variational2::exp(), 0.5, &BODY);
+    jacobian_against_differences(&QuarticBody, &Variational2::cayley(), 0.5, &BODY);
+    jacobian_against_differences(&QuarticBody, &Variational4::exp(), 0.5, &BODY);
+    jacobian_against_differences(&QuarticBody, &Variational6::exp(), 0.5, &BODY);
 }
 
 /// The series of dexp converges everywhere, but not within its terms where the path turns hundreds of times: there the

@@ -11,13 +11,18 @@
 //! For so(3), `$\dot\mu = \mu \times \nabla H(\mu)$`.
 #![cfg_attr(doc, doc = include_str!("../docs/katex.html"))]
 
+mod lie;
+mod scalars;
+
+pub use lie::{CayleyPoisson, LiePoisson};
+pub use scalars::{Lift, Widen};
+
 use crate::clock::{self, Clock};
 use crate::event::EventRule;
 use crate::generic;
 use crate::matrix::SquareMatrix;
-use crate::scalar::{Dual, Scalar};
+use crate::scalar::Scalar;
 use crate::state::State;
-use crate::structure::Spectrum;
 use core::ops::Range;
 
 /// A system `mu' = f(mu) = Pi(mu) grad H(mu)` on a Poisson manifold with n coordinates; where forces F or damping act beside the
@@ -299,130 +304,4 @@ pub trait Poisson<S: Scalar>: Sized {
     fn casimirs(&self, mu: &Self::State, out: &mut [S]);
     /// The gradient of one Casimir; `index` must be below [`Poisson::casimir_count`].
     fn casimir_gradient(&self, index: usize, mu: &Self::State, out: &mut Self::State);
-}
-
-/// A Lie–Poisson system: the state lives in the dual g* of a Lie algebra g.
-///
-/// Elements of g are passed as states too: their coordinates in the basis `e_i`. The provided bodies of bracket and coadjoint
-/// action rest on [`Poisson::poisson_matrix`].
-#[diagnostic::on_unimplemented(
-    message = "`{Self}` is not a Lie–Poisson system over the scalar `{S}`",
-    note = "methods of coadjoint form need the bracket of a Lie algebra: implement `LiePoisson<{S}>`, or choose `ImplicitMidpoint` or a Gauss method, which ask only for `Poisson`"
-)]
-pub trait LiePoisson<S: Scalar>: Poisson<S> {
-    /// The bracket `out = [xi, eta]`: `out^k = C_ij^k xi^i eta^j`.
-    fn ad(&self, xi: &Self::State, eta: &Self::State, out: &mut Self::State) {
-        generic::ad(self, xi, eta, out);
-    }
-    /// The coadjoint action `out = ad*_xi mu = Pi(mu) xi`: `out_j = C_ij^k xi^i mu_k`.
-    fn ad_star(&self, xi: &Self::State, mu: &Self::State, out: &mut Self::State) {
-        generic::ad_star(self, xi, mu, out);
-    }
-    /// The matrix of `mu -> ad*_xi mu`: `out_jk = C_ij^k xi^i`.
-    fn ad_star_matrix(&self, xi: &Self::State, out: &mut Self::Jacobian) {
-        generic::ad_star_matrix(self, xi, out);
-    }
-
-    /// Whether [`LiePoisson::coadjoint_action`] and [`LiePoisson::dexp_dual`] are closed forms; else they are series.
-    fn has_closed_exponential(&self) -> bool {
-        false
-    }
-    /// Whether [`LiePoisson::dexp_dual_slope`] is a closed form.
-    fn has_closed_slope(&self) -> bool {
-        false
-    }
-    /// The coadjoint action of an exponential: `out = Ad*_(exp xi) mu = exp(ad*_xi) mu`.
-    fn coadjoint_action(&self, xi: &Self::State, mu: &Self::State, out: &mut Self::State) {
-        generic::coadjoint_action(self, xi, mu, out);
-    }
-    /// The dual of the right-trivialised tangent of exp: `out = phi1(ad*_xi) mu`, `phi1(z) = (e^z - 1)/z`.
-    fn dexp_dual(&self, xi: &Self::State, mu: &Self::State, out: &mut Self::State) {
-        generic::dexp_dual(self, xi, mu, out);
-    }
-    /// The same with its derivative in xi: `slope_ij = d(phi1(ad*_xi) mu)_i/dxi^j`.
-    fn dexp_dual_slope(
-        &self,
-        xi: &Self::State,
-        mu: &Self::State,
-        out: &mut Self::State,
-        slope: &mut Self::Jacobian,
-    ) {
-        generic::dexp_dual_slope(self, xi, mu, out, slope);
-    }
-}
-
-/// A system that also exists over dual numbers, so that running it there differentiates it.
-///
-/// Generated for every system; by hand, convert the constants with [`Dual::constant_of`].
-pub trait Lift<S: Scalar>: Poisson<S> {
-    /// The same system over dual numbers.
-    type Lifted: Lift<Dual<S>>;
-    /// The system with all its constants as dual numbers without derivative.
-    fn lift(&self) -> Self::Lifted;
-}
-
-/// A system that also exists over eight numbers at once, so that all stages of a step are evaluated together.
-///
-/// Generated for every system; by hand, convert the constants with [`Scalar::widen`].
-#[diagnostic::on_unimplemented(
-    message = "`{Self}` does not say how it looks over eight numbers of the scalar `{S}` at once",
-    note = "methods that evaluate all stages of a step together need it: implement `Widen<{S}>`"
-)]
-pub trait Widen<S: Scalar>: Poisson<S> {
-    /// The same system over eight numbers at once.
-    type Widened: Poisson<S::Wide>;
-    /// The system with each of its constants eight times.
-    fn widen(&self) -> Self::Widened;
-    /// Programs that do an iteration of a step with its stages side by side, where the system has some in place of its kernels.
-    #[cfg(feature = "std")]
-    fn stage_program(
-        &self,
-        _slopes: generic::StageSlopes,
-        _stages: usize,
-    ) -> Option<Box<dyn generic::StageProgram<S::Wide>>> {
-        None
-    }
-}
-
-/// A generated system over other scalars, by its function `_over`.
-#[doc(hidden)]
-#[macro_export]
-macro_rules! __over_scalars {
-    ($system:ident) => {
-        impl<S: $crate::Scalar> $crate::Lift<S> for $system<S> {
-            type Lifted = $system<$crate::Dual<S>>;
-            fn lift(&self) -> Self::Lifted {
-                self._over($crate::Dual::constant_of)
-            }
-        }
-
-        impl<S: $crate::Scalar> $crate::Widen<S> for $system<S> {
-            type Widened = $system<S::Wide>;
-            fn widen(&self) -> Self::Widened {
-                self._over(S::widen)
-            }
-        }
-
-        impl<S: $crate::Scalar> $crate::Expand<S> for $system<S> {
-            type Expanded = $system<$crate::scalar::Truncated<S>>;
-            fn expand(&self) -> Self::Expanded {
-                self._over($crate::scalar::Truncated::constant_of)
-            }
-        }
-    };
-}
-
-/// A Lie–Poisson system whose algebra has a representation closed under the Jordan triple product
-/// `(abc + cba)/2 = T_abc^d`, and with it a Cayley map in coordinates.
-#[diagnostic::on_unimplemented(
-    message = "`{Self}` has no Cayley map over the scalar `{S}`",
-    note = "the Cayley map needs a matrix representation that is closed under (abc + cba)/2: declare `matrices`, or use `LieMidpoint::exp()`"
-)]
-pub trait CayleyPoisson<S: Scalar>: LiePoisson<S> {
-    /// What is known of the eigenvalues of the representation, at which the Cayley map has poles.
-    fn spectrum(&self) -> Spectrum<'_> {
-        Spectrum::Unknown
-    }
-    /// The triple product paired with mu: `out_b = T_abc^d x^a z^c mu_d`, symmetric in x and z.
-    fn triple(&self, x: &Self::State, z: &Self::State, mu: &Self::State, out: &mut Self::State);
 }

@@ -3,7 +3,9 @@
 
 use super::rigid_body::{cross, dot, so3_triple};
 use lie_runtime::scalar::Truncated;
-use lie_runtime::{CayleyPoisson, Clock, Dual, Expand, LiePoisson, Lift, Poisson, Scalar, Widen};
+use lie_runtime::{
+    CayleyPoisson, Clock, CotangentPoisson, Dual, Expand, LiePoisson, Lift, Poisson, Scalar, Widen,
+};
 use nalgebra::{SMatrix, SVector};
 
 /// What acts on the body.
@@ -217,6 +219,11 @@ impl<S: Scalar> Expand<S> for DrivenBody<S> {
     fn expand(&self) -> Self::Expanded {
         self.over(Truncated::constant_of)
     }
+}
+
+/// The momentum of the time and the three others.
+impl<S: Scalar> CotangentPoisson<S> for DrivenBody<S> {
+    momenta!(S, 4);
 }
 
 lie_runtime::generic_equations!([S: Scalar] DrivenBody<S>, S: midpoint, gauss4, gauss6, exp, cayley);

@@ -123,17 +123,7 @@ impl<S: Scalar> Lift<S> for DrivenTop<S> {
 }
 
 impl<S: Scalar> CotangentPoisson<S> for DrivenTop<S> {
-    type Momentum = SVector<S, 3>;
-    type MomentumMatrix = SMatrix<S, 3, 3>;
-    fn momenta(&self) -> usize {
-        3
-    }
-    fn zero_momentum(&self) -> Self::Momentum {
-        Self::Momentum::repeat(S::zero())
-    }
-    fn zero_momentum_matrix(&self) -> Self::MomentumMatrix {
-        Self::MomentumMatrix::repeat(S::zero())
-    }
+    momenta!(S, 3);
 }
 
 /// `x` turned about itself by nothing, and any other vector by the rotation of `exp(-hat x)`: how a covector in the body is carried along.

@@ -183,15 +183,5 @@ lie_runtime::generic_equations!([S: Scalar] HeavyTop<S>, S: isospectral2, isospe
 
 /// A system on T*SO(3): gamma is a row of the group element.
 impl<S: Scalar> CotangentPoisson<S> for HeavyTop<S> {
-    type Momentum = SVector<S, 3>;
-    type MomentumMatrix = SMatrix<S, 3, 3>;
-    fn momenta(&self) -> usize {
-        3
-    }
-    fn zero_momentum(&self) -> Self::Momentum {
-        SVector::<S, 3>::repeat(S::zero())
-    }
-    fn zero_momentum_matrix(&self) -> Self::MomentumMatrix {
-        SMatrix::<S, 3, 3>::repeat(S::zero())
-    }
+    momenta!(S, 3);
 }

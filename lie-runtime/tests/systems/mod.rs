@@ -92,6 +92,23 @@ macro_rules! so3_matrices {
     };
 }
 
+/// What `CotangentPoisson` asks of a system with so many momenta.
+macro_rules! momenta {
+    ($scalar:ty, $count:literal) => {
+        type Momentum = nalgebra::SVector<$scalar, $count>;
+        type MomentumMatrix = nalgebra::SMatrix<$scalar, $count, $count>;
+        fn momenta(&self) -> usize {
+            $count
+        }
+        fn zero_momentum(&self) -> Self::Momentum {
+            Self::Momentum::repeat(<$scalar as lie_runtime::Scalar>::zero())
+        }
+        fn zero_momentum_matrix(&self) -> Self::MomentumMatrix {
+            Self::MomentumMatrix::repeat(<$scalar as lie_runtime::Scalar>::zero())
+        }
+    };
+}
+
 pub mod affine_line;
 pub mod body4;
 pub mod damped_body;
@@ -109,7 +126,7 @@ pub mod saddle;
 
 use lie_runtime::methods::{Method, StepFailure, Stepper};
 use lie_runtime::newton::NewtonOptions;
-use lie_runtime::{Poisson, Scalar, State};
+use lie_runtime::{Equation, Implicit, Poisson, Scalar, SquareMatrix, State, Unknown};
 
 /// A state from f64 coordinates.
 pub fn state<S: Scalar, P: Poisson<S>>(system: &P, coordinates: &[f64]) -> P::State {
@@ -141,4 +158,39 @@ pub fn distance<S: Scalar>(a: &impl State<S>, b: &impl State<S>) -> f64 {
     pairs
         .map(|(&a, &b)| (a - b).abs().to_f64())
         .fold(0.0, f64::max)
+}
+
+/// Checks the Jacobian of a step's equation, where its iteration begins, against differences of the residual. How far it is from the identity.
+#[track_caller]
+pub fn jacobian_against_differences<P: Implicit<f64, M>, M>(
+    system: &P,
+    method: &M,
+    h: f64,
+    start: &[f64],
+) -> f64 {
+    let mut equation = system.equation(method, h);
+    equation.set_base(&state(system, start));
+    let mut unknown = equation.zero_unknown();
+    equation.initial_guess(&mut unknown);
+    let (mut residual, mut matrix) = (unknown.clone(), equation.zero_matrix());
+    equation.linearize(&unknown, &mut residual, &mut matrix);
+    let mut largest = 0.0_f64;
+    for column in 0..unknown.len() {
+        let sides = [1e-5, -1e-5].map(|shift| {
+            let (mut moved, mut out) = (unknown.clone(), residual.clone());
+            moved.set_entry(column, unknown.entry(column) + shift);
+            equation.residual(&moved, &mut out);
+            out
+        });
+        for row in 0..unknown.len() {
+            let slope = (sides[0].entry(row) - sides[1].entry(row)) / 2e-5;
+            let entry = matrix.get(row, column);
+            assert!(
+                (slope - entry).abs() < 1e-8,
+                "({row}, {column}): {slope} {entry}"
+            );
+            largest = largest.max((entry - f64::from(u8::from(row == column))).abs());
+        }
+    }
+    largest
 }

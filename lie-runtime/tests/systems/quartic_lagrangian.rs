@@ -3,7 +3,9 @@
 
 use super::rigid_body::{dot, hat};
 use lie_runtime::lagrangian::legendre;
-use lie_runtime::{CayleyPoisson, LagrangianPoisson, LiePoisson, Lift, Poisson, Scalar, generic};
+use lie_runtime::{
+    CayleyPoisson, CotangentPoisson, LagrangianPoisson, LiePoisson, Lift, Poisson, Scalar, generic,
+};
 use nalgebra::{SMatrix, SVector};
 
 /// `l = x^2 + y^2/2 + z^2/3 + x^4/10 + y^2 z^2/5` on so(3).
@@ -109,6 +111,11 @@ impl<S: Scalar> LagrangianPoisson<S> for QuarticBody {
             S::ratio(2.0, 3.0) + two_fifths * y * y,
         );
     }
+}
+
+/// Momenta alone: nothing is beside them.
+impl<S: Scalar> CotangentPoisson<S> for QuarticBody {
+    momenta!(S, 3);
 }
 
 impl<S: Scalar> LiePoisson<S> for QuarticLine {

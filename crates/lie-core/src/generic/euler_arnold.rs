@@ -2,8 +2,9 @@
 
 use super::acting::Acting;
 use super::dexp_slope::DexpSlope;
+use super::momenta;
 use super::series::coadjoint_action_in;
-use crate::clock::{Clock, holds};
+use crate::clock::Clock;
 use crate::equation::Equation;
 use crate::matrix::SquareMatrix;
 use crate::scalar::Scalar;
@@ -297,12 +298,7 @@ impl<S: Scalar, P: CotangentPoisson<S>> Equation<S> for EulerArnoldHalf<'_, S, P
 
     fn set_base(&mut self, mu: &P::State) {
         self.base.copy_from(mu);
-        let mut size = S::zero();
-        let momenta = mu.as_slice()[..self.system.momenta()].iter().enumerate();
-        for (_, momentum) in momenta.filter(|(i, _)| !holds(self.system.clock(), *i)) {
-            size = size.max(momentum.magnitude());
-        }
-        self.size = S::select(S::zero().less(size), size, S::one());
+        self.size = momenta::size(self.system, mu);
     }
 
     fn scale(&self, _mu: &P::State) -> S {

@@ -80,6 +80,7 @@ mod matrix_stages;
 mod mean_gradients;
 mod metriplectic;
 mod midpoint_force;
+mod momenta;
 mod noise;
 mod orbit_beside;
 mod orbit_energy;

@@ -14,6 +14,9 @@
 //!
 //! Where all angles are small, one number and lanes of printed code leave out what would change nothing.
 
+pub(super) mod one;
+pub(super) mod small;
+
 use super::{Primitive, Scalar};
 use crate::functions::Elementary;
 
@@ -85,43 +88,6 @@ fn cosine_parts<P: Primitive>(z: P) -> [P; 3] {
     let one = P::number(1.0);
     let rest = one - half;
     [rest, (one - rest) - half, z * r]
-}
-
-/// The functions of small angles.
-pub(super) mod small {
-    use super::super::{Primitive, Scalar};
-    use super::{TINY, cosine_parts, sine_rest};
-
-    #[inline(always)]
-    pub fn sin<S: Scalar + Primitive>(x: S) -> S {
-        let sine = x + sine_rest(x, x * x);
-        S::select(x.abs().less(S::from_f64(TINY)), x, sine)
-    }
-
-    #[inline(always)]
-    pub fn cos<P: Primitive>(x: P) -> P {
-        let [rest, left, r] = cosine_parts(x * x);
-        rest + (left + r)
-    }
-
-    #[inline(always)]
-    pub fn sin_cos<S: Scalar + Primitive>(x: S) -> (S, S) {
-        (sin(x), cos(x))
-    }
-
-    /// The tangent by a division only where one is needed.
-    #[cfg(any(feature = "lanes", test))]
-    #[inline(always)]
-    pub fn tan<S: Scalar + Primitive>(x: S) -> S {
-        use super::super::Mask;
-        let very = super::is_very_small(x);
-        let value = super::tan_polynomial(x);
-        if very.all() {
-            value
-        } else {
-            S::select(very, value, super::tan_quotient(x))
-        }
-    }
 }
 
 /// The sine of an angle in radians.
@@ -345,74 +311,6 @@ fn tan_quotient<P: Primitive>(x: P) -> P {
         ],
     );
     x + x * (z * numerator / denominator)
-}
-
-/// Functions of one number, which do what the programs do where it changes something.
-pub(super) mod one {
-    use super::super::Primitive;
-    use super::{LARGE, Reduced, is_small, small};
-
-    /// Sine or cosine; of both polynomials the one that is needed.
-    #[inline(always)]
-    fn sine_or_cosine(x: f64, is_cosine: bool, beyond: fn(f64) -> f64) -> f64 {
-        let size = x.size();
-        if size > LARGE || size.is_nan() {
-            return beyond(x);
-        }
-        let reduced = Reduced::new(size);
-        let is_odd = reduced.turns.to_bits() & 1 == 1;
-        let value = match is_odd == is_cosine {
-            true => reduced.sine(),
-            false => reduced.cosine(),
-        };
-        value.xor(match is_cosine {
-            true => reduced.sign_of_cosine(),
-            false => reduced.sign_of_sine(x),
-        })
-    }
-
-    #[inline]
-    pub(in super::super) fn sin(x: f64) -> f64 {
-        match is_small(x) {
-            true => small::sin(x),
-            false => sine_or_cosine(x, false, libm::sin),
-        }
-    }
-
-    #[inline]
-    pub(in super::super) fn cos(x: f64) -> f64 {
-        match is_small(x) {
-            true => small::cos(x),
-            false => sine_or_cosine(x, true, libm::cos),
-        }
-    }
-
-    #[inline]
-    pub(in super::super) fn sin_cos(x: f64) -> (f64, f64) {
-        match is_small(x) {
-            true => small::sin_cos(x),
-            false => super::sin_cos(x),
-        }
-    }
-
-    #[inline(always)]
-    pub(in super::super) fn tan(x: f64) -> f64 {
-        if super::is_very_small(x) {
-            super::tan_polynomial(x)
-        } else {
-            tan_beyond(x)
-        }
-    }
-
-    #[cold]
-    #[inline(never)]
-    fn tan_beyond(x: f64) -> f64 {
-        if super::is_small(x) {
-            super::tan_quotient(x)
-        } else {
-            libm::tan(x)
-        }
-    }
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 use crate::compiled::{Compiled, Kernels, StepConstants};
 use crate::engine::{ARGUMENTS, Frame, Interpreter, Machine};
+use lie_core::family::LateMatrix;
 use lie_runtime::Scalar;
 use std::sync::Arc;
 
@@ -54,7 +55,14 @@ impl<S: Scalar> Values<S> {
         self.machine.run(code, &frame, [vector, matrix]);
     }
 
+    /// The matrix that a kernel of one or two vectors gives.
+    #[inline]
+    pub fn matrix(&self, code: usize, arguments: [&[S]; 2], out: &mut LateMatrix<S>) {
+        self.call(code, arguments, &mut [], out.as_mut_slice());
+    }
+
     /// The number that a kernel of one or two vectors gives.
+    #[inline]
     pub fn number(&self, code: usize, arguments: [&[S]; 2]) -> S {
         let mut value = [S::zero()];
         self.call(code, arguments, &mut value, &mut []);

@@ -1,7 +1,7 @@
 //! What methods of the algebra ask of a system, and its forms over other scalars.
 
-use super::traits::require;
 use crate::system::Dynamic;
+use crate::system::answers::{by_loops, require};
 use lie_core::family::LateMatrix;
 use lie_core::generic;
 use lie_core::generic::{StageProgram, StageSlopes};
@@ -10,37 +10,23 @@ use lie_runtime::{CayleyPoisson, Dual, Expand, LiePoisson, Lift, Scalar, Spectru
 
 impl<S: Scalar> LiePoisson<S> for Dynamic<S> {
     fn ad(&self, xi: &Vec<S>, eta: &Vec<S>, out: &mut Vec<S>) {
-        if S::LOOPS
-            && let Some(family) = &self.family
-        {
-            return family.ad(xi, eta, out);
-        }
+        by_loops!(self.ad(xi, eta, out));
         match self.values.kernels().ad {
             Some(code) => self.values.call(code, [xi, eta], out, &mut []),
             None => generic::ad(self, xi, eta, out),
         }
     }
     fn ad_star(&self, xi: &Vec<S>, mu: &Vec<S>, out: &mut Vec<S>) {
-        if S::LOOPS
-            && let Some(family) = &self.family
-        {
-            return family.ad_star(xi, mu, out);
-        }
+        by_loops!(self.ad_star(xi, mu, out));
         match self.values.kernels().ad_star {
             Some(code) => self.values.call(code, [xi, mu], out, &mut []),
             None => generic::ad_star(self, xi, mu, out),
         }
     }
     fn ad_star_matrix(&self, xi: &Vec<S>, out: &mut LateMatrix<S>) {
-        if S::LOOPS
-            && let Some(family) = &self.family
-        {
-            return family.ad_star_matrix(xi, out);
-        }
+        by_loops!(self.ad_star_matrix(xi, out));
         match self.values.kernels().ad_star_matrix {
-            Some(code) => self
-                .values
-                .call(code, [xi, &[]], &mut [], out.as_mut_slice()),
+            Some(code) => self.values.matrix(code, [xi, &[]], out),
             None => generic::ad_star_matrix(self, xi, out),
         }
     }

@@ -3,8 +3,8 @@
 use crate::code::Code;
 use crate::compiled::CodeBuilder;
 use crate::system::Dynamic;
+use crate::system::answers::without_loops;
 use crate::system::family::FamilySite;
-use crate::system::traits::without_loops;
 use lie_codegen::derive::{Shape, Update};
 use lie_codegen::plan::{Flow, Found, Function, Plan};
 use lie_core::family::FamilyFlows;

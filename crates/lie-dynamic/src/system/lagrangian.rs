@@ -3,7 +3,7 @@
 use crate::compiled::Place;
 use crate::engine::ARGUMENTS;
 use crate::system::Dynamic;
-use crate::system::traits::require;
+use crate::system::answers::require;
 use lie_codegen::plan::Energy;
 use lie_core::family::LateMatrix;
 use lie_runtime::{DiscreteLagrangianPoisson, LagrangianPoisson, Scalar};
@@ -27,10 +27,7 @@ impl<S: Scalar> Dynamic<S> {
 impl<S: Scalar> LagrangianPoisson<S> for Dynamic<S> {
     fn lagrangian(&self, xi: &Vec<S>) -> S {
         let [code, ..] = self.values.kernels().lagrangian;
-        let mut value = [S::zero()];
-        self.values
-            .call(require(code), [xi, &[]], &mut value, &mut []);
-        value[0]
+        self.values.number(require(code), [xi, &[]])
     }
     fn momentum(&self, xi: &Vec<S>, out: &mut Vec<S>) {
         let [_, code, _] = self.values.kernels().lagrangian;
@@ -38,8 +35,7 @@ impl<S: Scalar> LagrangianPoisson<S> for Dynamic<S> {
     }
     fn inertia(&self, xi: &Vec<S>, out: &mut LateMatrix<S>) {
         let [.., code] = self.values.kernels().lagrangian;
-        self.values
-            .call(require(code), [xi, &[]], &mut [], out.as_mut_slice());
+        self.values.matrix(require(code), [xi, &[]], out);
     }
     fn branch(&self) -> Option<Vec<S>> {
         self.branch.clone()

@@ -1,6 +1,7 @@
 //! A system made at run time: the traits of the numeric core by the codes of its plan, a file for each structure that a system may have.
 
 mod algebra;
+mod answers;
 pub(crate) mod family;
 pub(crate) mod flows;
 mod lagrangian;

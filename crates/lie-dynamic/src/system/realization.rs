@@ -89,8 +89,7 @@ impl<S: Scalar> RealizedPoisson<S> for Dynamic<S> {
     }
     fn curvature(&self, z: &Vec<S>, xi: &Vec<S>, out: &mut LateMatrix<S>) {
         let (_, codes) = self.realization();
-        self.values
-            .call(codes.curvature, [z, xi], &mut [], out.as_mut_slice());
+        self.values.matrix(codes.curvature, [z, xi], out);
     }
     fn start(&self, out: &mut Vec<S>) {
         let (_, codes) = self.realization();

@@ -1,66 +1,43 @@
 //! The traits of the numeric core, by the kernels of the plan.
 
-use crate::compiled::Place;
 use crate::system::Dynamic;
+use crate::system::answers::{by_family, by_loops, require, without_loops};
 use lie_core::family::LateMatrix;
 use lie_core::{Clock, EventRule, generic, lagrangian::legendre};
 use lie_runtime::{Dual, Poisson, Scalar};
 use std::ops::Range;
-
-/// The place of a kernel that every system has.
-pub(crate) fn require(place: Place) -> usize {
-    let Some(place) = place else {
-        panic!("the system has no such kernel")
-    };
-    place
-}
-
-/// A kernel that is a loop was asked for over a scalar without any.
-pub(crate) fn without_loops() -> ! {
-    unreachable!("what is written down has no loops within a kernel")
-}
 
 impl<S: Scalar> Poisson<S> for Dynamic<S> {
     type State = Vec<S>;
     type Jacobian = LateMatrix<S>;
 
     fn dimension(&self) -> usize {
-        if let Some(family) = &self.family {
-            return Poisson::<S>::dimension(family);
-        }
+        by_family!(self.dimension());
         self.values.compiled.plan.dimension()
     }
     fn name(&self) -> &str {
         &self.values.compiled.plan.names.system
     }
     fn coordinate(&self, index: usize) -> &str {
-        if let Some(family) = &self.family {
-            return Poisson::<S>::coordinate(family, index);
-        }
+        by_family!(self.coordinate(index));
         &self.values.compiled.plan.names.coordinates[index]
     }
     fn sites(&self) -> Option<[usize; 2]> {
         self.sizes()
     }
     fn casimir_count(&self) -> usize {
-        if let Some(family) = &self.family {
-            return Poisson::<S>::casimir_count(family);
-        }
+        by_family!(self.casimir_count());
         self.values.compiled.plan.system.casimirs.len()
     }
     fn casimir_name(&self, index: usize) -> &str {
-        if let Some(family) = &self.family {
-            return Poisson::<S>::casimir_name(family, index);
-        }
+        by_family!(self.casimir_name(index));
         &self.values.compiled.plan.system.casimirs[index].name
     }
     fn hamiltonian_degree(&self) -> Option<u32> {
         self.values.compiled.plan.system.hamiltonian_degree
     }
     fn casimir_degree(&self, index: usize) -> Option<u32> {
-        if let Some(family) = &self.family {
-            return Poisson::<S>::casimir_degree(family, index);
-        }
+        by_family!(self.casimir_degree(index));
         self.values.compiled.casimir_degrees[index]
     }
     fn casimir_is_multivalued(&self, index: usize) -> bool {
@@ -68,9 +45,7 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
         casimir.is_some_and(|casimir| casimir.multivalued)
     }
     fn casimir_is_kept(&self, index: usize) -> bool {
-        if let Some(family) = &self.family {
-            return Poisson::<S>::casimir_is_kept(family, index);
-        }
+        by_family!(self.casimir_is_kept(index));
         let casimir = self.plan().system.casimirs.get(index);
         casimir.is_none_or(|casimir| casimir.kept)
     }
@@ -78,9 +53,7 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
         self.values.compiled.plan.system.poisson_degree
     }
     fn clock(&self) -> Option<Clock> {
-        if let Some(family) = &self.family {
-            return Poisson::<S>::clock(family);
-        }
+        by_family!(self.clock());
         self.values.compiled.plan.system.clock
     }
     fn following(&self, mu: &Vec<S>) -> Option<Self> {
@@ -101,11 +74,7 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
         mut before: impl FnMut(&mut [S], Range<usize>),
         mut after: impl FnMut(&mut [S], Range<usize>),
     ) {
-        if S::LOOPS
-            && let Some(family) = &self.family
-        {
-            return family.vector_field_by_parts(mu, out, before, after);
-        }
+        by_loops!(self.vector_field_by_parts(mu, out, before, after));
         let all = 0..mu.len();
         before(mu, all.clone());
         self.vector_field(mu, out);
@@ -121,40 +90,24 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
         LateMatrix::new(Poisson::<S>::dimension(self))
     }
     fn hamiltonian(&self, mu: &Vec<S>) -> S {
-        if S::LOOPS
-            && let Some(family) = &self.family
-        {
-            return family.hamiltonian(mu);
-        }
+        by_loops!(self.hamiltonian(mu));
         let Some(code) = self.values.kernels().hamiltonian else {
             return match S::LOOPS {
                 true => legendre::hamiltonian(self, mu),
                 false => without_loops(),
             };
         };
-        let mut value = [S::zero()];
-        self.values.call(code, [mu, &[]], &mut value, &mut []);
-        value[0]
+        self.values.number(code, [mu, &[]])
     }
     fn energy(&self, mu: &Vec<S>) -> S {
-        if S::LOOPS
-            && let Some(family) = &self.family
-        {
-            return family.energy(mu);
-        }
+        by_loops!(self.energy(mu));
         let Some(energy) = self.values.kernels().energy else {
             return self.hamiltonian(mu);
         };
-        let mut value = [S::zero()];
-        self.values.call(energy, [mu, &[]], &mut value, &mut []);
-        value[0]
+        self.values.number(energy, [mu, &[]])
     }
     fn gradient(&self, mu: &Vec<S>, out: &mut Vec<S>) {
-        if S::LOOPS
-            && let Some(family) = &self.family
-        {
-            return family.gradient(mu, out);
-        }
+        by_loops!(self.gradient(mu, out));
         match self.values.kernels().gradient {
             Some(code) => self.values.call(code, [mu, &[]], out, &mut []),
             None if S::LOOPS => legendre::velocity(self, mu, out),
@@ -162,34 +115,21 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
         }
     }
     fn hessian(&self, mu: &Vec<S>, out: &mut LateMatrix<S>) {
-        if S::LOOPS
-            && let Some(family) = &self.family
-        {
-            return family.hessian(mu, out);
-        }
+        by_loops!(self.hessian(mu, out));
         match self.values.kernels().hessian {
-            Some(code) => self
-                .values
-                .call(code, [mu, &[]], &mut [], out.as_mut_slice()),
+            Some(code) => self.values.matrix(code, [mu, &[]], out),
             None if S::LOOPS && self.is_by_legendre() => legendre::hessian(self, mu, out),
             None => generic::hessian_by_duals(self, mu, out),
         }
     }
     fn poisson_matrix(&self, mu: &Vec<S>, out: &mut LateMatrix<S>) {
-        if S::LOOPS
-            && let Some(family) = &self.family
-        {
-            return family.poisson_matrix(mu, out);
-        }
+        by_loops!(self.poisson_matrix(mu, out));
         let code = require(self.values.kernels().poisson_matrix);
-        self.values
-            .call(code, [mu, &[]], &mut [], out.as_mut_slice());
+        self.values.matrix(code, [mu, &[]], out);
     }
     fn poisson_slope(&self, mu: &Vec<S>, xi: &Vec<S>, out: &mut LateMatrix<S>) {
         match self.values.kernels().poisson_slope {
-            Some(code) => self
-                .values
-                .call(code, [mu, xi], &mut [], out.as_mut_slice()),
+            Some(code) => self.values.matrix(code, [mu, xi], out),
             None => generic::poisson_slope(self, xi, out),
         }
     }
@@ -200,18 +140,14 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
         self.values.compiled.plan.system.inputs[index].map(f64::from_bits)
     }
     fn noise_count(&self) -> usize {
-        if let Some(family) = &self.family {
-            return Poisson::<S>::noise_count(family);
-        }
+        by_family!(self.noise_count());
         self.values.compiled.plan.system.noises
     }
     fn tosses_coin(&self) -> bool {
         self.family.is_none() && self.values.compiled.plan.system.noises > 1
     }
     fn is_forced(&self) -> bool {
-        if let Some(family) = &self.family {
-            return Poisson::<S>::is_forced(family);
-        }
+        by_family!(self.is_forced());
         self.values.compiled.plan.system.forced
     }
     fn force(&self, mu: &Vec<S>, out: &mut Vec<S>) {
@@ -222,16 +158,12 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
     }
     fn force_slope(&self, mu: &Vec<S>, out: &mut LateMatrix<S>) {
         match self.values.kernels().driving[1] {
-            Some(code) => self
-                .values
-                .call(code, [mu, &[]], &mut [], out.as_mut_slice()),
+            Some(code) => self.values.matrix(code, [mu, &[]], out),
             None => out.as_mut_slice().fill(S::zero()),
         }
     }
     fn is_damped(&self) -> bool {
-        if let Some(family) = &self.family {
-            return Poisson::<S>::is_damped(family);
-        }
+        by_family!(self.is_damped());
         self.values.compiled.plan.system.damped
     }
     fn damping(&self, mu: &Vec<S>, v: &Vec<S>, out: &mut Vec<S>) {
@@ -248,9 +180,7 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
     }
     fn generator_slope(&self, mu: &Vec<S>, out: &mut LateMatrix<S>) {
         match self.values.kernels().driving[3] {
-            Some(code) => self
-                .values
-                .call(code, [mu, &[]], &mut [], out.as_mut_slice()),
+            Some(code) => self.values.matrix(code, [mu, &[]], out),
             None => self.hessian(mu, out),
         }
     }
@@ -261,10 +191,8 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
         self.values.compiled.plan.system.entropy.is_some()
     }
     fn entropy(&self, mu: &Vec<S>) -> S {
-        let mut value = [S::zero()];
         let code = require(self.values.kernels().metriplectic[0]);
-        self.values.call(code, [mu, &[]], &mut value, &mut []);
-        value[0]
+        self.values.number(code, [mu, &[]])
     }
     fn entropy_degree(&self) -> Option<u32> {
         self.values.compiled.plan.system.entropy?.degree
@@ -275,39 +203,27 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
     }
     fn entropy_hessian(&self, mu: &Vec<S>, out: &mut LateMatrix<S>) {
         let code = require(self.values.kernels().metriplectic[2]);
-        self.values
-            .call(code, [mu, &[]], &mut [], out.as_mut_slice());
+        self.values.matrix(code, [mu, &[]], out);
     }
     fn metric(&self, mu: &Vec<S>, out: &mut LateMatrix<S>) {
         let code = require(self.values.kernels().metriplectic[3]);
-        self.values
-            .call(code, [mu, &[]], &mut [], out.as_mut_slice());
+        self.values.matrix(code, [mu, &[]], out);
     }
     fn metric_slope(&self, mu: &Vec<S>, v: &Vec<S>, out: &mut LateMatrix<S>) {
         let code = require(self.values.kernels().metriplectic[4]);
-        self.values.call(code, [mu, v], &mut [], out.as_mut_slice());
+        self.values.matrix(code, [mu, v], out);
     }
     fn vector_field(&self, mu: &Vec<S>, out: &mut Vec<S>) {
-        if S::LOOPS
-            && let Some(family) = &self.family
-        {
-            return family.vector_field(mu, out);
-        }
+        by_loops!(self.vector_field(mu, out));
         match self.values.kernels().vector_field {
             Some(code) => self.values.call(code, [mu, &[]], out, &mut []),
             None => generic::vector_field(self, mu, out),
         }
     }
     fn jacobian(&self, mu: &Vec<S>, out: &mut LateMatrix<S>) {
-        if S::LOOPS
-            && let Some(family) = &self.family
-        {
-            return family.jacobian(mu, out);
-        }
+        by_loops!(self.jacobian(mu, out));
         match self.values.kernels().jacobian {
-            Some(code) => self
-                .values
-                .call(code, [mu, &[]], &mut [], out.as_mut_slice()),
+            Some(code) => self.values.matrix(code, [mu, &[]], out),
             None if self.is_by_legendre() => generic::jacobian(self, mu, out),
             None => generic::jacobian_by_duals(self, mu, out),
         }
@@ -332,21 +248,15 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
         }
     }
     fn quantity_count(&self) -> usize {
-        if let Some(family) = &self.family {
-            return Poisson::<S>::quantity_count(family);
-        }
+        by_family!(self.quantity_count());
         self.values.compiled.plan.system.quantities.len()
     }
     fn quantity_name(&self, index: usize) -> &str {
-        if let Some(family) = &self.family {
-            return Poisson::<S>::quantity_name(family, index);
-        }
+        by_family!(self.quantity_name(index));
         &self.values.compiled.plan.system.quantities[index].name
     }
     fn quantity_unwraps(&self, index: usize) -> bool {
-        if let Some(family) = &self.family {
-            return Poisson::<S>::quantity_unwraps(family, index);
-        }
+        by_family!(self.quantity_unwraps(index));
         self.plan().system.quantities[index].unwrap
     }
     fn quantity_is_conserved(&self, index: usize) -> bool {
@@ -354,11 +264,7 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
         quantity.is_some_and(|quantity| quantity.conserved)
     }
     fn quantities(&self, mu: &Vec<S>, out: &mut [S]) {
-        if S::LOOPS
-            && let Some(family) = &self.family
-        {
-            return family.quantities(mu, out);
-        }
+        by_loops!(self.quantities(mu, out));
         if let Some(code) = self.values.kernels().quantities {
             self.values.call(code, [mu, &[]], out, &mut []);
         }
@@ -378,21 +284,13 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
         }
     }
     fn casimirs(&self, mu: &Vec<S>, out: &mut [S]) {
-        if S::LOOPS
-            && let Some(family) = &self.family
-        {
-            return family.casimirs(mu, out);
-        }
+        by_loops!(self.casimirs(mu, out));
         if let Some(code) = self.values.kernels().casimirs {
             self.values.call(code, [mu, &[]], out, &mut []);
         }
     }
     fn casimir_gradient(&self, index: usize, mu: &Vec<S>, out: &mut Vec<S>) {
-        if S::LOOPS
-            && let Some(family) = &self.family
-        {
-            return family.casimir_gradient(index, mu, out);
-        }
+        by_loops!(self.casimir_gradient(index, mu, out));
         match self.values.kernels().casimir_gradients[index] {
             Some(code) => self.values.call(code, [mu, &[]], out, &mut []),
             None => {

@@ -6,6 +6,7 @@
 //! `solver`, `times` or `plan`; a call from Python has it as an argument of the same name.
 
 mod cast;
+mod chosen;
 mod density;
 mod front;
 mod held;
@@ -14,6 +15,7 @@ mod measured;
 pub mod method;
 mod option_value;
 mod plan;
+mod point;
 mod range;
 mod runs;
 mod several;
@@ -35,7 +37,8 @@ pub use front::Front;
 pub use held::seed;
 pub use measured::{span, step_of_facts};
 pub use option_value::{OptionValue, constant};
-pub use plan::{Plan, Point, plan, start};
+pub use plan::{Plan, plan};
+pub use point::{Point, start};
 pub use runs::{Labels, Member, Several};
 pub use several::several;
 pub use sites::bound_to_itself;

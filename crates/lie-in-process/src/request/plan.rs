@@ -1,6 +1,6 @@
 //! One method and one start: the request over the spec's `run` over defaults, everything checked.
 
-use lie_codegen::methods::{Choice, OptionError};
+use lie_codegen::methods::Choice;
 use lie_codegen::model::{Model, Parameter};
 use lie_codegen::program::Chart;
 use lie_codegen::structure::group;
@@ -10,20 +10,9 @@ use lie_runtime::methods::Keep;
 use lie_runtime::newton::NewtonOptions;
 use std::collections::BTreeMap;
 
-use super::{OptionValue, Request, method};
+use super::{OptionValue, Request};
 use crate::message::{Fault, Message};
 use crate::spec::Spec;
-
-/// The method where none is given, for Lie–Poisson brackets and for others.
-const METHODS: [&str; 2] = ["lie-midpoint", "midpoint"];
-/// That of a tolerance, and of one that is no smaller than a bound: there fewer stages are enough.
-const OF_TOLERANCE: &str = "gauss16";
-const OF_LOOSE_TOLERANCE: &str = "gauss8";
-const LOOSE: f64 = 1e-4;
-/// That of a tolerance where branches meet: its steps end there.
-const OF_JOINTS: (&str, Choice) = ("taylor", Choice::Taylor);
-/// That of a system by a discrete Lagrangian in coordinates of the exponential map.
-const DISCRETE: &str = "discrete-euler-poincare";
 
 /// Everything about a run that does not depend on where its rows go.
 #[derive(Clone, Debug)]
@@ -183,38 +172,6 @@ pub(super) fn planned(spec: &Spec, request: &Request) -> Planned {
     }
 }
 
-/// The values of the parameters and the initial state, in order.
-#[derive(Clone)]
-pub struct Point {
-    /// Values of the parameters.
-    pub parameters: Vec<f64>,
-    /// The initial state.
-    pub initial: Vec<f64>,
-}
-
-impl Point {
-    /// The same as programs take it.
-    pub fn named(self, spec: &Spec) -> Start {
-        let names = spec.model.parameters.iter().map(|p| p.name.clone());
-        Start {
-            parameters: names.zip(self.parameters).collect(),
-            initial: self.initial,
-        }
-    }
-}
-
-/// Where a system starts, alone.
-///
-/// # Errors
-/// Every mistake.
-pub fn start(spec: &Spec, request: &Request) -> Result<Point, Vec<Message>> {
-    let mut planner = Planner::new(spec, request);
-    match planner.start() {
-        Some(start) if planner.mistakes.is_empty() => Ok(start),
-        _ => Err(planner.mistakes),
-    }
-}
-
 /// Checks a request, and collects its mistakes.
 pub(super) struct Planner<'a> {
     pub(super) spec: &'a Spec,
@@ -275,91 +232,6 @@ impl<'a> Planner<'a> {
         result.map_err(|message| self.mistakes.push(message)).ok()
     }
 
-    /// Whether a tolerance is given without a method, which is picked then: by who asks, or in the spec.
-    pub(super) fn picks(&self) -> bool {
-        let in_spec = self.request.tol.is_none() && !self.in_spec("method").is_empty();
-        self.wants_tolerance() && self.request.method.is_empty() && !in_spec
-    }
-
-    /// Whether the tolerance is so large that a lower order is faster.
-    fn is_loose(&self) -> bool {
-        let given = self.option("tol").and_then(|given| given.number().ok());
-        given.is_some_and(|tolerance| tolerance >= LOOSE)
-    }
-
-    /// Whether H or a force has branches that meet, and a method's steps can end there.
-    fn has_joints(&self) -> bool {
-        let model = &self.spec.model;
-        let noisy = model
-            .driving
-            .as_ref()
-            .is_some_and(|driving| driving.noises > 0);
-        !model.joints.is_empty() && !noisy && method::applies(OF_JOINTS.1, model).is_ok()
-    }
-
-    /// The method as it is given, or the usual one.
-    fn label(&self) -> OptionValue {
-        let picks = self.picks();
-        let option = self.request.front.option("method");
-        if let Some(label) = self.request.method.first() {
-            return OptionValue::flag(&option, label);
-        }
-        if let (Some(given), false) = (self.in_spec("method").into_iter().next(), picks) {
-            return given;
-        }
-        let model = &self.spec.model;
-        let discrete = model.energy.lagrangian().and_then(|l| l.discrete);
-        let keeping = self.keeping().filter(|_| picks);
-        let usual = if let Some(keeping) = keeping {
-            keeping
-        } else if picks && self.has_joints() {
-            OF_JOINTS.0
-        } else if picks && self.is_loose() {
-            OF_LOOSE_TOLERANCE
-        } else if picks || model.family.is_some() {
-            OF_TOLERANCE
-        } else if discrete.is_some_and(|discrete| !discrete.in_entries) {
-            DISCRETE
-        } else {
-            METHODS[usize::from(!model.is_lie_poisson())]
-        };
-        OptionValue::flag(&option, usual)
-    }
-
-    fn method(&mut self) -> Option<Choice> {
-        let front = self.request.front;
-        let id = self.label();
-        let place = id.wrong("").place;
-        let found =
-            method::labelled(&id.text, front).map_err(|message| message.at_place(place.clone()));
-        let mut choice = self.keep(found)?;
-        for name in method::OPTIONS {
-            if id.text.contains(&format!("--{name}")) {
-                if let Some(given) = self.requested(name) {
-                    self.twice(name, &given, &id.text);
-                }
-                continue;
-            }
-            let Some(given) = self.method_option(name) else {
-                continue;
-            };
-            match choice.clone().with_option(name, &given.text) {
-                Ok(chosen) => choice = chosen,
-                Err(OptionError::Foreign) => {
-                    let text = format!("`{name}` is not an option of {}", choice.id());
-                    let help = method::help_on_options(&choice, front);
-                    self.foreign(name, given.wrong(text).help(help));
-                }
-                Err(OptionError::Value(text, help)) => {
-                    self.mistakes.push(given.wrong(text).help(help));
-                    return None;
-                }
-            }
-        }
-        let applies = method::applies(choice, &self.spec.model);
-        self.keep(applies.map_err(|message| message.at_place(place)))
-    }
-
     fn chart(&mut self) -> Option<Chart> {
         let given = self.option("group")?;
         let text = given.text.trim();
@@ -395,7 +267,7 @@ impl<'a> Planner<'a> {
     }
 
     /// An option of which the method has another value behind its id.
-    fn twice(&mut self, name: &str, given: &OptionValue, label: &str) {
+    pub(super) fn twice(&mut self, name: &str, given: &OptionValue, label: &str) {
         let text = format!("no method takes this flag: `{}` has its own", label.trim());
         let help = format!("leave out `--{name}`, or what stands behind the method");
         self.foreign.push(Foreign {

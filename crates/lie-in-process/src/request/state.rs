@@ -6,10 +6,10 @@ use lie_syntax::diagnostic::Kind;
 use lie_syntax::front::names::normalised;
 use lie_syntax::suggest::did_you_mean;
 
-use super::plan::{Planner, Point};
+use super::plan::Planner;
 use super::sites::{FINITE, not_finite};
 use super::states::{States, without_commas};
-use super::{Front, OptionValue, Parameter};
+use super::{Front, OptionValue, Parameter, Point};
 use crate::message::{Fault, Message, Place};
 use crate::words::counted;
 

@@ -1,6 +1,83 @@
-//! What machine code for lanes calls: elementary functions, lane by lane.
+//! Calls of elementary functions: how machine code makes them, and what it calls for lanes, lane by lane.
 
+use super::encoding::{General, Memory, Read};
+use super::function::{ARGUMENTS, FIRST, Writer};
+use super::operation::{Called, Operation, Place, Vector, Width};
 use lie_dynamic::{Binary, Unary};
+
+impl Writer<'_> {
+    /// Calls a function with what is shared, which is where the frame begins.
+    pub fn call(&mut self, place: usize, called: Called) {
+        match (self.layout.width, called) {
+            (Width::One, Called::Unary(f)) => {
+                // what is stored before a call is in its register still
+                let before = self.program.operations[..place].iter().rev();
+                let mut stores = before.map_while(|operation| match *operation {
+                    Operation::Store { from, to } => Some((from, to)),
+                    _ => None,
+                });
+                let argument = stores.find(|(_, to)| *to == Place::Shared(0));
+                match argument {
+                    Some((FIRST, _)) => {}
+                    Some((from, _)) => self.bytes.copy(FIRST, from),
+                    None => self.load_shared(FIRST, 0),
+                }
+                self.call_of_numbers(f as *const () as u64);
+            }
+            (Width::One, Called::Binary(f)) => {
+                self.load_shared(FIRST, 0);
+                self.load_shared(Vector(1), 1);
+                self.call_of_numbers(f as *const () as u64);
+            }
+            _ => self.call_of_lanes(called),
+        }
+        self.load_arguments();
+    }
+
+    /// What a function that is called does not leave as it was.
+    pub fn load_arguments(&mut self) {
+        for (place, argument) in (0..).zip(ARGUMENTS) {
+            let from = self.word(place);
+            self.bytes.load_word(argument, from);
+        }
+        self.load_bases();
+    }
+
+    fn load_shared(&mut self, to: Vector, place: i32) {
+        let from = Memory::At(General::Rsp, 8 * place);
+        self.bytes.load(Width::One, to, Read::Whole(from));
+    }
+
+    /// A function of the numbers in the first registers, whose result is in the first one and is shared.
+    pub fn call_of_numbers(&mut self, function: u64) {
+        self.bytes.word_constant(General::Rax, function);
+        self.bytes.call(General::Rax);
+        let shared = Memory::At(General::Rsp, 0);
+        self.bytes.store(Width::One, shared, FIRST);
+    }
+
+    /// A function of each lane.
+    fn call_of_lanes(&mut self, called: Called) {
+        let (helper, argument) = match called {
+            Called::Unary(f) => (unary as *const () as u64, f as *const () as u64),
+            Called::Binary(f) => (binary as *const () as u64, f as *const () as u64),
+            Called::Stumpff(count) => (stumpff as *const () as u64, u64::from(count)),
+            Called::Phi(count) => (phi as *const () as u64, u64::from(count)),
+        };
+        self.call_helper(helper, argument);
+    }
+
+    /// One of ours, with its first argument, the number of lanes and what is shared.
+    pub fn call_helper(&mut self, helper: u64, argument: u64) {
+        let bytes = &mut self.bytes;
+        bytes.clear_upper_halves();
+        bytes.word_constant(General::Rdi, argument);
+        bytes.word_constant(General::Rsi, self.layout.width.lanes() as u64);
+        bytes.copy_word(General::Rdx, General::Rsp);
+        bytes.word_constant(General::Rax, helper);
+        bytes.call(General::Rax);
+    }
+}
 
 /// The numbers that compiled code shares with a function.
 ///

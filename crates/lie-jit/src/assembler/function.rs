@@ -1,11 +1,10 @@
 //! A program as a function: where its slices are, its frame, its loop along columns, the functions that it calls.
 
+mod body;
+
 use super::asides::Aside;
-use super::calls::{binary, phi, stumpff, unary};
-use super::encoding::{Bytes, General, Memory, Read};
-use super::operation::{
-    Called, Columns, Layout, Operand, Operation, Place, Program, Vector, Width,
-};
+use super::encoding::{Bytes, General, Memory};
+use super::operation::{Columns, Layout, Operand, Operation, Place, Program, Vector};
 
 /// Larger frames are not made.
 const LARGEST_FRAME: u32 = 1 << 18;
@@ -14,7 +13,7 @@ const PAGE: u32 = 4096;
 
 /// Arguments of a function: the table of slices; the vector and the matrix, or of columns the tables of those that are read and
 /// written; of columns how many bytes each has, of a code that is repeated how often.
-const ARGUMENTS: [General; 4] = [General::Rdi, General::Rsi, General::Rdx, General::Rcx];
+pub(super) const ARGUMENTS: [General; 4] = [General::Rdi, General::Rsi, General::Rdx, General::Rcx];
 const TABLE: General = ARGUMENTS[0];
 /// Where slices begin. The last one may have that of the table.
 const BASES: [General; 7] = [
@@ -154,13 +153,13 @@ impl<'a> Writer<'a> {
     }
 
     /// Where arguments are kept over calls.
-    fn word(&self, place: u32) -> Memory {
+    pub(super) fn word(&self, place: u32) -> Memory {
         let places = self.program.shared + self.program.slots + self.program.kept;
         let offset = places * self.layout.width.bytes() + 8 * place;
         Memory::At(General::Rsp, offset as i32)
     }
 
-    fn load_bases(&mut self) {
+    pub(super) fn load_bases(&mut self) {
         for (slice, base) in &self.bases {
             let from = Memory::At(TABLE, 8 * i32::from(*slice));
             self.bytes.load_word(*base, from);
@@ -218,224 +217,6 @@ impl<'a> Writer<'a> {
         self.bytes.compare(ALONG, ARGUMENTS[3]);
         self.bytes.jump_if_below(start);
         Some(())
-    }
-
-    /// A place in memory; the beginning of a column is loaded for it.
-    fn memory(&mut self, place: Place) -> Option<Memory> {
-        let bytes = self.layout.width.bytes();
-        let at = |base, entry: u32, stride: u32| {
-            let offset = entry.checked_mul(stride)?;
-            Some(Memory::At(base, i32::try_from(offset).ok()?))
-        };
-        match place {
-            Place::Slice { slice: 0, entry } if self.layout.columns.is_some() => {
-                self.column(General::Rsi, entry)
-            }
-            Place::Target { target: 0, entry } if self.layout.columns.is_some() => {
-                self.column(General::Rdx, entry)
-            }
-            Place::Slice { slice, entry } => {
-                let mut bases = self.bases.iter();
-                let (_, base) = bases.find(|(known, _)| *known == slice)?;
-                at(*base, entry, self.layout.stride)
-            }
-            Place::Target { target, entry } if self.layout.columns.is_none() => {
-                let base = *ARGUMENTS[1..3].get(usize::from(target))?;
-                at(base, entry, self.layout.stride)
-            }
-            Place::Target { .. } => None,
-            Place::Shared(place) => at(General::Rsp, place, bytes),
-            Place::Slot(slot) => at(General::Rsp, self.program.shared + slot, bytes),
-            Place::Constant(constant) => Some(Memory::Constant(constant)),
-        }
-    }
-
-    fn column(&mut self, table: General, entry: u32) -> Option<Memory> {
-        let offset = i32::try_from(entry.checked_mul(8)?).ok()?;
-        self.bytes.load_word(COLUMN, Memory::At(table, offset));
-        Some(Memory::Sum(COLUMN, ALONG))
-    }
-
-    fn read(&mut self, place: Place) -> Option<Read> {
-        let memory = self.memory(place)?;
-        Some(match self.layout.is_single(place) {
-            true => Read::Single(memory),
-            false => Read::Whole(memory),
-        })
-    }
-
-    fn body(&mut self) -> Option<()> {
-        let width = self.layout.width;
-        let program = self.program;
-        for (place, operation) in program.operations.iter().enumerate() {
-            match *operation {
-                // the result of a function of numbers is there
-                Operation::Load { to: FIRST, from } if self.has_result(place, from) => {}
-                Operation::Load { to, from } => {
-                    let from = self.read(from)?;
-                    self.bytes.load(width, to, from);
-                }
-                Operation::Store { from, to } => {
-                    let to = self.memory(to)?;
-                    self.bytes.store(width, to, from);
-                }
-                Operation::Arithmetic {
-                    what,
-                    to,
-                    left,
-                    right,
-                    ..
-                } => {
-                    let right = match right {
-                        Operand::Vector(vector) => Read::Vector(vector),
-                        Operand::Place(place) => self.read(place)?,
-                    };
-                    self.bytes.arithmetic(width, what, to, left, right);
-                }
-                Operation::Sqrt { to, of, .. } => self.bytes.sqrt(width, to, of),
-                Operation::Compare {
-                    equal,
-                    to,
-                    left,
-                    right,
-                    one,
-                    ..
-                } => {
-                    let one = self.read(one)?;
-                    self.bytes
-                        .compare_numbers(width, to, [left, right], equal, one);
-                }
-                Operation::Larger {
-                    to, left, right, ..
-                } => self.bytes.larger(width, to, [left, right]),
-                Operation::Exchange {
-                    distance, to, of, ..
-                } => self.bytes.exchange(width, to, of, distance)?,
-                Operation::Shift { to, of, places, .. } => self.bytes.shift(width, to, of, places),
-                Operation::Rare {
-                    value,
-                    test,
-                    zero,
-                    x,
-                    scratch,
-                    function,
-                    kept,
-                    ..
-                } => {
-                    let zero = self.read(zero)?;
-                    let jump = self.bytes.jump_unless_all_above(width, test, zero, scratch);
-                    self.asides.push(Aside {
-                        jump,
-                        back: self.bytes.all.len(),
-                        value,
-                        x,
-                        test,
-                        function,
-                        kept,
-                    });
-                }
-                Operation::Below {
-                    jumps,
-                    to,
-                    test,
-                    zero,
-                    then,
-                    otherwise,
-                    ..
-                } => {
-                    let zero = self.read(zero)?;
-                    let operands = [test, then, otherwise];
-                    self.bytes.below(width, jumps, to, operands, zero);
-                }
-                Operation::Call { called, .. } => self.call(place, called),
-            }
-        }
-        Some(())
-    }
-
-    /// Whether the first register has this number since the operation before, which called a function of numbers.
-    fn has_result(&self, place: usize, from: Place) -> bool {
-        let before = place
-            .checked_sub(1)
-            .map(|place| self.program.operations[place]);
-        let called = match before {
-            Some(Operation::Call { called, .. }) => called,
-            _ => return false,
-        };
-        let is_of_numbers = matches!(called, Called::Unary(_) | Called::Binary(_));
-        self.layout.width == Width::One && is_of_numbers && from == Place::Shared(0)
-    }
-
-    /// Calls a function with what is shared, which is where the frame begins.
-    fn call(&mut self, place: usize, called: Called) {
-        match (self.layout.width, called) {
-            (Width::One, Called::Unary(f)) => {
-                // what is stored before a call is in its register still
-                let before = self.program.operations[..place].iter().rev();
-                let mut stores = before.map_while(|operation| match *operation {
-                    Operation::Store { from, to } => Some((from, to)),
-                    _ => None,
-                });
-                let argument = stores.find(|(_, to)| *to == Place::Shared(0));
-                match argument {
-                    Some((FIRST, _)) => {}
-                    Some((from, _)) => self.bytes.copy(FIRST, from),
-                    None => self.load_shared(FIRST, 0),
-                }
-                self.call_of_numbers(f as *const () as u64);
-            }
-            (Width::One, Called::Binary(f)) => {
-                self.load_shared(FIRST, 0);
-                self.load_shared(Vector(1), 1);
-                self.call_of_numbers(f as *const () as u64);
-            }
-            _ => self.call_of_lanes(called),
-        }
-        self.load_arguments();
-    }
-
-    /// What a function that is called does not leave as it was.
-    pub(super) fn load_arguments(&mut self) {
-        for (place, argument) in (0..).zip(ARGUMENTS) {
-            let from = self.word(place);
-            self.bytes.load_word(argument, from);
-        }
-        self.load_bases();
-    }
-
-    fn load_shared(&mut self, to: Vector, place: i32) {
-        let from = Memory::At(General::Rsp, 8 * place);
-        self.bytes.load(Width::One, to, Read::Whole(from));
-    }
-
-    /// A function of the numbers in the first registers, whose result is in the first one and is shared.
-    pub(super) fn call_of_numbers(&mut self, function: u64) {
-        self.bytes.word_constant(General::Rax, function);
-        self.bytes.call(General::Rax);
-        let shared = Memory::At(General::Rsp, 0);
-        self.bytes.store(Width::One, shared, FIRST);
-    }
-
-    /// A function of each lane.
-    fn call_of_lanes(&mut self, called: Called) {
-        let (helper, argument) = match called {
-            Called::Unary(f) => (unary as *const () as u64, f as *const () as u64),
-            Called::Binary(f) => (binary as *const () as u64, f as *const () as u64),
-            Called::Stumpff(count) => (stumpff as *const () as u64, u64::from(count)),
-            Called::Phi(count) => (phi as *const () as u64, u64::from(count)),
-        };
-        self.call_helper(helper, argument);
-    }
-
-    /// One of ours, with its first argument, the number of lanes and what is shared.
-    pub(super) fn call_helper(&mut self, helper: u64, argument: u64) {
-        let bytes = &mut self.bytes;
-        bytes.clear_upper_halves();
-        bytes.word_constant(General::Rdi, argument);
-        bytes.word_constant(General::Rsi, self.layout.width.lanes() as u64);
-        bytes.copy_word(General::Rdx, General::Rsp);
-        bytes.word_constant(General::Rax, helper);
-        bytes.call(General::Rax);
     }
 
     /// The constants behind the code, and the distances to them.

@@ -9,16 +9,19 @@
 //! ends soon after. So no program outlives the command that started it, however that one was ended.
 
 mod columns;
+mod end;
+mod found;
 mod held;
 mod milestone;
 pub mod number;
 mod times;
 mod words;
 
-use crate::listen;
 pub use columns::{Columns, Coordinates};
+pub use end::{End, Obstacle, Stop};
+pub use found::{Choice, Event, Found, Rows, Work};
 pub use held::{Held, Sources, Table};
-use lie_runtime::driver::{Chosen, Density, Options, Pace, Save, Stats};
+use lie_runtime::driver::{Density, Options, Pace, Save};
 use lie_runtime::methods::Keep;
 pub use lie_runtime::methods::Tolerances;
 use lie_runtime::newton::NewtonOptions;
@@ -159,246 +162,6 @@ pub struct Progress {
     /// What comes next, where that is something else than before.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stage: Option<String>,
-}
-
-/// What a program finds that was asked for a [`Run`].
-#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub enum Found {
-    /// The step that was chosen from a tolerance, before all else.
-    Chosen(Choice),
-    /// Steps are shorter from a time on.
-    Shortened {
-        /// Their size.
-        #[serde(with = "number")]
-        step: f64,
-        /// The time.
-        #[serde(with = "number")]
-        time: f64,
-    },
-    /// From a time on the errors of steps are larger than the tolerance allows, and steps cannot be shortened any more.
-    Lost {
-        /// The time.
-        #[serde(with = "number")]
-        time: f64,
-    },
-    /// The steps that a tolerance allows differ by this factor along the run: steps that follow the motion are faster.
-    Uneven {
-        /// The factor.
-        #[serde(with = "number")]
-        factor: f64,
-    },
-    /// The error at the end of a run, relative to the state, if it can be told.
-    Assessed {
-        /// The error; not a number where it cannot be told.
-        #[serde(with = "number")]
-        error: f64,
-        /// Whether it is much larger than the tolerance, or cannot be told.
-        missed: bool,
-    },
-    /// What the numbers of the rows to come are.
-    Columns(Columns),
-    /// Rows. They come at least every 0.2 s while steps are being done.
-    Rows(Rows),
-    /// States between the rows, with the same columns, where a curve is wanted.
-    Between(Rows),
-    /// An event, in order of time.
-    Event(Event),
-    /// A place from which the run can be taken up again, behind all rows before it.
-    Milestone(Box<Milestone>),
-    /// The work so far, at the end.
-    Work(Work),
-}
-
-/// An event of a run.
-#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-#[serde(deny_unknown_fields)]
-pub struct Event {
-    /// Its name.
-    pub name: String,
-    /// When it happened.
-    #[serde(with = "number")]
-    pub time: f64,
-    /// All coordinates there.
-    #[serde(with = "number::list")]
-    pub state: Vec<f64>,
-    /// Whether it ended the run.
-    pub stops: bool,
-}
-
-/// Rows of a run.
-#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
-#[serde(deny_unknown_fields)]
-pub struct Rows {
-    /// How many there are.
-    pub count: u64,
-    /// Numbers of each.
-    pub width: usize,
-    /// Row by row; little-endian float64 behind the line.
-    #[serde(skip)]
-    pub numbers: Vec<f64>,
-}
-
-impl Wire for Found {
-    fn numbers(&self) -> &[f64] {
-        match self {
-            Self::Rows(rows) | Self::Between(rows) => &rows.numbers,
-            _ => &[],
-        }
-    }
-
-    fn read_numbers(&mut self, input: &mut dyn BufRead) -> io::Result<()> {
-        match self {
-            Self::Rows(rows) | Self::Between(rows) => {
-                rows.numbers = listen::rows(input, rows.width, rows.count)?;
-                Ok(())
-            }
-            _ => Ok(()),
-        }
-    }
-}
-
-/// A step that was chosen.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
-#[serde(deny_unknown_fields)]
-pub struct Choice {
-    /// The step.
-    #[serde(with = "number")]
-    pub step: f64,
-    /// Whether round-off forbids the error that was asked for.
-    pub at_round_off: bool,
-}
-
-impl From<&Chosen> for Choice {
-    fn from(chosen: &Chosen) -> Self {
-        Self {
-            step: chosen.step,
-            at_round_off: chosen.at_round_off,
-        }
-    }
-}
-
-/// What was counted during a run; a program counts what its method has.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
-#[serde(deny_unknown_fields)]
-pub struct Work {
-    /// Steps taken.
-    pub steps: u64,
-    /// Evaluations of the vector field or the residual.
-    pub evaluations: u64,
-    /// Iterations of the solver.
-    pub newton: u64,
-    /// Those among them without a Jacobian.
-    pub fixed_point: u64,
-    /// Steps that an adaptive method took within those; every other method takes one.
-    pub accepted: u64,
-    /// Steps tried and refused by an adaptive method.
-    pub rejected: u64,
-}
-
-impl From<&Stats> for Work {
-    fn from(stats: &Stats) -> Self {
-        Self {
-            steps: stats.steps,
-            evaluations: stats.evaluations,
-            newton: stats.newton,
-            fixed_point: stats.fixed_point,
-            accepted: stats.accepted,
-            rejected: stats.rejected,
-        }
-    }
-}
-
-/// How a program ended.
-#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub enum End {
-    /// With everything that was asked for.
-    Done,
-    /// Because its input ended.
-    Interrupted,
-    /// The integration stopped early.
-    Stopped(Stop),
-    /// A parameter's value is impossible.
-    Parameter {
-        /// Its name.
-        name: String,
-        /// Why.
-        why: String,
-    },
-    /// Nothing was done.
-    Refused {
-        /// What stands against it.
-        what: Obstacle,
-        /// Why.
-        why: String,
-    },
-    /// Nobody takes the results.
-    Unwritten {
-        /// Why.
-        why: String,
-    },
-}
-
-/// What a program can refuse.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Obstacle {
-    /// The request, or a part of it.
-    Request,
-    /// Step, times, or what else the driver does not take.
-    Option,
-    /// The milestone from which a run is to be taken up.
-    Milestone,
-    /// The initial state.
-    Initial,
-    /// Nothing can be measured there.
-    Ground,
-    /// The solution that others are compared with.
-    Reference,
-    /// Nothing moves.
-    Still,
-    /// The surface on which solutions are compared.
-    Section,
-}
-
-/// Why an integration stopped early.
-#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-#[serde(deny_unknown_fields)]
-pub struct Stop {
-    /// The step that failed, counted from 1.
-    pub step: u64,
-    /// Time at its beginning.
-    #[serde(with = "number")]
-    pub time: f64,
-    /// Iterations spent on it.
-    pub iterations: u32,
-    /// What was left of the residual.
-    #[serde(with = "number")]
-    pub residual: f64,
-    /// Why.
-    pub reason: String,
-    /// What to do.
-    pub remedy: String,
-}
-
-impl End {
-    /// A refusal.
-    pub fn refused(what: Obstacle, why: impl Into<String>) -> Self {
-        let why = why.into();
-        Self::Refused { what, why }
-    }
-
-    /// The exit code that goes with it.
-    pub fn code(&self) -> u8 {
-        match self {
-            Self::Done => 0,
-            Self::Unwritten { .. } => 1,
-            Self::Parameter { .. } | Self::Refused { .. } => 2,
-            Self::Stopped(_) => 3,
-            Self::Interrupted => 130,
-        }
-    }
 }
 
 #[cfg(test)]

@@ -1,8 +1,9 @@
 //! The equation of Lie-group Galerkin methods in phase space: with forces, damping, the group element and the time.
 
 use super::phase_path::PhasePath;
-use crate::clock::{Clock, holds};
+use crate::clock::Clock;
 use crate::equation::Equation;
+use crate::generic::momenta;
 use crate::generic::tableau::gauss_tableau;
 use crate::matrix::{SquareMatrix, StageMatrix};
 use crate::methods::Retraction;
@@ -131,12 +132,7 @@ where
 
     fn set_base(&mut self, mu: &P::State) {
         self.base.copy_from(mu);
-        let mut size = S::zero();
-        let momenta = mu.as_slice()[..self.system.momenta()].iter().enumerate();
-        for (_, momentum) in momenta.filter(|(i, _)| !holds(self.system.clock(), *i)) {
-            size = size.max(momentum.magnitude());
-        }
-        self.size = S::select(S::zero().less(size), size, S::one());
+        self.size = momenta::size(self.system, mu);
     }
 
     fn scale(&self, _mu: &P::State) -> S {
