@@ -10,27 +10,34 @@ mod random;
 mod resuming;
 #[path = "../common/rotation.rs"]
 mod rotation;
+#[path = "../common/vectors.rs"]
+mod vectors;
 
 mod acting;
+mod acting_ends;
 mod attitude;
 mod bounds;
 mod brackets;
 mod build;
 mod check;
+mod declarations;
 mod density;
 mod ensemble;
 mod events;
 mod families;
 mod families_acting;
+mod hostile_text;
 mod joints;
 mod keep;
 mod line;
 mod lost;
 mod many_runs;
+mod named_algebras;
 mod new;
 mod orbits;
 mod pictures;
 mod quantities;
+mod random_systems;
 mod report;
 mod resume;
 mod resume_refused;
