@@ -1,7 +1,10 @@
 //! Compositions and splittings: orders, what they keep, factors, lanes, failures.
 
-mod systems;
-
+use crate::systems::heavy_top::{HeavyTop, START};
+use crate::systems::nonpolynomial::Nonpolynomial;
+use crate::systems::rigid_body::RigidBody;
+use crate::systems::saddle::Saddle;
+use crate::systems::{distance, state, steps};
 use lie_runtime::Implicit;
 use lie_runtime::diagnostics::{order_of_convergence, poisson_defect};
 use lie_runtime::generic::coadjoint_action;
@@ -12,11 +15,6 @@ use lie_runtime::methods::{
 use lie_runtime::newton::{FailureReason, NewtonOptions};
 use lie_runtime::prelude::*;
 use nalgebra::SVector;
-use systems::heavy_top::{HeavyTop, START};
-use systems::nonpolynomial::Nonpolynomial;
-use systems::rigid_body::RigidBody;
-use systems::saddle::Saddle;
-use systems::{distance, state, steps};
 
 const BODY: [f64; 3] = [0.6, -0.5, 0.7];
 

@@ -1,14 +1,13 @@
 //! What each method keeps, beside a control that does not.
 
-mod systems;
-
+use crate::systems;
+use crate::systems::heavy_top::{HeavyTop, START};
+use crate::systems::nonpolynomial::Nonpolynomial;
+use crate::systems::rigid_body::RigidBody;
 use lie_runtime::diagnostics::{Drift, DriftMonitor, poisson_defect};
 use lie_runtime::driver::integrate;
 use lie_runtime::methods::{Facts, Method};
 use lie_runtime::prelude::*;
-use systems::heavy_top::{HeavyTop, START};
-use systems::nonpolynomial::Nonpolynomial;
-use systems::rigid_body::RigidBody;
 
 /// A million steps where the build is optimized, fewer where it is not.
 const STEPS: u32 = if cfg!(debug_assertions) {

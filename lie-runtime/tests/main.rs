@@ -1,26 +1,20 @@
 //! Tests of the runtime that are soon done without optimisation, as one program: they share what they compile of the systems.
 
 mod allocations;
-mod balances;
-mod branches;
 mod charts;
 mod coadjoint_orbit;
 mod collective;
 mod cotangent;
-mod curve;
 mod density;
 mod driver;
-mod events;
 mod families;
 mod families_acting;
 mod families_bonds;
 mod family_splittings;
-mod forces;
 mod functions;
 mod generating;
 mod joints;
 mod kernels;
-mod lagrange_alembert;
 mod lanes;
 mod orders;
 mod own_step;
@@ -28,9 +22,7 @@ mod passive;
 mod quantities;
 mod reconstruction;
 mod sites;
-mod solver;
 mod steps;
 mod symmetry;
 mod systems;
 mod tensors;
-mod variational;

@@ -66,13 +66,13 @@ macro_rules! body {
 
 body!(
     // Derivatives by dual numbers.
-    Automatic { pull(u, v) = potentials::pull; well(r) = crate::well; }
+    Automatic { pull(u, v) = potentials::pull; well(r) = crate::own_functions::well; }
     { x^2/2 + y^2/3 + z^2/5 + well(a*z)/4 + pull(x*y, z)/3 + well(2) }
     , taylor
 );
 body!(
     // Declared derivatives of one of them.
-    Given { pull(u, v) = potentials::pull; well(r) = crate::well, derivatives (well_slope); }
+    Given { pull(u, v) = potentials::pull; well(r) = crate::own_functions::well, derivatives (well_slope); }
     { x^2/2 + y^2/3 + z^2/5 + well(a*z)/4 + pull(x*y, z)/3 + well(2) }
     , taylor
 );
@@ -84,7 +84,7 @@ body!(
 );
 body!(
     // A sum of functions of one coordinate.
-    Pieces { well(r) = crate::well, derivatives (crate::well_slope); }
+    Pieces { well(r) = crate::own_functions::well, derivatives (crate::own_functions::well_slope); }
     { x^2/2 + y^2/3 + z^2/5 + well(z)/4 }
     , taylor, splitting2
 );
@@ -106,7 +106,7 @@ body!(
 );
 body!(
     // A derivative with a wrong sign.
-    Wrong { well(r) = crate::well, derivatives (crate::wrong_slope); }
+    Wrong { well(r) = crate::own_functions::well, derivatives (crate::own_functions::wrong_slope); }
     { x^2/2 + y^2/3 + z^2/5 + well(z)/4 }
     , taylor
 );
