@@ -1,4 +1,4 @@
-"""Prints single steps of two coupled spins for tests/collective.rs, with 40 digits by mpmath: the spherical
+"""Prints single steps of two coupled spins for tests/steps/collective.rs, with 40 digits by mpmath: the spherical
 midpoint method by its definition, and Gauss on T*R^2 over each spin by the Hopf map and its lift.
 
     python lab/tools/spin_steps.py

@@ -83,6 +83,6 @@ fn what_does_not_exist_is_seen() {
     assert!(is_method("lie-midpoint --retraction cayley"));
     assert!(!is_method("lie-midpoint --lift hopf"));
     assert!(!is_method("lie-endpoint"));
-    assert!(is_test("tests/published.rs::almost_poisson_midpoint"));
-    assert!(!is_test("tests/published.rs::surely_not"));
+    assert!(is_test("tests/steps/published.rs::almost_poisson_midpoint"));
+    assert!(!is_test("tests/steps/published.rs::surely_not"));
 }

@@ -13,7 +13,7 @@
 mod clock;
 mod draw;
 mod hamiltonians;
-#[path = "../../tests/random/mod.rs"]
+#[path = "../../tests/compiler/random/mod.rs"]
 mod random;
 mod report;
 

@@ -3,8 +3,8 @@
 
 use std::collections::HashMap;
 
-use crate::random::Random;
-use crate::scalar::{Jet, Number};
+use super::random::Random;
+use super::scalar::{Jet, Number};
 
 /// A length between two coordinates, or of one from an anchor.
 #[derive(Clone, Copy, Debug)]

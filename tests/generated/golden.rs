@@ -1,12 +1,9 @@
 //! What is generated for every spec is the committed plan; for one of them the committed code, and for two others what
 //! their code has beside that, with a digest of all of it.
 //!
-//! `LIE_UPDATE_GOLDEN=1 cargo test --test golden` writes `tests/golden/` anew. A plan has the formula, the operation
+//! `LIE_UPDATE_GOLDEN=1 cargo test --test generated` writes `tests/golden/` anew. A plan has the formula, the operation
 //! count and a digest of each kernel; `lie expand` prints the code of any spec. The crate `spec-systems` compiles the
 //! code of all of them, and the other tests run it.
-
-#[path = "common/items.rs"]
-mod items;
 
 use lie_codegen::compile::{compile_spec, expand, with_options};
 use lie_codegen::golden::Golden;
@@ -84,7 +81,7 @@ fn golden() -> Golden {
     for (name, system) in BESIDE {
         let code = code(name, &METHODS);
         digests += &format!("{:016x} {name}\n", digest(&code));
-        let rest = items::beside(&code, system, &full, IN_FULL.1);
+        let rest = crate::items::beside(&code, system, &full, IN_FULL.1);
         let head = format!(
             "// What the code of `{system}` has beside that of `{}`.\n",
             IN_FULL.1

@@ -193,7 +193,7 @@ fn an_expansion_has_an_end() {
 
 #[test]
 fn the_kirchhoff_body_with_matrices_is_the_one_in_coordinates() {
-    let text = include_str!("../../../specs/se3_kirchhoff.json");
+    let text = include_str!("../../../../specs/se3_kirchhoff.json");
     let mut written: Value = serde_json::from_str(text).expect("JSON");
     written["methods"] = json!(["midpoint", "lie-midpoint"]);
     let mut vectors = written.clone();
@@ -214,7 +214,7 @@ fn the_kirchhoff_body_with_matrices_is_the_one_in_coordinates() {
 /// The body with full matrices in at most ten lines, and the same with its 21 coefficients written out.
 #[test]
 fn the_body_with_full_matrices_is_the_one_written_out() {
-    let text = include_str!("../../../specs/se3_kirchhoff_full.json");
+    let text = include_str!("../../../../specs/se3_kirchhoff_full.json");
     let lines = text.lines().skip_while(|l| !l.contains("\"algebra\""));
     let lines = lines.take_while(|l| !l.contains("\"initial\"")).count();
     assert!(lines <= 10, "{lines} lines");

@@ -1,11 +1,9 @@
 //! The macro and the spec are two spellings of one declaration: they give the same code, the same
 //! bits, every time, wherever the files are.
 
-mod common;
-
 use std::path::{Path, PathBuf};
 
-use common::{command, folder};
+use crate::common::{command, folder};
 use lie_codegen::compile::{compile_spec, declared_choices, expand, generate};
 use lie_codegen::expand::expand_macro;
 use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};

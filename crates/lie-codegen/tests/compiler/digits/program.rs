@@ -6,7 +6,7 @@ use lie_codegen::derive::{Kernel, Shape, Source};
 use lie_symbolic::schedule::{KnownSymbols, Operation, Program, Task, Value, schedule};
 use lie_symbolic::symbolic::{Elementary, ExprId, Function, Symbol};
 
-use crate::scalar::Number;
+use super::scalar::Number;
 
 /// An interpreter of programs in any precision.
 pub fn run<T: Number>(

@@ -2,8 +2,6 @@
 //! that of the structure constants. Algebras are direct sums, semidirect products and rational
 //! changes of basis of known ones, n from 2 to 8.
 
-mod random;
-
 use std::collections::HashMap;
 
 use lie_codegen::compile::compile_spec;
@@ -68,7 +66,7 @@ fn near(a: f64, b: f64, scale: f64) -> bool {
     !b.is_finite() || (a - b).abs() <= 1e-10 * scale.max(b.abs()).max(1.0)
 }
 
-fn check(system: &random::System, offset: f64) -> Result<(), TestCaseError> {
+fn check(system: &crate::random::System, offset: f64) -> Result<(), TestCaseError> {
     let Ok(model) = compile_spec(&system.spec("Random")) else {
         return Err(TestCaseError::reject(
             "outside the domain or beyond a limit",
@@ -158,8 +156,9 @@ fn random_systems(cases: u32) {
     };
     let rng = TestRng::from_seed(RngAlgorithm::ChaCha, &[18; 32]);
     let mut runner = TestRunner::new_with_rng(config, rng);
-    let result = runner.run(&(random::system(), 0.05..0.9_f64), |(system, offset)| {
-        check(&system, offset)
-    });
+    let result = runner.run(
+        &(crate::random::system(), 0.05..0.9_f64),
+        |(system, offset)| check(&system, offset),
+    );
     result.unwrap_or_else(|failure| panic!("{failure}"));
 }
