@@ -133,7 +133,7 @@ impl Measurement for Comparison {
 
     fn begin(&self, spec: &Spec, _: &Start) -> PyResult<(Options, Results)> {
         let options = self.options()?;
-        let driven = spec.model.configuration.as_ref().is_some_and(|c| c.time);
+        let driven = spec.model.is_timed();
         if options.measure == Measure::Energy && driven {
             let text = "the Hamiltonian depends on the time, and the energy is not conserved: take measure=\"state\"";
             return Err(PyValueError::new_err(text));

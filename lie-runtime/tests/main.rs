@@ -10,6 +10,7 @@ mod driver;
 mod families;
 mod families_acting;
 mod families_bonds;
+mod families_driven;
 mod family_splittings;
 mod functions;
 mod generating;

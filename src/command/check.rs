@@ -269,6 +269,11 @@ fn write_system(model: &Structure, text: &mut String) -> std::fmt::Result {
     if let Some(configuration) = &model.configuration {
         writeln!(text, "  {}", configuration.description())?;
     }
+    let shared = model.family.iter().flat_map(|family| &family.shared);
+    let shared: Vec<&str> = shared.map(String::as_str).collect();
+    if !shared.is_empty() {
+        writeln!(text, "  beside the sites: {}", shared.join(", "))?;
+    }
     if let Some(attitude) = model.display_attitude() {
         writeln!(text, "  attitude at the start: {attitude}")?;
     }

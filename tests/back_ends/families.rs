@@ -17,6 +17,8 @@ lie_poisson! { spec = "tests/data/families/damped_chain.json"; }
 lie_poisson! { spec = "tests/data/families/damped_lattice.json"; }
 lie_poisson! { spec = "tests/data/families/disordered_chain.json"; }
 lie_poisson! { spec = "tests/data/families/disordered_lattice.json"; }
+lie_poisson! { spec = "tests/data/families/driven_chain.json"; }
+lie_poisson! { spec = "tests/data/families/driven_net.json"; }
 lie_poisson! { spec = "tests/data/families/fput_chain.json"; }
 lie_poisson! { spec = "tests/data/families/frustrated_net.json"; }
 lie_poisson! { spec = "tests/data/families/heisenberg_chain.json"; }
@@ -24,6 +26,7 @@ lie_poisson! { spec = "tests/data/families/lattice.json"; }
 lie_poisson! { spec = "tests/data/families/mean_field.json"; }
 lie_poisson! { spec = "tests/data/families/mean_field_pieces.json"; }
 lie_poisson! { spec = "tests/data/families/open_chain.json"; }
+lie_poisson! { spec = "tests/data/families/rotating_ring.json"; }
 lie_poisson! { spec = "tests/data/families/su3_ring.json"; }
 lie_poisson! { spec = "tests/data/families/toda_ring.json"; }
 lie_poisson! { spec = "tests/data/families/xxz_chain.json"; }
@@ -234,4 +237,15 @@ fn what_acts_on_sites() {
 fn bonds_between_any_two_sites() {
     let net = FrustratedNet::new().system().unwrap();
     compare("frustrated_net", &net, &[], methods!());
+}
+
+#[test]
+fn what_depends_on_the_time_and_on_inputs() {
+    let chain = DrivenChain::new().system().unwrap();
+    compare("driven_chain", &chain, &[], methods!());
+    let net = DrivenNet::new().system().unwrap();
+    compare("driven_net", &net, &[], methods!());
+    let ring = RotatingRing::new().system().unwrap();
+    compare("rotating_ring", &ring, &[], methods!());
+    assert!(!ring.is_autonomous() && ring.quantity_count() == 0);
 }

@@ -210,11 +210,6 @@ fn what_cannot_act_on_a_site_is_refused_where_it_stands() {
         &["depends on other sites", "sigma*z[i]"],
     );
     refused(
-        "inputs",
-        json!({ "u": { "default": 0 } }),
-        &["a family has no inputs"],
-    );
-    refused(
         "dissipation",
         json!([{ "kind": "metriplectic", "entropy": "z[i]", "metric": [[1, 0, 0], [0, 1, 0], [0, 0, 1]] }]),
         &["acts at each site, where H is shared"],
@@ -242,6 +237,7 @@ fn what_cannot_act_on_a_site_is_refused_where_it_stands() {
 fn observables_are_functions_of_sums() {
     let observables = json!({
         "m": "sum(i in 0..N: z[i])/N",
+        "part": "sum(i in 2..N-1: z[i])",
         "bonds": "-sum(i in 0..N-1: x[i]*x[i+1] + y[i]*y[i+1] + z[i]*z[i+1])",
         "phi": { "expression": "atan2(sum(i in 0..N: y[i]), sum(i in 0..N: x[i]))", "unwrap": true }
     });
@@ -263,7 +259,12 @@ fn observables_are_functions_of_sums() {
             let sum = |k: usize| (0..40).map(|i| site(k, i)).sum::<f64>();
             let phi = sum(1).atan2(sum(0));
             let turned = (row[place("phi")] - phi) / std::f64::consts::TAU;
+            let part = (2..39).map(|i| site(2, i)).sum::<f64>();
             assert!((row[place("m")] - m).abs() < 1e-14);
+            assert!(
+                (row[place("part")] - part).abs() < 1e-14,
+                "over these sites alone"
+            );
             assert!((row[place("bonds")] - bonds).abs() < 1e-13);
             assert!((turned - turned.round()).abs() < 1e-12, "{turned}");
             // the energy has sums of its own

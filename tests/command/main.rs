@@ -26,6 +26,7 @@ mod ensemble;
 mod events;
 mod families;
 mod families_acting;
+mod families_driven;
 mod hostile_text;
 mod joints;
 mod keep;

@@ -31,7 +31,7 @@ pub fn measure(arguments: &args::Bench, bed: &Bed) -> Result<Measure, Failure> {
         Sense::State => Measure::State,
         Sense::Energy => {
             let model = &bed.spec.model;
-            if model.configuration.as_ref().is_some_and(|c| c.time) {
+            if model.is_timed() {
                 let text = format!(
                     "the energy of {} varies, by the time or by what acts on it, and its drift says nothing",
                     model.name

@@ -90,7 +90,7 @@ impl Layout {
         let states = model.shown_coordinates();
         let coordinates = states.iter().map(|&i| model.coordinates[i].text.clone());
         let casimirs = model.casimirs.iter().map(|casimir| casimir.name.clone());
-        let varies = model.configuration.as_ref().is_some_and(|c| c.time);
+        let varies = model.is_timed();
         let energy = states.len() + 1;
         let quantities = model.quantities.iter();
         let integrals = quantities
@@ -167,7 +167,7 @@ impl Layout {
             names.push(&quantity.name);
         }
         let mut layout = Self {
-            invariants: states + 1..casimirs,
+            invariants: states + 1 + usize::from(model.is_timed())..casimirs,
             element: names.len(),
             columns: names,
             states,

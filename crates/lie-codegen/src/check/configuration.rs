@@ -55,7 +55,8 @@ pub fn configuration(
     })
 }
 
-fn uses_time(declaration: &Declaration) -> bool {
+/// Whether an expression mentions the time.
+pub fn uses_time(declaration: &Declaration) -> bool {
     let lets = declaration.lets.iter().map(|(_, value)| value);
     let mut parts = lets
         .chain([declaration.energy.expression()])

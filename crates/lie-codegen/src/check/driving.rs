@@ -33,6 +33,11 @@ pub fn acting(
 ) -> Option<Vec<Acting>> {
     let mut all = Vec::new();
     let mut complete = true;
+    // methods of single systems damp by a matrix that is constant
+    let strengths = match allowed {
+        Allowed::Site => Allowed::Strength,
+        _ => Allowed::Parameters,
+    };
     for (name, value) in &declaration.forces {
         let place = declaration.state.iter().position(|c| c.text == name.text);
         let force = place.zip(lower(value, allowed));
@@ -52,7 +57,7 @@ pub fn acting(
         let found = match &dissipation.kind {
             DissipationKind::DoubleBracket { strength, metric } => {
                 let metric = metric.as_ref().map(|m| rows(m, Allowed::Parameters));
-                let strength = lower(strength, Allowed::Parameters);
+                let strength = lower(strength, strengths);
                 match metric {
                     Some(metric) => strength
                         .zip(metric)
@@ -106,6 +111,7 @@ pub fn violation(model: &Model, values: &[f64]) -> Option<Diagnostic> {
         origin: model.name_origin,
         own,
         defaults: values,
+        sites: model.family.as_ref().map(|family| (family, &*model.inputs)),
         name: &name,
     };
     let mut declared = driving.declared.iter();
@@ -182,6 +188,7 @@ pub fn driving(
     let written = Written {
         declaration,
         defaults: sources.defaults,
+        sites: None,
         name: sources.name,
     };
     let driving = motion(&mut work, &written, declared, mistakes)?;

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::model::{CANONICAL, data_number};
+use crate::model::{CANONICAL, data_number, shared_number};
 use lie_symbolic::symbolic::{ExprId, Function, Opaque, Symbol};
 use lie_syntax::ast::{Declaration, Name, OwnFunction, Realization};
 use lie_syntax::diagnostic::{Diagnostic, Kind, Origin};
@@ -36,6 +36,8 @@ pub enum Allowed {
     State,
     /// The same, and what has a value for each site of a family.
     Site,
+    /// Parameters, what all sites of a family share, and what has a value for each.
+    Strength,
     /// Components of the velocity, and of the coordinates those from this one on: a Lagrangian may depend on
     /// the group element and the time, but not on mu.
     Velocity(usize),
@@ -70,9 +72,13 @@ impl Allowed {
             Symbol::Coordinate(i) => match self {
                 Self::State | Self::Site | Self::Everything => true,
                 Self::Velocity(first) => i >= first,
-                Self::Constants | Self::Parameters | Self::Canonical => false,
+                Self::Constants | Self::Parameters | Self::Strength | Self::Canonical => false,
             },
-            _ if data_number(symbol).is_some() => self == Self::Site,
+            _ if data_number(symbol).is_some() => matches!(self, Self::Site | Self::Strength),
+            _ if shared_number(symbol).is_some() => matches!(
+                self,
+                Self::State | Self::Site | Self::Strength | Self::Everything
+            ),
             Symbol::Input(i) if i >= CANONICAL => self == Self::Canonical,
             Symbol::Input(_) => matches!(self, Self::Velocity(_) | Self::Everything),
             Symbol::Step => matches!(self, Self::Velocity(_) | Self::Everything),
@@ -292,7 +298,7 @@ fn misplaced(name: &str, binding: Binding, allowed: Allowed) -> Option<(String, 
             "cannot stand here: it depends on the velocity, and this is a function of mu",
             "use the state names",
         ),
-        (_, Allowed::Parameters | Allowed::Everything) => (
+        (_, Allowed::Parameters | Allowed::Strength | Allowed::Everything) => (
             "cannot stand here: only constants and parameters may",
             "write its value",
         ),

@@ -1,6 +1,6 @@
 //! What acts beside the Hamiltonian.
 
-use super::Model;
+use super::{Model, shared_number};
 use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 
 /// Forces and dissipation of a system: `mu' = Pi(mu) xi + F`.
@@ -91,7 +91,7 @@ impl Model {
     pub fn acting_name(&self, symbol: Symbol) -> String {
         let of_site = self.family.as_ref().and_then(|family| match symbol {
             Symbol::Coordinate(place) => family.names.get(place),
-            symbol => family.data_names.get(super::data_number(symbol)?),
+            symbol => family.name_at_site(symbol),
         });
         of_site.cloned().unwrap_or_else(|| self.symbol_name(symbol))
     }
@@ -172,18 +172,23 @@ impl Model {
         let mut sentences = Vec::new();
         // what changes H from outside
         let clock = self.configuration.as_ref().and_then(|c| c.clock());
-        let energy = self
-            .energy
-            .expression()
-            .map(|h| self.graph.symbols(h.energy));
-        let outside = |symbol: &Symbol| {
-            let place = match symbol {
-                Symbol::Coordinate(place) => *place,
-                _ => return false,
-            };
-            clock.is_some_and(|clock| place >= clock.time)
+        let energy = self.energy.expression().map(|h| h.energy);
+        let sums = self.family.iter().flat_map(|family| &family.sums);
+        let summands = sums.filter(|sum| sum.moves).map(|sum| sum.summand);
+        let of_sums = self.family.iter().map(|family| family.energy);
+        let energy = energy.into_iter().chain(summands).chain(of_sums);
+        // a strength that changes is not known to stay positive
+        let strengths = driving.declared.iter().filter_map(|acting| match acting {
+            Acting::DoubleBracket(strength, _) => Some(*strength),
+            _ => None,
+        });
+        let energy = energy.chain(strengths);
+        let outside = |symbol: &Symbol| match symbol {
+            Symbol::Coordinate(place) => clock.is_some_and(|clock| *place >= clock.time),
+            other => shared_number(*other).is_some(),
         };
-        let changes = energy.iter().flatten().any(outside);
+        let mut symbols = energy.flat_map(|part| self.graph.symbols(part));
+        let changes = symbols.any(|symbol| outside(&symbol));
         let (mut pushes, mut damps) = (false, false);
         for acting in &driving.declared {
             match acting {

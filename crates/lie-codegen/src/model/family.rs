@@ -9,6 +9,22 @@ pub use lie_syntax::ast::Start;
 /// [`Symbol::Input`] of the first coefficient that differs from site to site.
 const DATA: usize = 1 << 22;
 
+/// [`Symbol::Input`] of the first number that all sites share.
+const SHARED: usize = 1 << 23;
+
+/// The symbol of what all sites share, by its place in [`Family::shared`].
+pub fn shared_symbol(number: usize) -> Symbol {
+    Symbol::Input(SHARED + number)
+}
+
+/// The place of a symbol of [`shared_symbol`].
+pub fn shared_number(symbol: Symbol) -> Option<usize> {
+    match symbol {
+        Symbol::Input(place) => place.checked_sub(SHARED),
+        _ => None,
+    }
+}
+
 /// The symbol of the coefficient at a place of [`Family::data_places`].
 pub fn data_symbol(number: usize) -> Symbol {
     Symbol::Input(DATA + number)
@@ -47,10 +63,16 @@ pub struct Family {
     pub data_names: Vec<String>,
     /// Whether the last of `data` are bonds: rows `i, j, value`.
     pub has_bonds: bool,
+    /// Whether a state carries the time: something acts on sites, or something depends on the time or on inputs.
+    pub timed: bool,
+    /// The names of what all sites share: the time and behind it the inputs, or none where nothing depends on them.
+    pub shared: Vec<String>,
     /// The sums `T_k`; `Symbol::Coordinate(slots n + k)` in H.
     pub sums: Vec<SiteSum>,
     /// H.
     pub energy: ExprId,
+    /// `dH/dt` where H depends on the time, a function of sums.
+    pub time_slope: Option<ExprId>,
     /// The total degree of H in the coordinates, where it is a polynomial.
     pub degree: Option<u32>,
     /// Where a run starts.
@@ -115,6 +137,15 @@ impl Family {
         data_symbol(self.data_names.len() + process)
     }
 
+    /// The name of a symbol at a site; none of what has no name there.
+    pub fn name_at_site(&self, symbol: Symbol) -> Option<&String> {
+        match (data_number(symbol), shared_number(symbol)) {
+            (Some(number), _) => self.data_names.get(number),
+            (_, Some(number)) => self.shared.get(number),
+            _ => None,
+        }
+    }
+
     /// The symbol of a coordinate of the second site of a bond; behind them that of its value.
     pub fn bond_symbol(&self, coordinate: usize) -> Symbol {
         data_symbol(self.data_places.len() + coordinate)
@@ -140,6 +171,23 @@ impl Family {
         place.map(data_symbol)
     }
 
+    /// The value of a coefficient at a site of so many rows and columns.
+    pub fn value_at(
+        &self,
+        symbol: Symbol,
+        site: usize,
+        [rows, columns]: [usize; 2],
+    ) -> Option<f64> {
+        let [slot, which] = *self.data_places.get(data_number(symbol)?)?;
+        let along = |place: usize, distance: i64, size: usize| {
+            (place as i64 + distance).rem_euclid(size as i64) as usize
+        };
+        let [down, right] = self.slots[slot];
+        let row = along(site / columns, down, rows);
+        let place = row * columns + along(site % columns, right, columns);
+        self.data[which].values.get(place).copied()
+    }
+
     /// The seed of a random initial state.
     pub fn seed(&self) -> Option<u64> {
         match self.start {
@@ -162,11 +210,25 @@ impl Family {
 impl Model {
     /// The state of a family for the coordinates of so many sites: what is carried beside them is 0, and the unit.
     pub fn complete_sites(&self, mut of_sites: Vec<f64>, sites: usize) -> Vec<f64> {
-        if let Some(driving) = &self.driving {
+        if self.is_timed() {
             of_sites.extend([0.0, 0.0, 1.0]);
-            of_sites.resize(of_sites.len() + driving.noises * sites, 0.0);
+            of_sites.extend(self.inputs.iter().map(|input| input.default));
+            let noises = self.driving.as_ref().map_or(0, |driving| driving.noises);
+            of_sites.resize(of_sites.len() + noises * sites, 0.0);
         }
         of_sites
+    }
+
+    /// The coordinates of sites in a whole state of a family.
+    pub fn of_sites<'a>(&self, state: &'a [f64]) -> &'a [f64] {
+        let noises = self.driving.as_ref().map_or(0, |driving| driving.noises);
+        let carried = if self.is_timed() {
+            3 + self.inputs.len()
+        } else {
+            0
+        };
+        let sites = (state.len() - carried) / (self.dimension() + noises);
+        &state[..sites * self.dimension()]
     }
 }
 

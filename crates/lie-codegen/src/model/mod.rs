@@ -22,7 +22,8 @@ pub use casimir::{Casimir, CasimirKind};
 pub use configuration::Configuration;
 pub use driving::{Acting, Driving, Input};
 pub use family::{
-    Family, SiteData, SiteSum, Size, Start, data_number, data_symbol, slope_symbol, wrong_bond,
+    Family, SiteData, SiteSum, Size, Start, data_number, data_symbol, shared_number, shared_symbol,
+    slope_symbol, wrong_bond,
 };
 pub use quantity::{Event, Quantity, QuantityKind, WORK};
 pub use realization::{CANONICAL, Descent, Realization};
@@ -226,6 +227,13 @@ impl Model {
         matches!(self.bracket, Bracket::Lie(_))
     }
 
+    /// Whether a state carries the time: H depends on it, or something acts.
+    pub fn is_timed(&self) -> bool {
+        let configuration = self.configuration.as_ref();
+        let single = configuration.is_some_and(|configuration| configuration.time);
+        single || self.family.as_ref().is_some_and(|family| family.timed)
+    }
+
     /// Whether inputs or noise are held from step to step.
     pub fn holds(&self) -> bool {
         let configuration = self.configuration.as_ref();
@@ -332,37 +340,31 @@ impl Model {
                     return family.names[place].clone();
                 };
                 if sum.over_bonds {
-                    return format!("sum(bonds: {})", self.display_of_bond(family, sum.summand));
+                    return format!("sum(bonds: {})", self.display_of_bond(sum.summand));
                 }
                 let ranges = sizes.iter().enumerate().map(|size| range(size, &sum.spans));
                 let ranges: Vec<String> = ranges.collect();
                 let summand = self.display_at_site(family, sum.summand);
                 format!("sum({}: {summand})", ranges.join(", "))
             }
-            other => self.symbol_name(other),
+            other => self.acting_name(other),
         })
     }
 
     /// A summand of bonds, whose first site has the index i.
-    fn display_of_bond(&self, family: &Family, summand: ExprId) -> String {
+    fn display_of_bond(&self, summand: ExprId) -> String {
         self.graph.display(summand, &|symbol| match symbol {
             Symbol::Coordinate(place) => {
                 format!("{}[i]", self.coordinates[place % self.dimension()].text)
             }
-            other => match data_number(other) {
-                Some(number) => family.data_names[number].clone(),
-                None => self.symbol_name(other),
-            },
+            other => self.acting_name(other),
         })
     }
 
     fn display_at_site(&self, family: &Family, summand: ExprId) -> String {
         self.graph.display(summand, &|symbol| match symbol {
             Symbol::Coordinate(place) => family.names[place].clone(),
-            other => match data_number(other) {
-                Some(number) => family.data_names[number].clone(),
-                None => self.symbol_name(other),
-            },
+            other => self.acting_name(other),
         })
     }
 

@@ -1,7 +1,7 @@
 //! What is called how. A name of the user never begins with an underscore, hence the names of ours that share a scope
 //! with them do.
 
-use crate::model::{CANONICAL, Model, data_number};
+use crate::model::{CANONICAL, Model, data_number, shared_number};
 use lie_symbolic::symbolic::Symbol;
 
 /// The names of a system.
@@ -17,6 +17,8 @@ pub struct Names {
     pub parameters: Vec<String>,
     /// Of a family the coefficients that differ from site to site, by their places.
     pub data: Vec<String>,
+    /// Of a family what all sites share.
+    pub shared: Vec<String>,
 }
 
 impl Names {
@@ -32,6 +34,7 @@ impl Names {
             basis: texts(basis),
             parameters: model.parameters.iter().map(|p| p.name.clone()).collect(),
             data: Vec::new(),
+            shared: Vec::new(),
         }
     }
 
@@ -40,6 +43,9 @@ impl Names {
         let n = self.coordinates.len();
         if let Some(number) = data_number(symbol) {
             return self.data[number].clone();
+        }
+        if let Some(number) = shared_number(symbol) {
+            return self.shared[number].clone();
         }
         match symbol {
             Symbol::Coordinate(i) => coordinate_local(&self.coordinates[i]),

@@ -94,6 +94,11 @@ impl Piece {
 /// # Errors
 /// The reason.
 pub fn pieces(model: &Model, family: &Family, spins: Option<&[Spin]>) -> Result<Pieces, String> {
+    if !family.shared.is_empty() {
+        let why =
+            "the time and inputs are carried beside the sites, and pieces move the sites alone";
+        return Err(why.into());
+    }
     let mut graph = model.graph.clone();
     let mut search = Search {
         model,

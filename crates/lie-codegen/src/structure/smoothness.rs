@@ -1,7 +1,7 @@
 //! How smooth the Hamiltonian of a system is, and its Lagrangian.
 
 use super::Structure;
-use crate::model::{Family, Model, data_number};
+use crate::model::{Family, Model};
 use lie_symbolic::prove::joints::{Joint, find_joints};
 use lie_symbolic::symbolic::Symbol;
 use lie_syntax::diagnostic::{Diagnostic, Kind, Report};
@@ -35,10 +35,7 @@ fn of_family(model: &Model, family: &Family) -> Vec<Joint> {
             Some(name) => name.clone(),
             None => format!("sum{}", place - family.names.len() + 1),
         },
-        other => match data_number(other) {
-            Some(number) => family.data_names[number].clone(),
-            None => model.symbol_name(other),
-        },
+        other => model.acting_name(other),
     };
     let moving = family.sums.iter().filter(|sum| sum.moves);
     let summands = moving.map(|sum| sum.summand);

@@ -1,10 +1,13 @@
-//! What a family carries beside its sites where something acts on them: the time with its momentum and the unit, and the rates of the Wiener
-//! processes, those of the first process of all sites before those of the second.
+//! What a family carries beside its sites where something acts on them or depends on the time: the momentum of the time, the time, the unit, the
+//! inputs, and the rates of the Wiener processes, those of the first process of all sites before those of the second.
 
-use super::stencil::CARRIED;
+use super::shape::Shape as _;
+use super::sites::{Sums, width};
+use super::stencil::{UNIT, carried, inputs};
 use super::{Family, LateMatrix, Sites};
 use crate::matrix::SquareMatrix as _;
-use crate::scalar::Scalar;
+use crate::poisson::Lift as _;
+use crate::scalar::{Dual, Scalar};
 use std::vec::Vec;
 
 impl<K> Family<K> {
@@ -16,7 +19,7 @@ impl<K> Family<K> {
         self.kernels().dimension() * self.count()
     }
 
-    /// Where the momentum of the time, the time and the unit are: `{t, p} = 1` where something acts beside H.
+    /// Where the momentum of the time, the time and the unit are: `{t, p} = 1` where the time is carried.
     pub(super) fn pair<S: Scalar>(&self) -> [usize; 3]
     where
         K: Sites<S>,
@@ -25,16 +28,25 @@ impl<K> Family<K> {
         [own, own + 1, own + 2]
     }
 
-    /// The number of coordinates: those of all sites, and where something acts beside H those that carry the time and the rates of Wiener
+    /// The number of coordinates: those of all sites, and where the time is carried those that carry it, the inputs and the rates of Wiener
     /// processes.
     pub(super) fn length<S: Scalar>(&self) -> usize
     where
         K: Sites<S>,
     {
-        match self.kernels().acts() {
-            true => self.own() + CARRIED + self.kernels().noise_count() * self.count(),
+        let kernels = self.kernels();
+        match kernels.is_timed() {
+            true => self.own() + carried(kernels) + kernels.noise_count() * self.count(),
             false => self.own(),
         }
+    }
+
+    /// Where an input is.
+    pub(super) fn input<S: Scalar>(&self, index: usize) -> usize
+    where
+        K: Sites<S>,
+    {
+        self.own() + UNIT + 1 + index
     }
 
     /// The state for the coordinates of all sites.
@@ -43,10 +55,55 @@ impl<K> Family<K> {
         K: Sites<S>,
     {
         of_sites.resize(self.length(), S::zero());
-        if self.kernels().acts() {
-            of_sites[self.own() + CARRIED - 1] = S::one();
+        if self.kernels().is_timed() {
+            let [.., unit] = self.pair();
+            of_sites[unit] = S::one();
+        }
+        for index in 0..inputs(self.kernels()) {
+            of_sites[self.input(index)] = self.kernels().input_default(index);
         }
         of_sites
+    }
+
+    /// Zeros in place of the sums, and behind them what all sites share.
+    pub(super) fn shared<S: Scalar>(&self, mu: &[S]) -> Sums<K, S>
+    where
+        K: Sites<S>,
+    {
+        let zeros = K::Sums::make(width(self.kernels()), |_| S::zero());
+        self.with_shared(zeros, mu)
+    }
+
+    /// The sums with what all sites share behind them.
+    pub(super) fn with_shared<S: Scalar>(&self, mut sums: Sums<K, S>, mu: &[S]) -> Sums<K, S>
+    where
+        K: Sites<S>,
+    {
+        let behind = &mut sums.as_mut()[self.kernels().count()..];
+        if let [first, rest @ ..] = behind {
+            let [_, time, _] = self.pair();
+            *first = mu[time];
+            rest.copy_from_slice(&mu[self.input(0)..][..rest.len()]);
+        }
+        sums
+    }
+
+    /// The derivatives of H by the inputs, by dual numbers: no motion asks for them.
+    pub(super) fn set_input_slopes<S: Scalar>(&self, mu: &[S], out: &mut [S])
+    where
+        K: Sites<S>,
+    {
+        let count = inputs(self.kernels());
+        if count == 0 {
+            return;
+        }
+        let lifted = self.lift();
+        let mut at: Vec<Dual<S>> = mu.iter().map(|value| Dual::constant_of(*value)).collect();
+        for place in (0..count).map(|index| self.input(index)) {
+            at[place] = Dual::variable(mu[place]);
+            out[place] = lifted.kernels().energy(&lifted.totals(&at)).derivative;
+            at[place] = Dual::constant_of(mu[place]);
+        }
     }
 
     /// Sets what is carried beside the sites: the entries of the momentum of the time and of the time, and 0.

@@ -1,7 +1,7 @@
 //! Sums over all sites.
 
 use super::shape::{Of, Shape};
-use super::sites::Sums;
+use super::sites::{Sums, width};
 use super::{Family, Sites};
 use crate::scalar::Scalar;
 
@@ -45,36 +45,43 @@ impl<A: Shape, S: Scalar> Totals<A, S> {
 }
 
 impl<K> Family<K> {
-    /// `T_1, …, T_m`.
+    /// `T_1, …, T_m`, and behind them what all sites share.
     pub(super) fn totals<S: Scalar>(&self, mu: &[S]) -> Sums<K, S>
     where
         K: Sites<S>,
     {
         let [rows, columns] = self.sizes();
-        let mut totals = Totals::<K::Sums, S>::new(self.kernels().count());
+        let mut totals = Totals::<K::Sums, S>::new(width(self.kernels()));
+        let shared = self.shared(mu);
         for row in 0..rows {
             let inner = self.inner::<S>(row);
             for column in (0..inner.start).chain(inner.end..columns) {
-                totals.add(self.summands_at(mu, [row, column]).as_ref());
+                totals.add(self.summands_at(mu, [row, column], &shared).as_ref());
             }
             for from in inner.clone().step_by(BLOCK) {
                 let stretch = self.stretch(mu, row, from..inner.end.min(from + BLOCK));
-                totals.add(self.kernels().sum(&stretch).as_ref());
+                totals.add(self.kernels().sum(&stretch, &shared).as_ref());
             }
         }
-        self.add_bonds(mu, |summands| totals.add(summands.as_ref()));
-        totals.end()
+        self.add_bonds(mu, &shared, |summands| totals.add(summands.as_ref()));
+        self.with_shared(totals.end(), mu)
     }
 
     /// The summands of a site, 0 where a sum does not go over it.
-    fn summands_at<S: Scalar>(&self, mu: &[S], [row, column]: [usize; 2]) -> Sums<K, S>
+    fn summands_at<S: Scalar>(
+        &self,
+        mu: &[S],
+        [row, column]: [usize; 2],
+        shared: &Sums<K, S>,
+    ) -> Sums<K, S>
     where
         K: Sites<S>,
     {
-        let [rows, columns] = self.sizes();
-        let mut summands = self.kernels().summands(&self.around(mu, [row, column]));
-        for (k, summand) in summands.as_mut().iter_mut().enumerate() {
-            let [down, right] = self.kernels().term(k).spans;
+        let ([rows, columns], kernels) = (self.sizes(), self.kernels());
+        let mut summands = kernels.shared_summands(&self.around(mu, [row, column]), shared);
+        let of_sums = summands.as_mut().iter_mut().take(kernels.count());
+        for (k, summand) in of_sums.enumerate() {
+            let [down, right] = kernels.term(k).spans;
             if !(down.holds(row as isize, rows) && right.holds(column as isize, columns)) {
                 *summand = S::zero();
             }
@@ -82,17 +89,29 @@ impl<K> Family<K> {
         summands
     }
 
-    /// `dF/dT_k` where they depend on the state, else nothing that is read.
+    /// `dF/dT_k` where they depend on the state, else nothing that is read, with what all sites share behind them; and `dH/dt`.
     #[inline]
-    pub(super) fn weights<S: Scalar>(&self, mu: &[S]) -> Sums<K, S>
+    pub(super) fn weights<S: Scalar>(&self, mu: &[S]) -> (Sums<K, S>, S)
     where
         K: Sites<S>,
     {
-        let kernels = self.kernels();
-        if kernels.has_mean_field() {
-            kernels.weights(&self.totals(mu))
-        } else {
-            K::Sums::make(kernels.count(), |_| S::zero())
+        if !self.is_far() {
+            return (self.shared(mu), S::zero());
         }
+        let (kernels, totals) = (self.kernels(), self.totals(mu));
+        let weights = match kernels.has_mean_field() {
+            true => self.with_shared(kernels.weights(&totals), mu),
+            false => self.shared(mu),
+        };
+        (weights, kernels.time_slope(&totals))
+    }
+
+    /// Whether the motion depends on sums over all sites.
+    #[inline]
+    pub(super) fn is_far<S: Scalar>(&self) -> bool
+    where
+        K: Sites<S>,
+    {
+        self.kernels().has_mean_field() || !self.kernels().is_autonomous()
     }
 }

@@ -64,13 +64,18 @@ impl Adjacency {
 
 impl<K> Family<K> {
     /// What the bonds add to the sums, one after the other.
-    pub(super) fn add_bonds<S: Scalar>(&self, mu: &[S], mut add: impl FnMut(&Sums<K, S>))
-    where
+    pub(super) fn add_bonds<S: Scalar>(
+        &self,
+        mu: &[S],
+        shared: &Sums<K, S>,
+        mut add: impl FnMut(&Sums<K, S>),
+    ) where
         K: Sites<S>,
     {
         for bond in self.kernels().bonds().as_chunks::<3>().0 {
             let [one, other] = sites(bond).map(|site| self.site(mu, site));
-            add(&self.kernels().bond_summands(&one, &other, bond[2]));
+            let kernels = self.kernels();
+            add(&kernels.shared_bond_summands(&one, &other, bond[2], shared));
         }
     }
 

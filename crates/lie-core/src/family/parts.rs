@@ -43,7 +43,8 @@ impl<K> Family<K> {
             let slope = self.slope(mu, [row, column], weights);
             let slope = self.with_bonds(slope, mu, site, weights);
             if kernels.acts() {
-                let (field, part) = kernels.act(&slope, &self.around(mu, [row, column]));
+                let at = self.around(mu, [row, column]);
+                let (field, part) = kernels.shared_act(&slope, &at, weights);
                 self.set_site(out, site, field.as_ref());
                 power.add(&[part]);
                 continue;
@@ -110,7 +111,7 @@ impl<K> Family<K> {
                 set = end;
             }
         };
-        let far = self.kernels().has_mean_field() || !self.kernels().bonds().is_empty();
+        let far = self.is_far() || !self.kernels().bonds().is_empty();
         let local = match far {
             // every site depends on all
             true => count,
@@ -126,6 +127,8 @@ impl<K> Family<K> {
                 true => self.weights(mu),
                 false => continue,
             };
+            let (weights, of_time) = weights;
+            power.add(&[of_time]);
             for row in 0..rows {
                 let inner = self.inner::<S>(row);
                 for start in (0..columns).step_by(PART) {

@@ -57,14 +57,19 @@ pub type Site<K, S> = Of<<K as Sites<S>>::Site, S>;
 /// The coordinates of a site and of its neighbours, slot after slot, then the coefficients of [`Sites::data_places`] and the rates of the
 /// Wiener processes of the site.
 pub type Around<K, S> = Of<<K as Sites<S>>::Around, S>;
-/// A number for each sum.
+/// A number for each sum, and behind them what all sites share ([`Sites::shared_count`]).
 pub type Sums<K, S> = Of<<K as Sites<S>>::Sums, S>;
+
+/// The number of sums, and of what all sites share behind them.
+pub(super) fn width<S: Scalar, K: Sites<S>>(sites: &K) -> usize {
+    sites.count() + sites.shared_count()
+}
 
 /// One site of a family: its coordinates, on which and on those of its neighbours (in slots, itself among them) sums depend.
 ///
 /// Generated, with straight-line kernels over arrays; lengths that are found at run time have another [`Shape`]. `at` are the
 /// coordinates of a site and of its neighbours, slot after slot, and behind them coefficients that differ from site to site; `weights[k]` is `dF/dT_k`, which is asked for only where it
-/// is no constant.
+/// is no constant, and behind them stands what all sites share, the time and inputs.
 pub trait Sites<S: Scalar>: Clone {
     /// How many coordinates a site has.
     type Site: Shape;
@@ -109,6 +114,34 @@ pub trait Sites<S: Scalar>: Clone {
     fn noise_count(&self) -> usize {
         0
     }
+    /// Whether damping along orbits is among what acts, and no force.
+    fn is_damped(&self) -> bool {
+        self.acts() && !self.is_forced()
+    }
+    /// Whether the state carries the time, with its momentum and a unit: something acts, or something depends on the time.
+    fn is_timed(&self) -> bool {
+        self.acts()
+    }
+    /// Whether H does not depend on the time.
+    fn is_autonomous(&self) -> bool {
+        true
+    }
+    /// How many numbers all sites share: the time and behind it the inputs, or none. They stand behind the sums.
+    fn shared_count(&self) -> usize {
+        0
+    }
+    /// The name of an input.
+    fn input_name(&self, _index: usize) -> &str {
+        ""
+    }
+    /// Its value where nobody sets it.
+    fn input_default(&self, _index: usize) -> S {
+        S::zero()
+    }
+    /// The time from one of its samplings to the next; every step where it is `None`.
+    fn input_sampling(&self, _index: usize) -> Option<f64> {
+        None
+    }
     /// Whether the motion keeps a Casimir of a site.
     fn casimir_is_kept(&self, _index: usize) -> bool {
         true
@@ -134,10 +167,20 @@ pub trait Sites<S: Scalar>: Clone {
         at: &Around<Self, S>,
         weights: &Sums<Self, S>,
     ) -> Site<Self, S>;
-    /// The summands.
-    fn summands(&self, at: &Around<Self, S>) -> Sums<Self, S>;
+    /// The summands, where they depend on nothing that all sites share.
+    fn summands(&self, _at: &Around<Self, S>) -> Sums<Self, S> {
+        unreachable!("there are `summands`, or `shared_summands`")
+    }
+    /// The summands, with what all sites share behind the place of the sums.
+    fn shared_summands(&self, at: &Around<Self, S>, _shared: &Sums<Self, S>) -> Sums<Self, S> {
+        self.summands(at)
+    }
     /// `F(T_1, …)`.
     fn energy(&self, totals: &Sums<Self, S>) -> S;
+    /// `dH/dt`, from the sums and from those of `ds_k/dt`.
+    fn time_slope(&self, _totals: &Sums<Self, S>) -> S {
+        S::zero()
+    }
     /// `dF/dT_k`; those that are constant may be left 0.
     fn weights(&self, totals: &Sums<Self, S>) -> Sums<Self, S>;
 
@@ -153,6 +196,16 @@ pub trait Sites<S: Scalar>: Clone {
         _value: S,
     ) -> Sums<Self, S> {
         unreachable!("there are no bonds")
+    }
+    /// The same, with what all sites share behind the place of the sums.
+    fn shared_bond_summands(
+        &self,
+        one: &Site<Self, S>,
+        other: &Site<Self, S>,
+        value: S,
+        _shared: &Sums<Self, S>,
+    ) -> Sums<Self, S> {
+        self.bond_summands(one, other, value)
     }
     /// What it adds to dH/dmu at its sites.
     fn bond_slopes(
@@ -185,6 +238,15 @@ pub trait Sites<S: Scalar>: Clone {
     /// and what noise adds, and `<F, dH/dmu> - c <v, G v>` with `v = ad*_(dH/dmu) mu`. Where nothing acts nobody asks.
     fn act(&self, _slope: &Site<Self, S>, _at: &Around<Self, S>) -> (Site<Self, S>, S) {
         unreachable!("nothing acts beside H")
+    }
+    /// The same, with what all sites share behind the place of the sums.
+    fn shared_act(
+        &self,
+        slope: &Site<Self, S>,
+        at: &Around<Self, S>,
+        _shared: &Sums<Self, S>,
+    ) -> (Site<Self, S>, S) {
+        self.act(slope, at)
     }
     /// The same of a site of which every sum has all summands.
     fn driven(&self, at: &Around<Self, S>, weights: &Sums<Self, S>) -> (Site<Self, S>, S) {
@@ -238,11 +300,12 @@ pub trait Sites<S: Scalar>: Clone {
 
     /// The summands of all sites of a stretch, added one after the other.
     #[inline(always)]
-    fn sum(&self, stretch: &Stretch<'_, S>) -> Sums<Self, S> {
+    fn sum(&self, stretch: &Stretch<'_, S>, shared: &Sums<Self, S>) -> Sums<Self, S> {
         let along = stretch.around(self);
-        let mut sum = Self::Sums::make(self.count(), |_| S::zero());
+        let mut sum = Self::Sums::make(width(self), |_| S::zero());
         (0..stretch.len()).for_each(|i| {
-            let summands = self.summands(&gathered::<Self::Around, S>(along.as_ref(), i));
+            let at = gathered::<Self::Around, S>(along.as_ref(), i);
+            let summands = self.shared_summands(&at, shared);
             for (sum, summand) in sum.as_mut().iter_mut().zip(summands.as_ref()) {
                 *sum += *summand;
             }

@@ -6,9 +6,21 @@ use super::{Family, Sites, Span};
 use crate::scalar::Scalar;
 use core::ops::Range;
 
-/// So many numbers stand between the coordinates of the sites and the rates of Wiener processes: the momentum of the time, the time and the
-/// unit, where something acts beside H.
-pub(super) const CARRIED: usize = 3;
+/// So many numbers stand between the coordinates of the sites and the rates of Wiener processes, where the time is carried: its momentum, the
+/// time, the unit, and the inputs.
+#[inline]
+pub(super) fn carried<S: Scalar, K: Sites<S>>(sites: &K) -> usize {
+    UNIT + 1 + inputs(sites)
+}
+
+/// The place of the unit among what is carried.
+pub(super) const UNIT: usize = 2;
+
+/// The number of inputs, which all sites share as they do the time.
+#[inline]
+pub(super) fn inputs<S: Scalar, K: Sites<S>>(sites: &K) -> usize {
+    sites.shared_count().saturating_sub(1)
+}
 
 /// What kernels of a site read at a place.
 enum Entry {
@@ -97,7 +109,7 @@ impl<'m, S: Scalar> Stretch<'m, S> {
             Entry::Data(slot, which) => self.along(sites.data(which), offsets[slot]),
             Entry::Rate(which) => {
                 let [rows, columns] = self.sizes;
-                let first = (dimension + which) * rows * columns + CARRIED;
+                let first = (dimension + which) * rows * columns + carried(sites);
                 self.along(&self.mu[first..], [0, 0])
             }
         })
@@ -141,8 +153,9 @@ impl<K> Family<K> {
             end = end.min(columns - offset);
         }
         for term in (0..self.kernels().count()).map(|k| self.kernels().term(k)) {
-            for &slot in term.slots {
-                let [down, right] = offsets[slot];
+            // its own summand too, of which H may not depend
+            let slots = term.slots.iter().map(|&slot| offsets[slot]);
+            for [down, right] in slots.chain([[0, 0]]) {
                 if !term.spans[0].holds(row as isize - down, rows) {
                     return 0..0;
                 }
@@ -190,7 +203,7 @@ impl<K> Family<K> {
             }
             Entry::Data(slot, which) => kernels.data(which)[self.neighbour(site, offsets[slot])],
             Entry::Rate(which) => {
-                let first = (kernels.dimension() + which) * self.count() + CARRIED;
+                let first = (kernels.dimension() + which) * self.count() + carried(kernels);
                 mu[first + self.neighbour(site, [0, 0])]
             }
         })

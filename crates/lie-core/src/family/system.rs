@@ -2,6 +2,7 @@
 
 use super::links::Adjacency;
 use super::parts::Power;
+use super::stencil::inputs;
 use super::{LateMatrix, Sites};
 use crate::clock::Clock;
 use crate::poisson::{LiePoisson, Poisson, Widen};
@@ -24,6 +25,13 @@ pub struct Family<K> {
     casimirs: OnceLock<Vec<String>>,
     /// The bonds of each site, found when they are asked for.
     pub(super) adjacency: OnceLock<Adjacency>,
+}
+
+/// A recorded function: the work stands before observables, and inputs behind them.
+enum Recorded {
+    Work,
+    Observable(usize),
+    Input(usize),
 }
 
 /// What there is of each Casimir of a site, over all sites.
@@ -73,11 +81,13 @@ impl<K> Family<K> {
             let all = coordinates.map(|k| self.kernels.coordinate(k));
             let all = all.flat_map(|name| (0..self.count()).map(move |site| named(name, site)));
             let carried = ["clock", "t", "unit"].map(str::to_owned);
-            let carried = carried.into_iter().filter(|_| self.kernels.acts());
+            let carried = carried.into_iter().filter(|_| self.kernels.is_timed());
+            let inputs = 0..inputs(&self.kernels);
+            let inputs = inputs.map(|index| self.kernels.input_name(index).to_owned());
             let rates = 0..self.kernels.noise_count();
             let rates = rates
                 .flat_map(|k| (0..self.count()).map(move |site| named(&format!("dW{k}"), site)));
-            all.chain(carried).chain(rates).collect()
+            all.chain(carried).chain(inputs).chain(rates).collect()
         })
     }
 
@@ -94,12 +104,18 @@ impl<K> Family<K> {
         })
     }
 
-    /// Which observable a recorded function is; none of the work, which stands before them.
-    fn observable<S: Scalar>(&self, quantity: usize) -> Option<usize>
+    /// What a recorded function is.
+    fn recorded<S: Scalar>(&self, quantity: usize) -> Recorded
     where
         K: Sites<S>,
     {
-        quantity.checked_sub(usize::from(self.kernels.acts()))
+        let Some(place) = quantity.checked_sub(usize::from(self.kernels.acts())) else {
+            return Recorded::Work;
+        };
+        match place.checked_sub(self.kernels.observable_count()) {
+            None => Recorded::Observable(place),
+            Some(place) => Recorded::Input(place),
+        }
     }
 
     /// The sum of a Casimir over all sites, and the smallest and the largest value.
@@ -170,48 +186,56 @@ where
         self.kernels.degree()
     }
     fn is_autonomous(&self) -> bool {
-        true
+        self.kernels.is_autonomous()
     }
     fn clock(&self) -> Option<Clock> {
-        let momentum = self.own();
-        self.kernels.acts().then_some(Clock {
-            momentum,
-            time: momentum + 1,
-        })
+        let [momentum, time, _] = self.pair();
+        let clock = Clock { momentum, time };
+        self.kernels.is_timed().then_some(clock)
     }
     fn is_forced(&self) -> bool {
         self.kernels.is_forced()
     }
     fn is_damped(&self) -> bool {
-        self.kernels.acts() && !self.kernels.is_forced()
+        self.kernels.is_damped()
+    }
+    fn input_count(&self) -> usize {
+        inputs(&self.kernels)
+    }
+    fn input_sampling(&self, index: usize) -> Option<f64> {
+        self.kernels.input_sampling(index)
     }
     fn noise_count(&self) -> usize {
         self.kernels.noise_count() * self.count()
     }
     fn quantity_count(&self) -> usize {
-        usize::from(self.kernels.acts()) + self.kernels.observable_count()
+        let work = usize::from(self.kernels.acts());
+        work + self.kernels.observable_count() + inputs(&self.kernels)
     }
     fn quantity_name(&self, index: usize) -> &str {
-        match self.observable(index) {
-            Some(index) => self.kernels.observable_name(index),
-            None => "work",
+        match self.recorded(index) {
+            Recorded::Work => "work",
+            Recorded::Observable(index) => self.kernels.observable_name(index),
+            Recorded::Input(index) => self.kernels.input_name(index),
         }
     }
     fn quantity_unwraps(&self, index: usize) -> bool {
-        let observable = self.observable(index);
-        observable.is_some_and(|index| self.kernels.observable_unwraps(index))
+        match self.recorded(index) {
+            Recorded::Observable(index) => self.kernels.observable_unwraps(index),
+            Recorded::Work | Recorded::Input(_) => false,
+        }
     }
     fn quantities(&self, mu: &Vec<S>, out: &mut [S]) {
-        if self.kernels.acts() {
-            out[0] = -mu[self.own()];
-        }
-        if self.kernels.observable_count() > 0 {
-            let totals = self.totals(mu);
-            for (place, value) in out.iter_mut().enumerate() {
-                if let Some(index) = self.observable(place) {
-                    *value = self.kernels.observable(index, &totals);
+        let asked = self.kernels.observable_count() > 0;
+        let totals = asked.then(|| self.totals(mu));
+        for (place, value) in out.iter_mut().enumerate() {
+            *value = match (self.recorded(place), &totals) {
+                (Recorded::Observable(index), Some(totals)) => {
+                    self.kernels.observable(index, totals)
                 }
-            }
+                (Recorded::Input(index), _) => mu[self.input(index)],
+                _ => -mu[self.own()],
+            };
         }
     }
     fn has_jacobian(&self) -> bool {
@@ -237,7 +261,7 @@ where
     }
 
     fn gradient(&self, mu: &Vec<S>, out: &mut Vec<S>) {
-        let weights = self.weights(mu);
+        let (weights, of_time) = self.weights(mu);
         let [rows, columns] = self.sizes;
         for row in 0..rows {
             for column in 0..columns {
@@ -246,7 +270,8 @@ where
                 self.set_site(out, row * columns + column, slope.as_ref());
             }
         }
-        self.set_carried(out, [S::one(), S::zero()]);
+        self.set_carried(out, [S::one(), of_time]);
+        self.set_input_slopes(mu, out);
     }
 
     fn hessian(&self, mu: &Vec<S>, out: &mut LateMatrix<S>) {
@@ -257,16 +282,17 @@ where
         self.by_sites(out, |site, unit| {
             self.kernels.ad_star(unit, &self.site(mu, site))
         });
-        if self.kernels.acts() {
+        if self.kernels.is_timed() {
             self.set_pair(mu, out);
         }
     }
 
     #[inline]
     fn vector_field(&self, mu: &Vec<S>, out: &mut Vec<S>) {
-        let weights = self.weights(mu);
+        let (weights, of_time) = self.weights(mu);
         let [rows, columns] = self.sizes;
         let mut power = Power::new(1);
+        power.add(&[of_time]);
         for row in 0..rows {
             let inner = self.inner::<S>(row);
             self.field_of_row(mu, (row, 0..columns), inner, &weights, out, &mut power);
@@ -326,7 +352,7 @@ where
             self.set_site(out, site, value.as_ref());
         }
         self.set_carried(out, [S::zero(); 2]);
-        if self.kernels.acts() {
+        if self.kernels.is_timed() {
             let [momentum, time, unit] = self.pair();
             out[unit] = xi[momentum] * eta[time] - xi[time] * eta[momentum];
         }
@@ -338,7 +364,7 @@ where
                 .ad_star(&self.site(xi, site), &self.site(mu, site));
             self.set_site(out, site, value.as_ref());
         }
-        if self.kernels.acts() {
+        if self.kernels.is_timed() {
             let [momentum, time, unit] = self.pair();
             self.set_carried(out, [-xi[time] * mu[unit], xi[momentum] * mu[unit]]);
         }
@@ -347,7 +373,7 @@ where
         self.by_sites(out, |site, unit| {
             self.kernels.ad_star(&self.site(xi, site), unit)
         });
-        if self.kernels.acts() {
+        if self.kernels.is_timed() {
             self.set_pair_slope(xi, out);
         }
     }

@@ -100,8 +100,7 @@ impl Planner<'_> {
     /// Whether the energy is constant.
     fn energy(&self, word: &OptionValue) -> Result<(), Message> {
         let model = &self.spec.model;
-        let timed = model.configuration.as_ref().is_some_and(|it| it.time);
-        if !timed && model.driving.is_none() {
+        if !model.is_timed() {
             return Ok(());
         }
         let why = match &model.driving {

@@ -140,7 +140,7 @@ pub fn no_orbit(model: &Structure) -> Option<String> {
             model.name
         ));
     }
-    if model.configuration.as_ref().is_some_and(|c| c.time) {
+    if model.is_timed() {
         return Some(format!(
             "the energy of {} varies, by the time or by what acts on it, and an orbit has level curves of one that does not",
             model.name
@@ -254,7 +254,7 @@ fn section(
     if n < 3 || layout.states != n || build::declared(&spec.model).is_none() {
         let model = &spec.model;
         let name = &model.name;
-        let text = if model.configuration.as_ref().is_some_and(|c| c.time) {
+        let text = if model.is_timed() {
             format!(
                 "the energy of {name} varies, by the time or by what acts on it, and sections are drawn of systems whose energy does not"
             )

@@ -4,6 +4,23 @@ use super::*;
 
 /// What is held from step to step: inputs with their defaults, then the rates of Wiener processes.
 pub fn held(declaration: &Declaration, mistakes: &mut Vec<Diagnostic>) -> Vec<(String, Rational)> {
+    let mut held = defaults(declaration, mistakes);
+    let own = declaration.dimension();
+    let warm = declaration
+        .dissipation
+        .iter()
+        .filter(|d| d.temperature.is_some());
+    let count = declaration.noise.len() + own * warm.count();
+    let count = with_coin(count);
+    held.extend((1..=count).map(|k| (format!("_w{k}"), Rational::ZERO)));
+    held
+}
+
+/// The inputs with their defaults; wrong ones, and wrong times of sampling, are reported.
+pub fn defaults(
+    declaration: &Declaration,
+    mistakes: &mut Vec<Diagnostic>,
+) -> Vec<(String, Rational)> {
     let mut held = Vec::new();
     for input in &declaration.inputs {
         let default = match &input.default.kind {
@@ -29,14 +46,6 @@ pub fn held(declaration: &Declaration, mistakes: &mut Vec<Diagnostic>) -> Vec<(S
             _ => {}
         }
     }
-    let own = declaration.dimension();
-    let warm = declaration
-        .dissipation
-        .iter()
-        .filter(|d| d.temperature.is_some());
-    let count = declaration.noise.len() + own * warm.count();
-    let count = with_coin(count);
-    held.extend((1..=count).map(|k| (format!("_w{k}"), Rational::ZERO)));
     held
 }
 

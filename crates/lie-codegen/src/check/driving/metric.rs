@@ -1,5 +1,6 @@
 //! What the matrices of a dissipation promise.
 
+use crate::model::{Family, Input, data_number, shared_number};
 use lie_symbolic::exact::Budget;
 use lie_symbolic::prove::proof::{Proof, Prover};
 use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
@@ -23,6 +24,8 @@ pub struct Checks<'a> {
     pub own: usize,
     /// The defaults of the parameters.
     pub defaults: &'a [f64],
+    /// The family, and its inputs.
+    pub sites: Option<(&'a Family, &'a [Input])>,
     /// The names of symbols.
     pub name: &'a dyn Fn(Symbol) -> String,
 }
@@ -62,7 +65,7 @@ impl Checks<'_> {
 
     /// Whether a strength is not negative, at the default parameters.
     pub fn strength(&self, graph: &Graph, strength: ExprId) -> Option<Diagnostic> {
-        let value = self.value(graph, strength);
+        let value = self.least(graph, strength);
         (value < 0.0 || value.is_nan()).then(|| {
             let message =
                 format!("the strength is {value} at the default parameters: H would grow");
@@ -294,6 +297,39 @@ impl Checks<'_> {
             let message = "a Rayleigh dissipation has no noise that leaves exp(-H/T) invariant here: the algebra is not unimodular";
             self.mistake(message, "use a double bracket with its temperature, or declare `noise` by itself")
         })
+    }
+
+    /// The smallest value over all sites, at time 0 and with inputs that nobody sets; no number where there is none at some site.
+    fn least(&self, graph: &Graph, expression: ExprId) -> f64 {
+        let Some((family, inputs)) = self.sites else {
+            return self.value(graph, expression);
+        };
+        let shared = |number: usize| match number.checked_sub(1) {
+            Some(input) => inputs[input].default,
+            None => 0.0,
+        };
+        let [rows, columns] = family.sites(self.defaults).unwrap_or([1, 1]);
+        let differs = |symbol: &Symbol| data_number(*symbol).is_some();
+        let sites = match graph.symbols(expression).iter().any(differs) {
+            true => rows * columns,
+            false => 1,
+        };
+        let at = |site: usize| {
+            graph.evaluate(expression, &|symbol| match symbol {
+                Symbol::Parameter(k) => self.defaults[k],
+                other => match shared_number(other) {
+                    Some(number) => shared(number),
+                    None => family
+                        .value_at(other, site, [rows, columns])
+                        .unwrap_or(f64::NAN),
+                },
+            })
+        };
+        let least = |least: f64, value: f64| match least.is_nan() || value >= least {
+            true => least,
+            false => value,
+        };
+        (0..sites).map(at).fold(f64::INFINITY, least)
     }
 
     fn value(&self, graph: &Graph, expression: ExprId) -> f64 {

@@ -2,7 +2,7 @@
 
 use super::metric::Checks;
 use super::work::{Loud, Work};
-use crate::model::{Acting, Driving};
+use crate::model::{Acting, Driving, Family, Input};
 use lie_symbolic::symbolic::Symbol;
 use lie_syntax::ast::{Declaration, DissipationKind, Metric};
 use lie_syntax::diagnostic::{Diagnostic, Kind};
@@ -13,6 +13,8 @@ pub struct Written<'a> {
     pub declaration: &'a Declaration,
     /// The defaults of the parameters.
     pub defaults: &'a [f64],
+    /// The family, and its inputs.
+    pub sites: Option<(&'a Family, &'a [Input])>,
     /// The names of symbols.
     pub name: &'a dyn Fn(Symbol) -> String,
 }
@@ -49,6 +51,7 @@ pub fn motion(
             origin: dissipation.map_or(declaration.name.origin, |d| d.origin),
             own: work.own,
             defaults: written.defaults,
+            sites: written.sites,
             name: written.name,
         };
         match acting {

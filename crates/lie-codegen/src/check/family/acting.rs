@@ -2,6 +2,7 @@
 //! have their part in.
 
 use super::sums;
+use crate::check::driving::held;
 use crate::check::driving::motion::{Written, motion as composed};
 use crate::check::driving::work::Work;
 use crate::model::{Acting, Driving, Family, Model, PoissonMatrix, slope_symbol};
@@ -21,6 +22,7 @@ pub fn motion(
     let n = model.dimension();
     let own = family.own * n..(family.own + 1) * n;
     let defaults = model.defaults();
+    let inputs = held::inputs(declaration);
     let mut graph = model.graph.clone();
     if let Some(mistake) = far(declaration, &graph, family, &declared, n) {
         mistakes.push(mistake);
@@ -61,6 +63,7 @@ pub fn motion(
     let written = Written {
         declaration,
         defaults: &defaults,
+        sites: Some((family, &inputs)),
         name: &name,
     };
     let driving = composed(&mut work, &written, declared, mistakes);

@@ -1,15 +1,18 @@
 //! The sums and the Hamiltonian of a family in the arena of the model of its site.
 
 use super::acting;
+use super::shared;
 use super::sites::SiteSums;
 use super::sums::{self, Collected};
-use crate::check::driving;
+use crate::check::configuration::uses_time;
+use crate::check::driving::{self, held};
 use crate::check::environment::{Allowed, Environment};
 use crate::check::has_errors;
 use crate::check::lets;
 use crate::check::lower::Lowering;
 use crate::model::{
     self, Driving, Family, Model, Quantity, QuantityKind, SiteData, SiteSum, Size, data_symbol,
+    shared_symbol,
 };
 use lie_core::family::STATISTICS;
 use lie_symbolic::prove::{branches, degree};
@@ -43,10 +46,13 @@ pub fn couple(
         names: collected.names.clone(),
         data,
         has_bonds: family.bonds.is_some(),
+        timed: uses_time(declaration) || declaration.is_driven(),
+        shared: shared::names(declaration, mistakes),
         data_places: collected.data_places.clone(),
         data_names,
         sums: Vec::new(),
         energy: model.hamiltonian(),
+        time_slope: None,
         degree: None,
         start: family.start.clone(),
     };
@@ -57,7 +63,10 @@ pub fn couple(
     let work = driving
         .as_ref()
         .map(|_| Quantity::work(declaration.name.origin, none));
-    model.quantities = work.into_iter().chain(observables).collect();
+    let inputs = shared::recorded(declaration, &mut model.graph);
+    let recorded = observables.into_iter().chain(inputs);
+    model.quantities = work.into_iter().chain(recorded).collect();
+    model.inputs = held::inputs(declaration);
     for quantity in &model.quantities {
         // a Casimir of a site has columns of its own
         let of_casimir = STATISTICS
@@ -281,6 +290,9 @@ fn summed(
     for (number, name) in collected.data.iter().enumerate() {
         environment.bind_symbol(name, data_symbol(number));
     }
+    for (number, name) in known.shared.iter().enumerate() {
+        environment.bind_symbol(name, shared_symbol(number));
+    }
     if known.has_bonds {
         for (place, name) in collected.other.iter().enumerate() {
             environment.bind_symbol(name, known.bond_symbol(place));
@@ -334,6 +346,7 @@ fn summed(
         false => None,
     };
     let graph = &mut model.graph;
+    let time_slope = shared::time_slope(graph, energy, first, &mut sums);
     let moving = sums.iter().filter(|sum| sum.moves);
     let mut of_summands = moving.map(|s| degree::degree(graph, s.summand));
     let inner = of_summands.try_fold(0, |most: u32, degree| Some(most.max(degree?)));
@@ -342,7 +355,9 @@ fn summed(
     let family = Family {
         sums,
         energy,
-        degree,
+        time_slope,
+        // with the time among the coordinates it is no polynomial of a degree that somebody asks for
+        degree: degree.filter(|_| time_slope.is_none()),
         ..known
     };
     Some((family, driving, observables))

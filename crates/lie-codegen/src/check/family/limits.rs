@@ -30,11 +30,6 @@ pub fn violations(declaration: &Declaration, family: &Family) -> Vec<Diagnostic>
         let message = "the group elements of the sites of a family are not followed";
         refuse(attitude.origin, message, "remove `attitude`");
     }
-    if let Some(input) = declaration.inputs.first() {
-        let message = "a family has no inputs";
-        let help = "remove them, or declare the sites as one system: `so(3)^3` without an index in the state";
-        refuse(input.name.origin, message, help);
-    }
     let mut dissipation = declaration.dissipation.iter();
     let metriplectic = |d: &&Dissipation| matches!(d.kind, DissipationKind::Metriplectic { .. });
     if let Some(entry) = dissipation.find(metriplectic) {
@@ -61,12 +56,14 @@ pub fn violations(declaration: &Declaration, family: &Family) -> Vec<Diagnostic>
         let parameters = declaration.parameters.iter().map(|p| &p.name);
         let lets = declaration.lets.iter().map(|(name, _)| name);
         let data = family.data.iter().map(|data| &data.name);
+        let inputs = declaration.inputs.iter().map(|input| &input.name);
         let mut names = declaration
             .state
             .iter()
             .chain(parameters)
             .chain(lets)
-            .chain(data);
+            .chain(data)
+            .chain(inputs);
         if let Some(name) = names.find(|name| name.text == "value") {
             let message = "`value` is the number of a bond in sums over bonds";
             refuse(name.origin, message, "choose another name");

@@ -6,5 +6,6 @@ mod bounds;
 pub mod coupling;
 pub mod limits;
 mod parts;
+mod shared;
 pub mod sites;
 mod sums;

@@ -68,6 +68,7 @@ pub fn sites(
         forces: Vec::new(),
         dissipation: Vec::new(),
         noise: Vec::new(),
+        inputs: Vec::new(),
         observables: Vec::new(),
         lets: Vec::new(),
         methods: Vec::new(),

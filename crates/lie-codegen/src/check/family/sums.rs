@@ -267,7 +267,9 @@ impl<'a> Sums<'a> {
         let parameters = declaration.parameters.iter().map(|p| &p.name);
         let parameters = parameters.chain(self.family.data.iter().map(|data| &data.name));
         let lets = declaration.lets.iter().map(|(name, _)| name);
-        let taken = declaration.state.iter().chain(parameters).chain(lets);
+        let inputs = declaration.inputs.iter().map(|input| &input.name);
+        let taken = declaration.state.iter().chain(parameters);
+        let taken = taken.chain(lets).chain(inputs);
         if taken.clone().any(|name| name.text == index.text) {
             let message = format!("the index `{}` is the name of something else", index.text);
             let is_taken = |free: &&str| taken.clone().any(|name| name.text == **free);

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::{Data, Family, FamilyForm, FamilyPiece, FamilyPieces, SiteCasimir, Sum};
 use crate::derive::{Argument, Kernel, Source, action};
-use crate::model::{self, data_symbol};
+use crate::model::{self, data_symbol, shared_symbol};
 use crate::plan::constants::Table;
 use crate::plan::function::Function;
 use crate::plan::planner::{Planner, described};
@@ -71,7 +71,10 @@ impl<'p, 'm> Derivation<'p, 'm> {
             },
             Argument {
                 name: "weights",
-                symbols: sums.map(Symbol::Coordinate).collect(),
+                symbols: sums
+                    .map(Symbol::Coordinate)
+                    .chain((0..self.family.shared.len()).map(shared_symbol))
+                    .collect(),
             },
         ]
     }
@@ -157,6 +160,7 @@ impl<'p, 'm> Derivation<'p, 'm> {
         let formula = "`H = F(T_1, …)`, a function of the sums over all sites";
         let energy = Kernel::scalar("energy", formula, self.at().to_vec(), energy);
         let energy = self.function("energy", &energy);
+        let time_slope = self.time_slope();
         let mean = self.mean.clone();
         let formula = ("weights", "`out_k = dF/dT_k`");
         let at = self.at().to_vec();
@@ -201,6 +205,9 @@ impl<'p, 'm> Derivation<'p, 'm> {
                     spans: sum.spans,
                 })
                 .collect(),
+            timed: family.timed,
+            shared: family.shared.len(),
+            inputs: self.inputs(),
             bonds,
             mean_field,
             degree: family.degree,
@@ -210,6 +217,7 @@ impl<'p, 'm> Derivation<'p, 'm> {
             slopes,
             summands,
             energy,
+            time_slope,
             weights,
             observables,
             ad,

@@ -34,6 +34,12 @@ pub struct Family {
     pub data_places: Vec<[usize; 2]>,
     /// The sums.
     pub sums: Vec<Sum>,
+    /// Whether a state carries the time.
+    pub timed: bool,
+    /// How many numbers all sites share, behind the sums: the time and the inputs, or none.
+    pub shared: usize,
+    /// The inputs.
+    pub inputs: Vec<Input>,
     /// What a bond adds to sums and slopes; the last of `data` are the bonds then.
     pub bonds: Option<BondFunctions>,
     /// Whether some `dF/dT_k` depends on the state.
@@ -52,6 +58,8 @@ pub struct Family {
     pub summands: Function,
     /// H as a function of the sums.
     pub energy: Function,
+    /// `dH/dt` as a function of the sums, where H depends on the time.
+    pub time_slope: Option<Function>,
     /// `dF/dT_k` where they depend on the state.
     pub weights: Function,
     /// What is recorded of the sums.
@@ -66,6 +74,17 @@ pub struct Family {
     pub pieces: Option<FamilyPieces>,
 }
 
+/// What is set from outside, for all sites.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Input {
+    /// Its name.
+    pub name: String,
+    /// Its value where nobody sets it, by its bits.
+    pub default: u64,
+    /// The time from one sampling to the next, by its bits; every step where it is absent.
+    pub sampling: Option<u64>,
+}
+
 /// What acts on a site beside H.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Driven {
@@ -73,6 +92,8 @@ pub struct Driven {
     pub act: Function,
     /// Whether forces are among it.
     pub forced: bool,
+    /// Whether damping along orbits is.
+    pub damped: bool,
     /// The number of Wiener processes of a site.
     pub noises: usize,
 }
@@ -198,6 +219,7 @@ impl Family {
             .chain(self.driven.iter().map(|driven| &driven.act))
             .chain(self.slopes.iter().map(|(_, _, function)| function))
             .chain([&self.summands, &self.energy])
+            .chain(&self.time_slope)
             .chain(
                 self.bonds
                     .iter()
@@ -221,6 +243,11 @@ impl Family {
     /// The number of coordinates and coefficients in all slots together, and of rates of Wiener processes of the site.
     pub fn places(&self) -> usize {
         self.offsets.len() * self.coordinates.len() + self.data_places.len() + self.noises()
+    }
+
+    /// The number of sums, and of what all sites share behind them.
+    pub fn totals(&self) -> usize {
+        self.sums.len() + self.shared
     }
 
     /// The number of Wiener processes of a site.
@@ -263,6 +290,8 @@ pub(super) fn plan(structure: &Structure, family: &model::Family) -> Plan {
         )
         .chain((0..noises(structure)).map(|process| format!("_dw{process}")))
         .collect();
+    let shared = family.shared.iter();
+    names.shared = shared.map(|name| format!("_all_{name}")).collect();
     let mut planner = Planner {
         structure,
         source: Source::new(structure),
@@ -299,13 +328,13 @@ impl Planner<'_> {
             system: System {
                 hamiltonian_degree: family.degree,
                 poisson_degree: None,
-                autonomous: true,
+                autonomous: family.time_slope.is_none(),
                 clock: None,
                 joints: 0,
                 forced: false,
                 damped: false,
                 entropy: None,
-                inputs: Vec::new(),
+                inputs: family.inputs.iter().map(|input| input.sampling).collect(),
                 noises: 0,
                 casimirs: Vec::new(),
                 quantities: Vec::new(),

@@ -85,7 +85,7 @@ impl Derivation<'_, '_> {
         }
         motion.push(source.graph.as_written(driving.damping[n]));
         let tidy: Vec<ExprId> = motion.iter().map(|f| source.graph.tidy(*f)).collect();
-        let [at, _] = self.at();
+        let [at, weights] = self.at();
         let slope = Argument {
             name: "slope",
             symbols: slopes,
@@ -94,10 +94,13 @@ impl Derivation<'_, '_> {
             "act",
             "`mu_i' = ad*_xi mu_i + F`, from `dH/dmu_i`, and the power behind it",
         );
-        let act = self.vector("motion of a site", formula, vec![slope, at], &tidy);
+        let mut arguments = vec![slope, at];
+        arguments.extend(Some(weights).filter(|_| !family.shared.is_empty()));
+        let act = self.vector("motion of a site", formula, arguments, &tidy);
         let driven = Driven {
             act,
             forced: driving.is_forced(&structure.graph),
+            damped: driving.is_damped(&structure.graph),
             noises: driving.noises,
         };
         (Some(motion), Some(driven))

@@ -1,9 +1,10 @@
 //! What is derived of the sums beside H: what bonds add to them, and what is recorded of them.
 
 use super::derivation::Derivation;
-use super::{BondFunctions, Observed};
+use super::{BondFunctions, Input, Observed};
 use crate::derive::{Argument, Kernel};
 use crate::model::QuantityKind;
+use crate::plan::function::Function;
 use lie_symbolic::symbolic::{ExprId, Symbol};
 
 impl Derivation<'_, '_> {
@@ -48,6 +49,26 @@ impl Derivation<'_, '_> {
         let formula = ("bond_slopes", "`out = dH/dmu` at both sites of a bond");
         let slopes = self.vector("slopes of a bond", formula, arguments, &slopes);
         Some(BondFunctions { summands, slopes })
+    }
+
+    /// `dH/dt`.
+    pub(super) fn time_slope(&mut self) -> Option<Function> {
+        let slope = self.family.time_slope?;
+        let slope = self.planner.source.graph.as_written(slope);
+        let formula = "`dH/dt`, a function of the sums over all sites";
+        let kernel = Kernel::scalar("time_slope", formula, self.at().to_vec(), slope);
+        Some(self.function("derivative of H by the time", &kernel))
+    }
+
+    /// What is set from outside.
+    pub(super) fn inputs(&self) -> Vec<Input> {
+        let inputs = self.planner.structure.inputs.iter();
+        let inputs = inputs.map(|input| Input {
+            name: input.name.clone(),
+            default: input.default.to_bits(),
+            sampling: input.sampling.map(f64::to_bits),
+        });
+        inputs.collect()
     }
 
     /// What is recorded of the sums.

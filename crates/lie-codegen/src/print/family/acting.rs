@@ -24,6 +24,14 @@ impl Printer<'_> {
                     }
                 }
             });
+            // of those that are not forced it is said that they are damped
+            let damped = (!forced && !driven.damped).then(|| {
+                quote! {
+                    fn is_damped(&self) -> bool {
+                        false
+                    }
+                }
+            });
             quote! {
                 fn acts(&self) -> bool {
                     true
@@ -32,6 +40,8 @@ impl Printer<'_> {
                 fn is_forced(&self) -> bool {
                     #forced
                 }
+
+                #damped
 
                 fn noise_count(&self) -> usize {
                     #noises
@@ -63,6 +73,12 @@ impl Printer<'_> {
         };
         let (field, act) = (both(&family.field), both(&driven.act));
         let of_act = self.docs(&driven.act);
+        let act = match family.shared {
+            0 => quote! { fn act(&self, _slope: &[S; #c], #at) -> ([S; #c], S) { #act } },
+            _ => quote! {
+                fn shared_act(&self, _slope: &[S; #c], #at, #weights) -> ([S; #c], S) { #act }
+            },
+        };
         quote! {
             #[inline(always)]
             fn field(&self, _at: &[S; #p], _weights: &[S; #t]) -> [S; #c] { self.driven(_at, _weights).0 }
@@ -72,7 +88,7 @@ impl Printer<'_> {
             fn driven(&self, #at, #weights) -> ([S; #c], S) { #field }
 
             #of_act
-            fn act(&self, _slope: &[S; #c], #at) -> ([S; #c], S) { #act }
+            #act
         }
     }
 
@@ -82,19 +98,30 @@ impl Printer<'_> {
         let bonds = family.bonds.as_ref()?;
         let field = self.data_fields().pop()?;
         let (one, other) = (quote! { _one: &[S; #c] }, quote! { _other: &[S; #c] });
-        let summands = self.kernel(&bonds.summands, family.sums.len());
+        let summands = self.kernel(&bonds.summands, family.totals());
         let slopes = self.kernel(&bonds.slopes, 2 * size);
         let names: Vec<_> = (0..2 * size).map(|k| ident(&format!("_f{k}"))).collect();
         let (first, second) = names.split_at(size);
         // a kernel takes its arguments as arrays
         let value = quote! { let _value = &[_value]; };
+        let summands = match family.shared {
+            0 => quote! {
+                fn bond_summands(&self, #one, #other, _value: S) -> [S; #t] { #value #summands }
+            },
+            _ => quote! {
+                fn shared_bond_summands(&self, #one, #other, _value: S, _weights: &[S; #t]) -> [S; #t] {
+                    #value
+                    #summands
+                }
+            },
+        };
         Some(quote! {
             fn bonds(&self) -> &[S] {
                 &self.#field
             }
 
             #[inline]
-            fn bond_summands(&self, #one, #other, _value: S) -> [S; #t] { #value #summands }
+            #summands
 
             #[inline]
             fn bond_slopes(&self, #one, #other, _value: S, _weights: &[S; #t]) -> [[S; #c]; 2] {

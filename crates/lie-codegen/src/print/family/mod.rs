@@ -2,6 +2,7 @@
 
 mod acting;
 mod pieces;
+mod shared;
 
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
@@ -29,7 +30,7 @@ impl Printer<'_> {
 
     /// The numbers of coordinates of a site and of all slots, and of sums.
     fn counts(&self, family: &Family) -> [Literal; 3] {
-        [family.coordinates.len(), family.places(), family.sums.len()].map(index)
+        [family.coordinates.len(), family.places(), family.totals()].map(index)
     }
 
     /// The type of the system, and how it is made.
@@ -53,9 +54,9 @@ impl Printer<'_> {
         let initial = family.seed.map(|seed| {
             let seed = Literal::u64_unsuffixed(seed);
             let sites = quote! { ::lie_runtime::family::unit_spheres(rows * columns, #c, #seed) };
-            let state = match &family.driven {
-                Some(_) => quote! { self.system()?.state(#sites) },
-                None => sites,
+            let state = match family.timed {
+                true => quote! { self.system()?.state(#sites) },
+                false => sites,
             };
             quote! {
                 #[doc = " The initial state of the declaration: a point on the unit sphere for each site, at random."]
@@ -101,13 +102,13 @@ impl Printer<'_> {
         let sites = self.system_name();
         let [c, p, t] = self.counts(family);
         let facts = self.facts_of_sites(family);
-        let at = quote! { _at: &[S; #p] };
         let vector = quote! { [S; #c] };
         let field = self.field_of_site(family);
         let slopes = self.slopes_of_sums(family);
-        let summands = self.kernel(&family.summands, family.sums.len());
+        let summands = self.summands_of_site(family);
         let energy = self.kernel(&family.energy, 1);
-        let of_sums = self.kernel(&family.weights, family.sums.len());
+        let time_slope = self.time_slope(family);
+        let of_sums = self.kernel(&family.weights, family.totals());
         let observables = self.observables_of_sums(family);
         let bonds = self.bonds_of_family(family);
         let ad = self.kernel(&family.ad, family.coordinates.len());
@@ -132,10 +133,12 @@ impl Printer<'_> {
 
                 #of_summands
                 #[inline(always)]
-                fn summands(&self, #at) -> [S; #t] { #summands }
+                #summands
 
                 #of_energy
                 fn energy(&self, _weights: &[S; #t]) -> S { #energy }
+
+                #time_slope
 
                 fn weights(&self, _weights: &[S; #t]) -> [S; #t] { #of_sums }
 
@@ -164,7 +167,8 @@ impl Printer<'_> {
 
     /// What the family says of itself.
     fn facts_of_sites(&self, family: &Family) -> TokenStream {
-        let [c, _, t] = self.counts(family);
+        let [c, ..] = self.counts(family);
+        let t = index(family.sums.len());
         let name = &self.plan.names.system;
         let offsets = family.offsets.iter().map(|distance| {
             let [down, right] = distance.map(Literal::i64_unsuffixed);
@@ -214,6 +218,7 @@ impl Printer<'_> {
         let degrees = family.casimirs.iter().map(|casimir| casimir.degree);
         let degrees = by_place(degrees.map(option));
         let acting = self.facts_of_acting(family);
+        let shared = self.facts_of_shared(family);
         quote! {
             fn name(&self) -> &str {
                 #name
@@ -246,6 +251,8 @@ impl Printer<'_> {
             #data
 
             #acting
+
+            #shared
 
             fn has_mean_field(&self) -> bool {
                 #mean

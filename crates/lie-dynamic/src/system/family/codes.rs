@@ -17,6 +17,7 @@ pub struct Codes {
     pub slopes: HashMap<(usize, usize), usize>,
     pub summands: usize,
     pub energy: usize,
+    pub time_slope: Option<usize>,
     pub weights: usize,
     pub observables: Vec<usize>,
     /// What a bond adds to sums and to slopes.
@@ -65,7 +66,7 @@ fn offset(offset: [i64; 2]) -> [isize; 2] {
 
 impl Codes {
     pub fn new(family: &Family, making: &mut CodeBuilder) -> Self {
-        let (site, sums) = (family.coordinates.len(), family.sums.len());
+        let (site, sums) = (family.coordinates.len(), family.totals());
         let mut kernel =
             |function: &Function, count| making.push(Code::from_kernel(function, count));
         let slopes = family.slopes.iter();
@@ -83,6 +84,7 @@ impl Codes {
         let [summands, weights] =
             [&family.summands, &family.weights].map(|function| kernel(function, sums));
         let energy = kernel(&family.energy, 1);
+        let time_slope = family.time_slope.as_ref().map(|slope| kernel(slope, 1));
         let bonds = family.bonds.as_ref();
         let bonds = bonds.map(|of| [kernel(&of.summands, sums), kernel(&of.slopes, 2 * site)]);
         let observables = family.observables.iter();
@@ -136,6 +138,7 @@ impl Codes {
             slopes,
             summands,
             energy,
+            time_slope,
             observables,
             bonds,
             weights,

@@ -100,8 +100,10 @@ impl<S: Scalar> FamilySite<S> {
     }
 
     /// What a kernel gives: a vector, and the power behind it.
-    fn with_power(&self, code: usize, arguments: [&[S]; 2]) -> (FewOf<S>, S) {
-        let mut all = self.vector(code, arguments, self.plan().coordinates.len() + 1);
+    fn with_power(&self, code: usize, arguments: [&[S]; ARGUMENTS]) -> (FewOf<S>, S) {
+        let mut all = zeros(self.plan().coordinates.len() + 1);
+        let frame = self.values.frame(arguments, &[], &[]);
+        self.values.run(code, &frame, [&mut all, &mut []]);
         let power = all.pop().unwrap_or(S::zero());
         (all, power)
     }
@@ -192,8 +194,30 @@ impl<S: Scalar> Sites<S> for FamilySite<S> {
             .as_ref()
             .is_some_and(|driven| driven.forced)
     }
+    fn is_damped(&self) -> bool {
+        let driven = self.plan().driven.as_ref();
+        driven.is_some_and(|driven| driven.damped && !driven.forced)
+    }
     fn noise_count(&self) -> usize {
         self.plan().noises()
+    }
+    fn is_timed(&self) -> bool {
+        self.plan().timed
+    }
+    fn is_autonomous(&self) -> bool {
+        self.plan().time_slope.is_none()
+    }
+    fn shared_count(&self) -> usize {
+        self.plan().shared
+    }
+    fn input_name(&self, index: usize) -> &str {
+        &self.plan().inputs[index].name
+    }
+    fn input_default(&self, index: usize) -> S {
+        S::from_f64(f64::from_bits(self.plan().inputs[index].default))
+    }
+    fn input_sampling(&self, index: usize) -> Option<f64> {
+        self.plan().inputs[index].sampling.map(f64::from_bits)
     }
 
     fn field(&self, at: &FewOf<S>, weights: &FewOf<S>) -> FewOf<S> {
@@ -203,11 +227,11 @@ impl<S: Scalar> Sites<S> for FamilySite<S> {
         }
     }
     fn driven(&self, at: &FewOf<S>, weights: &FewOf<S>) -> (FewOf<S>, S) {
-        self.with_power(self.codes().field, [at, weights])
+        self.with_power(self.codes().field, [at, weights, &[], &[]])
     }
-    fn act(&self, slope: &FewOf<S>, at: &FewOf<S>) -> (FewOf<S>, S) {
+    fn shared_act(&self, slope: &FewOf<S>, at: &FewOf<S>, shared: &FewOf<S>) -> (FewOf<S>, S) {
         match self.codes().act {
-            Some(code) => self.with_power(code, [slope, at]),
+            Some(code) => self.with_power(code, [slope, at, shared, &[]]),
             None => unreachable!("nothing acts beside H"),
         }
     }
@@ -217,14 +241,19 @@ impl<S: Scalar> Sites<S> for FamilySite<S> {
             None => zeros(self.dimension()),
         }
     }
-    fn summands(&self, at: &FewOf<S>) -> FewOf<S> {
-        self.vector(self.codes().summands, [at, &[]], self.count())
+    fn shared_summands(&self, at: &FewOf<S>, shared: &FewOf<S>) -> FewOf<S> {
+        self.vector(self.codes().summands, [at, shared], self.plan().totals())
+    }
+    fn time_slope(&self, totals: &FewOf<S>) -> S {
+        let code = self.codes().time_slope;
+        code.map_or(S::zero(), |code| self.values.number(code, [&[], totals]))
     }
     fn energy(&self, totals: &FewOf<S>) -> S {
         self.values.number(self.codes().energy, [&[], totals])
     }
     fn weights(&self, totals: &FewOf<S>) -> FewOf<S> {
-        self.vector(self.codes().weights, [&[], totals], self.count())
+        let count = self.plan().totals();
+        self.vector(self.codes().weights, [&[], totals], count)
     }
 
     fn bonds(&self) -> &[S] {
@@ -233,8 +262,15 @@ impl<S: Scalar> Sites<S> for FamilySite<S> {
             _ => &[],
         }
     }
-    fn bond_summands(&self, one: &FewOf<S>, other: &FewOf<S>, value: S) -> FewOf<S> {
-        self.of_bond(0, [one, &[], other, &[value]], self.count())
+    fn shared_bond_summands(
+        &self,
+        one: &FewOf<S>,
+        other: &FewOf<S>,
+        value: S,
+        shared: &FewOf<S>,
+    ) -> FewOf<S> {
+        let count = self.plan().totals();
+        self.of_bond(0, [one, shared, other, &[value]], count)
     }
     fn bond_slopes(
         &self,
@@ -303,11 +339,11 @@ impl<S: Scalar> Sites<S> for FamilySite<S> {
         powers.iter().fold(S::zero(), |sum, power| sum + *power)
     }
 
-    fn sum(&self, stretch: &Stretch<'_, S>) -> FewOf<S> {
-        let (count, places) = (self.count(), stretch.len());
+    fn sum(&self, stretch: &Stretch<'_, S>, shared: &FewOf<S>) -> FewOf<S> {
+        let (count, places) = (self.plan().totals(), stretch.len());
         let mut summands: SmallVec<[S; MANY]> = smallvec![S::zero(); count * places];
         let mut to: FewOf<&mut [S]> = summands.chunks_exact_mut(places.max(1)).collect();
-        self.along(self.codes().summands, stretch, &[], &mut to);
+        self.along(self.codes().summands, stretch, shared, &mut to);
         drop(to);
         // one after the other, as the loop over sites adds them
         Few::make(count, |k| {
