@@ -43,30 +43,39 @@ impl<S: Scalar> GroupMatrix<S> {
 
     pub(super) fn times(&self, other: &Self) -> Self {
         let mut product = Self::zero(self.size);
-        for row in 0..self.size {
-            for k in 0..self.size {
-                let entry = self.at(row, k);
-                for column in 0..self.size {
-                    product.entries[row * self.size + column] += entry * other.at(k, column);
-                }
-            }
-        }
+        product.set_product(self, other);
         product
     }
 
-    fn scaled(&self, factor: S) -> Self {
-        let entries = self.entries.iter().map(|&entry| factor * entry).collect();
-        Self {
-            size: self.size,
-            entries,
+    /// `A B`, in the place of what was here.
+    fn set_product(&mut self, a: &Self, b: &Self) {
+        let size = self.size;
+        let rows = self.entries.chunks_exact_mut(size);
+        for (out, row) in rows.zip(a.entries.chunks_exact(size)) {
+            out.fill(S::zero());
+            for (&entry, others) in row.iter().zip(b.entries.chunks_exact(size)) {
+                for (sum, &other) in out.iter_mut().zip(others) {
+                    *sum += entry * other;
+                }
+            }
         }
     }
 
-    fn plus(&self, other: &Self) -> Self {
-        let pairs = self.entries.iter().zip(&other.entries);
-        Self {
-            size: self.size,
-            entries: pairs.map(|(&a, &b)| a + b).collect(),
+    fn scale(&mut self, factor: S) {
+        for entry in &mut self.entries {
+            *entry = factor * *entry;
+        }
+    }
+
+    fn add(&mut self, other: &Self) {
+        for (entry, &other) in self.entries.iter_mut().zip(&other.entries) {
+            *entry += other;
+        }
+    }
+
+    fn add_identity(&mut self) {
+        for k in 0..self.size {
+            self.entries[k * self.size + k] += S::one();
         }
     }
 
@@ -91,13 +100,16 @@ impl<S: Scalar> GroupMatrix<S> {
                 correction.set_at(row, column, (identity - sum) * S::ratio(1.0, 2.0));
             }
         }
-        *self = self.plus(&self.times(&correction));
+        let product = self.times(&correction);
+        self.add(&product);
     }
 
     /// The inverse of a matrix near 1; not a number where a pivot is small.
     pub(super) fn inverse(&self) -> Self {
         let Some(columns) = self.clone().solve_identities(self.size) else {
-            return Self::identity(self.size).scaled(S::from_f64(f64::NAN));
+            let mut none = Self::identity(self.size);
+            none.scale(S::from_f64(f64::NAN));
+            return none;
         };
         let mut inverse = Self::zero(self.size);
         for (column, values) in columns.iter().enumerate() {
@@ -148,31 +160,40 @@ pub(super) fn exponential<S: Scalar>(matrix: &GroupMatrix<S>) -> GroupMatrix<S> 
         factor *= 0.5;
         halvings += 1;
     }
-    let small = matrix.scaled(S::from_f64(factor));
+    let mut small = matrix.clone();
+    small.scale(S::from_f64(factor));
     // exp A - 1, so that the squares of what is near 1 keep their digits: (1 + D)^2 - 1 = 2 D + D^2
     let mut rest = small.clone();
     let mut term = small.clone();
+    let mut product = small.clone();
     let bound = small.norm() * largest(S::epsilon()) / 8.0;
     for k in 2..30 {
-        term = term.times(&small).scaled(S::ratio(1.0, f64::from(k)));
-        rest = rest.plus(&term);
+        product.set_product(&term, &small);
+        core::mem::swap(&mut term, &mut product);
+        term.scale(S::ratio(1.0, f64::from(k)));
+        rest.add(&term);
         if term.norm() <= bound {
             break;
         }
     }
     for _ in 0..halvings {
-        rest = rest.plus(&rest).plus(&rest.times(&rest));
+        product.set_product(&rest, &rest);
+        rest.scale(S::ratio(2.0, 1.0));
+        rest.add(&product);
     }
-    rest.plus(&GroupMatrix::identity(matrix.size))
+    rest.add_identity();
+    rest
 }
 
 /// The Cayley map `(1 - A/2)^-1 (1 + A/2)`; not a number where a pivot is small.
 pub(super) fn rational<S: Scalar>(matrix: &GroupMatrix<S>) -> GroupMatrix<S> {
-    let size = matrix.size;
-    let half = matrix.scaled(S::ratio(1.0, 2.0));
-    let left = GroupMatrix::identity(size).plus(&half.scaled(-S::one()));
-    left.inverse()
-        .times(&GroupMatrix::identity(size).plus(&half))
+    let mut right = matrix.clone();
+    right.scale(S::ratio(1.0, 2.0));
+    let mut left = right.clone();
+    left.scale(-S::one());
+    left.add_identity();
+    right.add_identity();
+    left.inverse().times(&right)
 }
 
 #[cfg(test)]
