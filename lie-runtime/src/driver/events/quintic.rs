@@ -104,6 +104,8 @@ impl<'a, S: Scalar, P: Poisson<S>> Quintic<'a, S, P> {
             }
             known.push((part(place), value));
         }
+        // a dip is on either side of its lowest sample
+        known.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut guesses = Vec::new();
         let mut before: Option<(f64, f64)> = None;
         for (part, value) in known {
