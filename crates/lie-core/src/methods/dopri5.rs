@@ -17,6 +17,7 @@
 //! edition, Springer 1993, sections II.4 and IV.2,
 //! [doi:10.1007/978-3-540-78862-1](https://doi.org/10.1007/978-3-540-78862-1).
 
+mod progress;
 mod tableau;
 
 use super::explicit::direction;
@@ -31,6 +32,7 @@ use crate::newton::{FailureReason, NewtonOptions};
 use crate::poisson::Poisson;
 use crate::scalar::{Mask, Scalar};
 use crate::state::{State, Unknown};
+use progress::Progress;
 use tableau::{A, ERROR};
 
 /// Attempts within one step of the grid after which it has failed.
@@ -276,49 +278,6 @@ impl<S: Scalar, P: Poisson<S>> Dopri5Stepper<'_, S, P> {
             minimum(divisor, S::from_f64(5.0)),
             S::from_f64(10.0),
         )
-    }
-}
-
-/// How far a step of the grid has come.
-struct Progress<S: Scalar> {
-    /// What is behind, of the length of the step.
-    covered: S,
-    /// Lanes that have neither arrived nor failed.
-    active: S::Mask,
-    after_rejection: S::Mask,
-    report: StepReport,
-    failure: Option<StepFailure>,
-}
-
-impl<S: Scalar> Progress<S> {
-    /// In no lane.
-    fn none() -> Self {
-        Self {
-            covered: S::zero(),
-            active: S::Mask::splat(false),
-            after_rejection: S::Mask::splat(false),
-            report: StepReport::default(),
-            failure: None,
-        }
-    }
-
-    /// Lanes go no further.
-    fn fail(&mut self, reason: FailureReason, lanes: S::Mask) {
-        if !lanes.any() {
-            return;
-        }
-        let failed = StepFailure {
-            reason,
-            lanes: 0,
-            report: self.report,
-        };
-        self.failure.get_or_insert(failed).lanes |= lanes.bits();
-        self.active = self.active & !lanes;
-    }
-
-    /// The lanes that have failed.
-    fn failed(&self) -> S::Mask {
-        S::Mask::from_bits(self.failure.map_or(0, |failure| failure.lanes))
     }
 }
 
