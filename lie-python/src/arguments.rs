@@ -79,13 +79,13 @@ fn source(declaration: &Declaration, value: &Bound<'_, PyAny>) -> PyResult<Sourc
             values: values.into(),
         });
     }
-    let model = declaration.spec().model.model.clone();
+    let spec = declaration.spec();
     let shown = declaration.facts.shown.clone();
     let function: Py<PyAny> = value.clone().unbind();
     let controller: Controller = Arc::new(move |time, state, element| {
         Python::attach(|py| {
-            let state: Vec<f64> = match model.family {
-                Some(_) => model.of_sites(state).to_vec(),
+            let state: Vec<f64> = match spec.model.family {
+                Some(_) => spec.model.of_sites(state).to_vec(),
                 None => shown.iter().map(|place| state[*place]).collect(),
             };
             let element = (!element.is_empty()).then(|| element.to_vec().into_pyarray(py));

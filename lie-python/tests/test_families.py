@@ -167,3 +167,32 @@ def test_bonds_between_any_two_sites() -> None:
         lp.System(**{**RING, "bonds": [[0, 12, 1]], "hamiltonian": "sum(bonds: value*x[i]*x[j])"})
     with pytest.raises(ValueError, match="joins the sites"):
         by_bonds.run("gauss8", h=0.1, t=1, N=5)
+
+
+def test_inputs_are_for_all_sites() -> None:
+    driven = lp.System(
+        **{
+            **RING,
+            "inputs": {"u": {"default": 0, "sampling": 0.1}},
+            "noise": [{"force": {"x[i]": "0*x[i]"}}],
+            "hamiltonian": "-sum(i in 0..N: x[i]*x[i+1] + z[i]*z[i+1]) - sum(i in 0..N: (u + cos(t))*z[i])",
+        }
+    )
+    assert driven.inputs == ["u"]
+    seen: list[tuple[float, tuple[int, ...]]] = []
+
+    def along(t: float, mu: np.ndarray, g: np.ndarray | None) -> float:
+        seen.append((t, mu.shape))
+        return float(-mu[24:].mean())
+
+    run = driven.run("gauss8", h=0.05, t=1, inputs={"u": along})
+    # what the function sees is the state of the sites, without what is carried beside them
+    assert {shape for _, shape in seen} == {(36,)} and run.mu.shape == (21, 36)
+    sampled = run.sites[::2, :, 2].mean(axis=1)
+    assert np.allclose(run["u"][::2], -sampled, atol=1e-15) and abs(sampled).max() > 1e-3
+    again = driven.run("gauss8", h=0.05, t=1, inputs={"u": [run.t[::2], run["u"][::2]]})
+    assert np.allclose(again.mu, run.mu, atol=1e-13)
+    balance = run.energy - run["work"]
+    assert abs(balance - balance[0]).max() < 1e-12 < abs(run["work"]).max()
+    plain = driven.run("gauss8", h=0.05, t=1)
+    assert abs(plain.mu - run.mu).max() > 1e-3
