@@ -200,13 +200,13 @@ fn lagrangian(model: &Model, choice: &Choice) -> Option<(String, String)> {
 fn bracket(model: &Model, choice: &Choice) -> Option<(String, String)> {
     let method = choice.entry().filter(|method| method.needs_algebra())?;
     let nearest = match method.order {
-        1 | 2 => "`midpoint` or `gonzalez`",
-        3 | 4 => "`gauss4` or `cohen-hairer4`",
+        1 | 2 => "`orbit-energy`, which keeps the Casimirs and the energy, or `midpoint`",
+        3 | 4 => "`compose4(orbit-energy)`, which keeps the Casimirs and the energy, or `gauss4`",
         5 | 6 => "`gauss6` or `cohen-hairer6`",
         7 | 8 => "`gauss8` or `cohen-hairer8`",
         _ => "`gauss16` or `cohen-hairer16`",
     };
-    let apply = format!("use {nearest}, which apply to every Poisson bracket");
+    let apply = format!("use {nearest}: both apply to every Poisson bracket");
     match model.bracket {
         Bracket::Lie(_) => None,
         Bracket::General(_) => Some((

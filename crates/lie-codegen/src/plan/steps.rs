@@ -131,7 +131,9 @@ impl Planner<'_> {
             // without a closed form an elimination of its own saves under 3% beside the series of the exponential
             Choice::LieMidpoint(Retraction::Exp) => self.exp(),
             Choice::DiscreteGradient(gradient, _) => Some(self.discrete_gradient(*gradient)),
-            Choice::OrbitEnergy(gradient) => Some(self.orbit_energy(*gradient)),
+            Choice::OrbitEnergy(gradient) if self.source.is_lie() => {
+                Some(self.orbit_energy(*gradient))
+            }
             Choice::CohenHairer(order) => Some(self.cohen_hairer(*order as usize / 2)),
             Choice::Generating(_, Retraction::Cayley) => self.cayley_generating(),
             Choice::Generating(order, Retraction::Exp) => self.generating(*order),

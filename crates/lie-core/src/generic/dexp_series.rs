@@ -19,9 +19,8 @@ const MAX_RISE: f64 = 1_048_576.0;
 pub(super) fn dexp_of_minus<S: Scalar, P: LiePoisson<S>>(
     system: &P,
     x: &P::State,
-    columns: &mut [P::State; 3],
+    [sum, term, next]: [&mut P::State; 3],
 ) -> S::Mask {
-    let [sum, term, next] = columns;
     let size = sum.max_norm();
     let end = size * S::from_f64(TOLERANCE);
     let mut active = !end.less_equal(S::zero());

@@ -94,7 +94,7 @@ impl<V, M> MidpointForce<V, M> {
         let [turn, ..] = &mut self.columns;
         turn.fill(S::zero());
         turn.axpy(-S::ratio(1.0, 2.0), along);
-        let kept = dexp_of_minus(system, half, &mut self.columns);
+        let kept = dexp_of_minus(system, half, self.columns.each_mut());
         let [turn, ..] = &mut self.columns;
         for entry in turn.as_mut_slice() {
             *entry = S::select(kept, *entry, S::zero());

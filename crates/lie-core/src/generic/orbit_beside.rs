@@ -1,8 +1,8 @@
 //! Forces and damping of the method that keeps orbit and energy.
 
 use super::beside::Beside;
-use super::series::{Scratch, phi1_in};
-use crate::poisson::LiePoisson;
+use super::motion::Motion;
+use crate::poisson::Poisson;
 use crate::scalar::{Mask, Scalar};
 use crate::state::State;
 
@@ -13,9 +13,9 @@ const CLOSE: f64 = 8.0;
 
 /// Half of the force before the motion and half after it, and a direction that damps.
 ///
-/// `y = mu + (h/2) F` moves by `exp(ad*_x)`, with `x = h (g + c G v)`, `v = ad*_g phi1(ad*_x) y`: the mean of the motion along g on
-/// the way. As `y1 - y = ad*_x phi1(ad*_x) y`, H changes by `h <F, g> - h c <v, G v>`. The direction stands on both sides; it is found by
-/// iteration from `h g`, which contracts by a factor of the size of `h^2 c`.
+/// `y = mu + (h/2) F` moves along `x = h (g + c G v)`, with the mean `v` of `Pi(y) g` on the way; of a Lie algebra it is
+/// `ad*_g phi1(ad*_x) y`. As `y1 - y` is that mean of x, H changes by `h <F, g> - h c <v, G v>`. The direction stands on both sides; it is
+/// found by iteration from `h g`, which contracts by a factor of the size of `h^2 c`.
 #[derive(Debug)]
 pub(super) struct OrbitBeside<S: Scalar, V, M> {
     pub(super) beside: Beside<V, M>,
@@ -23,10 +23,8 @@ pub(super) struct OrbitBeside<S: Scalar, V, M> {
     pub(super) gradient: V,
     /// `mu + (h/2) F`
     pub(super) pushed: V,
-    /// `phi1(ad*_x) y`
-    pub(super) mean: V,
     /// v
-    motion: V,
+    velocity: V,
     /// The lanes in which the direction was found.
     settled: S::Mask,
 }
@@ -35,15 +33,14 @@ impl<S: Scalar, V: State<S>, M> OrbitBeside<S, V, M> {
     /// The space of a system.
     pub(super) fn new<P>(system: &P) -> Self
     where
-        P: LiePoisson<S, State = V, Jacobian = M>,
+        P: Poisson<S, State = V, Jacobian = M>,
     {
         let zero = system.zero_state();
         Self {
             beside: Beside::new(system),
             gradient: zero.clone(),
             pushed: zero.clone(),
-            mean: zero.clone(),
-            motion: zero,
+            velocity: zero,
             settled: S::Mask::splat(true),
         }
     }
@@ -55,9 +52,9 @@ impl<S: Scalar, V: State<S>, M> OrbitBeside<S, V, M> {
         h: S,
         [mu, unknown]: [&V; 2],
         direction: &mut V,
-        scratch: &mut Scratch<V>,
+        motion: &mut impl Motion<S, P>,
     ) where
-        P: LiePoisson<S, State = V, Jacobian = M>,
+        P: Poisson<S, State = V, Jacobian = M>,
     {
         let half = h * S::ratio(1.0, 2.0);
         self.beside.set_middle(system, mu, unknown);
@@ -68,21 +65,21 @@ impl<S: Scalar, V: State<S>, M> OrbitBeside<S, V, M> {
             *entry *= h;
         }
         if system.is_damped() {
-            self.find(system, h, direction, scratch);
+            self.find(system, h, direction, motion);
         }
-        self.beside.balance(system, &self.gradient, &self.motion);
+        self.beside.balance(system, &self.gradient, &self.velocity);
         self.pushed.copy_from(mu);
         self.pushed.axpy(half, &self.beside.force);
     }
 
     /// Finds the direction of a damped step.
-    fn find<P>(&mut self, system: &P, h: S, direction: &mut V, scratch: &mut Scratch<V>)
+    fn find<P>(&mut self, system: &P, h: S, direction: &mut V, motion: &mut impl Motion<S, P>)
     where
-        P: LiePoisson<S, State = V, Jacobian = M>,
+        P: Poisson<S, State = V, Jacobian = M>,
     {
         self.settled = S::Mask::splat(false);
         for _ in 0..MOST {
-            self.set_motion(system, direction, scratch);
+            self.set_velocity(system, direction, motion);
             let mut change = S::zero();
             let new = self.gradient.as_slice().iter();
             let new = new.zip(self.beside.damping.as_slice());
@@ -98,17 +95,17 @@ impl<S: Scalar, V: State<S>, M> OrbitBeside<S, V, M> {
             }
         }
         // those of the direction that was found, in each lane
-        self.set_motion(system, direction, scratch);
+        self.set_velocity(system, direction, motion);
     }
 
-    /// Sets the mean on the way, v and what damps for a direction.
-    fn set_motion<P>(&mut self, system: &P, direction: &V, scratch: &mut Scratch<V>)
+    /// Sets v and what damps for a direction.
+    fn set_velocity<P>(&mut self, system: &P, direction: &V, motion: &mut impl Motion<S, P>)
     where
-        P: LiePoisson<S, State = V, Jacobian = M>,
+        P: Poisson<S, State = V, Jacobian = M>,
     {
-        phi1_in(system, direction, &self.pushed, &mut self.mean, scratch);
-        system.ad_star(&self.gradient, &self.mean, &mut self.motion);
-        self.beside.damp(system, &self.motion);
+        let ways = [direction, &self.pushed, &self.gradient];
+        motion.mean(system, ways, &mut self.velocity);
+        self.beside.damp(system, &self.velocity);
     }
 
     /// The lanes in which the direction was found.

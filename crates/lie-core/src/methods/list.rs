@@ -237,10 +237,10 @@ macro_rules! for_each_method {
             { "coordinate-increment discrete gradient" ANY DG
                 [DiscreteGradient(Gradient::ItohAbe, Tensor::Midpoint)] [ItohAbe] [ItohAbe] { [itoh_abe Any DiscreteGradientStep of ItohAbeGradient] }
                 [DiscreteGradient(Gradient::ItohAbe, Tensor::Mean)] [WithTensor<ItohAbe, MeanTensor>] [WithTensor::new(ItohAbe, MeanTensor)] {} }
-            { "orbit- and energy-preserving" ALGEBRA EF
-                [OrbitEnergy(Gradient::Gonzalez)] [OrbitEnergy<Gonzalez>] [OrbitEnergy::gonzalez()] { [orbit_gonzalez Algebra OrbitEnergyStep of GonzalezGradient] }
-                [OrbitEnergy(Gradient::MeanValue)] [OrbitEnergy<MeanValue>] [OrbitEnergy::mean_value()] { [orbit_mean_value Algebra OrbitEnergyStep of MeanValueGradient] }
-                [OrbitEnergy(Gradient::ItohAbe)] [OrbitEnergy<ItohAbe>] [OrbitEnergy::itoh_abe()] { [orbit_itoh_abe Algebra OrbitEnergyStep of ItohAbeGradient] } }
+            { "orbit- and energy-preserving" ANY EF
+                [OrbitEnergy(Gradient::Gonzalez)] [OrbitEnergy<Gonzalez>] [OrbitEnergy::gonzalez()] { [orbit_gonzalez Algebra OrbitEnergyStep of GonzalezGradient] [frozen_gonzalez Any FrozenStep of GonzalezGradient] }
+                [OrbitEnergy(Gradient::MeanValue)] [OrbitEnergy<MeanValue>] [OrbitEnergy::mean_value()] { [orbit_mean_value Algebra OrbitEnergyStep of MeanValueGradient] [frozen_mean_value Any FrozenStep of MeanValueGradient] }
+                [OrbitEnergy(Gradient::ItohAbe)] [OrbitEnergy<ItohAbe>] [OrbitEnergy::itoh_abe()] { [orbit_itoh_abe Algebra OrbitEnergyStep of ItohAbeGradient] [frozen_itoh_abe Any FrozenStep of ItohAbeGradient] } }
             { "energy-preserving collocation" ANY CH
                 [CohenHairer(2)] [CohenHairer2] [CohenHairer2::new()] { [cohen_hairer2 Any DiscreteGradientStep of MeanValueGradient] } }
             { "energy-preserving collocation" ANY CH

@@ -1,4 +1,4 @@
-//! Coadjoint motion along a discrete gradient: the orbit and the energy at once.
+//! Motion along a discrete gradient on the coadjoint orbit, or symplectic leaf: the orbit and the energy at once.
 //!
 //! ```math
 //! \mu_1 = \mathrm{Ad}^*_{\exp(h \xi)}\, \mu, \qquad \xi = \overline\nabla H(\mu, \mu_1)
@@ -15,9 +15,15 @@
 //! `$\xi = \overline\nabla H + c\, G\, v$`, `$v = \mathrm{ad}^*_{\overline\nabla H} \varphi_1(h\, \mathrm{ad}^*_\xi)(\mu + \tfrac h2 F)$`, with which H falls by
 //! `$h\, c\, \langle v, G v \rangle$` on the orbit, at any step. Both to round-off.
 //!
+//! On any other Poisson manifold the end of the flow of `$\dot y = \Pi(y)\, h \xi$` over unit time takes the place of the coadjoint action, with `$\xi$`
+//! held ([`FrozenFlow`](crate::generic::FrozenFlow)): it moves along the symplectic leaf, so that every Casimir is kept, and since
+//! `$\langle \xi, \Pi\, \xi \rangle = 0$` so is the energy, also where `$\Pi$` fails the Jacobi identity. Forces and damping act in the same way, with the
+//! mean of `$\Pi(y)\, \overline\nabla H$` on the way for v.
+//!
 //! The unknown is the new state: the round-off of a discrete gradient then enters multiplied by h.
 //!
-//! Needs: what the discrete gradient needs, ad and ad*; any [`LiePoisson`](crate::LiePoisson) system.
+//! Needs: what the discrete gradient needs, ad and ad* of an algebra, of other brackets the Poisson matrix and its derivative; any
+//! [`Poisson`](crate::Poisson) system.
 //!
 //! Reference: K. Engø, S. Faltinsen, "Numerical integration of Lie–Poisson systems while preserving
 //! coadjoint orbits and energy", SIAM Journal on Numerical Analysis 39 (2001) 128–145,

@@ -64,14 +64,22 @@ macro_rules! equations {
             }
         );
     };
-    // the gradient may have a closed form in the plan
-    (@row $choice:tt $type:tt [$key:ident $carrier:ident OrbitEnergyStep of $gradient:ident]) => {
+    // the gradient may have a closed form in the plan; other brackets than those of algebras have another motion
+    (
+        @row $choice:tt $type:tt
+        [$key:ident Algebra OrbitEnergyStep of $gradient:ident] [$other:ident Any FrozenStep of $same:ident]
+    ) => {
         equations!(
             @impl $choice $type self h,
             generic::OrbitEnergyStep<'a, S, Self, gradient::Planned<S, generic::$gradient<S, Self>>>,
-            Box::new(generic::OrbitEnergyStep::<
-                '_, S, Self, gradient::Planned<S, generic::$gradient<S, Self>>,
-            >::new(self, h))
+            match self.values.compiled.plan.system.lie {
+                true => Box::new(generic::OrbitEnergyStep::<
+                    '_, S, Self, gradient::Planned<S, generic::$gradient<S, Self>>,
+                >::new(self, h)),
+                false => Box::new(generic::FrozenStep::<
+                    '_, S, Self, gradient::Planned<S, generic::$gradient<S, Self>>,
+                >::new(self, h)),
+            }
         );
     };
     (@row $choice:tt $type:tt [$key:ident $carrier:ident $equation:ident along $function:ident]) => {

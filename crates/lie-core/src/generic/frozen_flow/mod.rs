@@ -1,0 +1,282 @@
+//! The flow of a Poisson matrix against a direction that is held.
+
+mod tangent;
+
+use super::kernels::multiply;
+use super::motion::Motion;
+use super::tableau::{MOST_STAGES, gauss_legendre, gauss_ratio, gauss_weight};
+use crate::matrix::SquareMatrix;
+use crate::methods::Retraction;
+use crate::poisson::Poisson;
+use crate::scalar::{Mask as _, Scalar};
+use crate::state::State;
+use tangent::Tangent;
+
+/// Nodes of Gauss collocation, of order 16.
+const NODES: usize = MOST_STAGES;
+/// Sweeps over the nodes beyond which the way is divided.
+const MOST_SWEEPS: usize = 40;
+/// The way has at most 2^12 parts.
+const MAX_HALVINGS: usize = 12;
+/// Nodes are found where a sweep changes none by more than so many units of round-off of the state.
+const CLOSE: f64 = 2.0;
+/// Coefficient 7 of the slopes in Legendre polynomials, beside the state, up to which the end has all its digits: coefficients fall by a
+/// factor r from one to the next, and the error at the end is as large as coefficient 16, `r^16 <= 2^-57`.
+const RESOLVED: f64 = 1.0 / (1u64 << 25) as f64;
+
+/// `y' = Pi(y) x` over unit time by Gauss collocation at eight nodes,
+///
+/// ```text
+/// y_i = y(0) + sum_j a_ij Pi(y_j) x,   y(1) = y(0) + sum_j b_j Pi(y_j) x
+/// ```
+///
+/// to round-off: where the nodes are not found by iteration, or do not resolve the way, it is divided. So every Casimir of y(0) is that
+/// of y(1), for any Poisson matrix, and `<x, y(1)> = <x, y(0)>`, since Pi is antisymmetric, whatever the error of the nodes.
+#[derive(Clone, Debug)]
+pub struct FrozenFlow<S: Scalar, V, M> {
+    ratios: [[S; NODES]; NODES],
+    weights: [S; NODES],
+    /// `(2k + 1) P_k` at the nodes, of the highest degree.
+    last: [S; NODES],
+    /// `b_j Pi(y_j) x` of a part of the way.
+    increments: [V; NODES],
+    /// The increments are those of a direction near to the one that comes.
+    warm: bool,
+    parts: S,
+    resolved: S::Mask,
+    /// x over the number of parts, where a part starts, where it ends.
+    direction: V,
+    start: V,
+    end: V,
+    node: V,
+    slot: V,
+    matrix: M,
+    turned: M,
+    tangent: Tangent<V, M>,
+}
+
+impl<S: Scalar, V: State<S>, M: SquareMatrix<S>> FrozenFlow<S, V, M> {
+    /// A node from the start of a part.
+    fn set_node(&mut self, node: usize) {
+        let rows = self.node.as_mut_slice().iter_mut();
+        for (k, (entry, &start)) in rows.zip(self.start.as_slice()).enumerate() {
+            let mut sum = S::zero();
+            for (&ratio, increment) in self.ratios[node].iter().zip(&self.increments) {
+                sum += ratio * increment.as_slice()[k];
+            }
+            *entry = start + sum;
+        }
+    }
+
+    /// Solves a part of the way from `start`; leaves its end. Returns the lanes in which it is exact, or not a number.
+    fn part<P>(&mut self, system: &P) -> S::Mask
+    where
+        P: Poisson<S, State = V, Jacobian = M>,
+    {
+        if !self.warm {
+            system.poisson_matrix(&self.start, &mut self.matrix);
+            multiply(&self.matrix, &self.direction, &mut self.slot);
+            for (&weight, increment) in self.weights.iter().zip(&mut self.increments) {
+                for (entry, &field) in increment
+                    .as_mut_slice()
+                    .iter_mut()
+                    .zip(self.slot.as_slice())
+                {
+                    *entry = weight * field;
+                }
+            }
+        }
+        let size = system.norm(&self.start);
+        let close = S::from_f64(CLOSE) * S::epsilon() * size;
+        let mut found = S::Mask::splat(false);
+        for _ in 0..MOST_SWEEPS {
+            let change = self.sweep(system, found);
+            // the last sweep is as much nearer as the one before, or not a number
+            found = found | change.less_equal(close) | !change.finite();
+            if found.all() {
+                break;
+            }
+        }
+        self.warm = true;
+        self.end.copy_from(&self.start);
+        for (k, entry) in self.end.as_mut_slice().iter_mut().enumerate() {
+            let mut sum = S::zero();
+            for increment in &self.increments {
+                sum += increment.as_slice()[k];
+            }
+            *entry += sum;
+        }
+        for (k, entry) in self.slot.as_mut_slice().iter_mut().enumerate() {
+            *entry = S::zero();
+            for (&weight, increment) in self.last.iter().zip(&self.increments) {
+                *entry += weight * increment.as_slice()[k];
+            }
+        }
+        let rest = system.norm(&self.slot);
+        (found & rest.less_equal(S::from_f64(RESOLVED) * size)) | !rest.finite()
+    }
+
+    /// Sets one increment after the other by those that are there, but for the lanes that have ended; returns the largest change.
+    fn sweep<P>(&mut self, system: &P, ended: S::Mask) -> S
+    where
+        P: Poisson<S, State = V, Jacobian = M>,
+    {
+        let mut largest = S::zero();
+        for node in 0..NODES {
+            self.set_node(node);
+            system.poisson_matrix(&self.node, &mut self.matrix);
+            multiply(&self.matrix, &self.direction, &mut self.slot);
+            let new = self.slot.as_mut_slice().iter_mut();
+            let old = self.increments[node].as_mut_slice().iter_mut();
+            for (new, old) in new.zip(old) {
+                let next = S::select(ended, *old, self.weights[node] * *new);
+                (*new, *old) = (next - *old, next);
+            }
+            largest = S::largest_magnitude(&[largest, system.norm(&self.slot)]);
+        }
+        largest
+    }
+
+    /// Goes all the way from a start, and shows each part of it with the lanes to which it belongs; leaves its end.
+    fn go<P>(&mut self, system: &P, [x, start]: [&V; 2], mut show: impl FnMut(&mut Self, S::Mask))
+    where
+        P: Poisson<S, State = V, Jacobian = M>,
+    {
+        self.start.copy_from(start);
+        for round in 0..=MAX_HALVINGS {
+            for (entry, &x) in self.direction.as_mut_slice().iter_mut().zip(x.as_slice()) {
+                *entry = x / self.parts;
+            }
+            self.resolved = self.part(system);
+            if self.resolved.all() || round == MAX_HALVINGS {
+                break;
+            }
+            self.warm = false;
+            let twice = self.parts + self.parts;
+            self.parts = S::select(self.resolved, self.parts, twice);
+        }
+        show(self, S::Mask::splat(true));
+        let mut left = self.parts - S::one();
+        loop {
+            let open = S::zero().less(left);
+            if !open.any() {
+                return;
+            }
+            self.start.copy_from(&self.end);
+            self.warm = false;
+            let good = self.part(system);
+            self.resolved = self.resolved & (good | !open);
+            show(self, open);
+            // those that have arrived stay
+            for (end, &start) in self
+                .end
+                .as_mut_slice()
+                .iter_mut()
+                .zip(self.start.as_slice())
+            {
+                *end = S::select(open, *end, start);
+            }
+            left -= S::one();
+        }
+    }
+}
+
+impl<S, P> Motion<S, P> for FrozenFlow<S, P::State, P::Jacobian>
+where
+    S: Scalar,
+    P: Poisson<S>,
+{
+    fn new(system: &P) -> Self {
+        let zero = system.zero_state();
+        let matrix = system.zero_jacobian();
+        Self {
+            ratios: core::array::from_fn(|i| core::array::from_fn(|j| gauss_ratio(NODES, i, j))),
+            weights: core::array::from_fn(|i| gauss_weight(NODES, i)),
+            last: core::array::from_fn(|j| gauss_legendre(NODES, NODES - 1, j)),
+            increments: core::array::from_fn(|_| zero.clone()),
+            warm: false,
+            parts: S::one(),
+            resolved: S::Mask::splat(true),
+            direction: zero.clone(),
+            start: zero.clone(),
+            end: zero.clone(),
+            node: zero.clone(),
+            slot: zero.clone(),
+            turned: matrix.clone(),
+            tangent: Tangent::new(&zero, &matrix),
+            matrix,
+        }
+    }
+
+    fn begin(&mut self) {
+        self.warm = false;
+        self.parts = S::one();
+    }
+
+    fn carry(&mut self, system: &P, x: &P::State, start: &P::State, out: &mut P::State) {
+        self.go(system, [x, start], |_, _| ());
+        out.copy_from(&self.end);
+    }
+
+    /// `sum_j b_j Pi(y_j) g`
+    fn mean(&mut self, system: &P, [x, start, g]: [&P::State; 3], out: &mut P::State) {
+        out.fill(S::zero());
+        self.go(system, [x, start], |flow, lanes| {
+            for node in 0..NODES {
+                flow.set_node(node);
+                system.poisson_matrix(&flow.node, &mut flow.matrix);
+                multiply(&flow.matrix, g, &mut flow.slot);
+                let weight = flow.weights[node] / flow.parts;
+                let weight = S::select(lanes, weight, S::zero());
+                out.axpy(weight, &flow.slot);
+            }
+        });
+    }
+
+    fn linearize(&mut self, system: &P, x: &P::State, [start, end]: [&P::State; 2]) {
+        self.differentiate(system, [x, start], system.is_forced());
+        let ends = start.as_slice().iter().zip(end.as_slice());
+        for (entry, (&start, &end)) in self.node.as_mut_slice().iter_mut().zip(ends) {
+            *entry = S::ratio(1.0, 2.0) * (start + end);
+        }
+        system.poisson_matrix(&self.node, &mut self.matrix);
+    }
+
+    fn slope(
+        &mut self,
+        _system: &P,
+        _x: &P::State,
+        [along, out, _]: [&mut P::State; 3],
+        _end: &P::State,
+    ) -> S::Mask {
+        multiply(&self.tangent.of_x, along, out);
+        S::Mask::splat(true)
+    }
+
+    fn push(&mut self, _system: &P, _x: &P::State, [along, out, _]: [&mut P::State; 3]) {
+        multiply(&self.tangent.of_start, along, out);
+    }
+
+    /// With the Poisson matrix in the middle between the ends.
+    fn mean_slope(
+        &mut self,
+        system: &P,
+        [g, along]: [&P::State; 2],
+        unit: usize,
+        [out, _spare, _turned]: [&mut P::State; 3],
+    ) {
+        multiply(&self.matrix, along, out);
+        system.poisson_slope(&self.node, g, &mut self.turned);
+        for (row, out) in out.as_mut_slice().iter_mut().enumerate() {
+            *out += S::ratio(1.0, 2.0) * self.turned.get(row, unit);
+        }
+    }
+
+    fn resolved(&self) -> S::Mask {
+        self.resolved
+    }
+
+    fn retraction() -> Option<Retraction> {
+        None
+    }
+}
