@@ -210,7 +210,13 @@ struct Path<'a> {
 }
 
 impl<P: Poisson<f64>> Observer<f64, P> for Path<'_> {
-    fn hold(&mut self, _system: &P, (index, _, h): (u64, f64, f64), mu: &mut P::State) {
+    fn hold(
+        &mut self,
+        _system: &P,
+        (index, _, h): (u64, f64, f64),
+        mu: &mut P::State,
+        _element: &[f64],
+    ) {
         let from = index as usize * self.stride * self.processes;
         let part = self
             .increments

@@ -27,6 +27,7 @@ mod round_off;
 mod vectors;
 
 mod closed_forms;
+mod closed_loop;
 mod collective;
 mod constants;
 mod cotangent;
@@ -40,6 +41,7 @@ mod explicit_declarations;
 mod explicit_steps;
 mod found_pieces;
 mod found_splittings;
+mod frozen_flow;
 mod fused_equals_generic;
 mod general_brackets;
 mod generating;

@@ -102,8 +102,8 @@ struct Last<'o, V, O> {
 }
 
 impl<S: Scalar, P: Poisson<S>, O: Observer<S, P>> Observer<S, P> for Last<'_, P::State, O> {
-    fn hold(&mut self, system: &P, step: (u64, f64, f64), mu: &mut P::State) {
-        self.held.hold(system, step, mu);
+    fn hold(&mut self, system: &P, step: (u64, f64, f64), mu: &mut P::State, element: &[S]) {
+        self.held.hold(system, step, mu, element);
     }
 
     fn held(&self) -> Option<&Held> {

@@ -258,7 +258,7 @@ impl<'r, M> Course<'r, M> {
             }
             if self.done == 0 {
                 let step = (self.index, self.grid.time(self.index), self.grid.step());
-                observer.hold(system, step, mu);
+                observer.hold(system, step, mu, &[]);
             }
             if let Some(curve) = curve.as_mut().filter(|_| self.done == 0) {
                 let is_row = rows.peek().map(|row| row.place) == Some(Place::On(self.index));

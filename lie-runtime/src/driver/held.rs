@@ -85,6 +85,7 @@ pub struct Held {
     step: Option<u64>,
     start: f64,
     state: Vec<f64>,
+    element: Vec<f64>,
 }
 
 impl Held {
@@ -107,6 +108,7 @@ impl Held {
             step: None,
             start,
             state: Vec::new(),
+            element: Vec::new(),
         })
     }
 
@@ -130,21 +132,24 @@ impl Held {
         system: &P,
         (index, time, step): (u64, f64, f64),
         mu: &mut P::State,
-        element: &[f64],
+        element: &[S],
     ) {
         let Some(clock) = system.clock() else { return };
         let first = clock.time + 2;
         let mut state = std::mem::take(&mut self.state);
+        let mut rows = std::mem::take(&mut self.element);
         state.clear();
+        rows.clear();
         let asks = |input: &Input| matches!(input.source, Some(Source::Controller(_)));
         if self.inputs.iter().any(asks) {
             state.extend(mu.as_slice().iter().map(|x| x.lane(0).to_f64()));
+            rows.extend(element.iter().map(|x| x.lane(0).to_f64()));
         }
         // the values at the start belong to it
         let begins = index == 0 && (time - self.start).abs() <= NEAR * step.abs();
         let before = (!self.inputs.is_empty() && !begins).then(|| system.hamiltonian(mu));
         for (k, input) in self.inputs.iter_mut().enumerate() {
-            if let Some(value) = input.value(self.start, time, step, &state, element) {
+            if let Some(value) = input.value(self.start, time, step, &state, &rows) {
                 mu.as_mut_slice()[first + k] = S::from_f64(value);
             }
         }
@@ -153,7 +158,7 @@ impl Held {
             let change = system.hamiltonian(mu) - before;
             mu.as_mut_slice()[clock.momentum] -= change;
         }
-        self.state = state;
+        (self.state, self.element) = (state, rows);
         if let Some(noise) = &self.noise
             && self.step != Some(index)
         {
@@ -318,7 +323,7 @@ impl<M> Course<'_, M> {
             }
             if end != to {
                 set_time(system, mu, end);
-                observer.hold(system, (self.index, end, self.grid.step()), mu);
+                observer.hold(system, (self.index, end, self.grid.step()), mu, &[]);
             }
             from = end;
         }

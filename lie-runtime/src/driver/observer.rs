@@ -57,9 +57,13 @@ pub trait Observer<S: Scalar, P: Poisson<S>> {
         let _ = assessed;
     }
     /// Sets what is held from the beginning of a step on, or from where an input changes within one: inputs and the rates of noise, for a
-    /// step by its number, the time and the step of the grid.
-    fn hold(&mut self, system: &P, step: (u64, f64, f64), mu: &mut P::State) {
-        let _ = (system, step, mu);
+    /// step by its number, the time and the step of the grid. Controllers see the group element that an observer beside it follows.
+    fn hold(&mut self, system: &P, step: (u64, f64, f64), mu: &mut P::State, element: &[S]) {
+        let _ = (system, step, mu, element);
+    }
+    /// The group element that it follows, in its chart; empty where it follows none.
+    fn group_element(&self) -> &[S] {
+        &[]
     }
     /// What it holds, whose changes end steps.
     fn held(&self) -> Option<&Held> {
@@ -188,8 +192,11 @@ impl<S: Scalar, P: Poisson<S>, O: Observer<S, P>> Observer<S, P> for &mut O {
     fn assessed(&mut self, assessed: &Assessed) {
         (**self).assessed(assessed);
     }
-    fn hold(&mut self, system: &P, step: (u64, f64, f64), mu: &mut P::State) {
-        (**self).hold(system, step, mu);
+    fn hold(&mut self, system: &P, step: (u64, f64, f64), mu: &mut P::State, element: &[S]) {
+        (**self).hold(system, step, mu, element);
+    }
+    fn group_element(&self) -> &[S] {
+        (**self).group_element()
     }
     fn held(&self) -> Option<&Held> {
         (**self).held()
@@ -261,9 +268,14 @@ impl<S: Scalar, P: Poisson<S>, A: Observer<S, P>, B: Observer<S, P>> Observer<S,
         self.0.assessed(assessed);
         self.1.assessed(assessed);
     }
-    fn hold(&mut self, system: &P, step: (u64, f64, f64), mu: &mut P::State) {
-        self.0.hold(system, step, mu);
-        self.1.hold(system, step, mu);
+    fn hold(&mut self, system: &P, step: (u64, f64, f64), mu: &mut P::State, element: &[S]) {
+        self.0
+            .hold(system, step, mu, followed(self.1.group_element(), element));
+        self.1
+            .hold(system, step, mu, followed(self.0.group_element(), element));
+    }
+    fn group_element(&self) -> &[S] {
+        followed(self.0.group_element(), self.1.group_element())
     }
     fn held(&self) -> Option<&Held> {
         self.0.held().or(self.1.held())
@@ -302,10 +314,15 @@ impl<S: Scalar, P: Poisson<S>, A: Observer<S, P>, B: Observer<S, P>> Observer<S,
     }
 }
 
+/// The group element of one observer, else that of the other.
+fn followed<'e, S>(one: &'e [S], other: &'e [S]) -> &'e [S] {
+    if one.is_empty() { other } else { one }
+}
+
 /// What is held sets itself.
 impl<S: Scalar, P: Poisson<S>> Observer<S, P> for Held {
-    fn hold(&mut self, system: &P, step: (u64, f64, f64), mu: &mut P::State) {
-        self.set(system, step, mu, &[]);
+    fn hold(&mut self, system: &P, step: (u64, f64, f64), mu: &mut P::State, element: &[S]) {
+        self.set(system, step, mu, element);
     }
     fn held(&self) -> Option<&Held> {
         Some(self)
@@ -314,9 +331,9 @@ impl<S: Scalar, P: Poisson<S>> Observer<S, P> for Held {
 
 /// What is held, where something is.
 impl<S: Scalar, P: Poisson<S>> Observer<S, P> for Option<Held> {
-    fn hold(&mut self, system: &P, step: (u64, f64, f64), mu: &mut P::State) {
+    fn hold(&mut self, system: &P, step: (u64, f64, f64), mu: &mut P::State, element: &[S]) {
         if let Some(held) = self {
-            held.set(system, step, mu, &[]);
+            held.set(system, step, mu, element);
         }
     }
     fn held(&self) -> Option<&Held> {

@@ -84,7 +84,7 @@ impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'a, S, P, M> {
     ) -> Self {
         let span = problem.span.1 - problem.span.0;
         let mut start = problem.start();
-        held.hold(&problem.system, (0, problem.span.0, span), &mut start);
+        held.hold(&problem.system, (0, problem.span.0, span), &mut start, &[]);
         Self {
             problem,
             method,
@@ -102,7 +102,7 @@ impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'a, S, P, M> {
         set_time(&self.problem.system, &mut mu, time);
         self.tables
             .clone()
-            .hold(&self.problem.system, (0, time, 0.0), &mut mu);
+            .hold(&self.problem.system, (0, time, 0.0), &mut mu, &[]);
         mu
     }
 

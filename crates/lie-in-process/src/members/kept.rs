@@ -28,8 +28,8 @@ impl<'a, S> Kept<'a, S> {
 }
 
 impl<S: Scalar> Observer<S, Dynamic<S>> for Kept<'_, S> {
-    fn hold(&mut self, system: &Dynamic<S>, step: (u64, f64, f64), mu: &mut Vec<S>) {
-        self.held.hold(system, step, mu);
+    fn hold(&mut self, system: &Dynamic<S>, step: (u64, f64, f64), mu: &mut Vec<S>, element: &[S]) {
+        self.held.hold(system, step, mu, element);
     }
 
     fn held(&self) -> Option<&driver::Held> {

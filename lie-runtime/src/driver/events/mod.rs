@@ -192,7 +192,12 @@ impl<M> Course<'_, M> {
             found.extend(self.events_between(system, &events.rules, (&from, &before), &mut reach));
             let mut there = before.mu;
             set_time(system, &mut there, change);
-            held.hold(system, (self.index, change, self.grid.step()), &mut there);
+            held.hold(
+                system,
+                (self.index, change, self.grid.step()),
+                &mut there,
+                &[],
+            );
             from = Knot::at(system, change, &there);
         }
         found.extend(self.events_between(system, &events.rules, (&from, &finish), &mut reach));
