@@ -4,6 +4,9 @@
 //! `1/I3 - 1/I2`. The Casimirs are kept because linear combinations of these numbers vanish. Numbers that are rounded one by
 //! one keep that to round-off only, and the same error in every step is a drift. So the entries are rounded to multiples of
 //! one unit, that of the last place of the largest combination: every combination then is exact.
+//!
+//! Such relations are between terms with the same power of the step size. Where others stand in one sum, as `1 + h k/2` in an
+//! elimination, the grid of the largest would take digits of the small ones, which are then lost in every step in the same way.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -135,7 +138,29 @@ fn combination(graph: &mut Graph, id: ExprId) -> Option<Combination> {
         }
     }
     found.retain(|_, c| !c.is_zero());
-    (1..=MOST_TERMS).contains(&found.len()).then_some(found)
+    let mut powers = found.keys().map(|term| power_of_step(graph, *term));
+    let power = powers.next().flatten()?;
+    let alike = powers.all(|other| other.as_ref() == Some(&power));
+    (alike && found.len() <= MOST_TERMS).then_some(found)
+}
+
+/// The power of the step size in a term, where it is a factor alone.
+fn power_of_step(graph: &Graph, term: ExprId) -> Option<Rational> {
+    let h = Symbol::Step;
+    let mut power = Rational::ZERO;
+    let alone = (term, Rational::ONE);
+    let factors = match graph.node(term) {
+        Node::Product(factors) => &factors[..],
+        _ => std::slice::from_ref(&alone),
+    };
+    for (base, exponent) in factors {
+        match graph.node(*base) {
+            Node::Symbol(symbol) if *symbol == h => power = exponent.clone(),
+            _ if graph.symbols(*base).contains(&h) => return None,
+            _ => {}
+        }
+    }
+    Some(power)
 }
 
 fn add(found: &mut Combination, term: ExprId, c: &Rational) {
