@@ -176,6 +176,42 @@ fn angles_have_columns_and_follow_parameters() {
     assert!(code.contains("pub fn initial_attitude(&self) -> [S; 9]"));
 }
 
+/// Angles of a body that turns by several turns in a step, around its axis and around the vertical: the middle one stays. The body is
+/// symmetric with |m| = 6 along the vertical, so that `phi' = 6/I1` and `psi' = (1/I3 - 1/I1) 6 cos(theta)`.
+#[test]
+fn fast_turns_are_counted() {
+    let here = folder();
+    let path = here.path().join("spinner.json");
+    let spec = json!({
+        "name": "Spinner", "algebra": "so(3)", "state": ["x", "y", "z"],
+        "hamiltonian": "x^2/2 + y^2/2 + z^2",
+        "attitude": { "euler": "zxz", "angles": [0, 0.5, 0] },
+        "initial": [0, "6*sin(0.5)", "6*cos(0.5)"],
+    });
+    std::fs::write(&path, spec.to_string()).unwrap();
+    let psi = 20.0 * 6.0 * 0.5_f64.cos();
+    for pace in [
+        "--method exact --step 0.3",
+        "--method exact --step 2.5",
+        "--method gauss16 --tol 1e-10",
+        "--method lie-midpoint --retraction cayley --step 0.01",
+        "--tol 1e-6",
+    ] {
+        let call = format!(
+            "run {} {pace} --until 20 --group euler:zxz --quiet",
+            path.display()
+        );
+        let (_, rows) = lie(&call).ok().csv();
+        let last = rows.last().unwrap();
+        let (phi, theta, spin) = (last[5], last[6], last[7]);
+        let off = (phi - 120.0)
+            .abs()
+            .max((theta - 0.5).abs())
+            .max((spin - psi).abs());
+        assert!(off < 0.1, "{pace}: {phi} {theta} {spin}, not 120 0.5 {psi}");
+    }
+}
+
 /// What is written without an attitude has nothing of it.
 #[test]
 fn nothing_is_said_of_no_attitude() {

@@ -153,6 +153,33 @@ fn other_forms_have_them_too() {
     );
 }
 
+/// Angles that turn several times in a step, as one by `--tol` may be: the phase of a symmetric body, z = 17, is -17 t. The control
+/// is what the branch nearest to the last value would be.
+#[test]
+fn fast_angles_are_followed() {
+    let spec = json!({
+        "name": "Spinner", "algebra": "so(3)", "state": ["x", "y", "z"],
+        "hamiltonian": "x^2/2 + y^2/2 + z^2",
+        "observables": { "phase": { "expression": "atan2(y, x)", "unwrap": true } },
+        "initial": [0.6, 0.3, 17],
+    });
+    for pace in [
+        "--method gauss16 --step 0.5",
+        "--method taylor --tol 1e-10",
+        "--tol 1e-9",
+    ] {
+        let (header, rows) = run(&spec, &format!("--quiet --until 50 {pace}")).ok().csv();
+        let phases: Vec<f64> = column(&header, &rows, "phase").collect();
+        let turned = phases[phases.len() - 1] - phases[0];
+        assert!((turned.abs() - 850.0).abs() < 1e-6, "{pace}: {turned}");
+        assert!(
+            phases.len() < 200,
+            "{pace}: {} rows are no long steps",
+            phases.len()
+        );
+    }
+}
+
 #[test]
 fn a_run_goes_on_with_its_angles() {
     let folder = folder();

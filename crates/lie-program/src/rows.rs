@@ -168,7 +168,7 @@ impl<'s, 'o> RowWriter<'s, 'o> {
         system.casimirs(mu, &mut self.casimirs);
         let energy = system.energy(mu);
         self.block.numbers.reserve(self.block.width);
-        let quantities = self.quantities.at(system, mu);
+        let quantities = self.quantities.at(system, time, mu);
         for numbers in [
             &[time],
             &mu.as_slice()[..shown(system)],
@@ -220,8 +220,8 @@ fn on(state: Result<(), End>) -> ControlFlow<()> {
 }
 
 impl<P: Poisson<f64>> Observer<f64, P> for RowWriter<'_, '_> {
-    fn hold(&mut self, system: &P, step: (u64, f64, f64), mu: &mut P::State) {
-        self.held.hold(system, step, mu);
+    fn hold(&mut self, system: &P, step: (u64, f64, f64), mu: &mut P::State, element: &[f64]) {
+        self.held.hold(system, step, mu, element);
     }
 
     fn held(&self) -> Option<&driver::Held> {
@@ -260,7 +260,7 @@ impl<P: Poisson<f64>> Observer<f64, P> for RowWriter<'_, '_> {
 
     fn step(&mut self, system: &P, progress: Progress, mu: &P::State) -> ControlFlow<()> {
         if self.quantities.has_angles() {
-            self.quantities.at(system, mu);
+            self.quantities.at(system, progress.time, mu);
         }
         if self.session.is_interrupted() {
             return ControlFlow::Break(());
@@ -313,10 +313,8 @@ pub(crate) struct OnGroup<'r, 's, 'o, V> {
 impl<P: MatrixGroup<f64>> Observer<f64, P> for OnGroup<'_, '_, '_, P::State> {
     const MOTION: bool = true;
 
-    fn hold(&mut self, system: &P, step: (u64, f64, f64), mu: &mut P::State) {
-        if let Some(held) = &mut self.rows.held {
-            held.set(system, step, mu, self.reconstruction.element());
-        }
+    fn hold(&mut self, system: &P, step: (u64, f64, f64), mu: &mut P::State, _element: &[f64]) {
+        Observer::<f64, P>::hold(self.rows, system, step, mu, self.reconstruction.element());
     }
 
     fn held(&self) -> Option<&driver::Held> {

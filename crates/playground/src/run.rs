@@ -202,7 +202,7 @@ fn row(
     system.casimirs(mu, &mut casimirs);
     let mut generator = system.zero_state();
     system.generator(mu, &mut generator);
-    let quantities = quantities.at(system, mu);
+    let quantities = quantities.at(system, time, mu);
     let energy = system.energy(mu);
     let invariant = |invariant: Invariant| match invariant {
         Invariant::Energy => energy,
@@ -240,9 +240,10 @@ impl Observer<f64, Dynamic<f64>> for Seen<'_> {
         system: &Dynamic<f64>,
         (index, time, step): (u64, f64, f64),
         mu: &mut Vec<f64>,
+        element: &[f64],
     ) {
         if let Some(held) = &mut self.held {
-            held.set(system, (self.first + index, time, step), mu, &[]);
+            held.set(system, (self.first + index, time, step), mu, element);
         }
     }
 
@@ -258,11 +259,11 @@ impl Observer<f64, Dynamic<f64>> for Seen<'_> {
     ) -> ControlFlow<()> {
         let done = self.first + progress.step;
         self.last = (done, mu.clone());
+        let time = done as f64 * self.step;
         if done.is_multiple_of(self.every) {
-            let time = done as f64 * self.step;
             self.rows.push(row(system, time, mu, self.quantities));
         } else if self.quantities.has_angles() {
-            self.quantities.at(system, mu);
+            self.quantities.at(system, time, mu);
         }
         ControlFlow::Continue(())
     }

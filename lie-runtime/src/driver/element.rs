@@ -111,16 +111,42 @@ impl<S: Scalar> Element<S> {
             }
             return;
         }
-        let [real, x, y, z] = quaternion_of(factor);
-        self.quaternion = unit(if group.right {
-            product([real, -x, -y, -z], self.quaternion)
-        } else {
-            product(self.quaternion, [real, x, y, z])
-        });
+        self.quaternion = moved(group, self.quaternion, factor);
         if let Chart::Euler(sequence) = self.chart {
             self.angles = sequence.angles_near(self.quaternion, self.angles);
         }
     }
+
+    /// Whether angles are followed.
+    pub(super) fn has_angles(&self) -> bool {
+        matches!(self.chart, Chart::Euler(_))
+    }
+
+    /// Takes the angles along a way of small parts, at whose end an [`Element::advance`] will come; the element stays.
+    pub(super) fn follow(
+        &mut self,
+        group: &Group<'_>,
+        parts: impl Iterator<Item = GroupMatrix<S>>,
+    ) {
+        let Chart::Euler(sequence) = self.chart else {
+            return;
+        };
+        let mut quaternion = self.quaternion;
+        for part in parts {
+            quaternion = moved(group, quaternion, &part);
+            self.angles = sequence.angles_near(quaternion, self.angles);
+        }
+    }
+}
+
+/// The rotation of `g F`, of a right-invariant system that of `F^-1 g`.
+fn moved<S: Scalar>(group: &Group<'_>, quaternion: [S; 4], factor: &GroupMatrix<S>) -> [S; 4] {
+    let [real, x, y, z] = quaternion_of(factor);
+    unit(if group.right {
+        product([real, -x, -y, -z], quaternion)
+    } else {
+        product(quaternion, [real, x, y, z])
+    })
 }
 
 /// The unit quaternion of a rotation.

@@ -38,6 +38,9 @@ const BERNOULLI: [(f64, f64); 5] = [
     (-1.0, 1_209_600.0),
     (1.0, 47_900_160.0),
 ];
+/// Euler angles are followed in parts of so many radians, at most so many.
+const PART: f64 = 0.5;
+const MOST_PARTS: f64 = 10_000.0;
 /// Sweeps of the implicit equations in exponential coordinates.
 const SWEEPS: usize = 60;
 
@@ -139,6 +142,12 @@ impl<S: Scalar, V: State<S>> Reconstruction<S, V> {
     fn take<P: MatrixGroup<S, State = V>>(&mut self, system: &P, motion: &Motion<'_, V>) {
         match *motion {
             Motion::Factor(retraction, xi) => {
+                let turn: fn(f64) -> f64 = match retraction {
+                    // the Cayley map turns by less than the length of its argument
+                    Retraction::Cayley => |angle| 2.0 * (angle / 2.0).atan(),
+                    Retraction::Exp | Retraction::SecondKind => |angle| angle,
+                };
+                self.follow(system, std::slice::from_ref(xi), turn);
                 let factor = match retraction {
                     Retraction::Exp => exponential(&represent(system, xi)),
                     Retraction::Cayley => rational(&represent(system, xi)),
@@ -168,10 +177,56 @@ impl<S: Scalar, V: State<S>> Reconstruction<S, V> {
                 }
                 self.velocities.push(velocity);
                 if self.velocities.len() == stage.count {
+                    let parts = match method {
+                        RungeKutta::Gauss => self.velocities.clone(),
+                        _ => vec![self.total(system, method)],
+                    };
+                    self.follow(system, &parts, |angle| angle);
                     let factor = self.collocate(system, method);
                     self.element.advance(&system.group(), &factor);
                 }
             }
+        }
+    }
+
+    /// The sum of the velocities at the stages, each by its weight.
+    fn total<P>(&self, system: &P, method: RungeKutta) -> V
+    where
+        P: MatrixGroup<S, State = V>,
+    {
+        let (_, b) = coefficients::<S>(method, self.velocities.len());
+        let mut total = system.zero_state();
+        combine(&b, &self.velocities, &mut total);
+        total
+    }
+
+    /// Follows Euler angles along a step: by the rotations of its velocities, one after the other, each in parts of half a radian. So a step
+    /// may turn by more than half a turn. The angle of a rotation is that of the length of a velocity.
+    fn follow<P>(&mut self, system: &P, velocities: &[V], turn: fn(f64) -> f64)
+    where
+        P: MatrixGroup<S, State = V>,
+    {
+        if !self.element.has_angles() {
+            return;
+        }
+        for velocity in velocities {
+            let mut square = S::zero();
+            for &entry in represent(system, velocity).entries() {
+                square += entry * entry;
+            }
+            let angle = largest((square * S::ratio(1.0, 2.0)).sqrt());
+            if !(f64::MIN_POSITIVE..f64::INFINITY).contains(&angle) {
+                continue;
+            }
+            let parts = (turn(angle) / PART).ceil().clamp(1.0, MOST_PARTS);
+            let scale = S::from_f64(turn(angle) / angle / parts);
+            let mut part = velocity.clone();
+            for entry in part.as_mut_slice() {
+                *entry *= scale;
+            }
+            let part = exponential(&represent(system, &part));
+            let parts = (0..parts as u32).map(|_| part.clone());
+            self.element.follow(&system.group(), parts);
         }
     }
 
@@ -265,6 +320,10 @@ impl<S: Scalar, P: MatrixGroup<S>> Observer<S, P> for Reconstruction<S, P::State
 
     fn motion(&mut self, system: &P, motion: &Motion<'_, P::State>) {
         self.take(system, motion);
+    }
+
+    fn group_element(&self) -> &[S] {
+        self.element.entries()
     }
 
     fn leave_grid(&mut self) {

@@ -61,9 +61,9 @@ impl<S: Scalar, P: Poisson<S>> Observer<S, P> for Recorder<S, P::State> {
         self.solution.assessed = Some(*assessed);
     }
 
-    fn step(&mut self, system: &P, _progress: Progress, mu: &P::State) -> ControlFlow<()> {
+    fn step(&mut self, system: &P, progress: Progress, mu: &P::State) -> ControlFlow<()> {
         if self.quantities.has_angles() {
-            self.quantities.at(system, mu);
+            self.quantities.at(system, progress.time, mu);
         }
         ControlFlow::Continue(())
     }
@@ -82,7 +82,7 @@ impl<S: Scalar, P: Poisson<S>> Observer<S, P> for Recorder<S, P::State> {
         self.solution.t.push(time);
         self.solution.energy.push(system.energy(mu));
         self.solution.casimirs.push(casimirs);
-        let quantities = self.quantities.at(system, mu).to_vec();
+        let quantities = self.quantities.at(system, time, mu).to_vec();
         self.solution.quantities.push(quantities);
         self.solution.mu.push(mu.clone());
         ControlFlow::Continue(())

@@ -224,8 +224,9 @@ fn by_hand<P: Poisson<f64> + Clone>(
             }
             whole.push(stepper.step(&mut state)?);
             done += 1;
-            set_time(&current, &mut state, t0 + f64::from(done) * h);
-            quantities.at(&current, &state);
+            let time = t0 + f64::from(done) * h;
+            set_time(&current, &mut state, time);
+            quantities.at(&current, time, &state);
             if let Some(next) = current.following(&state) {
                 break next;
             }
@@ -249,7 +250,7 @@ fn row_at<P: Poisson<f64>>(
     row.extend(casimirs);
     row.extend(
         quantities
-            .at(system, mu)
+            .at(system, time, mu)
             .iter()
             .map(|value| comparable(*value)),
     );
