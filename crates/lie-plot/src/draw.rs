@@ -122,7 +122,8 @@ fn small_multiples(svg: &mut Svg, plot: &Plot, top: f64) -> f64 {
         let left = stride.0 * column as f64;
         let above = top + stride.1 * row as f64;
         let mut panel = components(plot, std::slice::from_ref(curve), &curve.name, "");
-        panel.x = Axis::linear(plot.range.0, plot.range.1, 4.0, 0.0);
+        let (from, to) = plot.shown();
+        panel.x = Axis::linear(from, to, 4.0, 0.0);
         let (low, high) = (panel.y.low, panel.y.high);
         panel.y = Axis::linear(low, high, 3.0, 0.0);
         let frame = Frame {
@@ -137,7 +138,8 @@ fn small_multiples(svg: &mut Svg, plot: &Plot, top: f64) -> f64 {
 }
 
 fn time_axis(plot: &Plot) -> Axis {
-    Axis::linear(plot.range.0, plot.range.1, 8.0, 0.0)
+    let (from, to) = plot.shown();
+    Axis::linear(from, to, 8.0, 0.0)
 }
 
 fn trajectory(plot: &Plot) -> Panel {

@@ -42,6 +42,8 @@ use bins::Bins;
 const POINTS: usize = 20_000;
 /// Curves that have points between their rows show so many rows as dots.
 const FEW_ROWS: usize = 200;
+/// A run that comes less far than this part of its way has a shorter axis.
+const NEARLY: f64 = 0.98;
 /// Columns of a curve at most: about as many as the panel has pixels.
 const COLUMNS: usize = 640;
 
@@ -57,6 +59,8 @@ pub struct Plot {
     /// Entries of the group element, if there are any.
     element: Vec<Curve>,
     range: (f64, f64),
+    /// The time of the last row.
+    last: f64,
     rows: u64,
     /// Points between the rows.
     between: usize,
@@ -94,6 +98,7 @@ impl Plot {
             recorded: Vec::new(),
             element: Vec::new(),
             range,
+            last: range.1,
             rows: 0,
             between: 0,
             scale: 0.0,
@@ -152,7 +157,15 @@ impl Plot {
             }
             curve.bins.push(t, (value - curve.first).abs());
         }
+        self.last = t;
         self.rows += 1;
+    }
+
+    /// The times that are shown: those of the rows, where a run ended early.
+    fn shown(&self) -> (f64, f64) {
+        let (from, to) = self.range;
+        let early = (self.last - from) / (to - from) < NEARLY;
+        (from, if early { self.last } else { to })
     }
 
     /// Takes a point between rows, with the columns of a row: the curves go through it, and few rows are dots on them. The errors

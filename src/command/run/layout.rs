@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use std::collections::BTreeMap;
 
-use lie_codegen::model::{Driving, Family, Parameter, QuantityKind};
+use lie_codegen::model::{Family, Parameter, QuantityKind};
 use lie_codegen::program::{Chart, columns};
 use lie_codegen::structure::{Structure, group};
 use lie_program::protocol::{Columns, Coordinates};
@@ -90,7 +90,6 @@ impl Layout {
         let states = model.shown_coordinates();
         let coordinates = states.iter().map(|&i| model.coordinates[i].text.clone());
         let casimirs = model.casimirs.iter().map(|casimir| casimir.name.clone());
-        let varies = model.is_timed();
         let energy = states.len() + 1;
         let quantities = model.quantities.iter();
         let integrals = quantities
@@ -105,19 +104,21 @@ impl Layout {
                 .chain(quantities.map(|quantity| quantity.name.clone()))
                 .chain(entries(model, chart))
                 .collect(),
-            invariants: energy + usize::from(varies)..casimirs_end + integrals.count(),
+            invariants: energy..casimirs_end + integrals.count(),
             element: casimirs_end + model.quantities.len(),
             states: states.len(),
             watched: None,
         };
-        if model.driving.is_some() {
-            layout.watch_balance(model, 1);
-        }
+        layout.watch(model, 1);
         layout
     }
 
-    /// Watches the energy without the work of forces and dissipation in place of the energy; each Casimir has so many columns.
-    fn watch_balance(&mut self, model: &Structure, each: usize) {
+    /// Where something acts or H depends on the time, watches the energy without the work of forces and dissipation in place of the energy,
+    /// which is recorded as what else varies; each Casimir has so many columns.
+    fn watch(&mut self, model: &Structure, each: usize) {
+        if model.driving.is_none() && !model.is_timed() {
+            return;
+        }
         let energy = self.states + 1;
         let casimirs = model.casimirs.iter();
         let casimirs = casimirs.flat_map(|casimir| std::iter::repeat_n(casimir.kept, each));
@@ -128,8 +129,9 @@ impl Layout {
         let work = energy + 1 + each * model.casimirs.len();
         let columns = |places: Vec<(usize, bool)>| places.into_iter().map(|(place, _)| place);
         let mut watched: Vec<Watched> = (0..energy).map(Watched::Column).collect();
-        // noise is no work
-        let balanced = !model.driving.as_ref().is_some_and(Driving::is_noisy);
+        // noise is no work, and where nothing acts there is no such column
+        let driving = model.driving.as_ref();
+        let balanced = driving.is_some_and(|driving| !driving.is_noisy());
         if balanced {
             watched.push(Watched::Difference(energy, work));
         }
@@ -167,15 +169,13 @@ impl Layout {
             names.push(&quantity.name);
         }
         let mut layout = Self {
-            invariants: states + 1 + usize::from(model.is_timed())..casimirs,
+            invariants: states + 1..casimirs,
             element: names.len(),
             columns: names,
             states,
             watched: None,
         };
-        if model.driving.is_some() {
-            layout.watch_balance(model, lie_runtime::family::STATISTICS.len());
-        }
+        layout.watch(model, lie_runtime::family::STATISTICS.len());
         layout
     }
 

@@ -85,8 +85,14 @@ impl Session<'_> {
                 let time = before + start.elapsed();
                 bar.aside(|| self.say(number, member, &received, time, &mut tally));
             }
-            if let (Outcome::Stopped(stop), Some((picture, ..))) = (&outcome, &mut picture) {
-                picture.stopped(&self.short_name(number, member), stop.time);
+            if let Some((picture, ..)) = &mut picture {
+                let name = self.short_name(number, member);
+                let event = received.events.last().filter(|event| event.stops);
+                match (&outcome, event) {
+                    (Outcome::Stopped(stop), _) => picture.stopped(&name, stop.time),
+                    (Outcome::Done, Some(event)) => picture.ended(&name, event),
+                    _ => {}
+                }
             }
             let drift = &received.drift;
             let code = bar.aside(|| self.ended(number, member, outcome, drift, &mut tally));

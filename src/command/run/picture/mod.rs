@@ -15,7 +15,7 @@ use lie_poisson::plot::phase::Phase;
 use lie_poisson::plot::surface::{Field, Point};
 use lie_poisson::plot::view::{OnSurface, View};
 use lie_poisson::plot::{Plot, are_dots};
-use lie_program::protocol::Start;
+use lie_program::protocol::{Event, Start};
 use lie_runtime::Poisson as _;
 use lie_runtime::driver::{Chart, Pace};
 
@@ -47,8 +47,8 @@ pub struct Picture<'a> {
     layout: Layout,
     several: &'a Several,
     subtitle: String,
-    /// The names of runs that stopped early, and when.
-    stopped: Vec<(String, f64)>,
+    /// The names of runs that ended early, how and when.
+    stopped: Vec<(String, String)>,
     drawn: Drawn,
     chart: Option<Chart>,
     quaternions: Quaternions,
@@ -136,18 +136,25 @@ impl<'a> Picture<'a> {
 
     /// Takes note that a run stopped early.
     pub fn stopped(&mut self, name: &str, time: f64) {
-        self.stopped.push((name.to_owned(), time));
+        let how = format!("stopped at t = {}", rounded(time));
+        self.stopped.push((name.to_owned(), how));
+    }
+
+    /// Takes note that an event ended a run.
+    pub fn ended(&mut self, name: &str, event: &Event) {
+        let how = format!("`{}` at t = {}", event.name, rounded(event.time));
+        self.stopped.push((name.to_owned(), how));
     }
 
     /// The second line at the end: which runs stopped early, too.
     fn whole_line(&self) -> String {
         let mut line = self.subtitle.clone();
-        for (name, time) in self.stopped.iter().take(SHOWN) {
+        for (name, how) in self.stopped.iter().take(SHOWN) {
             let who = match self.several.members.len() {
                 1 => String::new(),
                 _ => format!("{name} "),
             };
-            line.push_str(&format!("; {who}stopped at t = {}", rounded(*time)));
+            line.push_str(&format!("; {who}{how}"));
         }
         if let Some(more @ 1..) = self.stopped.len().checked_sub(SHOWN) {
             line.push_str(&format!("; and {more} more"));
