@@ -98,6 +98,61 @@ fn members_are_runs() {
     assert_eq!(array(&out), (vec![3, 3], expected));
 }
 
+/// An event that stops ends its member, by every method: its last state is that of the run, and rows that others have after it are none.
+#[test]
+fn events_end_members() {
+    let folder = folder();
+    let path = |name: &str| folder.path().join(name);
+    let spec = serde_json::json!({
+        "name": "Body", "algebra": "so(3)", "state": ["x", "y", "z"],
+        "hamiltonian": "x^2/2 + y^2/2 + z^2",
+        "events": { "low": { "when": "x", "direction": -1, "stop": true } },
+        "initial": [0.6, 0.3, 1.7],
+    });
+    fs::write(path("body.json"), spec.to_string()).expect("written");
+    let starts: Vec<String> = (0..12)
+        .map(|k| format!("0.6,{},1.7", 0.1 * f64::from(k)))
+        .collect();
+    fs::write(path("starts.csv"), starts.join("\n")).expect("written");
+    let body = path("body.json").display().to_string();
+    for method in ["rk4", "gauss4", "taylor --tol 1e-9"] {
+        let step = if method.contains("tol") {
+            ""
+        } else {
+            "--step 0.1"
+        };
+        let flags = format!(
+            "--method {method} {step} --until 20 --initial-file {}",
+            path("starts.csv").display()
+        );
+        let out = path("all.npy");
+        lie(&format!("ensemble {body} {flags} --out {}", out.display())).ok();
+        let (header, rows) = lie(&format!("run {body} {flags} --quiet")).ok().csv();
+        assert_eq!(header[..2], ["run", "t"]);
+        let last = |k: usize| {
+            let mut own = rows.iter().filter(|row| row[0] == k as f64);
+            own.next_back().expect("rows").clone()
+        };
+        let ends: Vec<f64> = (0..12).flat_map(|k| last(k)[2..5].to_vec()).collect();
+        assert!(
+            (0..12).all(|k| last(k)[1] < 6.0),
+            "{method}: no event ended a run"
+        );
+        assert_eq!(array(&out), (vec![12, 3], ends), "{method}");
+    }
+    let flags = "--method rk4 --step 0.1 --until 20 --every 10 --members 12 --spread 0";
+    lie(&format!(
+        "ensemble {body} {flags} --out {}",
+        path("rows.npy").display()
+    ))
+    .ok();
+    let (shape, numbers) = array(&path("rows.npy"));
+    assert_eq!(shape, [12, 21, 3]);
+    let came = numbers.iter().take_while(|x| x.is_finite()).count();
+    assert!(came > 3 && came < 21, "{came}");
+    assert!(numbers[came..63].iter().all(|x| x.is_nan()));
+}
+
 const DRAWN: &str =
     "--members 500 --seed 7 --spread orbit --method gauss4 --step 0.2 --until 4 --every 10";
 

@@ -14,7 +14,9 @@ use lie_dynamic::{
 };
 use lie_program::protocol::{Held, Sources};
 use lie_runtime::diagnostics::Forgotten;
-use lie_runtime::driver::{IntegrateError, OptionError, Options, Pace, Problem, integrate};
+use lie_runtime::driver::{
+    IntegrateError, OptionError, Options, Pace, Problem, Save, Status, integrate,
+};
 use lie_runtime::{ParameterError, Poisson, Scalar};
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -119,6 +121,12 @@ struct Worker<'a> {
     /// Side by side with steps of the same number, and taking turns.
     together: Option<Method<Wide>>,
     turns: Option<Method<Wide>>,
+}
+
+/// Whether an event ends runs of a system, which are no two of them side by side then.
+fn ends_at_events(system: &Dynamic<f64>) -> bool {
+    let count = Poisson::<f64>::event_count(system);
+    (0..count).any(|index| Poisson::<f64>::event_rule(system, index).stops)
 }
 
 /// Why a group was not run to its end.
@@ -281,8 +289,8 @@ impl Worker<'_> {
     ) -> Result<Vec<Member>, Lost> {
         let of_lane = |lane: usize| *starts.get(lane).unwrap_or(&starts[0]);
         let lengths = systems[0].dimension();
-        // each member ends steps where its own parameters say
-        let joints = Poisson::<f64>::joint_count(systems[0]) > 0;
+        // each member ends steps where its own parameters say, and runs at its own events
+        let joints = Poisson::<f64>::joint_count(systems[0]) > 0 || ends_at_events(systems[0]);
         // and a controller sees one state
         let controlled = !self.members.sources.0.is_empty();
         if joints || controlled || starts.iter().any(|start| start.len() != lengths) {
@@ -312,6 +320,18 @@ impl Worker<'_> {
         }
     }
 
+    /// Whether all members that come so far have a row at a time.
+    fn has_row(&self, time: f64) -> bool {
+        let (options, start) = (&self.members.options, self.members.span.0);
+        let is_multiple = |of: f64| start + ((time - start) / of).round() * of == time;
+        match (&options.save, options.pace) {
+            (Save::At(times), _) => times.contains(&time),
+            (Save::Every(every), Pace::Step(step)) => is_multiple(*every as f64 * step),
+            (Save::Interval(interval), _) => is_multiple(*interval),
+            _ => false,
+        }
+    }
+
     /// The stream of noise of a member.
     fn stream(&self, member: usize) -> u64 {
         self.members.held.stream + member as u64
@@ -335,7 +355,16 @@ impl Worker<'_> {
             ..Member::default()
         };
         match outcome {
-            Ok(_) => member,
+            Ok((_, status)) => {
+                // where an event ended it there is no row that others have
+                let ended = matches!(status, Status::Event(_)) && !kept.last_alone;
+                if ended && member.times.last().is_some_and(|time| !self.has_row(*time)) {
+                    member.times.pop();
+                    let left = member.times.len() * problem.mu0.len();
+                    member.states.truncate(left);
+                }
+                member
+            }
             Err(IntegrateError::Step(error)) => {
                 if kept.last_alone {
                     // the end was not reached
