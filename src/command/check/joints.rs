@@ -12,7 +12,14 @@ pub(super) fn write(joints: &[Joint], methods: &Methods, text: &mut String) -> s
     }
     writeln!(text, "  joints, where branches of H meet:")?;
     for joint in joints {
-        writeln!(text, "    {}: {}", joint.place, smoothness(joint.jump))?;
+        let smoothness = match joint.is_known {
+            true => "steps of a run end there, and no method loses its order".to_owned(),
+            false => smoothness(joint.jump),
+        };
+        writeln!(text, "    {}: {smoothness}", joint.place)?;
+    }
+    if joints.iter().all(|joint| joint.is_known) {
+        return Ok(());
     }
     let series = orders_across(joints, methods).filter(|(id, ..)| ends_at_joints(id));
     let series: Vec<&str> = series.map(|(id, ..)| id).collect();

@@ -1,7 +1,7 @@
 //! How smooth the Hamiltonian of a system is, and its Lagrangian.
 
 use super::Structure;
-use crate::model::{Family, Model};
+use crate::model::{Configuration, Family, Model};
 use lie_symbolic::prove::joints::{Joint, find_joints};
 use lie_symbolic::symbolic::Symbol;
 use lie_syntax::diagnostic::{Diagnostic, Kind, Report};
@@ -13,9 +13,14 @@ pub fn joints(model: &Model) -> Vec<Joint> {
         Some(family) => of_family(model, family),
         None => {
             let force = model.driving.iter().flat_map(|driving| &driving.force);
-            let mut all = find_joints(&model.graph, model.hamiltonian(), &name);
+            let clock = model.configuration.as_ref().and_then(Configuration::clock);
+            let known = |symbol| match symbol {
+                Symbol::Coordinate(place) => clock.is_some_and(|clock| clock.time == place),
+                symbol => matches!(symbol, Symbol::Parameter(_)),
+            };
+            let mut all = find_joints(&model.graph, model.hamiltonian(), &name, &known);
             for force in force {
-                let joints = find_joints(&model.graph, *force, &name);
+                let joints = find_joints(&model.graph, *force, &name, &known);
                 // a rate that jumps is what a gradient is that does
                 let joints = joints.into_iter().map(|joint| Joint {
                     jump: joint.jump.map(|jump| jump + 1),
@@ -41,7 +46,7 @@ fn of_family(model: &Model, family: &Family) -> Vec<Joint> {
     let summands = moving.map(|sum| sum.summand);
     let mut all: Vec<Joint> = Vec::new();
     for function in summands.chain([family.energy]) {
-        for joint in find_joints(&model.graph, function, &sites) {
+        for joint in find_joints(&model.graph, function, &sites, &|_| false) {
             if !all.contains(&joint) {
                 all.push(joint);
             }
@@ -62,6 +67,9 @@ pub fn check(structure: &Structure, report: &mut Report) {
 }
 
 fn warning(joint: &Joint) -> Option<(String, &'static str)> {
+    if joint.is_known {
+        return None;
+    }
     let place = &joint.place;
     match joint.jump? {
         0 => Some((

@@ -26,7 +26,7 @@ pub fn jumps(graph: &Graph, function: ExprId) -> bool {
 
 /// Whether branches are not known to meet at their joints.
 fn has_gap(graph: &Graph, function: ExprId) -> bool {
-    let joints = joints::find_joints(graph, function, &|_| String::new());
+    let joints = joints::find_joints(graph, function, &|_| String::new(), &|_| false);
     joints
         .iter()
         .any(|joint| joint.jump.is_none_or(|jump| jump == 0))

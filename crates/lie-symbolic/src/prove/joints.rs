@@ -26,6 +26,8 @@ pub struct Joint {
     pub place: String,
     /// The order of the first derivative that jumps there, 0 of the function itself; `None` where it could not be decided.
     pub jump: Option<u32>,
+    /// Whether it is at times that are known beforehand, where a run ends its steps: no order is lost there.
+    pub is_known: bool,
 }
 
 impl Joint {
@@ -37,15 +39,21 @@ impl Joint {
 
 /// The order that a method of an order reaches where the motion crosses all joints; `None` where nothing is known.
 pub fn reached(joints: &[Joint], order: u32) -> Option<u32> {
-    joints
-        .iter()
+    let crossed = joints.iter().filter(|joint| !joint.is_known);
+    crossed
+        .into_iter()
         .try_fold(order, |least, joint| joint.order(least))
 }
 
-/// The joints of a function of the coordinates, with names of symbols.
-pub fn find_joints(graph: &Graph, function: ExprId, name: &dyn Fn(Symbol) -> String) -> Vec<Joint> {
+/// The joints of a function of the coordinates, with names of symbols, and which symbols are known beforehand.
+pub fn find_joints(
+    graph: &Graph,
+    function: ExprId,
+    name: &dyn Fn(Symbol) -> String,
+    known: &dyn Fn(Symbol) -> bool,
+) -> Vec<Joint> {
     let mut joints = in_own_functions(graph, function);
-    joints.extend(in_branches(graph, function, name));
+    joints.extend(in_branches(graph, function, name, known));
     joints
 }
 
@@ -75,6 +83,7 @@ fn in_own_functions(graph: &Graph, function: ExprId) -> Vec<Joint> {
         let joint = Joint {
             place: format!("somewhere in {name}"),
             jump: Some(smooth + 1),
+            is_known: false,
         };
         if !all.contains(&joint) {
             all.push(joint);
@@ -84,7 +93,12 @@ fn in_own_functions(graph: &Graph, function: ExprId) -> Vec<Joint> {
 }
 
 /// Where branches meet.
-fn in_branches(graph: &Graph, function: ExprId, name: &dyn Fn(Symbol) -> String) -> Vec<Joint> {
+fn in_branches(
+    graph: &Graph,
+    function: ExprId,
+    name: &dyn Fn(Symbol) -> String,
+    known: &dyn Fn(Symbol) -> bool,
+) -> Vec<Joint> {
     let conditions = conditions(graph, function);
     if conditions.is_empty() {
         return Vec::new();
@@ -115,10 +129,12 @@ fn in_branches(graph: &Graph, function: ExprId, name: &dyn Fn(Symbol) -> String)
     let joints = found.into_iter().map(|(expression, jump, mut values)| {
         values.sort();
         let values: Vec<String> = values.iter().map(Rational::to_string).collect();
+        let is_known = scratch.symbols(expression).into_iter().all(known);
         let expression = scratch.display(expression, name);
         Joint {
             place: format!("{expression} = {}", values.join(", ")),
             jump,
+            is_known,
         }
     });
     joints.collect()
