@@ -222,7 +222,7 @@ impl<'a> Environment<'a> {
         {
             return (message, help.to_owned());
         }
-        let declare = format!("declare `{name}` as a parameter or as an abbreviation");
+        let declare = format!("declare `{name}` as a parameter, an abbreviation or an input");
         let others = series(name, candidates);
         let help = match near {
             Some(near) => format!("did you mean `{near}`?"),

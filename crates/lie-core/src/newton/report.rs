@@ -56,7 +56,9 @@ pub enum FailureReason {
     #[error("too many adaptive steps in one interval")]
     TooManySteps,
     /// The motion comes back to a joint of the branches of H at once, from either side.
-    #[error("the motion does not leave a joint, where branches of the Hamiltonian meet")]
+    #[error(
+        "the motion does not leave a joint, where branches of the Hamiltonian or of a force meet"
+    )]
     OnJoint,
     /// Energy and Casimirs cannot be brought back to their values at the start, see
     /// [`Projection`](crate::methods::Projection).
@@ -105,7 +107,7 @@ impl FailureReason {
                 "the solution has a singularity or the tolerances are below round-off: loosen rtol and atol or end earlier"
             }
             Self::OnJoint => {
-                "make the branches equal where they meet, or round the corner off: `sqrt(x^2 + a^2)` for `abs(x)`"
+                "make the branches equal where they meet, or round the corner off: `sqrt(x^2 + a^2)` for `abs(x)`, `tanh(x/a)` for a sign, as of dry friction that sticks"
             }
             Self::OffLevel => "take a smaller step or tolerance",
             Self::DependentLevels => {

@@ -193,9 +193,15 @@ fn read(path: &Path) -> Result<Table, Message> {
             "write `time,value` in each line",
         ));
     }
-    if !ascend || !finite {
+    if !finite {
         return Err(wrong(
-            "no table of ascending times with finite values".into(),
+            "a number is not finite".into(),
+            "leave lines without a value out: an input is held until the next one",
+        ));
+    }
+    if !ascend {
+        return Err(wrong(
+            "the times do not ascend".into(),
             "sort the lines by their times, each once",
         ));
     }

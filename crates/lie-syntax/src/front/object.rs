@@ -6,6 +6,7 @@ use super::habits;
 use super::json::{Member, Type, Value};
 use super::text::Source;
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
+use crate::hints;
 use crate::suggest::meant;
 
 /// An object whose keys were checked; every key stands for its first value.
@@ -136,8 +137,18 @@ pub fn wrong_type(value: &Value<'_>, what: &str, expected: &str) -> Diagnostic {
     )
     .help(match (value.kind(), expected) {
         (Type::String, "a list") => format!("write `{}`", as_list(value.raw())),
-        _ => format!("write {expected}"),
+        _ => match example(what) {
+            Some(example) => format!("write {expected}, such as `{example}`"),
+            None => format!("write {expected}"),
+        },
     })
+}
+
+/// What may stand for a key, or for one entry of it.
+fn example(what: &str) -> Option<&'static str> {
+    let what = what.split(" `").next().unwrap_or(what);
+    let key = what.trim_matches('`').replace(' ', "_");
+    hints::lookup_word("examples", &key)
 }
 
 /// The parts of a string between commas, without its quotes; a comma in parentheses is none.
