@@ -138,6 +138,7 @@ macro_rules! same_digits_of_brackets {
             assert!(compare(&lanes, &scalar, &MeanValue, &initial));
             let mean = WithTensor::new(MeanValue, MeanTensor);
             assert!(compare(&lanes, &scalar, &mean, &initial));
+            compare(&lanes, &scalar, &OrbitEnergy::gonzalez(), &initial);
             compare(&lanes, &scalar, &Rk4, &initial);
         }
     };

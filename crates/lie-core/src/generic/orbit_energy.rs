@@ -228,6 +228,8 @@ where
     }
 
     fn result(&mut self, unknown: &P::State, mu: &mut P::State) {
+        // lanes that were solved earlier have seen more iterations
+        self.motion.begin();
         self.set_direction(unknown);
         self.carry();
         mu.copy_from(&self.moved);

@@ -40,8 +40,8 @@ pub struct FrozenFlow<S: Scalar, V, M> {
     last: [S; NODES],
     /// `b_j Pi(y_j) x` of a part of the way.
     increments: [V; NODES],
-    /// The increments are those of a direction near to the one that comes.
-    warm: bool,
+    /// The lanes in which the increments are those of a direction near to the one that comes.
+    warm: S::Mask,
     parts: S,
     resolved: S::Mask,
     /// x over the number of parts, where a part starts, where it ends.
@@ -68,36 +68,35 @@ impl<S: Scalar, V: State<S>, M: SquareMatrix<S>> FrozenFlow<S, V, M> {
         }
     }
 
-    /// Solves a part of the way from `start`; leaves its end. Returns the lanes in which it is exact, or not a number.
-    fn part<P>(&mut self, system: &P) -> S::Mask
+    /// Solves a part of the way from `start` but for lanes that keep their nodes; leaves its end. Returns the lanes in which it is exact, or
+    /// not a number.
+    fn part<P>(&mut self, system: &P, kept: S::Mask) -> S::Mask
     where
         P: Poisson<S, State = V, Jacobian = M>,
     {
-        if !self.warm {
+        let known = self.warm | kept;
+        if !known.all() {
             system.poisson_matrix(&self.start, &mut self.matrix);
             multiply(&self.matrix, &self.direction, &mut self.slot);
             for (&weight, increment) in self.weights.iter().zip(&mut self.increments) {
-                for (entry, &field) in increment
-                    .as_mut_slice()
-                    .iter_mut()
-                    .zip(self.slot.as_slice())
-                {
-                    *entry = weight * field;
+                let fields = self.slot.as_slice().iter();
+                for (entry, &field) in increment.as_mut_slice().iter_mut().zip(fields) {
+                    *entry = S::select(known, *entry, weight * field);
                 }
             }
         }
         let size = system.norm(&self.start);
         let close = S::from_f64(CLOSE) * S::epsilon() * size;
-        let mut found = S::Mask::splat(false);
+        let mut found = kept;
         for _ in 0..MOST_SWEEPS {
-            let change = self.sweep(system, found);
-            // the last sweep is as much nearer as the one before, or not a number
-            found = found | change.less_equal(close) | !change.finite();
             if found.all() {
                 break;
             }
+            let change = self.sweep(system, found);
+            // the last sweep is as much nearer as the one before, or not a number
+            found = found | change.less_equal(close) | !change.finite();
         }
-        self.warm = true;
+        self.warm = S::Mask::splat(true);
         self.end.copy_from(&self.start);
         for (k, entry) in self.end.as_mut_slice().iter_mut().enumerate() {
             let mut sum = S::zero();
@@ -137,21 +136,22 @@ impl<S: Scalar, V: State<S>, M: SquareMatrix<S>> FrozenFlow<S, V, M> {
         largest
     }
 
-    /// Goes all the way from a start, and shows each part of it with the lanes to which it belongs; leaves its end.
+    /// Goes all the way from a start, and shows each part of it with the lanes to which it belongs; leaves its end. No lane sees another.
     fn go<P>(&mut self, system: &P, [x, start]: [&V; 2], mut show: impl FnMut(&mut Self, S::Mask))
     where
         P: Poisson<S, State = V, Jacobian = M>,
     {
         self.start.copy_from(start);
+        self.resolved = S::Mask::splat(false);
         for round in 0..=MAX_HALVINGS {
             for (entry, &x) in self.direction.as_mut_slice().iter_mut().zip(x.as_slice()) {
                 *entry = x / self.parts;
             }
-            self.resolved = self.part(system);
+            self.resolved = self.part(system, self.resolved) | self.resolved;
             if self.resolved.all() || round == MAX_HALVINGS {
                 break;
             }
-            self.warm = false;
+            self.warm = self.resolved;
             let twice = self.parts + self.parts;
             self.parts = S::select(self.resolved, self.parts, twice);
         }
@@ -160,24 +160,21 @@ impl<S: Scalar, V: State<S>, M: SquareMatrix<S>> FrozenFlow<S, V, M> {
         loop {
             let open = S::zero().less(left);
             if !open.any() {
-                return;
+                break;
             }
             self.start.copy_from(&self.end);
-            self.warm = false;
-            let good = self.part(system);
+            self.warm = !open;
+            let good = self.part(system, !open);
             self.resolved = self.resolved & (good | !open);
             show(self, open);
             // those that have arrived stay
-            for (end, &start) in self
-                .end
-                .as_mut_slice()
-                .iter_mut()
-                .zip(self.start.as_slice())
-            {
+            let starts = self.start.as_slice().iter();
+            for (end, &start) in self.end.as_mut_slice().iter_mut().zip(starts) {
                 *end = S::select(open, *end, start);
             }
             left -= S::one();
         }
+        self.warm = !S::one().less(self.parts);
     }
 }
 
@@ -194,7 +191,7 @@ where
             weights: core::array::from_fn(|i| gauss_weight(NODES, i)),
             last: core::array::from_fn(|j| gauss_legendre(NODES, NODES - 1, j)),
             increments: core::array::from_fn(|_| zero.clone()),
-            warm: false,
+            warm: S::Mask::splat(false),
             parts: S::one(),
             resolved: S::Mask::splat(true),
             direction: zero.clone(),
@@ -209,7 +206,7 @@ where
     }
 
     fn begin(&mut self) {
-        self.warm = false;
+        self.warm = S::Mask::splat(false);
         self.parts = S::one();
     }
 

@@ -99,6 +99,7 @@ impl<S: Scalar, V: State<S>, M: SquareMatrix<S>> FrozenFlow<S, V, M> {
         for change in &mut *changes {
             change.fill(S::zero());
         }
+        let mut found = S::Mask::splat(false);
         for _ in 0..MOST_SWEEPS {
             let (mut moved, mut size) = (S::zero(), S::zero());
             for (node, (matrix, slope)) in at_nodes.iter().enumerate() {
@@ -113,14 +114,15 @@ impl<S: Scalar, V: State<S>, M: SquareMatrix<S>> FrozenFlow<S, V, M> {
                     for (column, &at) in at.as_slice().iter().enumerate() {
                         *entry += slope.get(row, column) * at;
                     }
-                    let new = self.weights[node] * *entry;
                     let change = &mut changes[node].as_mut_slice()[row];
+                    let new = S::select(found, *change, self.weights[node] * *entry);
                     moved = S::largest_magnitude(&[moved, new - *change]);
                     size = S::largest_magnitude(&[size, new]);
                     *change = new;
                 }
             }
-            if moved.less_equal(S::from_f64(DIGITS) * size).all() {
+            found = found | moved.less_equal(S::from_f64(DIGITS) * size);
+            if found.all() {
                 break;
             }
         }
