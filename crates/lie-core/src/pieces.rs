@@ -17,6 +17,12 @@ pub trait PieceFlows<S: Scalar> {
 
     /// The number of pieces.
     fn pieces(&self) -> usize;
+    /// Whether friction and noise are among them, as in a family; else they stand behind these pieces
+    /// ([`DrivenFlows`](crate::generic::DrivenFlows)).
+    #[inline]
+    fn has_acting(&self) -> bool {
+        false
+    }
     /// Copies a state as the other functions have it: a family has its sites in another order there, in which those that move
     /// together stand side by side.
     #[inline]

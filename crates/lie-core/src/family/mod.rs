@@ -14,6 +14,7 @@
 //! there for measurements on small families.
 #![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
 
+mod beside;
 mod bonds;
 mod carried;
 mod columns;
@@ -24,6 +25,7 @@ mod initial;
 mod links;
 mod matrix;
 mod parts;
+mod pieces;
 mod rates;
 mod shape;
 mod sites;
@@ -35,8 +37,9 @@ pub use given::{size, values};
 pub use initial::{SplitMix, unit_spheres};
 pub use links::bonds;
 pub use matrix::LateMatrix;
+pub use pieces::{Effects, Kind, Pieces, Strip, site_by_site};
 pub use shape::{Fixed, Of, Shape};
 pub use sites::{Around, Site, Sites, Span, Sums, Term};
-pub use splitting::{FamilyFlows, Kind, Pieces, Strip, site_by_site};
+pub use splitting::FamilyFlows;
 pub use stencil::Stretch;
 pub use system::{Family, STATISTICS};

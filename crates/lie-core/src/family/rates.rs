@@ -2,7 +2,7 @@
 
 use super::columns::Columns;
 use super::shape::Shape as _;
-use super::sites::Around;
+use super::sites::{Around, width};
 use super::stencil::around;
 use super::{Family, Kind, Pieces, Sites};
 use crate::scalar::Scalar;
@@ -12,8 +12,15 @@ use std::vec::Vec;
 pub(super) enum Rate<S> {
     /// The same for all bonds.
     Same(S),
-    /// One for each bond, at the place of its first site, and the largest size of them.
-    Each(Vec<S>, S),
+    /// One for each bond.
+    Each {
+        /// At the place of its first site.
+        rates: Vec<S>,
+        /// The largest size of them.
+        most: S,
+        /// When they were computed: how often what all sites share had changed.
+        at: u64,
+    },
 }
 
 /// The coefficients around the site at a place, behind coordinates that nobody reads.
@@ -31,11 +38,11 @@ pub(super) fn coefficients<S: Scalar, K: Sites<S>>(
     })
 }
 
-/// The coefficients that kernels read, in the order of the columns.
+/// The coefficients that kernels read, in the order of the columns, and space for the rates of noise.
 pub(super) fn data<S: Scalar, K: Sites<S>>(family: &Family<K>, order: Columns) -> Vec<S> {
     let (kernels, [rows, columns]) = (family.kernels(), family.sizes());
     let places = kernels.data_places();
-    let mut all = std::vec![S::zero(); places.len() * family.count()];
+    let mut all = std::vec![S::zero(); (places.len() + kernels.noise_count()) * family.count()];
     let mut parts = all.chunks_exact_mut(family.count());
     for (&[slot, which], part) in places.iter().zip(&mut parts) {
         let (values, offset) = (kernels.data(which), kernels.offsets()[slot]);
@@ -49,15 +56,19 @@ pub(super) fn data<S: Scalar, K: Sites<S>>(family: &Family<K>, order: Columns) -
     all
 }
 
-/// The rate of a piece, if it is an exchange.
+/// The rate of a piece, if it is an exchange; at the time 0 and with inputs of 0 where it depends on them.
 pub(super) fn rate<S: Scalar, K: Pieces<S>>(
     family: &Family<K>,
     (data, order): (&[S], Columns),
     (number, kind): (usize, Kind),
 ) -> Option<Rate<S>> {
     let (kernels, count) = (family.kernels(), family.count());
-    if data.is_empty() {
-        return kernels.exchange(number).map(Rate::Same);
+    let shared = K::Sums::make(width(kernels), |_| S::zero());
+    if kernels.data_places().is_empty() {
+        let at = K::Around::make(around(kernels), |_| S::zero());
+        return kernels
+            .shared_exchange(number, &at, &shared)
+            .map(Rate::Same);
     }
     let ([rows, columns], spans) = (family.sizes(), kind.spans);
     // bonds alone count: behind the ends of a chain there are no values
@@ -66,9 +77,9 @@ pub(super) fn rate<S: Scalar, K: Pieces<S>>(
         for column in spans[1].range(columns) {
             let place = row * columns + order.place(column);
             let at = coefficients(kernels, data, count, place);
-            rates[place] = kernels.exchange_of(number, &at)?;
+            rates[place] = kernels.shared_exchange(number, &at, &shared)?;
             most = most.max(rates[place].abs());
         }
     }
-    Some(Rate::Each(rates, most))
+    Some(Rate::Each { rates, most, at: 0 })
 }

@@ -4,156 +4,48 @@
 //! sites at a fixed distance: a product of a coordinate of each, or on so(3) the exchange `s_i . s_j`, along whose flow both
 //! spins turn about their sum. Bonds of a kind are done in two pieces, those that begin at even and at odd places, or in three
 //! where a ring has an odd number of them.
+//!
+//! Where a state carries the time, its momentum is the first piece: the time moves, and stands still in the flows of all others, along which its
+//! momentum moves by what they change with the time. Friction and noise stand behind the pieces of H, as pieces of sites.
 
 use super::bonds::Bonds;
 use super::columns::Columns;
 use super::energy::Totals;
 use super::exchange::Exchange;
-use super::rates::{Rate, coefficients, data, rate};
-use super::shape::Shape as _;
-use super::sites::{Around, Site, Sums};
-use super::stencil::{around, wrapped};
-use super::{Family, Sites, Span};
+use super::rates::{Rate, data, rate};
+use super::sites::{Sums, width};
+use super::stencil::wrapped;
+use super::{Effects, Family, Kind, Pieces, Strip};
 use crate::pieces::{FoundPoisson, PieceFlows};
+use crate::poisson::Poisson as _;
 use crate::scalar::Scalar;
 use core::array::from_fn;
 use core::ops::Range;
 use std::vec::Vec;
 
-/// A kind of pieces: a function of one site, or a bond.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Kind {
-    /// The distance of the second site of a bond, in rows and columns; 0 of a function of one site.
-    pub offset: [isize; 2],
-    /// The sites that it goes over, the first ones of bonds.
-    pub spans: [Span; 2],
-    /// Whether it is a function of sums over these sites, which its flow keeps.
-    pub collective: bool,
-}
-
-/// Sites whose sums have pieces with exact flows. Generated where the compiler finds them.
-#[diagnostic::on_unimplemented(
-    message = "the family of `{Self}` cannot be split over the scalar `{S}`",
-    note = "splittings need a Hamiltonian that consists of functions of one coordinate and of bonds with exact flows: `lie check` says what stands against it"
-)]
-pub trait Pieces<S: Scalar>: Sites<S> {
-    /// The kinds of pieces.
-    fn kinds(&self) -> &[Kind];
-    /// The rate of an exchange, `s_1' = rate (s_1 + s_2) x s_1`; none of another kind.
-    fn exchange(&self, kind: usize) -> Option<S>;
-    /// What a site adds to the sums of which a piece is a function; 0 of all other sums.
-    fn share(&self, kind: usize, one: &Site<Self, S>) -> Sums<Self, S>;
-    /// The rate of an exchange whose coefficients, those behind the coordinates of `at` around its first site, differ from site
-    /// to site.
-    fn exchange_of(&self, kind: usize, _at: &Around<Self, S>) -> Option<S> {
-        self.exchange(kind)
-    }
-    /// The flow of a piece over a time t, of a site or of a bond, at these values of its sums. Implemented where no coefficient
-    /// differs from site to site.
-    #[inline]
-    fn flow(
-        &self,
-        kind: usize,
-        t: S,
-        sums: &Sums<Self, S>,
-        one: &mut Site<Self, S>,
-        other: &mut Site<Self, S>,
-    ) {
-        let none = Self::Around::make(around(self), |_| S::zero());
-        self.flow_of(kind, t, (sums, &none), one, other);
-    }
-    /// The same with coefficients, those behind the coordinates of `at` around the first site.
-    #[inline]
-    fn flow_of(
-        &self,
-        kind: usize,
-        t: S,
-        (sums, _at): (&Sums<Self, S>, &Around<Self, S>),
-        one: &mut Site<Self, S>,
-        other: &mut Site<Self, S>,
-    ) {
-        self.flow(kind, t, sums, one, other);
-    }
-
-    /// The flow of a piece over a time t for many sites or bonds of a state: [`Pieces::flow`] of each. `data` are the coefficients
-    /// that kernels read, of each as many as there are sites, in the order of the state.
-    #[inline(always)]
-    fn flows(
-        &self,
-        kind: usize,
-        t: S,
-        (sums, data): (&Sums<Self, S>, &[S]),
-        strip: &Strip,
-        mu: &mut [S],
-    ) {
-        site_by_site(self, kind, t, (sums, data), strip, mu);
-    }
-}
-
-/// [`Pieces::flow`] of one site or bond of a strip after the other.
-#[inline(always)]
-pub fn site_by_site<S: Scalar, K: Pieces<S>>(
-    kernels: &K,
-    kind: usize,
-    t: S,
-    (sums, data): (&Sums<K, S>, &[S]),
-    strip: &Strip,
-    mu: &mut [S],
-) {
-    let dimension = kernels.dimension();
-    let site = |mu: &[S], place: usize| K::Site::make(dimension, |k| mu[k * strip.sites + place]);
-    let set = |mu: &mut [S], place: usize, value: &Site<K, S>| {
-        for (k, value) in value.as_ref().iter().enumerate() {
-            mu[k * strip.sites + place] = *value;
-        }
-    };
-    for i in 0..strip.count {
-        let [first, second] = strip.places.map(|place| place + i);
-        let (mut one, mut other) = (site(mu, first), site(mu, second));
-        if data.is_empty() {
-            kernels.flow(kind, t, sums, &mut one, &mut other);
-        } else {
-            let at = coefficients(kernels, data, strip.sites, first);
-            kernels.flow_of(kind, t, (sums, &at), &mut one, &mut other);
-        }
-        if strip.bonds {
-            set(mu, second, &other);
-        }
-        set(mu, first, &one);
-    }
-}
-
-/// Sites of a row, or bonds, that are done together: where the first and where the second ones stand, one behind the other.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Strip {
-    /// The places of the first sites.
-    pub places: [usize; 2],
-    /// How many there are.
-    pub count: usize,
-    /// The number of sites of the family: how far apart the coordinates of a site are.
-    pub sites: usize,
-    /// Whether they are bonds; else first and second sites are the same.
-    pub bonds: bool,
-}
-
 /// A piece: a kind, of bonds those of one colour.
-struct Piece<S> {
-    place: usize,
+pub(super) struct Piece<S> {
+    pub(super) place: usize,
     kind: Kind,
     colour: u8,
     bonds: Option<Bonds>,
-    exchange: Option<Rate<S>>,
+    pub(super) effects: Effects,
+    pub(super) exchange: Option<Rate<S>>,
 }
 
 /// The flows of the pieces of a family. They act on states in an order of their own, see [`PieceFlows::gather`].
 pub struct FamilyFlows<'a, S, K> {
-    family: &'a Family<K>,
-    columns: Columns,
-    pieces: Vec<Piece<S>>,
-    /// The coefficients that kernels read, of each as many as there are sites, in the order of the states.
-    data: Vec<S>,
+    pub(super) family: &'a Family<K>,
+    pub(super) columns: Columns,
+    pub(super) pieces: Vec<Piece<S>>,
+    /// The coefficients that kernels read, of each as many as there are sites, in the order of the states; behind them the rates of noise.
+    pub(super) data: Vec<S>,
     /// A bound of the squares of all spins, which exchanges ask for.
     largest: S,
+    /// How often what all sites share has changed.
+    pub(super) turn: u64,
+    /// Space for a state in its own order, where work is done.
+    pub(super) state: Vec<S>,
 }
 
 impl<'a, S, K> FamilyFlows<'a, S, K>
@@ -174,6 +66,7 @@ where
                     kind,
                     colour,
                     bonds,
+                    effects: family.kernels().effects(place),
                     exchange: None,
                 });
             }
@@ -183,6 +76,12 @@ where
         for piece in &mut pieces {
             piece.exchange = rate(family, (&data, columns), (piece.place, piece.kind));
         }
+        let works = pieces.iter().any(|piece| piece.effects.works);
+        let state = if works {
+            family.zero_state()
+        } else {
+            Vec::new()
+        };
         Self {
             family,
             columns,
@@ -190,11 +89,13 @@ where
             data,
             // the flow of an exchange of any spins, until a state is taken
             largest: S::one() / S::zero(),
+            turn: 0,
+            state,
         }
     }
 
     /// The strips of a piece whose first sites are in a row.
-    fn strips(&self, piece: &Piece<S>, row: usize, mut then: impl FnMut(Strip)) {
+    pub(super) fn strips(&self, piece: &Piece<S>, row: usize, mut then: impl FnMut(Strip)) {
         let [rows, columns] = self.family.sizes();
         let Piece {
             kind,
@@ -238,32 +139,41 @@ where
         }
     }
 
-    /// The sums of which a piece is a function.
-    fn sums(&self, piece: &Piece<S>, mu: &[S]) -> Sums<K, S> {
+    /// The sums of which a piece is a function, with what all sites share behind them.
+    pub(super) fn sums(&self, piece: &Piece<S>, mu: &[S]) -> Sums<K, S> {
         let (family, kernels) = (self.family, self.family.kernels());
-        let mut totals = Totals::<K::Sums, S>::new(kernels.count());
-        if piece.kind.collective {
-            for row in 0..family.sizes()[0] {
-                self.strips(piece, row, |strip| {
-                    let first = strip.places[0];
-                    for site in first..first + strip.count {
-                        let share = kernels.share(piece.place, &family.site(mu, site));
-                        totals.add(share.as_ref());
-                    }
-                });
-            }
+        if !piece.kind.collective {
+            return family.shared(mu);
         }
-        totals.end()
+        let mut totals = Totals::<K::Sums, S>::new(width(kernels));
+        let shared = family.shared(mu);
+        for row in 0..family.sizes()[0] {
+            self.strips(piece, row, |strip| {
+                let first = strip.places[0];
+                for site in first..first + strip.count {
+                    let one = family.site(mu, site);
+                    let share = kernels.shared_share(piece.place, &one, &shared);
+                    totals.add(share.as_ref());
+                }
+            });
+        }
+        family.with_shared(totals.end(), mu)
     }
 
     /// The flow of a piece that is no exchange.
-    fn sites(&self, piece: &Piece<S>, t: S, mu: &mut [S]) {
-        let sums = self.sums(piece, mu);
+    pub(super) fn sites(&self, piece: &Piece<S>, t: S, sums: &Sums<K, S>, mu: &mut [S]) {
         for row in 0..self.family.sizes()[0] {
             self.strips(piece, row, |strip| {
                 let kernels = self.family.kernels();
-                kernels.flows(piece.place, t, (&sums, &self.data), &strip, mu);
+                kernels.flows(piece.place, t, (sums, &self.data), &strip, mu);
             });
+        }
+    }
+
+    /// Takes the bound of the squares of all spins, where there are exchanges.
+    fn measure(&mut self, mu: &[S]) {
+        if self.pieces.iter().any(|piece| piece.exchange.is_some()) {
+            self.largest = largest_square(mu, self.family.count());
         }
     }
 
@@ -271,7 +181,7 @@ where
     fn exchanges(&self, piece: &Piece<S>, rate: &Rate<S>, t: S, mu: &mut [S]) {
         let exchange = match rate {
             Rate::Same(rate) => Exchange::new(*rate * t, self.largest),
-            Rate::Each(_, most) => Exchange::of_each(t, *most, self.largest),
+            Rate::Each { most, .. } => Exchange::of_each(t, *most, self.largest),
         };
         for row in 0..self.family.sizes()[0] {
             self.strips(piece, row, |strip| {
@@ -284,24 +194,11 @@ where
                 let pairs = [[x1, y1, z1], [x2, y2, z2]];
                 match rate {
                     Rate::Same(_) => exchange.flow(pairs),
-                    Rate::Each(rates, _) => {
+                    Rate::Each { rates, .. } => {
                         exchange.flow_of_each(pairs, &rates[strip.places[0]..][..strip.count]);
                     }
                 }
             });
-        }
-    }
-}
-
-impl Strip {
-    /// The first and the second numbers, which are apart.
-    fn pair<'m, S>(&self, numbers: &'m mut [S]) -> [&'m mut [S]; 2] {
-        let ([first, second], count) = (self.places, self.count);
-        let (before, behind) = numbers.split_at_mut(first.max(second));
-        if first < second {
-            [&mut before[first..][..count], &mut behind[..count]]
-        } else {
-            [&mut behind[..count], &mut before[second..][..count]]
         }
     }
 }
@@ -334,7 +231,11 @@ where
     type State = Vec<S>;
 
     fn pieces(&self) -> usize {
-        self.pieces.len()
+        self.pieces.len() + self.carries_time()
+    }
+
+    fn has_acting(&self) -> bool {
+        true
     }
 
     fn direction(&self, _piece: usize, _t: S, _mu: &Vec<S>, _xi: &mut Vec<S>) {
@@ -342,25 +243,55 @@ where
     }
 
     fn gather(&mut self, mu: &Vec<S>, next: &mut Vec<S>) {
-        self.columns.gather(mu, next);
-        if self.pieces.iter().any(|piece| piece.exchange.is_some()) {
-            self.largest = largest_square(mu, self.family.count());
-        }
+        let own = self.family.own();
+        self.columns.gather(&mu[..own], &mut next[..own]);
+        self.take_shared(&mu[own..], &mut next[own..]);
+        self.measure(next);
     }
 
     fn scatter(&self, lanes: S::Mask, next: &Vec<S>, mu: &mut Vec<S>) {
-        self.columns.scatter(lanes, next, mu);
+        let own = self.family.own();
+        self.columns.scatter(lanes, &next[..own], &mut mu[..own]);
+        for place in own..own + 2 * self.carries_time() {
+            mu[place] = S::select(lanes, next[place], mu[place]);
+        }
     }
 
     fn flow(&mut self, piece: usize, t: S, mu: &mut Vec<S>) {
-        let piece = &self.pieces[piece];
-        if piece.bonds.is_none() && piece.kind.offset != [0, 0] {
+        let Some(place) = piece.checked_sub(self.carries_time()) else {
+            return self.advance(t, mu);
+        };
+        let Piece {
+            bonds,
+            kind,
+            effects,
+            ..
+        } = self.pieces[place];
+        if bonds.is_none() && kind.offset != [0, 0] {
             // a bond of a site with itself is no such piece
             return mu.fill(S::zero() / S::zero());
         }
-        match &piece.exchange {
-            Some(rate) => self.exchanges(piece, rate, t, mu),
-            None => self.sites(piece, t, mu),
+        if effects.works {
+            self.work(place, t, mu);
+        } else if self.pieces[place].exchange.is_some() {
+            self.refresh(place, mu);
+            let piece = &self.pieces[place];
+            if effects.timed {
+                self.take_from_momentum(piece, t, &self.family.shared(mu), mu);
+            }
+            if let Some(rate) = &piece.exchange {
+                self.exchanges(piece, rate, t, mu);
+            }
+        } else {
+            let piece = &self.pieces[place];
+            let sums = self.sums(piece, mu);
+            if effects.timed {
+                self.take_from_momentum(piece, t, &sums, mu);
+            }
+            self.sites(piece, t, &sums, mu);
+        }
+        if effects.pushes {
+            self.measure(mu);
         }
     }
 }

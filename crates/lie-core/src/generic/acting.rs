@@ -14,6 +14,15 @@ impl<T> Acting<T> {
         Self(acts(system).then(make))
     }
 
+    /// Makes it where something acts and the condition holds.
+    pub(super) fn where_both<S: Scalar, P: Poisson<S>>(
+        system: &P,
+        condition: bool,
+        make: impl FnOnce() -> T,
+    ) -> Self {
+        Self((condition && acts(system)).then(make))
+    }
+
     /// It, where something acts.
     #[inline(always)]
     pub(super) fn get<S: Scalar, P: Poisson<S>>(&self, system: &P) -> Option<&T> {

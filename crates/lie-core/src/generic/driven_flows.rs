@@ -41,11 +41,12 @@ impl<'a, P, F, V> DrivenFlows<'a, P, F, V> {
         P: LiePoisson<S, State = V>,
         F: PieceFlows<S, State = V>,
     {
+        let beside = !flows.has_acting();
         Self {
             system,
             flows,
-            friction: Acting::of(system, || Friction::new(system)),
-            noise: Acting::of(system, || Noise::new(system)),
+            friction: Acting::where_both(system, beside, || Friction::new(system)),
+            noise: Acting::where_both(system, beside, || Noise::new(system)),
         }
     }
 
@@ -58,9 +59,9 @@ impl<'a, P, F, V> DrivenFlows<'a, P, F, V> {
         P: LiePoisson<S, State = V>,
         F: PieceFlows<S, State = V>,
     {
-        let system = self.system;
-        let noisy = system.noise_count() > 0;
-        (self.flows.pieces(), system.is_forced(), noisy)
+        let (system, beside) = (self.system, !self.flows.has_acting());
+        let noisy = beside && system.noise_count() > 0;
+        (self.flows.pieces(), beside && system.is_forced(), noisy)
     }
 }
 
