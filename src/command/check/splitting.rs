@@ -28,7 +28,13 @@ pub(super) fn write(
         Some(_) => " at each site",
         None => "",
     };
-    writeln!(text, "  splitting: H is {count}{rest}{place}")?;
+    let mut driving = model.driving.iter();
+    let acts = driving.any(|driving| !driving.declared.is_empty());
+    let what = match model.family.is_some() && acts {
+        true => "H with what acts",
+        false => "H",
+    };
+    writeln!(text, "  splitting: {what} is {count}{rest}{place}")?;
     for piece in &terms.pieces {
         writeln!(text, "    {}", piece.join(", "))?;
     }

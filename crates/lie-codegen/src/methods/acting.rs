@@ -7,8 +7,12 @@ use crate::structure::flows;
 /// Why a method does not apply where something acts beside the Hamiltonian.
 pub(super) fn driven(model: &Model, choice: &Choice) -> Option<(String, String)> {
     let (driving, method) = (model.driving.as_ref()?, choice.entry()?);
-    if matches!(choice, Choice::Splitting(..)) && model.family.is_none() {
-        return flows::unsplittable(model);
+    if matches!(choice, Choice::Splitting(..)) {
+        return match model.family {
+            // its pieces are found, or are not, with those of H
+            Some(_) => None,
+            None => flows::unsplittable(model),
+        };
     }
     let along = |acting: &Acting| {
         matches!(
@@ -60,7 +64,6 @@ pub(super) fn driven(model: &Model, choice: &Choice) -> Option<(String, String)>
 fn without_forces(choice: &Choice) -> &'static str {
     match choice {
         Choice::Exact => "the closed solution is that of H alone",
-        Choice::Splitting(..) => "no flow of what acts is known in closed form",
         Choice::Generating(..) | Choice::GeneratingSecondKind2 => {
             "the generating function is one of H alone"
         }

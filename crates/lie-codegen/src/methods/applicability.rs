@@ -15,7 +15,8 @@ pub fn refusal(structure: &Structure, choice: &Choice) -> Option<(String, String
         return refusal(structure, base);
     }
     if let Some(pieces) = &structure.family_pieces {
-        return driven(structure, choice).or_else(|| family(pieces.as_ref().err(), choice));
+        let acts = structure.driving.is_some();
+        return driven(structure, choice).or_else(|| family(pieces.as_ref().err(), acts, choice));
     }
     let model = &structure.model;
     let whole = bracket(model, choice).or_else(|| driven(model, choice));
@@ -92,8 +93,8 @@ fn other_scheme(order: u32) -> String {
     format!("use `splitting{order}` with `--composition {name}`, which is for any number of pieces")
 }
 
-/// Why a method does not apply to a family, of which no matrix is kept; its Hamiltonian may have no pieces, for a reason.
-fn family(no_pieces: Option<&String>, choice: &Choice) -> Option<(String, String)> {
+/// Why a method does not apply to a family, of which no matrix is kept; there may be no pieces of it, for a reason.
+fn family(no_pieces: Option<&String>, acts: bool, choice: &Choice) -> Option<(String, String)> {
     match choice {
         Choice::Splitting(_, _, Pieces::Coordinate) => Some((
             "the pieces of a family are those of its sums".into(),
@@ -101,9 +102,11 @@ fn family(no_pieces: Option<&String>, choice: &Choice) -> Option<(String, String
         )),
         Choice::Splitting(order, scheme, _) => {
             if let Some(why) = no_pieces {
-                let message = format!("H does not consist of pieces with exact flows: {why}");
-                let help = "use `gauss16`, which keeps quadratic Casimirs";
-                return Some((message, help.into()));
+                let help = match acts {
+                    true => "use `gauss16` or `rk4`, which take the whole field",
+                    false => "use `gauss16`, which keeps quadratic Casimirs",
+                };
+                return Some((format!("{NO_PIECES}: {why}"), help.into()));
             }
             if !scheme.is_near_integrable() {
                 return None;
@@ -124,6 +127,9 @@ fn family(no_pieces: Option<&String>, choice: &Choice) -> Option<(String, String
         }
     }
 }
+
+/// What stands before the reason why a family has no splitting.
+const NO_PIECES: &str = "it is not made of pieces with exact flows";
 
 /// Gauss methods with so many stages or more are solved without a matrix.
 const PARALLEL: usize = 4;
@@ -310,9 +316,7 @@ fn cayley(model: &Model) -> Option<&'static str> {
 fn composed(structure: &Structure) -> Option<String> {
     let of_family = structure.family_pieces.as_ref()?.as_ref().err()?;
     let why = "no symmetric method of order 2 applies";
-    Some(format!(
-        "{why}: H does not consist of pieces with exact flows: {of_family}"
-    ))
+    Some(format!("{why}: {NO_PIECES}: {of_family}"))
 }
 
 /// The kind of the mistake to ask for a method of a system that cannot carry it.

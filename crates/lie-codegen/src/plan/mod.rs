@@ -31,7 +31,7 @@ pub use equation::{
     Chart, Ending, Fused, Generating, Gradient, Guess, Item, Method, Motion, Partner, Solver,
     Sparse, Unknown,
 };
-pub use family::{Data, Family, FamilyForm, FamilyPiece, FamilyPieces, Sum};
+pub use family::{Data, Family, FamilyForm, FamilyPiece, FamilyPieces, Push, Sum};
 pub use function::Function;
 pub use names::Names;
 pub use own::Own;

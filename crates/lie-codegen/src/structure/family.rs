@@ -1,7 +1,10 @@
 //! The pieces of the Hamiltonian of a family whose flows are exact: functions of one coordinate, products of a coordinate of
-//! each of two sites and other functions of them, on so(3) the exchange of two spins, and functions of sums of functions of one coordinate.
+//! each of two sites and other functions of them, on so(3) the exchange of two spins, and functions of sums of functions of one coordinate;
+//! and behind them what acts on each site, where its flow is exact.
 
+mod acting;
 mod bonds;
+mod timed;
 
 use std::collections::BTreeMap;
 
@@ -19,6 +22,17 @@ pub struct Piece {
     pub spans: [Option<(usize, usize)>; 2],
     /// What it is.
     pub form: Form,
+    /// Its derivative by the time, where it depends on it by itself.
+    pub timed: Option<TimeSlope>,
+}
+
+/// The derivative of a piece by the time.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TimeSlope {
+    /// What a site or a bond adds, in the symbols of [`Form`].
+    pub each: ExprId,
+    /// What a function of sums has beside that.
+    pub of_sums: Option<ExprId>,
 }
 
 /// What a piece is.
@@ -37,6 +51,23 @@ pub enum Form {
     Pair([usize; 2], [ExprId; 2]),
     /// `s_1' = rate (s_1 + s_2) x s_1`, and the opposite of that for the other spin.
     Exchange(ExprId),
+    /// A function that moves no site.
+    Still,
+    /// Noise along a coordinate, with what it has in the place of the derivative of a function of it.
+    Noise(usize, ExprId),
+    /// Noise along another direction: the element of the algebra.
+    Turn(Vec<ExprId>),
+    /// A force: the coordinates of the site behind it, over `Symbol::Time`.
+    Force(Push, Vec<ExprId>),
+}
+
+/// Which force.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Push {
+    /// Friction and constant forces, which do work.
+    Friction,
+    /// Noise.
+    Noise,
 }
 
 /// The pieces of a Hamiltonian.
@@ -46,28 +77,39 @@ pub struct Pieces {
     pub graph: Graph,
     /// The pieces.
     pub pieces: Vec<Piece>,
+    /// What H is beside them, where that changes with the time: a function of it and of inputs.
+    pub rest: Option<ExprId>,
 }
 
 impl Pieces {
-    /// The pieces in another arena.
-    pub fn moved(&self, to: &mut Graph) -> Vec<Piece> {
-        let mut all = self.pieces.clone();
-        let mut ids: Vec<&mut ExprId> = Vec::new();
+    /// The pieces in another arena, and the rest.
+    pub fn moved(&self, to: &mut Graph) -> (Vec<Piece>, Option<ExprId>) {
+        let (mut all, mut rest) = (self.pieces.clone(), self.rest);
+        let mut ids: Vec<&mut ExprId> = rest.iter_mut().collect();
         for piece in &mut all {
             match &mut piece.form {
-                Form::Site(_, id) | Form::Product(_, id) | Form::Exchange(id) => ids.push(id),
+                Form::Site(_, id)
+                | Form::Product(_, id)
+                | Form::Exchange(id)
+                | Form::Noise(_, id) => ids.push(id),
                 Form::Pair(_, both) => ids.extend(both),
                 Form::Collective(_, id, shares) => {
                     ids.push(id);
                     ids.extend(shares.iter_mut().map(|(_, share)| share));
                 }
+                Form::Still => {}
+                Form::Turn(entries) | Form::Force(_, entries) => ids.extend(entries),
+            }
+            if let Some(TimeSlope { each, of_sums }) = &mut piece.timed {
+                ids.push(each);
+                ids.extend(of_sums);
             }
         }
         let roots: Vec<ExprId> = ids.iter().map(|id| **id).collect();
         for (id, image) in ids.into_iter().zip(to.import(&self.graph, &roots)) {
             *id = image;
         }
-        all
+        (all, rest)
     }
 }
 
@@ -85,6 +127,11 @@ impl Piece {
             Form::Product([a, b], _) => format!("{}*{}[{at}]", name(*a), name(*b)),
             Form::Pair([a, b], _) => format!("f({}, {}[{at}])", name(*a), name(*b)),
             Form::Exchange(_) => format!("exchange with [{at}]"),
+            Form::Still => "f(t)".to_owned(),
+            Form::Noise(a, _) => format!("noise along {}", name(*a)),
+            Form::Turn(_) => "noise along a direction".to_owned(),
+            Form::Force(Push::Friction, _) => "friction".to_owned(),
+            Form::Force(Push::Noise, _) => "noise as a force".to_owned(),
         }
     }
 }
@@ -94,11 +141,6 @@ impl Piece {
 /// # Errors
 /// The reason.
 pub fn pieces(model: &Model, family: &Family, spins: Option<&[Spin]>) -> Result<Pieces, String> {
-    if !family.shared.is_empty() {
-        let why =
-            "the time and inputs are carried beside the sites, and pieces move the sites alone";
-        return Err(why.into());
-    }
     let mut graph = model.graph.clone();
     let mut search = Search {
         model,
@@ -115,13 +157,15 @@ pub fn pieces(model: &Model, family: &Family, spins: Option<&[Spin]>) -> Result<
         }
         search.sum(k, sum)?;
     }
+    let rest = search.rest()?;
+    search.acting()?;
     let found = search.found;
     let actions = model.bracket.algebra().map(separable::actions);
     let actions = actions.unwrap_or_default();
     let needed = found.iter().flat_map(|piece| match &piece.form {
-        Form::Site(a, _) | Form::Collective(a, ..) => vec![*a],
+        Form::Site(a, _) | Form::Collective(a, ..) | Form::Noise(a, _) => vec![*a],
         Form::Product(both, _) | Form::Pair(both, _) => both.to_vec(),
-        Form::Exchange(_) => Vec::new(),
+        Form::Exchange(_) | Form::Still | Form::Turn(_) | Form::Force(..) => Vec::new(),
     });
     for a in needed {
         if actions.get(a).is_none_or(Option::is_none) {
@@ -134,6 +178,7 @@ pub fn pieces(model: &Model, family: &Family, spins: Option<&[Spin]>) -> Result<
     Ok(Pieces {
         graph,
         pieces: found,
+        rest,
     })
 }
 
@@ -233,6 +278,7 @@ impl Search<'_> {
         Ok(Piece {
             offset: [0, 0],
             spans,
+            timed: self.time_slope_of_sums(&shares)?,
             form: Form::Collective(a, slope, shares),
         })
     }
@@ -253,7 +299,7 @@ impl Search<'_> {
         for &slot in &sum.slots {
             self.site(density, slot, sum, &done)?;
         }
-        Ok(())
+        self.still(density, sum)
     }
 
     /// An expression at the site of a summand, its coefficients as those around the site in a slot.
@@ -314,19 +360,31 @@ impl Search<'_> {
                 continue;
             }
             let slope = self.around(slope, slot);
+            let timed = self.time_slope(density, &[(place, a)], slot)?;
             let known = self
                 .found
                 .iter_mut()
                 .find_map(|piece| match &mut piece.form {
-                    Form::Site(b, slope) if *b == a && piece.spans == spans => Some(slope),
+                    Form::Site(b, slope) if *b == a && piece.spans == spans => {
+                        Some((slope, &mut piece.timed))
+                    }
                     _ => None,
                 });
             match known {
-                Some(known) => *known = self.graph.add(*known, slope),
+                Some((known, known_timed)) => {
+                    *known = self.graph.add(*known, slope);
+                    match (known_timed, timed) {
+                        (Some(known), Some(more)) => {
+                            known.each = self.graph.add(known.each, more.each);
+                        }
+                        (known, more) => *known = known.take().or(more),
+                    }
+                }
                 None => self.found.push(Piece {
                     offset: [0, 0],
                     spans,
                     form: Form::Site(a, slope),
+                    timed,
                 }),
             }
         }

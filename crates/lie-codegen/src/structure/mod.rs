@@ -82,7 +82,7 @@ pub struct Structure {
     pub pieces: Option<Vec<separable::Piece>>,
     /// The ways to split H into the fewest pieces with exact flows.
     pub splitting: Arc<found::Searched>,
-    /// The pieces of the H of a family, or why there are none; none of other systems.
+    /// The pieces of the H of a family and of what acts on it, or why there are none; none of other systems.
     pub family_pieces: Option<Result<Arc<family::Pieces>, String>>,
     /// Which pairs of coordinates are canonical, and which triples turn.
     pub directions: Arc<directions::Directions>,
@@ -122,10 +122,9 @@ pub fn structure(mut model: Model, effort: Effort) -> Structure {
         Some(separable::pieces(model.bracket.algebra()?, coordinates))
     });
     let splitting = found::search(&model, &casimirs, pieces.as_deref());
-    let family_pieces = model.family.as_ref().map(|family| match &model.driving {
-        Some(_) => Err("what acts beside H has no exact flow".into()),
-        None => family::pieces(&model, family, few).map(Arc::new),
-    });
+    let family_pieces = model.family.as_ref();
+    let family_pieces =
+        family_pieces.map(|family| family::pieces(&model, family, few).map(Arc::new));
     let motion = integrable::motion(&model, few);
     let directions = Arc::new(directions::directions(&model));
     let joints = smoothness::joints(&model);

@@ -9,6 +9,7 @@ mod domain;
 mod driving;
 mod extremes;
 mod families;
+mod family_pieces;
 mod found;
 mod functions;
 mod idle;

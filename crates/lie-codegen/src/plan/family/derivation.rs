@@ -1,15 +1,13 @@
 //! What is derived for a family: the kernels of one site.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
-use super::{Data, Family, FamilyForm, FamilyPiece, FamilyPieces, SiteCasimir, Sum};
-use crate::derive::{Argument, Kernel, Source, action};
+use super::{Data, Family, SiteCasimir, Sum};
+use crate::derive::{Argument, Kernel, Source};
 use crate::model::{self, data_symbol, shared_symbol};
 use crate::plan::constants::Table;
 use crate::plan::function::Function;
 use crate::plan::planner::{Planner, described};
-use crate::structure::family::Form;
-use crate::structure::separable;
 use lie_symbolic::symbolic::{ExprId, Symbol};
 use lie_syntax::ast::BONDS;
 
@@ -50,7 +48,7 @@ impl<'p, 'm> Derivation<'p, 'm> {
     }
 
     /// The coefficients, and the rates of Wiener processes.
-    fn coefficients(&self) -> impl Iterator<Item = Symbol> + use<> {
+    pub(super) fn coefficients(&self) -> impl Iterator<Item = Symbol> + use<> {
         let first = self.family.data_names.len();
         let rates = first..first + super::noises(self.planner.structure);
         (0..self.family.data_places.len())
@@ -258,95 +256,6 @@ impl<'p, 'm> Derivation<'p, 'm> {
             self.vector("ad", of_ad, arguments("eta"), &ad),
             self.vector("ad_star", of_ad_star, arguments("mu"), &ad_star),
         ]
-    }
-
-    /// The pieces of H, if their flows are exact.
-    fn pieces(&mut self) -> Option<FamilyPieces> {
-        let model = self.planner.structure;
-        let found = model.family_pieces.as_ref()?.as_ref().ok()?;
-        let found = found.moved(&mut self.planner.source.graph);
-        let own = Argument {
-            name: "one",
-            symbols: (0..self.n()).map(Symbol::Coordinate).collect(),
-        };
-        let [_, sums] = self.at();
-        let (mut kinds, mut needed) = (Vec::new(), BTreeSet::new());
-        for piece in found {
-            let place = kinds.len();
-            let (mut share, mut second) = (None, None);
-            let (form, rate) = match piece.form {
-                Form::Site(a, slope) => {
-                    needed.insert(a);
-                    (FamilyForm::Site(a), slope)
-                }
-                Form::Collective(a, slope, shares) => {
-                    needed.insert(a);
-                    share = Some(self.share(place, &own, &shares));
-                    (FamilyForm::Collective(a), slope)
-                }
-                Form::Product(both, factor) => {
-                    needed.extend(both);
-                    (FamilyForm::Product(both), factor)
-                }
-                Form::Pair(both, [slope, of_other]) => {
-                    needed.extend(both);
-                    second = Some(of_other);
-                    (FamilyForm::Pair(both), slope)
-                }
-                Form::Exchange(rate) => (FamilyForm::Exchange, rate),
-            };
-            let formula = "the speed along the flow of a piece";
-            let mut arguments = vec![own.clone(), sums.clone()];
-            if !self.family.data.is_empty() {
-                // the coefficients stand behind the coordinates of all slots, of which the rate has those of the site alone
-                let data = self.coefficients();
-                let skipped = self.family.names.iter().map(|_| Symbol::Time);
-                arguments.push(Argument {
-                    name: "at",
-                    symbols: skipped.chain(data).collect(),
-                });
-            }
-            if second.is_some() {
-                let n = self.n();
-                arguments.push(Argument {
-                    name: "other",
-                    symbols: (n..2 * n).map(Symbol::Coordinate).collect(),
-                });
-            }
-            let mut of_piece = |label: &str, rate| {
-                let kernel = Kernel::scalar("rate", formula, arguments.clone(), rate);
-                self.function(&format!("{label} {place}"), &kernel)
-            };
-            kinds.push(FamilyPiece {
-                offset: piece.offset,
-                spans: piece.spans,
-                form,
-                rate: of_piece("rate of piece", rate),
-                second: second.map(|slope| of_piece("rate of the second sites of piece", slope)),
-                share,
-            });
-        }
-        let actions = separable::actions(model.bracket.algebra()?);
-        let mut turns = Vec::new();
-        for a in needed {
-            let blocks = actions[a].as_ref()?;
-            let piece = action(&mut self.planner.source, a, blocks);
-            let label = format!("turn about {}", model.coordinates[a].text);
-            let function = self.function(&label, &piece.kernel?);
-            turns.push((a, function, piece.updates));
-        }
-        Some(FamilyPieces { kinds, turns })
-    }
-
-    /// What a site adds to these sums.
-    fn share(&mut self, piece: usize, own: &Argument, shares: &[(usize, ExprId)]) -> Function {
-        let mut entries = vec![self.planner.source.graph.integer(0); self.family.sums.len()];
-        for (k, share) in shares {
-            entries[*k] = self.planner.source.graph.as_written(*share);
-        }
-        let formula = ("share", "what a site adds to the sums of a piece");
-        let label = format!("share of piece {piece}");
-        self.vector(&label, formula, vec![own.clone()], &entries)
     }
 
     /// The Casimirs of a site, in the coordinates of slot 0.

@@ -2,6 +2,7 @@
 
 mod derivation;
 mod motion;
+mod pieces;
 mod sums;
 
 use std::sync::Arc;
@@ -15,6 +16,7 @@ use super::{Constants, Plan};
 use crate::derive::{Source, Update};
 use crate::model::{self, Size};
 use crate::structure::Structure;
+pub use crate::structure::family::Push;
 use derivation::Derivation;
 
 /// What is generated for a family.
@@ -164,6 +166,8 @@ pub struct FamilyPieces {
     pub kinds: Vec<FamilyPiece>,
     /// `exp(t ad*_(e_a))` for each coordinate that they need.
     pub turns: Vec<(usize, Function, Vec<Update>)>,
+    /// What H is beside them, where that changes with the time.
+    pub rest: Option<Function>,
 }
 
 /// A piece, the same for all sites that it goes over.
@@ -176,12 +180,26 @@ pub struct FamilyPiece {
     /// What it is.
     pub form: FamilyForm,
     /// The derivative of a function of one coordinate, or of one of two by that of the first site, the factor of a product, or the
-    /// rate of an exchange.
+    /// rate of an exchange; of a flow of its own the coordinates of the site behind it.
     pub rate: Function,
     /// The derivative of a function of two coordinates by that of the second site.
     pub second: Option<Function>,
     /// What a site adds to the sums of which it is a function.
     pub share: Option<Function>,
+    /// The derivative by the time of a site or a bond, where it has one.
+    pub timed: Option<Function>,
+    /// What a function of sums has beside that.
+    pub timed_by_sums: Option<Function>,
+}
+
+impl FamilyPiece {
+    /// Whether it is a force, and whether it does work.
+    pub fn push(&self) -> Option<Push> {
+        match self.form {
+            FamilyForm::Flow(push) => push,
+            _ => None,
+        }
+    }
 }
 
 /// What a piece is.
@@ -197,6 +215,10 @@ pub enum FamilyForm {
     Pair([usize; 2]),
     /// The exchange of two spins.
     Exchange,
+    /// A function that moves no site.
+    Still,
+    /// A flow of its own: of a force, or else along the orbit.
+    Flow(Option<Push>),
 }
 
 /// A sum over sites.
@@ -234,15 +256,21 @@ impl Family {
                 let kinds = pieces.kinds.iter();
                 let kinds = kinds.flat_map(|kind| {
                     let more = kind.second.iter().chain(&kind.share);
-                    [&kind.rate].into_iter().chain(more)
+                    let timed = kind.timed.iter().chain(&kind.timed_by_sums);
+                    [&kind.rate].into_iter().chain(more).chain(timed)
                 });
-                kinds.chain(turns)
+                kinds.chain(turns).chain(&pieces.rest)
             }))
     }
 
     /// The number of coordinates and coefficients in all slots together, and of rates of Wiener processes of the site.
     pub fn places(&self) -> usize {
         self.offsets.len() * self.coordinates.len() + self.data_places.len() + self.noises()
+    }
+
+    /// Whether kernels of pieces read anything behind the coordinates: coefficients, or rates of Wiener processes.
+    pub fn has_coefficients(&self) -> bool {
+        !self.data.is_empty() || self.noises() > 0
     }
 
     /// The number of sums, and of what all sites share behind them.

@@ -12,7 +12,8 @@ use super::function::Owner;
 use super::names::{ident, index};
 use crate::derive::Shape;
 use crate::model::Size;
-use crate::plan::{Family, Function};
+use crate::plan::{Constant, Family, Function};
+use lie_symbolic::schedule::Value;
 use lie_symbolic::symbolic::Symbol;
 
 impl Printer<'_> {
@@ -332,6 +333,14 @@ impl Printer<'_> {
         }
     }
 
+    /// A leaf of a kernel; the time of a flow is an argument.
+    fn leaf(&self, value: &Value<Constant>) -> TokenStream {
+        match value {
+            Value::Symbol(Symbol::Time) => quote! { _t },
+            value => self.value(value, Owner::System),
+        }
+    }
+
     /// The body of a kernel: arguments taken apart, locals, and an array of this size, or a scalar.
     fn kernel(&self, function: &Function, size: usize) -> TokenStream {
         let unpacked: TokenStream = function
@@ -342,8 +351,7 @@ impl Printer<'_> {
                 self.taken(function, &argument.symbols, &quote! { *#from })
             })
             .collect();
-        let leaf = |value: &_| self.value(value, Owner::System);
-        let (statements, outputs) = self.program(&function.program, &leaf);
+        let (statements, outputs) = self.program(&function.program, &|value| self.leaf(value));
         let result = match &function.shape {
             Shape::Vector(indices) => {
                 let entries = (0..size).map(|k| match indices.iter().position(|i| *i == k) {

@@ -48,6 +48,8 @@ impl Search<'_> {
             _ => None,
         });
         let slopes = [slopes[0], slopes[1]].map(|slope| self.around(slope, one));
+        let stand = [(places[0], stands_for[0]), (places[1], stands_for[1])];
+        let timed = self.time_slope(density, &stand, one)?;
         let slots = &self.family.slots;
         self.found.push(Piece {
             offset: [
@@ -56,6 +58,7 @@ impl Search<'_> {
             ],
             spans: self.spans(sum, one),
             form: Form::Pair(both, slopes),
+            timed,
         });
         Ok(())
     }
@@ -108,22 +111,29 @@ impl Search<'_> {
             slots[other][1] - slots[one][1],
         ];
         let spans = self.spans(sum, one);
-        let exchange = self.exchange(&mut factors);
-        let forms = exchange.into_iter().map(Form::Exchange);
-        let products = factors
-            .into_iter()
-            .map(|(ab, factor)| Form::Product(ab, factor));
-        let forms: Vec<Form> = forms.chain(products).collect();
-        self.found.extend(forms.into_iter().map(|form| Piece {
-            offset,
-            spans,
-            form,
-        }));
+        if let Some([common, rate]) = self.exchange(&mut factors) {
+            let timed = self.time_slope_of_products(common, &[[0, 0], [1, 1], [2, 2]]);
+            self.found.push(Piece {
+                offset,
+                spans,
+                form: Form::Exchange(rate),
+                timed,
+            });
+        }
+        for (ab, factor) in factors {
+            let timed = self.time_slope_of_products(factor, &[ab]);
+            self.found.push(Piece {
+                offset,
+                spans,
+                form: Form::Product(ab, factor),
+                timed,
+            });
+        }
         Ok(rest)
     }
 
-    /// The rate of an exchange that leaves fewer products than there were, which are taken out.
-    fn exchange(&mut self, factors: &mut Vec<([usize; 2], ExprId)>) -> Option<ExprId> {
+    /// The factor and the rate of an exchange that leaves fewer products than there were, which are taken out.
+    fn exchange(&mut self, factors: &mut Vec<([usize; 2], ExprId)>) -> Option<[ExprId; 2]> {
         let [spin] = self.spins? else {
             return None;
         };
@@ -144,6 +154,6 @@ impl Search<'_> {
             }
         }
         let rate = self.graph.mul(common, spin.scale);
-        Some(self.graph.neg(rate))
+        Some([common, self.graph.neg(rate)])
     }
 }

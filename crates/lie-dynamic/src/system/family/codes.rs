@@ -4,8 +4,8 @@ use crate::code::Code;
 use crate::compiled::CodeBuilder;
 use crate::system::flows;
 use lie_codegen::derive::Update;
-use lie_codegen::plan::{Family, FamilyForm, Function};
-use lie_core::family::{Kind, Span};
+use lie_codegen::plan::{Family, FamilyForm, FamilyPiece, Function, Push};
+use lie_core::family::{Effects, Kind, Span};
 use std::collections::HashMap;
 
 /// The codes of one site, and where its neighbours are.
@@ -28,6 +28,8 @@ pub struct Codes {
     pub casimirs: Vec<[usize; 2]>,
     pub kinds: Vec<Kind>,
     pub pieces: Vec<PieceCodes>,
+    /// What H is beside its pieces.
+    pub rest: Option<usize>,
 }
 
 /// The codes of a piece.
@@ -40,6 +42,9 @@ pub struct PieceCodes {
     pub share: Option<usize>,
     /// The turns about its coordinates.
     pub turns: Vec<Turn>,
+    /// The derivative by the time, of a site or a bond and of sums.
+    pub timed: [Option<usize>; 2],
+    pub effects: Effects,
 }
 
 /// The flow `exp(t ad*_(e_a))`.
@@ -62,6 +67,14 @@ pub fn spans(spans: &[Option<(usize, usize)>; 2]) -> [Span; 2] {
 
 fn offset(offset: [i64; 2]) -> [isize; 2] {
     offset.map(|distance| distance as isize)
+}
+
+fn effects(piece: &FamilyPiece) -> Effects {
+    Effects {
+        timed: piece.timed.is_some(),
+        pushes: piece.push().is_some(),
+        works: piece.push() == Some(Push::Friction),
+    }
 }
 
 impl Codes {
@@ -91,8 +104,10 @@ impl Codes {
         let observables = observables
             .map(|observed| kernel(&observed.value, 1))
             .collect();
-        let (mut kinds, mut pieces) = (Vec::new(), Vec::new());
+        let (mut kinds, mut pieces, mut rest) = (Vec::new(), Vec::new(), None);
         if let Some(of_family) = &family.pieces {
+            let of_rest = of_family.rest.as_ref();
+            rest = of_rest.map(|rest| making.push(Code::from_kernel(rest, 1)));
             let turns = of_family
                 .turns
                 .iter()
@@ -119,15 +134,28 @@ impl Codes {
                 let share = piece.share.as_ref();
                 pieces.push(PieceCodes {
                     form: piece.form,
-                    rate: making.push(Code::from_kernel(&piece.rate, 1)),
+                    rate: making.push(Code::from_kernel(
+                        &piece.rate,
+                        match piece.form {
+                            FamilyForm::Flow(_) => site,
+                            _ => 1,
+                        },
+                    )),
                     second: (piece.second.as_ref())
                         .map(|rate| making.push(Code::from_kernel(rate, 1))),
                     share: share.map(|share| making.push(Code::from_kernel(share, sums))),
                     turns: match piece.form {
                         FamilyForm::Site(a) | FamilyForm::Collective(a) => turns_of(&[a]),
                         FamilyForm::Product(both) | FamilyForm::Pair(both) => turns_of(&both),
-                        FamilyForm::Exchange => Vec::new(),
+                        FamilyForm::Exchange | FamilyForm::Still | FamilyForm::Flow(_) => {
+                            Vec::new()
+                        }
                     },
+                    timed: [&piece.timed, &piece.timed_by_sums].map(|slope| {
+                        let slope = slope.as_ref();
+                        slope.map(|slope| making.push(Code::from_kernel(slope, 1)))
+                    }),
+                    effects: effects(piece),
                 });
             }
         }
@@ -147,6 +175,7 @@ impl Codes {
             casimirs,
             kinds,
             pieces,
+            rest,
         }
     }
 }

@@ -6,7 +6,7 @@ use crate::compiled::Values;
 use crate::engine::ARGUMENTS;
 use crate::system::flows::update;
 use lie_codegen::plan::FamilyForm;
-use lie_core::family::{Kind, Pieces, Shape as _, Sites as _, Strip, site_by_site};
+use lie_core::family::{Effects, Kind, Pieces, Shape as _, Sites as _, Strip, site_by_site};
 use lie_runtime::Scalar;
 
 /// The turn of a site by an angle.
@@ -28,6 +28,20 @@ fn rate<S: Scalar>(values: &Values<S>, code: usize, arguments: [&[S]; ARGUMENTS]
     rate[0]
 }
 
+/// What kernels of two sites read: the coefficients stand before the second one, where there are any.
+fn of_two<'a, S: Scalar>(
+    values: &Values<S>,
+    one: &'a [S],
+    [sums, at]: [&'a [S]; 2],
+    other: &'a [S],
+) -> [&'a [S]; ARGUMENTS] {
+    let plan = values.compiled.plan.family.as_ref();
+    match plan.is_some_and(|family| family.has_coefficients()) {
+        false => [one, sums, other, &[]],
+        true => [one, sums, at, other],
+    }
+}
+
 /// The flow of a piece over a time t.
 fn flow<S: Scalar>(
     values: &Values<S>,
@@ -39,11 +53,16 @@ fn flow<S: Scalar>(
 ) {
     let speed = |one: &[S]| rate(values, piece.rate, [one, sums, at, &[]]) * t;
     match (piece.form, piece.turns.as_slice()) {
+        (FamilyForm::Still, _) => {}
+        (FamilyForm::Flow(_), _) => {
+            let mut moved: FewOf<S> = zeros(one.len());
+            let scalars = [S::zero(), t];
+            let frame = values.frame([one, sums, at, &[]], &[], &scalars);
+            values.run(piece.rate, &frame, [&mut moved, &mut []]);
+            one.copy_from_slice(&moved);
+        }
         (FamilyForm::Pair(_), [first, second]) => {
-            let arguments = match values.data.is_empty() {
-                true => [one, sums, other, &[]],
-                false => [one, sums, at, other],
-            };
+            let arguments = of_two(values, one, [sums, at], other);
             let speed = |code| rate(values, code, arguments) * t;
             let speeds = [Some(piece.rate), piece.second].map(|code| code.map_or(S::zero(), speed));
             turn(values, first, speeds[0], one);
@@ -68,22 +87,45 @@ impl<S: Scalar> Pieces<S> for FamilySite<S> {
         &self.codes().kinds
     }
 
-    fn exchange(&self, kind: usize) -> Option<S> {
-        self.exchange_of(kind, &zeros(self.places()))
-    }
-
-    fn exchange_of(&self, kind: usize, at: &FewOf<S>) -> Option<S> {
+    fn shared_exchange(&self, kind: usize, at: &FewOf<S>, sums: &FewOf<S>) -> Option<S> {
         let piece = &self.codes().pieces[kind];
-        let (site, sums) = (zeros(self.dimension()), zeros(self.count()));
+        let site: FewOf<S> = zeros(self.dimension());
         let is_one = piece.form == FamilyForm::Exchange;
-        is_one.then(|| rate(&self.values, piece.rate, [&site, &sums, at, &[]]))
+        is_one.then(|| rate(&self.values, piece.rate, [&site, sums, at, &[]]))
     }
 
-    fn share(&self, kind: usize, one: &FewOf<S>) -> FewOf<S> {
+    fn shared_share(&self, kind: usize, one: &FewOf<S>, sums: &FewOf<S>) -> FewOf<S> {
+        let count = self.plan().totals();
         match self.codes().pieces[kind].share {
-            Some(code) => self.vector(code, [one, &[]], self.count()),
-            None => zeros(self.count()),
+            Some(code) => self.vector(code, [one, sums], count),
+            None => zeros(count),
         }
+    }
+
+    fn effects(&self, kind: usize) -> Effects {
+        self.codes().pieces[kind].effects
+    }
+
+    fn time_slope_of(
+        &self,
+        kind: usize,
+        (sums, at): (&FewOf<S>, &FewOf<S>),
+        one: &FewOf<S>,
+        other: &FewOf<S>,
+    ) -> S {
+        let arguments = of_two(&self.values, one, [sums, at], other);
+        let [code, _] = self.codes().pieces[kind].timed;
+        code.map_or(S::zero(), |code| rate(&self.values, code, arguments))
+    }
+
+    fn time_slope_of_sums(&self, kind: usize, sums: &FewOf<S>) -> S {
+        let [_, code] = self.codes().pieces[kind].timed;
+        code.map_or(S::zero(), |code| self.values.number(code, [sums, &[]]))
+    }
+
+    fn rest(&self, shared: &FewOf<S>) -> S {
+        let code = self.codes().rest;
+        code.map_or(S::zero(), |code| self.values.number(code, [shared, &[]]))
     }
 
     fn flow_of(
