@@ -12,6 +12,7 @@ mod families_acting;
 mod families_bonds;
 mod families_driven;
 mod family_splittings;
+mod family_splittings_driven;
 mod functions;
 mod generating;
 mod joints;

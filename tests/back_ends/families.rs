@@ -19,12 +19,15 @@ lie_poisson! { spec = "tests/data/families/disordered_chain.json"; }
 lie_poisson! { spec = "tests/data/families/disordered_lattice.json"; }
 lie_poisson! { spec = "tests/data/families/driven_chain.json"; }
 lie_poisson! { spec = "tests/data/families/driven_net.json"; }
+lie_poisson! { spec = "tests/data/families/driven_ring.json"; }
 lie_poisson! { spec = "tests/data/families/fput_chain.json"; }
 lie_poisson! { spec = "tests/data/families/frustrated_net.json"; }
 lie_poisson! { spec = "tests/data/families/heisenberg_chain.json"; }
 lie_poisson! { spec = "tests/data/families/lattice.json"; }
 lie_poisson! { spec = "tests/data/families/mean_field.json"; }
 lie_poisson! { spec = "tests/data/families/mean_field_pieces.json"; }
+lie_poisson! { spec = "tests/data/families/noisy_lattice.json"; }
+lie_poisson! { spec = "tests/data/families/noisy_ring.json"; }
 lie_poisson! { spec = "tests/data/families/open_chain.json"; }
 lie_poisson! { spec = "tests/data/families/rotating_ring.json"; }
 lie_poisson! { spec = "tests/data/families/su3_ring.json"; }
@@ -231,6 +234,10 @@ fn what_acts_on_sites() {
     compare("damped_chain", &chain, &[], methods!());
     let lattice = DampedLattice::new().system().unwrap();
     compare("damped_lattice", &lattice, &[], methods!());
+    let ring = NoisyRing::new().system().unwrap();
+    compare("noisy_ring", &ring, &[], splittings!());
+    let lattice = NoisyLattice::new().system().unwrap();
+    compare("noisy_lattice", &lattice, &[], splittings!());
 }
 
 #[test]
@@ -246,6 +253,8 @@ fn what_depends_on_the_time_and_on_inputs() {
     let net = DrivenNet::new().system().unwrap();
     compare("driven_net", &net, &[], methods!());
     let ring = RotatingRing::new().system().unwrap();
-    compare("rotating_ring", &ring, &[], methods!());
+    compare("rotating_ring", &ring, &[], splittings!());
     assert!(!ring.is_autonomous() && ring.quantity_count() == 0);
+    let ring = DrivenRing::new().system().unwrap();
+    compare("driven_ring", &ring, &[], splittings!());
 }
