@@ -86,7 +86,7 @@ fn energy_and_casimirs_are_kept() {
     macro_rules! kept {
         ($name:literal, $system:expr, $start:expr, $($method:expr),+) => {
             $(
-                let (energy, casimir) = drift($system, &$method, $start, (0.1, 3000));
+                let (energy, casimir) = drift($system, &$method, $start, (0.1, 1000));
                 let method = stringify!($method);
                 println!("{}, {method}: energy {energy:e}, Casimir {casimir:e}", $name);
                 assert!(energy < 2e-12 && casimir < 2e-12, "{} by {method}: {energy:e}, {casimir:e}", $name);
@@ -127,7 +127,7 @@ fn energy_and_casimirs_are_kept() {
         &pendulum.1,
         OrbitEnergy::gonzalez()
     );
-    let (energy, casimir) = drift(&nambu, &Gonzalez, &start, (0.1, 3000));
+    let (energy, casimir) = drift(&nambu, &Gonzalez, &start, (0.1, 1000));
     assert!(
         energy < 2e-12 && casimir > 1e-3,
         "control: {energy:e}, {casimir:e}"
@@ -223,18 +223,15 @@ fn damping_stays_on_the_leaf() {
     for h in [0.05, 0.3] {
         let mut mu = start;
         let mut stepper = OrbitEnergy::gonzalez().stepper(&system, h, &NewtonOptions::default());
-        let mut energy = system.hamiltonian(&mu);
+        let mut energy = system.energy(&mu);
         for _ in 0..200 {
             stepper.step(&mut mu, &mut ()).expect("the step converges");
-            let new = system.hamiltonian(&mu);
+            let new = system.energy(&mu);
             assert!(new <= energy + 1e-15, "H rises by {:e}", new - energy);
             energy = new;
             off[0] = off[0].max((casimir(&mu) - level).abs());
         }
-        assert!(
-            energy < system.hamiltonian(&start) - 0.1,
-            "H falls to {energy}"
-        );
+        assert!(energy < system.energy(&start) - 0.1, "H falls to {energy}");
         let mut mu = start;
         let mut stepper = Gonzalez.stepper(&system, h, &NewtonOptions::default());
         for _ in 0..200 {

@@ -392,11 +392,9 @@ fn by_place(values: impl Iterator<Item = TokenStream>) -> TokenStream {
 }
 
 fn span(span: &Option<(usize, usize)>) -> TokenStream {
-    match span {
-        None => quote! { ::lie_runtime::family::Span::All },
-        Some((first, left)) => {
-            let (first, left) = (index(*first), index(*left));
-            quote! { ::lie_runtime::family::Span::Within { first: #first, left: #left } }
-        }
-    }
+    let Some((first, left)) = span else {
+        return quote! { ::lie_runtime::family::Span::All };
+    };
+    let (first, left) = (index(*first), index(*left));
+    quote! { ::lie_runtime::family::Span::Within { first: #first, left: #left } }
 }

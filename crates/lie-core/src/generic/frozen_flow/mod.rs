@@ -16,8 +16,8 @@ use tangent::Tangent;
 const NODES: usize = MOST_STAGES;
 /// Sweeps over the nodes beyond which the way is divided.
 const MOST_SWEEPS: usize = 40;
-/// The way has at most 2^12 parts.
-const MAX_HALVINGS: usize = 12;
+/// The way has at most so many parts.
+const MOST_PARTS: f64 = 64.0;
 /// Nodes are found where a sweep changes none by more than so many units of round-off of the state.
 const CLOSE: f64 = 2.0;
 /// Coefficient 7 of the slopes in Legendre polynomials, beside the state, up to which the end has all its digits: coefficients fall by a
@@ -44,9 +44,10 @@ pub struct FrozenFlow<S: Scalar, V, M> {
     warm: S::Mask,
     parts: S,
     resolved: S::Mask,
-    /// x over the number of parts, where a part starts, where it ends.
+    /// x over the number of parts, where a part starts and where it comes to, where the way ends.
     direction: V,
     start: V,
+    reached: V,
     end: V,
     node: V,
     slot: V,
@@ -68,8 +69,8 @@ impl<S: Scalar, V: State<S>, M: SquareMatrix<S>> FrozenFlow<S, V, M> {
         }
     }
 
-    /// Solves a part of the way from `start` but for lanes that keep their nodes; leaves its end. Returns the lanes in which it is exact, or
-    /// not a number.
+    /// Solves a part of the way from `start` but for lanes that keep their nodes; leaves where it comes to. Returns the lanes in which it is
+    /// exact.
     fn part<P>(&mut self, system: &P, kept: S::Mask) -> S::Mask
     where
         P: Poisson<S, State = V, Jacobian = M>,
@@ -97,8 +98,8 @@ impl<S: Scalar, V: State<S>, M: SquareMatrix<S>> FrozenFlow<S, V, M> {
             found = found | change.less_equal(close) | !change.finite();
         }
         self.warm = S::Mask::splat(true);
-        self.end.copy_from(&self.start);
-        for (k, entry) in self.end.as_mut_slice().iter_mut().enumerate() {
+        self.reached.copy_from(&self.start);
+        for (k, entry) in self.reached.as_mut_slice().iter_mut().enumerate() {
             let mut sum = S::zero();
             for increment in &self.increments {
                 sum += increment.as_slice()[k];
@@ -112,7 +113,7 @@ impl<S: Scalar, V: State<S>, M: SquareMatrix<S>> FrozenFlow<S, V, M> {
             }
         }
         let rest = system.norm(&self.slot);
-        (found & rest.less_equal(S::from_f64(RESOLVED) * size)) | !rest.finite()
+        found & rest.less_equal(S::from_f64(RESOLVED) * size)
     }
 
     /// Sets one increment after the other by those that are there, but for the lanes that have ended; returns the largest change.
@@ -136,45 +137,90 @@ impl<S: Scalar, V: State<S>, M: SquareMatrix<S>> FrozenFlow<S, V, M> {
         largest
     }
 
-    /// Goes all the way from a start, and shows each part of it with the lanes to which it belongs; leaves its end. No lane sees another.
-    fn go<P>(&mut self, system: &P, [x, start]: [&V; 2], mut show: impl FnMut(&mut Self, S::Mask))
+    /// Goes all the way from a start, in as many parts as it takes, and shows each of them with the lanes to which it belongs; leaves its end.
+    /// No lane sees another.
+    fn go<P>(&mut self, system: &P, ends: [&V; 2], mut show: impl FnMut(&mut Self, S::Mask))
     where
         P: Poisson<S, State = V, Jacobian = M>,
     {
-        self.start.copy_from(start);
         self.resolved = S::Mask::splat(false);
-        for round in 0..=MAX_HALVINGS {
-            for (entry, &x) in self.direction.as_mut_slice().iter_mut().zip(x.as_slice()) {
-                *entry = x / self.parts;
-            }
-            self.resolved = self.part(system, self.resolved) | self.resolved;
-            if self.resolved.all() || round == MAX_HALVINGS {
+        loop {
+            self.resolved = self.resolved | self.walk(system, ends, self.resolved, |_, _| ());
+            let divided = self.parts.less(S::from_f64(MOST_PARTS)) & !self.resolved;
+            if !divided.any() {
                 break;
             }
-            self.warm = self.resolved;
-            let twice = self.parts + self.parts;
-            self.parts = S::select(self.resolved, self.parts, twice);
+            self.warm = self.resolved & self.is_whole();
+            self.parts = S::select(divided, self.parts + self.parts, self.parts);
         }
-        show(self, S::Mask::splat(true));
-        let mut left = self.parts - S::one();
+        // the nodes of a way in one part are there
+        let whole = self.is_whole();
+        self.set_out(ends);
+        show(self, whole);
+        if !whole.all() {
+            self.warm = whole;
+            self.walk(system, ends, whole, &mut show);
+            self.warm = whole;
+        }
+    }
+
+    /// The lanes in which the way has one part.
+    fn is_whole(&self) -> S::Mask {
+        self.parts.less_equal(S::one())
+    }
+
+    /// Begins with the first part of the way.
+    fn set_out(&mut self, [x, start]: [&V; 2]) {
+        self.start.copy_from(start);
+        for (entry, &x) in self.direction.as_mut_slice().iter_mut().zip(x.as_slice()) {
+            *entry = x / self.parts;
+        }
+    }
+
+    /// Goes through the parts of the way but for lanes that have arrived, which keep their nodes and their end. Returns the lanes in which all
+    /// parts are exact.
+    fn walk<P>(
+        &mut self,
+        system: &P,
+        ends: [&V; 2],
+        arrived: S::Mask,
+        mut show: impl FnMut(&mut Self, S::Mask),
+    ) -> S::Mask
+    where
+        P: Poisson<S, State = V, Jacobian = M>,
+    {
+        self.set_out(ends);
+        let mut exact = S::Mask::splat(true);
+        let mut left = self.parts;
         loop {
-            let open = S::zero().less(left);
+            let open = S::zero().less(left) & exact & !arrived;
             if !open.any() {
                 break;
             }
-            self.start.copy_from(&self.end);
-            self.warm = !open;
-            let good = self.part(system, !open);
-            self.resolved = self.resolved & (good | !open);
+            exact = exact & (self.part(system, !open) | !open);
             show(self, open);
-            // those that have arrived stay
-            let starts = self.start.as_slice().iter();
-            for (end, &start) in self.end.as_mut_slice().iter_mut().zip(starts) {
-                *end = S::select(open, *end, start);
+            for (start, &reached) in self
+                .start
+                .as_mut_slice()
+                .iter_mut()
+                .zip(self.reached.as_slice())
+            {
+                *start = S::select(open, reached, *start);
             }
             left -= S::one();
+            // the next part has other nodes
+            self.warm = self.warm & !open;
         }
-        self.warm = !S::one().less(self.parts);
+        for (end, &there) in self
+            .end
+            .as_mut_slice()
+            .iter_mut()
+            .zip(self.start.as_slice())
+        {
+            *end = S::select(arrived, *end, there);
+        }
+        self.warm = self.is_whole();
+        exact
     }
 }
 
@@ -196,6 +242,7 @@ where
             resolved: S::Mask::splat(true),
             direction: zero.clone(),
             start: zero.clone(),
+            reached: zero.clone(),
             end: zero.clone(),
             node: zero.clone(),
             slot: zero.clone(),
