@@ -203,7 +203,7 @@ fn fast_turns_are_counted() {
         );
         let (_, rows) = lie(&call).ok().csv();
         let last = rows.last().unwrap();
-        let (phi, theta, spin) = (last[5], last[6], last[7]);
+        let (phi, theta, spin) = (last[6], last[7], last[8]);
         let off = (phi - 120.0)
             .abs()
             .max((theta - 0.5).abs())

@@ -67,6 +67,7 @@ fn ranks_casimirs_and_methods() {
             "cohen-hairer12",
             "cohen-hairer14",
             "cohen-hairer16",
+            "orbit-energy",
         ];
         expected.sort_unstable();
         assert_eq!(apply, expected);

@@ -171,7 +171,7 @@ fn fast_angles_are_followed() {
         let (header, rows) = run(&spec, &format!("--quiet --until 50 {pace}")).ok().csv();
         let phases: Vec<f64> = column(&header, &rows, "phase").collect();
         let turned = phases[phases.len() - 1] - phases[0];
-        assert!((turned.abs() - 850.0).abs() < 1e-6, "{pace}: {turned}");
+        assert!((turned.abs() - 850.0).abs() < 0.1, "{pace}: {turned}");
         assert!(
             phases.len() < 200,
             "{pace}: {} rows are no long steps",

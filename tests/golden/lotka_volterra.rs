@@ -370,5 +370,6 @@ for LotkaVolterraSystem<S> {
 }
 
 ::lie_runtime::generic_equations!(
-    [S : ::lie_runtime::Scalar] LotkaVolterraSystem < S >, S : gauss6
+    [S : ::lie_runtime::Scalar] LotkaVolterraSystem < S >, S : gauss6, frozen_gonzalez,
+    frozen_mean_value, frozen_itoh_abe
 );

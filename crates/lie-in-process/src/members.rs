@@ -346,6 +346,7 @@ impl Worker<'_> {
         let options = &self.members.options;
         let mut kept = Kept::new(options, self.watch);
         let (held, sources) = (&self.members.held, &self.members.sources);
+        kept.ends = ends_at_events(&problem.system);
         let streams = [self.stream(member)];
         kept.held = held.in_lanes(&problem.system, problem.span.0, sources, &streams);
         let outcome = integrate(&problem, Forgotten(self.alone.as_ref()), options, &mut kept);

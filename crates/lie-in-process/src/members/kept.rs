@@ -13,6 +13,8 @@ pub(super) struct Kept<'a, S> {
     pub(super) last_alone: bool,
     pub(super) watch: &'a Watch,
     pub(super) held: Option<driver::Held>,
+    /// Whether an event may end the run.
+    pub(super) ends: bool,
 }
 
 impl<'a, S> Kept<'a, S> {
@@ -23,6 +25,7 @@ impl<'a, S> Kept<'a, S> {
             last_alone: options.save == Save::Ends,
             watch,
             held: None,
+            ends: false,
         }
     }
 }
@@ -34,6 +37,10 @@ impl<S: Scalar> Observer<S, Dynamic<S>> for Kept<'_, S> {
 
     fn held(&self) -> Option<&driver::Held> {
         self.held.as_ref()
+    }
+
+    fn awaits_events(&self) -> bool {
+        self.ends
     }
 
     fn step(&mut self, _: &Dynamic<S>, _: Progress, _: &Vec<S>) -> ControlFlow<()> {
