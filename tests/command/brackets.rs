@@ -74,7 +74,7 @@ fn ranks_casimirs_and_methods() {
         for id in [
             "lie-midpoint",
             "rkmk4",
-            "orbit-energy",
+            "generating4",
             "splitting2",
             "euler-arnold2",
         ] {

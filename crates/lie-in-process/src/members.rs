@@ -68,6 +68,8 @@ pub struct Member {
     pub states: Vec<f64>,
     /// When and why it ended early, if it did.
     pub failed: Option<(f64, String)>,
+    /// Whether an event ended it.
+    pub ended: bool,
     /// Options that suit no member.
     pub refused: Option<OptionError>,
 }
@@ -357,9 +359,12 @@ impl Worker<'_> {
         };
         match outcome {
             Ok((_, status)) => {
-                // where an event ended it there is no row that others have
-                let ended = matches!(status, Status::Event(_)) && !kept.last_alone;
-                if ended && member.times.last().is_some_and(|time| !self.has_row(*time)) {
+                member.ended = matches!(status, Status::Event(_));
+                // others have no row there
+                if member.ended
+                    && !kept.last_alone
+                    && member.times.last().is_some_and(|time| !self.has_row(*time))
+                {
                     member.times.pop();
                     let left = member.times.len() * problem.mu0.len();
                     member.states.truncate(left);

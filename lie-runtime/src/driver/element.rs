@@ -123,17 +123,13 @@ impl<S: Scalar> Element<S> {
     }
 
     /// Takes the angles along a way of small parts, at whose end an [`Element::advance`] will come; the element stays.
-    pub(super) fn follow(
-        &mut self,
-        group: &Group<'_>,
-        parts: impl Iterator<Item = GroupMatrix<S>>,
-    ) {
+    pub(super) fn follow(&mut self, group: &Group<'_>, parts: &[GroupMatrix<S>]) {
         let Chart::Euler(sequence) = self.chart else {
             return;
         };
         let mut quaternion = self.quaternion;
         for part in parts {
-            quaternion = moved(group, quaternion, &part);
+            quaternion = moved(group, quaternion, part);
             self.angles = sequence.angles_near(quaternion, self.angles);
         }
     }

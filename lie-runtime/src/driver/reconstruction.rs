@@ -209,6 +209,7 @@ impl<S: Scalar, V: State<S>> Reconstruction<S, V> {
         if !self.element.has_angles() {
             return;
         }
+        let mut parts = Vec::new();
         for velocity in velocities {
             let mut square = S::zero();
             for &entry in represent(system, velocity).entries() {
@@ -218,16 +219,16 @@ impl<S: Scalar, V: State<S>> Reconstruction<S, V> {
             if !(f64::MIN_POSITIVE..f64::INFINITY).contains(&angle) {
                 continue;
             }
-            let parts = (turn(angle) / PART).ceil().clamp(1.0, MOST_PARTS);
-            let scale = S::from_f64(turn(angle) / angle / parts);
+            let count = (turn(angle) / PART).ceil().clamp(1.0, MOST_PARTS);
+            let scale = S::from_f64(turn(angle) / angle / count);
             let mut part = velocity.clone();
             for entry in part.as_mut_slice() {
                 *entry *= scale;
             }
             let part = exponential(&represent(system, &part));
-            let parts = (0..parts as u32).map(|_| part.clone());
-            self.element.follow(&system.group(), parts);
+            parts.extend(std::iter::repeat_n(part, count as usize));
         }
+        self.element.follow(&system.group(), &parts);
     }
 
     /// The factor of one step of a Runge–Kutta method with the velocities at its stages.

@@ -56,7 +56,7 @@ impl Gathering {
         let mut numbers = Vec::with_capacity(members.len() * wanted * self.places.len());
         for member in members {
             let rows = member.times.len();
-            if rows > wanted || (rows < wanted && member.failed.is_none()) {
+            if rows > wanted || (rows < wanted && member.failed.is_none() && !member.ended) {
                 let text = format!("a member has {rows} rows for {wanted} times");
                 return Err(io::Error::new(io::ErrorKind::InvalidData, text));
             }
