@@ -159,10 +159,10 @@ fn energy_and_momentum_of_the_time_balance_without_drift() {
     let mut mu = at(&ring, of_sites, 0.0);
     let first = ring.hamiltonian(&mu);
     let mut most = [0.0_f64; 2];
-    for half in 0..2 {
+    for half in &mut most {
         for _ in 0..100 {
             mu = end(&ring, Splitting4::new(), &mu, 0.05, 20);
-            most[half] = most[half].max((ring.hamiltonian(&mu) - first).abs());
+            *half = half.max((ring.hamiltonian(&mu) - first).abs());
         }
     }
     assert!(most[1] < 1e-4 && most[1] < 4.0 * most[0], "{most:?}");
@@ -259,9 +259,9 @@ fn noise_that_commutes_has_strong_order_one() {
                 }
                 stepper.step(&mut mu, &mut ()).expect("a step");
             }
-            for k in 0..9 {
+            for (k, one) in mu.iter().enumerate().take(9) {
                 let other = written.as_slice()[k % 3 * 3 + k / 3];
-                *sum += (mu[k] - other).powi(2);
+                *sum += (one - other).powi(2);
             }
         }
     }
