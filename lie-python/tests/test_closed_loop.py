@@ -39,4 +39,4 @@ def test_the_bits_are_those_of_rust(method: str, h: float) -> None:
     assert len(expected) > 10 and found == expected
     # they close the loop: the control has no torques
     free = body.run(method, h=h, t=20)
-    assert abs(run.mu[-1]).max() < 0.5 * abs(free.mu[-1]).max()
+    assert abs(run.mu[-1] - free.mu[-1]).max() > 0.1
