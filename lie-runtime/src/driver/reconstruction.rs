@@ -19,6 +19,8 @@
 //! [doi:10.1088/0305-4470/39/42/006](https://doi.org/10.1088/0305-4470/39/42/006).
 #![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
 
+mod following;
+
 use super::element::Element;
 use super::group_matrix::{GroupMatrix, exponential, rational};
 use super::observer::{Motion, Observer, Progress};
@@ -38,9 +40,6 @@ const BERNOULLI: [(f64, f64); 5] = [
     (-1.0, 1_209_600.0),
     (1.0, 47_900_160.0),
 ];
-/// Euler angles are followed in parts of so many radians, at most so many.
-const PART: f64 = 0.5;
-const MOST_PARTS: f64 = 10_000.0;
 /// Sweeps of the implicit equations in exponential coordinates.
 const SWEEPS: usize = 60;
 
@@ -187,48 +186,6 @@ impl<S: Scalar, V: State<S>> Reconstruction<S, V> {
                 }
             }
         }
-    }
-
-    /// The sum of the velocities at the stages, each by its weight.
-    fn total<P>(&self, system: &P, method: RungeKutta) -> V
-    where
-        P: MatrixGroup<S, State = V>,
-    {
-        let (_, b) = coefficients::<S>(method, self.velocities.len());
-        let mut total = system.zero_state();
-        combine(&b, &self.velocities, &mut total);
-        total
-    }
-
-    /// Follows Euler angles along a step: by the rotations of its velocities, one after the other, each in parts of half a radian. So a step
-    /// may turn by more than half a turn. The angle of a rotation is that of the length of a velocity.
-    fn follow<P>(&mut self, system: &P, velocities: &[V], turn: fn(f64) -> f64)
-    where
-        P: MatrixGroup<S, State = V>,
-    {
-        if !self.element.has_angles() {
-            return;
-        }
-        let mut parts = Vec::new();
-        for velocity in velocities {
-            let mut square = S::zero();
-            for &entry in represent(system, velocity).entries() {
-                square += entry * entry;
-            }
-            let angle = largest((square * S::ratio(1.0, 2.0)).sqrt());
-            if !(f64::MIN_POSITIVE..f64::INFINITY).contains(&angle) {
-                continue;
-            }
-            let count = (turn(angle) / PART).ceil().clamp(1.0, MOST_PARTS);
-            let scale = S::from_f64(turn(angle) / angle / count);
-            let mut part = velocity.clone();
-            for entry in part.as_mut_slice() {
-                *entry *= scale;
-            }
-            let part = exponential(&represent(system, &part));
-            parts.extend(std::iter::repeat_n(part, count as usize));
-        }
-        self.element.follow(&system.group(), &parts);
     }
 
     /// The factor of one step of a Runge–Kutta method with the velocities at its stages.
