@@ -49,7 +49,7 @@ pub struct Members<'a> {
     pub starts: Vec<Vec<f64>>,
     /// How many there are in all, of which these may be some.
     pub count: usize,
-    /// The options of every run; of [`Save::Ends`](lie_runtime::driver::Save::Ends) the end alone is kept.
+    /// The options of every run; of [`Save::Ends`] the end alone is kept.
     pub options: Options,
     /// Start and end.
     pub span: (f64, f64),
