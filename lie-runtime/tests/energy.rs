@@ -4,7 +4,7 @@ use crate::systems::heavy_top::{HeavyTop, START};
 use crate::systems::nonpolynomial::Nonpolynomial;
 use crate::systems::quartic::Quartic;
 use crate::systems::rigid_body::RigidBody;
-use crate::systems::{distance, state, steps};
+use crate::systems::{daily, distance, state, steps};
 use lie_runtime::diagnostics::{Drift, DriftMonitor, order_of_convergence};
 use lie_runtime::driver::integrate;
 use lie_runtime::generic::{
@@ -232,7 +232,7 @@ where
 
 #[test]
 fn energy_and_quadratic_casimirs_over_a_long_run() {
-    const STEPS: u32 = 100_000;
+    const STEPS: u32 = daily(5_000, 100_000);
     macro_rules! check {
         ($method:expr) => {
             let id = method_id(&$method);
@@ -303,7 +303,7 @@ fn worst<P: Poisson<f64>>(
     let energy = system.hamiltonian(&mu);
     let mut stepper = method.stepper(system, h, options);
     let mut iterations = 0;
-    for _ in 0..1000 {
+    for _ in 0..daily(200, 1000) {
         let report = stepper.step(&mut mu, &mut ()).expect("the step converges");
         iterations = iterations.max(report.iterations);
     }

@@ -1,6 +1,7 @@
 //! Collective methods with their stages evaluated together: over the Hopf map, quaternions, factors of Hermitian matrices and columns
 //! of a representation.
 
+use crate::systems::daily;
 use lie_runtime::ColumnPoisson;
 use lie_runtime::diagnostics::poisson_defect;
 use lie_runtime::generic::{
@@ -98,9 +99,9 @@ lie_poisson! {
     state x1, x2, x3;
     hamiltonian = x1^2/3 + x2^2/5 + x3^2/7 + exp(x1/3)/2;
 }
-lie_poisson! { spec = "../specs/so4_manakov.json"; }
-lie_poisson! { spec = "../specs/su3_quadratic.json"; }
-lie_poisson! { spec = "../specs/sl2_quadratic.json"; }
+lie_poisson! { spec = "../../specs/so4_manakov.json"; }
+lie_poisson! { spec = "../../specs/su3_quadratic.json"; }
+lie_poisson! { spec = "../../specs/sl2_quadratic.json"; }
 
 const SU3: [f64; 8] = [0.3, -0.2, 0.4, 0.1, 0.5, -0.3, 0.2, 0.6];
 const TOP: [f64; 6] = [0.3, -0.5, 1.2, 0.1, 0.2, 0.97];
@@ -792,7 +793,7 @@ fn orbits_are_kept_and_the_energy_does_not_drift() {
         method: &M,
         start: &P::State,
         h: f64,
-        steps: usize,
+        steps: u32,
     ) -> f64 {
         let mut mu = start.clone();
         let mut stepper = method.stepper(system, h, &NewtonOptions::default());
@@ -833,23 +834,53 @@ fn orbits_are_kept_and_the_energy_does_not_drift() {
     let body = ManakovTop::new().system().expect("parameters");
     let su3 = Su3Quadratic::new().system().expect("parameters");
     for growth in [
-        check(&top, &Collective8::quaternion(), &start, 0.5, 20_000),
-        check(&top, &Collective16::quaternion(), &start, 2.2, 5_000),
-        check(&top, &Isospectral8::new(), &start, 0.4, 10_000),
-        check(&body, &Collective8::smallest(), &some(&body), 0.3, 5_000),
+        check(
+            &top,
+            &Collective8::quaternion(),
+            &start,
+            0.5,
+            daily(2_000, 20_000),
+        ),
+        check(
+            &top,
+            &Collective16::quaternion(),
+            &start,
+            2.2,
+            daily(500, 5_000),
+        ),
+        check(
+            &top,
+            &Isospectral8::new(),
+            &start,
+            0.4,
+            daily(1_000, 10_000),
+        ),
+        check(
+            &body,
+            &Collective8::smallest(),
+            &some(&body),
+            0.3,
+            daily(500, 5_000),
+        ),
         check(&su3, &Isospectral8::new(), &some(&su3), 0.4, 2_000),
-        check(&su3, &Collective8::unitary(), &some(&su3), 1.0, 10_000),
+        check(
+            &su3,
+            &Collective8::unitary(),
+            &some(&su3),
+            1.0,
+            daily(2_000, 10_000),
+        ),
         check(
             &su3,
             &Collective16::smallest(),
             &state(&su3, &SU3),
             2.5,
-            5_000,
+            daily(1_000, 5_000),
         ),
     ] {
         assert!(growth < GROWTH, "{growth}");
     }
-    let control = check(&top, &Rk4, &start, 0.05, 20_000);
+    let control = check(&top, &Rk4, &start, 0.05, daily(2_000, 20_000));
     assert!(control > GROWTH, "{control}");
 }
 

@@ -1,30 +1,46 @@
-//! Tests of the runtime that are soon done without optimisation, as one program: they share what they compile of the systems.
+//! Tests of the runtime, as one program without optimisation: they share what they compile of the systems.
 
 mod allocations;
+mod balances;
+mod branches;
 mod charts;
+mod choices;
 mod coadjoint_orbit;
 mod collective;
+mod compositions;
+mod conservation;
 mod cotangent;
+mod curve;
 mod density;
 mod driver;
+mod energy;
+mod events;
 mod families;
 mod families_acting;
 mod families_bonds;
 mod families_driven;
 mod family_splittings;
 mod family_splittings_driven;
+mod forces;
 mod functions;
 mod generating;
 mod joints;
 mod kernels;
+mod lagrange_alembert;
 mod lanes;
+mod lifts;
 mod orders;
+mod own_functions;
 mod own_step;
 mod passive;
+mod projection;
 mod quantities;
 mod reconstruction;
+mod series;
 mod sites;
+mod solver;
 mod steps;
 mod symmetry;
 mod systems;
 mod tensors;
+mod variational;

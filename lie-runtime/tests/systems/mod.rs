@@ -1,6 +1,18 @@
 //! Systems written by hand, and what tests do with them.
 #![allow(dead_code, reason = "each test file uses a part")]
 
+/// The number of steps of a long run: a few day by day, where the build is not optimised, and many in the nightly one, which is.
+pub const fn daily(few: u32, many: u32) -> u32 {
+    if cfg!(debug_assertions) { few } else { many }
+}
+
+/// Runs on a stack that has room for eight lanes of nested solvers without optimisation.
+pub fn deep(run: impl FnOnce() + Send + 'static) {
+    let thread = std::thread::Builder::new().stack_size(1 << 25).spawn(run);
+    let ended = thread.expect("a thread").join();
+    ended.unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+}
+
 /// What a system says of itself: its scalar, its name, and those of its coordinates and Casimirs.
 macro_rules! facts {
     ($scalar:ty, $name:literal, $coordinates:expr, $casimirs:expr) => {
