@@ -22,7 +22,7 @@ lie_poisson! {
     hamiltonian = x^2/2 + y^2 + 3*z^2/2 + x*z/3 + y^3/5;
     casimir C = (x^4 + y^4 + z^4)/4 + x*y*z/2 + x^2/2;
     initial = [0.7, 0.5, -0.6];
-    methods = [orbit-energy, gonzalez];
+    methods = [orbit-energy, gonzalez, k-hj2, k-hj4, k-hj6];
 }
 
 lie_poisson! {
@@ -86,7 +86,7 @@ fn energy_and_casimirs_are_kept() {
     macro_rules! kept {
         ($name:literal, $system:expr, $start:expr, $($method:expr),+) => {
             $(
-                let (energy, casimir) = drift($system, &$method, $start, (0.1, 1000));
+                let (energy, casimir) = drift($system, &$method, $start, (0.1, 300));
                 let method = stringify!($method);
                 println!("{}, {method}: energy {energy:e}, Casimir {casimir:e}", $name);
                 assert!(energy < 2e-12 && casimir < 2e-12, "{} by {method}: {energy:e}, {casimir:e}", $name);
@@ -136,7 +136,7 @@ fn energy_and_casimirs_are_kept() {
 
 fn order<P: Poisson<f64>>(system: &P, method: &impl Method<f64, P>, start: &P::State) -> f64 {
     let exact = reference(system, start, 1.0).expect("a solution").mu;
-    let points: Vec<(f64, f64)> = [20, 28, 40, 56, 80, 112]
+    let points: Vec<(f64, f64)> = [20, 28, 40, 56]
         .into_iter()
         .map(|steps| {
             let h = 1.0 / f64::from(steps);
@@ -224,7 +224,7 @@ fn damping_stays_on_the_leaf() {
         let mut mu = start;
         let mut stepper = OrbitEnergy::gonzalez().stepper(&system, h, &NewtonOptions::default());
         let mut energy = system.energy(&mu);
-        for _ in 0..200 {
+        for _ in 0..60 {
             stepper.step(&mut mu, &mut ()).expect("the step converges");
             let new = system.energy(&mu);
             assert!(new <= energy + 1e-15, "H rises by {:e}", new - energy);
@@ -234,7 +234,7 @@ fn damping_stays_on_the_leaf() {
         assert!(energy < system.energy(&start) - 0.1, "H falls to {energy}");
         let mut mu = start;
         let mut stepper = Gonzalez.stepper(&system, h, &NewtonOptions::default());
-        for _ in 0..200 {
+        for _ in 0..60 {
             stepper.step(&mut mu, &mut ()).expect("the step converges");
             off[1] = off[1].max((casimir(&mu) - level).abs());
         }
@@ -247,7 +247,7 @@ fn damping_stays_on_the_leaf() {
 fn the_balance_of_work_is_exact() {
     let driven = DrivenNambu::new();
     let (system, start) = (driven.system().expect("constants"), driven.initial_state());
-    let (energy, _) = drift(&system, &OrbitEnergy::gonzalez(), &start, (0.1, 2000));
+    let (energy, _) = drift(&system, &OrbitEnergy::gonzalez(), &start, (0.1, 500));
     assert!(energy < 2e-13, "{energy:e}");
 }
 

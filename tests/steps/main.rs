@@ -45,6 +45,7 @@ mod frozen_flow;
 mod fused_equals_generic;
 mod general_brackets;
 mod generating;
+mod hamilton_jacobi;
 mod held;
 mod lanes;
 mod lying_kernels;

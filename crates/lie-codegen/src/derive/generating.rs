@@ -4,6 +4,7 @@
 //!
 //! - exp: `S3 = H''(X, X)/24` and, with `eta = 24 grad S3` and `Y = ad*_w p`,
 //!   `S5 = (-4 <X2 + 3 Y, eta> + 4 H''(X2, X2) + 12 H'''(X, X, X2) + 3 H''''(X, X, X, X))/5760`;
+//! - on the realization of any bracket the same with `X = Pi xi`, `X2 = Pi'[X] xi`, `Y = Pi w`, and `12 <w, Pi''[X, X] xi>` in S5;
 //! - Cayley: `S3 = H''(X, X)/24 - <p, T(xi, xi, xi)>/12`;
 //! - coordinates of the second kind: `S2 = sum_(i<j) H_i H_j C_ji^k p_k/2`.
 //!
@@ -24,6 +25,8 @@ pub enum Generating {
     First(Retraction, u32),
     /// In coordinates of the second kind, order 2.
     Second,
+    /// On the symplectic realization of any bracket, to an order of 4 or 6.
+    Realized(u32),
 }
 
 /// The gradient of S at p as definitions and results.
@@ -87,7 +90,12 @@ pub(crate) fn slope(source: &mut Source, generating: Generating) -> Slope {
             let slope = tape.gradient(source, second);
             weighted.push((power_of_step(source, 2, 2), slope));
         }
-        Generating::First(retraction, order) => {
+        Generating::First(..) | Generating::Realized(_) => {
+            let (cayley, order) = match generating {
+                Generating::First(retraction, order) => (retraction == Retraction::Cayley, order),
+                Generating::Realized(order) => (false, order),
+                Generating::Second => unreachable!("has an arm of its own"),
+            };
             // powers of h apart from what they multiply would leave the range of numbers at order 6: S5 has that of h H
             let (unit, mut field) = (order == 6, source.field());
             let mut gradient = gradient;
@@ -103,7 +111,7 @@ pub(crate) fn slope(source: &mut Source, generating: Generating) -> Slope {
             let w = along(source, &mut tape, &gradient, &x);
             let w = tape.define_all(source, &w);
             let mut third = dot(source, &w, &x);
-            if retraction == Retraction::Cayley {
+            if cayley {
                 let cubic = cubic_term(source, &mut tape);
                 third = source
                     .graph
@@ -162,9 +170,17 @@ fn fifth_order(
 ) -> ExprId {
     let p = source.coordinates();
     let xi = tape.define_all(source, gradient);
-    let x2 = source.ad_star_of(&xi, x);
+    let (x2, y, bent) = match source.is_lie() {
+        true => (source.ad_star_of(&xi, x), source.ad_star_of(w, &p), None),
+        false => {
+            // with xi held
+            let field = against(source, &xi);
+            let once = along(source, tape, &field, x);
+            let twice = along(source, tape, &once, x);
+            (once, against(source, w), Some(dot(source, w, &twice)))
+        }
+    };
     let x2 = tape.define_all(source, &x2);
-    let y = source.ad_star_of(w, &p);
     let moved: Vec<ExprId> = x2
         .iter()
         .zip(&y)
@@ -183,12 +199,20 @@ fn fifth_order(
     let cubic = dot(source, &twice, &x2);
     let thrice = along(source, tape, &twice, x);
     let quartic = dot(source, &thrice, x);
-    source.graph.linear(&[
+    let mut terms = vec![
         (first, Rational::from(-4)),
         (square, Rational::from(4)),
         (cubic, Rational::from(12)),
         (quartic, Rational::from(3)),
-    ])
+    ];
+    terms.extend(bent.map(|bent| (bent, Rational::from(12))));
+    source.graph.linear(&terms)
+}
+
+/// `Pi v`
+fn against(source: &mut Source, v: &[ExprId]) -> Vec<ExprId> {
+    let matrix = source.poisson_matrix();
+    matrix.iter().map(|row| dot(source, row, v)).collect()
 }
 
 /// The kernels of a generating function.

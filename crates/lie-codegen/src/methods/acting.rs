@@ -64,7 +64,7 @@ pub(super) fn driven(model: &Model, choice: &Choice) -> Option<(String, String)>
 fn without_forces(choice: &Choice) -> &'static str {
     match choice {
         Choice::Exact => "the closed solution is that of H alone",
-        Choice::Generating(..) | Choice::GeneratingSecondKind2 => {
+        Choice::Generating(..) | Choice::GeneratingSecondKind2 | Choice::HamiltonJacobi(_) => {
             "the generating function is one of H alone"
         }
         Choice::LieTaylor => "the step moves along the coadjoint orbit, which what acts leaves",

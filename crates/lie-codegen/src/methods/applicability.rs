@@ -206,9 +206,13 @@ fn lagrangian(model: &Model, choice: &Choice) -> Option<(String, String)> {
 fn bracket(model: &Model, choice: &Choice) -> Option<(String, String)> {
     let method = choice.entry().filter(|method| method.needs_algebra())?;
     let nearest = match method.order {
-        1 | 2 => "`orbit-energy`, which keeps the Casimirs and the energy, or `midpoint`",
-        3 | 4 => "`compose4(orbit-energy)`, which keeps the Casimirs and the energy, or `gauss4`",
-        5 | 6 => "`gauss6` or `cohen-hairer6`",
+        1 | 2 => {
+            "`orbit-energy`, which keeps the Casimirs and the energy, or `k-hj2`, a Poisson map"
+        }
+        3 | 4 => {
+            "`compose4(orbit-energy)`, which keeps the Casimirs and the energy, or `k-hj4`, a Poisson map"
+        }
+        5 | 6 => "`k-hj6`, a Poisson map, or `gauss6`",
         7 | 8 => "`gauss8` or `cohen-hairer8`",
         _ => "`gauss16` or `cohen-hairer16`",
     };

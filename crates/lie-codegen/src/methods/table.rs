@@ -42,6 +42,7 @@ const WW: &str = "Whittaker, Watson, A Course of Modern Analysis (1927), 10.1017
 const CH: &str = "Cohen, Hairer (2011), 10.1007/s10543-011-0310-z";
 const NV: &str = "Ninomiya, Victoir (2008), 10.1080/13504860701413958";
 const JZ: &str = "Jorba, Zou (2005), 10.1080/10586458.2005.10128904";
+const CMV: &str = "Cabrera, Martín de Diego, Vaquero (2024), arXiv:2409.04342";
 const KL: &str =
     "Suzuki (1990), 10.1016/0375-9601(90)90962-N; Kahan, Li (1997), 10.1090/S0025-5718-97-00873-9";
 

@@ -39,7 +39,28 @@ const SECOND: Named = Named {
     formula: "`S = h H + h^2 S2` in coordinates of the second kind",
 };
 
+const REALIZED_FOUR: Named = Named {
+    suffix: "HamiltonJacobi4",
+    label: "k-hj4",
+    formula: "`S = h H + h^3 S3` on the symplectic realization of the bracket",
+};
+const REALIZED_SIX: Named = Named {
+    suffix: "HamiltonJacobi6",
+    label: "k-hj6",
+    formula: "`S = h H + h^3 S3 + h^5 S5` on the symplectic realization of the bracket",
+};
+
 impl Planner<'_> {
+    /// The equation of a K-HJ method; that of order 2 has no function but H.
+    pub(super) fn hamilton_jacobi(&mut self, order: u32) -> Option<Solver> {
+        let named = match order {
+            2 => return None,
+            4 => REALIZED_FOUR,
+            _ => REALIZED_SIX,
+        };
+        self.along_function(&named, Generating::Realized(order))
+    }
+
     /// The equation of a generating-function method with the exponential.
     pub(super) fn generating(&mut self, order: u32) -> Option<Solver> {
         let named = match order {
@@ -90,6 +111,11 @@ impl Planner<'_> {
                 Choice::Generating(order, retraction),
                 self.exp_pattern(&function.pattern),
             ),
+            Generating::Realized(order) => {
+                // the way leaves no entry of the matrix zero that is worth an elimination of its own
+                let partner = self.partner(&Choice::HamiltonJacobi(order));
+                return Some(Solver::Generic(partner.with_own_code(named.suffix)));
+            }
         };
         let partner = self.partner(&choice).with_own_code(named.suffix);
         Some(self.eliminated(partner, named.suffix, named.label, Unknown::State, pattern))

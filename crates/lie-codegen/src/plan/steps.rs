@@ -138,6 +138,7 @@ impl Planner<'_> {
             Choice::Generating(_, Retraction::Cayley) => self.cayley_generating(),
             Choice::Generating(order, Retraction::Exp) => self.generating(*order),
             Choice::GeneratingSecondKind2 => self.generating_second_kind(),
+            Choice::HamiltonJacobi(order) => self.hamilton_jacobi(*order),
             // with one stage an elimination of its own saves 2% of a step
             Choice::Collective(2, Lift::Hopf) => None,
             Choice::Collective(..) | Choice::Isospectral(_) => self.momenta(choice),
@@ -338,7 +339,8 @@ fn place(choice: &Choice) -> (u32, u32) {
         Choice::GeneratingSecondKind2 => (7, 0),
         Choice::Generating(_, Retraction::Cayley) => (8, 0),
         Choice::Isospectral(_) => (9, 0),
-        _ => (10, 0),
+        Choice::HamiltonJacobi(_) => (10, 0),
+        _ => (11, 0),
     }
 }
 

@@ -92,6 +92,7 @@ mod power_series;
 mod quadrature;
 mod quaternion_stages;
 mod quaternions;
+mod realization;
 mod realized;
 mod rotation;
 mod second_kind;
@@ -133,7 +134,8 @@ pub use frozen_flow::FrozenFlow;
 pub use galerkin::{GalerkinOnGroup, GalerkinStep};
 pub use gauss::Gauss;
 pub use generating::{
-    CayleyGenerating4, Generating2, Generating4, Generating6, SecondKind2, linearize_by_duals,
+    CayleyGenerating4, Generating2, Generating4, Generating6, HamiltonJacobi4, HamiltonJacobi6,
+    SecondKind2, linearize_by_duals,
 };
 pub use inverse_tangent::{dcay_inverse_dual, dexp_inverse_dual};
 pub(crate) use kernels::direction;
@@ -155,6 +157,7 @@ pub use quadrature::{MAX_NODES, Quadrature};
 pub use quaternion_stages::QuaternionStages;
 pub use quaternion_stages::product as quaternion_product;
 pub use quaternions::{flow_of_quaternions, flow_over_quaternions, quaternion_of, vectors_of};
+pub use realization::RealizationStep;
 pub use realized::{Canonical, Lifting};
 pub use second_kind::{Actions, SecondKind, SeriesActions};
 pub(crate) use series::{Scratch, coadjoint_action_in, phi1_in};

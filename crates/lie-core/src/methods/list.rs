@@ -74,6 +74,8 @@ macro_rules! for_each_method {
                 DiscreteGradient(Gradient, Tensor),
                 /// `orbit-energy`
                 OrbitEnergy(Gradient),
+                /// `k-hj2`, `k-hj4`, `k-hj6`
+                HamiltonJacobi(u32),
                 /// `cohen-hairer2`, `cohen-hairer4` to `cohen-hairer16`
                 CohenHairer(u32),
                 /// `exact`
@@ -241,6 +243,12 @@ macro_rules! for_each_method {
                 [OrbitEnergy(Gradient::Gonzalez)] [OrbitEnergy<Gonzalez>] [OrbitEnergy::gonzalez()] { [orbit_gonzalez Algebra OrbitEnergyStep of GonzalezGradient] [frozen_gonzalez Any FrozenStep of GonzalezGradient] }
                 [OrbitEnergy(Gradient::MeanValue)] [OrbitEnergy<MeanValue>] [OrbitEnergy::mean_value()] { [orbit_mean_value Algebra OrbitEnergyStep of MeanValueGradient] [frozen_mean_value Any FrozenStep of MeanValueGradient] }
                 [OrbitEnergy(Gradient::ItohAbe)] [OrbitEnergy<ItohAbe>] [OrbitEnergy::itoh_abe()] { [orbit_itoh_abe Algebra OrbitEnergyStep of ItohAbeGradient] [frozen_itoh_abe Any FrozenStep of ItohAbeGradient] } }
+            { "generating function on a symplectic realization" ANY CMV
+                [HamiltonJacobi(2)] [HamiltonJacobi2] [HamiltonJacobi2::new()] { [k_hj2 Any RealizationStep along Generating2] } }
+            { "generating function on a symplectic realization" ANY CMV
+                [HamiltonJacobi(4)] [HamiltonJacobi4] [HamiltonJacobi4::new()] { [k_hj4 Any RealizationStep along HamiltonJacobi4] } }
+            { "generating function on a symplectic realization" ANY CMV
+                [HamiltonJacobi(6)] [HamiltonJacobi6] [HamiltonJacobi6::new()] { [k_hj6 Any RealizationStep along HamiltonJacobi6] } }
             { "energy-preserving collocation" ANY CH
                 [CohenHairer(2)] [CohenHairer2] [CohenHairer2::new()] { [cohen_hairer2 Any DiscreteGradientStep of MeanValueGradient] } }
             { "energy-preserving collocation" ANY CH

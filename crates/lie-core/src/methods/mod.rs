@@ -89,6 +89,7 @@ pub mod gauss;
 pub mod generating;
 pub mod generating_second_kind;
 pub mod gonzalez;
+pub mod hamilton_jacobi;
 mod implicit;
 pub mod isospectral;
 pub mod itoh_abe;
@@ -146,6 +147,7 @@ pub use gauss::*;
 pub use generating::{Generating, Generating2, Generating4, Generating6};
 pub use generating_second_kind::GeneratingSecondKind2;
 pub use gonzalez::Gonzalez;
+pub use hamilton_jacobi::{HamiltonJacobi, HamiltonJacobi2, HamiltonJacobi4, HamiltonJacobi6};
 pub use implicit::ImplicitStepper;
 pub use isospectral::{
     Isospectral, Isospectral2, Isospectral4, Isospectral6, Isospectral8, Isospectral10,

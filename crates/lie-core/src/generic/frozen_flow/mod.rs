@@ -36,6 +36,8 @@ const RESOLVED: f64 = 1.0 / (1u64 << 25) as f64;
 pub struct FrozenFlow<S: Scalar, V, M> {
     ratios: [[S; NODES]; NODES],
     weights: [S; NODES],
+    /// `1 - c_j`, what is left of the way behind each node.
+    left: [S; NODES],
     /// `(2k + 1) P_k` at the nodes, of the highest degree.
     last: [S; NODES],
     /// `b_j Pi(y_j) x` of a part of the way.
@@ -57,6 +59,61 @@ pub struct FrozenFlow<S: Scalar, V, M> {
 }
 
 impl<S: Scalar, V: State<S>, M: SquareMatrix<S>> FrozenFlow<S, V, M> {
+    /// The flow with its scratch space.
+    pub(super) fn new<P>(system: &P) -> Self
+    where
+        P: Poisson<S, State = V, Jacobian = M>,
+    {
+        let zero = system.zero_state();
+        let matrix = system.zero_jacobian();
+        Self {
+            ratios: core::array::from_fn(|i| core::array::from_fn(|j| gauss_ratio(NODES, i, j))),
+            weights: core::array::from_fn(|i| gauss_weight(NODES, i)),
+            left: core::array::from_fn(|j| {
+                // `sum_i b_i a_ij / b_j`
+                let mut left = S::zero();
+                for i in 0..NODES {
+                    left += gauss_weight::<S>(NODES, i) * gauss_ratio(NODES, i, j);
+                }
+                left
+            }),
+            last: core::array::from_fn(|j| gauss_legendre(NODES, NODES - 1, j)),
+            increments: core::array::from_fn(|_| zero.clone()),
+            warm: S::Mask::splat(false),
+            parts: S::one(),
+            resolved: S::Mask::splat(true),
+            direction: zero.clone(),
+            start: zero.clone(),
+            reached: zero.clone(),
+            end: zero.clone(),
+            node: zero.clone(),
+            slot: zero.clone(),
+            turned: matrix.clone(),
+            tangent: Tangent::new(&zero, &matrix),
+            matrix,
+        }
+    }
+
+    /// A new step begins: nothing of the last one is to be seen in it.
+    pub(super) fn begin(&mut self) {
+        self.warm = S::Mask::splat(false);
+        self.parts = S::one();
+    }
+
+    /// The lanes in which the last motion is as exact as its scalar.
+    pub(super) fn is_resolved(&self) -> S::Mask {
+        self.resolved
+    }
+
+    /// The derivative of the mean of the states in the direction x, of the motion along x from a start.
+    pub(super) fn mean_by_direction<P>(&mut self, system: &P, given: [&V; 2]) -> &M
+    where
+        P: Poisson<S, State = V, Jacobian = M>,
+    {
+        self.differentiate(system, given, false);
+        &self.tangent.of_mean
+    }
+
     /// A node from the start of a part.
     fn set_node(&mut self, node: usize) {
         let rows = self.node.as_mut_slice().iter_mut();
@@ -164,6 +221,22 @@ impl<S: Scalar, V: State<S>, M: SquareMatrix<S>> FrozenFlow<S, V, M> {
         }
     }
 
+    /// The mean of the states along the way from a start, and its end: `sum_j b_j y_j` and `y(1)`.
+    pub(super) fn middle<P>(&mut self, system: &P, [x, start]: [&V; 2], [mean, end]: [&mut V; 2])
+    where
+        P: Poisson<S, State = V, Jacobian = M>,
+    {
+        mean.fill(S::zero());
+        self.go(system, [x, start], |flow, lanes| {
+            for node in 0..NODES {
+                flow.set_node(node);
+                let weight = S::select(lanes, flow.weights[node] / flow.parts, S::zero());
+                mean.axpy(weight, &flow.node);
+            }
+        });
+        end.copy_from(&self.end);
+    }
+
     /// The lanes in which the way has one part.
     fn is_whole(&self) -> S::Mask {
         self.parts.less_equal(S::one())
@@ -230,31 +303,11 @@ where
     P: Poisson<S>,
 {
     fn new(system: &P) -> Self {
-        let zero = system.zero_state();
-        let matrix = system.zero_jacobian();
-        Self {
-            ratios: core::array::from_fn(|i| core::array::from_fn(|j| gauss_ratio(NODES, i, j))),
-            weights: core::array::from_fn(|i| gauss_weight(NODES, i)),
-            last: core::array::from_fn(|j| gauss_legendre(NODES, NODES - 1, j)),
-            increments: core::array::from_fn(|_| zero.clone()),
-            warm: S::Mask::splat(false),
-            parts: S::one(),
-            resolved: S::Mask::splat(true),
-            direction: zero.clone(),
-            start: zero.clone(),
-            reached: zero.clone(),
-            end: zero.clone(),
-            node: zero.clone(),
-            slot: zero.clone(),
-            turned: matrix.clone(),
-            tangent: Tangent::new(&zero, &matrix),
-            matrix,
-        }
+        Self::new(system)
     }
 
     fn begin(&mut self) {
-        self.warm = S::Mask::splat(false);
-        self.parts = S::one();
+        self.begin();
     }
 
     fn carry(&mut self, system: &P, x: &P::State, start: &P::State, out: &mut P::State) {
@@ -317,7 +370,7 @@ where
     }
 
     fn resolved(&self) -> S::Mask {
-        self.resolved
+        self.is_resolved()
     }
 
     fn retraction() -> Option<Retraction> {

@@ -17,6 +17,8 @@ pub(super) struct Tangent<V, M> {
     /// That of the end in x, and in the start.
     pub(super) of_x: M,
     pub(super) of_start: M,
+    /// That of the mean of the states along the way in x.
+    pub(super) of_mean: M,
     /// `Pi(y_j)` and `D(Pi x)(y_j)` of a part of the way.
     at_nodes: [(M, M); NODES],
     /// The changes of the increments.
@@ -30,6 +32,7 @@ impl<V: Clone, M: Clone> Tangent<V, M> {
         Self {
             of_x: matrix.clone(),
             of_start: matrix.clone(),
+            of_mean: matrix.clone(),
             at_nodes: core::array::from_fn(|_| (matrix.clone(), matrix.clone())),
             changes: core::array::from_fn(|_| zero.clone()),
             at: zero.clone(),
@@ -53,6 +56,7 @@ impl<S: Scalar, V: State<S>, M: SquareMatrix<S>> FrozenFlow<S, V, M> {
                 let identity = if row == column { S::one() } else { S::zero() };
                 self.tangent.of_x.set(row, column, S::zero());
                 self.tangent.of_start.set(row, column, identity);
+                self.tangent.of_mean.set(row, column, S::zero());
             }
         }
         self.go(system, [x, start], |flow, lanes| {
@@ -77,6 +81,11 @@ impl<S: Scalar, V: State<S>, M: SquareMatrix<S>> FrozenFlow<S, V, M> {
             get(&self.tangent.of_x, column, &mut self.node);
             self.vary();
             set(&mut self.tangent.of_x, (column, lanes), &self.node);
+            for (row, &change) in self.tangent.at.as_slice().iter().enumerate() {
+                let share = S::select(lanes, change / self.parts, S::zero());
+                let sum = self.tangent.of_mean.get(row, column) + share;
+                self.tangent.of_mean.set(row, column, sum);
+            }
             if with_start {
                 self.slot.fill(S::zero());
                 get(&self.tangent.of_start, column, &mut self.node);
@@ -86,8 +95,8 @@ impl<S: Scalar, V: State<S>, M: SquareMatrix<S>> FrozenFlow<S, V, M> {
         }
     }
 
-    /// The change of the end, in place of that of the start in `node`, where x changes by what is in `slot`:
-    /// `e_i = e_0 + sum_j a_ij (Pi(y_j) dx + D(Pi x)(y_j) e_j)`.
+    /// The change of the end, in place of that of the start in `node`, and of the mean of the states, in `at`, where x changes by what is
+    /// in `slot`: `e_i = e_0 + sum_j a_ij (Pi(y_j) dx + D(Pi x)(y_j) e_j)`, and `sum_i b_i e_i`, where `sum_i b_i a_ij = b_j (1 - c_j)`.
     fn vary(&mut self) {
         let Tangent {
             at_nodes,
@@ -126,8 +135,11 @@ impl<S: Scalar, V: State<S>, M: SquareMatrix<S>> FrozenFlow<S, V, M> {
                 break;
             }
         }
-        for (k, entry) in self.node.as_mut_slice().iter_mut().enumerate() {
-            for change in &*changes {
+        let entries = self.node.as_mut_slice().iter_mut();
+        for (k, (entry, mean)) in entries.zip(at.as_mut_slice()).enumerate() {
+            *mean = *entry;
+            for (&left, change) in self.left.iter().zip(&*changes) {
+                *mean += left * change.as_slice()[k];
                 *entry += change.as_slice()[k];
             }
         }

@@ -1,5 +1,6 @@
 //! Generating functions for any system, by dual numbers.
 
+mod any_bracket;
 mod derivatives;
 mod slopes;
 
@@ -97,7 +98,7 @@ pub fn linearize_by_duals<S, F, V, M>(
 }
 
 macro_rules! by_duals {
-    ($(#[$doc:meta])* $name:ident, $slope:path $(, $cayley:ident)? $(; $($lifted:tt)+)?) => {
+    ($(#[$doc:meta])* $name:ident of $bracket:ident, $slope:path $(; $($lifted:tt)+)?) => {
         $(#[$doc])*
         #[derive(Clone, Debug)]
         pub struct $name<'a, S, P> {
@@ -115,9 +116,9 @@ macro_rules! by_duals {
         impl<S, P> GeneratingFunction<S> for $name<'_, S, P>
         where
             S: Scalar,
-            P: Lift<S> + LiePoisson<S> $(+ $cayley<S>)?,
-            P::Lifted: LiePoisson<Dual<S>> $(+ $cayley<Dual<S>>)?,
-            $($($lifted)+: LiePoisson<Dual<Dual<S>>>,)?
+            P: Lift<S> + $bracket<S>,
+            P::Lifted: $bracket<Dual<S>>,
+            $($($lifted)+: $bracket<Dual<Dual<S>>>,)?
         {
             type State = P::State;
             type Jacobian = P::Jacobian;
@@ -149,7 +150,7 @@ macro_rules! by_duals {
 
 by_duals!(
     /// `S = h H + h^3 S3` in exponential coordinates, `S3 = H''(X, X)/24` with `X = f(p)`.
-    Generating4,
+    Generating4 of LiePoisson,
     slopes::exp4
 );
 by_duals!(
@@ -157,7 +158,7 @@ by_duals!(
     /// `X2 = ad*_(grad H) X`, `eta = grad S3`
     /// `S5 = (-<X2, eta>/12 + H''(X, ad*_eta p)/4 + H''(X2, X2)/288 + H'''(X, X, X2)/96
     /// + H''''(X, X, X, X)/384)/5`.
-    Generating6,
+    Generating6 of LiePoisson,
     slopes::exp6;
     // the gradient is one of dual numbers already
     <P::Lifted as Lift<Dual<S>>>::Lifted
@@ -165,13 +166,25 @@ by_duals!(
 by_duals!(
     /// `S = h H + h^3 S3` in Cayley coordinates,
     /// `S3 = H''(X, X)/24 - <p, T(xi, xi, xi)>/12` with `X = f(p)`, `xi = grad H(p)`.
-    CayleyGenerating4,
-    slopes::cayley4,
-    CayleyPoisson
+    CayleyGenerating4 of CayleyPoisson,
+    slopes::cayley4
 );
 by_duals!(
     /// `S = h H + h^2 S2` in coordinates of the second kind,
     /// `S2 = sum_(i<j) H_i H_j C_ji^k p_k/2`.
-    SecondKind2,
+    SecondKind2 of LiePoisson,
     slopes::second_kind
+);
+by_duals!(
+    /// `S = h H + h^3 S3` in the coordinates `(X, p)` of the flat spray of any Poisson bracket, `S3 = H''(f, f)/24` with the field f.
+    HamiltonJacobi4 of Poisson,
+    any_bracket::fourth_order
+);
+by_duals!(
+    /// `S = h H + h^3 S3 + h^5 S5` in the coordinates `(X, p)` of the flat spray of any Poisson bracket: [`HamiltonJacobi4`], and with
+    /// `g = grad H`, `a = Pi'[f] g`, `c = Pi''[f, f] g`, `eta = grad S3`
+    /// `S5 = (-<a, eta>/12 + H''(f, Pi eta)/4 + H''(a, a)/288 + H''(f, c)/96 + H'''(f, f, a)/96
+    /// + H''''(f, f, f, f)/384)/5`.
+    HamiltonJacobi6 of Poisson,
+    any_bracket::sixth_order
 );

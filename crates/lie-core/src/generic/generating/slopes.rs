@@ -55,7 +55,7 @@ fn of_square<S: Scalar, P: Lift<S> + LiePoisson<S>>(
 }
 
 /// `h grad H + weight * eta`
-fn started<S: Scalar, V: State<S>>(h: S, xi: &V, weight: S, eta: &V, out: &mut V) {
+pub(super) fn started<S: Scalar, V: State<S>>(h: S, xi: &V, weight: S, eta: &V, out: &mut V) {
     out.fill(S::zero());
     out.axpy(h, xi);
     out.axpy(weight, eta);
