@@ -234,12 +234,12 @@ impl Checks<'_> {
         if let Some(mistake) = self.symmetric(graph, "the metric K", rows) {
             return Err(mistake);
         }
-        let help = "give a factor L with K = L L^T by `factor`: it needs no proof";
         if self.own > MOST_MINORS {
             let message = format!(
                 "a metric of {} rows is not proven to have no negative eigenvalue",
                 self.own
             );
+            let help = "give a factor L with K = L L^T by `factor`: it needs no proof";
             return Err(self.mistake(message, help));
         }
         let minors: Vec<ExprId> = (1u32..1 << self.own)
@@ -251,7 +251,8 @@ impl Checks<'_> {
             true => Ok(()),
             false => Err(self.mistake(
                 "it could not be shown that the metric K has no negative eigenvalue",
-                help,
+                "declare as positive the parameters that are, `{\"value\": 2, \"positive\": true}`, or give a factor L with \
+                 K = L L^T by `factor`, which needs no proof",
             )),
         }
     }
