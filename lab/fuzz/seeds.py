@@ -17,7 +17,7 @@ REQUESTS = [
     {"method": ["gauss8"], "iteration": "fixed-point", "newton-tolerance": 0, "max-iterations": 7, "converge": "state", "step": 1},
     {"param": ["I1=1:2:3", ["I2", 0.5], "k = cos(1/3)"], "initial": "0.1,-1/2,cos(11/10)", "step": -0.1, "until": -1},
     {"tol": 1e-9, "from": 1, "until": 3, "group": "quaternion"},
-    {"method": ["compose4(lie-midpoint)", "splitting4", "orbit-energy", "gonzalez"], "composition": "suzuki", "pieces": "found",
+    {"method": ["compose4(lie-midpoint)", "splitting4", "orbit-energy", "gonzalez", "k-hj4"], "composition": "suzuki", "pieces": "found",
      "lift": "hopf", "gradient": "mean-value", "tensor": "mean", "retraction": "exp"},
 ]
 

@@ -17,6 +17,9 @@ METHODS = {
     "se3_heavy_top": [
         "collective4",
     ],
+    "lotka_volterra": [
+        "k-hj2", "k-hj4", "k-hj6", "orbit-energy",
+    ],
     "heisenberg_h3": [
         "cohen-hairer2", "gonzalez", "mean-value", "itoh-abe", "orbit-energy", "orbit-energy --gradient mean-value", "cohen-hairer4",
     ],

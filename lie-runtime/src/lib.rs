@@ -102,12 +102,13 @@ pub mod prelude {
         CohenHairer14, CohenHairer16, Collective2, Collective4, Collective6, Collective8,
         Collective10, Collective12, Collective14, Collective16, CommutatorFree4, Compose4,
         Compose6, Compose8, CrouchGrossman3, DiscreteEulerPoincare, Dopri5, EulerArnold2, Exact,
-        Generating2, Generating4, Generating6, GeneratingSecondKind2, Gonzalez, ImplicitMidpoint,
-        Isospectral2, Isospectral4, Isospectral6, Isospectral8, Isospectral10, Isospectral12,
-        Isospectral14, Isospectral16, ItohAbe, LieEuler, LieMidpoint, LieTaylor, MeanValue, Method,
-        MoserVeselov, NinomiyaVictoir, OrbitEnergy, Rk4, Rkmk2, Rkmk3, Rkmk4, Rkmk6, Scheme,
-        SphericalMidpoint, Splitting1, Splitting2, Splitting4, Splitting6, Splitting8, Stepper,
-        Taylor, Variational2, Variational4, Variational6,
+        Generating2, Generating4, Generating6, GeneratingSecondKind2, Gonzalez, HamiltonJacobi2,
+        HamiltonJacobi4, HamiltonJacobi6, ImplicitMidpoint, Isospectral2, Isospectral4,
+        Isospectral6, Isospectral8, Isospectral10, Isospectral12, Isospectral14, Isospectral16,
+        ItohAbe, LieEuler, LieMidpoint, LieTaylor, MeanValue, Method, MoserVeselov,
+        NinomiyaVictoir, OrbitEnergy, Rk4, Rkmk2, Rkmk3, Rkmk4, Rkmk6, Scheme, SphericalMidpoint,
+        Splitting1, Splitting2, Splitting4, Splitting6, Splitting8, Stepper, Taylor, Variational2,
+        Variational4, Variational6,
     };
     pub use crate::newton::{Convergence, Iteration, NewtonOptions};
     #[cfg(feature = "lanes")]

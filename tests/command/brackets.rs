@@ -68,6 +68,9 @@ fn ranks_casimirs_and_methods() {
             "cohen-hairer14",
             "cohen-hairer16",
             "orbit-energy",
+            "k-hj2",
+            "k-hj4",
+            "k-hj6",
         ];
         expected.sort_unstable();
         assert_eq!(apply, expected);

@@ -371,5 +371,5 @@ for LotkaVolterraSystem<S> {
 
 ::lie_runtime::generic_equations!(
     [S : ::lie_runtime::Scalar] LotkaVolterraSystem < S >, S : gauss6, frozen_gonzalez,
-    frozen_mean_value, frozen_itoh_abe
+    frozen_mean_value, frozen_itoh_abe, k_hj2, k_hj4, k_hj6
 );

@@ -272,7 +272,8 @@ impl<
 ::lie_runtime::generic_equations!(
     [S : ::lie_runtime::Scalar] HeavyTopSystem < S >, S : gauss4, generating2,
     generating4, generating6, second_kind, generating2_cayley, generating4_cayley,
-    momenta2_cayley, collective2, collective4, collective6
+    momenta2_cayley, k_hj2_along_exp, k_hj4_along_exp, k_hj6_along_exp, collective2,
+    collective4, collective6
 );
 
 #[allow(non_snake_case, clippy::many_single_char_names)]

@@ -2675,8 +2675,8 @@ for FreeRigidBodySystem<S> {
 ::lie_runtime::generic_equations!(
     [S : ::lie_runtime::Scalar] FreeRigidBodySystem < S >, S : gauss6, cohen_hairer2,
     cohen_hairer6, generating2, generating4, generating6, second_kind,
-    generating2_cayley, generating4_cayley, momenta2_cayley, momenta6, collective2,
-    hopf2, collective4, collective6, hopf6
+    generating2_cayley, generating4_cayley, momenta2_cayley, momenta6, k_hj2_along_exp,
+    k_hj4_along_exp, k_hj6_along_exp, collective2, hopf2, collective4, collective6, hopf6
 );
 /// The flows of the pieces of H in `x`, `y`, `z`.
 #[derive(Debug)]

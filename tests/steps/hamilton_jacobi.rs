@@ -1,6 +1,6 @@
 //! K-HJ: Poisson maps on any bracket, by generating functions on a symplectic realization.
 
-use crate::frozen_flow::Nambu;
+use crate::frozen_flow::{Nambu, NambuSystem};
 use crate::systems::{
     BodyWithCirculation, Bracketed as _, CanonicalPendulum, FreeRigidBody, LotkaVolterra, distance,
 };
@@ -12,7 +12,7 @@ use lie_runtime::methods::{
 };
 use lie_runtime::newton::NewtonOptions;
 use lie_runtime::prelude::*;
-use lie_runtime::{Lift, Poisson, State};
+use lie_runtime::{Equation, Implicit, Lift, Poisson, Scalar, State};
 
 /// The state after steps from a start.
 fn after<P: Poisson<f64>>(
@@ -126,7 +126,7 @@ fn steps_are_poisson_maps() {
     assert!(defects!("canonical", dual, start.as_slice()) < 1e-13);
 }
 
-/// The energy swings and does not drift, and the Casimir of degree four stays; midpoint and `gauss4` lose both.
+/// The energy swings and does not drift, and the Casimir of degree four stays; `gauss4` loses both.
 #[test]
 fn energy_does_not_drift() {
     const STEPS: u32 = 3000;
@@ -171,14 +171,47 @@ fn energy_does_not_drift() {
     );
 }
 
+lie_poisson! {
+    /// A bracket of degree two.
+    pub system Species;
+    poisson {
+        {x, y} = -x*y/2;
+        {x, z} = x*z/2;
+        {y, z} = -y*z;
+    }
+    state x, y, z;
+    hamiltonian = 2*x + y + 2*z + log(y) - 2*log(z) + x*z/5;
+    initial = [1, 1.9, 0.5];
+    methods = [k-hj4, k-hj6];
+}
+
+lie_poisson! {
+    /// A bracket of degree one beside a constant.
+    pub system Shifted;
+    algebra {
+        basis m, p, q;
+        [m, p] = q;
+        [m, q] = -p;
+    }
+    state x, y, z;
+    cocycle { {y, z} = 7/10; }
+    hamiltonian = x^2/2 + y^2/3 + z^4/5 + x*y/4;
+    initial = [0.4, 0.7, -0.5];
+    methods = [k-hj4, k-hj6];
+}
+
 /// Functions written out by the compiler and those over dual numbers make the same steps.
 #[test]
 fn fused_functions_are_the_generic_ones() {
-    let nambu = Nambu::new();
-    let (system, start) = (nambu.system().expect("constants"), nambu.initial_state());
     let h = 0.2;
     macro_rules! compare {
-        ($function:ident) => {
+        ($($declared:ident $function:ident;)+) => { $({
+            let declared = $declared::new();
+            let (system, start) = (declared.system().expect("constants"), declared.initial_state());
+            let fused = system.equation(&$function::new(), h);
+            let code = concat!(stringify!($declared), stringify!($function));
+            let name = std::any::type_name_of_val(&fused);
+            assert!(name.contains(code), "{name}");
             let function = generic::$function::new(&system, h);
             let equation = generic::RealizationStep::with_function(&system, function, h);
             let options = NewtonOptions::newton();
@@ -189,39 +222,120 @@ fn fused_functions_are_the_generic_ones() {
             }
             let fused = after(&system, &$function::new(), &start, (h, 5));
             let off = distance(fused.as_slice(), mu.as_slice());
-            assert!(off < 1e-14, "{}: {off:e}", stringify!($function));
-        };
+            assert!(off < 1e-14, "{name}: {off:e}");
+        })+ };
     }
-    compare!(HamiltonJacobi4);
-    compare!(HamiltonJacobi6);
+    compare!(
+        Nambu HamiltonJacobi4;
+        Nambu HamiltonJacobi6;
+        Species HamiltonJacobi4;
+        Species HamiltonJacobi6;
+        Shifted HamiltonJacobi4;
+        Shifted HamiltonJacobi6;
+    );
 }
 
-/// With a bracket that is linear the way is the coadjoint action, and the steps are those of generating functions with exp.
+/// The step of a direction so long that the way is divided, as an equation over any scalar.
+fn long_step<S: Scalar>(
+    system: &NambuSystem<S>,
+    h: S,
+) -> generic::RealizationStep<'_, S, NambuSystem<S>, generic::Generating2<'_, S, NambuSystem<S>>> {
+    generic::RealizationStep::with_function(system, generic::Generating2::new(system, h), h)
+}
+
+/// Newton's matrix is the derivative of the residual, also where the way has many parts.
+#[test]
+fn matrices_are_derivatives() {
+    let nambu = Nambu::new();
+    let (system, start) = (nambu.system().expect("constants"), nambu.initial_state());
+    for h in [0.1, 3.0, 30.0] {
+        let mut equation = long_step(&system, h);
+        equation.set_base(&start);
+        let (mut residual, mut matrix) = (equation.zero_unknown(), equation.zero_matrix());
+        let mut at = start;
+        at[0] -= 0.05;
+        equation.linearize(&at, &mut residual, &mut matrix);
+        for column in 0..3 {
+            let size = 1e-5;
+            let mut ends = [equation.zero_unknown(), equation.zero_unknown()];
+            for (end, sign) in ends.iter_mut().zip([1.0, -1.0]) {
+                let mut beside = at;
+                beside[column] += sign * size;
+                equation.residual(&beside, end);
+            }
+            for row in 0..3 {
+                let slope = (ends[0][row] - ends[1][row]) / (2.0 * size);
+                let off = (slope - matrix[(row, column)]).abs();
+                // the difference is right to size^2 times the third derivative, h^3
+                assert!(
+                    off < 1e-8 * (1.0 + h * h * h),
+                    "h = {h}: {row}, {column}: {off:e}"
+                );
+            }
+        }
+    }
+}
+
+/// Lanes whose ways have different numbers of parts have the residuals of their own equations.
+#[test]
+fn lanes_divide_their_ways_alone() {
+    let nambu = Nambu::new();
+    let (one, start) = (nambu.system().expect("constants"), nambu.initial_state());
+    let lanes = Nambu::<F64x8>::default();
+    let eight = lanes.system().expect("constants");
+    let sizes = [0.1, 30.0, 0.2, 3.0, 12.0, 0.05, 50.0, 1.0];
+    let mut h = F64x8::splat(0.0);
+    for (lane, size) in sizes.into_iter().enumerate() {
+        h = h.with_lane(lane, size);
+    }
+    let mut together = long_step(&eight, h);
+    let base = lanes.initial_state();
+    together.set_base(&base);
+    let (mut residual, mut matrix) = (together.zero_unknown(), together.zero_matrix());
+    together.linearize(&base, &mut residual, &mut matrix);
+    for (lane, size) in sizes.into_iter().enumerate() {
+        let mut alone = long_step(&one, size);
+        alone.set_base(&start);
+        let (mut own, mut rows) = (alone.zero_unknown(), alone.zero_matrix());
+        alone.linearize(&start, &mut own, &mut rows);
+        let off = (0..3).map(|k| (own[k] - residual[k].lane(lane)).abs());
+        let turned = (0..9).map(|k| (rows[k] - matrix[k].lane(lane)).abs() / (1.0 + size * size));
+        let worst = off.chain(turned).fold(0.0, f64::max);
+        assert!(worst < 1e-13, "lane {lane}, h = {size}: {worst:e}");
+    }
+}
+
+/// With a bracket that is linear the way is the coadjoint action, and the steps are those of generating functions with exp, by which a
+/// declared algebra has them.
 #[test]
 fn on_an_algebra_they_are_the_methods_along_exp() {
     let body = FreeRigidBody::new();
     let (system, start) = (body.system().expect("constants"), body.initial_state());
-    let at = (0.3, 5);
-    let pairs = [
-        (
-            after(&system, &HamiltonJacobi2::new(), &start, at),
-            after(&system, &LieMidpoint::exp(), &start, at),
-        ),
-        (
-            after(&system, &HamiltonJacobi4::new(), &start, at),
-            after(&system, &Generating4::exp(), &start, at),
-        ),
-        (
-            after(&system, &HamiltonJacobi6::new(), &start, at),
-            after(&system, &Generating6::exp(), &start, at),
-        ),
-    ];
-    for (one, other) in &pairs {
-        let off = distance(one.as_slice(), other.as_slice());
-        assert!(off < 1e-14, "{off:e}");
+    let h = 0.3;
+    macro_rules! compare {
+        ($($function:ident, $method:expr, $other:expr;)+) => { $(
+            let function = generic::$function::new(&system, h);
+            let equation = generic::RealizationStep::with_function(&system, function, h);
+            let options = NewtonOptions::newton();
+            let mut stepper = ImplicitStepper::new(equation, system.zero_state(), &options);
+            let mut mu = start;
+            for _ in 0..5 {
+                stepper.step(&mut mu, &mut ()).expect("the step converges");
+            }
+            let other = after(&system, &$other, &start, (h, 5));
+            let off = distance(other.as_slice(), mu.as_slice());
+            assert!(off < 1e-14, "{}: {off:e}", stringify!($function));
+            assert_eq!(after(&system, &$method, &start, (h, 5)), other);
+        )+ };
     }
-    let midpoint = after(&system, &ImplicitMidpoint, &start, at);
-    assert!(distance(midpoint.as_slice(), pairs[0].0.as_slice()) > 1e-6);
+    compare!(
+        Generating2, HamiltonJacobi2::new(), LieMidpoint::exp();
+        HamiltonJacobi4, HamiltonJacobi4::new(), Generating4::exp();
+        HamiltonJacobi6, HamiltonJacobi6::new(), Generating6::exp();
+    );
+    let midpoint = after(&system, &ImplicitMidpoint, &start, (h, 5));
+    let exact = after(&system, &LieMidpoint::exp(), &start, (h, 5));
+    assert!(distance(midpoint.as_slice(), exact.as_slice()) > 1e-6);
 }
 
 /// Eight lanes have the digits of eight runs.

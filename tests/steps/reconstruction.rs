@@ -180,6 +180,9 @@ fn every_method_moves_the_group_element_at_its_order() {
         true Generating4::cayley();
         true Generating6::exp();
         true GeneratingSecondKind2;
+        true HamiltonJacobi2::new();
+        true HamiltonJacobi4::new();
+        true HamiltonJacobi6::new();
         true LieEuler;
         true Rkmk2;
         true Rkmk3;

@@ -206,6 +206,8 @@ fn lagrangian(model: &Model, choice: &Choice) -> Option<(String, String)> {
 fn bracket(model: &Model, choice: &Choice) -> Option<(String, String)> {
     let method = choice.entry().filter(|method| method.needs_algebra())?;
     let nearest = match method.order {
+        // what acts leaves no place for a generating function
+        _ if model.driving.is_some() => "`midpoint` or `gauss16`, which take the whole field",
         1 | 2 => {
             "`orbit-energy`, which keeps the Casimirs and the energy, or `k-hj2`, a Poisson map"
         }

@@ -14,7 +14,8 @@ use crate::state::State;
 /// `r(X) = X - (y's mean)` with `p = grad S(X)`. New state: `y(1)`, on the symplectic leaf of mu to round-off whatever the error of X.
 /// Jacobian: `1 - M S''(X)` with the derivative M of the mean in p. Start: `X = mu + (h/2) f(mu)`.
 ///
-/// Of a Lie algebra the mean is `phi1(ad*_p) mu`, and the step that of [`ExpRetraction`](super::ExpRetraction).
+/// Of a Lie algebra the mean is `phi1(ad*_p) mu`, and the step that of [`ExpRetraction`](super::ExpRetraction), which gives group elements.
+/// Forces are left out, as S knows the Hamiltonian alone.
 #[derive(Debug)]
 pub struct RealizationStep<'a, S: Scalar, P: Poisson<S>, G> {
     system: &'a P,
@@ -107,6 +108,11 @@ where
                 matrix.set(row, column, entry);
             }
         }
+    }
+
+    /// A residual is some sweeps over the nodes; the derivative of the mean is as many for each coordinate.
+    fn jacobian_cost(&self) -> f64 {
+        3.0 + 2.0 * self.system.dimension() as f64
     }
 
     fn resolved(&mut self, _unknown: &P::State, _end: &P::State) -> S::Mask {

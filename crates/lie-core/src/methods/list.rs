@@ -244,11 +244,11 @@ macro_rules! for_each_method {
                 [OrbitEnergy(Gradient::MeanValue)] [OrbitEnergy<MeanValue>] [OrbitEnergy::mean_value()] { [orbit_mean_value Algebra OrbitEnergyStep of MeanValueGradient] [frozen_mean_value Any FrozenStep of MeanValueGradient] }
                 [OrbitEnergy(Gradient::ItohAbe)] [OrbitEnergy<ItohAbe>] [OrbitEnergy::itoh_abe()] { [orbit_itoh_abe Algebra OrbitEnergyStep of ItohAbeGradient] [frozen_itoh_abe Any FrozenStep of ItohAbeGradient] } }
             { "generating function on a symplectic realization" ANY CMV
-                [HamiltonJacobi(2)] [HamiltonJacobi2] [HamiltonJacobi2::new()] { [k_hj2 Any RealizationStep along Generating2] } }
+                [HamiltonJacobi(2)] [HamiltonJacobi2] [HamiltonJacobi2::new()] { [k_hj2_along_exp Algebra same LieMidpoint<Exp>] [k_hj2 Any RealizationStep along Generating2] } }
             { "generating function on a symplectic realization" ANY CMV
-                [HamiltonJacobi(4)] [HamiltonJacobi4] [HamiltonJacobi4::new()] { [k_hj4 Any RealizationStep along HamiltonJacobi4] } }
+                [HamiltonJacobi(4)] [HamiltonJacobi4] [HamiltonJacobi4::new()] { [k_hj4_along_exp Algebra same Generating4<Exp>] [k_hj4 Any RealizationStep along HamiltonJacobi4] } }
             { "generating function on a symplectic realization" ANY CMV
-                [HamiltonJacobi(6)] [HamiltonJacobi6] [HamiltonJacobi6::new()] { [k_hj6 Any RealizationStep along HamiltonJacobi6] } }
+                [HamiltonJacobi(6)] [HamiltonJacobi6] [HamiltonJacobi6::new()] { [k_hj6_along_exp Algebra same Generating6<Exp>] [k_hj6 Any RealizationStep along HamiltonJacobi6] } }
             { "energy-preserving collocation" ANY CH
                 [CohenHairer(2)] [CohenHairer2] [CohenHairer2::new()] { [cohen_hairer2 Any DiscreteGradientStep of MeanValueGradient] } }
             { "energy-preserving collocation" ANY CH

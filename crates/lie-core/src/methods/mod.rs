@@ -14,6 +14,7 @@
 //! | [`Gonzalez`], [`MeanValue`], [`ItohAbe`] | `$\mu_1 = \mu + h\, \Pi\!\left(\tfrac12(\mu + \mu_1)\right) \overline\nabla H(\mu, \mu_1)$` | 2 |
 //! | [`WithTensor`] | the same with another tensor, `$\tilde\Pi(\mu, \mu_1, h)$` | 2 and more |
 //! | [`OrbitEnergy`] | `$\mu_1 = \mathrm{Ad}^*_{\exp(h \overline\nabla H(\mu, \mu_1))}\, \mu$` | 2 |
+//! | [`HamiltonJacobi2`], [`HamiltonJacobi4`], [`HamiltonJacobi6`] | `$\mu_1 = y(1)$`, `$\dot y = \Pi(y)\, p$`, `$p = \nabla S(X)$`, X the mean of y, on any bracket | 2, 4, 6 |
 //! | [`CohenHairer`] | collocation with mean gradients, `$s$` stages | `$2s$` |
 //! | [`Isospectral2`], [`Isospectral4`], [`Isospectral6`] | Gauss on `T*V` of a representation V, reduced to g*; also [`Collective`] | 2, 4, 6 |
 //! | [`Collective::hopf`] | Gauss on `T*R^2` by the Hopf map, reduced to so(3)* | 2, 4, 6 |

@@ -82,6 +82,27 @@ macro_rules! equations {
             }
         );
     };
+    // of an algebra the method is another one
+    (
+        @row [$($choice:tt)+] [$name:ident]
+        [$key:ident Algebra same $other:ident<$argument:ident>] [$any:ident Any $equation:ident along $function:ident]
+    ) => {
+        impl<S: Scalar> Implicit<S, m::$name> for Dynamic<S> {
+            type Equation<'a>
+                = <Self as Implicit<S, m::$other<m::$argument>>>::Equation<'a>
+            where
+                Self: 'a;
+            fn equation<'a>(&'a self, _method: &m::$name, h: S) -> Self::Equation<'a> {
+                if self.values.compiled.plan.system.lie {
+                    return self.equation(&m::$other::<m::$argument>::default(), h);
+                }
+                let function = generic::$function::new(self, h);
+                let function = generating::Planned::new(self, stringify!($function), h, function);
+                let equation = generic::$equation::with_function(self, function, h);
+                Planned::new(self, &Choice::$($choice)+, h, Box::new(equation))
+            }
+        }
+    };
     (@row $choice:tt $type:tt [$key:ident $carrier:ident $equation:ident along $function:ident]) => {
         equations!(
             @impl $choice $type self h,
