@@ -169,3 +169,14 @@ fn runs_with_a_tensor() {
     assert_eq!(header, ["t", "q", "p", "energy"]);
     assert_eq!(rows.len(), 3);
 }
+
+/// What is claimed of motion along symplectic leaves is what can be measured: Casimirs, and not orbits of an algebra that there is not.
+#[test]
+fn claims_hold_where_there_is_no_algebra() {
+    for method in ["orbit-energy", "k-hj4"] {
+        lie(&format!(
+            "verify specs/lotka_volterra.json --method {method}"
+        ))
+        .ok();
+    }
+}

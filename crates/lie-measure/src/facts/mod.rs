@@ -183,11 +183,8 @@ fn orbit<P: Lift<f64>>(system: &P, ground: &Ground<P>, method: &dyn AnyMethod<f6
     }
     let claimed = method.claims().preserves.on(system).orbit;
     let Some(orbit_distance) = ground.orbit else {
-        return if claimed {
-            Finding::zero("orbit", claimed, f64::NAN, 0.0).note("no algebra is known".to_owned())
-        } else {
-            Finding::absent("orbit", "no algebra")
-        };
+        // on a symplectic leaf what is kept are its Casimirs, which are measured
+        return Finding::absent("orbit", "no algebra");
     };
     let newton = NewtonOptions::default();
     worst(
