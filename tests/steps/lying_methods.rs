@@ -169,8 +169,8 @@ fn every_lie_is_found_and_nothing_else() {
     assert!(expected("nothing").is_empty());
 }
 
-/// Of brackets of coordinates, constant and quadratic ones: what is Poisson if they are constant, and orbits,
-/// which there are none.
+/// Of brackets of coordinates, constant and quadratic ones: what is Poisson if they are constant. Their leaves are open sets, on which
+/// every map stays; of others the Casimirs are measured.
 #[test]
 fn lies_about_brackets_of_coordinates() {
     let labels = ["constant", "orbit", "midpoint", "nothing"];
@@ -185,14 +185,12 @@ fn lies_about_brackets_of_coordinates() {
         .method("nothing", |_| Lying::<7>);
     let failing = examine(&program, &labels, &[0.6, -0.5]);
     assert_eq!(found(&failing, "constant"), ["Poisson"]);
-    assert_eq!(found(&failing, "orbit"), ["orbit"]);
-    assert_eq!(failing.len(), 2, "{failing:?}");
+    assert_eq!(failing.len(), 1, "{failing:?}");
     let program = Verify::new(&[], |_: &[f64]| Quadratic::new().system())
         .method("constant", |_| Lying::<8>)
         .method("orbit", |_| Lying::<4>)
         .method("midpoint", |_| ImplicitMidpoint)
         .method("nothing", |_| Lying::<7>);
     let failing = examine(&program, &labels, &[1.6, 0.5]);
-    assert_eq!(found(&failing, "orbit"), ["orbit"]);
-    assert_eq!(failing.len(), 1, "{failing:?}");
+    assert!(failing.is_empty(), "{failing:?}");
 }
