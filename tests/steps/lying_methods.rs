@@ -169,8 +169,20 @@ fn every_lie_is_found_and_nothing_else() {
     assert!(expected("nothing").is_empty());
 }
 
-/// Of brackets of coordinates, constant and quadratic ones: what is Poisson if they are constant. Their leaves are open sets, on which
-/// every map stays; of others the Casimirs are measured.
+lie_poisson! {
+    system Species;
+    poisson {
+        {x, y} = -x*y/2;
+        {x, z} = x*z/2;
+        {y, z} = -y*z;
+    }
+    state x, y, z;
+    hamiltonian = 2*x + y + 2*z + log(y) - 2*log(z);
+    casimir C = 2*log(x) + log(y) + log(z);
+}
+
+/// Of brackets of coordinates, constant and quadratic ones: what is Poisson if they are constant, and symplectic leaves. Two coordinates
+/// have an open one, on which every map stays.
 #[test]
 fn lies_about_brackets_of_coordinates() {
     let labels = ["constant", "orbit", "midpoint", "nothing"];
@@ -193,4 +205,12 @@ fn lies_about_brackets_of_coordinates() {
         .method("nothing", |_| Lying::<7>);
     let failing = examine(&program, &labels, &[1.6, 0.5]);
     assert!(failing.is_empty(), "{failing:?}");
+    let program = Verify::new(&[], |_: &[f64]| Species::new().system())
+        .method("orbit", |_| Lying::<4>)
+        .method("along leaves", |_| OrbitEnergy::gonzalez())
+        .method("nothing", |_| Lying::<7>);
+    let labels = ["orbit", "along leaves", "nothing"];
+    let failing = examine(&program, &labels, &[1.0, 1.9, 0.5]);
+    assert_eq!(found(&failing, "orbit"), ["orbit"]);
+    assert_eq!(failing.len(), 1, "{failing:?}");
 }

@@ -5,6 +5,7 @@ use super::ground::Ground;
 use super::{PER_STEP, smaller_steps};
 use crate::basis::Basis;
 use crate::integrals::{Integral, MOST_COORDINATES};
+use lie_runtime::SquareMatrix as _;
 use lie_runtime::diagnostics::AnyMethod;
 use lie_runtime::methods::StepFailure;
 use lie_runtime::newton::NewtonOptions;
@@ -39,27 +40,63 @@ pub(super) fn findings<P: Lift<f64>>(
     ground: &Ground<P>,
     method: &dyn AnyMethod<f64, P>,
 ) -> Vec<Finding> {
-    groups(system, ground, method)
-        .iter()
-        .map(|group| {
-            if group.members.is_empty() {
-                return Finding::absent(group.fact, "none");
-            }
-            let all = |h: f64| measure(system, ground, method, group, h);
-            match smaller_steps(ground.step, all) {
-                Ok(((drift, excess), h)) => {
-                    // the bound differs between members: the largest excess decides
-                    let bound = if excess > 0.0 {
-                        drift / excess
-                    } else {
-                        bound(0.0)
-                    };
-                    Finding::zero(group.fact, group.claimed, drift, bound).at_step(h)
-                }
-                Err(failure) => Finding::unmeasured(group.fact, group.claimed, &failure),
-            }
-        })
-        .collect()
+    let groups = groups(system, ground, method);
+    let finding = |group: &Group<'_, P>| match group.members.is_empty() {
+        true => Finding::absent(group.fact, "none"),
+        false => finding(system, ground, method, group),
+    };
+    groups.iter().map(finding).collect()
+}
+
+fn finding<P: Lift<f64>>(
+    system: &P,
+    ground: &Ground<P>,
+    method: &dyn AnyMethod<f64, P>,
+    group: &Group<'_, P>,
+) -> Finding {
+    let all = |h: f64| measure(system, ground, method, group, h);
+    match smaller_steps(ground.step, all) {
+        Ok(((drift, excess), h)) => {
+            // the bound differs between members: the largest excess decides
+            let bound = if excess > 0.0 {
+                drift / excess
+            } else {
+                bound(0.0)
+            };
+            Finding::zero(group.fact, group.claimed, drift, bound).at_step(h)
+        }
+        Err(failure) => Finding::unmeasured(group.fact, group.claimed, &failure),
+    }
+}
+
+/// Whether steps stay on symplectic leaves, where these are not orbits of an algebra: the level sets of all Casimirs, where enough of them
+/// are known, and else nothing.
+pub(super) fn leaf<P: Lift<f64>>(
+    system: &P,
+    ground: &Ground<P>,
+    method: &dyn AnyMethod<f64, P>,
+) -> Finding {
+    let (fact, n) = ("orbit", system.dimension());
+    let mu = &ground.states[ground.states.len() - 1];
+    let mut matrix = system.zero_jacobian();
+    system.poisson_matrix(mu, &mut matrix);
+    let row = |row| (0..n).map(|column| matrix.get(row, column)).collect();
+    let rows: Vec<Vec<f64>> = (0..n).map(row).collect();
+    let members = casimirs(system, |_| true);
+    let gradients = members.iter().filter_map(|member| member.gradient.as_ref());
+    let gradients: Vec<Vec<f64>> = gradients.map(|g| g(mu).as_slice().to_vec()).collect();
+    let known = Basis::from_span(&gradients).rank();
+    let across = n - Basis::from_span(&rows).rank();
+    if known < across {
+        let note = format!("{known} of the {across} Casimirs of a leaf are known");
+        return Finding::zero(fact, true, f64::NAN, 0.0).note(note);
+    }
+    let group = Group {
+        fact,
+        claimed: true,
+        members,
+    };
+    finding(system, ground, method, &group)
 }
 
 fn bound(defect: f64) -> f64 {
@@ -86,14 +123,8 @@ fn groups<'a, P: Lift<f64>>(
     };
     let casimirs = |quadratic: bool| {
         let of_kind =
-            move |index: &usize| system.casimir_degree(*index).is_some_and(|d| d <= 2) == quadratic;
-        (0..system.casimir_count())
-            .filter(of_kind)
-            .filter(|index| {
-                !system.casimir_is_multivalued(*index) && system.casimir_is_kept(*index)
-            })
-            .map(|index| casimir(system, index))
-            .collect()
+            |index: usize| system.casimir_degree(index).is_some_and(|d| d <= 2) == quadratic;
+        casimirs(system, of_kind)
     };
     let integrals = |integrals: &'a [Integral]| integrals.iter().map(integral).collect();
     let mut groups = vec![
@@ -144,6 +175,14 @@ fn groups<'a, P: Lift<f64>>(
 /// `sum |g_i| max|mu|`: every coordinate carries the round-off of the largest.
 fn size<V: State<f64>>(gradient: &V, mu: &V) -> f64 {
     gradient.as_slice().iter().map(|g| g.abs()).sum::<f64>() * mu.max_norm()
+}
+
+/// The Casimirs of a kind that have one value and that nothing which acts changes.
+fn casimirs<P: Poisson<f64>>(system: &P, of_kind: impl Fn(usize) -> bool) -> Vec<Watched<'_, P>> {
+    let all = (0..system.casimir_count()).filter(|index| of_kind(*index));
+    all.filter(|index| !system.casimir_is_multivalued(*index) && system.casimir_is_kept(*index))
+        .map(|index| casimir(system, index))
+        .collect()
 }
 
 fn casimir<P: Poisson<f64>>(system: &P, index: usize) -> Watched<'_, P> {

@@ -183,8 +183,10 @@ fn orbit<P: Lift<f64>>(system: &P, ground: &Ground<P>, method: &dyn AnyMethod<f6
     }
     let claimed = method.claims().preserves.on(system).orbit;
     let Some(orbit_distance) = ground.orbit else {
-        // on a symplectic leaf what is kept are its Casimirs, which are measured
-        return Finding::absent("orbit", "no algebra");
+        return match claimed {
+            true => invariants::leaf(system, ground, method),
+            false => Finding::absent("orbit", "no algebra"),
+        };
     };
     let newton = NewtonOptions::default();
     worst(
