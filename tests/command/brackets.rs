@@ -170,13 +170,37 @@ fn runs_with_a_tensor() {
     assert_eq!(rows.len(), 3);
 }
 
-/// What is claimed of motion along symplectic leaves is what can be measured: Casimirs, and not orbits of an algebra that there is not.
+/// Leaves that are no orbits of an algebra are measured by their Casimirs.
 #[test]
 fn claims_hold_where_there_is_no_algebra() {
-    for method in ["orbit-energy", "k-hj4"] {
-        lie(&format!(
-            "verify specs/lotka_volterra.json --method {method}"
-        ))
-        .ok();
+    let report = verify("specs/lotka_volterra.json", "orbit-energy,k-hj4,rk4");
+    for (method, leaf, poisson) in [
+        ("orbit-energy", "holds", "not-claimed"),
+        ("k-hj4", "holds", "holds"),
+        ("rk4", "absent", "not-claimed"),
+    ] {
+        assert_eq!(verdict(&report, method, "orbit"), leaf, "{method}");
+        assert_eq!(verdict(&report, method, "Poisson"), poisson, "{method}");
+    }
+}
+
+/// What a refused method is told to use in its place applies where something acts, too.
+#[test]
+fn methods_named_in_a_refusal_apply_where_something_acts() {
+    let run = "run tests/data/acting/lv_harvest.json --step 0.1 --until 1 --quiet --method";
+    for method in ["lie-midpoint", "generating4", "rkmk6", "k-hj4"] {
+        let refused = lie(&format!("{run} {method}")).error("method", "command line: --method");
+        let help = refused
+            .stderr
+            .lines()
+            .find(|line| line.starts_with("help: "));
+        let named: Vec<&str> = help.expect("help").split('`').skip(1).step_by(2).collect();
+        let methods = named
+            .iter()
+            .filter(|name| !["forces", "dissipation"].contains(name));
+        assert_eq!(methods.clone().count(), 2, "{named:?}");
+        for name in methods {
+            lie(&format!("{run} {name}")).ok();
+        }
     }
 }

@@ -152,6 +152,12 @@ pub trait State<S: Scalar>: Unknown<S> {
     }
 }
 
+/// The sum of the products of entries.
+pub(crate) fn dot<S: Scalar, V: State<S>>(first: &V, second: &V) -> S {
+    let pairs = first.as_slice().iter().zip(second.as_slice());
+    pairs.fold(S::zero(), |sum, (&one, &other)| sum + one * other)
+}
+
 macro_rules! one_part {
     ($type:ty, [$($generics:tt)*], $slice:expr, $slice_mut:expr, $take:expr, $take_over:expr) => {
         impl<S: Scalar, $($generics)*> Unknown<S> for $type {

@@ -29,7 +29,7 @@ use crate::clock::holds;
 use crate::newton::FailureReason;
 use crate::poisson::Poisson;
 use crate::scalar::{Mask, Scalar};
-use crate::state::State;
+use crate::state::{State, dot};
 use thiserror::Error;
 
 /// So many functions can be kept.
@@ -304,10 +304,4 @@ impl<S: Scalar, V: State<S>> Projection<S, V> {
         }
         self.point.assign_where(lanes, &self.corrected);
     }
-}
-
-/// The sum of the products of entries.
-fn dot<S: Scalar, V: State<S>>(first: &V, second: &V) -> S {
-    let pairs = first.as_slice().iter().zip(second.as_slice());
-    pairs.fold(S::zero(), |sum, (&one, &other)| sum + one * other)
 }

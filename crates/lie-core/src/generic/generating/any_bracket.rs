@@ -10,7 +10,7 @@ use crate::generic::multiply;
 use crate::matrix::SquareMatrix;
 use crate::poisson::{Lift, Poisson};
 use crate::scalar::{Dual, Scalar};
-use crate::state::State;
+use crate::state::{State, dot};
 
 /// g, f and w at a point, and the Poisson matrix.
 struct Flow<V, M> {
@@ -78,14 +78,6 @@ pub(super) fn fourth_order<S: Scalar, P: Lift<S>>(
     let mut eta = system.zero_state();
     third_order(system, S::one(), x, &flow, &mut eta);
     started(h, &flow.g, h * h * h * S::ratio(1.0, 24.0), &eta, out);
-}
-
-fn dot<S: Scalar>(one: &impl State<S>, other: &impl State<S>) -> S {
-    let mut sum = S::zero();
-    for (&one, &other) in one.as_slice().iter().zip(other.as_slice()) {
-        sum += one * other;
-    }
-    sum
 }
 
 /// `5760 h^5 S5`.
