@@ -21,12 +21,11 @@ use lie_symbolic::symbolic::{ExprId, Symbol};
 /// The generating function of a method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Generating {
-    /// In coordinates of the first kind by a retraction, to an order of 4 or 6.
+    /// In coordinates of the first kind by a retraction, to an order of 4 or 6; by exp of a bracket that is not that of an algebra in
+    /// those of its symplectic realization.
     First(Retraction, u32),
     /// In coordinates of the second kind, order 2.
     Second,
-    /// On the symplectic realization of any bracket, to an order of 4 or 6.
-    Realized(u32),
 }
 
 /// The gradient of S at p as definitions and results.
@@ -90,12 +89,7 @@ pub(crate) fn slope(source: &mut Source, generating: Generating) -> Slope {
             let slope = tape.gradient(source, second);
             weighted.push((power_of_step(source, 2, 2), slope));
         }
-        Generating::First(..) | Generating::Realized(_) => {
-            let (cayley, order) = match generating {
-                Generating::First(retraction, order) => (retraction == Retraction::Cayley, order),
-                Generating::Realized(order) => (false, order),
-                Generating::Second => unreachable!("has an arm of its own"),
-            };
+        Generating::First(retraction, order) => {
             // powers of h apart from what they multiply would leave the range of numbers at order 6: S5 has that of h H
             let (unit, mut field) = (order == 6, source.field());
             let mut gradient = gradient;
@@ -111,7 +105,7 @@ pub(crate) fn slope(source: &mut Source, generating: Generating) -> Slope {
             let w = along(source, &mut tape, &gradient, &x);
             let w = tape.define_all(source, &w);
             let mut third = dot(source, &w, &x);
-            if cayley {
+            if retraction == Retraction::Cayley {
                 let cubic = cubic_term(source, &mut tape);
                 third = source
                     .graph

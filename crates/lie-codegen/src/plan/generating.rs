@@ -58,7 +58,7 @@ impl Planner<'_> {
             4 => REALIZED_FOUR,
             _ => REALIZED_SIX,
         };
-        self.along_function(&named, Generating::Realized(order))
+        self.along_function(&named, Generating::First(Retraction::Exp, order))
     }
 
     /// The equation of a generating-function method with the exponential.
@@ -107,11 +107,11 @@ impl Planner<'_> {
                 Choice::GeneratingSecondKind2,
                 self.second_kind_pattern(&function.pattern),
             ),
-            Generating::First(retraction, order) => (
+            Generating::First(retraction, order) if self.source.is_lie() => (
                 Choice::Generating(order, retraction),
                 self.exp_pattern(&function.pattern),
             ),
-            Generating::Realized(order) => {
+            Generating::First(_, order) => {
                 // the way leaves no entry of the matrix zero that is worth an elimination of its own
                 let partner = self.partner(&Choice::HamiltonJacobi(order));
                 return Some(Solver::Generic(partner.with_own_code(named.suffix)));
