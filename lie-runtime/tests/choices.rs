@@ -178,19 +178,21 @@ fn run<P: Poisson<f64>>(
 }
 
 /// The slope of the root of the mean square of the errors, and how many runs failed.
-fn slope<P>(system: &P, method: &impl Method<f64, P>, steps: &[u32]) -> (f64, usize)
+fn slope<P>(
+    system: &P,
+    ends: &[P::State],
+    method: &impl Method<f64, P>,
+    steps: &[u32],
+) -> (f64, usize)
 where
     P: Poisson<f64>,
     P::State: From<[f64; 3]>,
 {
     let mut points = Vec::new();
     let mut failed = 0;
-    let ends: Vec<P::State> = states()
-        .map(|start| run(system, &Rk4, start.into(), 30_000).expect("explicit"))
-        .collect();
     for &steps in steps {
         let (mut sum, mut count) = (0.0, 0.0);
-        for (start, exact) in states().zip(&ends) {
+        for (start, exact) in states().zip(ends) {
             let Some(end) = run(system, method, start.into(), steps) else {
                 failed += 1;
                 continue;
@@ -220,10 +222,13 @@ where
     let fine = [150, 225, 337, 506, 759, 1139];
     let steps = [40, 60, 90, 135, 202, 303];
     let coarse = [16, 20, 26, 33, 42, 54, 69, 88];
+    let ends: Vec<P::State> = states()
+        .map(|start| run(system, &Rk4, start.into(), 30_000).expect("explicit"))
+        .collect();
     let all = [
-        slope(system, &Rk4, &fine),
-        slope(system, &Gauss4, &steps),
-        slope(system, &Gauss6, &coarse),
+        slope(system, &ends, &Rk4, &fine),
+        slope(system, &ends, &Gauss4, &steps),
+        slope(system, &ends, &Gauss6, &coarse),
     ];
     println!("{name}: rk4, gauss4, gauss6: slopes and failed runs {all:.2?}");
     all.map(|(slope, _)| slope)

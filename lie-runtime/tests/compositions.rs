@@ -265,27 +265,33 @@ fn the_factors_lead_to_the_new_state() {
 
 #[test]
 fn lanes_have_the_digits_of_the_scalar_run() {
+    fn check<M>(method: &M, name: &str)
+    where
+        M: Method<F64x8, HeavyTop<F64x8>> + Method<f64, HeavyTop<f64>>,
+    {
+        let h = [0.1, -0.2, 0.5, 1e-9, 0.3, 0.25, -0.35, 0.01];
+        let start = |lane: usize| START.map(|entry| entry * (1.0 + 0.2 * lane as f64));
+        let many = HeavyTop::<F64x8>::default();
+        let mut together = SVector::<F64x8, 6>::from_fn(|row, _| {
+            F64x8::new(core::array::from_fn(|lane| start(lane)[row]))
+        });
+        let options = NewtonOptions::default();
+        let mut stepper = method.stepper(&many, F64x8::new(h), &options);
+        for _ in 0..3 {
+            stepper.step(&mut together, &mut ()).expect("a step");
+        }
+        for lane in 0..8 {
+            let mut mu = SVector::from(start(lane));
+            steps(&HeavyTop::default(), method, h[lane], 3, &mut mu).expect("a step");
+            for row in 0..6 {
+                let bits = (together[row].lane(lane).to_bits(), mu[row].to_bits());
+                assert_eq!(bits.0, bits.1, "{name}: lane {lane}");
+            }
+        }
+    }
     macro_rules! check {
         ($method:expr) => {
-            let h = [0.1, -0.2, 0.5, 1e-9, 0.3, 0.25, -0.35, 0.01];
-            let start = |lane: usize| START.map(|entry| entry * (1.0 + 0.2 * lane as f64));
-            let many = HeavyTop::<F64x8>::default();
-            let mut together = SVector::<F64x8, 6>::from_fn(|row, _| {
-                F64x8::new(core::array::from_fn(|lane| start(lane)[row]))
-            });
-            let options = NewtonOptions::default();
-            let mut stepper = $method.stepper(&many, F64x8::new(h), &options);
-            for _ in 0..3 {
-                stepper.step(&mut together, &mut ()).expect("a step");
-            }
-            for lane in 0..8 {
-                let mut mu = SVector::from(start(lane));
-                steps(&HeavyTop::default(), &$method, h[lane], 3, &mut mu).expect("a step");
-                for row in 0..6 {
-                    let bits = (together[row].lane(lane).to_bits(), mu[row].to_bits());
-                    assert_eq!(bits.0, bits.1, "{}: lane {lane}", stringify!($method));
-                }
-            }
+            deep(|| check(&$method, stringify!($method)))
         };
     }
     each!(check);
@@ -368,16 +374,18 @@ fn a_failure_in_a_later_stage_undoes_the_earlier_ones() {
 fn steps_allocate_nothing() {
     macro_rules! check {
         ($method:expr) => {
-            let top = HeavyTop::<F64x8>::default();
-            let mut mu = state(&top, &START);
-            let h = F64x8::splat(0.1);
-            let mut stepper = $method.stepper(&top, h, &NewtonOptions::default());
-            let allocations = allocation_counter::measure(|| {
-                for _ in 0..3 {
-                    stepper.step(&mut mu, &mut ()).expect("a step");
-                }
+            deep(|| {
+                let top = HeavyTop::<F64x8>::default();
+                let mut mu = state(&top, &START);
+                let h = F64x8::splat(0.1);
+                let mut stepper = $method.stepper(&top, h, &NewtonOptions::default());
+                let allocations = allocation_counter::measure(|| {
+                    for _ in 0..3 {
+                        stepper.step(&mut mu, &mut ()).expect("a step");
+                    }
+                });
+                assert_eq!(allocations.count_total, 0, "{}", stringify!($method));
             });
-            assert_eq!(allocations.count_total, 0, "{}", stringify!($method));
         };
     }
     each!(check);

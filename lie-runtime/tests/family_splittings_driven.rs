@@ -1,6 +1,7 @@
 //! Splittings of families that depend on the time and on inputs, with friction and with noise: their orders, and what they keep.
 
 use crate::sites;
+use crate::systems::daily;
 
 use lie_runtime::family::{Family, Pieces, SplitMix, unit_spheres};
 use lie_runtime::methods::{Gauss8, Method, Rk4, Stepper};
@@ -206,7 +207,7 @@ fn noise_keeps_every_spin() {
     let mut splitting = Splitting2::new().stepper(&noisy, h, &newton);
     let mut rk4 = Method::<f64, _>::stepper(&Rk4, &noisy, h, &newton);
     let mut most = 0.0_f64;
-    for _ in 0..100_000 {
+    for _ in 0..daily(20_000, 100_000) {
         for (k, normal) in normals(&mut random, 4).into_iter().enumerate() {
             split[first + k] = normal / h.sqrt();
             lost[first + k] = split[first + k];
