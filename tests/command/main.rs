@@ -20,7 +20,6 @@ mod bounds;
 mod brackets;
 mod build;
 mod check;
-mod cocycles;
 mod declarations;
 mod density;
 mod ensemble;

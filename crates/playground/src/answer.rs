@@ -158,7 +158,7 @@ fn about(model: &Structure, choice: &Choice, engine: &str) -> Value {
         "name": model.name,
         "method": choice.label(),
         "engine": engine,
-        "rank": model.counts().1,
+        "rank": model.generic_rank,
         "rotates": rotates(model),
         "methods": methods,
         "equations": equations,

@@ -223,8 +223,7 @@ fn triple_product_of_so3_is_known() {
                 for d in 0..3 {
                     let twice = i64::from(a == b && c == d) + i64::from(b == c && a == d);
                     if twice != 0 {
-                        let value = Rational::new(-twice, 2).unwrap();
-                        expected.push((a, b, c, d, Fraction::from(value)));
+                        expected.push((a, b, c, d, Rational::new(-twice, 2).unwrap()));
                     }
                 }
             }

@@ -28,7 +28,6 @@ impl Algebra {
             constants: turned.constants.map(|value| graph.rational_function(value)),
             exact: turned.constants,
             representation: turned.representation,
-            extension: None,
         }
     }
 

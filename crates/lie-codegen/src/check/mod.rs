@@ -8,7 +8,6 @@ mod assembly;
 mod attitude;
 mod breadth;
 mod casimirs;
-mod central;
 mod cocycle;
 mod configuration;
 mod constant;
