@@ -9,8 +9,8 @@
 //!   `c = sum_(k odd > 1) E D^(k-1) H(m)/(2^(k-1) k!)`, E the derivative along e;
 //! - Itoh and Abe: on each edge the mean value of `dH/dmu_i` in one coordinate, of two paths of edges.
 //!
-//! For a quadratic H all three are `grad H(m)`. Where H depends on the time, e has no entry for the momentum of that: the
-//! time moves as it does.
+//! For a quadratic H all three are `grad H(m)`. e has no entry for the momentum of the time, which moves as it does, nor for the
+//! time where H does not depend on it.
 
 use super::{Argument, Block, Kernel, Source};
 use crate::methods::Gradient;
@@ -121,9 +121,14 @@ impl Source {
         let correction = self.at_point(&[correction], &middle)[0];
         let inverse = self.block(Block::Given)[0];
         let difference = self.block(Block::Difference);
-        let momentum = self.clock().map(|clock| clock.momentum);
+        let zero = self.graph.integer(0);
+        let mut counts = vec![true; n];
+        if let Some(clock) = self.clock() {
+            counts[clock.momentum] = false;
+            counts[clock.time] = self.gradient_of_h()[clock.time] != zero;
+        }
         for (i, symbol) in self.symbols(Block::Direction).into_iter().enumerate() {
-            if Some(i) == momentum {
+            if !counts[i] {
                 continue;
             }
             definitions.push((symbol, self.graph.mul(inverse, difference[i])));
@@ -131,8 +136,12 @@ impl Source {
         definitions.push((self.symbols(Block::Correction)[0], correction));
         let defined = self.block(Block::Correction)[0];
         let mut direction = self.block(Block::Direction);
-        if let Some(momentum) = momentum {
-            direction[momentum] = self.graph.integer(0);
+        for (entry, _) in direction
+            .iter_mut()
+            .zip(&counts)
+            .filter(|(_, counts)| !**counts)
+        {
+            *entry = zero;
         }
         let minus_two = self.graph.integer(-2);
         let directions = self.symbols(Block::Direction);
@@ -156,7 +165,7 @@ impl Source {
                 let bent = self.graph.mul(direction[i], tilt[j]);
                 slopes[i][j] = self.graph.add(slopes[i][j], bent);
             }
-            if Some(i) != momentum {
+            if counts[i] {
                 slopes[i][i] = self.graph.add(slopes[i][i], across);
             }
         }

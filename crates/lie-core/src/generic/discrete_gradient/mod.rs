@@ -41,16 +41,15 @@ pub trait DiscreteGradient<S: Scalar, P: Poisson<S>> {
 }
 
 /// `1/|d|` with `d = end - start`, and 0 where d is 0: what a fused discrete gradient multiplies by
-/// terms that vanish faster. Squares stay within the range of the scalar. The momentum of the time does not count.
+/// terms that vanish faster. Squares stay within the range of the scalar. What [`Energy`] does not follow does not count.
 pub fn inverse_length<S: Scalar, P: Poisson<S>>(
     system: &P,
     start: &P::State,
     end: &P::State,
 ) -> [S; 1] {
-    let momentum = system.clock().map(|clock| clock.momentum);
     let difference = || {
         let pairs = end.as_slice().iter().zip(start.as_slice()).enumerate();
-        let counted = pairs.filter(move |(i, _)| Some(*i) != momentum);
+        let counted = pairs.filter(|(i, _)| <Energy as Function<S, P>>::counts(system, *i));
         counted.map(|(_, (&end, &start))| end - start)
     };
     let size = resolution::largest(difference());
