@@ -218,7 +218,8 @@ fn write_family(
         1 => format!("a chain of {columns}"),
         _ => format!("a lattice of {rows} x {columns}"),
     };
-    let (dimension, rank) = (sites * model.dimension(), sites * model.generic_rank);
+    let (dimension, rank, _) = model.counts();
+    let (dimension, rank) = (sites * dimension, sites * rank);
     let corank = sites * model.casimirs_to_find();
     writeln!(
         text,
@@ -242,21 +243,17 @@ fn write_family(
 
 /// What the system is: its rank, its functions, its Casimirs.
 fn write_system(model: &Structure, text: &mut String) -> std::fmt::Result {
-    let dimension = model.dimension();
+    let (dimension, generic_rank, initial_rank) = model.counts();
     if let Some([rows, columns]) = sites(model) {
         write_family(model, [rows, columns], text)?;
     }
-    write!(
-        text,
-        "  dimension {dimension}, generic rank {}",
-        model.generic_rank
-    )?;
-    match model.initial_rank {
+    write!(text, "  dimension {dimension}, generic rank {generic_rank}")?;
+    match initial_rank {
         _ if model.family.is_some() => writeln!(text, " of a site")?,
         Some(rank) => writeln!(text, ", rank {rank} at the initial state")?,
         None => writeln!(text, ", no initial state")?,
     }
-    if let Some(rank) = model.initial_rank.filter(|rank| *rank < model.generic_rank) {
+    if let Some(rank) = initial_rank.filter(|rank| *rank < generic_rank) {
         writeln!(
             text,
             "  warning: the initial state lies on a singular leaf, of dimension {rank}: the motion stays there, \
@@ -268,6 +265,9 @@ fn write_system(model: &Structure, text: &mut String) -> std::fmt::Result {
     }
     if let Some(configuration) = &model.configuration {
         writeln!(text, "  {}", configuration.description())?;
+    }
+    if let Some(cocycle) = model.cocycle_in_words() {
+        writeln!(text, "  cocycle: {cocycle}")?;
     }
     let shared = model.family.iter().flat_map(|family| &family.shared);
     let shared: Vec<&str> = shared.map(String::as_str).collect();

@@ -20,6 +20,7 @@ mod bounds;
 mod brackets;
 mod build;
 mod check;
+mod cocycles;
 mod declarations;
 mod density;
 mod ensemble;

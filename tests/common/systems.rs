@@ -152,7 +152,7 @@ impl<S: Scalar, P> OfPoisson<S> for P where
 {
 }
 
-/// A system of `specs/` whose bracket is not that of an algebra alone.
+/// A system of `specs/` whose bracket is declared by entries, or has some beside an algebra.
 pub trait Bracketed {
     /// The name of its spec.
     const FILE: &'static str;
@@ -181,7 +181,7 @@ declared!(
     BodyWithCirculationSystem
 );
 
-/// Calls a macro once per system whose bracket is not that of an algebra alone: file and type.
+/// Calls a macro once per system whose bracket is declared by entries, or has some beside an algebra: file and type.
 macro_rules! each_bracket {
     ($check:ident) => {
         $check!(canonical_pendulum, CanonicalPendulum);

@@ -186,7 +186,7 @@ lie_poisson! {
 }
 
 lie_poisson! {
-    /// A bracket of degree one beside a constant.
+    /// A bracket of degree one beside a constant that is not rational: no extension has it.
     pub system Shifted;
     algebra {
         basis m, p, q;
@@ -194,7 +194,7 @@ lie_poisson! {
         [m, q] = -p;
     }
     state x, y, z;
-    cocycle { {y, z} = 7/10; }
+    cocycle { {y, z} = sqrt(2)/2; }
     hamiltonian = x^2/2 + y^2/3 + z^4/5 + x*y/4;
     initial = [0.4, 0.7, -0.5];
     methods = [k-hj4, k-hj6];

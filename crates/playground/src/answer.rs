@@ -158,7 +158,7 @@ fn about(model: &Structure, choice: &Choice, engine: &str) -> Value {
         "name": model.name,
         "method": choice.label(),
         "engine": engine,
-        "rank": model.generic_rank,
+        "rank": model.counts().1,
         "rotates": rotates(model),
         "methods": methods,
         "equations": equations,

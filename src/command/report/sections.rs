@@ -108,7 +108,7 @@ impl Report<'_> {
     /// The orbit of a three-dimensional algebra, the phase portrait of a plane.
     fn space(&mut self, words: &[String]) -> Result<(), Failure> {
         let model = &self.spec.model;
-        match model.dimension() {
+        match model.counts().0 {
             3 if model.family.is_none() && no_orbit(model).is_none() => {
                 let file = self.curve(words)?;
                 if let Some(scene) = self.scene(file) {

@@ -13,7 +13,7 @@ use lie_syntax::linear::{Scope, rational};
 const MAX_ENTRIES: usize = 4_000_000;
 
 /// An entry `(a, b, c, d, T_abc^d)` of the triple product.
-pub type TripleEntry = (usize, usize, usize, usize, Rational);
+pub type TripleEntry = (usize, usize, usize, usize, Fraction);
 
 /// The triple product and the dual matrices of a [`Representation`].
 type Closures = (Option<Vec<TripleEntry>>, Option<envelope::Duals>);

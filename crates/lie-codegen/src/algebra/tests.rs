@@ -223,7 +223,8 @@ fn triple_product_of_so3_is_known() {
                 for d in 0..3 {
                     let twice = i64::from(a == b && c == d) + i64::from(b == c && a == d);
                     if twice != 0 {
-                        expected.push((a, b, c, d, Rational::new(-twice, 2).unwrap()));
+                        let value = Rational::new(-twice, 2).unwrap();
+                        expected.push((a, b, c, d, Fraction::from(value)));
                     }
                 }
             }

@@ -4,7 +4,7 @@
 use super::representation::TripleEntry;
 use super::sparse::SparseMatrix;
 use lie_symbolic::exact::span::Span;
-use lie_symbolic::exact::{Budget, Exhausted, Rational};
+use lie_symbolic::exact::{Budget, Exhausted, Fraction, Rational};
 
 /// The triple product of the matrices, `None` where their span is not closed under it.
 pub(super) fn closure(
@@ -33,7 +33,7 @@ pub(super) fn closure(
                     return Ok(None);
                 };
                 for (d, value) in coordinates.iter().enumerate().filter(|(_, v)| !v.is_zero()) {
-                    let value = value * &half;
+                    let value = Fraction::from(value * &half);
                     if a != c {
                         entries.push((c, b, a, d, value.clone()));
                     }

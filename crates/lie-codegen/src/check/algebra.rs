@@ -28,6 +28,7 @@ impl Algebra {
             constants: turned.constants.map(|value| graph.rational_function(value)),
             exact: turned.constants,
             representation: turned.representation,
+            extension: None,
         }
     }
 

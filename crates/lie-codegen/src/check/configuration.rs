@@ -7,6 +7,9 @@
 //! beside mu: `K = H + p`, `t' = dK/dp = 1`, `p' = -dH/dt`, in the Heisenberg algebra `[P, T] = Z`; beside
 //! brackets of coordinates they have the bracket `{t, p} = 1`.
 //!
+//! A cocycle S is that of a central extension, `[e_i, e_j] = C_ij^k e_k - S_ij Z`: its central element is that of the Heisenberg
+//! algebra, and the time is there for that alone. It is added when the constants are known ([`super::central`]).
+//!
 //! Both are written into the declaration, so that all checks see one algebra. The order of the coordinates
 //! is mu, p, the entries of g row by row, t, and the central one, whose value is 1.
 
@@ -43,7 +46,9 @@ pub fn configuration(
         Some((name.text.clone(), size?))
     });
     // what forces do is taken from the momentum of the time
-    let time = uses_time(declaration) || declaration.is_driven();
+    let matters = uses_time(declaration) || declaration.is_driven();
+    let extends = extends(declaration);
+    let time = matters || extends;
     if group.is_none() && !time {
         return None;
     }
@@ -51,8 +56,20 @@ pub fn configuration(
         momenta: declaration.dimension() + usize::from(time),
         group,
         time,
+        idle: extends && !matters,
         held: driving::held::held(declaration, mistakes),
     })
+}
+
+/// Whether a cocycle makes a central extension of the algebra. Brackets that are constant are as good as those of any algebra, and
+/// a realization is one of the declared coordinates.
+fn extends(declaration: &Declaration) -> bool {
+    let Structure::Lie { algebra, cocycle } = &declaration.structure else {
+        return false;
+    };
+    let brackets = algebra.brackets.iter().flatten();
+    let moves = !algebra.matrices.is_empty() || brackets.count() > 0;
+    !cocycle.is_empty() && moves && declaration.realization.is_none()
 }
 
 /// Whether an expression mentions the time.

@@ -135,8 +135,8 @@ pub fn violation(model: &Model, values: &[f64]) -> Option<Diagnostic> {
 pub struct Sources<'a> {
     /// The declaration in all its coordinates.
     pub whole: &'a Whole<'a>,
-    /// The structure constants.
-    pub constants: Option<&'a StructureConstants<ExprId>>,
+    /// The structure constants, and the central element that is 1.
+    pub constants: Option<(&'a StructureConstants<ExprId>, Option<usize>)>,
     /// The brackets of coordinates.
     pub brackets: &'a [Entry],
     /// The Hamiltonian.

@@ -1,11 +1,11 @@
-//! What must hold identically: the Jacobi or cocycle identity of the brackets, the Casimirs, and the realization.
+//! What must hold identically: the Jacobi identity of the brackets, the Casimirs, and the realization.
 
 use std::collections::HashSet;
 
 use super::coordinates::Whole;
 use super::system::System;
-use super::{casimirs, cocycle, events, integrals, jacobi, naming, poisson_map, sign};
-use crate::model::{Bracket, Casimir, Event, PoissonMatrix, Quantity, QuantityKind};
+use super::{casimirs, events, integrals, jacobi, naming, poisson_map, sign};
+use crate::model::{Bracket, Casimir, Event, Quantity, QuantityKind};
 use lie_symbolic::prove::branches;
 use lie_symbolic::symbolic::Symbol;
 use lie_syntax::diagnostic::Diagnostic;
@@ -37,28 +37,12 @@ pub fn identities(
     let brackets = &system.lowered.brackets;
     let scratch = &mut system.scratch;
     let bracket = match system.algebra.clone() {
-        Some(algebra) if brackets.is_empty() => Bracket::Lie(algebra),
-        Some(algebra) => {
-            let constants = &algebra.constants;
-            let identity =
-                cocycle::cocycle_identity(declaration, brackets, constants, scratch, name);
-            mistakes.extend(identity);
-            let degree = Some(1);
-            Bracket::Extended(
-                algebra,
-                PoissonMatrix {
-                    degree,
-                    ..matrix.clone()
-                },
-            )
-        }
+        Some(algebra) => Bracket::Lie(algebra),
         None => {
-            mistakes.extend(jacobi::jacobi_identity(
-                declaration,
-                brackets,
-                scratch,
-                name,
-            ));
+            if declaration.algebra().is_none() {
+                let identity = jacobi::jacobi_identity(declaration, brackets, scratch, name);
+                mistakes.extend(identity);
+            }
             Bracket::General(matrix.clone())
         }
     };

@@ -56,7 +56,6 @@ fn motionless(declaration: &Declaration, model: &Model) -> impl Iterator<Item = 
     let no_bracket = match &model.bracket {
         Bracket::Lie(algebra) => algebra.constants.entries().is_empty(),
         Bracket::General(matrix) => matrix.entries.is_empty(),
-        Bracket::Extended(..) => false,
     };
     // A single coordinate has no bracket but with itself, and whoever declares it knows.
     let at_rest = (no_bracket && declaration.dimension() > 1).then(|| {

@@ -8,6 +8,7 @@ mod assembly;
 mod attitude;
 mod breadth;
 mod casimirs;
+mod central;
 mod cocycle;
 mod configuration;
 mod constant;

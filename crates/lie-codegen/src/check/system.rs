@@ -3,7 +3,7 @@
 use super::coordinates::Whole;
 use super::energy::{Declared, Motion};
 use super::expressions::Lowered;
-use super::{breadth, derivatives, driving, exactness, matrix};
+use super::{breadth, central, cocycle, derivatives, driving, exactness, matrix};
 use crate::model::{Algebra, Driving, Energy, PoissonMatrix};
 use lie_symbolic::symbolic::{Graph, Symbol};
 use lie_syntax::diagnostic::Diagnostic;
@@ -32,13 +32,30 @@ pub fn system(
     mistakes: &mut Vec<Diagnostic>,
 ) -> Option<System> {
     let (declaration, configuration) = (&*whole.declaration, whole.configuration.as_ref());
-    let (graph, brackets) = (&mut lowered.graph, &lowered.brackets);
+    let graph = &mut lowered.graph;
     let algebra = lowered.algebra.take();
-    let algebra = algebra.map(|algebra| algebra.into_system(declaration, graph));
-    if algebra.is_some() {
+    let mut algebra = algebra.map(|algebra| algebra.into_system(declaration, graph));
+    let unit = configuration
+        .and_then(|c| c.clock())
+        .map(|clock| clock.time + 1);
+    // of an algebra with a cocycle that no extension has
+    let mut declared = None;
+    if let Some(plain) = algebra.take_if(|_| !lowered.brackets.is_empty()) {
+        let brackets = &lowered.brackets;
         mistakes.extend(exactness::constants(brackets, graph, &lowered.parameters));
+        let constants = &plain.constants;
+        let identity =
+            cocycle::cocycle_identity(declaration, brackets, constants, &mut graph.clone(), name);
+        mistakes.extend(identity);
+        algebra = configuration.zip(unit).and_then(|(c, unit)| {
+            central::extension(&plain, brackets, (c.own_momenta(), unit), graph)
+        });
+        match algebra {
+            Some(_) => lowered.brackets.clear(),
+            None => declared = Some(plain.constants),
+        }
     }
-    let is_lie = algebra.is_some() && brackets.is_empty();
+    let is_lie = algebra.is_some();
     let motion = Motion {
         declaration,
         parameters: &lowered.parameters,
@@ -48,19 +65,27 @@ pub fn system(
     let energy = motion.energy(graph, lowered.energy);
     let energy = energy.map_err(|mistake| mistakes.push(mistake)).ok()?;
     let constants = algebra.as_ref().map(|algebra| &algebra.constants);
+    let constants = constants
+        .or(declared.as_ref())
+        .map(|constants| (constants, unit));
     let acting = std::mem::take(&mut lowered.acting);
     let defaults = lowered.parameters.iter().map(|p| p.default_value);
     let sources = driving::Sources {
         whole,
         constants,
-        brackets,
+        brackets: &lowered.brackets,
         energy: &energy,
         defaults: &defaults.collect::<Vec<_>>(),
         name,
     };
     let driving = driving::driving(graph, &sources, acting, mistakes);
     let mut scratch = graph.clone();
-    let matrix = matrix::poisson_matrix(&mut scratch, declaration.dimension(), constants, brackets);
+    let matrix = matrix::poisson_matrix(
+        &mut scratch,
+        declaration.dimension(),
+        constants,
+        &lowered.brackets,
+    );
     // The matrix of an algebra is looked at here and no more: it leaves the arena as it is.
     if !is_lie {
         graph.clone_from(&scratch);

@@ -36,8 +36,12 @@ pub(super) fn triple_of(
 ) -> Vec<ExprId> {
     let mut terms: Vec<Vec<(ExprId, Rational)>> = vec![Vec::new(); source.dimension];
     for (a, b, c, d, value) in source.triple().unwrap_or_default().to_vec() {
-        let term = source.graph.product(&[x[a], z[c], m[d]]);
-        terms[b].push((term, value));
+        let mut factors = vec![x[a], z[c], m[d]];
+        let constant = value.as_constant().unwrap_or_else(|| {
+            factors.push(source.graph.rational_function(&value));
+            Rational::ONE
+        });
+        terms[b].push((source.graph.product(&factors), constant));
     }
     terms
         .into_iter()

@@ -58,7 +58,7 @@ impl Source {
         let written = |id: ExprId| structure.graph.as_written(id);
         let bracket = match &structure.bracket {
             model::Bracket::Lie(algebra) => Bracket::Lie(algebra.constants.entries().to_vec()),
-            model::Bracket::Extended(_, matrix) | model::Bracket::General(matrix) => {
+            model::Bracket::General(matrix) => {
                 let entries = matrix.entries.iter();
                 let entries = entries.map(|(i, j, value)| (*i, *j, written(*value)));
                 Bracket::Entries(entries.collect())

@@ -295,11 +295,13 @@ impl Declared {
                 if self.configuration.is_some() {
                     self.configured(mu, &mut set);
                 }
-                let scope = self.parameters();
+                let scope: Scope<T> = self.parameters();
+                let clock = self.configuration.as_ref().and_then(|c| c.clock());
+                let unit = clock.map_or(T::integer(1), |clock| mu[clock.time + 1].clone());
                 let mut constants = Vec::new();
                 for bracket in cocycle {
                     let (i, j) = self.pair(&self.declaration.state, bracket);
-                    constants.push((i, j, scope.evaluate(&bracket.value)));
+                    constants.push((i, j, scope.evaluate(&bracket.value).mul(&unit)));
                 }
                 for (i, j, value) in constants {
                     let sum = matrix[i][j].add(&value);

@@ -225,13 +225,6 @@ fn bracket(model: &Model, choice: &Choice) -> Option<(String, String)> {
             "it needs a Lie algebra, and the system declares a general bracket".into(),
             apply,
         )),
-        Bracket::Extended(..) => Some((
-            "it needs the Lie–Poisson bracket of an algebra, and a cocycle is added to it".into(),
-            format!(
-                "{apply}; or declare the central extension as an algebra with one more basis element, \
-                 whose coordinate stays 1"
-            ),
-        )),
     }
 }
 
@@ -306,7 +299,12 @@ fn cotangent(model: &Model) -> Option<(String, String)> {
 
 /// Why a system has no Cayley map.
 fn cayley(model: &Model) -> Option<&'static str> {
+    let algebra = model.bracket.algebra();
     match model.bracket.representation() {
+        None if algebra.is_some_and(|a| a.group_representation().is_some()) => Some(
+            "the Cayley map needs a matrix representation, and the declared `matrices` are not those of the central \
+             extension that the cocycle makes",
+        ),
         None => Some(
             "the Cayley map needs a matrix representation, and the algebra declares no `matrices`",
         ),

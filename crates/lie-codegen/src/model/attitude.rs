@@ -97,7 +97,7 @@ impl Model {
         let Bracket::Lie(algebra) = &self.bracket else {
             return None;
         };
-        let representation = algebra.representation.as_ref()?;
+        let representation = algebra.group_representation()?;
         let configuration = self.configuration.as_ref();
         let whole = representation.dimension;
         let size = configuration.map_or(whole, |c| c.size_of_group(whole));

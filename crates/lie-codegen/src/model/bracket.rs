@@ -10,8 +10,6 @@ use lie_syntax::ast::Name;
 pub enum Bracket {
     /// The Lie–Poisson bracket of an algebra: `{mu_i, mu_j} = -C_ij^k mu_k`.
     Lie(Algebra),
-    /// The same with a constant term, a cocycle of the algebra; the matrix is that of the sum.
-    Extended(Algebra, PoissonMatrix),
     /// A Poisson matrix that was given entry by entry.
     General(PoissonMatrix),
 }
@@ -20,7 +18,7 @@ impl Bracket {
     /// The algebra.
     pub fn algebra(&self) -> Option<&Algebra> {
         match self {
-            Bracket::Lie(algebra) | Bracket::Extended(algebra, _) => Some(algebra),
+            Bracket::Lie(algebra) => Some(algebra),
             Bracket::General(_) => None,
         }
     }
@@ -34,24 +32,27 @@ impl Bracket {
     pub fn matrix(&self) -> Option<&PoissonMatrix> {
         match self {
             Bracket::Lie(_) => None,
-            Bracket::Extended(_, matrix) | Bracket::General(matrix) => Some(matrix),
+            Bracket::General(matrix) => Some(matrix),
         }
     }
 
-    /// The entries `(i, j, {x_i, x_j})` above the diagonal, `i < j`, ascending, those that are not zero.
+    /// The entries `(i, j, {x_i, x_j})` above the diagonal, `i < j`, ascending, those that are not zero; of a central extension where
+    /// its coordinate is 1.
     pub fn entries(&self, graph: &mut Graph) -> Vec<(usize, usize, ExprId)> {
         let algebra = match self {
             Bracket::Lie(algebra) => algebra,
-            Bracket::Extended(_, matrix) | Bracket::General(matrix) => {
-                return matrix.entries.clone();
-            }
+            Bracket::General(matrix) => return matrix.entries.clone(),
         };
+        let unit = algebra.extension.as_ref().map(|extension| extension.unit);
         let constants = algebra.constants.entries();
         let pairs = constants.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1));
         let entry = |pair: &[(usize, usize, usize, ExprId)]| {
             let mut sum = Vec::new();
             for (.., k, value) in pair {
-                let mu = graph.symbol(Symbol::Coordinate(*k));
+                let mu = match Some(*k) == unit {
+                    true => graph.integer(1),
+                    false => graph.symbol(Symbol::Coordinate(*k)),
+                };
                 let term = graph.mul(*value, mu);
                 sum.push(graph.neg(term));
             }
@@ -72,6 +73,40 @@ pub struct Algebra {
     pub constants: StructureConstants<ExprId>,
     /// The matrix representation.
     pub representation: Option<Representation>,
+    /// The cocycle by which this is a central extension of the declared algebra.
+    pub extension: Option<Extension>,
+}
+
+/// What makes an algebra a central extension.
+#[derive(Clone, Debug)]
+pub struct Extension {
+    /// The cocycle.
+    pub cocycle: Cocycle,
+    /// The central element, whose coordinate is 1.
+    pub unit: usize,
+    /// The matrices without the cocycle, those of the group.
+    pub declared: Option<Representation>,
+}
+
+impl Algebra {
+    /// The matrices in which a group element is one: those of the algebra, without a cocycle.
+    pub fn group_representation(&self) -> Option<&Representation> {
+        match &self.extension {
+            Some(extension) => extension.declared.as_ref(),
+            None => self.representation.as_ref(),
+        }
+    }
+}
+
+/// A cocycle S of an algebra, which is part of the structure constants of the extension.
+#[derive(Clone, Debug)]
+pub enum Cocycle {
+    /// `S_ij = C_ij^k s_k` with s for each declared element: `mu - s` moves as without the cocycle.
+    Coboundary(Vec<Fraction>),
+    /// There are no such s.
+    Proper,
+    /// The structure constants have parameters, or there are too many of them.
+    Undecided,
 }
 
 /// The Poisson matrix `Pi_ij = {x_i, x_j}`.

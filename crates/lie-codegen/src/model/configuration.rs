@@ -21,8 +21,11 @@ pub struct Configuration {
     pub momenta: usize,
     /// Name and size of the group element, whose entries follow.
     pub group: Option<(String, usize)>,
-    /// Whether the Hamiltonian depends on the time, or something acts beside it.
+    /// Whether the three coordinates of the time are there: the Hamiltonian depends on it, something acts beside it, or a cocycle
+    /// needs the central one.
     pub time: bool,
+    /// Whether they are there for a cocycle alone, and nothing depends on the time.
+    pub idle: bool,
     /// What is held from one step to the next, behind the time, which is there then: inputs with their defaults, and the rates of Wiener
     /// processes.
     pub held: Vec<(String, Rational)>,
@@ -78,7 +81,11 @@ impl Configuration {
             ));
         }
         if self.time {
-            parts.push("the time with its momentum and a unit".into());
+            let time = "the time with its momentum and a unit";
+            parts.push(match self.idle {
+                true => format!("{time}, by which the cocycle is that of a central extension"),
+                false => time.into(),
+            });
         }
         match self.held.len() {
             0 => {}
@@ -91,6 +98,12 @@ impl Configuration {
     /// Why a method that knows the declared algebra alone does not apply, whatever that algebra is.
     pub fn refusal(&self) -> &'static str {
         match (&self.group, self.time) {
+            (None, _) if self.idle => {
+                "it is for the declared algebra alone, and the cocycle makes that larger"
+            }
+            (Some(_), true) if self.idle => {
+                "it is for the declared algebra alone, and the group element and the cocycle make that larger"
+            }
             (Some(_), false) => {
                 "it is for the declared algebra alone, and the group element makes that larger"
             }

@@ -9,7 +9,6 @@ fn bracket_in_words(model: &Model) -> String {
     let dual = format!("on the dual of a Lie algebra of dimension {dimension}");
     match &model.bracket {
         Bracket::Lie(_) => dual,
-        Bracket::Extended(..) => format!("{dual}, its bracket with a constant term"),
         Bracket::General(matrix) => {
             let brackets = matrix.entries.iter().map(|(i, j, value)| {
                 let [a, b] = [*i, *j].map(|index| &model.coordinates[index].text);

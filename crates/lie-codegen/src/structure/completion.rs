@@ -86,29 +86,14 @@ fn field(
     match bracket {
         Bracket::Lie(algebra) => {
             let own = momenta.unwrap_or(algebra.exact.dimension());
+            let with_unit = algebra.extension.is_some();
             let entries = algebra.exact.entries().iter();
-            let entries = entries
-                .filter(|(i, j, k, _)| *i.max(j).max(k) < own)
-                .cloned();
+            let entries = entries.filter(|(i, j, ..)| *i.max(j) < own);
+            // beside a cocycle the unit is the next element, and else no bracket of declared elements has it
+            let entries = entries.map(|(i, j, k, value)| (*i, *j, *k.min(&own), value.clone()));
             Ok(Field {
-                constants: StructureConstants::new(own, entries.collect()),
-                with_unit: false,
-            })
-        }
-        Bracket::Extended(algebra, matrix) => {
-            let n = algebra.exact.dimension();
-            let mut entries = algebra.exact.entries().to_vec();
-            for (i, j, value) in &matrix.entries {
-                let constant = graph.fraction(*value, Some(Rational::ZERO)).ok_or(
-                    "a constant term of the bracket is no rational function of parameters",
-                )?;
-                if !constant.is_zero() {
-                    entries.push((*i, *j, n, constant.neg()));
-                }
-            }
-            Ok(Field {
-                constants: StructureConstants::new(n + 1, entries),
-                with_unit: true,
+                constants: StructureConstants::new(own + usize::from(with_unit), entries.collect()),
+                with_unit,
             })
         }
         Bracket::General(matrix) => affine(matrix, graph),

@@ -46,7 +46,12 @@ pub fn group(model: &Model) -> Option<Group> {
     Some(Group {
         size,
         matrices,
-        closed: model.bracket.representation()?.dual.is_some(),
+        closed: model
+            .bracket
+            .algebra()?
+            .group_representation()?
+            .dual
+            .is_some(),
         right: model.invariance == Invariance::Right,
     })
 }
@@ -59,7 +64,7 @@ pub fn refusal(structure: &Structure, chart: Chart) -> Option<(String, String)> 
                 "the group elements of the sites of a family are not followed".into(),
                 "leave the option out".into(),
             ),
-            Bracket::Lie(algebra) if algebra.representation.is_none() => (
+            Bracket::Lie(algebra) if algebra.group_representation().is_none() => (
                 "the algebra declares no `matrices`".into(),
                 "declare the matrix of each basis element: the group element is a matrix of their size".into(),
             ),

@@ -15,6 +15,11 @@ pub fn refusal(structure: &Structure, order: u32) -> Option<(String, String)> {
         };
         format!("{remedy}{also}")
     };
+    let algebra = structure.bracket.algebra();
+    if algebra.is_some_and(|algebra| algebra.extension.is_some()) {
+        let reason = super::lifts::made_larger(structure);
+        return reason.map(|reason| (reason, nearest("")));
+    }
     match structure.bracket.representation() {
         None => {
             let spins = structure.spins.is_some();

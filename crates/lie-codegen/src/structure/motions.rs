@@ -68,16 +68,17 @@ pub fn find(model: &Model, casimirs: &[Casimir], work: u64) -> Result<Motions, &
     if model.family.is_some() {
         return Err("H is that of a family");
     }
-    if model.configuration.is_some() {
+    let configuration = model.configuration.as_ref();
+    if configuration.is_some_and(|c| c.group.is_some() || !c.idle) {
         return Err(
             "the coordinates of a group element or of the time have relations of their own",
         );
     }
-    if model.energy.expression().is_none() {
+    let Some(hamiltonian) = model.energy.expression() else {
         return Err("H is no expression in the coordinates");
-    }
+    };
     let mut graph = model.graph.clone();
-    let field = field(model, &mut graph);
+    let field = field(model, hamiltonian.energy, &mut graph);
     if field.iter().all(|f| graph.is_zero(*f)) {
         return Err("nothing moves");
     }
@@ -93,21 +94,21 @@ pub fn find(model: &Model, casimirs: &[Casimir], work: u64) -> Result<Motions, &
         Err(Exhausted) => return Ok(motions),
     };
     // what was found before the budget was spent is told
-    let _ = search(&mut graph, model, casimirs, &field, &budget, &mut motions);
+    let known = casimirs.iter().map(|casimir| casimir.expr);
+    let known = known.chain([hamiltonian.energy]).collect();
+    let _ = search(&mut graph, model, known, &field, &budget, &mut motions);
     Ok(motions)
 }
 
-/// Looks for them degree by degree.
+/// Looks for them degree by degree, beside the Casimirs and H.
 fn search(
     graph: &mut Graph,
     model: &Model,
-    casimirs: &[Casimir],
+    mut known: Vec<ExprId>,
     field: &[functions::Function],
     budget: &Budget,
     motions: &mut Motions,
 ) -> Result<(), Exhausted> {
-    let mut known: Vec<ExprId> = casimirs.iter().map(|casimir| casimir.expr).collect();
-    known.push(model.hamiltonian());
     // declared ones that say nothing new are none of those that determine an orbit
     for integral in integrals(model) {
         known.push(integral.expr);
@@ -161,15 +162,15 @@ fn search(
     Ok(())
 }
 
-/// `Pi grad H`
-fn field(model: &Model, graph: &mut Graph) -> Vec<ExprId> {
-    let n = model.dimension();
+/// `Pi grad H`, without the coordinates that are there for a cocycle.
+fn field(model: &Model, hamiltonian: ExprId, graph: &mut Graph) -> Vec<ExprId> {
+    let (n, ..) = model.counts();
     let slopes: Vec<ExprId> = (0..n)
-        .map(|i| graph.derivative(model.hamiltonian(), Symbol::Coordinate(i)))
+        .map(|i| graph.derivative(hamiltonian, Symbol::Coordinate(i)))
         .collect();
-    let entries = model.bracket.entries(graph);
+    let entries = model.bracket.entries(graph).into_iter();
     let mut terms: Vec<Vec<ExprId>> = vec![Vec::new(); n];
-    for (i, j, value) in entries {
+    for (i, j, value) in entries.filter(|(_, j, _)| *j < n) {
         terms[i].push(graph.mul(value, slopes[j]));
         let term = graph.mul(value, slopes[i]);
         terms[j].push(graph.neg(term));

@@ -80,16 +80,17 @@ impl Report {
             .map(|(what, formula)| json!({ "what": what, "formula": formula }))
             .collect();
         let sites = sites(model).map_or(1, |[rows, columns]| rows * columns);
+        let (dimension, generic_rank, initial_rank) = model.counts();
         let mut report = json!({
             "name": model.name,
-            "dimension": sites * model.dimension(),
-            "generic_rank": sites * model.generic_rank,
-            "initial_rank": model.initial_rank,
+            "dimension": sites * dimension,
+            "generic_rank": sites * generic_rank,
+            "initial_rank": initial_rank,
             "brackets": signs::brackets(model),
             "canonical": signs::canonical(model),
             "casimirs": casimirs,
             "acting": acting,
-            "independent_casimirs": sites * (model.dimension() - model.generic_rank),
+            "independent_casimirs": sites * (dimension - generic_rank),
             "constants_of_motion": motions::json(model),
             "class": model.algebra.as_ref().map(|report| structure::class(&report.class)),
             "algebra_name": model.algebra.as_ref().and_then(|report| report.name.as_ref().ok()),
@@ -106,6 +107,8 @@ impl Report {
             recorded::add(model, report);
             let attitude = model.display_attitude();
             report.extend(attitude.map(|text| ("attitude".to_owned(), text.into())));
+            let cocycle = model.cocycle_in_words();
+            report.extend(cocycle.map(|text| ("cocycle".to_owned(), text.into())));
         }
         report
     }

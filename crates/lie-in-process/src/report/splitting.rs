@@ -1,6 +1,7 @@
 //! The pieces of H whose flows are exact.
 
 use lie_codegen::methods::{Choice, Pieces, Scheme, refusal};
+use lie_codegen::model::configuration::TIME_MOMENTUM;
 use lie_codegen::plan::chosen;
 use lie_codegen::structure::Structure;
 use lie_codegen::structure::found::{self, Terms};
@@ -41,6 +42,10 @@ pub(super) fn find(model: &Structure) -> Result<Splitting, String> {
     let mut terms = found::terms(model, searched, found);
     let order = chosen.order.iter();
     terms.pieces = order.map(|place| terms.pieces[*place].clone()).collect();
+    if model.configuration.as_ref().is_some_and(|c| c.idle) {
+        let own = |term: &String| term != TIME_MOMENTUM;
+        terms.pieces.iter_mut().for_each(|terms| terms.retain(own));
+    }
     let mut others = chosen.costs.clone();
     let own = others.remove(chosen.way);
     Ok(Splitting {

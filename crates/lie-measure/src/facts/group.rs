@@ -8,10 +8,11 @@ use super::findings::Finding;
 use super::ground::Ground;
 use super::{PER_STEP, largest, smaller_steps};
 use crate::basis::Basis;
+use lie_runtime::SquareMatrix;
 use lie_runtime::diagnostics::{AnyMethod, Forgotten};
 use lie_runtime::driver::{Chart, Options, Problem, Reconstruction, Save, solve_observed};
 use lie_runtime::methods::StepFailure;
-use lie_runtime::poisson::Lift;
+use lie_runtime::poisson::{Lift, Poisson};
 use lie_runtime::state::State;
 use lie_runtime::structure::MatrixGroup;
 
@@ -41,6 +42,9 @@ where
     if system.is_forced() {
         return Finding::absent("group", "forces change the momentum in space");
     }
+    if has_cocycle(system) {
+        return Finding::absent("group", "a cocycle changes the momentum in space");
+    }
     let claims = method.claims();
     let exact = claims.preserves.on(system).orbit && !beside;
     let order = f64::from(claims.order);
@@ -67,6 +71,22 @@ where
         }
         Err(failure) => Finding::unmeasured("group", true, &failure),
     }
+}
+
+/// Whether brackets of coordinates that do not carry the time are constants, beside others.
+fn has_cocycle<P: Poisson<f64>>(system: &P) -> bool {
+    let Some(clock) = system.clock() else {
+        return false;
+    };
+    let mut origin = system.zero_state();
+    origin.as_mut_slice()[clock.time + 1] = 1.0;
+    let mut matrix = system.zero_jacobian();
+    system.poisson_matrix(&origin, &mut matrix);
+    let own: Vec<usize> = (0..system.dimension())
+        .filter(|&k| !clock.holds(k))
+        .collect();
+    let mut pairs = own.iter().flat_map(|&i| own.iter().map(move |&j| (i, j)));
+    pairs.any(|(i, j)| matrix.get(i, j) != 0.0)
 }
 
 /// The largest error of the momentum in space over the rows, relative to what the element can make of round-off, and

@@ -125,7 +125,7 @@ fn orbit(spec: &Spec, given: &OptionValue) -> Result<Kind, Message> {
 
 /// What is drawn of systems of which a picture says nothing.
 fn elsewhere(model: &Structure) -> &'static str {
-    match model.dimension() {
+    match model.counts().0 {
         1 if model.family.is_none() => "take `--picture components`",
         _ => "take `--picture phase`, which draws one coordinate against another",
     }
@@ -133,7 +133,7 @@ fn elsewhere(model: &Structure) -> &'static str {
 
 /// Why no orbit is drawn of a system; none where one is.
 pub fn no_orbit(model: &Structure) -> Option<String> {
-    let n = model.dimension();
+    let (n, ..) = model.counts();
     if model.family.is_some() {
         return Some(format!(
             "{} is a family, and orbits are drawn of systems with 3 coordinates",
@@ -250,7 +250,7 @@ fn section(
     rest: Option<&OptionValue>,
     given: &OptionValue,
 ) -> Result<Kind, Message> {
-    let n = spec.model.dimension();
+    let (n, ..) = spec.model.counts();
     if n < 3 || layout.states != n || build::declared(&spec.model).is_none() {
         let model = &spec.model;
         let name = &model.name;

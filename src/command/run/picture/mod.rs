@@ -165,7 +165,7 @@ impl<'a> Picture<'a> {
         let would = match self.drawn {
             Drawn::Orbit(..) => true,
             Drawn::Phase(_, axes, _) => {
-                self.spec.model.dimension() == 2 && axes.iter().all(|axis| *axis < 2)
+                self.spec.model.counts().0 == 2 && axes.iter().all(|axis| *axis < 2)
             }
             _ => false,
         };
@@ -215,7 +215,7 @@ impl<'a> Picture<'a> {
                 Drawn::Compare(compare)
             }
             Kind::Phase(axes) => {
-                let plane = self.spec.model.dimension() == 2 && axes.iter().all(|axis| *axis < 2);
+                let plane = self.spec.model.counts().0 == 2 && axes.iter().all(|axis| *axis < 2);
                 let system = system(self.spec, start).filter(|_| plane && self.has_levels());
                 Drawn::Phase(phase(axes), axes, system.map(Box::new))
             }
@@ -308,9 +308,9 @@ impl<'a> Picture<'a> {
                 phase.subtitle(&line);
                 if let Some(system) = system {
                     phase.levels(&|(x, y)| {
-                        let mut state = vec![0.0; 2];
-                        (state[axes[0]], state[axes[1]]) = (x, y);
-                        system.hamiltonian(&state)
+                        let mut point = [0.0; 2];
+                        (point[axes[0]], point[axes[1]]) = (x, y);
+                        system.hamiltonian(&state_at(&system, &point))
                     });
                 }
                 (phase.to_svg(), None)
@@ -353,9 +353,20 @@ fn pass(phase: &mut Phase, section: &mut Section, row: &[f64], states: usize) {
     }
 }
 
+/// The state at a point of the coordinates that are shown; those of the time are there for a cocycle alone.
+fn state_at(system: &Dynamic<f64>, point: &[f64]) -> Vec<f64> {
+    let mut state = system.zero_state();
+    state[..point.len()].copy_from_slice(point);
+    if let Some(clock) = system.clock() {
+        state[clock.time + 1] = 1.0;
+    }
+    state
+}
+
 /// The first Casimir of a three-dimensional system, and its gradient.
 pub fn casimir(system: &Dynamic<f64>, point: &Point) -> (f64, Point) {
-    let (state, mut gradient) = (point.to_vec(), vec![0.0; 3]);
+    let state = state_at(system, point);
+    let mut gradient = system.zero_state();
     let mut values = vec![0.0; system.casimir_count()];
     system.casimirs(&state, &mut values);
     system.casimir_gradient(0, &state, &mut gradient);
@@ -364,10 +375,9 @@ pub fn casimir(system: &Dynamic<f64>, point: &Point) -> (f64, Point) {
 
 /// The energy of a three-dimensional system, and its gradient.
 pub fn energy(system: &Dynamic<f64>, point: &Point) -> (f64, Point) {
-    let (state, mut gradient) = (point.to_vec(), vec![0.0; 3]);
+    let state = state_at(system, point);
+    let mut gradient = system.zero_state();
     system.gradient(&state, &mut gradient);
-    (
-        system.hamiltonian(&state),
-        [gradient[0], gradient[1], gradient[2]],
-    )
+    let energy = system.hamiltonian(&state);
+    (energy, [gradient[0], gradient[1], gradient[2]])
 }

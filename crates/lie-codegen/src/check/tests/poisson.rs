@@ -1,5 +1,6 @@
 use super::*;
-use crate::model::Bracket;
+use crate::model::{Bracket, Cocycle};
+use lie_symbolic::exact::{Fraction, Rational};
 
 /// Brackets of coordinates with what is given.
 fn general(state: &str, brackets: &str, extra: &[(&str, &str)]) -> String {
@@ -176,18 +177,21 @@ fn cocycles() {
         )
     };
     // S(b, c) and S(a, d) belong to cocycles; S(b, d) = -S([a, c], b) does not without S(c, c)
-    for cocycle in [
-        r#"["{y, z} = k"]"#,
-        r#"["{x, w} = 1/k", "{x, y} = 3"]"#,
-        r#"["{z, y} = sqrt(2)*k"]"#,
-    ] {
+    for cocycle in [r#"["{y, z} = k"]"#, r#"["{x, w} = 1/k", "{x, y} = 3"]"#] {
         let model = model(&with(cocycle));
-        let Bracket::Extended(algebra, matrix) = &model.bracket else {
-            panic!("{cocycle}: {:?}", model.bracket)
-        };
-        assert_eq!(matrix.degree, Some(1));
-        assert!(!model.is_lie_poisson() && algebra.basis.len() == 4);
+        let extension = model.bracket.algebra().and_then(|a| a.extension.as_ref());
+        let extension = extension.expect("a central extension");
+        assert!(matches!(extension.cocycle, Cocycle::Proper), "{cocycle}");
+        assert_eq!((model.dimension(), extension.unit), (7, 6));
+        assert_eq!(model.counts().0, 4);
+        assert!(!model.is_timed());
     }
+    // the constants of an extension are rational functions of the parameters
+    let irrational = model(&with(r#"["{z, y} = sqrt(2)*k"]"#));
+    let Bracket::General(matrix) = &irrational.bracket else {
+        panic!("{:?}", irrational.bracket)
+    };
+    assert_eq!(matrix.degree, Some(1));
     for cocycle in [
         r#"["{y, w} = 1"]"#,
         r#"["{z, w} = k"]"#,
@@ -206,4 +210,100 @@ fn cocycles() {
     assert_eq!(kinds(&with(r#"["{y, z} = m"]"#)), ["unknown-symbol"]);
     // constants that are zero add nothing
     assert!(model(&with(r#"["{y, w} = 0"]"#)).is_lie_poisson());
+}
+
+/// A gyrostat: the cocycle of a rotor's momentum is that of a shift, also with parameters, and the Cayley map is that of the shifted body.
+#[test]
+fn coboundaries() {
+    let with = |value: &str, more: &[(&str, &str)]| {
+        let cocycle = format!(r#"["{{x, y}} = {value}", "{{y, z}} = -1/2"]"#);
+        let base = [
+            ("algebra", r#""so(3)""#),
+            ("cocycle", cocycle.as_str()),
+            ("hamiltonian", r#""x^2/2 + y^2/3 + z^4/5""#),
+            ("parameters", r#"{"l": {"default": "3/2", "exact": true}}"#),
+        ];
+        model(&system(&base, more))
+    };
+    let right = [("invariance", r#""right""#)];
+    for (more, sign) in [(&[][..], "-"), (&right, "")] {
+        for (value, shift) in [("3/2", "3/2"), ("l", "l")] {
+            let model = with(value, more);
+            let algebra = model.bracket.algebra().expect("an algebra");
+            let extension = algebra.extension.as_ref().expect("a central extension");
+            let Cocycle::Coboundary(found) = &extension.cocycle else {
+                panic!("{:?}", extension.cocycle)
+            };
+            // {x, y} = -z + S_xy, so that nu = mu - s with s_z = S_xy; of a right-invariant body the bracket is +z
+            let shown: Vec<String> = found.iter().map(|s| s.display(&|_| "l".into())).collect();
+            let other = if sign == "-" { "-1/2" } else { "1/2" };
+            let expected = match (sign, shift) {
+                ("-", shift) => shift.to_owned(),
+                (_, shift) => format!("-{shift}"),
+            };
+            assert_eq!(shown, [other, "0", &expected], "{value} {more:?}");
+            let representation = algebra.representation.as_ref().expect("matrices");
+            let triple = representation.triple.as_ref().expect("it is closed");
+            // what a triple product has beside that of so(3) is the shift, along the central element
+            let unit = extension.unit;
+            let added = triple.iter().filter(|entry| entry.3 == unit).count();
+            assert!(added > 0 && representation.matrices.len() == 6);
+        }
+    }
+    // the products of the matrices rho(e_i) + s_i rho(Z), beside those of the time
+    let hat = |i: usize, shift: &str| {
+        let entry = |r: usize, c: usize| match (r, c) {
+            (3, 5) => format!("\"{shift}\""),
+            _ if r < 3 && c < 3 && r != i && c != i => format!(
+                "{}",
+                if (r + 3 - i) % 3 == 2 { 1 } else { -1 } * i32::from(r != c)
+            ),
+            _ => "0".to_owned(),
+        };
+        let row = |r| {
+            format!(
+                "[{}]",
+                (0..6).map(|c| entry(r, c)).collect::<Vec<_>>().join(", ")
+            )
+        };
+        format!("[{}]", (0..6).map(row).collect::<Vec<_>>().join(", "))
+    };
+    let unit = |places: &[(usize, usize)]| {
+        let entry = |r, c| if places.contains(&(r, c)) { "1" } else { "0" };
+        let row = |r| {
+            format!(
+                "[{}]",
+                (0..6).map(|c| entry(r, c)).collect::<Vec<_>>().join(", ")
+            )
+        };
+        format!("[{}]", (0..6).map(row).collect::<Vec<_>>().join(", "))
+    };
+    let algebra = format!(
+        r#"{{"basis": ["a", "b", "c", "P", "T", "Z"], "matrices": {{"a": {}, "b": {}, "c": {}, "P": {}, "T": {}, "Z": {}}}}}"#,
+        hat(0, "-1/2"),
+        hat(1, "0"),
+        hat(2, "3/2"),
+        unit(&[(3, 4)]),
+        unit(&[(4, 5)]),
+        unit(&[(3, 5)]),
+    );
+    let written = model(&system(
+        &[
+            ("algebra", algebra.as_str()),
+            ("state", r#"["x", "y", "z", "p", "q", "u"]"#),
+            ("hamiltonian", r#""x^2/2 + y^2/3 + z^4/5 + p""#),
+        ],
+        &[],
+    ));
+    let at = |value: &Fraction| value.evaluate(&|_| Rational::new(3, 2).expect("a number"));
+    let triple = |model: &Model| -> Vec<_> {
+        let representation = model.bracket.representation();
+        let triple = representation
+            .and_then(|r| r.triple.as_deref())
+            .expect("it is closed");
+        let entries = triple.iter().map(|(a, b, c, d, v)| (*a, *b, *c, *d, at(v)));
+        entries.collect()
+    };
+    assert_eq!(triple(&with("l", &[])), triple(&written));
+    assert_eq!(triple(&with("3/2", &[])), triple(&written));
 }
