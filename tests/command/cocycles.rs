@@ -68,9 +68,10 @@ fn a_coboundary_is_a_shift() {
         "--method cf4",
         "--method generating4",
         "--method generating4 --retraction cayley",
-        "--method splitting4",
         "--method compose6",
         "--method gauss16",
+        "--method gonzalez",
+        "--method orbit-energy",
     ] {
         let expected = end(&shifted, arguments);
         for path in [&numbers, &parameters] {
@@ -99,7 +100,7 @@ fn methods_of_the_algebra_hold_beside_a_cocycle() {
     let mut on_group = plane.clone();
     on_group["group"] = json!("g");
     on_group["hamiltonian"] = json!("L^2/2 + p1^2/2 + p2^2/3 + g13^2/2 + g23^2/3 + g11/4");
-    let methods = "lie-midpoint,rkmk4,cf4,generating4,generating6,splitting4,lie-taylor,gauss4";
+    let methods = "lie-midpoint,rkmk4,cf4,generating4,generating6,splitting4,lie-taylor,gauss4,gonzalez,orbit-energy";
     for (name, spec) in [("plane.json", plane), ("group.json", on_group)] {
         let path = written(folder.path(), name, spec);
         let check = lie(&format!("check {} --json", path.display())).ok();
@@ -120,4 +121,25 @@ fn methods_of_the_algebra_hold_beside_a_cocycle() {
         }
         assert!(defect("gauss4") > Some(1e-10), "{name}: {report:#}");
     }
+}
+
+/// The coordinates that are there for the cocycle alone are in no picture.
+#[test]
+fn an_orbit_is_drawn_in_the_declared_coordinates() {
+    let folder = folder();
+    let spec = gyrostat(json!({
+        "cocycle": ["{x, y} = l"],
+        "hamiltonian": "x^2/2 + y^2/4 + z^2/6"
+    }));
+    let path = written(folder.path(), "gyrostat.json", spec);
+    let picture = folder.path().join("orbit.svg");
+    lie(&format!(
+        "run {} --method lie-midpoint --step 0.05 --until 10 --quiet --plot {} --picture orbit",
+        path.display(),
+        picture.display()
+    ))
+    .ok();
+    let drawn = std::fs::read_to_string(&picture).expect("a picture");
+    assert!(drawn.contains("surface: "), "{drawn}");
+    assert!(!drawn.contains("_one"), "{drawn}");
 }

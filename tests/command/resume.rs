@@ -104,7 +104,10 @@ fn every_form_and_every_kind_of_rows_goes_on() {
     .iter()
     .enumerate()
     {
-        for form in ["csv", "json", "jsonl", "npy"] {
+        // every form with one call, and every call with one form
+        let forms = ["csv", "json", "jsonl", "npy"];
+        let (all, one) = (&forms[..], &forms[number % 4..=number % 4]);
+        for form in if number == 0 { all } else { one } {
             goes_on(here, call, &format!("{number}.{form}"));
         }
     }

@@ -88,8 +88,13 @@ fn imports(tokens: TokenStream, own: &[String], found: &mut BTreeSet<String>) {
     }
 }
 
+/// Whether a token is this word or sign; a group, whose text is long, is neither.
 fn is(tree: &TokenTree, word: &str) -> bool {
-    tree.to_string() == word
+    match tree {
+        TokenTree::Ident(name) => name == word,
+        TokenTree::Punct(sign) => word.chars().eq([sign.as_char()]),
+        TokenTree::Group(_) | TokenTree::Literal(_) => false,
+    }
 }
 
 fn is_root(tree: &TokenTree) -> bool {

@@ -137,7 +137,7 @@ fn check(system: &crate::random::System, offset: f64) -> Result<(), TestCaseErro
 
 #[test]
 fn programs_equal_exact_evaluation_on_random_systems() {
-    random_systems(12);
+    random_systems(6);
 }
 
 #[test]
