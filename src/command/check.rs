@@ -12,7 +12,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use lie_codegen::methods::{Choice, refusal};
-use lie_codegen::structure::{Effort, Structure};
+use lie_codegen::structure::{Effort, Structure, bracket_class};
 use lie_in_process::report::{Report, sites};
 use lie_in_process::request::{self, Request, several};
 use lie_in_process::words::counted;
@@ -268,6 +268,9 @@ fn write_system(model: &Structure, text: &mut String) -> std::fmt::Result {
     }
     if let Some(cocycle) = model.cocycle_in_words() {
         writeln!(text, "  cocycle: {cocycle}")?;
+    }
+    if let Some(class) = bracket_class::class(model) {
+        writeln!(text, "  bracket: {}", class.describe(model))?;
     }
     let shared = model.family.iter().flat_map(|family| &family.shared);
     let shared: Vec<&str> = shared.map(String::as_str).collect();

@@ -14,8 +14,10 @@ fn ranks_casimirs_and_methods() {
     assert_eq!(pendulum["generic_rank"], 2);
     assert_eq!(pendulum["initial_rank"], 2);
     assert_eq!(pendulum["independent_casimirs"], 0);
-    assert!(pendulum["class"].is_null() && pendulum["splitting"].is_null());
+    assert!(pendulum["class"].is_null() && pendulum["splitting"].is_array());
+    assert_eq!(pendulum["bracket_class"], "constant");
     let volterra = check("specs/lotka_volterra.json");
+    assert_eq!(volterra["bracket_class"], "log-canonical");
     assert_eq!(volterra["generic_rank"], 2);
     assert_eq!(volterra["casimirs"][0]["name"], "C");
     assert!(volterra["casimirs"][0]["degree"].is_null());
@@ -67,16 +69,15 @@ fn ranks_casimirs_and_methods() {
             "k-hj2",
             "k-hj4",
             "k-hj6",
+            "splitting1",
+            "splitting2",
+            "splitting4",
+            "splitting6",
+            "splitting8",
         ];
         expected.sort_unstable();
         assert_eq!(apply, expected);
-        for id in [
-            "lie-midpoint",
-            "rkmk4",
-            "generating4",
-            "splitting2",
-            "euler-arnold2",
-        ] {
+        for id in ["lie-midpoint", "rkmk4", "generating4", "euler-arnold2"] {
             assert_eq!(methods[id], json!(why), "{id}");
         }
     }

@@ -28,6 +28,7 @@ mod events;
 mod families;
 mod families_acting;
 mod families_driven;
+mod found_on_brackets;
 mod hostile_text;
 mod joints;
 mod keep;

@@ -89,10 +89,7 @@ macro_rules! by_key {
             };
             (@splitting $d generics:tt $d system:ty, $d scalar:ty) => {
                 $crate::generic_equations!(@coordinate_splitting $d generics $d system, $d scalar);
-                $crate::generic_equation!(
-                    @of_system $d generics $d system, $d scalar, FoundPoisson, Found, found,
-                    $crate::generic::CoordinateFlows<'a, $d scalar, Self>
-                );
+                $crate::generic_equation!(@found $d generics $d system, $d scalar);
             };
             (@coordinate_splitting $d generics:tt $d system:ty, $d scalar:ty) => {
                 $crate::generic_equation!(
@@ -179,6 +176,22 @@ macro_rules! generic_equation {
                 $h: $scalar,
             ) -> Self::Equation<'a> {
                 $value
+            }
+        }
+    };
+    // the pieces of one coordinate each, and what acts beside them
+    (@found [$($generics:tt)*] $system:ty, $scalar:ty) => {
+        impl<$($generics)*> $crate::FoundPoisson<$scalar> for $system {
+            type Found<'a>
+                = $crate::generic::DrivenFlows<
+                    'a, Self, $crate::generic::CoordinateFlows<'a, $scalar, Self>,
+                    <Self as $crate::Poisson<$scalar>>::State,
+                >
+            where
+                Self: 'a;
+            fn found(&self) -> Self::Found<'_> {
+                let flows = $crate::generic::CoordinateFlows::new(self);
+                $crate::generic::DrivenFlows::new(self, flows)
             }
         }
     };

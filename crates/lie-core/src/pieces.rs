@@ -1,6 +1,6 @@
 //! Hamiltonians that are sums of functions of one coordinate each, and the flows of the pieces.
 
-use crate::poisson::LiePoisson;
+use crate::poisson::{LiePoisson, Poisson};
 use crate::scalar::Scalar;
 use crate::state::{State, Unknown as _};
 
@@ -105,7 +105,7 @@ pub trait SeparablePoisson<S: Scalar>: LiePoisson<S> {
     fn flows(&self) -> Self::Flows<'_>;
 }
 
-/// A Lie–Poisson system whose Hamiltonian is, up to a combination of Casimirs, a sum of functions of quantities that
+/// A system whose Hamiltonian is a sum of pieces with exact flows: of a Lie–Poisson system up to a combination of Casimirs, a sum of functions of quantities that
 /// commute: `$H = \sum_a f_a(\langle v_{a1}, \mu\rangle, \dots, c_{a1}(\mu), \dots) + \sum_c \lambda_c C_c$`, the `$v$` elements
 /// that commute, the `$c$` Casimirs of the algebra or of subalgebras.
 ///
@@ -121,11 +121,11 @@ pub trait SeparablePoisson<S: Scalar>: LiePoisson<S> {
     message = "no pieces with exact flows are known for `{Self}` over the scalar `{S}`",
     note = "splittings need a Hamiltonian that is a sum of functions of commuting coordinates, of Casimirs of subalgebras and a quadratic function: `lie check` says what is found; see `lie_runtime::generic_equations!` for a system written by hand, or use `LieMidpoint::exp()` or a composition of it"
 )]
-pub trait FoundPoisson<S: Scalar>: LiePoisson<S> {
+pub trait FoundPoisson<S: Scalar>: Poisson<S> {
     /// The flows; they may borrow the system.
     type Found<'a>: PieceFlows<S, State = Self::State>
     where
         Self: 'a;
-    /// The flows of the pieces that were found.
+    /// The flows of the pieces that were found, and of what acts beside H.
     fn found(&self) -> Self::Found<'_>;
 }

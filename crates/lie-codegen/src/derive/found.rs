@@ -1,11 +1,13 @@
 //! The flows of pieces that were found: `exp(t s ad*_v) mu` for each of the commuting elements v of a piece, by blocks; where one of them
 //! has no blocks, `exp(ad*_x) mu` with `x = t sum s v` by the minimal polynomial of `ad*_x`. Of a Casimir c of a subalgebra
-//! `x = t s grad c(mu)`, by the minimal polynomial on that subalgebra; what commutes with c is left alone.
+//! `x = t s grad c(mu)`, by the minimal polynomial on that subalgebra; what commutes with c is left alone. On a bracket that is declared by
+//! its entries a flow is the map that was found.
 
 use super::field::mu;
 use super::splitting::{PieceKernel, Update, kernel};
 use super::tape::Tape;
 use super::{Kernel, Source};
+use crate::structure::elementwise::Change;
 use crate::structure::exponential::Exponential;
 use crate::structure::found::{Factor, Found, Piece};
 use lie_symbolic::symbolic::{ExprId, Symbol};
@@ -44,6 +46,9 @@ impl Source {
     }
 
     fn found_kernel(&mut self, found: &Found, place: usize, piece: &Piece) -> FoundKernel {
+        if let Some(map) = &piece.map {
+            return self.map_kernel(piece, map);
+        }
         let factors: Vec<Factor> = piece
             .factors
             .iter()
@@ -95,6 +100,41 @@ impl Source {
                 })
                 .collect(),
             direction: self.direction(&whole),
+        }
+    }
+
+    /// The flow of a piece that is given as a map.
+    fn map_kernel(&mut self, piece: &Piece, map: &[(usize, Change)]) -> FoundKernel {
+        let value = self.graph.sum(&piece.terms);
+        let gradient = (0..self.dimension).map(|i| {
+            let slope = self.graph.derivative(value, Symbol::Coordinate(i));
+            vec![slope]
+        });
+        let gradient: Vec<Vec<ExprId>> = gradient.collect();
+        let direction = self.direction(&gradient);
+        let mut values = vec![self.graph.integer(0); self.dimension];
+        let updates = map.iter().map(|(i, change)| {
+            let (update, value) = match change {
+                Change::Add(value) => (Update::Add, value),
+                Change::Multiply(value) => (Update::Multiply, value),
+            };
+            values[*i] = *value;
+            update
+        });
+        let updates = updates.collect();
+        let formula = "`x -> x(t)`, `x' = Pi(x) grad f(x)`, f the piece";
+        let kernel = Kernel::vector(&self.graph, "flow", formula, vec![mu(self)], &values);
+        FoundKernel {
+            terms: piece.terms.clone(),
+            parts: vec![PartKernel {
+                flows: Some(vec![PieceKernel {
+                    coordinate: map.first().map_or(0, |(i, _)| *i),
+                    kernel: Some(kernel),
+                    updates,
+                }]),
+                direction: direction.clone(),
+            }],
+            direction,
         }
     }
 

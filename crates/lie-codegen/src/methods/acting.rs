@@ -11,6 +11,10 @@ pub(super) fn driven(model: &Model, choice: &Choice) -> Option<(String, String)>
         return match model.family {
             // its pieces are found, or are not, with those of H
             Some(_) => None,
+            None if !model.is_lie_poisson() => Some((
+                "something acts beside the Hamiltonian, and the pieces on a bracket that is declared by its entries are those of H".into(),
+                "use `gauss16` or `taylor`, which take the whole field".into(),
+            )),
             None => flows::unsplittable(model),
         };
     }

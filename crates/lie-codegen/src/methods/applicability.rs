@@ -204,6 +204,12 @@ fn lagrangian(model: &Model, choice: &Choice) -> Option<(String, String)> {
 
 /// Why a method does not apply to the bracket of a system, whatever H is.
 fn bracket(model: &Model, choice: &Choice) -> Option<(String, String)> {
+    if matches!(choice, Choice::Splitting(.., Pieces::Coordinate)) && !model.is_lie_poisson() {
+        return Some((
+            "pieces of one coordinate each have the flows of elements of a Lie algebra, and the system declares a general bracket".into(),
+            "leave `--pieces` out".into(),
+        ));
+    }
     let method = choice.entry().filter(|method| method.needs_algebra())?;
     let nearest = match method.order {
         // what acts leaves no place for a generating function

@@ -47,9 +47,10 @@ const KL: &str =
     "Suzuki (1990), 10.1016/0375-9601(90)90962-N; Kahan, Li (1997), 10.1090/S0025-5718-97-00873-9";
 
 impl Method {
-    /// Whether it moves along coadjoint orbits, and so needs the Lie–Poisson bracket of an algebra.
+    /// Whether it moves along coadjoint orbits, and so needs the Lie–Poisson bracket of an algebra. What a splitting needs is looked for on
+    /// every bracket.
     pub(super) fn needs_algebra(&self) -> bool {
-        ![ANY, EXPRESSION].contains(&self.needs)
+        ![ANY, EXPRESSION, SUM].contains(&self.needs)
     }
 }
 

@@ -174,11 +174,13 @@ impl Planner<'_> {
 
     fn found_piece(&mut self, number: usize, kernel: &FoundKernel, fused: bool) -> FoundPiece {
         let label = format!("found direction {number}");
+        // without an algebra there are no exponentials
+        let lie = self.source.is_lie();
         let alone = kernel.parts.len() == 1;
         let parts = kernel.parts.iter().enumerate();
         let parts = parts.map(|(place, part)| {
             let idle = part.flows.as_ref().is_some_and(Vec::is_empty);
-            let flows = part.flows.as_ref().filter(|_| fused || idle);
+            let flows = part.flows.as_ref().filter(|_| fused || idle || !lie);
             let flows = flows.map(|flows| {
                 let flows = flows.iter();
                 flows.map(|flow| self.flow(flow, "found")).collect()

@@ -12,7 +12,6 @@ use crate::plan::{Constants, Found, FoundPart, FoundPiece, Function};
 impl Printer<'_> {
     /// The flows of the pieces that were found and their hook.
     pub(super) fn found_splitting(&self) -> Option<TokenStream> {
-        let system = self.system_name();
         let (name, items) = match self.plan.found.as_ref()? {
             Found::Same if self.plan.splitting.is_none() => return None,
             Found::Same => (self.type_name("Splitting"), TokenStream::new()),
@@ -22,6 +21,9 @@ impl Printer<'_> {
                 fused,
                 text,
             } => {
+                if !fused && !self.plan.system.lie {
+                    return None;
+                }
                 if !fused {
                     return Some(self.found_parts(pieces, *whole, text.as_deref()));
                 }
@@ -29,16 +31,35 @@ impl Printer<'_> {
                 (self.type_name("Found"), items)
             }
         };
+        let hook = self.found_hook(&quote! { #name<'a, S> }, &quote! { #name::new(self) });
         Some(quote! {
             #items
+            #hook
+        })
+    }
 
+    /// The flows of the pieces, with those of what acts behind them.
+    fn found_hook(&self, flows: &TokenStream, value: &TokenStream) -> TokenStream {
+        let system = self.system_name();
+        let plan = &self.plan.system;
+        let (flows, value) = match plan.forced || plan.noises > 0 {
+            true => {
+                let driven = quote! { ::lie_runtime::generic::DrivenFlows };
+                (
+                    quote! { #driven<'a, Self, #flows, <Self as ::lie_runtime::Poisson<S>>::State> },
+                    quote! { #driven::new(self, #value) },
+                )
+            }
+            false => (flows.clone(), value.clone()),
+        };
+        quote! {
             impl<S: ::lie_runtime::Scalar> ::lie_runtime::FoundPoisson<S> for #system<S> {
-                type Found<'a> = #name<'a, S> where Self: 'a;
+                type Found<'a> = #flows where Self: 'a;
                 fn found(&self) -> Self::Found<'_> {
-                    #name::new(self)
+                    #value
                 }
             }
-        })
+        }
     }
 
     /// The type of the flows.
@@ -134,6 +155,11 @@ impl Printer<'_> {
             format!(" Part {part} of piece {place}: {counts}.")
         });
         let message = message(pieces.len());
+        let flows = quote! { ::lie_runtime::generic::PartFlows };
+        let hook = self.found_hook(
+            &quote! { #flows<'a, S, Self> },
+            &quote! { #flows::new(self) },
+        );
         quote! {
             #(#[doc = #docs])*
             #[allow(non_snake_case, clippy::many_single_char_names)]
@@ -157,12 +183,7 @@ impl Printer<'_> {
                 }
             }
 
-            impl<S: ::lie_runtime::Scalar> ::lie_runtime::FoundPoisson<S> for #system<S> {
-                type Found<'a> = ::lie_runtime::generic::PartFlows<'a, S, Self> where Self: 'a;
-                fn found(&self) -> Self::Found<'_> {
-                    ::lie_runtime::generic::PartFlows::new(self)
-                }
-            }
+            #hook
         }
     }
 

@@ -1,10 +1,12 @@
 //! What a system has beyond its declaration: found exactly, once, and looked up by everything that comes after.
 
 pub mod algebra;
+pub mod bracket_class;
 pub mod casimirs;
 mod completion;
 pub mod directions;
 mod driving;
+pub mod elementwise;
 pub mod exponential;
 pub mod family;
 pub mod flows;

@@ -257,13 +257,12 @@ where
     P: FoundPoisson<S>,
 {
     type Stepper<'a>
-        = SplittingStepper<S, DrivenFlows<'a, P, P::Found<'a>, P::State>>
+        = SplittingStepper<S, P::Found<'a>>
     where
         P: 'a;
 
     fn stepper<'a>(&self, system: &'a P, h: S, _newton: &NewtonOptions) -> Self::Stepper<'a> {
-        let flows = DrivenFlows::new(system, system.found());
-        self.over(flows, system.zero_state(), h)
+        self.over(system.found(), system.zero_state(), h)
     }
 }
 

@@ -8,7 +8,7 @@ use crate::system::family::FamilySite;
 use lie_codegen::derive::{Shape, Update};
 use lie_codegen::plan::{Flow, Found, Function, Plan};
 use lie_core::family::FamilyFlows;
-use lie_core::generic::{CoordinateFlows, piece_direction};
+use lie_core::generic::{CoordinateFlows, DrivenFlows, piece_direction};
 use lie_runtime::{FoundPoisson, LiePoisson, PieceFlows, Poisson, Scalar, SeparablePoisson};
 
 /// The flow of a function of one coordinate: its code, and what is done with each result. Without it the flow is that of its
@@ -318,11 +318,12 @@ impl<S: Scalar> PieceFlows<S> for AnyFlows<'_, S> {
 }
 
 impl<S: Scalar> FoundPoisson<S> for Dynamic<S> {
-    type Found<'a> = AnyFlows<'a, S>;
-    fn found(&self) -> AnyFlows<'_, S> {
-        match &self.family {
+    type Found<'a> = DrivenFlows<'a, Self, AnyFlows<'a, S>, Vec<S>>;
+    fn found(&self) -> Self::Found<'_> {
+        let flows = match &self.family {
             Some(family) if S::LOOPS => AnyFlows::Family(family.found()),
             _ => AnyFlows::System(Flows::new(self, true)),
-        }
+        };
+        DrivenFlows::new(self, flows)
     }
 }

@@ -10,7 +10,7 @@ mod structure;
 use lie_codegen::compile;
 use lie_codegen::methods::applicability;
 use lie_codegen::model::CasimirKind;
-use lie_codegen::structure::Structure;
+use lie_codegen::structure::{Structure, bracket_class};
 use serde_json::{Value, json};
 use splitting::Splitting;
 
@@ -109,6 +109,8 @@ impl Report {
             report.extend(attitude.map(|text| ("attitude".to_owned(), text.into())));
             let cocycle = model.cocycle_in_words();
             report.extend(cocycle.map(|text| ("cocycle".to_owned(), text.into())));
+            let class = bracket_class::class(model);
+            report.extend(class.map(|class| ("bracket_class".to_owned(), class.name().into())));
         }
         report
     }

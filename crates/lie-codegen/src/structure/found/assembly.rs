@@ -105,6 +105,7 @@ impl Assembly<'_> {
             terms,
             factors,
             conserved,
+            map: None,
         }
     }
 

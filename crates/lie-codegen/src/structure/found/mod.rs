@@ -15,17 +15,19 @@
 //! All of this is exact over the rational functions of the parameters. A floating-point number decides only between
 //! combinations of Casimirs that leave equally many pieces, and which divisors are not zero at the default parameters.
 
-mod additive;
+pub(super) mod additive;
 mod assembly;
 mod atoms;
 mod casimirs;
 mod colouring;
 mod congruence;
+mod entries;
 mod invariants;
 mod recognition;
 mod report;
 mod search;
 
+use super::elementwise::Change;
 use super::exponential::Exponential;
 use super::one_parameter::Block;
 use super::separable;
@@ -77,6 +79,9 @@ pub struct Piece {
     pub factors: Vec<Factor>,
     /// and `exp(t s ad*_(grad c(mu)))` for each Casimir c, which commute with all of these.
     pub conserved: Vec<Conserved>,
+    /// On a bracket that is declared by its entries, in place of these: what its flow over the time `t` does with the
+    /// coordinates that move, ascending.
+    pub map: Option<Vec<(usize, Change)>>,
 }
 
 /// A one-parameter group in the flow of a piece.
@@ -129,6 +134,10 @@ impl Found {
                 ids.extend(conserved.gradient.iter_mut().map(|(_, id)| id));
                 ids.push(&mut conserved.slope);
             }
+            for (_, change) in piece.map.iter_mut().flatten() {
+                let (Change::Add(id) | Change::Multiply(id)) = change;
+                ids.push(id);
+            }
         }
         let roots: Vec<ExprId> = ids.iter().map(|id| **id).collect();
         for (id, image) in ids.into_iter().zip(to.import(from, &roots)) {
@@ -151,6 +160,9 @@ impl Factor {
 impl Piece {
     /// Whether it moves no state.
     fn is_idle(&self) -> bool {
+        if let Some(map) = &self.map {
+            return map.is_empty();
+        }
         let mut factors = self.factors.iter();
         let mut conserved = self.conserved.iter();
         factors.all(|factor| factor.blocks.as_ref().is_some_and(Vec::is_empty))
@@ -185,13 +197,18 @@ fn ways(
     declared: Option<&[separable::Piece]>,
     graph: &mut Graph,
 ) -> Option<Vec<Found>> {
-    let Bracket::Lie(algebra) = &model.bracket else {
-        return None;
-    };
-    let hamiltonian = model.energy.expression()?;
     if model.family.is_some() {
         return None;
     }
+    let algebra = match &model.bracket {
+        Bracket::Lie(algebra) => algebra,
+        Bracket::General(matrix) => {
+            return entries::pieces(model, matrix, graph)
+                .ok()
+                .map(|found| vec![found]);
+        }
+    };
+    let hamiltonian = model.energy.expression()?;
     let start = graph.normal(hamiltonian.value);
     let budget = Budget::new(WORK);
     let invariants = invariants::collect(known, algebra, graph, start);
@@ -246,6 +263,7 @@ fn as_declared(graph: &mut Graph, value: ExprId, declared: &[separable::Piece]) 
             terms: terms.iter().copied().filter(of).collect(),
             factors: Vec::new(),
             conserved: Vec::new(),
+            map: None,
         }
     });
     Found {

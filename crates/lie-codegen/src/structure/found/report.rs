@@ -1,8 +1,9 @@
 //! What is said of the pieces, or of why there are none.
 
 use super::atoms::{Atom, Commuting};
+use super::entries::{self, Entangled};
 use super::{Found, Searched, additive};
-use crate::model::Model;
+use crate::model::{Bracket, Model};
 use crate::structure::{Structure, separable};
 use lie_symbolic::symbolic::ExprId;
 
@@ -46,7 +47,21 @@ pub fn refusal(structure: &Structure, order: u32) -> Option<(String, String)> {
     let Some(hamiltonian) = structure.energy.expression() else {
         return separable::refusal(structure, order);
     };
-    let algebra = structure.bracket.algebra()?;
+    let name = |symbol| structure.symbol_name(symbol);
+    let algebra = match &structure.bracket {
+        Bracket::Lie(algebra) => algebra,
+        Bracket::General(matrix) => {
+            let found = entries::pieces(structure, matrix, &mut graph);
+            let reason = match found.err().flatten() {
+                Some(Entangled(term)) => format!(
+                    "no pieces with exact flows were found: no flow in closed form is known of `{}` on this bracket",
+                    graph.display(term, &name),
+                ),
+                None => "no pieces with exact flows were found".to_owned(),
+            };
+            return Some((reason, entries::nearest(order)));
+        }
+    };
     let Some(terms) = additive::terms(&mut graph, hamiltonian.value) else {
         return Some((
             "the Hamiltonian has too many terms to be split".to_owned(),
@@ -59,7 +74,6 @@ pub fn refusal(structure: &Structure, order: u32) -> Option<(String, String)> {
         Atom::Function(set, terms) => Some((commuting.mixed(set).first().copied()?, terms)),
         Atom::Form { .. } => None,
     });
-    let name = |symbol| structure.symbol_name(symbol);
     let reason = match entangled.next() {
         Some(((i, j), terms)) => format!(
             "no pieces with exact flows were found: `{}` contains `{}` and `{}`, which do not commute, and no \

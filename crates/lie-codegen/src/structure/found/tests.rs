@@ -155,3 +155,43 @@ fn the_declared_pieces_are_kept() {
     assert!(searched.ways.len() == 1 && searched.ways[0].declared);
     assert_eq!(pieces(&body).len(), 3);
 }
+
+fn by_entries(brackets: &str, hamiltonian: &str) -> Structure {
+    let spec = format!(
+        r#"{{"format": 1, "name": "Entries", "state": ["x", "y", "z", "u"], "poisson": [{brackets}],
+            "hamiltonian": "{hamiltonian}"}}"#
+    );
+    compile_spec(&spec).expect("a spec without mistakes")
+}
+
+/// Predators and prey: one piece for each monomial, and one for all logarithms.
+#[test]
+fn monomials_are_pieces_of_a_log_canonical_bracket() {
+    let brackets = r#""{x, y} = -x*y/2", "{x, z} = x*z/2", "{y, z} = -y*z""#;
+    let model = by_entries(brackets, "2*x + y + 2*z + log(y) - 2*log(z)");
+    assert_eq!(model.splitting.count(), 4);
+    // a power, a function of a monomial, and a product of two functions of it
+    let model = by_entries(brackets, "x^2*y + sin(x*y^2) + exp(x)*x");
+    assert_eq!(model.splitting.count(), 3);
+    // functions of the same monomial are one piece
+    let model = by_entries(brackets, "x^2*y + exp(x^4*y^2)");
+    assert_eq!(model.splitting.count(), 1);
+    // a sum of two monomials in a function is none
+    let model = by_entries(brackets, "sin(x + y)");
+    assert_eq!(model.splitting.count(), 0);
+    let (reason, _) = super::refusal(&model, 2).expect("no pieces");
+    assert!(reason.contains("`sin(x + y)`"), "{reason}");
+}
+
+/// A charged particle in the plane: kicks, and motions along each axis, in every field of the positions; none where a function mixes momenta.
+#[test]
+fn a_magnetic_field_has_flows_along_the_axes() {
+    let magnetic = |field: &str| format!(r#""{{x, z}} = 1", "{{y, u}} = 1", "{{z, u}} = {field}""#);
+    let energy = "z^2/2 + u^2/2 + cos(x) + y^4/4";
+    for field in ["2", "1 + x*y^2", "1 + cos(x) + exp(-y^2)"] {
+        let model = by_entries(&magnetic(field), energy);
+        assert_eq!(model.splitting.count(), 3, "{field}");
+    }
+    let model = by_entries(&magnetic("1 + x*y"), "sqrt(1 + z^2 + u^2) + x^2");
+    assert_eq!(model.splitting.count(), 0);
+}

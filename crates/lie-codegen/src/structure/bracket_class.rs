@@ -1,0 +1,179 @@
+//! What a bracket that is declared by its entries is beyond that, found exactly, and what that brings.
+
+use std::collections::BTreeSet;
+
+use super::elementwise::{elementwise, vanish};
+use super::found::additive;
+use crate::model::{Bracket, Model, PoissonMatrix};
+use lie_symbolic::exact::{Budget, Rational};
+use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
+
+/// Work allowed for identities.
+const WORK: u64 = 500_000;
+/// Halves of more coordinates are not looked through.
+const MOST: usize = 12;
+
+/// A class of brackets, the first of these that one is in.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Class {
+    /// Every entry is constant.
+    Constant,
+    /// `{x_i, x_j} = c_ij x_i x_j`
+    LogCanonical,
+    /// `{x_i, x_j} = c_ij a_i(x_i) a_j(x_j)`, the `a_i` polynomials of degree 2 at most.
+    Elementwise,
+    /// Half of the coordinates, these positions, commute; their brackets with the others are constant, and those of the others functions of the
+    /// positions: a particle in a magnetic field.
+    Magnetic(Vec<usize>),
+    /// In three dimensions `{f, g} = <grad C, grad f x grad g>`, with the text of C (Y. Nambu, Physical Review D 7 (1973) 2405–2412,
+    /// doi:10.1103/PhysRevD.7.2405).
+    Jacobian(String),
+    /// Every entry is affine: that of a Lie algebra with a cocycle.
+    Affine,
+}
+
+impl Class {
+    /// Its name, for programs too.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Constant => "constant",
+            Self::LogCanonical => "log-canonical",
+            Self::Elementwise => "elementwise",
+            Self::Magnetic(_) => "magnetic",
+            Self::Jacobian(_) => "Jacobian",
+            Self::Affine => "affine",
+        }
+    }
+
+    /// What it is, and what it brings, as a clause.
+    pub fn describe(&self, model: &Model) -> String {
+        let names = |places: &[usize]| {
+            let names = places.iter().map(|i| &*model.coordinates[*i].text);
+            names.collect::<Vec<_>>().join(", ")
+        };
+        match self {
+            Self::Constant => "constant: functions of linear forms have exact flows".into(),
+            Self::LogCanonical => {
+                "log-canonical, {x_i, x_j} = c_ij x_i x_j: functions of monomials have exact flows, which keep signs".into()
+            }
+            Self::Elementwise => {
+                "elementwise, {x_i, x_j} = c_ij a_i(x_i) a_j(x_j): functions of sums of int dx_i/a_i have exact flows".into()
+            }
+            Self::Magnetic(positions) => format!(
+                "magnetic, with the positions {}: functions of one momentum have exact flows, in a field that is no polynomial by quadrature",
+                names(positions)
+            ),
+            Self::Jacobian(casimir) => format!("Jacobian, with the Casimir {casimir}"),
+            Self::Affine => {
+                "affine: declared as an algebra with a cocycle it has every method of the algebra".into()
+            }
+        }
+    }
+}
+
+/// The class of the bracket of a single system; none of a Lie–Poisson one, or where no class is found.
+pub fn class(model: &Model) -> Option<Class> {
+    let Bracket::General(matrix) = &model.bracket else {
+        return None;
+    };
+    if model.configuration.is_some() || model.family.is_some() || model.realization.is_some() {
+        return None;
+    }
+    let mut graph = model.graph.clone();
+    if let Some(found) = elementwise(model, matrix, &mut graph) {
+        let moving = |i: &usize| found.constants[*i].iter().any(|c| !c.is_zero());
+        let moving: Vec<usize> = (0..matrix.dimension).filter(moving).collect();
+        let all = |of: fn(&super::elementwise::Speed) -> bool| {
+            moving.iter().all(|i| of(&found.speeds[*i]))
+        };
+        return Some(if all(|speed| speed.degree() == 0) {
+            Class::Constant
+        } else if all(super::elementwise::Speed::is_coordinate) {
+            Class::LogCanonical
+        } else {
+            Class::Elementwise
+        });
+    }
+    let positions = magnetic(&graph, matrix).map(Class::Magnetic);
+    let affine = || {
+        matrix
+            .degree
+            .is_some_and(|degree| degree <= 1)
+            .then_some(Class::Affine)
+    };
+    positions
+        .or_else(|| jacobian(model, matrix, &mut graph).map(Class::Jacobian))
+        .or_else(affine)
+}
+
+/// The positions, if the bracket is that of a particle in a magnetic field.
+fn magnetic(graph: &Graph, matrix: &PoissonMatrix) -> Option<Vec<usize>> {
+    let n = matrix.dimension;
+    if !n.is_multiple_of(2) || n > MOST {
+        return None;
+    }
+    let in_entries = matrix.entries.iter();
+    let needed: BTreeSet<usize> = in_entries
+        .flat_map(|(.., entry)| graph.coordinates(*entry))
+        .collect();
+    let is_position = |set: u32, i: usize| set >> i & 1 == 1;
+    let fits = |set: &u32| {
+        needed.iter().all(|i| is_position(*set, *i))
+            && matrix.entries.iter().all(|(i, j, entry)| {
+                match (is_position(*set, *i), is_position(*set, *j)) {
+                    (true, true) => false,
+                    (false, false) => true,
+                    _ => graph.coordinates(*entry).is_empty(),
+                }
+            })
+    };
+    let half = |set: &u32| set.count_ones() as usize == n / 2;
+    let set = (0..1 << n).filter(half).find(fits)?;
+    Some((0..n).filter(|i| is_position(set, *i)).collect())
+}
+
+/// The Casimir C with `w = (Pi_23, Pi_31, Pi_12) = grad C`: `C = int_0^1 <w(t x), x> dt`, which divides a term of degree d of `<w, x>` by d.
+fn jacobian(model: &Model, matrix: &PoissonMatrix, graph: &mut Graph) -> Option<String> {
+    if matrix.dimension != 3 {
+        return None;
+    }
+    let rows = matrix.rows(graph);
+    let w = [rows[1][2], rows[2][0], rows[0][1]];
+    let x: Vec<ExprId> = (0..3)
+        .map(|i| graph.symbol(Symbol::Coordinate(i)))
+        .collect();
+    let products = w.iter().zip(&x).map(|(w, x)| graph.mul(*w, *x));
+    let products: Vec<ExprId> = products.collect();
+    let radial = graph.sum(&products);
+    let mut casimir = Vec::new();
+    let mut differences = Vec::new();
+    for term in additive::terms(graph, radial)? {
+        let degree = degree(graph, term)?;
+        casimir.push(graph.scale(term, &Rational::new(1, i64::from(degree))?));
+    }
+    let casimir = graph.sum(&casimir);
+    for (i, w) in w.iter().enumerate() {
+        let slope = graph.derivative(casimir, Symbol::Coordinate(i));
+        differences.push(graph.sub(slope, *w));
+    }
+    let budget = Budget::new(WORK);
+    let name = |symbol| model.symbol_name(symbol);
+    vanish(model, graph, &w, &differences, &budget).then(|| graph.display(casimir, &name))
+}
+
+/// The degree of a monomial in the coordinates.
+fn degree(graph: &mut Graph, term: ExprId) -> Option<u32> {
+    let mut sum = Vec::new();
+    for i in graph.coordinates(term) {
+        let slope = graph.derivative(term, Symbol::Coordinate(i));
+        let x = graph.symbol(Symbol::Coordinate(i));
+        sum.push(graph.mul(x, slope));
+    }
+    let sum = graph.sum(&sum);
+    let ratio = graph.div(sum, term);
+    let ratio = graph.as_number(ratio)?.to_integer()?;
+    u32::try_from(ratio).ok().filter(|degree| *degree > 0)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,210 @@
+//! Brackets that are constant after a change of each coordinate alone: `{x_i, x_j} = c_ij a_i(x_i) a_j(x_j)`.
+//!
+//! With `y_i = int dx_i/a_i(x_i)` the bracket is `{y_i, y_j} = c_ij`, and a function of y whose gradient is constant along its flow has the
+//! flow `y -> y + t c grad_y`: by each coordinate that of `x' = s a(x)` over the time 1. Where every `a_i` is a polynomial of degree 2 at
+//! most, that is an elementary map. Those of degree 0 are constant brackets, and all `a_i = x_i` the log-canonical ones of the equations of
+//! Lotka and Volterra (M. Plank, Journal of Mathematical Physics 36 (1995) 3520–3534, doi:10.1063/1.530978).
+
+use crate::model::{Model, PoissonMatrix};
+use lie_symbolic::exact::{Budget, Fraction, Rational};
+use lie_symbolic::prove::proof::Prover;
+use lie_symbolic::symbolic::{Elementary, ExprId, Graph, Symbol};
+
+/// Work allowed for the proof that a bracket is such a one.
+const WORK: u64 = 2_000_000;
+
+/// A bracket `{x_i, x_j} = c_ij a_i(x_i) a_j(x_j)`.
+#[derive(Clone, Debug)]
+pub struct Elementwise {
+    /// The `a_i`, one for each coordinate.
+    pub speeds: Vec<Speed>,
+    /// The rows of c.
+    pub constants: Vec<Vec<Fraction>>,
+}
+
+/// A polynomial `a(x) = a_0 + a_1 x + a_2 x^2` whose leading coefficient is 1.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Speed([Fraction; 3]);
+
+/// What the flow of a piece does with a coordinate.
+#[derive(Clone, Copy, Debug)]
+pub enum Change {
+    /// This is added to it.
+    Add(ExprId),
+    /// It is multiplied by this.
+    Multiply(ExprId),
+}
+
+fn number(value: i64) -> Fraction {
+    Fraction::from(Rational::from(value))
+}
+
+impl Speed {
+    fn constant() -> Self {
+        Self([number(1), number(0), number(0)])
+    }
+
+    /// Its degree.
+    pub fn degree(&self) -> usize {
+        (0..3).rev().find(|k| !self.0[*k].is_zero()).unwrap_or(0)
+    }
+
+    /// Whether it is x.
+    pub fn is_coordinate(&self) -> bool {
+        self.degree() == 1 && self.0[0].is_zero()
+    }
+
+    /// `a(x)`
+    pub fn at(&self, x: ExprId, graph: &mut Graph) -> ExprId {
+        let terms = self.0.iter().zip(0..);
+        let terms: Vec<ExprId> = terms
+            .map(|(coefficient, k)| {
+                let factor = graph.rational_function(coefficient);
+                let power = graph.pow(x, &Rational::from(k));
+                graph.mul(factor, power)
+            })
+            .collect();
+        graph.sum(&terms)
+    }
+
+    /// The flow of `x' = s a(x)` over the time 1, where it has a form that does not depend on the signs of parameters: of degree 1
+    /// `a(x) (exp s - 1)`, of degree 2 `a(x) T/(1 - u T)` with `u = a'(x)/2`, `D = a_1^2/4 - a_0` and `T = s`, `tan(w s)/w`, `tanh(w s)/w` by the
+    /// sign of D, `w^2 = |D|`.
+    pub fn flow(&self, x: ExprId, s: ExprId, graph: &mut Graph) -> Option<Change> {
+        let one = graph.integer(1);
+        if self.degree() == 0 {
+            return Some(Change::Add(s));
+        }
+        if self.degree() == 1 {
+            let grown = graph.call(Elementary::Exp, &[s]);
+            if self.is_coordinate() {
+                return Some(Change::Multiply(grown));
+            }
+            let grown = graph.sub(grown, one);
+            let speed = self.at(x, graph);
+            return Some(Change::Add(graph.mul(speed, grown)));
+        }
+        let half = Rational::new(1, 2)?;
+        let linear = self.0[1].as_constant()?;
+        let square = &(&linear * &linear) * &Rational::new(1, 4)?;
+        let discriminant = &square - &self.0[0].as_constant()?;
+        let turned = if discriminant.is_zero() {
+            s
+        } else {
+            let size = graph.number(discriminant.abs());
+            let frequency = graph.pow(size, &half);
+            let angle = graph.mul(frequency, s);
+            let function = match discriminant.is_negative() {
+                true => Elementary::Tan,
+                false => Elementary::Tanh,
+            };
+            let value = graph.call(function, &[angle]);
+            graph.div(value, frequency)
+        };
+        let shift = graph.number(&linear * &half);
+        let u = graph.add(x, shift);
+        let bent = graph.mul(u, turned);
+        let below = graph.sub(one, bent);
+        let speed = self.at(x, graph);
+        let above = graph.mul(speed, turned);
+        Some(Change::Add(graph.div(above, below)))
+    }
+}
+
+/// A coordinate away from others, and from zeros of speeds that anybody declares.
+pub(super) fn sample(coordinate: usize) -> Rational {
+    let place = coordinate as i64;
+    Rational::new(10 * place + 17, 6 * place + 13).unwrap_or(Rational::ONE)
+}
+
+/// An expression where all coordinates have their samples.
+pub(super) fn sampled(graph: &mut Graph, value: ExprId) -> Option<Fraction> {
+    let coordinates = graph.coordinates(value);
+    let numbers: Vec<(usize, ExprId)> = coordinates
+        .into_iter()
+        .map(|i| (i, graph.number(sample(i))))
+        .collect();
+    let value = graph.substitute(&[value], &|symbol| {
+        let place = numbers
+            .iter()
+            .find(|(i, _)| symbol == Symbol::Coordinate(*i));
+        place.map(|(_, number)| *number)
+    })[0];
+    graph.fraction(value, None)
+}
+
+/// Whether expressions vanish identically, where those of a domain are defined.
+pub(super) fn vanish(
+    model: &Model,
+    graph: &Graph,
+    domain: &[ExprId],
+    values: &[ExprId],
+    budget: &Budget,
+) -> bool {
+    let name = |symbol| model.symbol_name(symbol);
+    let mut prover = Prover::new(graph, budget, domain, &name);
+    values
+        .iter()
+        .all(|value| graph.is_zero(*value) || prover.vanishes(*value))
+}
+
+/// The form of a bracket, where it is such a one; `graph` may be littered.
+pub fn elementwise(
+    model: &Model,
+    matrix: &PoissonMatrix,
+    graph: &mut Graph,
+) -> Option<Elementwise> {
+    let n = matrix.dimension;
+    let budget = Budget::new(WORK);
+    let mut speeds = vec![Speed::constant(); n];
+    for (i, speed) in speeds.iter_mut().enumerate() {
+        let entry = matrix.entries.iter().find(|(a, b, _)| i == *a || i == *b);
+        if let Some((.., entry)) = entry {
+            *speed = speed_in(graph, *entry, i, &budget)?;
+        }
+    }
+    let zero = number(0);
+    let mut constants = vec![vec![zero; n]; n];
+    let mut differences = Vec::new();
+    for (i, j, entry) in &matrix.entries {
+        let x = [*i, *j].map(|k| graph.symbol(Symbol::Coordinate(k)));
+        let [first, second] = [(*i, x[0]), (*j, x[1])].map(|(k, x)| speeds[k].at(x, graph));
+        let product = graph.mul(first, second);
+        let there = sampled(graph, product)?;
+        let constant = sampled(graph, *entry)?.div(&there, &budget).ok()??;
+        let factor = graph.rational_function(&constant);
+        let product = graph.mul(factor, product);
+        differences.push(graph.sub(*entry, product));
+        constants[*j][*i] = constant.neg();
+        constants[*i][*j] = constant;
+    }
+    let entries: Vec<ExprId> = matrix.entries.iter().map(|(.., entry)| *entry).collect();
+    vanish(model, graph, &entries, &differences, &budget)
+        .then_some(Elementwise { speeds, constants })
+}
+
+/// The polynomial in a coordinate that an entry is a multiple of, where the others have their samples, if it is one of degree 2 at most: what
+/// it is otherwise is found out when it is compared.
+fn speed_in(graph: &mut Graph, entry: ExprId, i: usize, budget: &Budget) -> Option<Speed> {
+    let half = Rational::new(1, 2)?;
+    let first = graph.derivative(entry, Symbol::Coordinate(i));
+    let second = graph.derivative(first, Symbol::Coordinate(i));
+    let [p, q, r] = [entry, first, second].map(|value| sampled(graph, value));
+    let (p, q, r) = (p?, q?, r?.scale(&half));
+    // p + q (x - s) + r (x - s)^2
+    let s = sample(i);
+    let square = &s * &s;
+    let rs = r.scale(&s);
+    let low = p.sub(&q.scale(&s), budget).ok()?;
+    let low = low.add(&r.scale(&square), budget).ok()?;
+    let middle = q.sub(&rs.scale(&Rational::from(2)), budget).ok()?;
+    let mut all = [low, middle, r];
+    let leading = all.iter().rev().find(|value| !value.is_zero())?.clone();
+    for value in &mut all {
+        *value = value.div(&leading, budget).ok()??;
+    }
+    Some(Speed(all))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,153 @@
+use super::{Elementwise, Speed, elementwise};
+use crate::compile::compile_spec;
+use crate::model::PoissonMatrix;
+use lie_symbolic::exact::Rational;
+use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
+
+/// Numbers from a linear congruence.
+struct Numbers(u64);
+
+impl Numbers {
+    fn below(&mut self, count: u64) -> u64 {
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1);
+        (self.0 >> 33) % count
+    }
+
+    /// Not zero, of either sign.
+    fn factor(&mut self) -> Rational {
+        let sign = if self.below(2) == 0 { 1 } else { -1 };
+        let (above, below) = (1 + self.below(9) as i64, 1 + self.below(5) as i64);
+        Rational::new(sign * above, below).expect("a number")
+    }
+}
+
+/// `a(x)` with its coefficients, as it may be declared.
+fn speed(
+    numbers: &mut Numbers,
+    graph: &mut Graph,
+    x: ExprId,
+    degree: u64,
+) -> (ExprId, [Rational; 3]) {
+    let mut all = [Rational::ZERO; 3];
+    for coefficient in all.iter_mut().take(degree as usize) {
+        *coefficient = numbers.factor();
+    }
+    all[degree as usize] = Rational::ONE;
+    let terms = all.iter().zip(0..).map(|(coefficient, k)| {
+        let power = graph.pow(x, &Rational::from(k));
+        graph.scale(power, coefficient)
+    });
+    let terms: Vec<ExprId> = terms.collect();
+    (graph.sum(&terms), all)
+}
+
+/// 200 brackets, and near misses: what is added to one entry has no product form.
+#[test]
+fn random_brackets_are_recognised_and_others_are_not() {
+    let spec = r#"{"format": 1, "name": "Any", "state": ["x", "y", "z", "u"],
+        "poisson": ["{x, y} = x*y"], "hamiltonian": "x + y + z + u"}"#;
+    let model = compile_spec(spec).expect("a spec without mistakes");
+    let mut numbers = Numbers(7);
+    for number in 0..200 {
+        let mut graph = model.graph.clone();
+        let x: Vec<ExprId> = (0..4)
+            .map(|i| graph.symbol(Symbol::Coordinate(i)))
+            .collect();
+        // one in three is log-canonical
+        let log = number % 3 == 0;
+        let speeds: Vec<(ExprId, [Rational; 3])> = x
+            .iter()
+            .map(|x| match log {
+                true => (*x, [Rational::ZERO, Rational::ONE, Rational::ZERO]),
+                false => {
+                    let degree = numbers.below(3);
+                    speed(&mut numbers, &mut graph, *x, degree)
+                }
+            })
+            .collect();
+        let mut entries = Vec::new();
+        for i in 0..4 {
+            for j in i + 1..4 {
+                if numbers.below(4) > 0 {
+                    let product = graph.mul(speeds[i].0, speeds[j].0);
+                    let normal = graph.normal(product);
+                    entries.push((i, j, graph.scale(normal, &numbers.factor())));
+                }
+            }
+        }
+        let Some((i, j, entry)) = entries.first().copied() else {
+            continue;
+        };
+        let mut matrix = PoissonMatrix {
+            dimension: 4,
+            entries: entries.clone(),
+            degree: None,
+        };
+        let found = elementwise(&model, &matrix, &mut graph);
+        let Elementwise { speeds: found, .. } = found.unwrap_or_else(|| panic!("number {number}"));
+        for (place, (found, (_, expected))) in found.iter().zip(&speeds).enumerate() {
+            if entries.iter().any(|(a, b, _)| [*a, *b].contains(&place)) {
+                let expected = expected.clone().map(lie_symbolic::exact::Fraction::from);
+                assert_eq!(found, &Speed(expected), "number {number}");
+            }
+        }
+        let added = graph.mul(x[i], x[j]);
+        let added = graph.pow(added, &Rational::from(3));
+        let one = graph.integer(1);
+        let added = graph.add(added, one);
+        let added = graph.scale(added, &Rational::new(1, 1000).expect("a number"));
+        matrix.entries[0].2 = graph.add(entry, added);
+        let found = elementwise(&model, &matrix, &mut graph);
+        assert!(found.is_none(), "number {number}: a near miss");
+    }
+}
+
+/// The flow of `x' = s a(x)` over the time 1, against a series of small steps.
+#[test]
+fn flows_of_speeds_solve_their_equation() {
+    let mut graph = Graph::new();
+    let [x, s] = [Symbol::Coordinate(0), Symbol::Time].map(|symbol| graph.symbol(symbol));
+    let number = |a: i64, b: i64| Rational::new(a, b).expect("a number");
+    let speeds = [
+        [number(1, 1), Rational::ZERO, Rational::ZERO],
+        [Rational::ZERO, number(1, 1), Rational::ZERO],
+        [number(2, 3), number(1, 1), Rational::ZERO],
+        [Rational::ZERO, Rational::ZERO, number(1, 1)],
+        [number(1, 1), Rational::ZERO, number(1, 1)],
+        [number(1, 4), number(1, 1), number(1, 1)],
+        [number(-3, 2), number(1, 2), number(1, 1)],
+        [number(5, 2), number(-1, 1), number(1, 1)],
+    ];
+    for coefficients in speeds {
+        let speed = Speed(
+            coefficients
+                .clone()
+                .map(lie_symbolic::exact::Fraction::from),
+        );
+        let change = speed.flow(x, s, &mut graph).expect("a closed form");
+        let (start, time) = (0.7, 0.3);
+        let at = |symbol| if symbol == Symbol::Time { time } else { start };
+        let found = match change {
+            super::Change::Add(value) => start + graph.evaluate(value, &at),
+            super::Change::Multiply(value) => start * graph.evaluate(value, &at),
+        };
+        let [a, b, c] = coefficients.map(|value| value.to_f64());
+        let field = |x: f64| a + b * x + c * x * x;
+        let (mut expected, steps) = (start, 1000);
+        let h = time / f64::from(steps);
+        for _ in 0..steps {
+            let k1 = field(expected);
+            let k2 = field(expected + 0.5 * h * k1);
+            let k3 = field(expected + 0.5 * h * k2);
+            let k4 = field(expected + h * k3);
+            expected += h / 6.0 * (k1 + 2.0 * (k2 + k3) + k4);
+        }
+        assert!(
+            (found - expected).abs() < 1e-12,
+            "{a} {b} {c}: {found} {expected}"
+        );
+    }
+}

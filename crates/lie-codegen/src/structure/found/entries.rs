@@ -1,0 +1,431 @@
+//! Pieces of a Hamiltonian on a bracket that is declared by its entries: functions of quantities that commute, whose flows are maps in
+//! closed form.
+//!
+//! * On a bracket `{x_i, x_j} = c_ij a_i(x_i) a_j(x_j)` ([`Elementwise`]) a term of H is a function of coordinates that commute, or of one linear
+//!   form `sum n_i y_i` of `y_i = int dx_i/a_i`: its gradient in y is constant along its flow, `y -> y + t c grad_y`. On log-canonical brackets,
+//!   `a_i = x_i`, these forms are logarithms of monomials, and the flow of `F(z)`, `z = x^n`, is `x_i -> x_i exp(t (c n)_i z F'(z))`, which
+//!   keeps signs.
+//! * On any other bracket a term is a function of coordinates that commute: `grad T` is constant along its flow, `x' = Pi(x) grad T`. Its
+//!   Taylor series in t is that flow where it ends, as those of a charged particle in a magnetic field whose components are polynomials. In
+//!   another field the positions move along straight lines, and what the momenta gain is an integral over these, by Gauss's quadrature of 8
+//!   nodes: exact to round-off where the field varies little over a step.
+
+use super::additive;
+use super::atoms::Form;
+use super::colouring;
+use super::{COLOURING, Found, Piece, WORK};
+use crate::model::{Model, PoissonMatrix};
+use crate::structure::elementwise::{self, Change, Elementwise, sample, sampled, vanish};
+use lie_symbolic::exact::{Budget, Fraction, Rational};
+use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
+
+/// Nodes and weights of Gauss's quadrature over [0, 1], up to the reflection of the nodes.
+const NODES: [(f64, f64); 4] = [
+    (0.019_855_071_751_231_884, 0.050_614_268_145_188_13),
+    (0.101_666_761_293_186_63, 0.111_190_517_226_687_24),
+    (0.237_233_795_041_835_5, 0.156_853_322_938_943_64),
+    (0.408_282_678_752_175_1, 0.181_341_891_689_180_99),
+];
+/// Longer series are not looked at, nor such with more nodes.
+const MOST_POWERS: usize = 8;
+const MOST_NODES: usize = 4000;
+/// The largest denominator of an exponent that is read from values.
+const MOST_DENOMINATOR: i64 = 60;
+
+/// A part of H with what it is a function of.
+struct Part {
+    terms: Vec<ExprId>,
+    /// Forms that commute, in y where the bracket is constant in them, with the derivatives by them.
+    forms: Vec<(Form, ExprId)>,
+}
+
+/// Why there are no pieces: a term.
+pub(super) struct Entangled(pub(super) ExprId);
+
+struct Search<'a> {
+    model: &'a Model,
+    matrix: &'a PoissonMatrix,
+    elementwise: Option<Elementwise>,
+    hamiltonian: ExprId,
+    budget: Budget,
+}
+
+/// The pieces of H; the term that is none otherwise, `None` where that was not found out.
+pub(super) fn pieces(
+    model: &Model,
+    matrix: &PoissonMatrix,
+    graph: &mut Graph,
+) -> Result<Found, Option<Entangled>> {
+    let hamiltonian = model.energy.expression().ok_or(None)?.value;
+    let search = Search {
+        model,
+        matrix,
+        elementwise: elementwise::elementwise(model, matrix, graph),
+        hamiltonian,
+        budget: Budget::new(WORK),
+    };
+    let parts = search.parts(graph)?;
+    let conflicts: Vec<Vec<bool>> = parts
+        .iter()
+        .map(|one| {
+            let others = parts.iter();
+            others.map(|other| !search.commute(one, other)).collect()
+        })
+        .collect();
+    let classes = colouring::fewest(&conflicts, &Budget::new(COLOURING));
+    let mut pieces = Vec::new();
+    for class in 0..colouring::count(&classes) {
+        let members = parts.iter().zip(&classes);
+        let members: Vec<&Part> = members
+            .filter(|(_, of)| **of == class)
+            .map(|(part, _)| part)
+            .collect();
+        let first = members[0].terms.first().copied().map(Entangled);
+        pieces.push(search.piece(graph, &members).ok_or(first)?);
+    }
+    let all = pieces.len();
+    pieces.retain(|piece| !piece.is_idle());
+    if pieces.is_empty() {
+        return Err(None);
+    }
+    Ok(Found {
+        rest: None,
+        whole: pieces.len() == all,
+        pieces,
+        declared: false,
+        exponential: None,
+    })
+}
+
+/// The remedy: the nearest method of an order.
+pub(super) fn nearest(order: u32) -> String {
+    let nearest = match order {
+        1 | 2 => "k-hj2",
+        3 | 4 => "k-hj4",
+        _ => "k-hj6",
+    };
+    format!("use `{nearest}`, which is a Poisson map for every Hamiltonian")
+}
+
+impl Search<'_> {
+    /// The parts of H; all of those with constant derivatives are one.
+    fn parts(&self, graph: &mut Graph) -> Result<Vec<Part>, Option<Entangled>> {
+        let mut open = vec![graph.normal(self.hamiltonian)];
+        let (mut parts, mut linear) = (Vec::new(), Part::empty());
+        let mut form: Vec<Fraction> = Vec::new();
+        while let Some(term) = open.pop() {
+            if graph.coordinates(term).is_empty() {
+                continue;
+            }
+            let slopes = self.slopes(graph, term);
+            if let Some(constants) = self.constants(graph, &slopes) {
+                form.resize(slopes.len(), Fraction::from(Rational::ZERO));
+                for (sum, value) in form.iter_mut().zip(&constants) {
+                    *sum = sum.add(value, &self.budget).map_err(|_| None)?;
+                }
+                linear.terms.push(term);
+                continue;
+            }
+            if let Some(forms) = self.forms(graph, &slopes) {
+                parts.push(Part {
+                    terms: vec![term],
+                    forms,
+                });
+                continue;
+            }
+            let apart = additive::apart(graph, term).filter(|_| open.len() < MOST_NODES);
+            match apart {
+                Some(apart) => open.extend(apart),
+                None => return Err(Some(Entangled(term))),
+            }
+        }
+        let form = form.into_iter().enumerate();
+        let form: Form = form.filter(|(_, value)| !value.is_zero()).collect();
+        if !form.is_empty() {
+            linear.forms.push((form, graph.integer(1)));
+            parts.push(linear);
+        }
+        parts.reverse();
+        Ok(parts)
+    }
+
+    /// `a_i dT/dx_i`, the derivatives in y.
+    fn slopes(&self, graph: &mut Graph, term: ExprId) -> Vec<ExprId> {
+        (0..self.matrix.dimension)
+            .map(|i| {
+                let slope = graph.derivative(term, Symbol::Coordinate(i));
+                let Some(elementwise) = &self.elementwise else {
+                    return slope;
+                };
+                let x = graph.symbol(Symbol::Coordinate(i));
+                let speed = elementwise.speeds[i].at(x, graph);
+                let product = graph.mul(speed, slope);
+                graph.tidy(product)
+            })
+            .collect()
+    }
+
+    /// All derivatives, where they are constants in y.
+    fn constants(&self, graph: &mut Graph, slopes: &[ExprId]) -> Option<Vec<Fraction>> {
+        self.elementwise.as_ref()?;
+        let slopes = slopes.iter();
+        slopes.map(|slope| graph.fraction(*slope, None)).collect()
+    }
+
+    /// The forms of which a term with these derivatives is a function.
+    fn forms(&self, graph: &mut Graph, slopes: &[ExprId]) -> Option<Vec<(Form, ExprId)>> {
+        let support: Vec<usize> = (0..slopes.len())
+            .filter(|i| !graph.is_zero(slopes[*i]))
+            .collect();
+        let one = Fraction::from(Rational::ONE);
+        let units: Vec<Form> = support.iter().map(|i| vec![(*i, one.clone())]).collect();
+        let mut pairs = units.iter().flat_map(|a| units.iter().map(move |b| (a, b)));
+        if pairs.all(|(a, b)| self.bracket_vanishes(a, b)) {
+            let slopes = support.iter().map(|i| slopes[*i]);
+            return Some(units.into_iter().zip(slopes).collect());
+        }
+        self.elementwise.as_ref()?;
+        let first = *support.first()?;
+        let mut form = vec![(first, one)];
+        let mut differences = Vec::new();
+        for &i in &support[1..] {
+            let ratio = self.ratio(graph, slopes[i], slopes[first])?;
+            let factor = graph.rational_function(&ratio);
+            let expected = graph.mul(factor, slopes[first]);
+            differences.push(graph.sub(slopes[i], expected));
+            form.push((i, ratio));
+        }
+        vanish(
+            self.model,
+            graph,
+            &[self.hamiltonian],
+            &differences,
+            &self.budget,
+        )
+        .then(|| vec![(form, slopes[first])])
+    }
+
+    /// What the ratio of two expressions is, if it is a constant: at samples of the coordinates, or where they are no fractions there, the
+    /// near number with a small denominator.
+    fn ratio(&self, graph: &mut Graph, above: ExprId, below: ExprId) -> Option<Fraction> {
+        if let [Some(above), Some(below)] = [above, below].map(|value| sampled(graph, value)) {
+            return above.div(&below, &self.budget).ok()?;
+        }
+        let defaults = self.model.defaults();
+        let values = graph.evaluate_all(&[above, below], &|symbol| match symbol {
+            Symbol::Coordinate(i) => sample(i).to_f64(),
+            Symbol::Parameter(p) => defaults[p],
+            _ => f64::NAN,
+        });
+        let ratio = values[0] / values[1];
+        let denominator = (1..=MOST_DENOMINATOR).find(|d| {
+            let scaled = ratio * *d as f64;
+            (scaled - scaled.round()).abs() < 1e-9 * scaled.abs().max(1.0)
+        })?;
+        let numerator = (ratio * denominator as f64).round();
+        if numerator.abs() > 1e6 {
+            return None;
+        }
+        Rational::new(numerator as i64, denominator).map(Fraction::from)
+    }
+
+    /// Whether the bracket of two forms vanishes.
+    fn bracket_vanishes(&self, a: &Form, b: &Form) -> bool {
+        let Some(elementwise) = &self.elementwise else {
+            let entry = |i: usize, j: usize| {
+                let mut entries = self.matrix.entries.iter();
+                entries.any(|(k, l, _)| [(*k, *l), (*l, *k)].contains(&(i, j)))
+            };
+            let mut pairs = a
+                .iter()
+                .flat_map(|(i, _)| b.iter().map(move |(j, _)| (*i, *j)));
+            return !pairs.any(|(i, j)| entry(i, j));
+        };
+        let mut sum = Fraction::from(Rational::ZERO);
+        for (i, first) in a {
+            for (j, second) in b {
+                let constant = &elementwise.constants[*i][*j];
+                let term = first
+                    .mul(second, &self.budget)
+                    .and_then(|product| product.mul(constant, &self.budget));
+                let Ok(added) = term.and_then(|term| sum.add(&term, &self.budget)) else {
+                    return false;
+                };
+                sum = added;
+            }
+        }
+        sum.is_zero()
+    }
+
+    fn commute(&self, one: &Part, other: &Part) -> bool {
+        let mut forms = one.forms.iter();
+        forms.all(|(a, _)| {
+            let mut others = other.forms.iter();
+            others.all(|(b, _)| self.bracket_vanishes(a, b))
+        })
+    }
+
+    /// The flow of parts that commute; none where its series does not end.
+    fn piece(&self, graph: &mut Graph, members: &[&Part]) -> Option<Piece> {
+        let forms = members.iter().flat_map(|part| &part.forms);
+        let forms: Vec<&(Form, ExprId)> = forms.collect();
+        let map = match &self.elementwise {
+            Some(elementwise) => self.shifted(graph, elementwise, &forms)?,
+            None => self.along_field(graph, &forms)?,
+        };
+        let terms = members.iter().flat_map(|part| &part.terms);
+        Some(Piece {
+            terms: terms.copied().collect(),
+            factors: Vec::new(),
+            conserved: Vec::new(),
+            map: Some(map),
+        })
+    }
+
+    /// `y -> y + t c g`
+    fn shifted(
+        &self,
+        graph: &mut Graph,
+        elementwise: &Elementwise,
+        forms: &[&(Form, ExprId)],
+    ) -> Option<Vec<(usize, Change)>> {
+        let time = graph.symbol(Symbol::Time);
+        let mut map = Vec::new();
+        for (i, speed) in elementwise.speeds.iter().enumerate() {
+            let mut terms = Vec::new();
+            for (form, slope) in forms {
+                let mut sum = Fraction::from(Rational::ZERO);
+                for (j, value) in form {
+                    let constant = &elementwise.constants[i][*j];
+                    let product = constant.mul(value, &self.budget).ok()?;
+                    sum = sum.add(&product, &self.budget).ok()?;
+                }
+                let factor = graph.rational_function(&sum);
+                terms.push(graph.mul(factor, *slope));
+            }
+            let speed_of_y = graph.sum(&terms);
+            if graph.is_zero(speed_of_y) {
+                continue;
+            }
+            let s = graph.mul(time, speed_of_y);
+            let x = graph.symbol(Symbol::Coordinate(i));
+            map.push((i, speed.flow(x, s, graph)?));
+        }
+        Some(map)
+    }
+
+    /// The flow of the field, in which the slopes are constants.
+    fn along_field(
+        &self,
+        graph: &mut Graph,
+        forms: &[&(Form, ExprId)],
+    ) -> Option<Vec<(usize, Change)>> {
+        let held = |place: usize| Symbol::Input(place);
+        let mut field: Vec<Vec<ExprId>> = vec![Vec::new(); self.matrix.dimension];
+        for (place, (form, _)) in forms.iter().enumerate() {
+            let slope = graph.symbol(held(place));
+            // of one coordinate each
+            let (j, _) = form[0];
+            for (a, b, entry) in &self.matrix.entries {
+                let term = graph.mul(*entry, slope);
+                if *b == j {
+                    field[*a].push(term);
+                } else if *a == j {
+                    field[*b].push(graph.neg(term));
+                }
+            }
+        }
+        let field: Vec<ExprId> = field.iter().map(|terms| graph.sum(terms)).collect();
+        let increments = series(graph, &field).or_else(|| quadrature(graph, &field))?;
+        let increments = graph.substitute(&increments, &|symbol| {
+            let place = (0..forms.len()).find(|place| held(*place) == symbol);
+            place.map(|place| forms[place].1)
+        });
+        let moved = increments.into_iter().enumerate();
+        let moved = moved.filter(|(_, increment)| !graph.is_zero(*increment));
+        Some(
+            moved
+                .map(|(i, increment)| (i, Change::Add(increment)))
+                .collect(),
+        )
+    }
+}
+
+/// What a field adds over a time t: `sum_(m > 0) t^m/m! D^m x`, D the derivative along it; none where that does not end.
+fn series(graph: &mut Graph, field: &[ExprId]) -> Option<Vec<ExprId>> {
+    let time = graph.symbol(Symbol::Time);
+    let mut increments = Vec::with_capacity(field.len());
+    for speed in field {
+        let (mut term, mut terms) = (graph.normal(*speed), Vec::new());
+        let mut factor = Rational::ONE;
+        while !graph.is_zero(term) {
+            if terms.len() == MOST_POWERS || graph.dependencies(&[term]).len() > MOST_NODES {
+                return None;
+            }
+            let power = 1 + terms.len() as i64;
+            factor = &factor * &Rational::new(1, power)?;
+            let times = graph.pow(time, &Rational::from(power));
+            let scaled = graph.scale(term, &factor);
+            terms.push(graph.mul(times, scaled));
+            let mut next = Vec::new();
+            for (k, speed) in field.iter().enumerate() {
+                let slope = graph.derivative(term, Symbol::Coordinate(k));
+                next.push(graph.mul(slope, *speed));
+            }
+            let next = graph.sum(&next);
+            term = graph.normal(next);
+        }
+        increments.push(graph.sum(&terms));
+    }
+    Some(increments)
+}
+
+/// The same where some coordinates move along straight lines, and the others by what depends on these alone.
+fn quadrature(graph: &mut Graph, field: &[ExprId]) -> Option<Vec<ExprId>> {
+    let moves = |graph: &Graph, k: usize| !graph.is_zero(field[k]);
+    let straight = |graph: &Graph, k: usize| {
+        let mut on = graph.coordinates(field[k]).into_iter();
+        on.all(|i| !moves(graph, i))
+    };
+    let time = graph.symbol(Symbol::Time);
+    let mut increments = Vec::with_capacity(field.len());
+    for (k, speed) in field.iter().enumerate() {
+        if straight(graph, k) {
+            increments.push(graph.mul(time, *speed));
+            continue;
+        }
+        let on = graph.coordinates(*speed);
+        if !on.iter().all(|i| straight(graph, *i)) {
+            return None;
+        }
+        let mut terms = Vec::new();
+        for (node, weight) in NODES {
+            for node in [node, 1.0 - node] {
+                let part = graph.number(Rational::from_f64(node)?);
+                let mut points = Vec::new();
+                for &i in &on {
+                    let x = graph.symbol(Symbol::Coordinate(i));
+                    let moved = graph.product(&[part, time, field[i]]);
+                    points.push((Symbol::Coordinate(i), graph.add(x, moved)));
+                }
+                let there = graph.substitute(&[*speed], &|symbol| {
+                    let point = points.iter().find(|(moved, _)| *moved == symbol);
+                    point.map(|(_, point)| *point)
+                })[0];
+                terms.push((there, Rational::from_f64(weight)?));
+            }
+        }
+        let mean = graph.linear(&terms);
+        increments.push(graph.mul(time, mean));
+    }
+    Some(increments)
+}
+
+impl Part {
+    fn empty() -> Self {
+        Self {
+            terms: Vec::new(),
+            forms: Vec::new(),
+        }
+    }
+}

@@ -1,0 +1,129 @@
+//! Splittings on brackets that are declared by their entries: what `lie check` finds, and whether the steps are what they claim.
+
+use crate::common::{folder, lie};
+use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
+
+fn written(folder: &Path, spec: &Value) -> PathBuf {
+    let name = spec["name"].as_str().expect("a name");
+    let path = folder.join(format!("{name}.json"));
+    std::fs::write(&path, spec.to_string()).expect("written");
+    path
+}
+
+/// Predators and prey, three species.
+fn species() -> Value {
+    json!({
+        "format": 1, "name": "Lv3", "state": ["x", "y", "z"],
+        "poisson": ["{x, y} = -x*y/2", "{x, z} = x*z/2", "{y, z} = -y*z"],
+        "hamiltonian": "2*x + y + 2*z + log(y) - 2*log(z)",
+        "initial": [1, "19/10", "1/2"]
+    })
+}
+
+/// Five species with a term in two of them.
+fn chain() -> Value {
+    json!({
+        "format": 1, "name": "Volterra5", "state": ["x1", "x2", "x3", "x4", "x5"],
+        "poisson": ["{x1, x2} = x1*x2", "{x2, x3} = x2*x3", "{x3, x4} = x3*x4", "{x4, x5} = x4*x5"],
+        "hamiltonian": "x1 + x2 + x3 + x4 + x5 + x1*x4/5 - log(x2) + x3^2/4",
+        "initial": [1, "7/10", "6/5", "4/5", "11/10"]
+    })
+}
+
+/// A charged particle in the plane.
+fn charged(field: &str) -> Value {
+    json!({
+        "format": 1, "name": "Mag4", "state": ["x", "y", "u", "v"],
+        "poisson": ["{x, u} = 1", "{y, v} = 1", format!("{{u, v}} = {field}")],
+        "hamiltonian": "(u^2 + v^2)/2 + x^2/2 + y^4/4 + x*y/5",
+        "initial": ["3/5", "-2/5", "1/2", "7/10"]
+    })
+}
+
+/// Each coordinate has a speed of its own.
+fn changed() -> Value {
+    json!({
+        "format": 1, "name": "Elementwise", "state": ["x", "y", "z"],
+        "poisson": ["{x, y} = (1 + x^2)*y", "{y, z} = 2*y*z^2", "{x, z} = -(1 + x^2)*z^2/3"],
+        "hamiltonian": "x^2/3 + y + y^2/4 + z^2/2 + z",
+        "initial": ["3/10", "4/5", "1/2"]
+    })
+}
+
+#[test]
+fn steps_are_poisson_maps_of_their_order() {
+    let folder = folder();
+    let field = "1 + sin(x)/2 + exp(-y^2)/3";
+    for (spec, class, pieces) in [
+        (species(), "log-canonical", 4),
+        (chain(), "log-canonical", 3),
+        (charged(field), "magnetic", 3),
+        (charged("1 + x*y^2"), "magnetic", 3),
+        (changed(), "elementwise", 3),
+    ] {
+        let path = written(folder.path(), &spec);
+        let path = path.display();
+        let check = lie(&format!("check {path} --json")).ok();
+        let check: Value = serde_json::from_str(&check.stdout).expect("JSON");
+        assert_eq!(check["bracket_class"], class, "{path}");
+        let found = check["splitting"].as_array().expect("pieces");
+        assert!(found.len() <= pieces, "{path}: {found:?}");
+        let methods = "splitting1,splitting2,splitting4,splitting6,gauss4";
+        let verify = lie(&format!("verify {path} --methods {methods} --quiet --json")).ok();
+        let report: Value = serde_json::from_str(&verify.stdout).expect("JSON");
+        assert_eq!(report["failed"], 0, "{path}: {report:#}");
+        let defect = |method: &str| report["methods"][method]["Poisson"]["measured"].as_f64();
+        for method in ["splitting1", "splitting2", "splitting4", "splitting6"] {
+            let defect = defect(method).expect("a number");
+            assert!(defect < 1e-13, "{path}, {method}: {defect:e}");
+        }
+        // the control
+        assert!(defect("gauss4") > Some(1e-10), "{path}: {report:#}");
+    }
+}
+
+/// Populations stay positive at any step; those of Runge and Kutta do not.
+#[test]
+fn flows_of_monomials_keep_signs() {
+    let folder = folder();
+    let path = written(folder.path(), &species());
+    let least = |method: &str| {
+        let run = lie(&format!(
+            "run {} --method {method} --step 0.8 --until 80 --quiet",
+            path.display()
+        ));
+        let rows = run.stdout.lines().skip(1);
+        let numbers = rows.flat_map(|row| row.split(',').skip(1).take(3).map(str::to_owned));
+        let numbers = numbers.map(|number| number.parse::<f64>().expect("a number"));
+        numbers.fold(f64::INFINITY, f64::min)
+    };
+    assert!(least("splitting2") > 0.0);
+    assert!(least("rk4") < 0.0);
+}
+
+#[test]
+fn what_has_no_pieces_says_which_term() {
+    let folder = folder();
+    let mut relativistic = charged("1 + x*y");
+    relativistic["hamiltonian"] = json!("sqrt(1 + u^2 + v^2) + x^2/2");
+    let path = written(folder.path(), &relativistic);
+    let run = lie(&format!(
+        "run {} --method splitting4 --step 0.1 --until 1",
+        path.display()
+    ));
+    assert_eq!(run.code, Some(2), "{}", run.stderr);
+    let error = run.stderr;
+    assert!(error.contains("sqrt(1 + u^2 + v^2)"), "{error}");
+    assert!(error.contains("k-hj4"), "{error}");
+    // something acts beside H
+    let mut driven = charged("1 + x*y");
+    driven["forces"] = json!({ "u": "-u/10" });
+    let path = written(folder.path(), &driven);
+    let error = lie(&format!(
+        "run {} --method splitting2 --step 0.1 --until 1",
+        path.display()
+    ))
+    .stderr;
+    assert!(error.contains("acts beside the Hamiltonian"), "{error}");
+}
