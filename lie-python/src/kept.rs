@@ -122,7 +122,13 @@ pub fn start(
     let values = values.as_deref().unwrap_or(&declaration.facts.defaults);
     let initial = match x0.is_none() {
         true => spec.model.initial_values(values)?,
-        false => spec.model.complete_state(&numbers(x0)?, values)?,
+        false => {
+            let given = numbers(x0)?;
+            if spec.model.violation(&given, values).is_some() {
+                return None;
+            }
+            spec.model.complete_state(&given, values)?
+        }
     };
     let fits = spec.fault(&initial, values).is_none();
     fits.then_some(Start {

@@ -123,19 +123,28 @@ impl Core {
 
     /// The states for those that a user gives: all coordinates, or without what carries the time, or without the group
     /// element, for values of the parameters of each or of all; none where there are more or fewer.
+    ///
+    /// # Errors
+    /// One of them violates a constraint.
     fn complete(
         &self,
         py: Python<'_>,
         given: Vec<Vec<f64>>,
         parameters: Vec<Vec<f64>>,
-    ) -> Option<Vec<Vec<f64>>> {
+    ) -> PyResult<Option<Vec<Vec<f64>>>> {
         let all = self.0.facts.names.len();
         if !self.0.facts.family && given.iter().all(|state| state.len() == all) {
-            return Some(given);
+            return Ok(Some(given));
         }
         self.0.with_model(py, |model| {
             let values = parameters.iter().cycle().take(given.len());
             let states = given.iter().zip(values);
+            let mut checked = states.clone();
+            if let Some(wrong) = checked.find_map(|(state, values)| model.violation(state, values))
+            {
+                let text = format!("{}; {}", wrong.message, wrong.help);
+                return Err(PyValueError::new_err(text));
+            }
             let states = states.map(|(state, values)| match &model.family {
                 Some(family) => {
                     let [rows, columns] = family.sites(values)?;
@@ -144,7 +153,7 @@ impl Core {
                 }
                 None => model.complete_state(state, values),
             });
-            states.collect()
+            Ok(states.collect())
         })
     }
 

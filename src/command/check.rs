@@ -1,6 +1,7 @@
 //! `lie check`: what a spec declares, and what can be done with it.
 
 mod casimirs;
+mod constraint;
 mod joints;
 mod motions;
 mod recorded;
@@ -266,6 +267,7 @@ fn write_system(model: &Structure, text: &mut String) -> std::fmt::Result {
     if let Some(configuration) = &model.configuration {
         writeln!(text, "  {}", configuration.description())?;
     }
+    constraint::write(model, text)?;
     if let Some(cocycle) = model.cocycle_in_words() {
         writeln!(text, "  cocycle: {cocycle}")?;
     }

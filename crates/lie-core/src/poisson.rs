@@ -84,6 +84,13 @@ pub trait Poisson<S: Scalar>: Sized {
         None
     }
 
+    /// Whether the Poisson matrix is one of an almost-Poisson bracket, of which the Jacobi identity is not asked: that of a system
+    /// with a constraint. H is kept and so are kernel functions of the matrix, but there are no symplectic leaves, and the flow is no
+    /// Poisson map.
+    fn is_almost_poisson(&self) -> bool {
+        false
+    }
+
     /// Whether Hessian, Poisson matrix and Jacobian can be had. A large system keeps no matrix: methods that need one do not
     /// apply to it, and those that iterate have no other way.
     fn has_jacobian(&self) -> bool {

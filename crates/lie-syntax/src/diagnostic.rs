@@ -149,6 +149,7 @@ kinds! {
     Integral "integral" "A declared first integral is none, or cannot be proven to be one.",
     Event "event" "An event that can have no zeros, or no direction.",
     Cocycle "cocycle" "The cocycle identity fails.",
+    Constraint "constraint" "Constraints are not linear, depend on each other, or leave the motion open; the initial state violates one.",
     StateLength "state-length" "Length of the state or the initial values differs from the basis.",
     EmptyHamiltonian "empty-hamiltonian" "The text of the Hamiltonian is blank.",
     Domain "domain" "The Hamiltonian, its gradient or a Casimir is not finite at the initial state.",

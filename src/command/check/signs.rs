@@ -17,6 +17,10 @@ pub(super) fn write(
     start: Option<&Start>,
     text: &mut String,
 ) -> std::fmt::Result {
+    let title = match model.is_almost_poisson() {
+        true => "almost-Poisson brackets",
+        false => "Poisson brackets",
+    };
     let brackets = directions::brackets(model);
     let mut shown: Vec<&str> = brackets.iter().map(String::as_str).take(MOST).collect();
     let rest = brackets.len() - shown.len();
@@ -25,8 +29,8 @@ pub(super) fn write(
         shown.push(&more);
     }
     match shown.is_empty() {
-        true => writeln!(text, "  Poisson brackets: all are zero")?,
-        false => list(text, "  Poisson brackets: ", &shown)?,
+        true => writeln!(text, "  {title}: all are zero")?,
+        false => list(text, &format!("  {title}: "), &shown)?,
     }
     for line in sentences(model, start) {
         sentence(text, &format!("    {line}"))?;

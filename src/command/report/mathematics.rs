@@ -22,7 +22,11 @@ pub fn formulas(model: &Structure) -> Vec<(&'static str, Vec<String>)> {
     }
     let brackets = poisson_brackets(model, &names);
     if !brackets.is_empty() {
-        all.push(("Poisson brackets:", brackets));
+        let title = match model.is_almost_poisson() {
+            true => "Almost-Poisson brackets:",
+            false => "Poisson brackets:",
+        };
+        all.push((title, brackets));
     }
     let energy = match (&model.family, model.energy.expression()) {
         (Some(family), _) => Some(model.display_of_family(family)),

@@ -293,6 +293,7 @@ impl Report<'_> {
 fn leaf(model: &Structure) -> &'static str {
     match model.bracket.algebra() {
         Some(_) => "coadjoint orbit",
+        None if model.is_almost_poisson() => "level surface",
         None => "symplectic leaf",
     }
 }

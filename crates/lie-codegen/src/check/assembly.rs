@@ -24,6 +24,7 @@ pub fn assemble(whole: &Whole<'_>, system: System, proven: Proven) -> Model {
         matrix,
         energy,
         driving,
+        constraint,
         ..
     } = system;
     let degree = |function| degree::degree(&scratch, function);
@@ -52,6 +53,7 @@ pub fn assemble(whole: &Whole<'_>, system: System, proven: Proven) -> Model {
         invariance: declaration.invariance,
         energy,
         energy_origin: declaration.energy.expression().origin,
+        constraint,
         configuration: whole.configuration.clone(),
         family: None,
         driving,

@@ -74,7 +74,9 @@ pub fn among_coordinates(
     if let (Some(configuration), Some(attitude)) = (configuration, attitude)
         && configuration.group.is_some()
     {
-        let entries = &mut initial[configuration.momenta..];
+        // with constraints the state may be the reduced one
+        let fewer = configuration.dimension().saturating_sub(initial.len());
+        let entries = &mut initial[configuration.momenta.saturating_sub(fewer)..];
         entries[..attitude.matrix.len()].copy_from_slice(&attitude.matrix);
     }
     Some(initial)

@@ -61,15 +61,16 @@ pub fn configuration(
     })
 }
 
-/// Whether a cocycle makes a central extension of the algebra. Brackets that are constant are as good as those of any algebra, and
-/// a realization is one of the declared coordinates.
+/// Whether a cocycle makes a central extension of the algebra. Brackets that are constant are as good as those of any algebra, a
+/// realization is one of the declared coordinates, and a constraint leaves a general bracket anyway.
 fn extends(declaration: &Declaration) -> bool {
     let Structure::Lie { algebra, cocycle } = &declaration.structure else {
         return false;
     };
     let brackets = algebra.brackets.iter().flatten();
     let moves = !algebra.matrices.is_empty() || brackets.count() > 0;
-    !cocycle.is_empty() && moves && declaration.realization.is_none()
+    let alone = declaration.realization.is_none() && !declaration.is_constrained();
+    !cocycle.is_empty() && moves && alone
 }
 
 /// Whether an expression mentions the time.
@@ -101,6 +102,11 @@ pub fn extended(
     if let Some(initial) = &declaration.initial {
         mistakes.extend(twice(declaration, configuration, initial, origin));
         let complete = configuration.complete(initial, |value| added.exact(value.clone()));
+        let reduced = configuration.with_fewer_momenta(declaration.constraint.len());
+        let complete = complete.or_else(|| {
+            let reduced = reduced?;
+            reduced.complete(initial, |value| added.exact(value.clone()))
+        });
         if complete.is_none() {
             mistakes.push(incomplete(declaration, configuration, initial, origin));
         }

@@ -41,6 +41,8 @@ pub enum Allowed {
     /// Components of the velocity, and of the coordinates those from this one on: a Lagrangian may depend on
     /// the group element and the time, but not on mu.
     Velocity(usize),
+    /// Components of the velocity of a system with a constraint, and parameters.
+    Constraint,
     /// Canonical coordinates of a realization.
     Canonical,
     /// Both: an abbreviation may serve either.
@@ -48,7 +50,7 @@ pub enum Allowed {
 }
 
 /// The names of a declaration as its expressions see them.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Environment<'a> {
     bindings: HashMap<&'a str, Binding>,
     /// The coordinates of the basis elements.
@@ -72,7 +74,11 @@ impl Allowed {
             Symbol::Coordinate(i) => match self {
                 Self::State | Self::Site | Self::Everything => true,
                 Self::Velocity(first) => i >= first,
-                Self::Constants | Self::Parameters | Self::Strength | Self::Canonical => false,
+                Self::Constants
+                | Self::Parameters
+                | Self::Strength
+                | Self::Constraint
+                | Self::Canonical => false,
             },
             _ if data_number(symbol).is_some() => matches!(self, Self::Site | Self::Strength),
             _ if shared_number(symbol).is_some() => matches!(
@@ -80,7 +86,12 @@ impl Allowed {
                 Self::State | Self::Site | Self::Strength | Self::Everything
             ),
             Symbol::Input(i) if i >= CANONICAL => self == Self::Canonical,
-            Symbol::Input(_) => matches!(self, Self::Velocity(_) | Self::Everything),
+            Symbol::Input(_) => {
+                matches!(
+                    self,
+                    Self::Velocity(_) | Self::Constraint | Self::Everything
+                )
+            }
             Symbol::Step => matches!(self, Self::Velocity(_) | Self::Everything),
             _ => false,
         }
@@ -137,6 +148,20 @@ impl<'a> Environment<'a> {
                 .collect(),
             functions: &declaration.functions,
         }
+    }
+
+    /// The names of constraints: components of the velocity, by the basis where the velocity has no names of its own. The declared
+    /// algebra has so many.
+    #[must_use]
+    pub fn of_velocity(&self, declaration: &'a Declaration, own: usize) -> Self {
+        let mut names = self.clone();
+        if declaration.energy.velocity().is_empty() {
+            for (i, name) in declaration.basis().iter().take(own).enumerate() {
+                let component = Binding::Symbol(Symbol::Input(i));
+                names.bindings.insert(&name.text, component);
+            }
+        }
+        names
     }
 
     /// Gives a name its symbol, unless it has another meaning.
@@ -281,6 +306,10 @@ fn misplaced(name: &str, binding: Binding, allowed: Allowed) -> Option<(String, 
             "is a basis element; a Lagrangian is written in the components of the velocity",
             "use the velocity name of the same position",
         ),
+        (Binding::Basis, Allowed::Constraint) => (
+            "is a basis element; with `velocity`, a constraint is written in its names",
+            "use the velocity name of the same position",
+        ),
         (Binding::Basis, _) => (
             "is a basis element; functions are written in the coordinates of the state",
             "use the state name of the same position",
@@ -289,6 +318,10 @@ fn misplaced(name: &str, binding: Binding, allowed: Allowed) -> Option<(String, 
         (_, Allowed::Velocity(_)) => (
             "cannot stand here: a reduced Lagrangian depends on the velocity, not on mu",
             "use the velocity names; mu is the derivative of the Lagrangian",
+        ),
+        (_, Allowed::Constraint) => (
+            "cannot stand here: a constraint is a linear equation between components of the velocity",
+            "use basis names, or those of `velocity` where it is declared; the coefficients are functions of parameters",
         ),
         (_, Allowed::Canonical) => (
             "cannot stand here: the map of a realization depends on positions and momenta alone",

@@ -1,6 +1,7 @@
 //! All expressions of a declaration in one arena.
 
 use super::algebra::{self, Algebra};
+use super::constraint::forms::{self, Distribution};
 use super::coordinates::Whole;
 use super::environment::{Allowed, Environment};
 use super::lower::Lowering;
@@ -28,6 +29,8 @@ pub struct Lowered {
     pub brackets: Vec<Entry>,
     /// The Hamiltonian or the Lagrangian.
     pub energy: ExprId,
+    /// What the constraints leave of the algebra.
+    pub distribution: Option<Distribution>,
     /// What acts beside the Hamiltonian.
     pub acting: Vec<Acting>,
     /// The Casimirs.
@@ -65,6 +68,13 @@ pub fn lower(
     lets::abbreviations(declaration, &mut graph, &mut environment, mistakes);
     let brackets =
         poisson::coordinate_brackets(declaration, &mut graph, &environment, name, mistakes);
+    let distribution = forms::distribution(
+        whole,
+        &mut graph,
+        &environment,
+        parameters.as_deref().unwrap_or_default(),
+        mistakes,
+    );
     let mut lower = |expr: &ast::Expr, allowed| {
         Lowering::new(&mut graph, &environment, mistakes, allowed).lower(expr)
     };
@@ -115,6 +125,7 @@ pub fn lower(
         parameters,
         brackets: brackets?,
         energy: energy?,
+        distribution: distribution?,
         acting: acting?,
         casimirs: casimirs.into_iter().collect::<Option<_>>()?,
         integrals: integrals.into_iter().collect::<Option<_>>()?,

@@ -39,7 +39,7 @@ pub fn identities(
     let bracket = match system.algebra.clone() {
         Some(algebra) => Bracket::Lie(algebra),
         None => {
-            if declaration.algebra().is_none() {
+            if declaration.algebra().is_none() && !declaration.is_constrained() {
                 let identity = jacobi::jacobi_identity(declaration, brackets, scratch, name);
                 mistakes.extend(identity);
             }

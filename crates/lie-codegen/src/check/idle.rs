@@ -58,7 +58,8 @@ fn motionless(declaration: &Declaration, model: &Model) -> impl Iterator<Item = 
         Bracket::General(matrix) => matrix.entries.is_empty(),
     };
     // A single coordinate has no bracket but with itself, and whoever declares it knows.
-    let at_rest = (no_bracket && declaration.dimension() > 1).then(|| {
+    let several = declaration.dimension() > 1 && !declaration.is_constrained();
+    let at_rest = (no_bracket && several).then(|| {
         let message = "all brackets are zero: no state moves, whatever the Hamiltonian is";
         let help = match declaration.structure {
             Structure::Lie { .. } => {
@@ -100,6 +101,7 @@ fn mentioned(declaration: &Declaration) -> BTreeSet<&str> {
     pending.extend(declaration.lets.iter().map(|(_, value)| value));
     pending.push(declaration.energy.expression());
     pending.extend(declaration.driving());
+    pending.extend(declaration.constrained());
     pending.extend(declaration.casimirs.iter().map(|c| &c.value));
     pending.extend(declaration.recorded());
     if let Some(realization) = &declaration.realization {

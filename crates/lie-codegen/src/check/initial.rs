@@ -21,7 +21,9 @@ pub fn initial_state(
         .map(|entry| Lowering::new(graph, environment, mistakes, Allowed::Parameters).lower(entry))
         .collect();
     let (count, dimension) = (entries.len(), declaration.dimension());
-    if count != dimension {
+    // with constraints the reduced state is enough
+    let reduced = dimension.saturating_sub(declaration.constraint.len());
+    if count != dimension && count != reduced {
         let place = declaration
             .initial_origin
             .or(entries.last().map(|e| e.origin))

@@ -75,6 +75,28 @@ pub fn jacobi_identity(
     Some(diagnostic)
 }
 
+/// Whether the identity holds for brackets of which nobody asks it; `None` where it is not decided.
+pub fn holds(
+    dimension: usize,
+    entries: &[Entry],
+    scratch: &mut Graph,
+    name: &dyn Fn(Symbol) -> String,
+) -> Option<bool> {
+    let sums = jacobiator(dimension, entries, scratch);
+    let budget = Budget::new(WORK);
+    let domain: Vec<ExprId> = entries.iter().map(|entry| entry.value).collect();
+    let mut prover = Prover::new(scratch, &budget, &domain, name);
+    let mut found = Some(true);
+    for (_, sum) in &sums {
+        match prover.refute(*sum, false) {
+            Proof::Zero => {}
+            Proof::Nonzero(_) => return Some(false),
+            Proof::Unproven { .. } => found = None,
+        }
+    }
+    found
+}
+
 /// The sums of the identity that are not trivially zero.
 fn jacobiator(dimension: usize, entries: &[Entry], graph: &mut Graph) -> Vec<([usize; 3], ExprId)> {
     let zero = graph.integer(0);

@@ -12,6 +12,7 @@ mod central;
 mod cocycle;
 mod configuration;
 mod constant;
+mod constraint;
 mod coordinates;
 mod defaults;
 mod derivatives;
@@ -95,13 +96,23 @@ fn stages(declaration: &Declaration, mistakes: &mut Vec<Diagnostic>) -> Option<M
         return None;
     }
     mistakes.extend(size::lengths(declaration));
-    let whole = coordinates::whole(declaration, mistakes)?;
+    let refused = constraint::refused(declaration);
+    if !refused.is_empty() {
+        mistakes.extend(refused);
+        return None;
+    }
+    let mut whole = coordinates::whole(declaration, mistakes)?;
     let name = |symbol| symbols::symbol_name(&whole.declaration, symbol);
     let lowered = expressions::lower(&whole, &name, mistakes)?;
     let mut system = system::system(&whole, lowered, &name, mistakes)?;
+    if declaration.is_constrained() {
+        (whole, system) = constraint::reduced(whole, system, mistakes)?;
+    }
+    let name = |symbol| symbols::symbol_name(&whole.declaration, symbol);
     let proven = identities::identities(&whole, &mut system, &name, mistakes)?;
     let model = assembly::assemble(&whole, system, proven);
-    mistakes.extend(attitude::mistake(&model).or_else(|| {
+    let off = constraint::initial_violation(&model, declaration);
+    mistakes.extend(off.or_else(|| attitude::mistake(&model)).or_else(|| {
         let place = whole.declaration.initial_origin;
         domain::initial_domain(&model, place)
     }));

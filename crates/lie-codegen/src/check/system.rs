@@ -4,8 +4,9 @@ use super::coordinates::Whole;
 use super::energy::{Declared, Motion};
 use super::expressions::Lowered;
 use super::{breadth, central, cocycle, derivatives, driving, exactness, matrix};
-use crate::model::{Algebra, Driving, Energy, PoissonMatrix};
+use crate::model::{Algebra, Constraint, Driving, Energy, PoissonMatrix};
 use lie_symbolic::symbolic::{Graph, Symbol};
+use lie_syntax::ast::Declaration;
 use lie_syntax::diagnostic::Diagnostic;
 
 /// Lowered expressions with the Hamiltonian and the Poisson matrix that they make.
@@ -22,6 +23,8 @@ pub struct System {
     pub energy: Energy<Declared>,
     /// What acts beside it.
     pub driving: Option<Driving>,
+    /// What its velocity satisfies, where the system is what that leaves.
+    pub constraint: Option<Constraint>,
 }
 
 /// Finds Hamiltonian and Poisson matrix, and refuses what is too large for what comes next.
@@ -90,28 +93,34 @@ pub fn system(
     if !is_lie {
         graph.clone_from(&scratch);
     }
-    let place = declaration.algebra().map(|algebra| algebra.origin);
-    let place = place.unwrap_or(declaration.place());
-    let hamiltonian = energy.value(|hamiltonian| hamiltonian.value);
-    let hamiltonian = (hamiltonian, declaration.energy.expression().origin);
-    let origins = declaration.casimirs.iter().map(|c| c.value.origin);
-    let casimirs = lowered.casimirs.iter().copied().zip(origins);
-    let origins = declaration.integrals.iter().map(|(_, f)| f.origin);
-    let integrals = lowered.integrals.iter().copied().zip(origins);
-    mistakes.extend(
-        breadth::fill(&scratch, (&matrix, place), hamiltonian).or_else(|| {
-            derivatives::kernels(&scratch, &matrix, hamiltonian, (casimirs, integrals))
-        }),
-    );
-    if super::has_errors(mistakes) {
-        return None;
-    }
-    Some(System {
+    let system = System {
         lowered,
         scratch,
         algebra,
         matrix,
         energy,
         driving,
-    })
+        constraint: None,
+    };
+    mistakes.extend(too_large(declaration, &system));
+    (!super::has_errors(mistakes)).then_some(system)
+}
+
+/// Why a system is too large for what comes next.
+pub fn too_large(declaration: &Declaration, system: &System) -> Option<Diagnostic> {
+    let System {
+        lowered,
+        scratch,
+        matrix,
+        energy,
+        ..
+    } = system;
+    let hamiltonian = energy.value(|hamiltonian| hamiltonian.value);
+    let hamiltonian = (hamiltonian, declaration.energy.expression().origin);
+    let origins = declaration.casimirs.iter().map(|c| c.value.origin);
+    let casimirs = lowered.casimirs.iter().copied().zip(origins);
+    let origins = declaration.integrals.iter().map(|(_, f)| f.origin);
+    let integrals = lowered.integrals.iter().copied().zip(origins);
+    breadth::fill(scratch, (matrix, declaration.place()), hamiltonian)
+        .or_else(|| derivatives::kernels(scratch, matrix, hamiltonian, (casimirs, integrals)))
 }

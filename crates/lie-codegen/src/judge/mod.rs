@@ -6,6 +6,7 @@
 //! unit in their last place: a kernel that differs by many such units computes something else.
 
 mod acting;
+mod constrained;
 mod functions;
 mod interpret;
 mod kernels;
@@ -16,9 +17,10 @@ mod system;
 #[cfg(test)]
 mod tests;
 
+use crate::model::Configuration;
 use crate::structure::Structure;
 use kernels::{Expected, Kernels, inputs, known};
-use lie_syntax::ast::{Declaration, Energy, Expr};
+use lie_syntax::ast::{Declaration, Energy, Expr, ExprKind};
 use lie_syntax::diagnostic::{Origin, Report};
 use lie_syntax::front::{Body, spec};
 use number::{Jet, Number, Rounded};
@@ -94,6 +96,8 @@ impl Judge {
                 _ => false,
             })
         };
+        let constraint = structure.constraint.as_ref();
+        let determined = constraint.map_or_else(Vec::new, |c| c.determined.clone());
         Self {
             casimirs: structure
                 .casimirs
@@ -103,12 +107,22 @@ impl Judge {
             quantities: structure
                 .quantities
                 .iter()
-                .filter_map(|q| declared(q.origin).cloned())
+                .filter_map(|q| {
+                    let declared = declared(q.origin).cloned();
+                    declared.or_else(|| coordinate(declaration, &q.name))
+                })
                 .collect(),
             events: declaration.events.iter().map(|e| e.when.clone()).collect(),
             kernels: Kernels::new(Declared {
                 declaration: declaration.clone(),
-                configuration: structure.configuration.clone(),
+                configuration: structure
+                    .configuration
+                    .clone()
+                    .map(|reduced| Configuration {
+                        momenta: reduced.momenta + determined.len(),
+                        ..reduced
+                    }),
+                determined,
                 parameters: parameters.to_vec(),
             }),
         }
@@ -342,6 +356,18 @@ impl Judge {
 
 /// A value, its gradient, and its second derivatives row by row.
 type Derivatives = (Rounded, Vec<Rounded>, Vec<Rounded>);
+
+/// A declared coordinate as a function of the state, which it is with a constraint.
+fn coordinate(declaration: &Declaration, name: &str) -> Option<Expr> {
+    let declared = declaration.state.iter().find(|known| known.text == name)?;
+    declaration.is_constrained().then(|| Expr {
+        kind: ExprKind::Name {
+            name: declared.text.clone(),
+            index: None,
+        },
+        origin: declared.origin,
+    })
+}
 
 /// Value, gradient or second derivatives, by the name of the kernel.
 fn chosen(

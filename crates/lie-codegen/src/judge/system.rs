@@ -18,13 +18,16 @@ const SMALL: f64 = 1e-4;
 #[derive(Clone, Debug)]
 pub(super) struct Declared {
     pub(super) declaration: Declaration,
+    /// What stands beside mu, of which a constraint takes nothing away.
     pub(super) configuration: Option<Configuration>,
     pub(super) parameters: Vec<f64>,
+    /// The components of the velocity that constraints determine.
+    pub(super) determined: Vec<usize>,
 }
 
 impl Declared {
-    /// The number of coordinates.
-    pub(super) fn dimension(&self) -> usize {
+    /// The number of declared coordinates.
+    pub(super) fn declared_dimension(&self) -> usize {
         let own = self.declaration.state.len();
         self.configuration
             .as_ref()
@@ -49,7 +52,7 @@ impl Declared {
     }
 
     /// Parameters and coordinates, without the abbreviations.
-    fn coordinates<T: Number>(&self, mu: &[T]) -> Scope<T> {
+    pub(super) fn coordinates<T: Number>(&self, mu: &[T]) -> Scope<T> {
         let mut scope = self.parameters();
         for (name, value) in self.declaration.state.iter().zip(mu) {
             scope.bind(&name.text, value.clone());
@@ -70,37 +73,29 @@ impl Declared {
         scope
     }
 
-    fn abbreviate<T: Number>(&self, scope: &mut Scope<T>) {
+    pub(super) fn abbreviate<T: Number>(&self, scope: &mut Scope<T>) {
         for (name, value) in &self.declaration.lets {
             let value = scope.evaluate(value);
             scope.bind(&name.text, value);
         }
     }
 
-    pub(super) fn state<T: Number>(&self, mu: &[T]) -> Scope<T> {
+    /// The names at a state in the declared coordinates.
+    pub(super) fn declared_state<T: Number>(&self, mu: &[T]) -> Scope<T> {
         let mut scope = self.coordinates(mu);
         self.abbreviate(&mut scope);
         scope
     }
 
     /// The energy as it was declared; of a Lagrangian `<mu, xi> - l(xi)` with `l'(xi) = mu`, xi near `velocity`.
-    pub(super) fn energy<T: Number>(&self, mu: &[T], velocity: &[f64]) -> T {
+    pub(super) fn declared_energy<T: Number>(&self, mu: &[T], velocity: &[f64]) -> T {
         match &self.declaration.energy {
-            Energy::Hamiltonian(value) => self.state(mu).evaluate(value),
+            Energy::Hamiltonian(value) => self.declared_state(mu).evaluate(value),
             _ => {
                 let xi = self.velocity(mu, velocity);
                 let pairs = xi.iter().zip(mu).map(|(xi, mu)| xi.mul(mu));
                 T::sum(pairs).sub(&self.lagrangian(&xi, mu))
             }
-        }
-    }
-
-    /// The energy with the momentum of the time.
-    pub(super) fn hamiltonian<T: Number>(&self, mu: &[T], velocity: &[f64]) -> T {
-        let energy = self.energy(mu, velocity);
-        match &self.configuration {
-            Some(configuration) if configuration.time => energy.add(&mu[configuration.momenta - 1]),
-            _ => energy,
         }
     }
 
@@ -136,7 +131,7 @@ impl Declared {
         scope.evaluate(self.declaration.energy.expression())
     }
 
-    fn bind_velocity<T: Number>(&self, scope: &mut Scope<T>, xi: &[T]) {
+    pub(super) fn bind_velocity<T: Number>(&self, scope: &mut Scope<T>, xi: &[T]) {
         for (name, value) in self.declaration.energy.velocity().iter().zip(xi) {
             scope.bind(&name.text, value.clone());
         }
@@ -269,9 +264,9 @@ impl Declared {
         algebra.basis.iter().map(matrix).collect()
     }
 
-    /// The Poisson matrix `{mu_i, mu_j}`.
-    pub(super) fn poisson<T: Number>(&self, mu: &[T]) -> Vec<Vec<T>> {
-        let n = self.dimension();
+    /// The Poisson matrix `{mu_i, mu_j}` in the declared coordinates.
+    pub(super) fn declared_poisson<T: Number>(&self, mu: &[T]) -> Vec<Vec<T>> {
+        let n = self.declared_dimension();
         let mut matrix = vec![vec![T::integer(0); n]; n];
         let mut set = |i: usize, j: usize, value: T| {
             matrix[j][i] = value.neg();
@@ -279,7 +274,7 @@ impl Declared {
         };
         match &self.declaration.structure {
             Structure::General { brackets, .. } => {
-                let scope = self.state(mu);
+                let scope = self.declared_state(mu);
                 for bracket in brackets {
                     let (i, j) = self.pair(&self.declaration.state, bracket);
                     set(i, j, scope.evaluate(&bracket.value));
@@ -296,8 +291,7 @@ impl Declared {
                     self.configured(mu, &mut set);
                 }
                 let scope: Scope<T> = self.parameters();
-                let clock = self.configuration.as_ref().and_then(|c| c.clock());
-                let unit = clock.map_or(T::integer(1), |clock| mu[clock.time + 1].clone());
+                let unit = self.unit(mu);
                 let mut constants = Vec::new();
                 for bracket in cocycle {
                     let (i, j) = self.pair(&self.declaration.state, bracket);
@@ -311,6 +305,13 @@ impl Declared {
             }
         }
         matrix
+    }
+
+    /// The unit beside the time; of a system with a constraint, whose bracket is no more that of an algebra, it is the number.
+    fn unit<T: Number>(&self, mu: &[T]) -> T {
+        let clock = self.configuration.as_ref().and_then(|c| c.clock());
+        let clock = clock.filter(|_| self.determined.is_empty());
+        clock.map_or(T::integer(1), |clock| mu[clock.time + 1].clone())
     }
 
     fn pair(&self, names: &[Name], bracket: &lie_syntax::ast::Bracket) -> (usize, usize) {
@@ -379,7 +380,7 @@ impl Declared {
             }
         }
         if let Some(clock) = configuration.clock() {
-            set(clock.time, clock.momentum, mu[clock.time + 1].clone());
+            set(clock.time, clock.momentum, self.unit(mu));
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Which methods a system can carry.
 
 use super::acting::driven;
+use super::constrained::almost_poisson;
 use super::{CATALOGUE, Choice, Lift, Pieces, Retraction, Scheme, Tensor};
 use crate::model::{Bracket, Descent, Discrete, Energy, Model};
 use crate::structure::{
@@ -19,7 +20,8 @@ pub fn refusal(structure: &Structure, choice: &Choice) -> Option<(String, String
         return driven(structure, choice).or_else(|| family(pieces.as_ref().err(), acts, choice));
     }
     let model = &structure.model;
-    let whole = bracket(model, choice).or_else(|| driven(model, choice));
+    let whole = almost_poisson(model, choice).or_else(|| bracket(model, choice));
+    let whole = whole.or_else(|| driven(model, choice));
     if let Some(reason) = whole.or_else(|| lagrangian(model, choice)) {
         return Some(reason);
     }

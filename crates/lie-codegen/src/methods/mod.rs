@@ -4,6 +4,7 @@
 mod acting;
 mod applicability;
 mod choice;
+mod constrained;
 mod constructor;
 pub mod declared;
 mod options;

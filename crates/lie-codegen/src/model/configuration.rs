@@ -114,6 +114,15 @@ impl Configuration {
         }
     }
 
+    /// The same beside so many momenta less, those that constraints determine; `None` where none are left.
+    pub fn with_fewer_momenta(&self, count: usize) -> Option<Self> {
+        let left = self.own_momenta().checked_sub(count);
+        left.filter(|left| *left > 0).map(|_| Self {
+            momenta: self.momenta - count,
+            ..self.clone()
+        })
+    }
+
     /// The number of coordinates.
     pub fn dimension(&self) -> usize {
         let size = self.group.as_ref().map_or(0, |(_, size)| *size);

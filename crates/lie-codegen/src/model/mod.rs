@@ -4,6 +4,7 @@ mod attitude;
 mod bracket;
 mod casimir;
 pub mod configuration;
+mod constraint;
 mod driving;
 mod family;
 mod quantity;
@@ -20,6 +21,7 @@ pub use attitude::{Attitude, Form};
 pub use bracket::{Algebra, Bracket, Cocycle, Extension, PoissonMatrix, bracket_of};
 pub use casimir::{Casimir, CasimirKind};
 pub use configuration::Configuration;
+pub use constraint::{Constraint, Violation};
 pub use driving::{Acting, Driving, Input};
 pub use family::{
     Family, SiteData, SiteSum, Size, Start, data_number, data_symbol, shared_number, shared_symbol,
@@ -167,6 +169,8 @@ pub struct Model {
     pub energy: Energy,
     /// Where the Hamiltonian or the Lagrangian stands.
     pub energy_origin: Origin,
+    /// What the velocity satisfies; the coordinates are those that are left then, and the bracket is almost Poisson.
+    pub constraint: Option<Constraint>,
     /// What the coordinates beside mu are, of a system on `T*G` or one that depends on the time.
     pub configuration: Option<Configuration>,
     /// The sums of a family. All else is that of a site, and its Hamiltonian is 0.
@@ -302,8 +306,11 @@ impl Model {
     }
 
     /// The state for the values that a user gives: all coordinates, or of a system on `T*G` the momenta alone, at the declared
-    /// attitude for these parameters or at the identity. `None` where the number of values is another.
+    /// attitude for these parameters or at the identity. With a constraint also in the declared coordinates. `None` where the number of
+    /// values is another.
     pub fn complete_state(&self, given: &[f64], parameters: &[f64]) -> Option<Vec<f64>> {
+        let reduced = self.on_constraint(given, parameters);
+        let given = reduced.as_deref().unwrap_or(given);
         let Some(configuration) = &self.configuration else {
             return (given.len() == self.dimension()).then(|| given.to_vec());
         };

@@ -90,6 +90,15 @@ pub(super) fn docs(structure: &Structure) -> Vec<String> {
         names.join(", "),
         model.generic_rank
     ));
+    if let Some(constraint) = &model.constraint {
+        let basis = constraint.basis_in_words(model).into_iter();
+        let basis = basis.map(|(coordinate, element)| format!("`{coordinate}` along `{element}`"));
+        docs.push(format!(
+            "Constraint `{}` on the velocity: the bracket is almost Poisson, with the momenta {}.",
+            constraint.forms.join(", "),
+            basis.collect::<Vec<_>>().join(", ")
+        ));
+    }
     if let Some(configuration) = &model.configuration {
         docs.push(format!("Coordinates: {}.", configuration.description()));
     }

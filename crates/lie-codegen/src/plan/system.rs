@@ -17,6 +17,8 @@ pub struct System {
     pub hamiltonian_degree: Option<u32>,
     /// The largest total degree of an entry of the Poisson matrix that is not linear, if all are polynomials.
     pub poisson_degree: Option<u32>,
+    /// Whether the Jacobi identity is not asked of the Poisson matrix.
+    pub almost_poisson: bool,
     /// Where the time is among the coordinates, if H depends on it.
     pub clock: Option<Clock>,
     /// Whether H does not depend on the time.
@@ -183,6 +185,7 @@ impl Planner<'_> {
                 .bracket
                 .matrix()
                 .and_then(|matrix| matrix.degree),
+            almost_poisson: self.structure.constraint.is_some(),
             clock: self.source.clock(),
             autonomous: self.is_autonomous(),
             joints,

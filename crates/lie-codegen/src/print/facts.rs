@@ -17,6 +17,7 @@ impl Printer<'_> {
         let of_matrix = degree("poisson_degree", plan.poisson_degree);
         let casimirs = self.facts_of_casimirs();
         let driven = [
+            ("is_almost_poisson", plan.almost_poisson),
             ("is_forced", plan.forced),
             ("is_damped", plan.damped),
             ("is_metriplectic", plan.entropy.is_some()),

@@ -136,7 +136,8 @@ fn complete(model: &Model, field: &Field, work: u64, graph: &mut Graph) -> (Vec<
     if declared.len() >= count {
         return (declared.clone(), Search::Complete);
     }
-    let found = casimirs::find(&field.constants, count, field.with_unit, work);
+    let jacobi = !model.is_almost_poisson();
+    let found = casimirs::find(&field.constants, count, (field.with_unit, jacobi), work);
     let exact = field.constants.try_map(Fraction::as_constant).is_some();
     let mut end = match found.complete {
         true if found.casimirs.len() == count || (exact && !field.with_unit) => Search::Complete,

@@ -64,6 +64,10 @@ pub fn refusal(structure: &Structure, chart: Chart) -> Option<(String, String)> 
                 "the group elements of the sites of a family are not followed".into(),
                 "leave the option out".into(),
             ),
+            _ if structure.is_almost_poisson() => (
+                "steps on the bracket that a constraint leaves have no group element beside them".into(),
+                "declare `group`, which makes the group element part of the state".into(),
+            ),
             Bracket::Lie(algebra) if algebra.group_representation().is_none() => (
                 "the algebra declares no `matrices`".into(),
                 "declare the matrix of each basis element: the group element is a matrix of their size".into(),

@@ -146,6 +146,9 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
     fn tosses_coin(&self) -> bool {
         self.family.is_none() && self.values.compiled.plan.system.noises > 1
     }
+    fn is_almost_poisson(&self) -> bool {
+        self.values.compiled.plan.system.almost_poisson
+    }
     fn is_forced(&self) -> bool {
         by_family!(self.is_forced());
         self.values.compiled.plan.system.forced

@@ -1,5 +1,6 @@
 //! What a declaration is, and what can be done with it: the facts behind `lie check`.
 
+mod constraint;
 pub mod joints;
 pub mod motions;
 mod recorded;
@@ -105,6 +106,7 @@ impl Report {
         });
         if let Some(report) = report.as_object_mut() {
             recorded::add(model, report);
+            constraint::add(model, report);
             let attitude = model.display_attitude();
             report.extend(attitude.map(|text| ("attitude".to_owned(), text.into())));
             let cocycle = model.cocycle_in_words();

@@ -60,6 +60,12 @@ impl Planner<'_> {
 
     fn of_file(&mut self, values: &[f64], place: &Place, parameters: &[f64]) -> Option<Vec<f64>> {
         let model = &self.spec.model;
+        if let Some(wrong) = model.violation(values, parameters) {
+            let message = Message::new(Kind::Constraint, wrong.message);
+            let message = message.at_place(place.clone());
+            self.mistakes.push(message.help(wrong.help));
+            return None;
+        }
         let (wanted, state) = match &model.family {
             Some(family) => {
                 let [rows, columns] = family.sites(parameters).unwrap_or([1, 1]);
@@ -245,7 +251,14 @@ impl Planner<'_> {
             });
             let values: Vec<Option<f64>> = values.collect();
             let values: Option<Vec<f64>> = values.into_iter().collect();
-            model.complete_state(&values?, parameters)?
+            let values = values?;
+            if let Some(wrong) = model.violation(&values, parameters) {
+                let mut message = parts[wrong.coordinate].wrong(wrong.message);
+                message.kind = Kind::Constraint;
+                self.mistakes.push(message.help(wrong.help));
+                return None;
+            }
+            model.complete_state(&values, parameters)?
         } else if let Some(values) = model.initial_values(parameters) {
             values
         } else {

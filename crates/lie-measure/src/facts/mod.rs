@@ -181,6 +181,9 @@ fn orbit<P: Lift<f64>>(system: &P, ground: &Ground<P>, method: &dyn AnyMethod<f6
     if system.is_forced() {
         return Finding::absent("orbit", "forces act");
     }
+    if system.is_almost_poisson() {
+        return Finding::absent("orbit", "no leaves: the bracket is almost Poisson");
+    }
     let claimed = method.claims().preserves.on(system).orbit;
     let Some(orbit_distance) = ground.orbit else {
         return match claimed {
@@ -210,6 +213,9 @@ fn poisson<P: Lift<f64>>(
 ) -> Finding {
     if lifted.is_forced() || lifted.is_damped() {
         return Finding::absent("Poisson", "the flow is no Poisson map");
+    }
+    if lifted.is_almost_poisson() {
+        return Finding::absent("Poisson", "the bracket is almost Poisson");
     }
     let kept = method.claims().preserves;
     let constant = lifted.poisson_degree() == Some(0);

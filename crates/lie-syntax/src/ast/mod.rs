@@ -5,6 +5,7 @@
 //! families of systems need both, so they are in the tree from the start.
 
 mod attitude;
+mod constraint;
 mod driving;
 mod family;
 pub mod names;
@@ -17,6 +18,7 @@ use lie_symbolic::exact::Rational;
 use lie_symbolic::symbolic::Opaque;
 
 pub use attitude::{Attitude, AttitudeForm};
+pub use constraint::Constraint;
 pub use driving::{Dissipation, DissipationKind, Input, Metric, Noise};
 pub use family::{BONDS, Family, Index, SiteData, SiteValues, Size, Start};
 pub use recorded::{Event, Observable};
@@ -285,6 +287,8 @@ pub struct Declaration {
     pub noise: Vec<Noise>,
     /// What is set from outside.
     pub inputs: Vec<Input>,
+    /// Linear equations that the velocity satisfies.
+    pub constraint: Vec<Constraint>,
     /// A realization, for collective methods.
     pub realization: Option<Realization>,
     /// Declared Casimirs.

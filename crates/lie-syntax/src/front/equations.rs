@@ -1,6 +1,9 @@
 //! The sign between a name and its value: what stands for it elsewhere, and equations where none belong.
 
+use super::item;
+use super::names::Names;
 use super::token::{Cursor, Delimiter, Token, TokenKind, render, span};
+use crate::ast::Constraint;
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 
 /// What other languages write for `=`, the longer ones first.
@@ -53,6 +56,45 @@ pub fn one_side(tokens: &[Token], what: &str, report: &mut Report) -> bool {
     let message = format!("{what} is a function, not an equation");
     report.push(Diagnostic::new(Kind::Syntax, place, message).help(help));
     false
+}
+
+/// `form = value`, an equation between components of the velocity.
+pub fn constraint(
+    tokens: &[Token],
+    whole: Origin,
+    names: &Names,
+    report: &mut Report,
+) -> Option<Constraint> {
+    let origin = span(tokens).unwrap_or(whole);
+    let mut cursor = Cursor::new(tokens);
+    let left = cursor.take_until(|c| c.peek().is_some_and(begins_sign));
+    let Some(equals) = sign(&mut cursor, report) else {
+        let message = match tokens {
+            [] => "a constraint is missing".to_owned(),
+            tokens => format!("`{}` is no equation", render(tokens)),
+        };
+        let help = "write a linear form that is zero, such as `e3 = 0` or `e1 - 2*e2 = 0`";
+        report.push(Diagnostic::new(Kind::Syntax, origin, message).help(help));
+        return None;
+    };
+    let right = cursor.rest();
+    if let Some(second) = right.iter().find(|token| begins_sign(token)) {
+        let message = "a second equation after the first";
+        let help = match second.origin {
+            Origin::Text { .. } => "write one string for each equation",
+            _ => "end each equation with `;`",
+        };
+        report.push(Diagnostic::new(Kind::Syntax, second.origin, message).help(help));
+        return None;
+    }
+    let example = ("a side of the constraint", "e1 - 2*e2 (or 0)");
+    let left = item::formula(left, example, equals, names, report);
+    let right = item::formula(right, example, equals, names, report);
+    Some(Constraint {
+        left: left?,
+        right: right?,
+        origin,
+    })
 }
 
 /// `[e1, e2] = e3, [e2, e3] = e1` in one string or statement, behind the first `=`.

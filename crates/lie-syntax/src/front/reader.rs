@@ -13,13 +13,14 @@ use crate::ast::{
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 
 /// What belongs to an algebra, and stands beside no `poisson`.
-const OF_ALGEBRA: [&str; 6] = [
+const OF_ALGEBRA: [&str; 7] = [
     "lagrangian",
     "discrete_lagrangian",
     "invariance",
     "group",
     "attitude",
     "realization",
+    "constraint",
 ];
 
 /// Reads what is left when the names of the system, its state and its parameters are known: the body.
@@ -113,6 +114,11 @@ fn remainder<E: Entries>(
     let noise = entries.noise(report).into_iter();
     let noise = noise.filter_map(|noisy| noisy.noise(state, &names, report));
     let noise = noise.collect();
+    let constraint = entries.lines("constraint", report);
+    let constraint = constraint.iter();
+    let constraint = constraint
+        .filter_map(|line| equations::constraint(&line.tokens, line.place, &names, report));
+    let constraint = constraint.collect();
     let realization = entries.place("realization");
     let realization = realization.map(|_| entries.realization(&constants, report));
     let casimirs = entries.lines("casimirs", report);
@@ -164,6 +170,7 @@ fn remainder<E: Entries>(
         dissipation,
         noise,
         inputs,
+        constraint,
         realization: without_mistake(realization)?,
         casimirs,
         integrals,

@@ -91,6 +91,10 @@ objects! {
         "noise" noise: Option<Vec<Noise>>,
         /// What is set from outside while a run goes on, by name.
         "inputs" inputs: Option<BTreeMap<String, Input>>,
+        /// Beside the algebra: linear equations between the components of the velocity, such as `e3 = 0`, in the names of
+        /// `velocity` or else of the basis, where they are read as coordinates of grad H. The motion is that of the reduced
+        /// almost-Poisson bracket.
+        "constraint" constraint: Option<Vec<String>>,
         /// A realization of the bracket in canonical coordinates, for collective methods.
         "realization" realization: Option<Realization>,
         /// Casimirs, `NAME = expression` or an expression; each is verified exactly.
@@ -346,7 +350,8 @@ pub fn schema() -> Value {
     ]);
     schema["$defs"]["Algebra"]["anyOf"] =
         serde_json::json!([{ "required": ["basis"] }, { "required": ["named"] }]);
-    schema["dependentRequired"] = serde_json::json!({ "cocycle": ["algebra"] });
+    schema["dependentRequired"] =
+        serde_json::json!({ "cocycle": ["algebra"], "constraint": ["algebra"] });
     schema
 }
 

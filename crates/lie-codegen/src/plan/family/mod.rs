@@ -356,6 +356,7 @@ impl Planner<'_> {
             system: System {
                 hamiltonian_degree: family.degree,
                 poisson_degree: None,
+                almost_poisson: false,
                 autonomous: family.time_slope.is_none(),
                 clock: None,
                 joints: 0,

@@ -27,6 +27,8 @@ pub struct Search<'a> {
     constants: &'a StructureConstants<Fraction>,
     budget: &'a Budget,
     grading: Option<(Grading, Signs)>,
+    /// Whether the constants are those of an algebra.
+    jacobi: bool,
     /// Basis elements that generate the algebra.
     generators: Vec<usize>,
     /// The operators of these elements over the rationals, where no parameter occurs.
@@ -48,10 +50,10 @@ pub fn drawn(index: usize) -> u64 {
 }
 
 impl<'a> Search<'a> {
-    /// A search in an algebra; `None` where a constant has a pole at the point that is looked at.
+    /// A search in an algebra, with a unit or without, or where its constants satisfy no Jacobi identity; `None` where a constant has a pole at the point that is looked at.
     pub fn new(
         constants: &'a StructureConstants<Fraction>,
-        with_unit: bool,
+        (with_unit, jacobi): (bool, bool),
         budget: &'a Budget,
     ) -> Result<Option<Self>, Exhausted> {
         let n = constants.dimension();
@@ -64,7 +66,11 @@ impl<'a> Search<'a> {
         budget.spend(8 * constants.entries().len() as u64)?;
         let table = operators::operators(constants, &all, at_point, |v| field.negative(v));
         let Some(table) = table else { return Ok(None) };
-        let generators = operators::generators(&field, &table)?;
+        // what generators annihilate all others do by the Jacobi identity
+        let generators = match jacobi {
+            true => operators::generators(&field, &table)?,
+            false => all,
+        };
         let rational = operators::operators(constants, &generators, Fraction::as_constant, |v| -v);
         let unit = with_unit.then(|| n - 1);
         let mut gradients = Echelon::new(n);
@@ -76,7 +82,11 @@ impl<'a> Search<'a> {
         Ok(Some(Self {
             constants,
             budget,
-            grading: graded(constants, &table, &field)?,
+            grading: match jacobi {
+                true => graded(constants, &table, &field)?,
+                false => None,
+            },
+            jacobi,
             generators,
             rational,
             point: (0..n).map(drawn).collect(),
@@ -111,7 +121,12 @@ impl<'a> Search<'a> {
     pub fn trace(&mut self, wanted: usize) -> Result<bool, Exhausted> {
         let n = self.constants.dimension();
         let affordable = PRIMES.len() as u64 * traces::cost(n) < self.budget.left();
-        if n < LARGE || !affordable || self.rational.is_none() || self.unit.is_some() {
+        if n < LARGE
+            || !self.jacobi
+            || !affordable
+            || self.rational.is_none()
+            || self.unit.is_some()
+        {
             return Ok(false);
         }
         let elimination = |class: Vec<Word>| (class.len() as u64).pow(3) / 4;

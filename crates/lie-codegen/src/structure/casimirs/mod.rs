@@ -83,11 +83,14 @@ pub struct Found {
 /// Looks for as many independent Casimirs as there are: the dimension less the generic rank. Where the last basis element
 /// is the unit of a bracket with constant terms, it is central, set to one and not counted.
 ///
+/// Without `jacobi` the constants are those of an almost-Poisson bracket, of which no Jacobi identity is asked: kernel functions are
+/// the polynomials that every operator annihilates, and nothing else is concluded of them.
+///
 /// An algebra that is a sum of ideals spanned by basis elements is taken apart, and equal ideals are searched once.
 pub fn find(
     constants: &StructureConstants<Fraction>,
     wanted: usize,
-    with_unit: bool,
+    (with_unit, jacobi): (bool, bool),
     work: u64,
 ) -> Found {
     let mut sum = Found {
@@ -105,7 +108,7 @@ pub fn find(
         let found = match kinds.iter().find(|(kind, _)| *kind == block) {
             Some((_, found)) => found,
             None => {
-                let found = of_ideal(&block, with_unit, &budgets);
+                let found = of_ideal(&block, (with_unit, jacobi), &budgets);
                 kinds.push((block, found));
                 &kinds[kinds.len() - 1].1
             }
@@ -136,7 +139,7 @@ pub fn find(
 /// What is found in an ideal, with budgets for polynomials and for rational functions.
 fn of_ideal(
     constants: &StructureConstants<Fraction>,
-    with_unit: bool,
+    (with_unit, jacobi): (bool, bool),
     [polynomial, rational]: &[Budget; 2],
 ) -> Found {
     let n = constants.dimension();
@@ -152,14 +155,14 @@ fn of_ideal(
         found.complete = false;
         return found;
     }
-    let mut search = match Search::new(constants, with_unit, polynomial) {
+    let mut search = match Search::new(constants, (with_unit, jacobi), polynomial) {
         Ok(Some(search)) => search,
         _ => return Found::default(),
     };
     found.complete = polynomials(&mut search, wanted).is_ok();
     let missing = wanted - search.count();
     let added = match missing {
-        1.. if !with_unit => quotients::add(&mut search, constants, missing, rational),
+        1.. if !with_unit && jacobi => quotients::add(&mut search, constants, missing, rational),
         _ => Ok(Vec::new()),
     };
     found
@@ -182,7 +185,7 @@ pub fn invariants(
     degree: usize,
     budget: &Budget,
 ) -> Result<Vec<Polynomial>, Exhausted> {
-    let search = Search::new(constants, false, budget)?;
+    let search = Search::new(constants, (false, true), budget)?;
     search.ok_or(Exhausted)?.space(degree)
 }
 

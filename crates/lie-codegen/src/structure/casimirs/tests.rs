@@ -6,7 +6,8 @@ use crate::algebra::rank;
 
 fn search(constants: &StructureConstants<Fraction>, work: u64) -> Found {
     let n = constants.dimension();
-    find(constants, n - rank::generic_rank(constants, n), false, work)
+    let wanted = n - rank::generic_rank(constants, n);
+    find(constants, wanted, (false, true), work)
 }
 
 fn degrees(found: &Found) -> Vec<u32> {
@@ -98,7 +99,7 @@ fn parts_keep_their_parameters_and_a_unit_is_of_all() {
         (1, 3, 6, one),
     ];
     let constants = StructureConstants::new(7, entries);
-    let found = find(&constants, 2, true, WORK);
+    let found = find(&constants, 2, (true, true), WORK);
     assert_eq!(shown(&found), ["x4", "x0^2*x7 + x2^2 + x5^2"]);
 }
 

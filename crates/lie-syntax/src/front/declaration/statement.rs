@@ -27,6 +27,7 @@ const KEYWORDS: &[(&str, Follows)] = &[
     ("dissipation", Follows::Block),
     ("noise", Follows::Block),
     ("inputs", Follows::Block),
+    ("constraint", Follows::Block),
     ("realization", Follows::Block),
     ("casimir", Follows::Name),
     ("integrals", Follows::Block),

@@ -1,0 +1,68 @@
+//! The names of what a constraint leaves.
+
+use super::forms::Distribution;
+use crate::check::casimirs;
+use lie_symbolic::exact::Fraction;
+use lie_syntax::ast::{Declaration, Name};
+
+/// The names of the reduced coordinates: that of the declared coordinate where the element of D is one of the basis, and else that
+/// name with `_D`, for the momentum of the same velocity on D.
+pub fn reduced(declaration: &Declaration, distribution: &Distribution) -> Vec<Name> {
+    let mut taken = casimirs::taken(declaration);
+    taken.extend(declaration.energy.velocity().iter().map(|n| n.text.clone()));
+    let name = |(place, index): (usize, &usize)| {
+        let declared = &declaration.state[*index];
+        let mut ratios = distribution.ratios.iter();
+        if ratios.all(|row| row[place].is_zero()) {
+            return declared.clone();
+        }
+        let mut text = format!("{}_D", declared.text);
+        while taken.contains(&text) {
+            text.push('_');
+        }
+        Name {
+            text,
+            origin: declared.origin,
+        }
+    };
+    distribution.free.iter().enumerate().map(name).collect()
+}
+
+/// The reduced equations as text: `e3 = 0`, `e1 + 2*e2 = 0`.
+pub fn forms(declaration: &Declaration, distribution: &Distribution) -> Vec<String> {
+    let components = components(declaration);
+    let parameter = |p: usize| declaration.parameters[p].name.text.clone();
+    let equations = distribution.pivots.iter().zip(&distribution.ratios);
+    let text = |(pivot, row): (&usize, &Vec<Fraction>)| {
+        let mut text = components[*pivot].clone();
+        for (index, ratio) in distribution.free.iter().zip(row) {
+            if ratio.is_zero() {
+                continue;
+            }
+            let name = &components[*index];
+            let constant = ratio.as_constant();
+            let negative = constant.as_ref().is_some_and(|c| c.is_negative());
+            let size = if negative { ratio.neg() } else { ratio.clone() };
+            let sign = if negative { "-" } else { "+" };
+            let shown = size.display(&parameter);
+            let factor = match size.as_constant() {
+                Some(one) if one.is_one() => name.clone(),
+                Some(_) => format!("{shown}*{name}"),
+                None if shown.contains([' ', '+', '-', '/']) => format!("({shown})*{name}"),
+                None => format!("{shown}*{name}"),
+            };
+            text = format!("{text} {sign} {factor}");
+        }
+        text + " = 0"
+    };
+    equations.map(text).collect()
+}
+
+/// The names of the components of the velocity: its own, or those of the basis.
+pub fn components(declaration: &Declaration) -> Vec<String> {
+    let names = match declaration.energy.velocity() {
+        [] => declaration.basis(),
+        velocity => velocity,
+    };
+    names.iter().map(|name| name.text.clone()).collect()
+}
