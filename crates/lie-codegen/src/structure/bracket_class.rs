@@ -76,7 +76,8 @@ pub fn class(model: &Model) -> Option<Class> {
     let Bracket::General(matrix) = &model.bracket else {
         return None;
     };
-    if model.configuration.is_some() || model.family.is_some() || model.realization.is_some() {
+    let others = model.family.is_some() || model.realization.is_some();
+    if others || model.configuration.is_some() || model.constraint.is_some() {
         return None;
     }
     let mut graph = model.graph.clone();

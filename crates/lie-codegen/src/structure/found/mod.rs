@@ -197,7 +197,8 @@ fn ways(
     declared: Option<&[separable::Piece]>,
     graph: &mut Graph,
 ) -> Option<Vec<Found>> {
-    if model.family.is_some() {
+    // what a constraint leaves is no Poisson bracket
+    if model.family.is_some() || model.constraint.is_some() {
         return None;
     }
     let algebra = match &model.bracket {
