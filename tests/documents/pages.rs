@@ -262,9 +262,10 @@ fn no_arrow_between_crates_points_back() {
         ),
         (
             ".",
-            "lie-codegen lie-core lie-dynamic lie-in-process lie-measure lie-plot lie-program lie-runtime lie-symbolic \
-             lie-syntax",
+            "lie-codegen lie-core lie-dynamic lie-equilibria lie-in-process lie-measure lie-plot lie-program lie-runtime \
+             lie-symbolic lie-syntax",
         ),
+        ("crates/lie-equilibria", "lie-symbolic"),
         ("crates/lie-plot", ""),
     ] {
         let found = dependencies(&format!("{package}/Cargo.toml"));

@@ -1,0 +1,162 @@
+//! Equilibria that are proven to be there.
+//!
+//! A solution whose coordinates are rational is recognised by continued fractions and inserted into the equations, exactly.
+//! Of any other isolated one a box around the approximation is shown to contain exactly one solution: with an approximate
+//! inverse Y of the derivative, `K = y - Y F(y) + (1 - Y F'(X)) (X - y)` lies in the interior of the box X (Krawczyk 1969,
+//! doi:10.1007/BF02234767). The computations are those of balls of 256 bits.
+
+use lie_symbolic::exact::{Ball, Rational};
+
+use crate::arithmetic::{Arithmetic as _, Balls, Rationals};
+use crate::dense::{norm, solve};
+use crate::system::{Equations, Shape};
+use crate::tape::Tape;
+
+/// Denominators of rational solutions.
+const DENOMINATOR: f64 = 1e6;
+/// A box reaches so many binary digits below the solution.
+const WIDTH: i64 = 90;
+/// Steps of refinement: each has 15 more digits.
+const REFINEMENTS: usize = 4;
+
+/// What proofs compute with.
+pub struct Prover<'a> {
+    equations: &'a Equations,
+    rational: Option<[Tape<Rationals>; 2]>,
+    balls: Option<[Tape<Balls>; 2]>,
+}
+
+/// A solution that is there.
+pub enum Proven {
+    /// With rational coordinates and multipliers.
+    Rational(Vec<Rational>, Shape<Rational>),
+    /// The one in a box, with what linearises the motion in all of it.
+    Enclosed(Box<(Balls, Shape<Ball>)>),
+}
+
+impl<'a> Prover<'a> {
+    /// For the equations of a system.
+    pub fn new(equations: &'a Equations) -> Self {
+        Self {
+            equations,
+            rational: equations.rational(),
+            balls: equations.balls(),
+        }
+    }
+
+    /// Proves that there is a solution near y at exact values of the parameters.
+    pub fn prove(&self, y: &[f64], parameters: &[Rational]) -> Option<Proven> {
+        self.rational(y, parameters)
+            .or_else(|| self.enclosed(y, parameters))
+    }
+
+    fn rational(&self, y: &[f64], parameters: &[Rational]) -> Option<Proven> {
+        let [first, second] = self.rational.as_ref()?;
+        let size = norm(y);
+        let exact: Option<Vec<Rational>> = y.iter().map(|y| fraction(*y, size)).collect();
+        let exact = exact?;
+        let inputs = [exact.as_slice(), parameters].concat();
+        let linear = self.equations.sizes.linear(first.evaluate(&inputs)?);
+        if !linear.residual.iter().all(Rational::is_zero) {
+            return None;
+        }
+        let shape = self.equations.sizes.shape(second.evaluate(&inputs)?);
+        Some(Proven::Rational(exact, shape))
+    }
+
+    fn enclosed(&self, y: &[f64], parameters: &[Rational]) -> Option<Proven> {
+        let [first, second] = self.balls.as_ref()?;
+        let balls = first.arithmetic();
+        let (n, sizes) = (y.len(), self.equations.sizes);
+        let given: Vec<Ball> = parameters.iter().map(|p| balls.rational(p)).collect();
+        let at = |y: &[Ball]| Some(sizes.linear(first.evaluate(&[y, &given].concat())?));
+        let exact: Option<Vec<Rational>> = y.iter().map(|y| Rational::from_f64(*y)).collect();
+        let mut exact = exact?;
+        let slope: Vec<f64> = {
+            let middle: Vec<Ball> = exact.iter().map(|y| balls.rational(y)).collect();
+            at(&middle)?.slope.iter().map(Ball::to_f64).collect()
+        };
+        for _ in 0..REFINEMENTS {
+            let middle: Vec<Ball> = exact.iter().map(|y| balls.rational(y)).collect();
+            let residual = at(&middle)?.residual.iter().map(Ball::to_f64).collect();
+            let step = solve(slope.clone(), residual, |x: &f64| x.abs())?;
+            for (y, d) in exact.iter_mut().zip(step) {
+                *y = &*y - &Rational::from_f64(d)?;
+            }
+        }
+        let middle: Vec<Ball> = exact.iter().map(|y| balls.rational(y)).collect();
+        let size = match norm(y) {
+            0.0 => 1.0,
+            size => size,
+        };
+        let reach = size.log2().ceil() as i64 - WIDTH;
+        let zero = balls.around_zero(reach);
+        let whole: Vec<Ball> = middle.iter().map(|y| balls.add(y, &zero)).collect();
+        let (residual, derivative) = (at(&middle)?.residual, at(&whole)?.slope);
+        let inverse = inverse(&slope, n, balls)?;
+        for (own, row) in inverse.chunks(n).enumerate() {
+            let mut moved = balls.rational(&Rational::ZERO);
+            for (y, f) in row.iter().zip(&residual) {
+                moved = balls.sub(&moved, &balls.mul(y, f));
+            }
+            for j in 0..n {
+                let mut entry = balls.rational(&Rational::from(i64::from(own == j)));
+                for (y, slopes) in row.iter().zip(derivative.chunks(n)) {
+                    entry = balls.sub(&entry, &balls.mul(y, &slopes[j]));
+                }
+                moved = balls.add(&moved, &balls.mul(&entry, &zero));
+            }
+            // less than the box in every coordinate
+            if moved.magnitude() > reach {
+                return None;
+            }
+        }
+        let shape = sizes.shape(second.evaluate(&[whole.as_slice(), &given].concat())?);
+        Some(Proven::Enclosed(Box::new((balls.clone(), shape))))
+    }
+}
+
+/// An approximate inverse, as numbers that are what they are.
+fn inverse(slope: &[f64], n: usize, balls: &Balls) -> Option<Vec<Ball>> {
+    let mut columns = Vec::new();
+    for j in 0..n {
+        let unit = (0..n).map(|i| f64::from(u8::from(i == j))).collect();
+        columns.push(solve(slope.to_vec(), unit, |x: &f64| x.abs())?);
+    }
+    let entries = (0..n).flat_map(|i| columns.iter().map(move |column| column[i]));
+    entries
+        .map(|x| Some(balls.rational(&Rational::from_f64(x)?)))
+        .collect()
+}
+
+/// The fraction with the smallest denominator near a number, if it is small.
+fn fraction(value: f64, size: f64) -> Option<Rational> {
+    let near = 1e-13 * size.max(f64::MIN_POSITIVE);
+    let (mut rest, mut last, mut now) = (value, (0.0, 1.0), (1.0, 0.0));
+    for _ in 0..40 {
+        let whole = rest.floor();
+        (last, now) = (now, (whole * now.0 + last.0, whole * now.1 + last.1));
+        if now.1 > DENOMINATOR || now.0.abs() > 1e15 {
+            return None;
+        }
+        if (now.0 / now.1 - value).abs() <= near {
+            return Rational::new(now.0 as i64, now.1 as i64);
+        }
+        rest = 1.0 / (rest - whole);
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fractions_are_recognised() {
+        let of = |n: i64, d: i64| fraction(n as f64 / d as f64, 1.0);
+        assert_eq!(of(355, 113), Rational::new(355, 113));
+        assert_eq!(of(-2, 7), Rational::new(-2, 7));
+        assert_eq!(fraction(3e-17, 1.0), Some(Rational::ZERO));
+        assert_eq!(fraction(2.0_f64.sqrt(), 1.0), None);
+    }
+}

@@ -1,0 +1,116 @@
+//! Relative equilibria of Poisson systems `x' = Pi(x) grad H(x)` on a symplectic leaf: where they are, how they linearise, whether they
+//! are stable, and how they go on in a parameter.
+//!
+//! On the leaf `C_k(x) = c_k` of independent Casimirs C_k the motion stands still where H is stationary,
+//! `grad H(x) = sum_k lambda_k grad C_k(x)` (the energy–Casimir principle). That is a square system in `(x, lambda)`, which is
+//!
+//! - searched from many starts, and, where it is polynomial and small, solved by paths in the complex plane ([`Found`]);
+//! - proven to have a solution, in rational numbers or in a box of balls ([`exact`]);
+//! - linearised on the leaf, with a proof of what the spectrum and the Hessian say ([`stability`], [`proof`]);
+//! - followed in a parameter through folds, with the changes of stability refined ([`Branch`]).
+//!
+//! A [`System`] is given by its expressions: one formula is evaluated in double precision, over the complex numbers, in rational numbers
+//! and in balls.
+
+#![forbid(unsafe_code)]
+#![warn(missing_docs)]
+
+mod arithmetic;
+mod branch;
+mod curve;
+mod dense;
+mod discriminant;
+mod eigenvalues;
+pub mod exact;
+mod follower;
+mod homotopy;
+mod integrals;
+mod newton;
+pub mod proof;
+mod random;
+mod search;
+pub mod stability;
+mod system;
+mod tape;
+
+pub use branch::{Branch, Change, ChangeKind, Point, Traced, trace};
+pub use homotopy::Paths;
+pub use newton::At;
+pub use num_complex::Complex64 as c64;
+pub use search::{Candidate, Found};
+pub use stability::{Judgement, Linearisation, Reason, Stability};
+pub use system::{Equations, Named, Shape, Sizes, System, shortest};
+
+use exact::{Proven, Prover};
+use lie_symbolic::exact::Rational;
+
+/// What is known of an equilibrium being there.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Presence {
+    /// It has these coordinates, which solve the equations exactly.
+    Rational(Vec<Rational>),
+    /// There is exactly one in a box around the coordinates.
+    Enclosed,
+    /// Numbers say so.
+    Numerical,
+}
+
+/// A relative equilibrium, or a member of a family of them.
+#[derive(Clone, Debug)]
+pub struct Equilibrium {
+    /// The n coordinates.
+    pub state: Vec<f64>,
+    /// The multipliers lambda of the Casimirs.
+    pub multipliers: Vec<f64>,
+    /// H.
+    pub energy: f64,
+    /// The dimension of the family, 0 where it is isolated.
+    pub family: usize,
+    /// Whether the linearisation has a kernel along which no equilibria go on.
+    pub degenerate: bool,
+    /// How often the search found it.
+    pub hits: usize,
+    /// Whether it is proven to be there.
+    pub presence: Presence,
+    /// The linearisation.
+    pub linearisation: Linearisation,
+    /// Its stability.
+    pub judgement: Judgement,
+}
+
+impl Equilibrium {
+    /// What is known of a solution at values of the parameters, and at the exact ones that they stand for.
+    pub fn new(
+        prover: &Prover<'_>,
+        at: At<'_>,
+        exact: &[Rational],
+        candidate: &Candidate,
+    ) -> Option<Self> {
+        let equations = at.equations;
+        let shape = equations.shape(&candidate.y, at.parameters)?;
+        let linearisation = Linearisation::new(equations.sizes, &shape)?;
+        let mut judgement = linearisation.judge(equations, &shape, candidate.dimension);
+        let mut presence = Presence::Numerical;
+        if let Some(proof) = prover.prove(&candidate.y, exact) {
+            judgement = stability::proven(equations, &proof, judgement, candidate.dimension);
+            presence = match proof {
+                Proven::Rational(state, _) => {
+                    Presence::Rational(state[..equations.sizes.n].to_vec())
+                }
+                Proven::Enclosed(_) => Presence::Enclosed,
+            };
+        }
+        let (state, multipliers) = candidate.y.split_at(equations.sizes.n);
+        Some(Self {
+            state: state.to_vec(),
+            multipliers: multipliers.to_vec(),
+            energy: candidate.energy,
+            family: candidate.dimension,
+            degenerate: candidate.degenerate,
+            hits: candidate.hits,
+            presence,
+            linearisation,
+            judgement,
+        })
+    }
+}

@@ -1,0 +1,176 @@
+//! Newton's iteration for equations whose solutions need not be isolated.
+//!
+//! The unknown is `y = (x, lambda)`. Far from a solution each step is one of Levenberg and Marquardt,
+//! `(J^T J + mu^2) d = -J^T F` with `mu` proportional to `|F|`, which converges quadratically to manifolds of solutions too;
+//! near it the shortest step `d = -J^+ F`, which leaves where the solution lies on such a manifold alone.
+//!
+//! N. Yamashita and M. Fukushima (2001), On the rate of convergence of the Levenberg–Marquardt method,
+//! doi:10.1007/978-3-7091-6217-0_18.
+
+use crate::dense::{Singular, add, dot, norm, solve};
+use crate::system::Equations;
+
+/// A singular value below this part of the largest counts as zero at a solution.
+pub const RANK: f64 = 1e-7;
+/// Steps far from a solution.
+const MOST: usize = 80;
+/// Steps near it.
+const LAST: usize = 8;
+
+/// Equations at values of the parameters.
+#[derive(Clone, Copy)]
+pub struct At<'a> {
+    /// The equations.
+    pub equations: &'a Equations,
+    /// Values of the parameters.
+    pub parameters: &'a [f64],
+}
+
+impl At<'_> {
+    /// A solution near y; `None` where the iteration ends at none.
+    pub fn solve(self, y: &[f64]) -> Option<Vec<f64>> {
+        let near = self.approach(y)?;
+        self.polish(near)
+    }
+
+    /// Steps that make `|F|` smaller.
+    fn approach(self, y: &[f64]) -> Option<Vec<f64>> {
+        let n = self.equations.unknowns();
+        let (mut y, mut damping) = (y.to_vec(), 0.1);
+        let mut linear = self.equations.linear(&y, self.parameters)?;
+        for _ in 0..MOST {
+            let size = norm(&linear.residual);
+            if size <= 1e-10 * self.scale(&linear.slope, &y) {
+                return Some(y);
+            }
+            let (mut matrix, mut right) = (vec![0.0; n * n], vec![0.0; n]);
+            for (row, value) in linear.slope.chunks(n).zip(&linear.residual) {
+                for i in 0..n {
+                    right[i] -= row[i] * value;
+                    for j in 0..n {
+                        matrix[i * n + j] += row[i] * row[j];
+                    }
+                }
+            }
+            loop {
+                let mut damped = matrix.clone();
+                let more = (damping * size).powi(2) + 1e-15 * matrix[0].abs();
+                (0..n).for_each(|i| damped[i * n + i] += more);
+                let step = solve(damped, right.clone(), |x| x.abs());
+                let trial: Option<Vec<f64>> =
+                    step.map(|step| y.iter().zip(&step).map(|(y, d)| y + d).collect());
+                let at = trial
+                    .as_ref()
+                    .and_then(|trial| self.equations.linear(trial, self.parameters));
+                if let (Some(trial), Some(at)) = (trial, at)
+                    && norm(&at.residual) < (1.0 - 1e-4) * size
+                {
+                    (y, linear) = (trial, at);
+                    damping = (0.2 * damping).max(1e-4);
+                    break;
+                }
+                damping *= 5.0;
+                if damping > 1e9 {
+                    return None;
+                }
+            }
+        }
+        None
+    }
+
+    /// The shortest steps to round-off.
+    pub fn polish(self, mut y: Vec<f64>) -> Option<Vec<f64>> {
+        let n = self.equations.unknowns();
+        let mut best: Option<(f64, Vec<f64>)> = None;
+        for _ in 0..LAST {
+            let linear = self.equations.linear(&y, self.parameters)?;
+            let size = norm(&linear.residual);
+            if best.as_ref().is_some_and(|(least, _)| size >= *least) {
+                break;
+            }
+            let scale = self.scale(&linear.slope, &y);
+            best = Some((size, y.clone()));
+            if size == 0.0 {
+                break;
+            }
+            let singular = Singular::new(&linear.slope, n, n)?;
+            let step = singular.shortest(&linear.residual, singular.rank(RANK));
+            if norm(&step) > 1e-2 * (norm(&y) + f64::MIN_POSITIVE) && size > 1e-6 * scale {
+                return None;
+            }
+            add(&mut y, -1.0, &step);
+        }
+        let (size, y) = best?;
+        let linear = self.equations.linear(&y, self.parameters)?;
+        (size <= 1e-12 * self.scale(&linear.slope, &y)).then_some(y)
+    }
+
+    /// The size of the terms of F.
+    fn scale(self, slope: &[f64], y: &[f64]) -> f64 {
+        let n = self.equations.unknowns();
+        let rows = slope.chunks(n);
+        let sums = rows.map(|row| row.iter().zip(y).map(|(a, b)| (a * b).abs()).sum::<f64>());
+        sums.fold(f64::MIN_POSITIVE, f64::max)
+    }
+
+    /// An orthonormal basis of the directions in which solutions may go on.
+    pub fn kernel(self, y: &[f64]) -> Option<Vec<Vec<f64>>> {
+        let n = self.equations.unknowns();
+        let linear = self.equations.linear(y, self.parameters)?;
+        let singular = Singular::new(&linear.slope, n, n)?;
+        Some(singular.kernel(singular.rank(RANK)).to_vec())
+    }
+
+    /// The state on the leaf near x, with the multipliers that fit H best there.
+    pub fn on_leaf(self, x: &[f64]) -> Option<Vec<f64>> {
+        let (n, m) = (self.equations.sizes.n, self.equations.sizes.m);
+        let mut y = [x, &vec![0.0; m]].concat();
+        if m == 0 {
+            return Some(y);
+        }
+        for _ in 0..30 {
+            let linear = self.equations.linear(&y, self.parameters)?;
+            let gradients: Vec<f64> = linear.slope[n * (n + m)..]
+                .chunks(n + m)
+                .flat_map(|row| row[..n].to_vec())
+                .collect();
+            let singular = Singular::new(&gradients, m, n)?;
+            let rank = singular.rank(1e-10);
+            let step = singular.shortest(&linear.residual[n..], rank);
+            let done = norm(&step) <= 1e-9 * norm(&y[..n]);
+            add(&mut y[..n], -1.0, &step);
+            if done {
+                // grad H = sum lambda grad C by least squares: the transposed problem
+                let transposed: Vec<f64> = (0..n)
+                    .flat_map(|i| (0..m).map(move |k| (k, i)))
+                    .map(|(k, i)| gradients[k * n + i])
+                    .collect();
+                let fit = Singular::new(&transposed, n, m)?;
+                let lambda = fit.shortest(&linear.residual[..n], fit.rank(1e-10));
+                y[n..].copy_from_slice(&lambda);
+                return Some(y);
+            }
+        }
+        None
+    }
+
+    /// Whether the gradients of the Casimirs are independent at a state: whether the leaf is one of full dimension there.
+    pub fn is_regular(self, y: &[f64]) -> bool {
+        let (n, m) = (self.equations.sizes.n, self.equations.sizes.m);
+        if m == 0 {
+            return true;
+        }
+        let Some(linear) = self.equations.linear(y, self.parameters) else {
+            return false;
+        };
+        let gradients = linear.slope[n * (n + m)..].chunks(n + m);
+        // each in its own scale
+        let gradients: Vec<f64> = gradients
+            .flat_map(|row| {
+                let size = dot(&row[..n], &row[..n]).sqrt().max(f64::MIN_POSITIVE);
+                row[..n].iter().map(move |x| x / size).collect::<Vec<_>>()
+            })
+            .collect();
+        Singular::new(&gradients, m, n).is_some_and(|found| found.values[m - 1] > 1e-6)
+    }
+}

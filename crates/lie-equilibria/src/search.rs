@@ -1,0 +1,223 @@
+//! The search for all relative equilibria on a leaf.
+//!
+//! Newton's iteration starts from states of the leaf that are drawn by chance, the same in every run, and from those near the axes of
+//! the coordinates. What is found twice counts once. A solution whose linearisation has a kernel is tested: where solutions go on
+//! along the kernel it belongs to a family, of which one member is kept; two members belong to the same family where one
+//! is reached from the other along it.
+
+use crate::dense::{add, difference, dot, norm};
+use crate::homotopy::{self, Paths};
+use crate::newton::At;
+use crate::random::Random;
+
+/// States closer than this part of their size are one.
+const SAME: f64 = 1e-6;
+/// A step along a family, in parts of the state.
+const STRIDE: f64 = 0.1;
+/// Halvings of such a step.
+const HALVINGS: i32 = 6;
+/// Steps along a family before it is given up that it leads to another member.
+const STEPS: usize = 300;
+/// So many members of a family are told apart by walks; further ones with the same energy and multipliers count as members.
+const WALKS: usize = 12;
+
+/// A solution.
+#[derive(Clone, Debug)]
+pub struct Candidate {
+    /// State and multipliers.
+    pub y: Vec<f64>,
+    /// H.
+    pub energy: f64,
+    /// The dimension of the family that it belongs to, 0 where it is isolated.
+    pub dimension: usize,
+    /// Whether the linearisation has a kernel along which no solutions go on.
+    pub degenerate: bool,
+    /// How often it was found.
+    pub hits: usize,
+}
+
+/// What a search found.
+#[derive(Clone, Debug)]
+pub struct Found {
+    /// The solutions, by ascending energy.
+    pub candidates: Vec<Candidate>,
+    /// Starts.
+    pub starts: usize,
+    /// How many of them led to a solution on the leaf.
+    pub converged: usize,
+    /// What was followed in the complex plane.
+    pub paths: Option<Paths>,
+}
+
+impl At<'_> {
+    /// Looks for all solutions from so many starts, and by paths in the complex plane where they are few enough. `None` where the leaf
+    /// is not one: its values are not finite.
+    pub fn search(self, starts: usize, seed: u64, with_paths: bool) -> Option<Found> {
+        let (_, state) = self.equations.leaf(self.parameters)?;
+        let n = state.len();
+        let size = match norm(&state) {
+            0.0 => 1.0,
+            size => size,
+        };
+        let mut found = Found {
+            candidates: Vec::new(),
+            starts: 0,
+            converged: 0,
+            paths: None,
+        };
+        let mut random = Random::new(seed);
+        let axes = (0..2 * n).map(|k| {
+            let mut x = vec![1e-3 * size; n];
+            x[k / 2] = if k % 2 == 0 { size } else { -size };
+            x
+        });
+        let axes: Vec<Vec<f64>> = axes.collect();
+        let drawn = (0..starts).map(|_| {
+            let far = size * (2.0 * random.unit()).exp2();
+            let direction = random.direction(n);
+            direction.iter().map(|x| far * x).collect::<Vec<f64>>()
+        });
+        let all = std::iter::once(state)
+            .chain(axes)
+            .chain(drawn.collect::<Vec<_>>());
+        for x in all {
+            found.starts += 1;
+            let y = self.on_leaf(&x).and_then(|y| self.solve(&y));
+            if let Some(y) = y {
+                found.converged += usize::from(self.take(y, &mut found.candidates));
+            }
+        }
+        if with_paths && let Some((paths, ends)) = homotopy::ends(self, seed) {
+            found.paths = Some(paths);
+            for y in ends.iter().filter_map(|y| self.solve(y)) {
+                self.take(y, &mut found.candidates);
+            }
+        }
+        found
+            .candidates
+            .sort_by(|a, b| a.energy.total_cmp(&b.energy));
+        Some(found)
+    }
+
+    /// Adds a solution to those that are known, if it is a new one; whether it is one on the leaf.
+    pub fn take(self, y: Vec<f64>, known: &mut Vec<Candidate>) -> bool {
+        let n = self.equations.sizes.n;
+        if !self.is_regular(&y) {
+            return false;
+        }
+        let near = |other: &&mut Candidate| distance(&y[..n], &other.y[..n]) < SAME;
+        if let Some(other) = known.iter_mut().find(near) {
+            other.hits += 1;
+            return true;
+        }
+        let Some(candidate) = self.candidate(y) else {
+            return false;
+        };
+        if candidate.dimension > 0 {
+            let alike = |other: &&mut Candidate| {
+                other.dimension == candidate.dimension
+                    && close(other.energy, candidate.energy)
+                    && (other.hits > WALKS && distance(&other.y[n..], &candidate.y[n..]) < SAME
+                        || self.leads(&other.y, &candidate.y))
+            };
+            if let Some(other) = known.iter_mut().find(alike) {
+                other.hits += 1;
+                return true;
+            }
+        }
+        known.push(candidate);
+        true
+    }
+
+    /// What a solution is.
+    pub fn candidate(self, y: Vec<f64>) -> Option<Candidate> {
+        let energy = self.equations.shape(&y, self.parameters)?.energy;
+        let kernel = self.kernel(&y)?;
+        let goes_on = |direction: &Vec<f64>| self.goes_on(&y, direction, kernel.len());
+        let dimension = kernel.iter().filter(|direction| goes_on(direction)).count();
+        Some(Candidate {
+            energy,
+            dimension,
+            degenerate: dimension < kernel.len(),
+            hits: 1,
+            y,
+        })
+    }
+
+    /// Whether solutions with a kernel of this dimension go on along a direction of it.
+    fn goes_on(self, y: &[f64], direction: &[f64], dimension: usize) -> bool {
+        let stride = 0.1 * STRIDE * norm(y);
+        let mut other = y.to_vec();
+        add(&mut other, stride, direction);
+        let Some(other) = self.polish(other) else {
+            return false;
+        };
+        let moved = norm(&difference(&other, y));
+        let along = (0.5..2.0).contains(&(moved / stride));
+        along
+            && self
+                .kernel(&other)
+                .is_some_and(|kernel| kernel.len() == dimension)
+    }
+
+    /// Whether a family leads from one member to another.
+    pub fn leads(self, from: &[f64], to: &[f64]) -> bool {
+        let mut y = from.to_vec();
+        let mut random = Random::new(7);
+        let mut way: Option<Vec<f64>> = None;
+        for _ in 0..STEPS {
+            let rest = difference(to, &y);
+            if norm(&rest) < SAME * norm(to) {
+                return true;
+            }
+            let Some(kernel) = self.kernel(&y) else {
+                return false;
+            };
+            let project = |v: &[f64]| {
+                let mut part = vec![0.0; v.len()];
+                kernel.iter().for_each(|k| add(&mut part, dot(k, v), k));
+                part
+            };
+            let mut step = project(&rest);
+            // at the point that is nearest, or opposite: go on as before, or anywhere
+            if norm(&step) < 0.2 * norm(&rest) {
+                let before = way.clone().unwrap_or_else(|| random.direction(y.len()));
+                step = project(&before);
+            }
+            let length = norm(&step);
+            if length == 0.0 {
+                return false;
+            }
+            let stride = length.min(STRIDE * norm(&y)).min(norm(&rest));
+            let stride = if way.is_none() {
+                stride.max(1e-8)
+            } else {
+                stride
+            };
+            let before = y.clone();
+            // shorter where the family is more curved than it is large
+            let strides = (0..HALVINGS).map(|k| 0.5_f64.powi(k) * stride / length);
+            let next = strides.filter_map(|part| {
+                let mut next = before.clone();
+                add(&mut next, part, &step);
+                self.polish(next)
+            });
+            y = match next.into_iter().next() {
+                Some(next) => next,
+                None => return false,
+            };
+            way = Some(difference(&y, &before));
+        }
+        false
+    }
+}
+
+/// The distance of two vectors in parts of their size.
+pub fn distance(a: &[f64], b: &[f64]) -> f64 {
+    norm(&difference(a, b)) / norm(a).max(norm(b)).max(f64::MIN_POSITIVE)
+}
+
+/// Whether two numbers agree but for round-off.
+pub fn close(a: f64, b: f64) -> bool {
+    (a - b).abs() <= 1e-8 * a.abs().max(b.abs()).max(1e-4)
+}

@@ -1,0 +1,247 @@
+//! Equilibria on a leaf, their stability and their branches, against closed formulas.
+
+mod systems;
+
+use lie_equilibria::exact::Prover;
+use lie_equilibria::{
+    At, ChangeKind, Equations, Equilibrium, Presence, Reason, Stability, System, trace,
+};
+use lie_symbolic::exact::Rational;
+use systems::{lagrange_top, number, on_se3, quadratic, rigid_body};
+
+fn all(system: System, parameters: &[Rational]) -> (Vec<Equilibrium>, lie_equilibria::Found) {
+    let equations = Equations::new(system, None).expect("expressions");
+    let values: Vec<f64> = parameters.iter().map(Rational::to_f64).collect();
+    let at = At {
+        equations: &equations,
+        parameters: &values,
+    };
+    let found = at.search(100, 1, true).expect("a leaf");
+    let prover = Prover::new(&equations);
+    let known = found.candidates.iter();
+    let known = known.map(|one| Equilibrium::new(&prover, at, parameters, one).expect("finite"));
+    (known.collect(), found)
+}
+
+/// The axes: stable about the largest and the smallest moment, unstable about the middle one.
+#[test]
+fn rigid_body_turns_about_its_axes() {
+    let state = [number(1, 1), number(2, 1), number(2, 1)];
+    let (found, search) = all(rigid_body([1, 2, 3], state), &[]);
+    assert_eq!(found.len(), 6);
+    let paths = search.paths.expect("polynomials");
+    assert_eq!((paths.all, paths.real, paths.lost), (6, 6, 0));
+    for one in &found {
+        let axis = (0..3).max_by(|i, j| one.state[*i].abs().total_cmp(&one.state[*j].abs()));
+        let axis = axis.expect("three coordinates");
+        assert!(
+            (one.state[axis].abs() - 3.0).abs() < 1e-14,
+            "{:?}",
+            one.state
+        );
+        let stable = if axis == 1 {
+            Stability::Unstable
+        } else {
+            Stability::Stable
+        };
+        assert_eq!(one.judgement.stability, stable);
+        assert!(one.judgement.proven && matches!(one.presence, Presence::Rational(_)));
+        // about axis 2 the rate is |m| sqrt((I3 - I2)(I2 - I1)/(I1 I3))/I2
+        if axis == 1 {
+            let rate = 1.5 * (1.0_f64 / 3.0).sqrt();
+            assert!((one.linearisation.growth() - rate).abs() < 1e-13);
+        }
+    }
+    // no square roots: the same by a box
+    let state = [number(1, 1), number(1, 1), number(0, 1)];
+    let (found, _) = all(rigid_body([1, 2, 3], state), &[]);
+    assert!(
+        found.len() == 6
+            && found
+                .iter()
+                .all(|one| one.presence == Presence::Enclosed && one.judgement.proven)
+    );
+}
+
+/// A symmetric body: two axes, and an equator of equilibria, which is one family.
+#[test]
+fn a_symmetric_body_has_a_family() {
+    let state = [number(1, 3), number(1, 2), number(1, 1)];
+    let (found, search) = all(rigid_body([2, 2, 1], state), &[]);
+    let families: Vec<usize> = found.iter().map(|one| one.family).collect();
+    assert!(
+        families.len() == 3 && families.iter().sum::<usize>() == 1,
+        "{families:?}"
+    );
+    assert!(search.converged > 50, "{}", search.converged);
+    // a sphere: everything rests, a family of two dimensions
+    let state = [number(1, 3), number(1, 2), number(1, 1)];
+    let (found, _) = all(rigid_body([2, 2, 2], state), &[]);
+    assert_eq!(found.iter().map(|one| one.family).collect::<Vec<_>>(), [2]);
+}
+
+/// Staude's rotations of the Lagrange top: sleeping, hanging, and the roots w of `I1 w^4 - c w^3 + mgl^2/(I3 - I1) = 0` with
+/// `cos = mgl/(w^2 (I3 - I1))` between -1 and 1, each a circle.
+#[test]
+fn all_rotations_of_the_lagrange_top() {
+    let (i1, i3, mgl) = (1.0, 2.0, 1.0);
+    let mut counts = Vec::new();
+    for (n, d) in [(3, 1), (5, 2), (1, 2), (3, 2)] {
+        let (found, search) = all(
+            lagrange_top(number(1, 1), number(2, 1), number(1, 1)),
+            &[number(n, d)],
+        );
+        let spin = n as f64 / d as f64;
+        let quartic = |w: f64| i1 * w.powi(4) - spin * w.powi(3) + mgl * mgl / (i3 - i1);
+        let mut roots = Vec::new();
+        let grid: Vec<f64> = (-40_000..40_000)
+            .map(|k| 5e-4 * f64::from(k) + 1e-5)
+            .collect();
+        for pair in grid.windows(2) {
+            let (mut a, mut b) = (pair[0], pair[1]);
+            if quartic(a) * quartic(b) < 0.0 {
+                for _ in 0..60 {
+                    let c = 0.5 * (a + b);
+                    if quartic(c) * quartic(a) > 0.0 {
+                        a = c
+                    } else {
+                        b = c
+                    }
+                }
+                let cosine = mgl / (a * a * (i3 - i1));
+                if cosine.abs() < 1.0 {
+                    roots.push(cosine);
+                }
+            }
+        }
+        let isolated = found.iter().filter(|one| one.family == 0).count();
+        let mut cosines: Vec<f64> = found
+            .iter()
+            .filter(|one| one.family == 1)
+            .map(|one| one.state[5])
+            .collect();
+        cosines.sort_by(f64::total_cmp);
+        roots.sort_by(f64::total_cmp);
+        assert_eq!(
+            (isolated, cosines.len()),
+            (2, roots.len()),
+            "{spin}: {cosines:?} {roots:?} {:?}",
+            search.paths
+        );
+        assert!(
+            cosines
+                .iter()
+                .zip(&roots)
+                .all(|(a, b)| (a - b).abs() < 1e-12),
+            "{cosines:?} {roots:?}"
+        );
+        counts.push(roots.len());
+    }
+    assert!(counts.iter().any(|count| *count > 0), "{counts:?}");
+}
+
+/// The sleeping top: stable with the integral m3 where the spin is above 2 sqrt(I1 mgl), unstable below.
+#[test]
+fn the_top_sleeps_above_a_spin() {
+    let top = |spin| {
+        let (found, _) = all(
+            lagrange_top(number(1, 1), number(1, 2), number(1, 1)),
+            &[spin],
+        );
+        let sleeping = found
+            .into_iter()
+            .find(|one| one.family == 0 && one.state[5] > 0.5);
+        sleeping.expect("the upright position").judgement
+    };
+    let fast = top(number(201, 100));
+    assert!(
+        fast.stability == Stability::Stable && fast.proven,
+        "{fast:?}"
+    );
+    assert!(matches!(fast.reason, Reason::Integrals { .. }), "{fast:?}");
+    let slow = top(number(199, 100));
+    assert!(
+        slow.stability == Stability::Unstable && slow.proven,
+        "{slow:?}"
+    );
+    // without the integral it is spectrally stable, and nothing more is claimed
+    let bare = System {
+        integrals: Vec::new(),
+        ..lagrange_top(number(1, 1), number(1, 2), number(1, 1))
+    };
+    let (found, _) = all(bare, &[number(3, 1)]);
+    let sleeping = found
+        .iter()
+        .find(|one| one.family == 0 && one.state[5] > 0.5)
+        .expect("upright");
+    assert_eq!(sleeping.judgement.stability, Stability::Spectral);
+}
+
+#[test]
+fn the_threshold_of_the_sleeping_top_is_refined() {
+    let (i1, mgl) = (number(3, 7), number(5, 11));
+    let threshold = 2.0 * (i1.to_f64() * mgl.to_f64()).sqrt();
+    let system = lagrange_top(i1, number(2, 3), mgl);
+    let equations = Equations::new(system, Some(0)).expect("expressions");
+    let grid: Vec<f64> = (0..21).map(|k| 0.4 + 0.05 * f64::from(k)).collect();
+    let traced = trace(&equations, &[0.0], 0, &grid, 60, 1);
+    let collisions: Vec<f64> = traced
+        .branches
+        .iter()
+        .filter(|branch| branch.family == 0 && branch.points[0].y[5] > 0.5)
+        .flat_map(|branch| &branch.changes)
+        .filter(|change| change.kind == ChangeKind::Collision)
+        .map(|change| change.parameter)
+        .collect();
+    assert_eq!(collisions.len(), 1, "{collisions:?}");
+    assert!(
+        (collisions[0] - threshold).abs() < 1e-12,
+        "{} {threshold}",
+        collisions[0]
+    );
+}
+
+/// Kirchhoff's body with H = sum a_i m_i^2/2 + b_i p_i^2/2 at m.p = c: along axis i it has m = c e_i.
+#[test]
+fn kirchhoff_moves_along_its_axes() {
+    let (a, b) = ([1, 2, 3], [3, 1, 2]);
+    let system = on_se3(
+        |graph| {
+            let momenta = quadratic(graph, 0, &a.map(Rational::from));
+            let impulses = quadratic(graph, 3, &b.map(Rational::from));
+            graph.add(momenta, impulses)
+        },
+        false,
+    );
+    let (found, search) = all(system, &[number(1, 2)]);
+    let paths = search.paths.expect("polynomials");
+    assert_eq!(paths.lost, 0, "{paths:?}");
+    assert_eq!(paths.real, found.len(), "{paths:?}");
+    for axis in 0..3 {
+        for sign in [1.0, -1.0] {
+            let there = found.iter().any(|one| {
+                let mut wanted = [0.0; 6];
+                (wanted[axis], wanted[3 + axis]) = (0.5 * sign, sign);
+                one.state
+                    .iter()
+                    .zip(wanted)
+                    .all(|(x, y)| (x - y).abs() < 1e-12)
+            });
+            assert!(there, "axis {axis}");
+        }
+    }
+    // all others are in planes: p in the plane (i, j), m_k = l p_k/a_k with l^2 (1/a_i - 1/a_j) = b_i - b_j and l sum p_k^2/a_k = c
+    let mut planes = 0;
+    for (i, j) in [(0, 1), (1, 2), (0, 2)] {
+        let [a, b] = [a, b].map(|v| v.map(|x: i64| x as f64));
+        let square = (b[i] - b[j]) / (1.0 / a[i] - 1.0 / a[j]);
+        if square <= 0.0 {
+            continue;
+        }
+        for l in [square.sqrt(), -square.sqrt()] {
+            let part = (0.5 / l - 1.0 / a[j]) / (1.0 / a[i] - 1.0 / a[j]);
+            planes += if part > 0.0 && part < 1.0 { 4 } else { 0 };
+        }
+    }
+    assert_eq!(found.len(), 6 + planes, "{paths:?}");
+}
