@@ -1,6 +1,7 @@
 //! The command line, as clap reads it; what is asked of a run is a [`Request`].
 
 mod ensemble;
+mod equilibria;
 mod measured;
 
 use std::path::PathBuf;
@@ -9,6 +10,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use lie_in_process::request::Request;
 
 pub use ensemble::{Ensemble, Merge, Reduce};
+pub use equilibria::Equilibria;
 pub use measured::{Bench, Measured, Sense, Stress, Verify};
 
 /// Structure-preserving integrators for Lie–Poisson systems.
@@ -47,6 +49,8 @@ pub enum Command {
     Bench(Bench),
     /// Takes methods to the limits of steps, parameters and states, and through a long run
     Stress(Stress),
+    /// Finds relative equilibria on a leaf, their spectra and stability, and follows them in a parameter
+    Equilibria(Equilibria),
     /// Writes a page of HTML: mathematics, trajectory, orbit, errors against run time, generated code
     Report(Box<Report>),
     /// Lists the methods: order, what they preserve, what they need, reference
@@ -66,8 +70,6 @@ pub enum Command {
 pub enum Later {
     #[command(hide = true)]
     Advise(Anything),
-    #[command(hide = true)]
-    Equilibria(Anything),
 }
 
 impl Later {
@@ -75,7 +77,6 @@ impl Later {
     pub fn name(&self) -> &'static str {
         match self {
             Later::Advise(_) => "advise",
-            Later::Equilibria(_) => "equilibria",
         }
     }
 }

@@ -4,6 +4,7 @@ pub mod args;
 mod cache;
 mod check;
 mod ensemble;
+mod equilibria;
 mod expand;
 pub mod files;
 mod fold;
@@ -39,6 +40,7 @@ pub fn run(command: &Command) -> Result<u8, Failure> {
         Command::Bench(arguments) => measure::bench::run(arguments),
         Command::Stress(arguments) => measure::stress::run(arguments),
         Command::Verify(arguments) => measure::verify::run(arguments),
+        Command::Equilibria(arguments) => equilibria::run(arguments),
         Command::Report(arguments) => report::run(arguments),
         Command::Methods(arguments) => methods::run(arguments),
         Command::Schema => schema::run(),
@@ -49,9 +51,22 @@ pub fn run(command: &Command) -> Result<u8, Failure> {
 }
 
 /// The commands that are built.
-pub const BUILT: [&str; 14] = [
-    "check", "expand", "run", "resume", "ensemble", "merge", "verify", "bench", "stress", "report",
-    "methods", "schema", "new", "cache",
+pub const BUILT: [&str; 15] = [
+    "check",
+    "expand",
+    "run",
+    "resume",
+    "ensemble",
+    "merge",
+    "verify",
+    "bench",
+    "stress",
+    "equilibria",
+    "report",
+    "methods",
+    "schema",
+    "new",
+    "cache",
 ];
 
 fn not_built(later: &Later) -> Failure {

@@ -24,6 +24,7 @@ mod cocycles;
 mod declarations;
 mod density;
 mod ensemble;
+mod equilibria;
 mod events;
 mod families;
 mod families_acting;

@@ -40,7 +40,7 @@ pub use option_value::{OptionValue, constant};
 pub use plan::{Plan, plan};
 pub use point::{Point, start};
 pub use runs::{Labels, Member, Several};
-pub use several::several;
+pub use several::{ranges, several};
 pub use sites::bound_to_itself;
 pub use value::{Parameter, Value};
 

@@ -249,6 +249,18 @@ pub(super) fn sweeps(request: &Request) -> Result<(Vec<Sweep>, Vec<Parameter>), 
     }
 }
 
+/// The parameters with several values, and what is said of the others.
+///
+/// # Errors
+/// Every range that is none.
+pub fn ranges(
+    request: &Request,
+) -> Result<(Vec<(String, Vec<f64>)>, Vec<Parameter>), Vec<Message>> {
+    let (sweeps, fixed) = sweeps(request)?;
+    let sweeps = sweeps.into_iter().map(|sweep| (sweep.name, sweep.values));
+    Ok((sweeps.collect(), fixed))
+}
+
 /// The values of `FROM:TO:COUNT`.
 fn values(front: Front, given: &OptionValue) -> Result<Vec<f64>, Message> {
     let words = Words {
