@@ -154,8 +154,30 @@ impl At<'_> {
         None
     }
 
-    /// Whether the gradients of the Casimirs are independent at a state: whether the leaf is one of full dimension there.
+    /// Whether the leaf has full dimension at a state: the gradients of the Casimirs are independent, and Pi has no lower rank. Small is
+    /// what is small beside Pi at the state that tells the scale.
     pub fn is_regular(self, y: &[f64]) -> bool {
+        self.has_rank(y) && self.has_gradients(y)
+    }
+
+    fn has_rank(self, y: &[f64]) -> bool {
+        let (n, m) = (self.equations.sizes.n, self.equations.sizes.m);
+        let values = |y: &[f64]| {
+            let shape = self.equations.shape(y, self.parameters)?;
+            Some(Singular::new(&shape.bracket, n, n)?.values)
+        };
+        let scale = self.equations.leaf(self.parameters).and_then(|(_, state)| {
+            let found = values(&[state, vec![0.0; m]].concat())?;
+            found.first().copied()
+        });
+        match (values(y), scale) {
+            _ if n == m => true,
+            (Some(found), Some(scale)) => found[n - m - 1] > 1e-9 * scale,
+            _ => false,
+        }
+    }
+
+    fn has_gradients(self, y: &[f64]) -> bool {
         let (n, m) = (self.equations.sizes.n, self.equations.sizes.m);
         if m == 0 {
             return true;
