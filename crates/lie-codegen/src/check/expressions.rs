@@ -105,7 +105,13 @@ pub fn lower(
         &environment,
         mistakes,
     );
-    let initial = initial::initial_state(declaration, &mut graph, &environment, mistakes);
+    let initial = initial::initial_state(
+        declaration,
+        &mut graph,
+        &environment,
+        distribution.as_ref().is_some_and(Option::is_some),
+        mistakes,
+    );
     let attitude = attitude::initial_element(whole, &mut graph, &environment, mistakes);
     mistakes.extend(opaque::own_functions(
         declaration,

@@ -6,11 +6,12 @@ use lie_symbolic::symbolic::{ExprId, Graph};
 use lie_syntax::ast::Declaration;
 use lie_syntax::diagnostic::{Diagnostic, Kind, plural};
 
-/// Lowers the initial state; `Some(None)` where none is declared.
+/// Lowers the initial state; `Some(None)` where none is declared. It may be that of a system which is `constrained`.
 pub fn initial_state(
     declaration: &Declaration,
     graph: &mut Graph,
     environment: &Environment<'_>,
+    constrained: bool,
     mistakes: &mut Vec<Diagnostic>,
 ) -> Option<Option<Vec<ExprId>>> {
     let Some(entries) = &declaration.initial else {
@@ -21,9 +22,10 @@ pub fn initial_state(
         .map(|entry| Lowering::new(graph, environment, mistakes, Allowed::Parameters).lower(entry))
         .collect();
     let (count, dimension) = (entries.len(), declaration.dimension());
-    // with constraints the reduced state is enough
+    // with constraints the reduced state is enough; how long that is wrong ones do not say
     let reduced = dimension.saturating_sub(declaration.constraint.len());
-    if count != dimension && count != reduced {
+    let unknown = declaration.is_constrained() && !constrained;
+    if count != dimension && count != reduced && !(unknown && count < dimension) {
         let place = declaration
             .initial_origin
             .or(entries.last().map(|e| e.origin))

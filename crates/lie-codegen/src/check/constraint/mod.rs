@@ -62,10 +62,9 @@ pub fn refused(declaration: &Declaration) -> Vec<Diagnostic> {
         let help = "declare a `lagrangian` or a `hamiltonian`: the discrete principle with a constraint does not keep the energy";
         found.push(beside(value.origin, "a discrete Lagrangian", help));
     }
-    if let (Some(attitude), None) = (&declaration.attitude, &declaration.group) {
-        let help = "declare `group`, which makes the group element part of the state";
-        let what = "`attitude` without `group`";
-        found.push(beside(attitude.origin, what, help));
+    if let Some(attitude) = &declaration.attitude {
+        let help = "declare `group`, and give the entries of the group element behind the momenta in `initial`";
+        found.push(beside(attitude.origin, "`attitude`", help));
     }
     found
 }
