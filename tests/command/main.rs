@@ -21,6 +21,7 @@ mod brackets;
 mod build;
 mod check;
 mod cocycles;
+mod constraints;
 mod declarations;
 mod density;
 mod ensemble;

@@ -4,6 +4,8 @@ mod branches;
 mod casimirs;
 mod choices;
 mod configuration;
+mod constraint;
+mod constraint_mistakes;
 mod degree;
 mod domain;
 mod driving;

@@ -4,6 +4,7 @@ use super::{Names, parse_expression_text};
 use crate::ast::{Expr, ExprKind, Index};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 
+mod constraint;
 mod declaration;
 mod expression;
 mod families;
