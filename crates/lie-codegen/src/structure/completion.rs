@@ -2,10 +2,10 @@
 
 mod writer;
 
-use super::{Effort, casimirs};
+use super::{Effort, casimirs, elementwise};
 use crate::algebra::{StructureConstants, rank};
 use crate::model::{Bracket, Casimir, Configuration, Model, PoissonMatrix};
-use lie_symbolic::exact::{Fraction, Polynomial, Rational};
+use lie_symbolic::exact::{Budget, Fraction, Polynomial, Rational, matrix};
 use lie_symbolic::prove::independence::{self, Standing};
 use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 use writer::Writer;
@@ -47,16 +47,31 @@ pub fn completed(model: &Model, effort: Effort, graph: &mut Graph) -> (Vec<Casim
         ));
     }
     let momenta = configuration.map(Configuration::own_momenta);
-    let field = match field(&model.bracket, momenta, &mut graph.clone()) {
-        Ok(field) => field,
-        Err(reason) => return only(Search::None(reason)),
+    let (work, most) = match effort {
+        Effort::Declaration => (casimirs::WORK, MOST_TERMS),
+        Effort::Report => (casimirs::REPORT, MOST_REPORTED),
+        Effort::Deep => (casimirs::DEEP, MOST_REPORTED),
     };
-    let work = match effort {
-        Effort::Declaration => casimirs::WORK,
-        Effort::Report => casimirs::REPORT,
-        Effort::Deep => casimirs::DEEP,
+    let sought = match field(&model.bracket, momenta, &mut graph.clone()) {
+        Ok(field) => invariants(model, &field, work),
+        Err(reason) => match monomials(model, &mut graph.clone()) {
+            Some(sought) => Some(sought),
+            None => return only(Search::None(reason)),
+        },
     };
-    complete(model, &field, work, graph)
+    match sought {
+        Some(sought) => complete(model, sought, most, graph),
+        None => only(Search::Complete),
+    }
+}
+
+/// Casimirs that were found, of so many coordinates.
+struct Sought {
+    found: Vec<casimirs::Casimir>,
+    /// How many there are.
+    count: usize,
+    dimension: usize,
+    end: Search,
 }
 
 /// An algebra in which Casimirs are looked for.
@@ -129,37 +144,114 @@ fn affine(matrix: &PoissonMatrix, graph: &mut Graph) -> Result<Field, &'static s
     })
 }
 
-/// The Casimirs with those that the declared ones lack, and how the search ended.
-fn complete(model: &Model, field: &Field, work: u64, graph: &mut Graph) -> (Vec<Casimir>, Search) {
-    let declared = &model.declared_casimirs;
+/// Those that are invariants of an algebra; none where enough are declared.
+fn invariants(model: &Model, field: &Field, work: u64) -> Option<Sought> {
     let count = field.count();
-    if declared.len() >= count {
-        return (declared.clone(), Search::Complete);
+    if model.declared_casimirs.len() >= count {
+        return None;
     }
     let jacobi = !model.is_almost_poisson();
     let found = casimirs::find(&field.constants, count, (field.with_unit, jacobi), work);
     let exact = field.constants.try_map(Fraction::as_constant).is_some();
-    let mut end = match found.complete {
-        true if found.casimirs.len() == count || (exact && !field.with_unit) => Search::Complete,
-        true => Search::Polynomials,
-        false => Search::Spent,
+    Some(Sought {
+        end: match found.complete {
+            true if found.casimirs.len() == count || (exact && !field.with_unit) => {
+                Search::Complete
+            }
+            true => Search::Polynomials,
+            false => Search::Spent,
+        },
+        found: found.casimirs,
+        count,
+        dimension: field.constants.dimension(),
+    })
+}
+
+/// Those of a log-canonical bracket `{x_i, x_j} = c_ij x_i x_j` with numbers c: `x_1^(k_1) x_2^(k_2)...` with `c k = 0`, the k integers, and the
+/// coordinates that are in no bracket.
+fn monomials(model: &Model, graph: &mut Graph) -> Option<Sought> {
+    let matrix = model
+        .bracket
+        .matrix()
+        .filter(|_| !model.is_almost_poisson())?;
+    let n = matrix.dimension;
+    let found = elementwise::elementwise(model, matrix, graph)?;
+    let row = |row: &Vec<Fraction>| row.iter().map(Fraction::as_constant).collect();
+    let mut rows: Vec<Vec<Rational>> = found.constants.iter().map(row).collect::<Option<_>>()?;
+    let moves = |i: usize| rows[i].iter().any(|c| !c.is_zero());
+    if !(0..n).all(|i| !moves(i) || found.speeds[i].is_coordinate()) {
+        return None;
+    }
+    let pivots = matrix::reduce(&mut rows, &Budget::new(casimirs::WORK)).ok()?;
+    let mut casimirs = Vec::new();
+    for free in (0..n).filter(|column| !pivots.contains(column)) {
+        let mut exponents = vec![Rational::ZERO; n];
+        exponents[free] = Rational::ONE;
+        for (row, pivot) in rows.iter().zip(&pivots) {
+            exponents[*pivot] = -&row[free];
+        }
+        casimirs.push(monomial(&exponents)?);
+    }
+    Some(Sought {
+        count: casimirs.len(),
+        found: casimirs,
+        dimension: n,
+        end: Search::Complete,
+    })
+}
+
+/// The product of coordinates to these powers, made integers; none where they are large.
+fn monomial(exponents: &[Rational]) -> Option<casimirs::Casimir> {
+    const MOST: i64 = 60;
+    let whole = |factor: i64| {
+        let scaled = exponents.iter().map(|k| k * &Rational::from(factor));
+        let whole = scaled.map(|k| k.to_integer().filter(|k| k.abs() <= MOST));
+        whole.collect::<Option<Vec<i64>>>()
     };
-    let most = match work {
-        casimirs::WORK => MOST_TERMS,
-        _ => MOST_REPORTED,
-    };
+    let mut exponents = (1..=MOST).find_map(whole)?;
+    if exponents.iter().find(|k| **k != 0).is_some_and(|k| *k < 0) {
+        exponents.iter_mut().for_each(|k| *k = -*k);
+    }
+    let powers = exponents.into_iter().enumerate().filter(|(_, k)| *k != 0);
+    let powers: Vec<(Polynomial, i64)> =
+        powers.map(|(i, k)| (Polynomial::variable(i), k)).collect();
+    if powers.iter().any(|(_, k)| *k < 0) {
+        return Some(casimirs::Casimir::Rational(powers));
+    }
+    let budget = Budget::new(casimirs::WORK);
+    let mut product = Polynomial::constant(Rational::ONE);
+    for (coordinate, k) in powers {
+        let power = coordinate.pow(u32::try_from(k).ok()?, &budget).ok()?;
+        product = product.mul(&power, &budget).ok()?;
+    }
+    Some(casimirs::Casimir::Polynomial(product))
+}
+
+/// The Casimirs with those that the declared ones lack, and how the search ended.
+fn complete(
+    model: &Model,
+    sought: Sought,
+    most: usize,
+    graph: &mut Graph,
+) -> (Vec<Casimir>, Search) {
+    let declared = &model.declared_casimirs;
+    let Sought {
+        found,
+        count,
+        dimension,
+        mut end,
+    } = sought;
     let initial = model.initial_values(&model.defaults());
     let initial = initial.into_iter().flatten().map(Rational::from_f64);
     let initial: Option<Vec<Rational>> = initial.collect();
     let initial = initial.filter(|mu| !mu.is_empty());
-    let dimension = field.constants.dimension();
     let mut writer = Writer {
         model,
         dimension,
         graph,
     };
     let mut written = Vec::new();
-    for casimir in found.casimirs {
+    for casimir in found {
         let Some(casimir) = defined(casimir, initial.as_deref()) else {
             end = Search::Singular;
             continue;

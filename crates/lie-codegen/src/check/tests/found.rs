@@ -105,8 +105,14 @@ fn brackets_with_constant_terms() {
     };
     let affine = general(r#"["{x, y} = z + 1", "{y, z} = x", "{z, x} = y"]"#);
     assert_eq!(texts(&affine), ["C1 = 2*z + x^2 + y^2 + z^2"]);
-    let quadratic = general(r#"["{x, y} = x*y"]"#);
+    let quadratic = general(r#"["{x, y} = x*y + 1"]"#);
     assert!(quadratic.casimirs.is_empty() && matches!(quadratic.search, Search::None(_)));
+    // monomials of log-canonical ones, and coordinates that are in no bracket
+    assert_eq!(texts(&general(r#"["{x, y} = x*y"]"#)), ["C1 = z"]);
+    let species = general(r#"["{x, y} = -x*y/2", "{x, z} = x*z/2", "{y, z} = -y*z"]"#);
+    assert_eq!(texts(&species), ["C1 = x^2*y*z"]);
+    let species = general(r#"["{x, y} = x*y/2", "{x, z} = x*z/3", "{y, z} = y*z"]"#);
+    assert_eq!(texts(&species), ["C1 = x^6*z^3/y^2"]);
 }
 
 #[test]

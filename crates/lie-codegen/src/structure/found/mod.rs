@@ -22,6 +22,7 @@ mod casimirs;
 mod colouring;
 mod congruence;
 mod entries;
+mod field_flow;
 mod invariants;
 mod recognition;
 mod report;
