@@ -45,7 +45,7 @@ fn charged(field: &str) -> Value {
 fn changed() -> Value {
     json!({
         "format": 1, "name": "Elementwise", "state": ["x", "y", "z"],
-        "poisson": ["{x, y} = (1 + x^2)*y", "{y, z} = 2*y*z^2", "{x, z} = -(1 + x^2)*z^2/3"],
+        "poisson": ["{x, y} = (1 + x)*y", "{y, z} = 2*y*(z - 2)", "{x, z} = -(1 + x)*(z - 2)/3"],
         "hamiltonian": "x^2/3 + y + y^2/4 + z^2/2 + z",
         "initial": ["3/10", "4/5", "1/2"]
     })

@@ -20,7 +20,7 @@ pub enum Class {
     Constant,
     /// `{x_i, x_j} = c_ij x_i x_j`
     LogCanonical,
-    /// `{x_i, x_j} = c_ij a_i(x_i) a_j(x_j)`, the `a_i` polynomials of degree 2 at most.
+    /// `{x_i, x_j} = c_ij a_i(x_i) a_j(x_j)`, the `a_i` constant or linear.
     Elementwise,
     /// Half of the coordinates, these positions, commute; their brackets with the others are constant, and those of the others functions of the
     /// positions: a particle in a magnetic field.

@@ -1,9 +1,10 @@
 //! Brackets that are constant after a change of each coordinate alone: `{x_i, x_j} = c_ij a_i(x_i) a_j(x_j)`.
 //!
 //! With `y_i = int dx_i/a_i(x_i)` the bracket is `{y_i, y_j} = c_ij`, and a function of y whose gradient is constant along its flow has the
-//! flow `y -> y + t c grad_y`: by each coordinate that of `x' = s a(x)` over the time 1. Where every `a_i` is a polynomial of degree 2 at
-//! most, that is an elementary map. Those of degree 0 are constant brackets, and all `a_i = x_i` the log-canonical ones of the equations of
-//! Lotka and Volterra (M. Plank, Journal of Mathematical Physics 36 (1995) 3520–3534, doi:10.1063/1.530978).
+//! flow `y -> y + t c grad_y`: by each coordinate that of `x' = s a(x)` over the time 1. Where every `a_i` is constant or linear, that is an
+//! elementary map without poles; a quadratic `a_i` has solutions that are infinite after a time, which its closed form passes over in silence.
+//! Those of degree 0 are constant brackets, and all `a_i = x_i` the log-canonical ones of the equations of Lotka and Volterra (M. Plank, Journal
+//! of Mathematical Physics 36 (1995) 3520–3534, doi:10.1063/1.530978).
 
 use crate::model::{Model, PoissonMatrix};
 use lie_symbolic::exact::{Budget, Fraction, Rational};
@@ -22,9 +23,9 @@ pub struct Elementwise {
     pub constants: Vec<Vec<Fraction>>,
 }
 
-/// A polynomial `a(x) = a_0 + a_1 x + a_2 x^2` whose leading coefficient is 1.
+/// A polynomial `a(x) = a_0 + a_1 x` whose leading coefficient is 1.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Speed([Fraction; 3]);
+pub struct Speed([Fraction; 2]);
 
 /// What the flow of a piece does with a coordinate.
 #[derive(Clone, Copy, Debug)]
@@ -41,12 +42,12 @@ fn number(value: i64) -> Fraction {
 
 impl Speed {
     fn constant() -> Self {
-        Self([number(1), number(0), number(0)])
+        Self([number(1), number(0)])
     }
 
     /// Its degree.
     pub fn degree(&self) -> usize {
-        (0..3).rev().find(|k| !self.0[*k].is_zero()).unwrap_or(0)
+        usize::from(!self.0[1].is_zero())
     }
 
     /// Whether it is x.
@@ -67,47 +68,19 @@ impl Speed {
         graph.sum(&terms)
     }
 
-    /// The flow of `x' = s a(x)` over the time 1, where it has a form that does not depend on the signs of parameters: of degree 1
-    /// `a(x) (exp s - 1)`, of degree 2 `a(x) T/(1 - u T)` with `u = a'(x)/2`, `D = a_1^2/4 - a_0` and `T = s`, `tan(w s)/w`, `tanh(w s)/w` by the
-    /// sign of D, `w^2 = |D|`.
-    pub fn flow(&self, x: ExprId, s: ExprId, graph: &mut Graph) -> Option<Change> {
-        let one = graph.integer(1);
+    /// The flow of `x' = s a(x)` over the time 1: of degree 1 it adds `a(x) (exp s - 1)`.
+    pub fn flow(&self, x: ExprId, s: ExprId, graph: &mut Graph) -> Change {
         if self.degree() == 0 {
-            return Some(Change::Add(s));
+            return Change::Add(s);
         }
-        if self.degree() == 1 {
-            let grown = graph.call(Elementary::Exp, &[s]);
-            if self.is_coordinate() {
-                return Some(Change::Multiply(grown));
-            }
-            let grown = graph.sub(grown, one);
-            let speed = self.at(x, graph);
-            return Some(Change::Add(graph.mul(speed, grown)));
+        let grown = graph.call(Elementary::Exp, &[s]);
+        if self.is_coordinate() {
+            return Change::Multiply(grown);
         }
-        let half = Rational::new(1, 2)?;
-        let linear = self.0[1].as_constant()?;
-        let square = &(&linear * &linear) * &Rational::new(1, 4)?;
-        let discriminant = &square - &self.0[0].as_constant()?;
-        let turned = if discriminant.is_zero() {
-            s
-        } else {
-            let size = graph.number(discriminant.abs());
-            let frequency = graph.pow(size, &half);
-            let angle = graph.mul(frequency, s);
-            let function = match discriminant.is_negative() {
-                true => Elementary::Tan,
-                false => Elementary::Tanh,
-            };
-            let value = graph.call(function, &[angle]);
-            graph.div(value, frequency)
-        };
-        let shift = graph.number(&linear * &half);
-        let u = graph.add(x, shift);
-        let bent = graph.mul(u, turned);
-        let below = graph.sub(one, bent);
+        let one = graph.integer(1);
+        let grown = graph.sub(grown, one);
         let speed = self.at(x, graph);
-        let above = graph.mul(speed, turned);
-        Some(Change::Add(graph.div(above, below)))
+        Change::Add(graph.mul(speed, grown))
     }
 }
 
@@ -172,6 +145,9 @@ pub fn elementwise(
         let product = graph.mul(first, second);
         let there = sampled(graph, product)?;
         let constant = sampled(graph, *entry)?.div(&there, &budget).ok()??;
+        if there.as_constant().is_none() && !divides_by_numbers(&constant) {
+            return None;
+        }
         let factor = graph.rational_function(&constant);
         let product = graph.mul(factor, product);
         differences.push(graph.sub(*entry, product));
@@ -183,27 +159,24 @@ pub fn elementwise(
         .then_some(Elementwise { speeds, constants })
 }
 
-/// The polynomial in a coordinate that an entry is a multiple of, where the others have their samples, if it is one of degree 2 at most: what
-/// it is otherwise is found out when it is compared.
+/// The polynomial in a coordinate that an entry is a multiple of, where the others have their samples, if it is one of degree 1 at most: what
+/// it is otherwise is found out when it is compared. None is divided by a parameter, which may be 0.
 fn speed_in(graph: &mut Graph, entry: ExprId, i: usize, budget: &Budget) -> Option<Speed> {
-    let half = Rational::new(1, 2)?;
-    let first = graph.derivative(entry, Symbol::Coordinate(i));
-    let second = graph.derivative(first, Symbol::Coordinate(i));
-    let [p, q, r] = [entry, first, second].map(|value| sampled(graph, value));
-    let (p, q, r) = (p?, q?, r?.scale(&half));
-    // p + q (x - s) + r (x - s)^2
-    let s = sample(i);
-    let square = &s * &s;
-    let rs = r.scale(&s);
-    let low = p.sub(&q.scale(&s), budget).ok()?;
-    let low = low.add(&r.scale(&square), budget).ok()?;
-    let middle = q.sub(&rs.scale(&Rational::from(2)), budget).ok()?;
-    let mut all = [low, middle, r];
-    let leading = all.iter().rev().find(|value| !value.is_zero())?.clone();
-    for value in &mut all {
-        *value = value.div(&leading, budget).ok()??;
+    let slope = graph.derivative(entry, Symbol::Coordinate(i));
+    let [value, slope] = [entry, slope].map(|value| sampled(graph, value));
+    let (value, slope) = (value?, slope?);
+    // value + slope (x - s)
+    let low = value.sub(&slope.scale(&sample(i)), budget).ok()?;
+    if slope.is_zero() {
+        return Some(Speed::constant());
     }
-    Some(Speed(all))
+    let ratio = low.div(&slope, budget).ok()??;
+    divides_by_numbers(&ratio).then(|| Speed([ratio, number(1)]))
+}
+
+/// Whether a fraction is defined whatever the parameters are.
+pub(super) fn divides_by_numbers(value: &Fraction) -> bool {
+    value.denominator().next().is_none()
 }
 
 #[cfg(test)]

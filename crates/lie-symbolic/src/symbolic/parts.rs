@@ -39,6 +39,13 @@ impl Graph {
         self.choices
     }
 
+    /// Whether an expression contains a choice.
+    pub fn chooses(&self, id: ExprId) -> bool {
+        let mut parts = self.dependencies(&[id]).into_iter();
+        let is_choice = |part| matches!(self.node(part), Node::Call(Function::Below, _));
+        self.choices && parts.any(is_choice)
+    }
+
     /// The functions of the user that an expression calls, in the order of the arena.
     pub fn own_functions(&self, id: ExprId) -> Vec<Opaque> {
         let parts = self.dependencies(&[id]).into_iter();

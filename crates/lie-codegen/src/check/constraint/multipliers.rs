@@ -38,8 +38,11 @@ impl Stationary<'_> {
     /// Solves for the multipliers: `H = H_0 + <b, nu> + <G nu, nu>/2` is stationary at `nu = -G^-1 b`, with the value `H_0 + <b, nu>/2`.
     ///
     /// # Errors
-    /// H is not quadratic in them, or its quadratic part is singular.
+    /// H has several branches, is not quadratic in them, or its quadratic part is singular.
     pub fn solve(&self, graph: &mut Graph) -> Result<Solution, Diagnostic> {
+        if graph.chooses(self.energy) {
+            return Err(self.branches());
+        }
         let slopes: Vec<ExprId> = self
             .multipliers
             .iter()
@@ -151,6 +154,12 @@ impl Stationary<'_> {
             Symbol::Parameter(p) => self.defaults[p],
             _ => f64::NAN,
         })
+    }
+
+    fn branches(&self) -> Diagnostic {
+        let message = "H has several branches, and beside a constraint its second derivatives do not tell whether it is quadratic";
+        Diagnostic::new(Kind::Constraint, self.origin, message)
+            .help("write H without `abs`, `min`, `max` and `piecewise`")
     }
 
     fn not_quadratic(&self, form: &str) -> Diagnostic {

@@ -150,6 +150,14 @@ fn what_is_no_constraint_is_refused() {
         r#""x^2 + y^2 + x*z""#,
         "constraint at x^2 + y^2 + x*z: the constraint e3 = 0 leaves",
     );
+    with(
+        r#""x^2 + y^2 + z^2 + abs(z)""#,
+        "constraint at x^2 + y^2 + z^2 + abs(z): H has several branches",
+    );
+    with(
+        r#""x^2 + y^2 + z^2 + x*z + max(x, 0)""#,
+        "constraint at x^2 + y^2 + z^2 + x*z + max(x, 0): H has several branches",
+    );
     // along the other directions H may be any function
     model(&so3(&[
         ("hamiltonian", r#""x^4 + cosh(y) + z^2/2 + sin(x)*z""#),

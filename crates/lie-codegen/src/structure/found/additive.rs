@@ -45,7 +45,7 @@ pub(super) fn collected(graph: &mut Graph, id: ExprId) -> Option<(Rational, Vec<
 }
 
 /// The terms of a sum, or of a product one of whose factors is a sum of coordinates.
-pub(super) fn apart(graph: &mut Graph, id: ExprId) -> Option<Vec<ExprId>> {
+fn apart(graph: &mut Graph, id: ExprId) -> Option<Vec<ExprId>> {
     match graph.node(id).clone() {
         Node::Sum { constant, terms } if terms.len() > 1 || !constant.is_zero() => {
             let mut parts: Vec<ExprId> = Vec::new();

@@ -16,20 +16,32 @@ use super::colouring;
 use super::field_flow::{quadrature, series};
 use super::{COLOURING, Found, Piece, WORK};
 use crate::model::{Model, PoissonMatrix};
-use crate::structure::elementwise::{self, Change, Elementwise, sample, sampled, vanish};
+use crate::structure::elementwise::{
+    self, Change, Elementwise, divides_by_numbers, sample, sampled, vanish,
+};
 use lie_symbolic::exact::{Budget, Fraction, Rational};
-use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
+use lie_symbolic::symbolic::{ExprId, Graph, Node, Symbol};
 
-/// More terms are not looked at.
-const MOST_TERMS: usize = 2000;
+/// More parts are not put together.
+const MOST_PARTS: usize = 40;
 /// The largest denominator of an exponent that is read from values.
 const MOST_DENOMINATOR: i64 = 60;
 
 /// A part of H with what it is a function of.
+#[derive(Default)]
 struct Part {
     terms: Vec<ExprId>,
     /// Forms that commute, in y where the bracket is constant in them, with the derivatives by them.
     forms: Vec<(Form, ExprId)>,
+}
+
+/// The parts of H, and what has constant derivatives.
+#[derive(Default)]
+struct Parts {
+    all: Vec<Part>,
+    linear: Part,
+    /// The derivatives of that.
+    form: Vec<Fraction>,
 }
 
 /// Why there are no pieces: a term.
@@ -103,43 +115,73 @@ pub(super) fn nearest(order: u32) -> String {
 impl Search<'_> {
     /// The parts of H; all of those with constant derivatives are one.
     fn parts(&self, graph: &mut Graph) -> Result<Vec<Part>, Option<Entangled>> {
-        let mut open = vec![graph.normal(self.hamiltonian)];
-        let (mut parts, mut linear) = (Vec::new(), Part::empty());
-        let mut form: Vec<Fraction> = Vec::new();
-        while let Some(term) = open.pop() {
-            if graph.coordinates(term).is_empty() {
+        let mut parts = Parts::default();
+        let normal = graph.normal(self.hamiltonian);
+        let whole = match graph.node(normal).clone() {
+            Node::Sum { terms, .. } => {
+                let terms = terms.iter();
+                terms
+                    .map(|(term, scale)| graph.scale(*term, scale))
+                    .collect()
+            }
+            _ => vec![normal],
+        };
+        for term in whole {
+            if self.take(graph, term, &mut parts)? {
                 continue;
             }
-            let slopes = self.slopes(graph, term);
-            if let Some(constants) = self.constants(graph, &slopes) {
-                form.resize(slopes.len(), Fraction::from(Rational::ZERO));
-                for (sum, value) in form.iter_mut().zip(&constants) {
-                    *sum = sum.add(value, &self.budget).map_err(|_| None)?;
+            // a power of a sum, whose terms may be parts
+            for term in additive::terms(graph, term).ok_or(None)? {
+                if !self.take(graph, term, &mut parts)? {
+                    return Err(Some(Entangled(term)));
                 }
-                linear.terms.push(term);
-                continue;
-            }
-            if let Some(forms) = self.forms(graph, &slopes) {
-                parts.push(Part {
-                    terms: vec![term],
-                    forms,
-                });
-                continue;
-            }
-            let apart = additive::apart(graph, term).filter(|_| open.len() < MOST_TERMS);
-            match apart {
-                Some(apart) => open.extend(apart),
-                None => return Err(Some(Entangled(term))),
             }
         }
+        let Parts {
+            mut all,
+            mut linear,
+            form,
+        } = parts;
         let form = form.into_iter().enumerate();
         let form: Form = form.filter(|(_, value)| !value.is_zero()).collect();
         if !form.is_empty() {
             linear.forms.push((form, graph.integer(1)));
-            parts.push(linear);
+            all.push(linear);
         }
-        parts.reverse();
-        Ok(parts)
+        Ok(all)
+    }
+
+    /// Whether a term is a part, which it is made.
+    fn take(
+        &self,
+        graph: &mut Graph,
+        term: ExprId,
+        parts: &mut Parts,
+    ) -> Result<bool, Option<Entangled>> {
+        if graph.coordinates(term).is_empty() {
+            return Ok(true);
+        }
+        let slopes = self.slopes(graph, term);
+        if let Some(constants) = self.constants(graph, &slopes) {
+            let zero = Fraction::from(Rational::ZERO);
+            parts.form.resize(slopes.len(), zero);
+            for (sum, value) in parts.form.iter_mut().zip(&constants) {
+                *sum = sum.add(value, &self.budget).map_err(|_| None)?;
+            }
+            parts.linear.terms.push(term);
+            return Ok(true);
+        }
+        let Some(forms) = self.forms(graph, &slopes) else {
+            return Ok(false);
+        };
+        if parts.all.len() == MOST_PARTS {
+            return Err(None);
+        }
+        parts.all.push(Part {
+            terms: vec![term],
+            forms,
+        });
+        Ok(true)
     }
 
     /// `a_i dT/dx_i`, the derivatives in y.
@@ -178,11 +220,27 @@ impl Search<'_> {
             return Some(units.into_iter().zip(slopes).collect());
         }
         self.elementwise.as_ref()?;
-        let first = *support.first()?;
-        let mut form = vec![(first, one)];
-        let mut differences = Vec::new();
-        for &i in &support[1..] {
-            let ratio = self.ratio(graph, slopes[i], slopes[first])?;
+        let mut firsts = support.iter();
+        firsts.find_map(|first| self.form(graph, slopes, &support, *first))
+    }
+
+    /// The form with the coefficient 1 of one coordinate, where none of the others divides by a parameter, which may be 0.
+    fn form(
+        &self,
+        graph: &mut Graph,
+        slopes: &[ExprId],
+        support: &[usize],
+        first: usize,
+    ) -> Option<Vec<(Form, ExprId)>> {
+        let (mut form, mut differences) = (Form::new(), Vec::new());
+        for &i in support {
+            let ratio = match i == first {
+                true => Fraction::from(Rational::ONE),
+                false => self.ratio(graph, slopes[i], slopes[first])?,
+            };
+            if !divides_by_numbers(&ratio) {
+                return None;
+            }
             let factor = graph.rational_function(&ratio);
             let expected = graph.mul(factor, slopes[first]);
             differences.push(graph.sub(slopes[i], expected));
@@ -201,6 +259,10 @@ impl Search<'_> {
     /// What the ratio of two expressions is, if it is a constant: at samples of the coordinates, or where they are no fractions there, the
     /// near number with a small denominator.
     fn ratio(&self, graph: &mut Graph, above: ExprId, below: ExprId) -> Option<Fraction> {
+        let whole = graph.div(above, below);
+        if let Some(ratio) = graph.fraction(whole, None) {
+            return Some(ratio);
+        }
         if let [Some(above), Some(below)] = [above, below].map(|value| sampled(graph, value)) {
             return above.div(&below, &self.budget).ok()?;
         }
@@ -302,7 +364,7 @@ impl Search<'_> {
             }
             let s = graph.mul(time, speed_of_y);
             let x = graph.symbol(Symbol::Coordinate(i));
-            map.push((i, speed.flow(x, s, graph)?));
+            map.push((i, speed.flow(x, s, graph)));
         }
         Some(map)
     }
@@ -329,6 +391,10 @@ impl Search<'_> {
             }
         }
         let field: Vec<ExprId> = field.iter().map(|terms| graph.sum(terms)).collect();
+        // neither a series nor a quadrature goes on behind a joint
+        if field.iter().any(|speed| graph.chooses(*speed)) {
+            return None;
+        }
         let increments = series(graph, &field).or_else(|| quadrature(graph, &field))?;
         let increments = graph.substitute(&increments, &|symbol| {
             let place = (0..forms.len()).find(|place| held(*place) == symbol);
@@ -341,14 +407,5 @@ impl Search<'_> {
                 .map(|(i, increment)| (i, Change::Add(increment)))
                 .collect(),
         )
-    }
-}
-
-impl Part {
-    fn empty() -> Self {
-        Self {
-            terms: Vec::new(),
-            forms: Vec::new(),
-        }
     }
 }

@@ -183,6 +183,21 @@ fn monomials_are_pieces_of_a_log_canonical_bracket() {
     assert!(reason.contains("`sin(x + y)`"), "{reason}");
 }
 
+/// A power of a sum is taken apart once, and nothing is divided by a parameter.
+#[test]
+fn what_is_long_ends_and_what_may_vanish_is_no_divisor() {
+    let brackets = r#""{x, y} = x*y""#;
+    let model = by_entries(brackets, "(x + y)^14");
+    assert_eq!(model.splitting.count(), 15);
+    let spec = r#"{"format": 1, "name": "Forms", "state": ["q", "p"], "poisson": ["{q, p} = 1"],
+        "parameters": { "a": 0, "b": 1 }, "hamiltonian": "(a*q + p)^4 + sin(q + b*p) + q^2"}"#;
+    let model = compile_spec(spec).expect("a spec without mistakes");
+    assert_eq!(model.splitting.count(), 3);
+    let none = spec.replace("sin(q + b*p)", "sin(a*q + b*p)");
+    let model = compile_spec(&none).expect("a spec without mistakes");
+    assert_eq!(model.splitting.count(), 0);
+}
+
 /// A charged particle in the plane: kicks, and motions along each axis, in every field of the positions; none where a function mixes momenta.
 #[test]
 fn a_magnetic_field_has_flows_along_the_axes() {
@@ -193,5 +208,8 @@ fn a_magnetic_field_has_flows_along_the_axes() {
         assert_eq!(model.splitting.count(), 3, "{field}");
     }
     let model = by_entries(&magnetic("1 + x*y"), "sqrt(1 + z^2 + u^2) + x^2");
+    assert_eq!(model.splitting.count(), 0);
+    // no series and no quadrature goes on behind a joint
+    let model = by_entries(&magnetic("1 + abs(x)"), energy);
     assert_eq!(model.splitting.count(), 0);
 }
