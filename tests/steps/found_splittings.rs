@@ -176,7 +176,7 @@ fn reference<P: LiePoisson<f64>>(
 }
 
 /// Each flow is that of its piece, and the pieces are all of H but what generates no flow. Returns how many there are.
-fn flows_are_exact<P: FoundPoisson<f64>>(system: &P) -> usize {
+fn flows_are_exact<P: FoundPoisson<f64> + LiePoisson<f64>>(system: &P) -> usize {
     let mut flows = system.found();
     let mut random = Random(2018);
     let mut worst = [0.0_f64; 3];
@@ -245,7 +245,7 @@ fn flows_are_exact<P: FoundPoisson<f64>>(system: &P) -> usize {
 }
 
 /// Orders, Casimirs and the energy.
-fn methods_keep_what_they_claim<P: FoundPoisson<f64>>(system: &P)
+fn methods_keep_what_they_claim<P: FoundPoisson<f64> + LiePoisson<f64>>(system: &P)
 where
     Gauss6: Method<f64, P>,
 {
