@@ -68,7 +68,7 @@ fn a_coboundary_is_a_shift() {
         "--method cf4",
         "--method generating4",
         "--method generating4 --retraction cayley",
-        "--method compose6",
+        "--method compose6(lie-midpoint)",
         "--method gauss16",
         "--method gonzalez",
         "--method orbit-energy",
