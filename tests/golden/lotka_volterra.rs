@@ -373,3 +373,47 @@ for LotkaVolterraSystem<S> {
     [S : ::lie_runtime::Scalar] LotkaVolterraSystem < S >, S : gauss6, frozen_gonzalez,
     frozen_mean_value, frozen_itoh_abe, k_hj2, k_hj4, k_hj6
 );
+
+/// The flows of the pieces:
+///
+/// - `y2`
+/// - `a*b*y1`
+/// - `-a*y3`
+/// - `nu*log(y2)`, `-mu*log(y3)`
+#[derive(Debug)]
+pub struct LotkaVolterraFound<'a, S: ::lie_runtime::Scalar> {
+    #[allow(dead_code)]
+    system: &'a LotkaVolterraSystem<S>,
+}
+
+#[allow(non_snake_case, clippy::many_single_char_names)]
+impl<'a, S: ::lie_runtime::Scalar> LotkaVolterraFound<'a, S> {
+    /// the gradient of the piece
+    ///
+    /// No operation.
+    fn _direction0(
+        &self,
+        _mu: &::lie_runtime::__private_0_1::SVector<S, 3>,
+        _xi: &mut ::lie_runtime::__private_0_1::SVector<S, 3>,
+    ) {
+        _xi.as_mut_slice().fill(S::zero());
+        _xi[1] = S::one();
+    }
+}
+
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::PieceFlows<S>
+for LotkaVolterraFound<'_, S> {
+    #[inline]
+    fn ascend(&mut self, first: S, t: S, mu: &mut Self::State) {
+        self._flow0(first, mu);
+        self._flow1(t, mu);
+        self._flow2(t, mu);
+    }
+
+    #[inline]
+    fn descend(&mut self, last: S, t: S, mu: &mut Self::State) {
+        self._flow3(last, mu);
+        self._flow2(t, mu);
+        self._flow1(t, mu);
+    }
+}
