@@ -39,11 +39,11 @@ pub fn extension(
         constants: exact.map(|value| graph.rational_function(value)),
         exact,
         representation,
-        extension: Some(Extension {
+        extension: Some(Box::new(Extension {
             cocycle,
             unit,
             declared: plain.representation.clone(),
-        }),
+        })),
     })
 }
 

@@ -74,7 +74,7 @@ pub struct Algebra {
     /// The matrix representation.
     pub representation: Option<Representation>,
     /// The cocycle by which this is a central extension of the declared algebra.
-    pub extension: Option<Extension>,
+    pub extension: Option<Box<Extension>>,
 }
 
 /// What makes an algebra a central extension.

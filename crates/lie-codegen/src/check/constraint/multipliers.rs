@@ -135,9 +135,10 @@ impl Stationary<'_> {
                 for row in (0..count).filter(|row| *row != k) {
                     let factor = matrix[row][k].clone();
                     for rows in [&mut *matrix, &mut *inverse] {
-                        for column in 0..count {
-                            let product = rows[k][column].mul(&factor, &budget)?;
-                            rows[row][column] = rows[row][column].sub(&product, &budget)?;
+                        let pivot = rows[k].clone();
+                        for (entry, pivot) in rows[row].iter_mut().zip(&pivot) {
+                            let product = pivot.mul(&factor, &budget)?;
+                            *entry = entry.sub(&product, &budget)?;
                         }
                     }
                 }
