@@ -249,13 +249,14 @@ pub(super) fn sweeps(request: &Request) -> Result<(Vec<Sweep>, Vec<Parameter>), 
     }
 }
 
+/// Names of parameters with the values that each takes.
+type Ranges = Vec<(String, Vec<f64>)>;
+
 /// The parameters with several values, and what is said of the others.
 ///
 /// # Errors
 /// Every range that is none.
-pub fn ranges(
-    request: &Request,
-) -> Result<(Vec<(String, Vec<f64>)>, Vec<Parameter>), Vec<Message>> {
+pub fn ranges(request: &Request) -> Result<(Ranges, Vec<Parameter>), Vec<Message>> {
     let (sweeps, fixed) = sweeps(request)?;
     let sweeps = sweeps.into_iter().map(|sweep| (sweep.name, sweep.values));
     Ok((sweeps.collect(), fixed))

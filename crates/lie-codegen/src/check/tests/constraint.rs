@@ -138,12 +138,15 @@ fn solved(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Vec<f64> {
     (0..n).map(|k| b[k] / a[k][k]).collect()
 }
 
+/// A product of two vectors.
+type Product<'a> = &'a dyn Fn(&[f64], &[f64]) -> Vec<f64>;
+
 /// `mu = I E (E^T I E)^-1 m`, `Pi_ab = -<mu, [e_a, e_b]>` and `H = <m, (E^T I E)^-1 m>/2` in numbers.
 fn assert_reduced(
     model: &Model,
     inertia: &[&[f64]],
     basis: &[Vec<f64>],
-    bracket: &dyn Fn(&[f64], &[f64]) -> Vec<f64>,
+    bracket: Product<'_>,
     parameters: &[f64],
 ) {
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
