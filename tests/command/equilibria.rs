@@ -266,6 +266,9 @@ fn other_brackets() {
     assert!(text.contains("searched, not proven to be all"), "{text}");
 }
 
+/// What is said of a change of a spec.
+type Case<'a> = (&'a str, &'a dyn Fn(&mut Value));
+
 #[test]
 fn what_is_refused_says_why() {
     let folder = folder();
@@ -287,7 +290,7 @@ fn what_is_refused_says_why() {
     assert_eq!(refused.code, Some(2), "{}", refused.stderr);
     assert!(refused.stderr.contains("initial"), "{}", refused.stderr);
     let place = |path: &Path| format!("{}:", path.display());
-    let cases: [(&str, &dyn Fn(&mut Value)); 2] = [
+    let cases: [Case<'_>; 2] = [
         ("depends on the time", &|spec| {
             spec["hamiltonian"] = "x^2/2 + y^2/4 + z^2/6 + cos(t)*x".into()
         }),
