@@ -105,8 +105,8 @@ pub trait SeparablePoisson<S: Scalar>: LiePoisson<S> {
     fn flows(&self) -> Self::Flows<'_>;
 }
 
-/// A system whose Hamiltonian is a sum of pieces with exact flows: of a Lie–Poisson system up to a combination of Casimirs, a sum of functions of quantities that
-/// commute: `$H = \sum_a f_a(\langle v_{a1}, \mu\rangle, \dots, c_{a1}(\mu), \dots) + \sum_c \lambda_c C_c$`, the `$v$` elements
+/// A system whose Hamiltonian is a sum of pieces with exact flows. On a bracket that is declared by its entries they are maps that were
+/// found. A Lie–Poisson system is, up to a combination of Casimirs, a sum of functions of quantities that commute: `$H = \sum_a f_a(\langle v_{a1}, \mu\rangle, \dots, c_{a1}(\mu), \dots) + \sum_c \lambda_c C_c$`, the `$v$` elements
 /// that commute, the `$c$` Casimirs of the algebra or of subalgebras.
 ///
 /// Along the flow of a piece these quantities are constant, and each of them generates a one-parameter group. A Casimir of the

@@ -244,35 +244,6 @@ impl Model {
         configuration.is_some_and(|configuration| !configuration.held.is_empty())
     }
 
-    /// What the cocycle that is added to the bracket is.
-    pub fn cocycle_in_words(&self) -> Option<String> {
-        let extension = self.bracket.algebra()?.extension.as_ref()?;
-        Some(match &extension.cocycle {
-            Cocycle::Coboundary(shift) => {
-                let name = |p: usize| self.parameters[p].name.clone();
-                let moved = self.coordinates.iter().zip(shift);
-                let moved = moved.filter(|(_, s)| !s.is_zero());
-                let moved = moved.map(|(x, s)| {
-                    let (x, shown) = (&x.text, s.display(&name));
-                    match s.as_constant() {
-                        Some(c) if c.is_negative() => format!("{x} + {}", c.abs()),
-                        _ if shown.contains([' ', '-', '+']) => format!("{x} - ({shown})"),
-                        _ => format!("{x} - {shown}"),
-                    }
-                });
-                let moved: Vec<String> = moved.collect();
-                format!(
-                    "a coboundary: {} have the bracket without it",
-                    moved.join(", ")
-                )
-            }
-            Cocycle::Proper => "no coboundary: no shift of the coordinates takes it away".into(),
-            Cocycle::Undecided => {
-                "whether a shift of the coordinates takes it away was not decided".into()
-            }
-        })
-    }
-
     /// The Hamiltonian in mu; of [`Energy::Legendre`] in mu and its velocity.
     pub fn hamiltonian(&self) -> ExprId {
         self.energy.value(|hamiltonian| hamiltonian.value)
@@ -284,19 +255,6 @@ impl Model {
         let unit = self.configuration.as_ref().is_some_and(|c| c.time);
         let held = self.configuration.as_ref().map_or(0, |c| c.held.len());
         (self.dimension() - self.generic_rank).saturating_sub(usize::from(unit) + held)
-    }
-
-    /// The dimension with the generic rank and that at the initial state. Coordinates that are there for a cocycle alone do not count:
-    /// the time and its momentum add two to the ranks.
-    pub fn counts(&self) -> (usize, usize, Option<usize>) {
-        let idle = self.configuration.as_ref().is_some_and(|c| c.idle);
-        let [hidden, ranks] = if idle { [3, 2] } else { [0, 0] };
-        let initial = self.initial_rank.map(|rank| rank - ranks);
-        (
-            self.dimension() - hidden,
-            self.generic_rank - ranks,
-            initial,
-        )
     }
 
     /// The coordinates that are shown: all but those that carry the time.

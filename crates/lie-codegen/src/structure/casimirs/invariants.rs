@@ -50,7 +50,8 @@ pub fn drawn(index: usize) -> u64 {
 }
 
 impl<'a> Search<'a> {
-    /// A search in an algebra, with a unit or without, or where its constants satisfy no Jacobi identity; `None` where a constant has a pole at the point that is looked at.
+    /// A search in an algebra, with a unit or without, or where its constants satisfy no Jacobi identity; `None` where a constant has a
+    /// pole at the point that is looked at.
     pub fn new(
         constants: &'a StructureConstants<Fraction>,
         (with_unit, jacobi): (bool, bool),

@@ -10,11 +10,9 @@
 //!   another field the positions move along straight lines, and what the momenta gain is an integral over these, by Gauss's quadrature of 8
 //!   nodes: exact to round-off where the field varies little over a step.
 
-use super::additive;
 use super::atoms::Form;
-use super::colouring;
 use super::field_flow::{quadrature, series};
-use super::{COLOURING, Found, Piece, WORK};
+use super::{COLOURING, Found, Piece, WORK, additive, colouring};
 use crate::model::{Model, PoissonMatrix};
 use crate::structure::elementwise::{
     self, Change, Elementwise, divides_by_numbers, sample, sampled, vanish,
@@ -100,16 +98,6 @@ pub(super) fn pieces(
         declared: false,
         exponential: None,
     })
-}
-
-/// The remedy: the nearest method of an order.
-pub(super) fn nearest(order: u32) -> String {
-    let nearest = match order {
-        1 | 2 => "k-hj2",
-        3 | 4 => "k-hj4",
-        _ => "k-hj6",
-    };
-    format!("use `{nearest}`, which is a Poisson map for every Hamiltonian")
 }
 
 impl Search<'_> {

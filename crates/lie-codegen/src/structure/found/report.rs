@@ -59,7 +59,7 @@ pub fn refusal(structure: &Structure, order: u32) -> Option<(String, String)> {
                 ),
                 None => "no pieces with exact flows were found".to_owned(),
             };
-            return Some((reason, entries::nearest(order)));
+            return Some((reason, nearest_on_entries(order)));
         }
     };
     let Some(terms) = additive::terms(&mut graph, hamiltonian.value) else {
@@ -85,4 +85,14 @@ pub fn refusal(structure: &Structure, order: u32) -> Option<(String, String)> {
         None => "no pieces with exact flows were found".to_owned(),
     };
     Some((reason, nearest))
+}
+
+/// The remedy on a bracket that is declared by its entries: the nearest method of an order.
+fn nearest_on_entries(order: u32) -> String {
+    let nearest = match order {
+        1 | 2 => "k-hj2",
+        3 | 4 => "k-hj4",
+        _ => "k-hj6",
+    };
+    format!("use `{nearest}`, which is a Poisson map for every Hamiltonian")
 }
