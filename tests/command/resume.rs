@@ -78,6 +78,17 @@ fn a_thousand_steps_and_a_hundred_are_eleven_hundred() {
 
 #[test]
 fn every_form_and_every_kind_of_rows_goes_on() {
+    go_on(false);
+}
+
+#[test]
+#[ignore = "half a minute: .ci/nightly runs it"]
+fn every_form_of_every_kind_of_rows_goes_on() {
+    go_on(true);
+}
+
+/// Runs of all kinds go on, each in every form, or in one of them.
+fn go_on(every_form: bool) {
     let folder = folder();
     let here = folder.path();
     prepared(here);
@@ -104,10 +115,9 @@ fn every_form_and_every_kind_of_rows_goes_on() {
     .iter()
     .enumerate()
     {
-        // every form with one call, and every call with one form
         let forms = ["csv", "json", "jsonl", "npy"];
         let (all, one) = (&forms[..], &forms[number % 4..=number % 4]);
-        for form in if number == 0 { all } else { one } {
+        for form in if every_form || number == 0 { all } else { one } {
             goes_on(here, call, &format!("{number}.{form}"));
         }
     }

@@ -45,7 +45,7 @@ fn systems_by_lagrangians() {
     for (spec, methods, orders) in [
         (
             "so3_quartic_lagrangian",
-            "variational2,variational4,variational6",
+            "variational2,variational4,variational6,lie-midpoint,generating4",
             [
                 ("variational2 ", "2: 2.00 ✓"),
                 ("variational4 ", "4: "),
@@ -54,7 +54,7 @@ fn systems_by_lagrangians() {
         ),
         (
             "so3_discrete_lagrangian",
-            "discrete-euler-poincare,variational4,moser-veselov",
+            "discrete-euler-poincare,variational2,variational4,moser-veselov",
             [
                 ("discrete-euler-poincare ", "1: 2.00 ✓"),
                 ("variational4 ", "4: "),

@@ -11,7 +11,7 @@ use lie_jit::Jit;
 use lie_runtime::driver::{Options, Save};
 use lie_runtime::newton::NewtonOptions;
 
-const COUNT: usize = 13;
+const COUNT: usize = 19;
 const STEP: f64 = 0.1;
 const END: f64 = 4.0;
 
