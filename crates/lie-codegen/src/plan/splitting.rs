@@ -145,7 +145,7 @@ fn count_updates(counts: &mut Counts, updates: &[Update]) {
 
 impl Planner<'_> {
     /// The flows of the pieces that were found: of code of their own where a splitting is asked for, else by the exponentials of
-    /// their directions.
+    /// their directions, which need an algebra.
     ///
     /// They come behind all other kernels, whose code does not depend on them then.
     pub(super) fn found_splitting(&mut self, chosen: Option<&Chosen>) -> Option<Found> {
@@ -155,10 +155,13 @@ impl Planner<'_> {
         if found.declared {
             return Some(Found::Same);
         }
-        let found = found.moved(&searched.graph, &mut self.source.graph);
-        let (rest, whole) = (found.rest, found.whole);
         let mut methods = self.methods.iter();
         let fused = methods.any(|choice| matches!(choice, Choice::Splitting(_, _, Pieces::Found)));
+        if !fused && !self.source.is_lie() {
+            return None;
+        }
+        let found = found.moved(&searched.graph, &mut self.source.graph);
+        let (rest, whole) = (found.rest, found.whole);
         let kernels = self.source.found_kernels(&found);
         let pieces = chosen.order.iter().enumerate();
         let pieces = pieces
@@ -174,13 +177,11 @@ impl Planner<'_> {
 
     fn found_piece(&mut self, number: usize, kernel: &FoundKernel, fused: bool) -> FoundPiece {
         let label = format!("found direction {number}");
-        // without an algebra there are no exponentials
-        let lie = self.source.is_lie();
         let alone = kernel.parts.len() == 1;
         let parts = kernel.parts.iter().enumerate();
         let parts = parts.map(|(place, part)| {
             let idle = part.flows.as_ref().is_some_and(Vec::is_empty);
-            let flows = part.flows.as_ref().filter(|_| fused || idle || !lie);
+            let flows = part.flows.as_ref().filter(|_| fused || idle);
             let flows = flows.map(|flows| {
                 let flows = flows.iter();
                 flows.map(|flow| self.flow(flow, "found")).collect()

@@ -21,9 +21,6 @@ impl Printer<'_> {
                 fused,
                 text,
             } => {
-                if !fused && !self.plan.system.lie {
-                    return None;
-                }
                 if !fused {
                     return Some(self.found_parts(pieces, *whole, text.as_deref()));
                 }

@@ -42,9 +42,6 @@ struct Parts {
     form: Vec<Fraction>,
 }
 
-/// Why there are no pieces: a term.
-pub(super) struct Entangled(pub(super) ExprId);
-
 struct Search<'a> {
     model: &'a Model,
     matrix: &'a PoissonMatrix,
@@ -58,7 +55,7 @@ pub(super) fn pieces(
     model: &Model,
     matrix: &PoissonMatrix,
     graph: &mut Graph,
-) -> Result<Found, Option<Entangled>> {
+) -> Result<Found, Option<ExprId>> {
     let hamiltonian = model.energy.expression().ok_or(None)?.value;
     let search = Search {
         model,
@@ -83,7 +80,7 @@ pub(super) fn pieces(
             .filter(|(_, of)| **of == class)
             .map(|(part, _)| part)
             .collect();
-        let first = members[0].terms.first().copied().map(Entangled);
+        let first = members[0].terms.first().copied();
         pieces.push(search.piece(graph, &members).ok_or(first)?);
     }
     let all = pieces.len();
@@ -102,7 +99,7 @@ pub(super) fn pieces(
 
 impl Search<'_> {
     /// The parts of H; all of those with constant derivatives are one.
-    fn parts(&self, graph: &mut Graph) -> Result<Vec<Part>, Option<Entangled>> {
+    fn parts(&self, graph: &mut Graph) -> Result<Vec<Part>, Option<ExprId>> {
         let mut parts = Parts::default();
         let normal = graph.normal(self.hamiltonian);
         let whole = match graph.node(normal).clone() {
@@ -121,7 +118,7 @@ impl Search<'_> {
             // a power of a sum, whose terms may be parts
             for term in additive::terms(graph, term).ok_or(None)? {
                 if !self.take(graph, term, &mut parts)? {
-                    return Err(Some(Entangled(term)));
+                    return Err(Some(term));
                 }
             }
         }
@@ -145,7 +142,7 @@ impl Search<'_> {
         graph: &mut Graph,
         term: ExprId,
         parts: &mut Parts,
-    ) -> Result<bool, Option<Entangled>> {
+    ) -> Result<bool, Option<ExprId>> {
         if graph.coordinates(term).is_empty() {
             return Ok(true);
         }

@@ -32,7 +32,7 @@ use super::elementwise::Change;
 use super::exponential::Exponential;
 use super::one_parameter::Block;
 use super::separable;
-use crate::model::{Bracket, Casimir, Model};
+use crate::model::{Algebra, Bracket, Casimir, Model};
 use atoms::{Atom, Commuting};
 use lie_symbolic::exact::{Budget, Rational};
 use lie_symbolic::symbolic::{ExprId, Graph};
@@ -54,6 +54,8 @@ pub struct Searched {
     pub graph: Graph,
     /// The ways; none where H has no pieces.
     pub ways: Vec<Found>,
+    /// On a bracket that is declared by its entries: the term whose flow has no closed form that is known.
+    pub entangled: Option<ExprId>,
 }
 
 /// The pieces that were found.
@@ -188,28 +190,38 @@ struct Classified {
 /// Looks for the ways to split H into the fewest pieces, given the Casimirs and the pieces of one coordinate each.
 pub fn search(model: &Model, known: &[Casimir], declared: Option<&[separable::Piece]>) -> Searched {
     let mut graph = model.graph.clone();
-    let ways = ways(model, known, declared, &mut graph).unwrap_or_default();
-    Searched { graph, ways }
+    let mut entangled = None;
+    // what a constraint leaves is no Poisson bracket
+    let ways = if model.family.is_some() || model.constraint.is_some() {
+        Vec::new()
+    } else {
+        match &model.bracket {
+            Bracket::Lie(algebra) => {
+                ways(model, algebra, known, declared, &mut graph).unwrap_or_default()
+            }
+            Bracket::General(matrix) => match entries::pieces(model, matrix, &mut graph) {
+                Ok(found) => vec![found],
+                Err(term) => {
+                    entangled = term;
+                    Vec::new()
+                }
+            },
+        }
+    };
+    Searched {
+        graph,
+        ways,
+        entangled,
+    }
 }
 
 fn ways(
     model: &Model,
+    algebra: &Algebra,
     known: &[Casimir],
     declared: Option<&[separable::Piece]>,
     graph: &mut Graph,
 ) -> Option<Vec<Found>> {
-    // what a constraint leaves is no Poisson bracket
-    if model.family.is_some() || model.constraint.is_some() {
-        return None;
-    }
-    let algebra = match &model.bracket {
-        Bracket::Lie(algebra) => algebra,
-        Bracket::General(matrix) => {
-            return entries::pieces(model, matrix, graph)
-                .ok()
-                .map(|found| vec![found]);
-        }
-    };
     let hamiltonian = model.energy.expression()?;
     let start = graph.normal(hamiltonian.value);
     let budget = Budget::new(WORK);

@@ -1,7 +1,6 @@
 //! What is said of the pieces, or of why there are none.
 
 use super::atoms::{Atom, Commuting};
-use super::entries::{self, Entangled};
 use super::{Found, Searched, additive};
 use crate::model::{Bracket, Model};
 use crate::structure::{Structure, separable};
@@ -42,7 +41,6 @@ pub fn refusal(structure: &Structure, order: u32) -> Option<(String, String)> {
     if !searched.ways.is_empty() {
         return None;
     }
-    let mut graph = searched.graph.clone();
     let nearest = separable::nearest(order);
     let Some(hamiltonian) = structure.energy.expression() else {
         return separable::refusal(structure, order);
@@ -50,18 +48,18 @@ pub fn refusal(structure: &Structure, order: u32) -> Option<(String, String)> {
     let name = |symbol| structure.symbol_name(symbol);
     let algebra = match &structure.bracket {
         Bracket::Lie(algebra) => algebra,
-        Bracket::General(matrix) => {
-            let found = entries::pieces(structure, matrix, &mut graph);
-            let reason = match found.err().flatten() {
-                Some(Entangled(term)) => format!(
+        Bracket::General(_) => {
+            let reason = match searched.entangled {
+                Some(term) => format!(
                     "no pieces with exact flows were found: no flow in closed form is known of `{}` on this bracket",
-                    graph.display(term, &name),
+                    searched.graph.display(term, &name),
                 ),
                 None => "no pieces with exact flows were found".to_owned(),
             };
             return Some((reason, nearest_on_entries(order)));
         }
     };
+    let mut graph = searched.graph.clone();
     let Some(terms) = additive::terms(&mut graph, hamiltonian.value) else {
         return Some((
             "the Hamiltonian has too many terms to be split".to_owned(),
