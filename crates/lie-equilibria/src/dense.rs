@@ -1,43 +1,24 @@
 //! Small dense linear algebra.
 
-/// Rounds of rotations; six or seven are enough.
-const SWEEPS: usize = 40;
+use nalgebra::{ComplexField, DMatrix, DVector, SVD, SymmetricEigen};
 
-/// Solves `A x = b` by elimination with row exchanges; `None` where a pivot is 0.
-pub fn solve<T>(mut a: Vec<T>, mut b: Vec<T>, size: impl Fn(&T) -> f64) -> Option<Vec<T>>
-where
-    T: Copy + std::ops::Sub<Output = T> + std::ops::Mul<Output = T> + std::ops::Div<Output = T>,
-{
+/// Where an iteration has converged, for numbers of size 1.
+pub const CONVERGED: f64 = 5.0 * f64::EPSILON;
+/// Iterations for a decomposition; a few for each row are usual.
+pub const MOST: usize = 10_000;
+
+/// Solves `A x = b`, A by rows; `None` where A is singular.
+pub fn solve<T: ComplexField>(a: &[T], b: Vec<T>) -> Option<Vec<T>> {
     let n = b.len();
-    for k in 0..n {
-        let best = (k..n).max_by(|i, j| size(&a[i * n + k]).total_cmp(&size(&a[j * n + k])))?;
-        if size(&a[best * n + k]) == 0.0 {
-            return None;
-        }
-        if best != k {
-            (0..n).for_each(|j| a.swap(k * n + j, best * n + j));
-            b.swap(k, best);
-        }
-        for i in k + 1..n {
-            let factor = a[i * n + k] / a[k * n + k];
-            for j in k + 1..n {
-                a[i * n + j] = a[i * n + j] - factor * a[k * n + j];
-            }
-            b[i] = b[i] - factor * b[k];
-        }
-    }
-    for k in (0..n).rev() {
-        for j in k + 1..n {
-            b[k] = b[k] - a[k * n + j] * b[j];
-        }
-        b[k] = b[k] / a[k * n + k];
-    }
-    Some(b)
+    let x = DMatrix::from_row_slice(n, n, a)
+        .lu()
+        .solve(&DVector::from_vec(b))?;
+    Some(x.data.into())
 }
 
 /// The singular value decomposition of a matrix by rows, values from the largest down.
 pub struct Singular {
-    /// The values.
+    /// The values, one for each column.
     pub values: Vec<f64>,
     /// The left vectors.
     left: Vec<Vec<f64>>,
@@ -46,47 +27,30 @@ pub struct Singular {
 }
 
 impl Singular {
-    /// Decomposes by rotations of columns until all are orthogonal (Hestenes 1958, doi:10.1137/0106005), for matrices as small as
-    /// these the fastest way; `None` where something is not finite.
+    /// `None` where something is not finite.
     pub fn new(a: &[f64], rows: usize, columns: usize) -> Option<Self> {
-        let column = |j: usize| (0..rows).map(|i| a[i * columns + j]).collect();
-        let mut images: Vec<Vec<f64>> = (0..columns).map(column).collect();
-        let mut right = unit_vectors(columns);
         if !a.iter().all(|x| x.is_finite()) {
             return None;
         }
-        let whole = norm(a);
-        for _ in 0..SWEEPS {
-            let mut turned = false;
-            for p in 0..columns {
-                for q in p + 1..columns {
-                    let (u, v) = (dot(&images[p], &images[p]), dot(&images[q], &images[q]));
-                    let w = dot(&images[p], &images[q]);
-                    // columns of round-off alone have no directions
-                    let least = (f64::EPSILON * whole).powi(2);
-                    if w.abs() <= f64::EPSILON * (u * v).sqrt() || w.abs() <= least {
-                        continue;
-                    }
-                    turned = true;
-                    let rotation = rotation(u, v, w);
-                    turn(&mut images, p, q, rotation);
-                    turn(&mut right, p, q, rotation);
-                }
-            }
-            if !turned {
-                break;
-            }
+        if columns == 0 {
+            return Some(Self {
+                values: Vec::new(),
+                left: Vec::new(),
+                right: Vec::new(),
+            });
         }
-        let mut order: Vec<(f64, usize)> = images.iter().map(|u| norm(u)).zip(0..).collect();
-        order.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let left = order.iter().map(|(value, k)| {
-            let image = images[*k].iter();
-            image.map(|x| x / value.max(f64::MIN_POSITIVE)).collect()
-        });
+        // rows of zeros, so that the kernel is among the right vectors
+        let entry = |i: usize, j: usize| a.get(i * columns + j).copied().unwrap_or(0.0);
+        let square = DMatrix::from_fn(rows.max(columns), columns, entry);
+        let found = SVD::try_new(square, true, true, CONVERGED, MOST)?;
+        let left = found.u?;
+        let left = left.column_iter().map(|u| u.rows(0, rows).iter().copied().collect());
+        let right = found.v_t?;
+        let right = right.row_iter().map(|v| v.iter().copied().collect());
         Some(Self {
+            values: found.singular_values.data.into(),
             left: left.collect(),
-            right: order.iter().map(|(_, k)| right[*k].clone()).collect(),
-            values: order.iter().map(|(value, _)| *value).collect(),
+            right: right.collect(),
         })
     }
 
@@ -113,61 +77,25 @@ impl Singular {
     }
 }
 
-/// Cosine and sine of the rotation that makes two vectors with squares u, v and product w orthogonal.
-fn rotation(u: f64, v: f64, w: f64) -> (f64, f64) {
-    let ratio = 0.5 * (v - u) / w;
-    let tangent = ratio.signum() / (ratio.abs() + ratio.hypot(1.0));
-    let cosine = 1.0 / tangent.hypot(1.0);
-    (cosine, cosine * tangent)
-}
-
-fn turn(vectors: &mut [Vec<f64>], p: usize, q: usize, (cosine, sine): (f64, f64)) {
-    let (head, tail) = vectors.split_at_mut(q);
-    for (x, y) in head[p].iter_mut().zip(&mut tail[0]) {
-        (*x, *y) = (cosine * *x - sine * *y, sine * *x + cosine * *y);
-    }
-}
-
 /// The vectors along the axes.
 pub fn unit_vectors(n: usize) -> Vec<Vec<f64>> {
     let unit = |i: usize| (0..n).map(|j| f64::from(u8::from(i == j))).collect();
     (0..n).map(unit).collect()
 }
 
-/// The eigenvalues of a symmetric matrix by rows, ascending, with eigenvectors of length 1, by rotations (Jacobi 1846).
-pub fn symmetric_eigen(a: &[f64], n: usize) -> (Vec<f64>, Vec<Vec<f64>>) {
-    let mut rows: Vec<Vec<f64>> = a.chunks(n.max(1)).map(<[f64]>::to_vec).collect();
-    let mut vectors = unit_vectors(n);
-    let least = f64::EPSILON * norm(a);
-    for _ in 0..SWEEPS {
-        let mut turned = false;
-        for p in 0..n {
-            for q in p + 1..n {
-                let w = rows[p][q];
-                if w.abs() <= 0.1 * least {
-                    continue;
-                }
-                turned = true;
-                let rotation = rotation(rows[p][p], rows[q][q], w);
-                turn(&mut rows, p, q, rotation);
-                let (cosine, sine) = rotation;
-                for row in &mut rows {
-                    (row[p], row[q]) = (
-                        cosine * row[p] - sine * row[q],
-                        sine * row[p] + cosine * row[q],
-                    );
-                }
-                turn(&mut vectors, p, q, rotation);
-            }
-        }
-        if !turned {
-            break;
-        }
+/// The eigenvalues of a symmetric matrix by rows, ascending, with eigenvectors of length 1; `None` where the iteration fails.
+pub fn symmetric_eigen(a: &[f64], n: usize) -> Option<(Vec<f64>, Vec<Vec<f64>>)> {
+    if n == 0 {
+        return Some((Vec::new(), Vec::new()));
     }
-    let mut order: Vec<(f64, usize)> = (0..n).map(|k| (rows[k][k], k)).collect();
-    order.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let vectors = order.iter().map(|(_, k)| vectors[*k].clone()).collect();
-    (order.into_iter().map(|(value, _)| value).collect(), vectors)
+    let found = SymmetricEigen::try_new(DMatrix::from_row_slice(n, n, a), CONVERGED, MOST)?;
+    let values = found.eigenvalues.iter().copied();
+    let mut pairs: Vec<(f64, Vec<f64>)> = values
+        .zip(found.eigenvectors.column_iter())
+        .map(|(value, vector)| (value, vector.iter().copied().collect()))
+        .collect();
+    pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
+    Some(pairs.into_iter().unzip())
 }
 
 /// `B^T A B` for vectors that are the columns of B.
@@ -244,7 +172,7 @@ mod tests {
             assert!(norm(&difference(&times(&a, columns, &x), &b)) < 1e-13);
         }
         let a = [2.0, 1.0, 0.0, 1.0, 2.0, 1.0, 0.0, 1.0, 2.0];
-        let (values, vectors) = symmetric_eigen(&a, 3);
+        let (values, vectors) = symmetric_eigen(&a, 3).expect("it converges");
         let root = 2.0_f64.sqrt();
         assert!(norm(&difference(&values, &[2.0 - root, 2.0, 2.0 + root])) < 1e-14);
         let image = times(&a, 3, &vectors[0]);

@@ -79,7 +79,7 @@ impl<'a> Prover<'a> {
         for _ in 0..REFINEMENTS {
             let middle: Vec<Ball> = exact.iter().map(|y| balls.rational(y)).collect();
             let residual = at(&middle)?.residual.iter().map(Ball::to_f64).collect();
-            let step = solve(slope.clone(), residual, |x: &f64| x.abs())?;
+            let step = solve(&slope, residual)?;
             for (y, d) in exact.iter_mut().zip(step) {
                 *y = &*y - &Rational::from_f64(d)?;
             }
@@ -121,7 +121,7 @@ fn inverse(slope: &[f64], n: usize, balls: &Balls) -> Option<Vec<Ball>> {
     let mut columns = Vec::new();
     for j in 0..n {
         let unit = (0..n).map(|i| f64::from(u8::from(i == j))).collect();
-        columns.push(solve(slope.to_vec(), unit, |x: &f64| x.abs())?);
+        columns.push(solve(slope, unit)?);
     }
     let entries = (0..n).flat_map(|i| columns.iter().map(move |column| column[i]));
     entries

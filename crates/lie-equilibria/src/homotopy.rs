@@ -272,7 +272,7 @@ impl Tracker<'_> {
                 a.extend_from_slice(coefficients);
                 b.push(-constant);
             }
-            z.extend(solve(a, b, |z: &c64| z.norm_sqr())?);
+            z.extend(solve(&a, b)?);
         }
         Some(z)
     }
@@ -294,7 +294,7 @@ impl Tracker<'_> {
         let mut last = f64::INFINITY;
         for _ in 0..most {
             let [value, slope, _] = self.homotopy(&z, t)?;
-            let step = solve(slope, value, |z: &c64| z.norm_sqr())?;
+            let step = solve(&slope, value)?;
             z.iter_mut().zip(&step).for_each(|(z, d)| *z -= d);
             let part = length(&step) / (1.0 + length(&z));
             if !part.is_finite() || part > 0.5 * last && part > 1e-12 {
@@ -317,7 +317,7 @@ impl Tracker<'_> {
             }
             let to = if t + step >= 1.0 { 1.0 } else { t + step };
             let predicted = self.homotopy(&z, t).and_then(|[_, slope, by_t]| {
-                let tangent = solve(slope, minus(&by_t), |z: &c64| z.norm_sqr())?;
+                let tangent = solve(&slope, minus(&by_t))?;
                 let moved = z.iter().zip(&tangent).map(|(z, d)| z + d * (to - t));
                 Some(moved.collect::<Vec<c64>>())
             });
@@ -367,7 +367,7 @@ impl Tracker<'_> {
         let mut random = Random::new(3);
         (0..3).all(|_| {
             let right = (0..n).map(|_| c64::new(random.unit(), random.unit()));
-            let moved = solve(slope.clone(), right.collect(), |z: &c64| z.norm_sqr());
+            let moved = solve(&slope, right.collect());
             moved.is_some_and(|moved| length(&moved) < 1e7 * (1.0 + length(z)))
         })
     }

@@ -92,7 +92,7 @@ fn definite(forms: &[Vec<f64>], r: usize, kernel: usize) -> Option<Vec<f64>> {
         for ((weight, form), size) in weights.iter().zip(forms).zip(&sizes) {
             add(&mut sum, weight / size, form);
         }
-        let (values, vectors) = symmetric_eigen(&sum, r);
+        let (values, vectors) = symmetric_eigen(&sum, r)?;
         let place = if values.first()? < &-FLAT { 0 } else { kernel };
         let vector = vectors.get(place)?;
         let slope = forms.iter().zip(&sizes);

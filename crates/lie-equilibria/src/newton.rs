@@ -56,7 +56,7 @@ impl At<'_> {
                 let mut damped = matrix.clone();
                 let more = (damping * size).powi(2) + 1e-15 * matrix[0].abs();
                 (0..n).for_each(|i| damped[i * n + i] += more);
-                let step = solve(damped, right.clone(), |x| x.abs());
+                let step = solve(&damped, right.clone());
                 let trial: Option<Vec<f64>> =
                     step.map(|step| y.iter().zip(&step).map(|(y, d)| y + d).collect());
                 let at = trial

@@ -103,7 +103,7 @@ impl Linearisation {
         let motion = product(&bracket, &form, r);
         let eigenvalues = eigenvalues(&motion, r);
         Some(Self {
-            inertia: signs(&symmetric_eigen(&form, r).0),
+            inertia: signs(&symmetric_eigen(&form, r)?.0),
             zeros: m,
             even: even(&motion, r, largest(&eigenvalues)),
             eigenvalues,
