@@ -167,12 +167,16 @@ fn specification(block: &Block, wrong: &mut Vec<String>) {
 
 /// Copies the specs next to the page.
 fn provide_specs(folder: &Path) {
-    let from = Path::new(env!("CARGO_MANIFEST_DIR")).join("specs");
-    fs::create_dir(folder.join("specs")).expect("a folder");
-    for entry in fs::read_dir(from).expect("specs") {
-        let path = entry.expect("an entry").path();
-        let name = path.file_name().expect("a name");
-        fs::copy(&path, folder.join("specs").join(name)).expect("a copy");
+    let from = Path::new(env!("CARGO_MANIFEST_DIR"));
+    for specs in ["specs", "specs/brackets"] {
+        fs::create_dir(folder.join(specs)).expect("a folder");
+        let entries = fs::read_dir(from.join(specs)).expect("specs");
+        for entry in entries.map(|entry| entry.expect("an entry")) {
+            if entry.path().is_file() {
+                let to = folder.join(specs).join(entry.file_name());
+                fs::copy(entry.path(), to).expect("a copy");
+            }
+        }
     }
 }
 
