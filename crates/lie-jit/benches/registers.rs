@@ -1,7 +1,7 @@
-//! Machine code in AVX-512, AVX2 and in pairs by Cranelift, side by side.
+//! Machine code in AVX-512 and AVX2, side by side; elsewhere in pairs by Cranelift.
 //!
 //! `cargo bench -p lie-jit`. The candidates of a row take turns, the least of many rounds counts, and what is shown beside nanoseconds is
-//! the ratio to Cranelift's. Rows: the field in eight lanes; a step of a method whose stages are lanes, and an iteration of it (with
+//! the ratio to the last column. Rows: the field in eight lanes; a step of a method whose stages are lanes, and an iteration of it (with
 //! its product, which is compiled with the core); a step of eight members of an ensemble; all codes of a plan made ready, over numbers and,
 //! each when it is first run, over lanes.
 
@@ -96,7 +96,9 @@ fn field(spec: &'static str) {
 
 /// Iterations of so many steps.
 fn iterations(spec: &str, id: &str, h: f64, steps: usize) -> f64 {
-    let engine = Jit::with(Registers::widest()).expect("the widest are here");
+    let engine = Registers::widest()
+        .and_then(Jit::with)
+        .expect("the widest are here");
     let choice = Choice::from_id(id).expect("a method");
     let (system, mut mu) = (system(spec, &[id], engine), start(spec));
     let method = method(&choice, Default::default());

@@ -1,16 +1,17 @@
 //! Machine code for the codes of [`lie_dynamic`], made at run time.
 //!
 //! One function for each code, with the operations in their order: the digits are those of the interpreter. Elementary functions are
-//! those of the numeric core. An assembler of our own makes the functions where the processor has AVX2 or AVX-512 (`assembler`), Cranelift
-//! elsewhere (`compile`). Before every call the lengths of all slices are compared with what the code reads and writes.
+//! those of the numeric core. On x86-64 under Unix an assembler of our own makes the functions (`assembler`) where the processor has AVX2 or
+//! AVX-512, and codes are interpreted where it has neither; Cranelift makes them elsewhere (`cranelift`), and is built there alone: it
+//! takes a fifth of the time to compile the command. Before every call the lengths of all slices are compared with what the code reads and writes.
 
 #![warn(missing_docs)]
 
 #[cfg(all(unix, target_arch = "x86_64"))]
 mod assembler;
 mod columns;
-mod compile;
-mod functions;
+#[cfg(not(all(unix, target_arch = "x86_64")))]
+mod cranelift;
 mod lanes;
 mod make;
 mod memory;
@@ -28,7 +29,7 @@ pub use registers::Registers;
 use std::hash::{Hash, Hasher};
 use std::sync::{Arc, OnceLock};
 
-/// The engine of machine code, in the widest registers of this processor. Where it is none that Cranelift knows, codes are
+/// The engine of machine code, in the widest registers of this processor. Where it has none that code is made for, codes are
 /// interpreted.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Jit;
@@ -44,9 +45,11 @@ impl Jit {
 #[derive(Clone, Copy, Debug)]
 pub struct JitWith(Registers);
 
-fn machine(codes: &Arc<[Code]>, registers: Registers) -> Arc<dyn Machine<f64>> {
+fn machine(codes: &Arc<[Code]>, registers: Option<Registers>) -> Arc<dyn Machine<f64>> {
     let interpreted = Interpreted.machine(codes);
-    match Compiled::new(codes, Arc::clone(&interpreted), registers) {
+    let compiled =
+        registers.and_then(|known| Compiled::new(codes, Arc::clone(&interpreted), known));
+    match compiled {
         Some(compiled) => Arc::new(compiled),
         None => interpreted,
     }
@@ -72,7 +75,7 @@ impl Engine for JitWith {
     }
 
     fn machine(&self, codes: &Arc<[Code]>) -> Arc<dyn Machine<f64>> {
-        machine(codes, self.0)
+        machine(codes, Some(self.0))
     }
 }
 
@@ -95,7 +98,7 @@ struct Compiled {
     wide: OnceLock<Arc<Lanes>>,
     column_kernels: ColumnKernels,
     others: Others<Self>,
-    _memories: Vec<Memory>,
+    _memory: Memory,
 }
 
 /// Machines for other codes than those of a plan.
@@ -127,8 +130,7 @@ impl Compiled {
     ) -> Option<Self> {
         let made = make::over_numbers(codes, registers)?;
         let entries = made.places.iter().zip(codes.iter()).map(|(place, code)| {
-            let (memory, place) = (*place)?;
-            let function = made.memories[memory].function(place);
+            let function = made.memory.function((*place)?);
             Some(Entry::new(code, function, 1))
         });
         Some(Self {
@@ -139,7 +141,7 @@ impl Compiled {
             wide: OnceLock::new(),
             column_kernels: ColumnKernels::new(codes.len()),
             others: Others::default(),
-            _memories: made.memories,
+            _memory: made.memory,
         })
     }
 }

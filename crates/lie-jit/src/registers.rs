@@ -7,7 +7,7 @@ pub enum Registers {
     Avx512,
     /// AVX2: 16 registers of four numbers, by the assembler of this crate.
     Avx2,
-    /// Pairs of numbers by Cranelift, which every processor it knows has.
+    /// Pairs of numbers by Cranelift, on other processors than x86-64 and other systems than Unix.
     Pairs,
 }
 
@@ -24,14 +24,13 @@ impl Registers {
             Self::Avx2 => is_x86_feature_detected!("avx2"),
             #[cfg(not(all(unix, target_arch = "x86_64")))]
             Self::Avx512 | Self::Avx2 => false,
-            Self::Pairs => true,
+            Self::Pairs => cfg!(not(all(unix, target_arch = "x86_64"))),
         }
     }
 
-    /// The widest that this processor has.
-    pub fn widest() -> Self {
+    /// The widest that this processor has, if it has any.
+    pub fn widest() -> Option<Self> {
         let mut all = Self::ALL.into_iter();
         all.find(|registers| registers.are_here())
-            .unwrap_or(Self::Pairs)
     }
 }

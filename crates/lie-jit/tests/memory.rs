@@ -29,7 +29,7 @@ fn product() -> Arc<[Code]> {
 
 #[test]
 fn machines_give_their_memory_back() {
-    let engine = Jit::with(Registers::widest()).unwrap();
+    let engine = Registers::widest().and_then(Jit::with).unwrap();
     let codes = product();
     let make = |count: usize| {
         for _ in 0..count {

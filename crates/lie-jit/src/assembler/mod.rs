@@ -15,14 +15,15 @@ mod check;
 mod encoding;
 mod function;
 mod general;
+pub mod making;
 mod operation;
 mod pages;
 #[cfg(test)]
 mod tests;
 mod uses;
 
-pub use operation::{Layout, Width};
-pub use pages::Pages;
+use operation::{Layout, Width};
+use pages::Pages;
 
 use lie_dynamic::Code;
 

@@ -1,7 +1,6 @@
 //! Functions that code made by Cranelift calls.
 
-use super::{Body, WORD};
-use crate::functions;
+use super::{Body, WORD, functions};
 use cranelift_codegen::ir::condcodes::FloatCC;
 use cranelift_codegen::ir::{AbiParam, InstBuilder, StackSlotData, StackSlotKind, Value, types};
 use cranelift_module::{Linkage, Module};

@@ -1,9 +1,11 @@
 //! From a code to Cranelift's intermediate form.
 
 mod calls;
+mod columns;
+mod functions;
+pub mod making;
 
 use self::calls::Kind;
-use crate::functions;
 use cranelift_codegen::Context;
 use cranelift_codegen::ir::condcodes::FloatCC;
 use cranelift_codegen::ir::{AbiParam, FuncRef, InstBuilder, MemFlags, Type, Value, types};
