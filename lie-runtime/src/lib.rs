@@ -76,10 +76,10 @@ pub use lie_core::{
     FoundPoisson, GeneratingFunction, GradientRecurrence, GradientSeries, Group, Implicit,
     InertiaPoisson, IntegrablePoisson, LagrangianPoisson, LiePoisson, Lift, Mask, MatrixGroup,
     MatrixPoisson, Motion, ParameterError, ParameterFault, PieceFlows, Poisson, RealizedPoisson,
-    Recurrence, Scalar, SeparablePoisson, Series, Spectrum, SpinPoisson, SquareMatrix, StageMatrix,
-    Stages, State, UnitaryPoisson, Unknown, VectorPoisson, Widen, clock, closed, elimination,
-    equation, functions, generating, generic, generic_equations, lagrangian, matrix, methods,
-    newton, parameter, pieces, poisson, recurrence, scalar, state, structure,
+    Recurrence, RetractedPoisson, Scalar, SeparablePoisson, Series, Spectrum, SpinPoisson,
+    SquareMatrix, StageMatrix, Stages, State, UnitaryPoisson, Unknown, VectorPoisson, Widen, clock,
+    closed, elimination, equation, functions, generating, generic, generic_equations, lagrangian,
+    matrix, methods, newton, parameter, pieces, poisson, recurrence, scalar, state, structure,
 };
 #[cfg(feature = "macros")]
 pub use lie_macros::lie_poisson;

@@ -46,6 +46,7 @@ mod random_systems;
 mod report;
 mod resume;
 mod resume_refused;
+mod retractions;
 mod run;
 mod signs;
 mod stress;

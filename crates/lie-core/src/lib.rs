@@ -50,6 +50,6 @@ pub use scalar::{Dual, Mask, Scalar};
 pub use state::{Stages, State, Unknown};
 pub use structure::{
     ClosedRealization, CollectivePoisson, ColumnPoisson, CotangentPoisson, Group, InertiaPoisson,
-    IntegrablePoisson, MatrixGroup, MatrixPoisson, Motion, RealizedPoisson, Spectrum, SpinPoisson,
-    UnitaryPoisson, VectorPoisson,
+    IntegrablePoisson, MatrixGroup, MatrixPoisson, Motion, RealizedPoisson, RetractedPoisson,
+    Spectrum, SpinPoisson, UnitaryPoisson, VectorPoisson,
 };

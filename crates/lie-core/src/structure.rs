@@ -167,6 +167,25 @@ pub struct Group<'a> {
 pub trait MatrixGroup<S: Scalar>: LiePoisson<S> {
     /// The group, by the matrices of its algebra.
     fn group(&self) -> Group<'_>;
+    /// The entries of `$\tau(x)$` by rows, of a system that is a [`RetractedPoisson`].
+    fn retract(&self, _x: &Self::State, _out: &mut [S]) {}
+}
+
+/// A Lie–Poisson system with a retraction of its own: a map `tau` from the algebra to the group with `tau(0) = e`, the identity as its
+/// derivative there, and `tau(x) tau(-x) = e`. For [`LieMidpoint::declared`](crate::methods::LieMidpoint::declared).
+///
+/// `$\mathrm{d}\tau_x$` is the right-trivialised tangent, `$\frac{\mathrm{d}}{\mathrm{d}s} \tau(x + s y) = (\mathrm{d}\tau_x y)\, \tau(x)$`.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no retraction of its own over the scalar `{S}`",
+    note = "declare `retraction`, or use `LieMidpoint::exp()`"
+)]
+pub trait RetractedPoisson<S: Scalar>: LiePoisson<S> {
+    /// `$(\mathrm{d}\tau_x)^* \mu$`
+    fn retraction_pullback(&self, x: &Self::State, mu: &Self::State, out: &mut Self::State);
+    /// Its derivative in x.
+    fn retraction_slope(&self, x: &Self::State, mu: &Self::State, out: &mut Self::Jacobian);
+    /// `$\mathrm{Ad}^*_{\tau(x)} \mu$`
+    fn retraction_action(&self, x: &Self::State, mu: &Self::State, out: &mut Self::State);
 }
 
 /// A Lie–Poisson system with a matrix representation that carries a reduction of `T*V` to g*.

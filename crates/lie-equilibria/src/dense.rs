@@ -44,7 +44,9 @@ impl Singular {
         let square = DMatrix::from_fn(rows.max(columns), columns, entry);
         let found = SVD::try_new(square, true, true, CONVERGED, MOST)?;
         let left = found.u?;
-        let left = left.column_iter().map(|u| u.rows(0, rows).iter().copied().collect());
+        let left = left
+            .column_iter()
+            .map(|u| u.rows(0, rows).iter().copied().collect());
         let right = found.v_t?;
         let right = right.row_iter().map(|v| v.iter().copied().collect());
         Some(Self {

@@ -144,12 +144,19 @@ impl<S: Scalar, V: State<S>> Reconstruction<S, V> {
                 let turn: fn(f64) -> f64 = match retraction {
                     // the Cayley map turns by less than the length of its argument
                     Retraction::Cayley => |angle| 2.0 * (angle / 2.0).atan(),
-                    Retraction::Exp | Retraction::SecondKind => |angle| angle,
+                    Retraction::Exp | Retraction::SecondKind | Retraction::Declared => {
+                        |angle| angle
+                    }
                 };
                 self.follow(system, std::slice::from_ref(xi), turn);
                 let factor = match retraction {
                     Retraction::Exp => exponential(&represent(system, xi)),
                     Retraction::Cayley => rational(&represent(system, xi)),
+                    Retraction::Declared => {
+                        let mut factor = GroupMatrix::zero(system.group().size);
+                        system.retract(xi, factor.entries_mut());
+                        factor
+                    }
                     Retraction::SecondKind => {
                         let mut single = xi.clone();
                         let mut factor = GroupMatrix::identity(system.group().size);

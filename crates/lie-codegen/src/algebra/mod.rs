@@ -6,6 +6,7 @@ pub mod brackets;
 mod constants;
 mod envelope;
 pub mod jacobi;
+pub mod moving;
 pub mod quadratic;
 pub mod rank;
 pub mod representation;

@@ -59,6 +59,7 @@ pub fn assemble(whole: &Whole<'_>, system: System, proven: Proven) -> Model {
         driving,
         inputs: super::driving::held::inputs(declaration),
         realization: lowered.realization,
+        retraction: lowered.retraction,
         declared_casimirs: casimirs,
         quantities,
         events,

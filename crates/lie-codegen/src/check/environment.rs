@@ -43,6 +43,8 @@ pub enum Allowed {
     Velocity(usize),
     /// Components of the velocity of a system with a constraint, and parameters.
     Constraint,
+    /// Components of an element of the algebra, and parameters: a retraction.
+    Retraction,
     /// Canonical coordinates of a realization.
     Canonical,
     /// Both: an abbreviation may serve either.
@@ -78,6 +80,7 @@ impl Allowed {
                 | Self::Parameters
                 | Self::Strength
                 | Self::Constraint
+                | Self::Retraction
                 | Self::Canonical => false,
             },
             _ if data_number(symbol).is_some() => matches!(self, Self::Site | Self::Strength),
@@ -89,7 +92,7 @@ impl Allowed {
             Symbol::Input(_) => {
                 matches!(
                     self,
-                    Self::Velocity(_) | Self::Constraint | Self::Everything
+                    Self::Velocity(_) | Self::Constraint | Self::Retraction | Self::Everything
                 )
             }
             Symbol::Step => matches!(self, Self::Velocity(_) | Self::Everything),
@@ -310,6 +313,10 @@ fn misplaced(name: &str, binding: Binding, allowed: Allowed) -> Option<(String, 
             "is a basis element; with `velocity`, a constraint is written in its names",
             "use the velocity name of the same position",
         ),
+        (Binding::Basis, Allowed::Retraction) => (
+            "is a basis element; with `velocity`, a retraction is written in its names",
+            "use the velocity name of the same position",
+        ),
         (Binding::Basis, _) => (
             "is a basis element; functions are written in the coordinates of the state",
             "use the state name of the same position",
@@ -322,6 +329,10 @@ fn misplaced(name: &str, binding: Binding, allowed: Allowed) -> Option<(String, 
         (_, Allowed::Constraint) => (
             "cannot stand here: a constraint is a linear equation between components of the velocity",
             "use basis names, or those of `velocity` where it is declared; the coefficients are functions of parameters",
+        ),
+        (_, Allowed::Retraction) => (
+            "cannot stand here: a retraction is a function of an element of the algebra",
+            "use basis names, or those of `velocity` where it is declared, and parameters",
         ),
         (_, Allowed::Canonical) => (
             "cannot stand here: the map of a realization depends on positions and momenta alone",

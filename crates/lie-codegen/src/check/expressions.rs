@@ -8,8 +8,9 @@ use super::lower::Lowering;
 use super::poisson::{self, Entry};
 use super::{
     attitude, defaults, driving, exactness, initial, lets, opaque, parameters, realization,
+    retraction,
 };
-use crate::model::{Acting, Attitude, Parameter, Realization};
+use crate::model::{Acting, Attitude, Parameter, Realization, Retraction};
 use lie_symbolic::exact::Rational;
 use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 use lie_syntax::ast;
@@ -43,6 +44,8 @@ pub struct Lowered {
     pub events: Vec<ExprId>,
     /// The realization.
     pub realization: Option<Realization>,
+    /// The retraction of the user's own.
+    pub retraction: Option<Retraction>,
     /// The initial state.
     pub initial: Option<Vec<ExprId>>,
     /// The initial group element.
@@ -105,6 +108,7 @@ pub fn lower(
         &environment,
         mistakes,
     );
+    let retraction = retraction::lowered_map(whole, &mut graph, &environment, mistakes);
     let initial = initial::initial_state(
         declaration,
         &mut graph,
@@ -138,6 +142,7 @@ pub fn lower(
         observables: observables.into_iter().collect::<Option<_>>()?,
         events: events.into_iter().collect::<Option<_>>()?,
         realization: realization?,
+        retraction: retraction?,
         initial: attitude::among_coordinates(configuration, initial?, attitude.as_ref()),
         attitude,
     })

@@ -5,7 +5,9 @@ use std::collections::BTreeSet;
 
 use crate::model::{Bracket, Model};
 use lie_symbolic::symbolic::Symbol;
-use lie_syntax::ast::{Attitude, BONDS, Declaration, Expr, ExprKind, Name, Size, Structure};
+use lie_syntax::ast::{
+    Attitude, BONDS, Declaration, Expr, ExprKind, Name, Retraction, Size, Structure,
+};
 use lie_syntax::diagnostic::{Diagnostic, Kind};
 
 /// Warnings of parameters and abbreviations that no expression mentions, of brackets that are all
@@ -108,6 +110,8 @@ fn mentioned(declaration: &Declaration) -> BTreeSet<&str> {
         pending.extend(realization.map.iter().map(|(_, value)| value));
         pending.extend(realization.start.iter().flatten());
     }
+    let retraction = declaration.retraction.iter();
+    pending.extend(retraction.flat_map(Retraction::entries));
     pending.extend(declaration.initial.iter().flatten());
     pending.extend(declaration.attitude.iter().flat_map(Attitude::entries));
     let names = pending.into_iter().flat_map(Expr::parts);

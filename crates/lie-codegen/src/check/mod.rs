@@ -45,6 +45,7 @@ mod poisson_map;
 mod rank;
 mod realization;
 mod refuted_verdict;
+mod retraction;
 mod series;
 mod sign;
 mod size;
@@ -112,10 +113,14 @@ fn stages(declaration: &Declaration, mistakes: &mut Vec<Diagnostic>) -> Option<M
     let proven = identities::identities(&whole, &mut system, &name, mistakes)?;
     let model = assembly::assemble(&whole, system, proven);
     let off = constraint::initial_violation(&model, declaration);
-    mistakes.extend(off.or_else(|| attitude::mistake(&model)).or_else(|| {
-        let place = whole.declaration.initial_origin;
-        domain::initial_domain(&model, place)
-    }));
+    mistakes.extend(
+        off.or_else(|| attitude::mistake(&model))
+            .or_else(|| retraction::mistake(&model))
+            .or_else(|| {
+                let place = whole.declaration.initial_origin;
+                domain::initial_domain(&model, place)
+            }),
+    );
     if has_errors(mistakes) {
         return None;
     }

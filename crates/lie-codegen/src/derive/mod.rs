@@ -14,6 +14,7 @@ mod lifts;
 mod poisson;
 mod realization;
 mod recurrence;
+mod retraction;
 mod second_kind;
 mod shears;
 mod source;
@@ -280,6 +281,11 @@ impl Source {
     pub fn realization_kernels(&mut self) -> Option<Vec<Kernel>> {
         let realization = self.realization()?;
         Some(realization::kernels(self, &realization))
+    }
+
+    /// The tangents of the declared retraction, and what its elements do.
+    pub fn retraction_kernels(&mut self) -> Option<Vec<Kernel>> {
+        retraction::kernels(self)
     }
 
     /// The flows of the coordinate pieces of a separable Hamiltonian.

@@ -59,6 +59,7 @@ pub fn refusal(structure: &Structure, choice: &Choice) -> Option<(String, String
                 (reason.into(), help)
             })
         }
+        Choice::LieMidpoint(Retraction::Spec) => retraction(model),
         Choice::Collective(order, Lift::Representation) | Choice::Isospectral(order) => {
             matrices::refusal(structure, *order)
         }
@@ -252,6 +253,16 @@ fn tensor(model: &Model, choice: &Choice) -> Option<(String, String)> {
              its value at the midpoint"
                 .into(),
             format!("use `{id}` without the option: the steps are the same"),
+        )
+    })
+}
+
+/// Why there is no retraction of the user's own.
+fn retraction(model: &Model) -> Option<(String, String)> {
+    model.retraction.is_none().then(|| {
+        (
+            "the retraction `spec` is one that is declared, and none is".into(),
+            "declare `retraction`, the matrix of a group element as a function of one of the algebra".into(),
         )
     })
 }

@@ -46,6 +46,8 @@ named! {
         Exp = "exp",
         /// The Cayley map of the declared representation.
         Cayley = "cayley",
+        /// The declared retraction.
+        Spec = "spec",
     }
 }
 
@@ -219,10 +221,10 @@ impl Choice {
                 Scheme::of_composition(*order).flat_map(with).collect()
             }
             Self::Generating(order, _) => {
-                let retractions = Retraction::ALL.iter();
+                let retractions = [Retraction::Exp, Retraction::Cayley];
                 retractions
-                    .map(|tau| Self::Generating(*order, *tau))
-                    .collect()
+                    .map(|tau| Self::Generating(*order, tau))
+                    .to_vec()
             }
             _ => {
                 let id = Row::find(self).id;

@@ -32,6 +32,8 @@ pub enum Carrier {
     Algebra,
     /// Those with a representation that is closed under (abc + cba)/2.
     Closed,
+    /// Those with a retraction of their own.
+    Retraction,
     /// Those with a representation that is closed up to matrices that commute with it.
     Matrices,
     /// Those with such a representation that is not closed.

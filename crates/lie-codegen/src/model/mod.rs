@@ -9,6 +9,7 @@ mod driving;
 mod family;
 mod quantity;
 mod realization;
+mod retraction;
 
 use std::collections::HashSet;
 
@@ -29,6 +30,7 @@ pub use family::{
 };
 pub use quantity::{Event, Quantity, QuantityKind, WORK};
 pub use realization::{CANONICAL, Descent, Realization};
+pub use retraction::Retraction;
 
 /// A parameter of the system.
 #[derive(Clone, Debug)]
@@ -181,6 +183,8 @@ pub struct Model {
     pub inputs: Vec<Input>,
     /// The realization, for collective methods.
     pub realization: Option<Realization>,
+    /// The retraction of the user's own.
+    pub retraction: Option<Retraction>,
     /// The Casimirs that are declared, those that are functions of others left out.
     pub declared_casimirs: Vec<Casimir>,
     /// What is recorded beside state, energy and Casimirs.

@@ -100,7 +100,9 @@ impl Plan {
         let realized = realization.flat_map(|realization| &realization.functions);
         let counted = |function: &Function| (function.label.clone(), function.program.counts);
         let lifted = self.structure.flows();
-        let mut counts: Vec<_> = system.chain(realized).chain(lifted).map(counted).collect();
+        let retraction = &self.structure.retraction;
+        let functions = system.chain(realized).chain(retraction).chain(lifted);
+        let mut counts: Vec<_> = functions.map(counted).collect();
         for item in &self.items {
             counts.extend(item.functions().map(counted));
             counts.extend(item.elimination());

@@ -89,6 +89,7 @@ impl Planner<'_> {
             Carrier::Any => true,
             Carrier::Algebra => source.is_lie(),
             Carrier::Closed => closed,
+            Carrier::Retraction => source.structure.retraction.is_some(),
             Carrier::Matrices => source.matrices().is_some(),
             Carrier::Reductive => source.matrices().is_some() && !closed,
             Carrier::Spins => source.spins().is_some(),

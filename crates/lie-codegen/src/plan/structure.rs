@@ -41,6 +41,8 @@ pub struct Structure {
     pub momenta: Option<usize>,
     /// The declared realization.
     pub realization: Option<Realization>,
+    /// The kernels of the declared retraction: its pullback, the slope of that, its action and its matrix; none where there is no such.
+    pub retraction: Vec<Function>,
 }
 
 /// A matrix group.
@@ -166,6 +168,7 @@ impl Planner<'_> {
             inertia,
             momenta: self.source.momenta(),
             realization: self.realization(),
+            retraction: self.retraction(),
         }
     }
 
@@ -221,6 +224,11 @@ impl Planner<'_> {
             planes,
             moments: moments.iter().map(|moment| self.value(*moment)).collect(),
         })
+    }
+
+    fn retraction(&mut self) -> Vec<Function> {
+        let kernels = self.source.retraction_kernels();
+        kernels.map_or_else(Vec::new, |kernels| self.functions(&kernels))
     }
 
     fn realization(&mut self) -> Option<Realization> {

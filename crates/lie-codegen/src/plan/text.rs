@@ -166,6 +166,12 @@ impl fmt::Display for Structure {
                 write!(f, "{function}")?;
             }
         }
+        if !self.retraction.is_empty() {
+            section(f, "retraction")?;
+            for function in &self.retraction {
+                write!(f, "{function}")?;
+            }
+        }
         Ok(())
     }
 }

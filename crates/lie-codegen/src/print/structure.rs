@@ -6,7 +6,7 @@ use quote::quote;
 use super::Printer;
 use super::function::Owner;
 use super::names::{ident, index};
-use crate::plan::{Code, Spectrum};
+use crate::plan::{Code, Function, Spectrum};
 use crate::structure::integrable::Motion;
 use lie_symbolic::exact::Rational;
 
@@ -21,7 +21,8 @@ impl Printer<'_> {
         let group = self.matrix_group();
         let (vectors, collective) = (self.vector_poisson(), self.collective_poisson());
         let unitary = self.unitary_poisson();
-        quote! { #group #matrices #spins #integrable #vectors #unitary #collective #inertia #cotangent }
+        let retracted = self.retracted_poisson();
+        quote! { #group #retracted #matrices #spins #integrable #vectors #unitary #collective #inertia #cotangent }
     }
 
     fn matrix_poisson(&self) -> Option<TokenStream> {
@@ -74,6 +75,19 @@ impl Printer<'_> {
         })
     }
 
+    /// The kernel of the matrix of the declared retraction, and the others.
+    fn retraction(&self) -> (Option<&Function>, &[Function]) {
+        match self.plan.structure.retraction.split_last() {
+            Some((element, others)) => (Some(element), others),
+            None => (None, &[]),
+        }
+    }
+
+    /// The impl of a declared retraction.
+    fn retracted_poisson(&self) -> Option<TokenStream> {
+        self.trait_of("RetractedPoisson", self.retraction().1, None)
+    }
+
     fn matrix_group(&self) -> Option<TokenStream> {
         let group = self.plan.structure.group.as_ref()?;
         let system = self.system_name();
@@ -89,6 +103,8 @@ impl Printer<'_> {
         };
         let entries = known.is_none_or(|known| known.matrices != group.matrices);
         let entries = entries.then(use_entries);
+        let (element, _) = self.retraction();
+        let retract = element.map(|element| self.vector_function(element, group.size * group.size));
         Some(quote! {
             impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixGroup<S> for #system<S> {
                 fn group(&self) -> ::lie_runtime::__private::Group<'_> {
@@ -101,6 +117,8 @@ impl Printer<'_> {
                         right: #right,
                     }
                 }
+
+                #retract
             }
         })
     }

@@ -98,7 +98,7 @@ impl Printer<'_> {
     }
 
     /// The impl of a trait by these kernels, if there are any; those of a discrete Lagrangian are given the step size.
-    fn trait_of(
+    pub(super) fn trait_of(
         &self,
         name: &str,
         functions: &[Function],
@@ -163,10 +163,11 @@ impl Printer<'_> {
     }
 
     /// So many values into a slice.
-    fn vector_function(&self, function: &Function, count: usize) -> TokenStream {
+    pub(super) fn vector_function(&self, function: &Function, count: usize) -> TokenStream {
         let docs = self.docs(function);
         let body = self.system_body(function, &["out"], None);
-        let mu = self.argument_if("mu", function.reads(&function.arguments[0]));
+        let argument = &function.arguments[0];
+        let mu = self.argument_if(argument.name, function.reads(argument));
         let out = self.argument_if("out", count > 0);
         let name = ident(function.name);
         quote! {

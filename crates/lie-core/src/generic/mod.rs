@@ -56,6 +56,7 @@ mod chart;
 mod cohen_hairer;
 mod columns;
 mod coordinate_flows;
+mod declared_midpoint;
 mod dexp_series;
 mod dexp_slope;
 mod diagonals;
@@ -116,6 +117,7 @@ pub use chart::{CAYLEY_POLE, cayley_chart, cayley_chart_of_step};
 pub use cohen_hairer::CohenHairerStep;
 pub use columns::{columns_of, flow_of_columns, flow_over_columns, momentum_of_columns};
 pub use coordinate_flows::{CoordinateFlows, piece_direction};
+pub use declared_midpoint::DeclaredMidpoint;
 pub use dexp_slope::dexp_dual_slope;
 pub use discrete_body::DiscreteBody;
 pub use discrete_gradient::{

@@ -16,6 +16,10 @@
 //! `(abc + cba)/2`, and then is polynomial: no series. It has a pole where an element has the real eigenvalue 2 or -2: steps
 //! along x are refused where one of the x s, 0 <= s <= 1, has it ([`OutsideChart`](crate::newton::FailureReason)).
 //!
+//! A retraction of the user's own is any map with `$\tau(0) = e$`, `$\mathrm{d}\tau_0 = 1$` and `$\tau(x)\, \tau(-x) = e$`, such as
+//! `$\tau(x) = R(-x/2)^{-1} R(x/2)$` of any R with the first two. The equation is `$m = (\mathrm{d}\tau_x)^* \mu$`, without the inverse of the
+//! tangent, and the new state `$\mathrm{Ad}^*_{\tau(x)} \mu$`.
+//!
 //! Where forces act, the force F at the midpoint m enters half before and half after the motion, as in the discrete
 //! Lagrange–d'Alembert principle:
 //!
@@ -50,9 +54,13 @@ pub struct Exp;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cayley;
 
+/// The retraction that the system declares ([`RetractedPoisson`](crate::structure::RetractedPoisson)).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Declared;
+
 /// The Lie–Poisson midpoint method, order 2; see the [module's text](self).
 ///
-/// Made by [`LieMidpoint::exp`] or [`LieMidpoint::cayley`].
+/// Made by [`LieMidpoint::exp`], [`LieMidpoint::cayley`] or [`LieMidpoint::declared`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LieMidpoint<T> {
     retraction: T,
@@ -69,6 +77,15 @@ impl LieMidpoint<Cayley> {
     /// With the Cayley map of the declared representation.
     pub const fn cayley() -> Self {
         Self { retraction: Cayley }
+    }
+}
+
+impl LieMidpoint<Declared> {
+    /// With the retraction that the system declares.
+    pub const fn declared() -> Self {
+        Self {
+            retraction: Declared,
+        }
     }
 }
 

@@ -107,7 +107,8 @@ macro_rules! for_each_method {
                 [Gauss(8)] [Gauss16] [Gauss16] {} }
             { "retraction Lie–Poisson integrator" RETRACTION MPS
                 [LieMidpoint(Retraction::Exp)] [LieMidpoint<Exp>] [LieMidpoint::exp()] { [exp Algebra ExpMidpoint] }
-                [LieMidpoint(Retraction::Cayley)] [LieMidpoint<Cayley>] [LieMidpoint::cayley()] { [cayley Closed CayleyMidpoint] } }
+                [LieMidpoint(Retraction::Cayley)] [LieMidpoint<Cayley>] [LieMidpoint::cayley()] { [cayley Closed CayleyMidpoint] }
+                [LieMidpoint(Retraction::Spec)] [LieMidpoint<Declared>] [LieMidpoint::declared()] { [retraction Retraction DeclaredMidpoint] } }
             { "classical Runge–Kutta method (control)" ANY "Kutta (1901)"
                 [Rk4] [Rk4] [Rk4] { explicit } }
             { "Dormand–Prince pair with step control (control)" ANY "Dormand, Prince (1980), 10.1016/0771-050X(80)90013-3"

@@ -156,7 +156,7 @@ pub use isospectral::{
 };
 pub use itoh_abe::ItohAbe;
 pub use lie_euler::{LieEuler, LieEulerStepper};
-pub use lie_midpoint::{Cayley, Exp, LieMidpoint};
+pub use lie_midpoint::{Cayley, Declared, Exp, LieMidpoint};
 pub use lie_taylor::{LieTaylor, LieTaylorDevelopment};
 pub use lifted::{LiftedStepper, StageLift};
 pub use made::Tolerances;

@@ -89,6 +89,8 @@ pub enum Retraction {
     Cayley,
     /// Coordinates of the second kind: `exp(xi_1 e_1) … exp(xi_n e_n)`.
     SecondKind,
+    /// The retraction of [`RetractedPoisson`](crate::structure::RetractedPoisson).
+    Declared,
 }
 
 /// Takes the group factors of a step, in order: a method of coadjoint form advances

@@ -131,6 +131,8 @@ pub(crate) struct Compiled {
     pub flows: crate::system::flows::Codes,
     pub structure: crate::system::structure::Codes,
     pub realization: Option<crate::system::realization::Codes>,
+    /// The declared retraction.
+    pub retraction: Option<crate::system::retraction::Codes>,
     pub family: Option<crate::system::family::Codes>,
     pub casimir_degrees: Vec<Option<u32>>,
     /// Steps as one program.
@@ -337,6 +339,7 @@ impl Compiled {
         let realization = plan.structure.realization.as_ref();
         let realization =
             realization.map(|r| crate::system::realization::Codes::new(r, &mut making));
+        let retraction = crate::system::retraction::Codes::new(&plan.structure, &mut making);
         let family = plan.family.as_ref();
         let family = family.map(|family| crate::system::family::Codes::new(family, &mut making));
         let casimir_degrees = plan.system.casimirs.iter().map(|c| c.degree).collect();
@@ -355,6 +358,7 @@ impl Compiled {
             flows,
             structure,
             realization,
+            retraction,
             family,
             casimir_degrees,
             steps: Cache::default(),

@@ -7,6 +7,7 @@ pub(crate) mod flows;
 mod lagrangian;
 mod names;
 pub(crate) mod realization;
+pub(crate) mod retraction;
 pub(crate) mod series;
 pub(crate) mod structure;
 mod traits;

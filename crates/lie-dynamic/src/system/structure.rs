@@ -371,4 +371,8 @@ impl<S: Scalar> MatrixGroup<S> for Dynamic<S> {
         };
         self.values.compiled.structure.group.unwrap_or(NONE)
     }
+    fn retract(&self, x: &Vec<S>, out: &mut [S]) {
+        let code = self.retraction().element;
+        self.values.call(code, [x, &[]], out, &mut []);
+    }
 }

@@ -160,7 +160,8 @@ request! {
     /// Writes COUNT states at equal distances from T1 to T2, both among them, in place of those of the steps; the end is that of
     /// --until or of the spec, else T2
     quantity rows "rows" "T1:T2:COUNT";
-    /// Retraction of lie-midpoint and of generating methods: exp or cayley
+    /// Retraction of lie-midpoint and of generating methods: exp or cayley; of lie-midpoint also spec,
+    /// the one that is declared
     word retraction "retraction" "NAME";
     /// Coefficients of a composition or a splitting: suzuki, triple-jump, kahan-li, …; some are for two pieces of which one is small (`lie methods` lists them)
     word composition "composition" "NAME";

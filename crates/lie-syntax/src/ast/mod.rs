@@ -233,6 +233,27 @@ impl Realization {
     }
 }
 
+/// A map from the algebra to the group near the identity, in matrices.
+#[derive(Clone, Debug)]
+pub struct Retraction {
+    /// The rows of the matrix, whose entries are functions of the components of the velocity.
+    pub map: Vec<Vec<Expr>>,
+    /// Those of the matrix at the other end of the step, if there is one.
+    pub second: Option<Vec<Vec<Expr>>>,
+    /// The whole declaration.
+    pub origin: Origin,
+}
+
+impl Retraction {
+    /// All entries.
+    pub fn entries(&self) -> impl Iterator<Item = &Expr> {
+        self.map
+            .iter()
+            .chain(self.second.iter().flatten())
+            .flatten()
+    }
+}
+
 /// Which invariance the system has; the right-invariant one has the opposite sign.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Invariance {
@@ -291,6 +312,8 @@ pub struct Declaration {
     pub constraint: Vec<Constraint>,
     /// A realization, for collective methods.
     pub realization: Option<Realization>,
+    /// A retraction of the user's own.
+    pub retraction: Option<Retraction>,
     /// Declared Casimirs.
     pub casimirs: Vec<Casimir>,
     /// Declared first integrals.

@@ -10,6 +10,7 @@ pub(super) mod family;
 mod functions;
 mod lists;
 mod observables;
+mod retraction;
 mod statement;
 mod tables;
 mod vectors;
@@ -25,7 +26,7 @@ use super::entries::{Awaited, Entries, Line, Read, Recorded};
 use super::reader;
 use super::tables::Read as Table;
 use super::token::{Delimiter, Token, TokenKind, render, span, split_commas};
-use super::vectors::Declared;
+use super::vectors::{Declared, Value};
 use super::{Body, Names, Parsed, driving, families, item, rust};
 use crate::ast::{Expr, Input, Name, OwnFunction, Realization, RunOption, SiteData, Start};
 use crate::ast::{NoPath, Runtime};
@@ -374,6 +375,11 @@ impl Entries for Parts<'_> {
     fn initial(&self, _: &[Name], names: &Names, report: &mut Report) -> Vec<Expr> {
         let statement = self.first("initial");
         statement.map_or_else(Vec::new, |s| lists::initial(s, names, report))
+    }
+
+    fn retraction(&self, names: &Names, report: &mut Report) -> Option<Vec<(Name, Value)>> {
+        let statement = self.first("retraction")?;
+        retraction::read(&statement.block(report)?, names, report)
     }
 
     fn attitude(&self, names: &Names, report: &mut Report) -> Option<super::attitude::Written> {

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use super::tables;
 use super::token::Token;
-use super::vectors::Declared;
+use super::vectors::{Declared, Value};
 use super::{Names, attitude, driving};
 use crate::ast::{
     Algebra, Expr, Input, Name, OwnFunction, Parameter, Realization, RunOption, SiteData, Size,
@@ -93,6 +93,8 @@ pub trait Entries {
     fn algebra(&self, parameters: &[String], report: &mut Report) -> Option<Read>;
     /// The realization; its map may use the parameters.
     fn realization(&self, parameters: &[String], report: &mut Report) -> Option<Realization>;
+    /// What is given for the matrices of the retraction, whose entries may use `names`.
+    fn retraction(&self, names: &Names, report: &mut Report) -> Option<Vec<(Name, Value)>>;
     /// The vectors and matrices, whose entries may use `names`.
     fn vectors(&self, names: &Names, report: &mut Report) -> Vec<Declared>;
     /// The observables.

@@ -30,6 +30,7 @@ mod operand;
 mod piecewise;
 mod prose;
 mod reader;
+mod retraction;
 mod rust;
 mod schema;
 mod tables;

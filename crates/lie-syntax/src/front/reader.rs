@@ -5,7 +5,7 @@
 use super::entries::{Awaited, Entries, Line, Parameters, Read, Recorded};
 use super::tables::Tables;
 use super::vectors;
-use super::{Body, Names, Parsed, driving, equations, expression, item};
+use super::{Body, Names, Parsed, driving, equations, expression, item, retraction};
 use crate::ast::{
     Algebra, Declaration, Energy, Event, Expr, Family, Invariance, Name, Observable, Parameter,
     SiteData, Size, Structure,
@@ -13,13 +13,14 @@ use crate::ast::{
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 
 /// What belongs to an algebra, and stands beside no `poisson`.
-const OF_ALGEBRA: [&str; 7] = [
+const OF_ALGEBRA: [&str; 8] = [
     "lagrangian",
     "discrete_lagrangian",
     "invariance",
     "group",
     "attitude",
     "realization",
+    "retraction",
     "constraint",
 ];
 
@@ -121,6 +122,11 @@ fn remainder<E: Entries>(
     let constraint = constraint.collect();
     let realization = entries.place("realization");
     let realization = realization.map(|_| entries.realization(&constants, report));
+    let retraction = entries.place("retraction").map(|place| {
+        let fields = entries.retraction(&names, report)?;
+        let read = retraction::retraction(fields, place, E::FORM);
+        read.map_err(|mistake| report.push(*mistake)).ok()
+    });
     let casimirs = entries.lines("casimirs", report);
     let casimirs = casimirs.iter();
     let casimirs =
@@ -172,6 +178,7 @@ fn remainder<E: Entries>(
         inputs,
         constraint,
         realization: without_mistake(realization)?,
+        retraction: without_mistake(retraction)?,
         casimirs,
         integrals,
         observables,

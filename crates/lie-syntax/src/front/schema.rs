@@ -97,6 +97,8 @@ objects! {
         "constraint" constraint: Option<Vec<String>>,
         /// A realization of the bracket in canonical coordinates, for collective methods.
         "realization" realization: Option<Realization>,
+        /// A map from the algebra to the group of the user's own, for `lie-midpoint` with `--retraction spec`.
+        "retraction" retraction: Option<Retraction>,
         /// Casimirs, `NAME = expression` or an expression; each is verified exactly.
         "casimirs" casimirs: Option<Vec<String>>,
         /// First integrals, `NAME = expression`: functions of state, parameters, abbreviations and the time `t` whose bracket with the
@@ -249,6 +251,16 @@ objects! {
         "map" map: Vec<String>,
         /// A point (q, p) near which points over a state are sought: numbers or exact expressions in parameters.
         "start" start: Option<Vec<Constant>>,
+    }
+
+    /// A map tau from the algebra to the group of `matrices`, by its matrix: tau(0) is the identity, its derivative there that of exp, and
+    /// `tau(x) tau(-x)` the identity. With `second` it is `second^-1 map`.
+    struct Retraction requires ["map"] {
+        /// The rows of the matrix: expressions in the components of the velocity, by the names of `velocity` or else of the basis,
+        /// and in parameters.
+        "map" map: Vec<Vec<Constant>>,
+        /// The matrix at the beginning of a step, where `map` is the one at its end, both seen from a point between.
+        "second" second: Option<Vec<Vec<Constant>>>,
     }
 
     /// A parameter with what people want to know about it.

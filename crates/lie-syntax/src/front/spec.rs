@@ -8,6 +8,7 @@ mod files;
 mod observables;
 mod parameters;
 mod realization;
+mod retraction;
 mod run;
 mod sites;
 mod start;
@@ -25,7 +26,7 @@ use super::object::{Object, as_list, list, parts, string, wrong_type};
 use super::reader;
 use super::schema::Spec;
 use super::tables::Read as Table;
-use super::vectors::Declared;
+use super::vectors::{self as written, Declared};
 use super::{Names, Parsed, expression, families, file, item, number, prose};
 use crate::ast::{
     Expr, ExprKind, Input, Name, OwnFunction, Realization, RunOption, SiteData, Start,
@@ -203,6 +204,14 @@ impl Entries for Object<'_> {
 
     fn realization(&self, parameters: &[String], report: &mut Report) -> Option<Realization> {
         realization::read(self.get("realization")?, parameters, report)
+    }
+
+    fn retraction(
+        &self,
+        names: &Names,
+        report: &mut Report,
+    ) -> Option<Vec<(Name, written::Value)>> {
+        retraction::read(self.get("retraction")?, names, report)
     }
 
     fn vectors(&self, names: &Names, report: &mut Report) -> Vec<Declared> {

@@ -29,6 +29,7 @@ const KEYWORDS: &[(&str, Follows)] = &[
     ("inputs", Follows::Block),
     ("constraint", Follows::Block),
     ("realization", Follows::Block),
+    ("retraction", Follows::Block),
     ("casimir", Follows::Name),
     ("integrals", Follows::Block),
     ("observables", Follows::Block),
