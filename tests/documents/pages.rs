@@ -266,6 +266,7 @@ fn no_arrow_between_crates_points_back() {
              lie-symbolic lie-syntax",
         ),
         ("crates/lie-equilibria", "lie-symbolic"),
+        ("crates/lie-spectra", "lie-runtime"),
         ("crates/lie-plot", ""),
     ] {
         let found = dependencies(&format!("{package}/Cargo.toml"));
