@@ -27,6 +27,7 @@ mod density;
 mod ensemble;
 mod equilibria;
 mod events;
+mod exponents;
 mod families;
 mod families_acting;
 mod families_driven;
