@@ -9,6 +9,7 @@ mod expand;
 mod exponents;
 pub mod files;
 mod fold;
+mod frequencies;
 mod measure;
 mod methods;
 mod new;
@@ -43,6 +44,7 @@ pub fn run(command: &Command) -> Result<u8, Failure> {
         Command::Verify(arguments) => measure::verify::run(arguments),
         Command::Equilibria(arguments) => equilibria::run(arguments),
         Command::Exponents(arguments) => exponents::run(arguments),
+        Command::Frequencies(arguments) => frequencies::run(arguments),
         Command::Report(arguments) => report::run(arguments),
         Command::Methods(arguments) => methods::run(arguments),
         Command::Schema => schema::run(),
@@ -53,7 +55,7 @@ pub fn run(command: &Command) -> Result<u8, Failure> {
 }
 
 /// The commands that are built.
-pub const BUILT: [&str; 16] = [
+pub const BUILT: [&str; 17] = [
     "check",
     "expand",
     "run",
@@ -65,6 +67,7 @@ pub const BUILT: [&str; 16] = [
     "stress",
     "equilibria",
     "exponents",
+    "frequencies",
     "report",
     "methods",
     "schema",

@@ -32,6 +32,7 @@ mod families;
 mod families_acting;
 mod families_driven;
 mod found_on_brackets;
+mod frequencies;
 mod hostile_text;
 mod joints;
 mod keep;

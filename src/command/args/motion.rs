@@ -1,4 +1,4 @@
-//! The command line of `lie exponents`.
+//! The command lines of `lie exponents` and `lie frequencies`.
 
 use std::path::PathBuf;
 
@@ -69,4 +69,36 @@ impl Exponents {
         };
         (request, asked)
     }
+}
+
+/// `lie frequencies`.
+#[derive(Args, Debug)]
+#[command(
+    after_help = "The system is run as by `lie run`, and each signal is what its rows have in a column; they must be at equal distances. The
+frequencies are angular. The drift is the difference between those of the first half of the time and of the second: an estimate of
+the error of a regular motion, and the diffusion of a chaotic one.
+Exit codes: as of `lie run`."
+)]
+pub struct Frequencies {
+    /// The spec file
+    #[arg(value_name = "SPEC")]
+    pub spec: PathBuf,
+    /// What is analysed, columns of `lie run` separated by commas: coordinates, Casimirs, declared functions, energy
+    #[arg(long, value_name = "NAME,…", required = true, value_delimiter = ',')]
+    pub of: Vec<String>,
+    /// How many lines of each
+    #[arg(long, value_name = "K", default_value_t = 5, value_parser = clap::value_parser!(u32).range(1..=100))]
+    pub count: u32,
+    /// Power of the window of Hann: a larger one keeps lines that are not shown from disturbing the others, and tells neighbours
+    /// apart after a longer time
+    #[arg(long, value_name = "P", default_value_t = 2, value_parser = clap::value_parser!(u8).range(0..=5))]
+    pub window: u8,
+    #[command(flatten)]
+    pub request: Request,
+    /// Prints one JSON object
+    #[arg(long)]
+    pub json: bool,
+    /// Says nothing on stderr unless something fails
+    #[arg(long)]
+    pub quiet: bool,
 }
