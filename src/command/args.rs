@@ -3,6 +3,7 @@
 mod ensemble;
 mod equilibria;
 mod measured;
+mod motion;
 
 use std::path::PathBuf;
 
@@ -12,6 +13,7 @@ use lie_in_process::request::Request;
 pub use ensemble::{Ensemble, Merge, Reduce};
 pub use equilibria::Equilibria;
 pub use measured::{Bench, Measured, Sense, Stress, Verify};
+pub use motion::{Exponents, Frequencies};
 
 /// Structure-preserving integrators for Lie–Poisson systems.
 #[derive(Debug, Parser)]
@@ -51,6 +53,10 @@ pub enum Command {
     Stress(Stress),
     /// Finds relative equilibria on a leaf, their spectra and stability, and follows them in a parameter
     Equilibria(Equilibria),
+    /// Measures Lyapunov exponents along an orbit, by the tangents of the steps
+    Exponents(Exponents),
+    /// Finds the frequencies of coordinates and declared functions along an orbit, by refined Fourier analysis
+    Frequencies(Box<Frequencies>),
     /// Writes a page of HTML: mathematics, trajectory, orbit, errors against run time, generated code
     Report(Box<Report>),
     /// Lists the methods: order, what they preserve, what they need, reference

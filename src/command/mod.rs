@@ -6,8 +6,10 @@ mod check;
 mod ensemble;
 mod equilibria;
 mod expand;
+mod exponents;
 pub mod files;
 mod fold;
+mod frequencies;
 mod measure;
 mod methods;
 mod new;
@@ -41,6 +43,8 @@ pub fn run(command: &Command) -> Result<u8, Failure> {
         Command::Stress(arguments) => measure::stress::run(arguments),
         Command::Verify(arguments) => measure::verify::run(arguments),
         Command::Equilibria(arguments) => equilibria::run(arguments),
+        Command::Exponents(arguments) => exponents::run(arguments),
+        Command::Frequencies(arguments) => frequencies::run(arguments),
         Command::Report(arguments) => report::run(arguments),
         Command::Methods(arguments) => methods::run(arguments),
         Command::Schema => schema::run(),
@@ -51,7 +55,7 @@ pub fn run(command: &Command) -> Result<u8, Failure> {
 }
 
 /// The commands that are built.
-pub const BUILT: [&str; 15] = [
+pub const BUILT: [&str; 17] = [
     "check",
     "expand",
     "run",
@@ -62,6 +66,8 @@ pub const BUILT: [&str; 15] = [
     "bench",
     "stress",
     "equilibria",
+    "exponents",
+    "frequencies",
     "report",
     "methods",
     "schema",

@@ -258,14 +258,15 @@ fn no_arrow_between_crates_points_back() {
         ("crates/lie-wasm", "lie-dynamic lie-runtime"),
         (
             "crates/lie-in-process",
-            "lie-codegen lie-dynamic lie-jit lie-measure lie-program lie-runtime lie-symbolic lie-syntax lie-tangents",
+            "lie-codegen lie-dynamic lie-jit lie-measure lie-program lie-runtime lie-spectra lie-symbolic lie-syntax lie-tangents",
         ),
         (
             ".",
             "lie-codegen lie-core lie-dynamic lie-equilibria lie-in-process lie-measure lie-plot lie-program lie-runtime \
-             lie-symbolic lie-syntax",
+             lie-spectra lie-symbolic lie-syntax",
         ),
         ("crates/lie-equilibria", "lie-symbolic"),
+        ("crates/lie-spectra", "lie-runtime"),
         ("crates/lie-plot", ""),
     ] {
         let found = dependencies(&format!("{package}/Cargo.toml"));

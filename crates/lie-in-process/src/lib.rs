@@ -3,7 +3,7 @@
 //! What a person asks of a run is a [`request::Request`], which is checked once. Questions and answers are those of
 //! [`lie_program`] and [`lie_measure`]: a [`Question`] is answered by [`Work`], in a thread whose words come by a channel
 //! ([`converse`](mod@converse)). What the command and the Python package say of the answers alike is here too: [`verify`]
-//! with [`evidence`], [`stress`], [`report`], [`catalogue`].
+//! with [`evidence`], [`stress`], [`exponents`], [`report`], [`catalogue`].
 
 #![warn(missing_docs)]
 
@@ -14,6 +14,7 @@ pub mod converse;
 pub mod draw;
 pub mod ensemble;
 pub mod evidence;
+pub mod exponents;
 pub mod families;
 pub mod formula;
 pub mod key;

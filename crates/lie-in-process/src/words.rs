@@ -19,6 +19,26 @@ pub fn short(value: f64) -> String {
     }
 }
 
+/// A number with its error: `0.1284 ± 0.0023`, `0.50000000000 ± 1.2e-10`.
+pub fn with_error(value: f64, error: f64) -> String {
+    let value = with_digits(value, error);
+    match error {
+        error if !error.is_finite() => value,
+        error if error < 1e-4 => format!("{value} ± {error:.1e}"),
+        error => format!("{value} ± {}", with_digits(error, error)),
+    }
+}
+
+/// A number with as many digits as its error leaves.
+pub fn with_digits(value: f64, error: f64) -> String {
+    let digits = match error.is_finite() {
+        true if error > 0.0 => (1.0 - error.log10().floor()).clamp(0.0, 15.0) as usize,
+        true => 15,
+        false => 6,
+    };
+    format!("{value:.digits$}")
+}
+
 /// So many of something: `1 step`, `2 steps`.
 pub fn counted(count: u64, what: &str) -> String {
     match count {

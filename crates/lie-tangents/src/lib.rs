@@ -1,7 +1,7 @@
 //! The methods of the catalogue over dual numbers: a step of one is a step with its tangent.
 //!
-//! `lie verify` and `lie stress` ask for them; runs do not. Nothing is written here that [`lie_dynamic`] does not have for every
-//! scalar. All methods are compiled here for dual numbers, so that cargo does it beside [`lie_dynamic`], which has those over
+//! `lie verify`, `lie stress` and `lie exponents` ask for them; runs do not. Nothing is written here that [`lie_dynamic`] does not have
+//! for every scalar. All methods are compiled here for dual numbers, so that cargo does it beside [`lie_dynamic`], which has those over
 //! numbers, and not after it.
 
 #![forbid(unsafe_code)]

@@ -144,7 +144,7 @@ fn layout(spec: &Spec, several: &Several) -> Result<Layout, Failure> {
 }
 
 /// What runs each of the methods: this program, or one that is built where that is asked for or has to be.
-fn workers(
+pub fn workers(
     spec: &Spec,
     plans: &[Plan],
     flags: &args::Run,

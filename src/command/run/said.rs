@@ -146,8 +146,8 @@ pub fn word(outcome: &Outcome) -> &'static str {
     }
 }
 
-/// Where and why a run stopped.
-pub fn stopped_text(stop: &Stop) -> String {
+/// Where and why a run stopped, and what becomes of what there is of it.
+pub fn stopped_text(stop: &Stop, kept: &str) -> String {
     let Stop {
         step, time, reason, ..
     } = stop;
@@ -159,7 +159,5 @@ pub fn stopped_text(stop: &Stop) -> String {
             format!(" ({iterations}, residual {:?})", stop.residual)
         }
     };
-    format!(
-        "the integration stopped in step {step} at t = {time:?}: {reason}{solver}\nthe rows so far are written"
-    )
+    format!("the integration stopped in step {step} at t = {time:?}: {reason}{solver}\n{kept}")
 }

@@ -352,7 +352,8 @@ impl Session<'_> {
                         Some(_) => format!("{}: ", self.named(number, member)),
                         None => String::new(),
                     };
-                    render::stopped(&format!("{who}{}", stopped_text(&stop)), &stop.remedy);
+                    let why = stopped_text(&stop, "the rows so far are written");
+                    render::stopped(&format!("{who}{why}"), &stop.remedy);
                 }
                 Ok(STOPPED)
             }
