@@ -26,7 +26,7 @@ pub struct Moving<'a> {
     pub size: usize,
     /// The matrices of the basis.
     pub basis: &'a [Fixed],
-    /// M and S; without S it is the identity.
+    /// M and S; where there is none it is the identity.
     pub ends: [Option<&'a [ExprId]>; 2],
 }
 
@@ -54,12 +54,15 @@ impl Moving<'_> {
             });
             let (of_map, of_second) = (parts.next().flatten(), parts.next().flatten());
             drop(parts);
-            let of_map = of_map.unwrap_or_else(|| unreachable!("there is a map"));
-            match of_second {
-                None => of_map,
-                Some(second) => {
-                    let pairs = of_map.iter().zip(&second);
+            match (of_map, of_second) {
+                (Some(map), Some(second)) => {
+                    let pairs = map.iter().zip(&second);
                     pairs.map(|(m, s)| graph.sub(*m, *s)).collect()
+                }
+                (Some(map), None) => map,
+                (None, second) => {
+                    let entries = second.iter().flatten();
+                    entries.map(|entry| graph.neg(*entry)).collect()
                 }
             }
         });

@@ -5,7 +5,6 @@ use super::environment::{Allowed, Environment};
 use super::lower::Lowering;
 use crate::algebra::moving::{Coordinates, Moving, Tangents, constant, product};
 use crate::model::{Model, Retraction};
-use lie_symbolic::exact::Rational;
 use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 use lie_syntax::ast::{self, Expr};
 use lie_syntax::diagnostic::{Diagnostic, Kind};
@@ -102,7 +101,8 @@ pub fn mistake(model: &Model) -> Option<Diagnostic> {
     let others = others.map(|(p, value)| value * (1.0 + 0.3 * scattered(p)));
     let others: Vec<f64> = others.collect();
     let mut graph = model.graph.clone();
-    let identities = Identities::new(&mut graph, retraction, &matrices, &coordinates);
+    let moving = retraction.moving(&matrices, model.invariance);
+    let identities = Identities::new(&mut graph, retraction, &moving, &coordinates);
     let mut sets = [defaults, others].into_iter();
     let found = sets.find_map(|parameters| {
         let at = |x: &[f64], entries: &[ExprId]| {
@@ -155,14 +155,15 @@ impl Identities {
     fn new(
         graph: &mut Graph,
         retraction: &Retraction,
-        matrices: &[Vec<Vec<Rational>>],
+        moving: &Moving<'_>,
         coordinates: &Coordinates,
     ) -> Self {
         let size = retraction.size;
-        let moving = retraction.moving(matrices);
         let tangents = moving.tangents(graph);
-        let basis: Vec<Vec<ExprId>> = matrices.iter().map(|e| constant(graph, e)).collect();
-        let ends = moving.ends.iter().flatten();
+        let basis: Vec<Vec<ExprId>> = moving.basis.iter().map(|e| constant(graph, e)).collect();
+        let ends = [Some(&retraction.map), retraction.second.as_ref()]
+            .into_iter()
+            .flatten();
         let ends: Vec<_> = ends.map(|end| less_identity(graph, end, size)).collect();
         let directions = tangents.directions.iter();
         let slopes = directions.clone().zip(&basis);
@@ -195,7 +196,7 @@ impl Identities {
             slopes,
             inverses,
             outside,
-            symmetric: symmetric(graph, &moving, &tangents),
+            symmetric: symmetric(graph, moving, &tangents),
         }
     }
 

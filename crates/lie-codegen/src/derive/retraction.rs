@@ -7,32 +7,22 @@ use crate::algebra::moving::{Coordinates, conjugated, constant};
 use lie_symbolic::symbolic::ExprId;
 
 /// `retraction_pullback`, `retraction_slope`, `retraction_action` and `retract`.
-///
-/// A right-invariant system is one of the opposite group: its products are in the other order, so that both sides of the element change places.
 pub(super) fn kernels(source: &mut Source) -> Option<Vec<Kernel>> {
     let retraction = source.structure.retraction.clone()?;
     let (size, matrices) = source.structure.group_matrices()?;
-    let right = source.group().is_some_and(|group| group.right);
     let coordinates = Coordinates::new(&matrices)?;
-    let moving = retraction.moving(&matrices);
+    let moving = retraction.moving(&matrices, source.structure.invariance);
     let graph = &mut source.graph;
     let tangents = moving.tangents(graph);
-    let [element, opposite] = moving.elements(graph, &tangents);
-    let (before, after) = match right {
-        false => (&tangents.inverses[1], moving.ends[1]),
-        true => (&tangents.inverses[0], moving.ends[0]),
-    };
-    let sides = match right {
-        false => (&element, &opposite),
-        true => (&opposite, &element),
-    };
+    let [element, inverse] = moving.elements(graph, &tangents);
+    let (before, after) = (&tangents.inverses[1], moving.ends[1]);
     let basis = matrices.iter().map(|matrix| constant(graph, matrix));
     let basis: Vec<Vec<ExprId>> = basis.collect();
     let tangent = |graph: &mut _, direction: &Vec<ExprId>| {
         conjugated(graph, before.as_deref(), direction, after, size)
     };
     let turned =
-        |graph: &mut _, e: &Vec<ExprId>| conjugated(graph, Some(sides.0), e, Some(sides.1), size);
+        |graph: &mut _, e: &Vec<ExprId>| conjugated(graph, Some(&element), e, Some(&inverse), size);
     let tangents: Vec<Vec<ExprId>> = tangents
         .directions
         .iter()
