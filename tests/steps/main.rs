@@ -61,6 +61,7 @@ mod published;
 mod realization;
 mod reconstruction;
 mod reference_vectors;
+mod retraction;
 mod splittings;
 mod stage_parallel;
 mod taylor;
