@@ -9,6 +9,7 @@ mod evaluate;
 mod kept;
 mod progress;
 mod report;
+mod spectra;
 mod stress;
 mod talk;
 mod trajectory;
@@ -231,6 +232,18 @@ impl Core {
         subject.measure(py, &stress::Stress(steps))
     }
 
+    /// Lyapunov exponents of an orbit but for a time at its start, all of them or so many.
+    fn exponents(
+        &self,
+        py: Python<'_>,
+        asked: &Bound<'_, PyDict>,
+        own: (f64, Option<u32>),
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<spectra::Found> {
+        let request = arguments::request(&self.0, asked)?;
+        spectra::exponents(py, &self.0, &request, own, progress)
+    }
+
     /// The generated Rust.
     fn rust(&self, py: Python<'_>, methods: Vec<String>) -> PyResult<String> {
         let text = self.0.with_model(py, |model| {
@@ -371,5 +384,6 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(constant, module)?)?;
     module.add_function(wrap_pyfunction!(is_word, module)?)?;
     module.add_function(wrap_pyfunction!(columns, module)?)?;
+    module.add_function(wrap_pyfunction!(spectra::lines, module)?)?;
     Ok(())
 }

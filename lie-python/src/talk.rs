@@ -205,7 +205,7 @@ pub struct Outcome {
 
 impl Outcome {
     /// Whether it came to its end, and not to Ctrl-C.
-    fn whole(self, model: &Structure) -> PyResult<bool> {
+    pub fn whole(self, model: &Structure) -> PyResult<bool> {
         match (self.interrupted, self.end) {
             (Some(error), _) => {
                 match Python::attach(|py| error.is_instance_of::<PyKeyboardInterrupt>(py)) {

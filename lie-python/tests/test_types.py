@@ -42,6 +42,8 @@ kernels: dict[str, float] | None = body.verify("rk4").kernels
 seconds: float = body.bench("rk4", t=1, budget=0.01).fastest(1e-6)[0].seconds
 reason: str | None = body.methods()["rk4"].reason
 rank: int = body.check().generic_rank
+divergence: float = body.exponents("rk4", h=0.1, t=10).sum
+diffusion: float = body.run("rk4", h=0.1, t=10).frequencies("x").lines[0].drift
 """
 
 

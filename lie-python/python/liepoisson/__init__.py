@@ -23,6 +23,7 @@ from ._functions import Function
 from ._histogram import Histogram
 from ._methods import Method, Methods
 from ._solution import Ensemble, Occurrences, Solution
+from ._spectra import Exponents, Frequencies, Line
 from ._stress import Growth, Stress, StressCell
 from ._system import System, load
 from ._verification import Fact, Verification
@@ -34,12 +35,15 @@ __all__ = [
     "Check",
     "DeclarationError",
     "Ensemble",
+    "Exponents",
     "Fact",
+    "Frequencies",
     "Function",
     "Growth",
     "Histogram",
     "IntegrationError",
     "Interrupted",
+    "Line",
     "LostShares",
     "Method",
     "MethodError",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from ._solution import Ensemble, Solution
+    from ._solution import Ensemble
 
 __all__ = ["DeclarationError", "IntegrationError", "Interrupted", "LostShares", "MethodError"]
 
@@ -36,11 +36,11 @@ class MethodError(ValueError):
 class IntegrationError(RuntimeError):
     """A run that stopped early.
 
-    ``partial`` is the :class:`Solution` up to there, ``step`` the number of the step that failed, ``time`` the
+    ``partial`` is the :class:`Solution` up to there, or the :class:`Exponents`, ``step`` the number of the step that failed, ``time`` the
     time before it.
     """
 
-    def __init__(self, message: str, partial: Solution, step: int, time: float) -> None:
+    def __init__(self, message: str, partial: Any, step: int, time: float) -> None:
         super().__init__(message)
         self.partial = partial
         self.step = step
@@ -69,7 +69,7 @@ class LostShares(RuntimeError):
 class Interrupted(KeyboardInterrupt):
     """A measurement that Ctrl-C ended.
 
-    ``partial`` has what there was: a :class:`Bench`, a :class:`Stress` or a :class:`Verification`, whose ``complete`` is false.
+    ``partial`` has what there was: a :class:`Bench`, a :class:`Stress`, a :class:`Verification` or :class:`Exponents`, whose ``complete`` is false.
     """
 
     def __init__(self, message: str, partial: Any) -> None:

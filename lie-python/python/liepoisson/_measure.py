@@ -9,19 +9,21 @@ import numpy as np
 
 from ._arguments import Number, Progress, among, heard, number, spelled, whole
 from ._bench import MEASURES, Bench, BenchRow
-from ._errors import Interrupted
+from ._errors import IntegrationError, Interrupted
 from ._methods import labels_of
+from ._spectra import Exponents, read_exponents
 from ._stress import Stress
 from ._verification import Verification
 
 if TYPE_CHECKING:
     from ._declared import Declared
 
-Result = TypeVar("Result", Bench, Stress, Verification)
+Result = TypeVar("Result", Bench, Exponents, Stress, Verification)
 
 #: What each measurement chooses itself.
 OWN = {
     "verify": {"tol": "measures at a step"},
+    "exponents": {"tol": "measures the tangents of steps of one size"},
     "bench": {"h": "tries many steps", "tol": "tries many tolerances"},
     "stress": {
         "h": "finds a step and tries many",
@@ -136,3 +138,27 @@ def stressed(
     count = whole(steps, "steps", 1)
     found = system._core.stress(labels_of("stress", methods), asked, count, heard(progress))
     return unless_interrupted(Stress(system.name, count, found))
+
+
+def parted(
+    system: Declared,
+    asked: dict[str, Any],
+    own: tuple[Number, int | None],
+    progress: Progress | None,
+) -> Exponents:
+    """How fast neighbours part along an orbit."""
+    transient, count = own
+    wanted = None if count is None else whole(count, "count", 1)
+    beside = (number(transient, "transient"), wanted)
+    found = system._core.exponents(asked, beside, heard(progress))
+    result = read_exponents(found)
+    if result is None:
+        raise Interrupted("interrupted before anything was summed", None)
+    if found["stopped"] is not None:
+        step, time, why, remedy = found["stopped"]
+        message = (
+            f"the integration stopped in step {step} at t = {time!r}: {why}\n"
+            f"  help: {remedy}; what was summed so far is in `partial`"
+        )
+        raise IntegrationError(message, result, step, time)
+    return unless_interrupted(result)

@@ -11,6 +11,7 @@ from ._again import Again
 from ._arguments import Array, among
 from ._pictures import image, new_figure, page, shown, table
 from ._sites import Sites
+from ._spectra import Frequencies, frequencies_of
 
 if TYPE_CHECKING:
     from ._system import System
@@ -158,6 +159,22 @@ class Solution:
         Errors: :class:`ValueError` for a time outside the run.
         """
         return self._again.at(times)
+
+    def frequencies(self, name: str, *, count: int = 5, window: int = 2) -> Frequencies:
+        """The strongest lines of a column, such as ``"x"`` or ``"energy"``, by refined Fourier analysis, ``count`` of them at most.
+
+        The rows must be at equal distances. ``window`` is the power of the window of Hann, from 0 to 5: a larger one keeps lines that are not
+        asked for from disturbing the others, and tells neighbours apart after a longer time.
+
+        >>> from liepoisson import System
+        >>> swing = System(poisson=["{q, p} = 1"], state=["q", "p"], hamiltonian="p^2/2 + 2*q^2")
+        >>> line = swing.run("gauss6", h=0.05, t=100, x0=[1, 0]).frequencies("q", count=1).lines[0]
+        >>> round(line.frequency, 7), round(line.amplitude, 7), line.drift < 1e-9
+        (2.0, 1.0, True)
+
+        Errors: :class:`ValueError` where the rows are at no equal distances, or fewer than 16, :class:`KeyError` for no column.
+        """
+        return frequencies_of(self.t, np.ascontiguousarray(self[name]), count, window)
 
     def _curve(self) -> tuple[Array, Array]:
         """Times and states for a picture: between the rows too, where these are few."""
