@@ -245,6 +245,7 @@ impl FactorSink<nalgebra::SVector<f64, 3>> for Replay {
                 act([0.0, xi[1], 0.0]);
                 act([0.0, 0.0, xi[2]]);
             }
+            Retraction::Declared => panic!("no retraction is declared"),
         }
     }
 }

@@ -279,6 +279,16 @@ fn write_system(model: &Structure, text: &mut String) -> std::fmt::Result {
     if !shared.is_empty() {
         writeln!(text, "  beside the sites: {}", shared.join(", "))?;
     }
+    if let Some(retraction) = &model.retraction {
+        let ends = match retraction.second {
+            None => "tau(x) = map",
+            Some(_) => "tau(x) = second^-1 map",
+        };
+        writeln!(
+            text,
+            "  retraction: {ends}, for `lie-midpoint --retraction spec` and its compositions"
+        )?;
+    }
     if let Some(attitude) = model.display_attitude() {
         writeln!(text, "  attitude at the start: {attitude}")?;
     }

@@ -121,6 +121,12 @@ fn steps_are_symmetric_poisson_maps_of_their_order() {
     ] {
         let path = written(folder.path(), &spec);
         let path = path.to_string_lossy();
+        let check = lie(&format!("check {path}")).ok();
+        assert!(
+            check.stdout.contains("retraction: tau(x) = "),
+            "{}",
+            check.stdout
+        );
         let spec =
             ["lie-midpoint", "compose4(lie-midpoint)"].map(|id| format!("{id} --retraction spec"));
         let methods = format!("{},{},rk4", spec[0], spec[1]);

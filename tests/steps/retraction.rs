@@ -3,7 +3,7 @@
 use lie_runtime::methods::{Method, Stepper};
 use lie_runtime::newton::NewtonOptions;
 use lie_runtime::prelude::*;
-use lie_runtime::{MatrixGroup, Poisson, State};
+use lie_runtime::{MatrixGroup, Poisson};
 
 lie_poisson! {
     /// A body with a Hamiltonian that is no quadratic form, and the Cayley map of rotations as its retraction.
