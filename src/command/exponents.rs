@@ -125,6 +125,15 @@ fn pairs(spec: &Spec, spectrum: &Spectrum) -> String {
     if spec.model.driving.is_some() {
         return "forces or dissipation act: exponents need not come in pairs\n".to_owned();
     }
+    if spec.model.is_almost_poisson() {
+        return "the bracket that the constraint leaves is almost Poisson: exponents need not come in pairs\n".to_owned();
+    }
+    if leaf < spec.model.generic_rank {
+        return format!(
+            "the start is on a singular leaf, of {leaf} dimensions for {}: exponents across it need not vanish\n",
+            spec.model.generic_rank
+        );
+    }
     let mut text = String::new();
     if let Some(defect) = spectrum.pairing() {
         text.push_str(&format!(

@@ -62,6 +62,9 @@ pub fn run(arguments: &args::Frequencies) -> Result<u8, Failure> {
         (&interrupt, arguments.quiet),
     )?;
     let code = ended(outcome, &workers[0], arguments.quiet)?;
+    if code != 0 && samples.times.len() < LEAST {
+        return Ok(code);
+    }
     let distance = distance(&samples)?;
     let options = Options {
         count: arguments.count as usize,

@@ -168,7 +168,12 @@ pub trait MatrixGroup<S: Scalar>: LiePoisson<S> {
     /// The group, by the matrices of its algebra.
     fn group(&self) -> Group<'_>;
     /// The entries of `$\tau(x)$` by rows, of a system that is a [`RetractedPoisson`].
-    fn retract(&self, _x: &Self::State, _out: &mut [S]) {}
+    ///
+    /// # Panics
+    /// The system has no such.
+    fn retract(&self, _x: &Self::State, _out: &mut [S]) {
+        panic!("`MatrixGroup::retract` belongs to a system with a retraction of its own")
+    }
 }
 
 /// A Lie–Poisson system with a retraction of its own: a map `tau` from the algebra to the group with `tau(0) = e`, the identity as its
@@ -177,7 +182,7 @@ pub trait MatrixGroup<S: Scalar>: LiePoisson<S> {
 /// `$\mathrm{d}\tau_x$` is the right-trivialised tangent, `$\frac{\mathrm{d}}{\mathrm{d}s} \tau(x + s y) = (\mathrm{d}\tau_x y)\, \tau(x)$`.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no retraction of its own over the scalar `{S}`",
-    note = "declare `retraction`, or use `LieMidpoint::exp()`"
+    note = "declare `retraction`, and have `lie-midpoint` among `methods` where these are listed; or use `LieMidpoint::exp()`"
 )]
 pub trait RetractedPoisson<S: Scalar>: LiePoisson<S> {
     /// `$(\mathrm{d}\tau_x)^* \mu$`

@@ -227,6 +227,10 @@ fn options(spec: &Spec, request: &Request, asked: &Asked, plan: &Plan) -> Result
     };
     let whole = ((plan.end() - plan.from) / step).round();
     let before = (transient / step.abs()).round();
+    if whole < 1.0 {
+        let text = "the run has no step".to_owned();
+        return mistake("until", text, "give an end some steps behind the start");
+    }
     if before < 0.0 || before >= whole {
         let text = format!(
             "the sums begin after a time of {transient}, and the run takes {}",

@@ -57,7 +57,7 @@ fn machine(codes: &Arc<[Code]>, registers: Option<Registers>) -> Arc<dyn Machine
 
 impl Engine for Jit {
     fn name(&self) -> &'static str {
-        "machine code"
+        Registers::widest().map_or("interpreter", |_| "machine code")
     }
 
     fn machine(&self, codes: &Arc<[Code]>) -> Arc<dyn Machine<f64>> {

@@ -7,7 +7,7 @@ pub enum Registers {
     Avx512,
     /// AVX2: 16 registers of four numbers, by the assembler of this crate.
     Avx2,
-    /// Pairs of numbers by Cranelift, on other processors than x86-64 and other systems than Unix.
+    /// Pairs of numbers by Cranelift, on other processors than x86-64, or other systems than Unix.
     Pairs,
 }
 

@@ -29,7 +29,9 @@ fn product() -> Arc<[Code]> {
 
 #[test]
 fn machines_give_their_memory_back() {
-    let engine = Registers::widest().and_then(Jit::with).unwrap();
+    let Some(engine) = Registers::widest().and_then(Jit::with) else {
+        return;
+    };
     let codes = product();
     let make = |count: usize| {
         for _ in 0..count {

@@ -72,6 +72,16 @@ impl Moving<'_> {
         }
     }
 
+    /// Each matrix as a map of its own.
+    pub fn each_end(&self) -> impl Iterator<Item = Self> {
+        let ends = self.ends.into_iter().flatten();
+        ends.map(|end| Self {
+            size: self.size,
+            basis: self.basis,
+            ends: [Some(end), None],
+        })
+    }
+
     /// The matrix of tau, and that of its inverse.
     pub fn elements(&self, graph: &mut Graph, tangents: &Tangents) -> [Square; 2] {
         let ([map, second], [map_inverse, second_inverse]) = (&self.ends, &tangents.inverses);

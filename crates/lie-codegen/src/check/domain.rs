@@ -1,8 +1,8 @@
 //! The domain: the Hamiltonian, its gradient and the Casimirs must be finite where a run begins.
 
-use super::attitude;
 use super::velocity::velocity;
-use crate::model::{Bracket, Energy, Model, QuantityKind};
+use super::{attitude, retraction};
+use crate::model::{Bracket, Energy, Model, QuantityKind, Retraction};
 use lie_symbolic::exact::Rational;
 use lie_symbolic::symbolic::{ExprId, Graph, Node, Symbol};
 use lie_syntax::diagnostic::{Diagnostic, Kind, Origin};
@@ -57,6 +57,8 @@ pub struct Domain {
     parts: Vec<ExprId>,
     /// Whether the initial group element depends on parameters; one that does not was looked at with the declaration.
     attitude_varies: bool,
+    /// What must hold of a retraction that depends on parameters.
+    retraction: Option<retraction::Identities>,
 }
 
 impl Domain {
@@ -69,7 +71,14 @@ impl Domain {
         let roots: Vec<ExprId> = functions.iter().map(|(id, _)| *id).collect();
         let attitude = model.attitude.iter();
         let mut entries = attitude.flat_map(|attitude| &attitude.entries);
+        let retraction = model.retraction.iter();
+        let varies = |entry: &ExprId| {
+            let symbols = graph.symbols(*entry);
+            symbols.iter().any(|s| matches!(s, Symbol::Parameter(_)))
+        };
+        let varies = retraction.flat_map(Retraction::entries).any(varies);
         Self {
+            retraction: varies.then(|| retraction::Identities::of(model)).flatten(),
             attitude_varies: entries.any(|entry| !graph.symbols(*entry).is_empty()),
             parts: graph.dependencies(&roots),
             graph,
@@ -92,6 +101,13 @@ impl Domain {
             return Some(Fault {
                 coordinate: None,
                 message: wrong.message,
+            });
+        }
+        let retraction = self.retraction.as_ref();
+        if let Some((message, _)) = retraction.and_then(|retraction| retraction.wrong(parameters)) {
+            return Some(Fault {
+                coordinate: None,
+                message,
             });
         }
         if let Some(fault) = outside_the_group(model, mu) {

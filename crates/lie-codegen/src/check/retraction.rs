@@ -9,7 +9,7 @@ use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 use lie_syntax::ast::{self, Expr};
 use lie_syntax::diagnostic::{Diagnostic, Kind};
 
-/// What differs by less is equal: entries are of size 1.
+/// What differs by less is equal, beside numbers of size 1.
 const EQUAL: f64 = 1e-10;
 /// Elements at which identities are checked.
 const POINTS: usize = 6;
@@ -30,8 +30,8 @@ pub fn lowered_map(
     };
     if whole.configuration.is_some() || declaration.is_constrained() {
         mistakes.push(wrong(
-            "a retraction is for H alone: without a group element, the time, what acts beside H, and a constraint",
-            "remove it, or these",
+            "a retraction is for H on an algebra alone: without a cocycle, a group element, the time, what acts beside H, and a constraint",
+            "remove `retraction`, or what the declaration has of these",
         ));
         return None;
     }
@@ -85,44 +85,19 @@ fn square(
 /// What is wrong with the declared retraction. It is looked at where x is 0 and at a few elements, at the default parameters and at others.
 pub fn mistake(model: &Model) -> Option<Diagnostic> {
     let retraction = model.retraction.as_ref()?;
-    let wrong = |(message, help): (String, &str)| {
+    let wrong = |(message, help): Wrong| {
         Diagnostic::new(Kind::Representation, retraction.origin, message).help(help)
     };
-    let independent = model.group_matrices().and_then(|(_, matrices)| {
-        let coordinates = Coordinates::new(&matrices)?;
-        Some((matrices, coordinates))
-    });
-    let Some((matrices, coordinates)) = independent else {
+    let Some(identities) = Identities::of(model) else {
         let message = "there is no retraction: the algebra has no independent matrices, or the bracket is not that of an algebra alone";
         return Some(wrong((message.into(), "remove `retraction`")));
     };
     let defaults = model.defaults();
     let others = defaults.iter().enumerate();
-    let others = others.map(|(p, value)| value * (1.0 + 0.3 * scattered(p)));
+    let others = others.map(|(p, value)| value + 0.3 * scattered(p) * (1.0 + value.abs()));
     let others: Vec<f64> = others.collect();
-    let mut graph = model.graph.clone();
-    let moving = retraction.moving(&matrices, model.invariance);
-    let identities = Identities::new(&mut graph, retraction, &moving, &coordinates);
     let mut sets = [defaults, others].into_iter();
-    let found = sets.find_map(|parameters| {
-        let at = |x: &[f64], entries: &[ExprId]| {
-            let value = |symbol| match symbol {
-                Symbol::Input(a) => x[a],
-                Symbol::Parameter(p) => parameters[p],
-                _ => f64::NAN,
-            };
-            graph.evaluate_all(entries, &value)
-        };
-        let count = matrices.len();
-        let wrong = identities.at_zero(&|entries| at(&vec![0.0; count], entries));
-        wrong.or_else(|| {
-            (0..POINTS).find_map(|k| {
-                let x = (0..count).map(|a| 0.6 * scattered(3 + k * count + a));
-                let x: Vec<f64> = x.collect();
-                identities.elsewhere(&|entries| at(&x, entries))
-            })
-        })
-    });
+    let found = sets.find_map(|parameters| identities.wrong(&parameters));
     found.map(wrong)
 }
 
@@ -133,77 +108,112 @@ fn scattered(k: usize) -> f64 {
         .mul_add(2.0, -1.0)
 }
 
-type Wrong = (String, &'static str);
+/// What is wrong, and what to do.
+pub type Wrong = (String, &'static str);
 type Values<'a> = &'a dyn Fn(&[ExprId]) -> Vec<f64>;
 
 /// What must hold of a retraction, as matrices that must vanish.
-struct Identities {
+pub struct Identities {
+    graph: Graph,
+    /// The number of coordinates, and of rows.
+    count: usize,
     size: usize,
+    /// The largest entry of the matrices of the algebra.
+    scale: f64,
     /// `map - 1` and `second - 1`,
     ends: Vec<Vec<ExprId>>,
     /// `B_a - e_a`,
     slopes: Vec<Vec<ExprId>>,
     /// `M M^-1 - 1` and the same of S,
     inverses: Vec<Vec<ExprId>>,
-    /// `B_a` less what its coordinates give,
+    /// `(dM/dx_a) M^-1` less what its coordinates give, and the same of S,
     outside: Vec<Vec<ExprId>>,
     /// `tau(x) tau(-x) - 1`.
     symmetric: Vec<ExprId>,
 }
 
 impl Identities {
-    fn new(
-        graph: &mut Graph,
-        retraction: &Retraction,
-        moving: &Moving<'_>,
-        coordinates: &Coordinates,
-    ) -> Self {
+    /// Of a model with a retraction; none where its algebra has no independent matrices.
+    pub fn of(model: &Model) -> Option<Self> {
+        let retraction = model.retraction.as_ref()?;
+        let (_, matrices) = model.group_matrices()?;
+        let coordinates = Coordinates::new(&matrices)?;
+        let mut graph = model.graph.clone();
         let size = retraction.size;
-        let tangents = moving.tangents(graph);
-        let basis: Vec<Vec<ExprId>> = moving.basis.iter().map(|e| constant(graph, e)).collect();
-        let ends = [Some(&retraction.map), retraction.second.as_ref()]
-            .into_iter()
-            .flatten();
-        let ends: Vec<_> = ends.map(|end| less_identity(graph, end, size)).collect();
-        let directions = tangents.directions.iter();
-        let slopes = directions.clone().zip(&basis);
+        let moving = retraction.moving(&matrices, model.invariance);
+        let tangents = moving.tangents(&mut graph);
+        let basis: Vec<Vec<ExprId>> = matrices.iter().map(|e| constant(&mut graph, e)).collect();
+        let ends = [Some(&retraction.map), retraction.second.as_ref()];
+        let ends = ends.into_iter().flatten();
+        let ends = ends.map(|end| less_identity(&mut graph, end, size));
+        let ends = ends.collect();
+        let slopes = tangents.directions.iter().zip(&basis);
         let slopes = slopes
-            .map(|(direction, e)| difference(graph, direction, e))
+            .map(|(direction, e)| difference(&mut graph, direction, e))
             .collect();
-        let outside = directions
-            .map(|direction| {
-                let parts = coordinates.of(graph, direction);
+        let mut outside = Vec::new();
+        for alone in moving.each_end() {
+            for direction in alone.tangents(&mut graph).directions {
+                let parts = coordinates.of(&mut graph, &direction);
                 let combined = (0..size * size).map(|k| {
                     let terms = parts.iter().zip(&basis);
                     let terms: Vec<ExprId> = terms.map(|(c, e)| graph.mul(*c, e[k])).collect();
                     graph.sum(&terms)
                 });
                 let combined: Vec<ExprId> = combined.collect();
-                difference(graph, direction, &combined)
-            })
-            .collect();
+                outside.push(difference(&mut graph, &direction, &combined));
+            }
+        }
         let pairs = moving.ends.iter().zip(&tangents.inverses);
         let pairs = pairs.filter_map(|(end, inverse)| Some((*end.as_ref()?, inverse.as_ref()?)));
         let inverses = pairs
             .map(|(end, inverse)| {
-                let whole = product(graph, end, inverse, size);
-                less_identity(graph, &whole, size)
+                let whole = product(&mut graph, end, inverse, size);
+                less_identity(&mut graph, &whole, size)
             })
             .collect();
-        Self {
+        let symmetric = symmetric(&mut graph, &moving, &tangents);
+        let entries = matrices.iter().flatten().flatten();
+        Some(Self {
+            graph,
+            count: matrices.len(),
             size,
+            scale: entries
+                .map(|entry| entry.to_f64().abs())
+                .fold(0.0, f64::max),
             ends,
             slopes,
             inverses,
             outside,
-            symmetric: symmetric(graph, moving, &tangents),
-        }
+            symmetric,
+        })
+    }
+
+    /// What is wrong at values of the parameters.
+    pub fn wrong(&self, parameters: &[f64]) -> Option<Wrong> {
+        let at = |x: &[f64], entries: &[ExprId]| {
+            let value = |symbol| match symbol {
+                Symbol::Input(a) => x[a],
+                Symbol::Parameter(p) => parameters[p],
+                _ => f64::NAN,
+            };
+            self.graph.evaluate_all(entries, &value)
+        };
+        let zero = vec![0.0; self.count];
+        let wrong = self.at_zero(&|entries| at(&zero, entries));
+        wrong.or_else(|| {
+            (0..POINTS).find_map(|k| {
+                let x = (0..self.count).map(|a| 0.6 * scattered(3 + k * self.count + a));
+                let x: Vec<f64> = x.collect();
+                self.elsewhere(&|entries| at(&x, entries))
+            })
+        })
     }
 
     /// What is wrong where x is 0.
     fn at_zero(&self, values: Values<'_>) -> Option<Wrong> {
         for (end, name) in self.ends.iter().zip(["map", "second"]) {
-            let Some((place, value)) = self.off(values, end) else {
+            let Some((place, value)) = self.off(values, end, 1.0) else {
                 continue;
             };
             return Some(match value.is_finite() {
@@ -218,7 +228,8 @@ impl Identities {
             });
         }
         let slopes = self.slopes.iter().enumerate();
-        let mut off = slopes.filter_map(|(a, slope)| Some((a, self.off(values, slope)?)));
+        let mut off =
+            slopes.filter_map(|(a, slope)| Some((a, self.off(values, slope, self.scale)?)));
         off.next().map(|(a, (place, value))| {
             let message = format!(
                 "the derivative of the retraction at 0 along basis element {} is not its matrix: {place} is off by {value}",
@@ -230,14 +241,16 @@ impl Identities {
 
     /// What is wrong at an element.
     fn elsewhere(&self, values: Values<'_>) -> Option<Wrong> {
-        let mut group = self.inverses.iter().chain(&self.outside);
-        if group.any(|matrix| self.off(values, matrix).is_some()) {
+        let inverses = self.inverses.iter().map(|matrix| (matrix, 1.0));
+        let outside = self.outside.iter().map(|matrix| (matrix, self.scale));
+        let mut group = inverses.chain(outside);
+        if group.any(|(matrix, scale)| self.off(values, matrix, scale).is_some()) {
             return Some((
-                "the retraction leaves the group of the matrices, or is not finite near 0".into(),
-                "give a matrix of the group for every x, such as a product of exponentials of elements",
+                "a matrix of the retraction leaves the group of the algebra, or is not finite near 0".into(),
+                "give matrices of the group for every x, such as products of exponentials of elements",
             ));
         }
-        self.off(values, &self.symmetric).map(|_| {
+        self.off(values, &self.symmetric, 1.0).map(|_| {
             (
                 "tau(x) tau(-x) is not the identity: steps along the retraction would not be symmetric, and have order 1".into(),
                 "give it two ends: as `map` its matrix at x/2, as `second` that at -x/2",
@@ -245,10 +258,11 @@ impl Identities {
         })
     }
 
-    /// The first entry that does not vanish, as text, and its value.
-    fn off(&self, values: Values<'_>, matrix: &[ExprId]) -> Option<(String, f64)> {
+    /// The first entry that does not vanish beside numbers of this size, as text, and its value.
+    fn off(&self, values: Values<'_>, matrix: &[ExprId], scale: f64) -> Option<(String, f64)> {
         let values = values(matrix);
-        let place = values.iter().position(|value| !(value.abs() <= EQUAL))?;
+        let mut entries = values.iter();
+        let place = entries.position(|value| !(value.abs() <= EQUAL * scale))?;
         let (i, j) = (place / self.size + 1, place % self.size + 1);
         Some((format!("entry {i}, {j}"), values[place]))
     }

@@ -20,6 +20,11 @@ pub struct Retraction {
 }
 
 impl Retraction {
+    /// The entries of both matrices.
+    pub fn entries(&self) -> impl Iterator<Item = &ExprId> {
+        self.map.iter().chain(self.second.iter().flatten())
+    }
+
     /// It as a map to the group of the matrices of a system. Those of a right-invariant one are the negative ones, whose group has the
     /// inverse elements: the ends change places.
     pub fn moving<'a>(&'a self, basis: &'a [Vec<Vec<Rational>>], of: Invariance) -> Moving<'a> {

@@ -81,6 +81,13 @@ impl Planner<'_> {
         })
     }
 
+    /// Whether a method may move along the declared retraction: one that is asked for, or any where none is named.
+    pub(super) fn follows_retraction(&self) -> bool {
+        let along = |choice: &Choice| *choice.solved() == Choice::LieMidpoint(Retraction::Spec);
+        let asked = self.methods.is_empty() || self.methods.iter().any(along);
+        asked && self.structure.retraction.is_some()
+    }
+
     /// Whether the system has the generic equations of a carrier.
     fn carries(&self, carrier: Carrier) -> bool {
         let source = &self.source;
@@ -89,7 +96,7 @@ impl Planner<'_> {
             Carrier::Any => true,
             Carrier::Algebra => source.is_lie(),
             Carrier::Closed => closed,
-            Carrier::Retraction => source.structure.retraction.is_some(),
+            Carrier::Retraction => self.follows_retraction(),
             Carrier::Matrices => source.matrices().is_some(),
             Carrier::Reductive => source.matrices().is_some() && !closed,
             Carrier::Spins => source.spins().is_some(),

@@ -227,6 +227,9 @@ impl Planner<'_> {
     }
 
     fn retraction(&mut self) -> Vec<Function> {
+        if !self.follows_retraction() {
+            return Vec::new();
+        }
         let kernels = self.source.retraction_kernels();
         kernels.map_or_else(Vec::new, |kernels| self.functions(&kernels))
     }

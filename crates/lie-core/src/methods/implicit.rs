@@ -48,8 +48,8 @@ impl<S: Scalar, E: Equation<S>> ImplicitStepper<S, E> {
         look(&mut self.equation, &self.unknown)
     }
 
-    /// Advances one step without a sink. What listens to a step makes it another function, which holds all of this in optimised
-    /// programs; in others, where it would be most of what is compiled, it is called.
+    /// Advances one step without a sink. `step` is compiled once for each kind of sink: in optimised programs each of them contains this;
+    /// in the development profile it is called, for it would be a fifth of what is compiled there.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn advance(&mut self, mu: &mut E::State) -> Result<StepReport, StepFailure> {
         self.equation.set_base(mu);

@@ -71,8 +71,7 @@ pub fn over_numbers(codes: &[Cow<'_, Code>], registers: Registers) -> Option<Fun
     });
     let places = places.collect();
     if all.is_empty() {
-        // memory has at least one byte
-        all.push(0xCC);
+        return None;
     }
     Some(Functions {
         memory: Memory(Pages::new(&all)?),

@@ -73,6 +73,10 @@ pub fn violations(declaration: &Declaration, family: &Family) -> Vec<Diagnostic>
         let message = "a family takes no realization";
         refuse(realization.origin, message, "remove `realization`");
     }
+    if let Some(retraction) = &declaration.retraction {
+        let message = "a family takes no retraction";
+        refuse(retraction.origin, message, "remove `retraction`");
+    }
     if family.sizes.len() != family.indices.len() {
         let (sizes, indices) = (family.sizes.len(), family.indices.len());
         let message = format!("{indices} in the names of the state, and {sizes} in the algebra");
