@@ -71,7 +71,11 @@ pub fn over_numbers(codes: &[Cow<'_, Code>], registers: Registers) -> Option<Fun
     });
     let places = places.collect();
     if all.is_empty() {
-        return None;
+        if !codes.is_empty() {
+            return None;
+        }
+        // memory has at least one byte
+        all.push(0xCC);
     }
     Some(Functions {
         memory: Memory(Pages::new(&all)?),
