@@ -287,7 +287,7 @@ fn where_a_retraction_does_not_apply_it_is_said() {
     pushed["forces"] = json!({ "x": "-x/10" });
     for (spec, message) in [
         (plain, "declare `retraction`"),
-        (pushed, "a retraction is for H alone"),
+        (pushed, "a retraction is for H on an algebra alone"),
     ] {
         let path = written(folder.path(), &spec);
         let run = lie(&format!(
@@ -302,7 +302,9 @@ fn where_a_retraction_does_not_apply_it_is_said() {
     let path = written(folder.path(), &timed);
     let checked = lie(&format!("check {}", path.display()));
     assert!(
-        checked.stderr.contains("a retraction is for H alone"),
+        checked
+            .stderr
+            .contains("a retraction is for H on an algebra alone"),
         "{}",
         checked.stderr
     );

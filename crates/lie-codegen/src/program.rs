@@ -239,7 +239,13 @@ pub fn compared<'a>(structure: &Structure, choices: &'a [Choice]) -> Vec<&'a Cho
     if structure.energy.expression().is_none() || structure.family.is_some() {
         return Vec::new();
     }
-    choices.iter().filter(|choice| is_fused(choice)).collect()
+    // on a bracket by entries the flows of pieces are those that were found, and there are no others
+    let alone =
+        |choice: &Choice| !structure.is_lie_poisson() && matches!(choice, Choice::Splitting(..));
+    let compared = choices
+        .iter()
+        .filter(|choice| is_fused(choice) && !alone(choice));
+    compared.collect()
 }
 
 /// Whether the steps of a method are compared: those with fused code of their own, one number of stages of each. Generic

@@ -167,7 +167,7 @@ fn specs() -> Vec<(String, String)> {
     });
     let files = files.map(|file| file.unwrap().path());
     let mut found: Vec<_> = files
-        .filter(|path| !path.ends_with("lie-system.schema.json"))
+        .filter(|path| path.is_file() && !path.ends_with("lie-system.schema.json"))
         .map(|path| {
             (
                 path.display().to_string(),
