@@ -6,7 +6,7 @@ use super::lower::Lowering;
 use crate::algebra::moving::{Coordinates, Moving, Tangents, constant, product};
 use crate::model::{Model, Retraction};
 use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
-use lie_syntax::ast::{self, Expr};
+use lie_syntax::ast::{self, Expr, Invariance};
 use lie_syntax::diagnostic::{Diagnostic, Kind};
 
 /// What differs by less is equal, beside numbers of size 1.
@@ -140,7 +140,7 @@ impl Identities {
         let coordinates = Coordinates::new(&matrices)?;
         let mut graph = model.graph.clone();
         let size = retraction.size;
-        let moving = retraction.moving(&matrices, model.invariance);
+        let moving = retraction.moving(&matrices, model.invariance == Invariance::Right);
         let tangents = moving.tangents(&mut graph);
         let basis: Vec<Vec<ExprId>> = matrices.iter().map(|e| constant(&mut graph, e)).collect();
         let ends = [Some(&retraction.map), retraction.second.as_ref()];

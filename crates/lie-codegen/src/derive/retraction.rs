@@ -11,7 +11,8 @@ pub(super) fn kernels(source: &mut Source) -> Option<Vec<Kernel>> {
     let retraction = source.structure.retraction.clone()?;
     let (size, matrices) = source.structure.group_matrices()?;
     let coordinates = Coordinates::new(&matrices)?;
-    let moving = retraction.moving(&matrices, source.structure.invariance);
+    let right = source.group().is_some_and(|group| group.right);
+    let moving = retraction.moving(&matrices, right);
     let graph = &mut source.graph;
     let tangents = moving.tangents(graph);
     let [element, inverse] = moving.elements(graph, &tangents);

@@ -3,7 +3,6 @@
 use crate::algebra::moving::Moving;
 use lie_symbolic::exact::Rational;
 use lie_symbolic::symbolic::ExprId;
-use lie_syntax::ast::Invariance;
 use lie_syntax::diagnostic::Origin;
 
 /// A verified retraction: a map `tau = second^-1 map` from the algebra to the group of the declared matrices.
@@ -27,14 +26,14 @@ impl Retraction {
 
     /// It as a map to the group of the matrices of a system. Those of a right-invariant one are the negative ones, whose group has the
     /// inverse elements: the ends change places.
-    pub fn moving<'a>(&'a self, basis: &'a [Vec<Vec<Rational>>], of: Invariance) -> Moving<'a> {
+    pub fn moving<'a>(&'a self, basis: &'a [Vec<Vec<Rational>>], right: bool) -> Moving<'a> {
         let (map, second) = (Some(&*self.map), self.second.as_deref());
         Moving {
             size: self.size,
             basis,
-            ends: match of {
-                Invariance::Left => [map, second],
-                Invariance::Right => [second, map],
+            ends: match right {
+                false => [map, second],
+                true => [second, map],
             },
         }
     }
