@@ -262,7 +262,7 @@ impl Identities {
     fn off(&self, values: Values<'_>, matrix: &[ExprId], scale: f64) -> Option<(String, f64)> {
         let values = values(matrix);
         let mut entries = values.iter();
-        let place = entries.position(|value| !(value.abs() <= EQUAL * scale))?;
+        let place = entries.position(|value| value.is_nan() || value.abs() > EQUAL * scale)?;
         let (i, j) = (place / self.size + 1, place % self.size + 1);
         Some((format!("entry {i}, {j}"), values[place]))
     }
