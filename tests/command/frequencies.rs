@@ -1,6 +1,5 @@
 //! `lie frequencies`: against the exact motion of the free body, and what it refuses.
 
-
 use serde_json::{Value, json};
 
 use crate::common::{folder, lie, spec};
