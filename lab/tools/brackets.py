@@ -1,4 +1,4 @@
-"""What methods keep over 100,000 steps on brackets that are declared by their entries: the table of lab/docs/brackets.md.
+"""What methods keep over 100,000 steps on brackets that are declared by their entries, as a table for each system.
 
     cargo build --release
     python lab/tools/brackets.py [--lie target/release/lie] [--steps 100000] [SPEC=STEP…]

@@ -2,8 +2,8 @@
 //!
 //! One function for each code, with the operations in their order: the digits are those of the interpreter. Elementary functions are
 //! those of the numeric core. On x86-64 under Unix an assembler of our own makes the functions (`assembler`) where the processor has AVX2 or
-//! AVX-512, and codes are interpreted where it has neither; Cranelift makes them elsewhere (`cranelift`), and is built there alone: it
-//! takes a fifth of the time to compile the command. Before every call the lengths of all slices are compared with what the code reads and writes.
+//! AVX-512, and codes are interpreted where it has neither; Cranelift makes them elsewhere (`cranelift`), and is built there alone,
+//! since it takes long to compile. Before every call the lengths of all slices are compared with what the code reads and writes.
 
 #![warn(missing_docs)]
 
