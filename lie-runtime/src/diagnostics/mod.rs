@@ -11,7 +11,8 @@ mod reference;
 mod step;
 mod symmetry;
 
-pub use any::{AnyMethod, AnyStepper, Claims, Forgotten, ForgottenStepper, GroupMotion, Motions};
+pub use crate::methods::{AnyStepper, GroupMotion, Motions};
+pub use any::{AnyMethod, Claims, Forgotten, ForgottenStepper};
 pub use drift::{Drift, DriftMonitor, InvariantDrift};
 pub use order::{Order, order_of_convergence};
 pub use poisson_defect::{TangentMap, poisson_defect, tangent_map};

@@ -1,6 +1,6 @@
 //! The derivative of a step, and how far a step is from a Poisson map.
 
-use super::any::{AnyMethod, AnyStepper};
+use super::{AnyMethod, AnyStepper};
 use crate::matrix::SquareMatrix;
 use crate::methods::{Method, StepFailure};
 use crate::newton::NewtonOptions;

@@ -4,12 +4,12 @@ use super::checks::{check_domain, smaller};
 use super::course::Course;
 use super::error::StepError;
 use super::solve::IntegrateError;
-use crate::methods::{Method, StepFailure, StepReport};
+use crate::methods::{StepFailure, StepReport};
 use crate::newton::FailureReason;
 use crate::poisson::Poisson;
 use crate::scalar::Scalar;
 
-impl<M> Course<'_, M> {
+impl<S: Scalar, P: Poisson<S>> Course<'_, S, P> {
     /// The error of the step that comes next.
     pub(super) fn failed(&self, failure: StepFailure) -> Box<StepError> {
         let mut stats = self.stats;
@@ -24,16 +24,13 @@ impl<M> Course<'_, M> {
     }
 
     /// The same of a step of h from a state: where it left its chart, with one that does not.
-    pub(super) fn stopped<S: Scalar, P: Poisson<S>>(
+    pub(super) fn stopped(
         &self,
         system: &P,
         failure: StepFailure,
         h: f64,
         mu: &P::State,
-    ) -> IntegrateError
-    where
-        M: Method<S, P>,
-    {
+    ) -> IntegrateError {
         let left = failure.reason == FailureReason::OutsideChart;
         let works = left.then(|| smaller(system, self.method, &self.newton, h, mu));
         let error = StepError {
@@ -44,7 +41,7 @@ impl<M> Course<'_, M> {
     }
 
     /// Counts a step that ended at a state.
-    pub(super) fn arrived<S: Scalar, P: Poisson<S>>(
+    pub(super) fn arrived(
         &mut self,
         system: &P,
         mu: &P::State,

@@ -4,12 +4,12 @@ use super::course::{Beginning, Course};
 use super::density::Density;
 use super::grid::Grid;
 use super::held::Held;
+use super::kept::Kept;
 use super::observer::{Observer, Progress};
 use super::options::Save;
 use super::problem::Problem;
 use super::stats::Status;
 use crate::clock::holds;
-use crate::methods::Method;
 use crate::newton::NewtonOptions;
 use crate::poisson::Poisson;
 use crate::scalar::{Scalar, largest};
@@ -22,9 +22,9 @@ const SHORTER: f64 = 0.8;
 const CHANGE: f64 = 0.1;
 
 /// A run that has ended.
-pub(super) struct Ended<'a, S: Scalar, P: Poisson<S>, M> {
+pub(super) struct Ended<'a, S: Scalar, P: Poisson<S>> {
     pub(super) problem: &'a Problem<S, P>,
-    pub(super) method: &'a M,
+    pub(super) method: &'a Kept<'a, S, P>,
     pub(super) newton: NewtonOptions,
     /// None of a run whose step was given.
     pub(super) tolerance: Option<f64>,
@@ -35,7 +35,7 @@ pub(super) struct Ended<'a, S: Scalar, P: Poisson<S>, M> {
     pub(super) end: &'a P::State,
 }
 
-impl<S: Scalar, P: Poisson<S>, M: Method<S, P>> Ended<'_, S, P, M> {
+impl<S: Scalar, P: Poisson<S>> Ended<'_, S, P> {
     /// Its error relative to the state, if a second run tells it.
     ///
     /// Steps of four fifths leave `0.8^p` of the error, which is subtracted. Of a method that chooses its own steps
@@ -67,7 +67,7 @@ impl<S: Scalar, P: Poisson<S>, M: Method<S, P>> Ended<'_, S, P, M> {
         };
         let step = (end - start) / steps;
         let grid = Grid::new((start, end), step).ok()?;
-        let divides = Course::<M>::may_divide::<S, P>(self.method);
+        let divides = self.method.may_divide();
         let mut course = Course::new(grid, self.method, self.newton)
             .dividing(divides && !follows)
             .following(self.density);

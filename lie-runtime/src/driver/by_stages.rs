@@ -1,7 +1,7 @@
 //! The number of steps of a run whose method shows the error of a step by its stages.
 //!
 //! A step is tried from the start: it is solved as the run will solve it, and its stages tell its error
-//! ([`Stepper::estimate`]). Where the sum of such errors over the span is more than the tolerance allows, more steps are tried, else
+//! ([`Stepper::estimate`](crate::methods::Stepper::estimate)). Where the sum of such errors over the span is more than the tolerance allows, more steps are tried, else
 //! fewer, until neighbours on a ladder of numbers of steps are one too few and the other enough. The accepted step is the
 //! first one of the run. Neighbours differ by a tenth. A tighter tolerance is found to take no fewer steps; later ones may be
 //! shortened where those of a looser one are not, so that the sum may differ by some tenths.
@@ -11,6 +11,7 @@
 
 use super::error::StepError;
 use super::joints::Joints;
+use super::kept::KeptStepper;
 use super::pace::count;
 use super::problem::set_time;
 use super::pulse::Pulse;
@@ -18,7 +19,7 @@ use super::solve::IntegrateError;
 use super::stats::Stats;
 use super::trial::Trial;
 use super::watch::JACOBIAN;
-use crate::methods::{Method, StepFailure, StepReport, Stepper};
+use crate::methods::{StepFailure, StepReport};
 use crate::newton::{Convergence, NewtonOptions};
 use crate::poisson::Poisson;
 use crate::scalar::{Scalar, largest};
@@ -49,34 +50,27 @@ const MOST_STEPS: f64 = 4e6;
 const MOST_SHORTENED: f64 = 1024.0;
 
 /// A first step.
-pub(super) struct Begun<T, V> {
+pub(super) struct Begun<'s, S: Scalar, P: Poisson<S>> {
     /// What made it, and goes on.
-    pub(super) stepper: T,
+    pub(super) stepper: KeptStepper<'s, S, P>,
     /// The state at its end.
-    pub(super) end: V,
+    pub(super) end: P::State,
     pub(super) report: StepReport,
 }
 
 /// A number of steps with which a tolerance is kept.
-pub(super) struct Staged<T, V> {
+pub(super) struct Staged<'s, S: Scalar, P: Poisson<S>> {
     pub(super) steps: f64,
     /// The error of the first one, relative to the state.
     pub(super) error: f64,
     /// The first one; none where another will be made.
-    pub(super) begun: Option<Begun<T, V>>,
+    pub(super) begun: Option<Begun<'s, S, P>>,
 }
 
-/// The same of a method and a system.
-pub(super) type FirstStep<'s, S, P, M> =
-    Begun<<M as Method<S, P>>::Stepper<'s>, <P as Poisson<S>>::State>;
-/// The same.
-pub(super) type FirstStaged<'s, S, P, M> =
-    Staged<<M as Method<S, P>>::Stepper<'s>, <P as Poisson<S>>::State>;
-
 /// What a step that was tried has come to.
-enum Tried<T, V> {
+enum Tried<'s, S: Scalar, P: Poisson<S>> {
     /// Of the number of steps, so many would do.
-    Enough(Staged<T, V>, f64),
+    Enough(Staged<'s, S, P>, f64),
     /// So many would do.
     TooFew(f64, Option<StepFailure>),
     /// The stages of this method tell nothing.
@@ -100,14 +94,14 @@ fn rung_of(steps: f64) -> i32 {
     (steps.max(1.0).ln() / RUNG.ln() - 1e-9).ceil() as i32
 }
 
-impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'a, S, P, M> {
+impl<'a, S: Scalar, P: Poisson<S>> Trial<'a, S, P> {
     /// How many steps keep the tolerance, from the start or from the initial state at the time of a pulse; none where the stages of
     /// the method tell no errors.
     pub(super) fn by_stages(
         &self,
         span: f64,
         pulse: Option<&Pulse>,
-    ) -> Result<Option<FirstStaged<'a, S, P, M>>, IntegrateError> {
+    ) -> Result<Option<Staged<'a, S, P>>, IntegrateError> {
         let system = &self.problem.system;
         let time = self.time(span, pulse.map_or(0.0, |pulse| pulse.after));
         let mu = self.at(time);
@@ -139,7 +133,10 @@ impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'a, S, P, M> {
         span: f64,
         place: &Place<'s, '_, S, P>,
         longest: f64,
-    ) -> Result<Option<FirstStaged<'s, S, P, M>>, IntegrateError> {
+    ) -> Result<Option<Staged<'s, S, P>>, IntegrateError>
+    where
+        'a: 's,
+    {
         let mut field = place.system.zero_state();
         place.system.vector_field(place.mu, &mut field);
         let rate = largest(place.system.norm(&field) / place.system.norm(place.mu));
@@ -195,12 +192,10 @@ impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'a, S, P, M> {
     }
 
     /// Tries the first of so many steps.
-    fn tried<'s>(
-        &self,
-        span: f64,
-        steps: f64,
-        place: &Place<'s, '_, S, P>,
-    ) -> Tried<M::Stepper<'s>, P::State> {
+    fn tried<'s>(&self, span: f64, steps: f64, place: &Place<'s, '_, S, P>) -> Tried<'s, S, P>
+    where
+        'a: 's,
+    {
         let h = span / steps;
         let (time, size) = self.between_joints(place, h);
         let mut mu = place.mu.clone();
@@ -269,7 +264,7 @@ impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'a, S, P, M> {
     fn newton_of_stages(&self, steps: f64) -> NewtonOptions {
         let newton = self.newton_of_run(self.span / steps);
         match steps < JACOBIAN as f64 {
-            true => Self::cheap(self.method, newton),
+            true => self.method.cheap(newton),
             false => newton,
         }
     }

@@ -1,6 +1,7 @@
 //! Whether a step and a start are what they should be.
 
-use crate::methods::{Method, StepFailure, StepReport, Stepper};
+use super::kept::Kept;
+use crate::methods::{StepFailure, StepReport};
 use crate::newton::{FailureReason, NewtonOptions};
 use crate::poisson::Poisson;
 use crate::scalar::{Mask, Scalar};
@@ -10,9 +11,9 @@ use crate::state::Unknown;
 const HALVINGS: u32 = 30;
 
 /// The largest of the halves, quarters, … of a step that succeeds from a state, if there is one.
-pub(super) fn smaller<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
+pub(super) fn smaller<S: Scalar, P: Poisson<S>>(
     system: &P,
-    method: &M,
+    method: &Kept<'_, S, P>,
     newton: &NewtonOptions,
     h: f64,
     mu: &P::State,

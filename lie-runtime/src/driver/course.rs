@@ -7,6 +7,7 @@ use super::density::{Control, Density, Growth};
 use super::events::{Ahead, Events};
 use super::grid::{Grid, Place};
 use super::joints::Joints;
+use super::kept::Kept;
 use super::milestone::{MILESTONE, Milestone, gradient};
 use super::observer::{MotionSink, Observer};
 use super::options::Save;
@@ -14,9 +15,7 @@ use super::problem::set_time;
 use super::rows::Rows;
 use super::solve::IntegrateError;
 use super::stats::{Stats, Status};
-use super::trial::Trial;
 use super::watch::{Change, From, Guard, Verdict};
-use crate::methods::{Method, Stepper};
 use crate::newton::NewtonOptions;
 use crate::poisson::Poisson;
 use crate::scalar::Scalar;
@@ -42,13 +41,13 @@ pub(super) enum Left<P> {
 }
 
 /// Where a run begins.
-pub(super) enum Beginning<'m, T, V> {
+pub(super) enum Beginning<'m, 's, S: Scalar, P: Poisson<S>> {
     /// At its start.
     Start,
     /// With a first step that is made.
-    Step(Begun<T, V>),
+    Step(Begun<'s, S, P>),
     /// Where another was.
-    Milestone(&'m Milestone<V>),
+    Milestone(&'m Milestone<P::State>),
 }
 
 /// Whether an observer sees the motion on the group.
@@ -57,9 +56,9 @@ fn with_motion<S: Scalar, P: Poisson<S>, O: Observer<S, P>>(_: &O) -> bool {
 }
 
 /// How far a run has come.
-pub(super) struct Course<'r, M> {
+pub(super) struct Course<'r, S: Scalar, P: Poisson<S>> {
     pub(super) grid: Grid,
-    pub(super) method: &'r M,
+    pub(super) method: &'r Kept<'r, S, P>,
     pub(super) newton: NewtonOptions,
     pub(super) stats: Stats,
     /// Steps done.
@@ -86,15 +85,7 @@ pub(super) struct Course<'r, M> {
     pub(super) control: Option<Control>,
 }
 
-impl<'r, M> Course<'r, M> {
-    /// Whether steps of a method may be divided: of one trajectory, and those that it does not choose itself.
-    pub(super) fn may_divide<S: Scalar, P: Poisson<S>>(method: &M) -> bool
-    where
-        M: Method<S, P>,
-    {
-        !method.own_steps() && S::LANES == 1
-    }
-
+impl<'r, S: Scalar, P: Poisson<S>> Course<'r, S, P> {
     /// Divides steps where need be.
     pub(super) fn dividing(mut self, divides: bool) -> Self {
         self.divides = divides;
@@ -114,7 +105,7 @@ impl<'r, M> Course<'r, M> {
     }
 
     /// At the start of a grid, with its whole steps.
-    pub(super) fn new(grid: Grid, method: &'r M, newton: NewtonOptions) -> Self {
+    pub(super) fn new(grid: Grid, method: &'r Kept<'r, S, P>, newton: NewtonOptions) -> Self {
         Self {
             grid,
             method,
@@ -136,18 +127,15 @@ impl<'r, M> Course<'r, M> {
     }
 
     /// Goes along the grid, from a milestone if there is one, or with a first step that is made; the state at its end.
-    pub(super) fn run<'s, S: Scalar, P: Poisson<S>, O: Observer<S, P>>(
+    pub(super) fn run<'s, O: Observer<S, P>>(
         &mut self,
         system: &'s P,
         mut mu: P::State,
-        beginning: Beginning<'_, M::Stepper<'s>, P::State>,
-        mut guard: Option<Guard<'_, S, P, M>>,
+        beginning: Beginning<'_, 's, S, P>,
+        mut guard: Option<Guard<'_, S, P>>,
         save: &Save,
         observer: &mut O,
-    ) -> Result<(P::State, Status), IntegrateError>
-    where
-        M: Method<S, P>,
-    {
+    ) -> Result<(P::State, Status), IntegrateError> {
         let first = system;
         self.by_stages = guard.as_ref().is_some_and(Guard::is_by_stages);
         let (taken_up, begun) = match beginning {
@@ -229,21 +217,18 @@ impl<'r, M> Course<'r, M> {
     }
 
     /// Goes on with one system and one size of steps, the first of which may be made.
-    fn go<'s, S: Scalar, P: Poisson<S>, O: Observer<S, P>>(
+    fn go<'s, O: Observer<S, P>>(
         &mut self,
         system: &'s P,
-        begun: Option<Begun<M::Stepper<'s>, P::State>>,
+        begun: Option<Begun<'s, S, P>>,
         (mu, between): &mut (&mut P::State, &mut P::State),
         (rows, curve, events): Shown<'_, P::State>,
-        guard: &mut Option<Guard<'_, S, P, M>>,
+        guard: &mut Option<Guard<'_, S, P>>,
         observer: &mut O,
-    ) -> Result<Left<P>, IntegrateError>
-    where
-        M: Method<S, P>,
-    {
+    ) -> Result<Left<P>, IntegrateError> {
         let size = S::from_f64(self.size());
         let newton = match self.divides_rather(1) {
-            true => Trial::<S, P, M>::cheap(self.method, self.newton),
+            true => self.method.cheap(self.newton),
             false => self.newton,
         };
         let (mut stepper, mut made) = match begun {
@@ -299,7 +284,7 @@ impl<'r, M> Course<'r, M> {
                 ahead.tell(system, observer);
                 return Ok(Left::Over(Status::Finished));
             }
-            let begins = |guard: &mut Guard<'_, S, P, M>| guard.begins(mu, self.index);
+            let begins = |guard: &mut Guard<'_, S, P>| guard.begins(mu, self.index);
             let mut watched = self.done == 0 && guard.as_mut().is_some_and(begins);
             if self.done == 0 {
                 let times = [self.index, self.index + 1].map(|index| self.grid.time(index));
@@ -339,15 +324,12 @@ impl<'r, M> Course<'r, M> {
                 slow |= self.method.fixed_point() && self.divides && self.is_slow();
                 if slow && self.done < self.parts {
                     self.done *= 2;
-                    self.change(
-                        Change::Parts(2 * self.parts),
-                        None::<&mut Guard<'_, S, P, M>>,
-                    );
+                    self.change(Change::Parts(2 * self.parts), None);
                     return Ok(Left::Divided);
                 }
             }
             self.done = 0;
-            let looks = |guard: &&mut Guard<'_, S, P, M>| watched || guard.wonders(iterations);
+            let looks = |guard: &&mut Guard<'_, S, P>| watched || guard.wonders(iterations);
             let mut change = self.shorter().filter(|_| slow);
             if let Some(guard) = guard.as_mut().filter(looks) {
                 let told = || stepper.estimate();

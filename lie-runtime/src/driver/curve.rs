@@ -14,7 +14,6 @@ use super::grid::{Grid, Place};
 use super::joints::Joints;
 use super::observer::Observer;
 use super::rows::{Row, Rows};
-use crate::methods::Method;
 use crate::poisson::Poisson;
 use crate::scalar::{Scalar, largest};
 use crate::state::State;
@@ -190,7 +189,7 @@ impl<V> Curve<V> {
     }
 }
 
-impl<M> Course<'_, M> {
+impl<S: Scalar, P: Poisson<S>> Course<'_, S, P> {
     /// What is shown next of the step that begins here, up to a time at which the run stops: a row, which is kept, or a state
     /// between rows.
     pub(super) fn due<V>(
@@ -219,7 +218,7 @@ impl<M> Course<'_, M> {
     /// Shows a state between rows. The run does not depend on it: its work is not counted, and where the shorter step fails the
     /// rest of the step is not shown.
     #[cold]
-    pub(super) fn sample<S: Scalar, P: Poisson<S>>(
+    pub(super) fn sample(
         &mut self,
         system: &P,
         joints: Option<&mut Joints<S, P>>,
@@ -227,9 +226,7 @@ impl<M> Course<'_, M> {
         (mu, between): (&P::State, &mut P::State),
         curve: &mut Option<Curve<P::State>>,
         observer: &mut impl Observer<S, P>,
-    ) where
-        M: Method<S, P>,
-    {
+    ) {
         if let Place::On(_) = row.place {
             return observer.between(system, row.time, mu);
         }

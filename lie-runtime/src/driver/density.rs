@@ -20,12 +20,13 @@
 //! 26 (2005) 1838–1851, [doi:10.1137/040606995](https://doi.org/10.1137/040606995).
 
 use super::course::Course;
+use super::kept::Kept;
 use super::options::OptionError;
 use super::problem::set_time;
 use super::solve::IntegrateError;
 use crate::clock::holds;
 use crate::matrix::SquareMatrix;
-use crate::methods::{Method, StepFailure, StepReport};
+use crate::methods::{StepFailure, StepReport};
 use crate::newton::FailureReason;
 use crate::poisson::Poisson;
 use crate::scalar::Scalar;
@@ -55,14 +56,13 @@ pub enum Density {
 ///
 /// # Errors
 /// Why not.
-pub(super) fn check<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
+pub(super) fn check<S: Scalar, P: Poisson<S>>(
     system: &P,
-    method: &M,
-    keeps: bool,
+    method: &Kept<'_, S, P>,
 ) -> Result<(), OptionError> {
     let why = if method.own_steps() {
         "the method chooses its own steps"
-    } else if keeps {
+    } else if method.keeps() {
         "a projection behind steps takes their symmetry from them"
     } else if !method.symmetric() {
         "the method is not symmetric: a step of -h does not undo one of h"
@@ -140,9 +140,9 @@ impl Control {
     }
 }
 
-impl<M> Course<'_, M> {
+impl<S: Scalar, P: Poisson<S>> Course<'_, S, P> {
     /// Begins with the given step.
-    pub(super) fn begin_control<S: Scalar, P: Poisson<S>>(
+    pub(super) fn begin_control(
         &mut self,
         system: &P,
         mu: &P::State,
@@ -157,7 +157,7 @@ impl<M> Course<'_, M> {
 
     /// Behind a step: the size of the next one. The state has the time that is reached.
     #[inline(never)]
-    pub(super) fn steer<S: Scalar, P: Poisson<S>>(
+    pub(super) fn steer(
         &mut self,
         growth: &mut Growth<S, P>,
         system: &P,
@@ -178,14 +178,11 @@ impl<M> Course<'_, M> {
     }
 
     /// The state at the end of the span from that of the last grid point, by a shorter step that does not count.
-    pub(super) fn at_the_end<S: Scalar, P: Poisson<S>>(
+    pub(super) fn at_the_end(
         &mut self,
         system: &P,
         mut mu: P::State,
-    ) -> Result<P::State, IntegrateError>
-    where
-        M: Method<S, P>,
-    {
+    ) -> Result<P::State, IntegrateError> {
         if self.grid.length(self.index) != 0.0 {
             let (stats, piece) = (self.stats, (self.grid.time(self.index), self.grid.end));
             self.in_pieces(system, &[piece], &mut mu, &mut ())?;

@@ -6,7 +6,6 @@ use super::observer::Observer;
 use super::philox::Wiener;
 use super::problem::set_time;
 use super::solve::IntegrateError;
-use crate::methods::Method;
 use crate::poisson::Poisson;
 use crate::scalar::Scalar;
 use crate::state::State;
@@ -297,19 +296,16 @@ impl Input {
     }
 }
 
-impl<M> Course<'_, M> {
+impl<S: Scalar, P: Poisson<S>> Course<'_, S, P> {
     /// From one time to another beside the grid, or within a step: in pieces between joints and changes of inputs, if there are any within.
-    pub(super) fn through<S: Scalar, P: Poisson<S>>(
+    pub(super) fn through(
         &mut self,
         system: &P,
         mut joints: Option<&mut Joints<S, P>>,
         (from, to): Piece,
         mu: &mut P::State,
         observer: &mut impl Observer<S, P>,
-    ) -> Result<(), IntegrateError>
-    where
-        M: Method<S, P>,
-    {
+    ) -> Result<(), IntegrateError> {
         let mut from = from;
         let changes = observer
             .held()

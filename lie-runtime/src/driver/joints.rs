@@ -7,7 +7,6 @@ use super::course::Course;
 use super::observer::{MotionSink, Observer};
 use super::problem::set_time;
 use super::solve::IntegrateError;
-use crate::methods::{Method, Stepper};
 use crate::poisson::Poisson;
 use crate::scalar::{Scalar, largest};
 
@@ -103,35 +102,29 @@ impl<S: Scalar, P: Poisson<S>> Joints<S, P> {
     }
 }
 
-impl<M> Course<'_, M> {
+impl<S: Scalar, P: Poisson<S>> Course<'_, S, P> {
     /// A shorter step, from a state of the grid to a row between two of them.
-    pub(super) fn off_grid<S: Scalar, P: Poisson<S>>(
+    pub(super) fn off_grid(
         &mut self,
         system: &P,
         joints: Option<&mut Joints<S, P>>,
         end: f64,
         mu: &mut P::State,
         observer: &mut impl Observer<S, P>,
-    ) -> Result<(), IntegrateError>
-    where
-        M: Method<S, P>,
-    {
+    ) -> Result<(), IntegrateError> {
         observer.leave_grid();
         let whole = (self.grid.time(self.index), end);
         self.through(system, joints, whole, mu, observer)
     }
 
     /// Goes from piece to piece, each with a stepper of its own.
-    pub(super) fn in_pieces<S: Scalar, P: Poisson<S>>(
+    pub(super) fn in_pieces(
         &mut self,
         system: &P,
         pieces: &[Piece],
         mu: &mut P::State,
         observer: &mut impl Observer<S, P>,
-    ) -> Result<(), IntegrateError>
-    where
-        M: Method<S, P>,
-    {
+    ) -> Result<(), IntegrateError> {
         for &(from, to) in pieces {
             let parts = ((to - from) / self.grid.step() * f64::from(self.parts))
                 .ceil()

@@ -1,88 +1,142 @@
-//! Methods behind whose steps the state goes back onto levels.
+//! Methods as the driver has them: of any type, with a projection behind their steps or without.
 
 use super::options::OptionError;
 use super::problem::Problem;
 use crate::methods::{
-    FactorSink, Facts, Keep, Levels, Method, Preserves, Projection, StepFailure, StepReport,
-    Stepper,
+    AnyStepper, FactorSink, Keep, Levels, Method, Motions, Projection, StepFailure, StepReport,
 };
-use crate::newton::NewtonOptions;
+use crate::newton::{Iteration, NewtonOptions};
 use crate::poisson::Poisson;
 use crate::scalar::{Mask, Scalar};
 use crate::state::{State, Unknown as _};
 
+/// A method whose type is forgotten: the driver is compiled once for each system, and not once more for each method on it.
+trait Steps<S: Scalar, P: Poisson<S>> {
+    fn order(&self) -> u32;
+    fn fixed_point(&self) -> bool;
+    fn own_steps(&self) -> bool;
+    fn symmetric(&self) -> bool;
+    fn boxed<'a>(
+        &'a self,
+        system: &'a P,
+        h: S,
+        newton: &NewtonOptions,
+    ) -> Box<dyn AnyStepper<S, P::State> + 'a>;
+}
+
+impl<S: Scalar, P: Poisson<S>, M: Method<S, P>> Steps<S, P> for M {
+    fn order(&self) -> u32 {
+        self.order()
+    }
+
+    fn fixed_point(&self) -> bool {
+        self.fixed_point()
+    }
+
+    fn own_steps(&self) -> bool {
+        self.own_steps()
+    }
+
+    fn symmetric(&self) -> bool {
+        self.symmetric()
+    }
+
+    fn boxed<'a>(
+        &'a self,
+        system: &'a P,
+        h: S,
+        newton: &NewtonOptions,
+    ) -> Box<dyn AnyStepper<S, P::State> + 'a> {
+        self.boxed(system, h, newton)
+    }
+}
+
 /// A method, and the levels that are kept, if any are.
-pub(super) struct Kept<S, M> {
-    method: M,
+pub(super) struct Kept<'m, S: Scalar, P: Poisson<S>> {
+    method: &'m dyn Steps<S, P>,
     levels: Option<Levels<S>>,
 }
 
-impl<S: Scalar, M> Kept<S, M> {
-    /// A method with the levels of a start.
+impl<'m, S: Scalar, P: Poisson<S>> Kept<'m, S, P> {
+    /// A method alone.
+    pub(super) fn alone(method: &'m impl Method<S, P>) -> Self {
+        Self {
+            method,
+            levels: None,
+        }
+    }
+
+    /// The same with the levels of a start, where some are to be kept.
     ///
     /// # Errors
     /// They cannot be kept.
-    pub(super) fn new<P: Poisson<S>>(
+    pub(super) fn keeping(
+        mut self,
         problem: &Problem<S, P>,
-        method: M,
         keep: Keep,
     ) -> Result<Self, OptionError> {
-        let mut levels = None;
         if keep != Keep::NOTHING {
             let mu = problem.start();
             let followed = problem.system.following(&mu);
             let system = followed.as_ref().unwrap_or(&problem.system);
-            levels = Some(Levels::at(system, &mu, keep).map_err(OptionError::Keep)?);
+            self.levels = Some(Levels::at(system, &mu, keep).map_err(OptionError::Keep)?);
         }
-        Ok(Self { method, levels })
+        Ok(self)
     }
-}
 
-impl<S, M> Kept<S, M> {
     /// Whether levels are kept.
     pub(super) fn keeps(&self) -> bool {
         self.levels.is_some()
     }
-}
 
-impl<S, M: Facts> Facts for Kept<S, M> {
-    const ID: &'static str = M::ID;
-    const ORDER: u32 = M::ORDER;
-    const SYMMETRIC: bool = M::SYMMETRIC;
-    const EXPLICIT: bool = M::EXPLICIT;
-    const FIXED_POINT: bool = M::FIXED_POINT;
-    const OWN_STEPS: bool = M::OWN_STEPS;
-    const PRESERVES: Preserves = M::PRESERVES;
-    const FORCES: bool = M::FORCES;
-    const DAMPING: bool = M::DAMPING;
-
-    fn order(&self) -> u32 {
+    /// See [`Facts`](crate::methods::Facts), as of all that is asked here.
+    pub(super) fn order(&self) -> u32 {
         self.method.order()
     }
-    fn fixed_point(&self) -> bool {
+
+    pub(super) fn fixed_point(&self) -> bool {
         self.method.fixed_point()
     }
-    fn own_steps(&self) -> bool {
+
+    pub(super) fn own_steps(&self) -> bool {
         self.method.own_steps()
     }
+
     /// A projection looks at the start of the run alone, and no step of -h undoes it.
-    fn symmetric(&self) -> bool {
+    pub(super) fn symmetric(&self) -> bool {
         self.levels.is_none() && self.method.symmetric()
     }
-}
 
-impl<S: Scalar, P: Poisson<S>, M: Method<S, P>> Method<S, P> for Kept<S, M> {
-    type Stepper<'a>
-        = KeptStepper<'a, S, P, M::Stepper<'a>>
-    where
-        P: 'a;
+    /// Whether steps may be divided: of one trajectory, and those that the method does not choose itself.
+    pub(super) fn may_divide(&self) -> bool {
+        !self.own_steps() && S::LANES == 1
+    }
 
-    fn stepper<'a>(&self, system: &'a P, h: S, newton: &NewtonOptions) -> Self::Stepper<'a> {
-        let mut stepper = self.method.stepper(system, h, newton);
+    /// The solver without a Jacobian where that is worth a try: shorter steps cost less than one that needs a Jacobian.
+    pub(super) fn cheap(&self, newton: NewtonOptions) -> NewtonOptions {
+        let iteration = match newton.iteration {
+            Iteration::Automatic if self.fixed_point() => Iteration::FixedPoint,
+            other => other,
+        };
+        NewtonOptions {
+            iteration,
+            ..newton
+        }
+    }
+
+    /// See [`Method::stepper`].
+    pub(super) fn stepper<'a>(
+        &'a self,
+        system: &'a P,
+        h: S,
+        newton: &NewtonOptions,
+    ) -> KeptStepper<'a, S, P> {
+        let mut stepper = self.method.boxed(system, h, newton);
         let projection = self.levels.map(|levels| Projection::new(system, levels));
         let left = projection.and_then(|projection| stepper.keep(projection));
         KeptStepper {
             stepper,
+            motions: Motions::new(),
             behind: left.map(|projection| Behind {
                 system,
                 projection,
@@ -93,8 +147,9 @@ impl<S: Scalar, P: Poisson<S>, M: Method<S, P>> Method<S, P> for Kept<S, M> {
 }
 
 /// The stepper of a [`Kept`] method.
-pub(super) struct KeptStepper<'a, S: Scalar, P: Poisson<S>, T> {
-    stepper: T,
+pub(super) struct KeptStepper<'a, S: Scalar, P: Poisson<S>> {
+    stepper: Box<dyn AnyStepper<S, P::State> + 'a>,
+    motions: Motions<P::State>,
     /// What is done behind each step, where the stepper does not do it itself.
     behind: Option<Behind<'a, S, P>>,
 }
@@ -107,22 +162,18 @@ struct Behind<'a, S: Scalar, P: Poisson<S>> {
     before: P::State,
 }
 
-impl<S: Scalar, P: Poisson<S>, T: Stepper<S, State = P::State>> Stepper<S>
-    for KeptStepper<'_, S, P, T>
-{
-    type State = P::State;
-
-    #[inline(always)]
-    fn step<K: FactorSink<P::State>>(
+impl<S: Scalar, P: Poisson<S>> KeptStepper<'_, S, P> {
+    /// See [`Stepper::step`](crate::methods::Stepper::step).
+    pub(super) fn step<K: FactorSink<P::State>>(
         &mut self,
         mu: &mut P::State,
         sink: &mut K,
     ) -> Result<StepReport, StepFailure> {
         let Some(behind) = &mut self.behind else {
-            return self.stepper.step(mu, sink);
+            return alone(&mut *self.stepper, &mut self.motions, mu, sink);
         };
         behind.before.copy_from(mu);
-        let stepped = self.stepper.step(mu, sink);
+        let stepped = alone(&mut *self.stepper, &mut self.motions, mu, sink);
         let refused = stepped.err().map_or(0, |failure| failure.lanes);
         let moved = !S::Mask::from_bits(refused);
         let lost = behind.projection.bring_back(behind.system, moved, mu);
@@ -143,15 +194,27 @@ impl<S: Scalar, P: Poisson<S>, T: Stepper<S, State = P::State>> Stepper<S>
         })
     }
 
-    fn estimate(&mut self) -> Option<S> {
+    pub(super) fn estimate(&mut self) -> Option<S> {
         self.stepper.estimate()
     }
 
-    fn set_step(&mut self, h: S) -> bool {
+    pub(super) fn set_step(&mut self, h: S) -> bool {
         self.stepper.set_step(h)
     }
+}
 
-    fn carry(&mut self, visit: &mut dyn FnMut(&mut S)) -> bool {
-        self.stepper.carry(visit)
+/// A step without what is behind it.
+fn alone<S, V: Clone>(
+    stepper: &mut dyn AnyStepper<S, V>,
+    motions: &mut Motions<V>,
+    mu: &mut V,
+    sink: &mut impl FactorSink<V>,
+) -> Result<StepReport, StepFailure> {
+    if !sink.is_active() {
+        return stepper.step(mu);
     }
+    motions.clear();
+    let report = stepper.step_with_motions(mu, motions);
+    motions.show(sink);
+    report
 }

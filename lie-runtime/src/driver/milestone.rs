@@ -10,7 +10,6 @@ use super::density::Control;
 use super::options::OptionError;
 use super::stats::Stats;
 use super::watch::{Guard, MOST_PARTS, Watched};
-use crate::methods::Method;
 use crate::poisson::Poisson;
 use crate::scalar::Scalar;
 use crate::state::State;
@@ -56,13 +55,13 @@ pub struct Division {
     pub control: Option<Control>,
 }
 
-impl<M> Course<'_, M> {
+impl<S: Scalar, P: Poisson<S>> Course<'_, S, P> {
     /// The place where the run is.
-    pub(super) fn milestone<S: Scalar, P: Poisson<S>>(
+    pub(super) fn milestone(
         &self,
         mu: &P::State,
         branch: Option<P::State>,
-        guard: Option<&Guard<'_, S, P, M>>,
+        guard: Option<&Guard<'_, S, P>>,
     ) -> Milestone<P::State> {
         Milestone {
             index: self.index,
@@ -88,15 +87,12 @@ impl<M> Course<'_, M> {
     ///
     /// # Errors
     /// It is one of another run.
-    pub(super) fn take_up<S: Scalar, P: Poisson<S>>(
+    pub(super) fn take_up(
         &mut self,
         system: &P,
         milestone: &Milestone<P::State>,
-        guard: Option<&mut Guard<'_, S, P, M>>,
-    ) -> Result<(), OptionError>
-    where
-        M: Method<S, P>,
-    {
+        guard: Option<&mut Guard<'_, S, P>>,
+    ) -> Result<(), OptionError> {
         let Milestone {
             index, division, ..
         } = *milestone;

@@ -15,8 +15,9 @@
 //! Reference: E. Hairer, S. P. Nørsett, G. Wanner, "Solving Ordinary Differential Equations I", 2nd edition, Springer
 //! 1993, section II.4, [doi:10.1007/978-3-540-78862-1](https://doi.org/10.1007/978-3-540-78862-1).
 
-use super::by_stages::{FirstStaged, FirstStep, Staged};
+use super::by_stages::{Begun, Staged};
 use super::held::Held;
+use super::kept::Kept;
 use super::options::{OptionError, Options, Pace};
 use super::problem::Problem;
 use super::pulse::{Pulse, pulse};
@@ -42,7 +43,7 @@ pub struct Chosen {
 }
 
 impl Chosen {
-    fn new<S: Scalar, T, V>(tolerance: f64, span: f64, found: &Staged<T, V>) -> Self {
+    fn new<S: Scalar, P: Poisson<S>>(tolerance: f64, span: f64, found: &Staged<'_, S, P>) -> Self {
         Self {
             tolerance,
             step: if span == 0.0 { 1.0 } else { span / found.steps },
@@ -86,23 +87,23 @@ const MOST_SHORTENED: f64 = 1024.0;
 const MOST_STEPS: f64 = 4e6;
 
 /// How a step was chosen, what tries others, and what looks after it.
-pub(super) struct Settled<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> {
+pub(super) struct Settled<'a, S: Scalar, P: Poisson<S>> {
     pub(super) chosen: Chosen,
-    pub(super) trial: Trial<'a, S, P, M>,
+    pub(super) trial: Trial<'a, S, P>,
     /// None of methods that choose their own steps.
     pub(super) watch: Option<Watch<S, P>>,
     /// The first step, where it is made.
-    pub(super) begun: Option<FirstStep<'a, S, P, M>>,
+    pub(super) begun: Option<Begun<'a, S, P>>,
 }
 
-impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Settled<'a, S, P, M> {
+impl<'a, S: Scalar, P: Poisson<S>> Settled<'a, S, P> {
     /// The solver of the run.
     pub(super) fn newton(&self, step: f64) -> NewtonOptions {
         self.trial.newton_of_run(step.abs())
     }
 
     /// What looks after the run, and its first step.
-    pub(super) fn begin(self) -> Begins<'a, S, P, M> {
+    pub(super) fn begin(self) -> Begins<'a, S, P> {
         let trial = self.trial;
         let guard = self.watch.map(|watch| Guard { watch, trial });
         (guard, self.begun)
@@ -110,18 +111,18 @@ impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Settled<'a, S, P, M> {
 }
 
 /// What looks after a run, and its first step.
-type Begins<'a, S, P, M> = (Option<Guard<'a, S, P, M>>, Option<FirstStep<'a, S, P, M>>);
+type Begins<'a, S, P> = (Option<Guard<'a, S, P>>, Option<Begun<'a, S, P>>);
 
 /// A step, and how it was chosen if it was.
-type Paced<'a, S, P, M> = (f64, Option<Settled<'a, S, P, M>>);
+type Paced<'a, S, P> = (f64, Option<Settled<'a, S, P>>);
 
 /// The step of a run.
-pub(super) fn settle<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>>(
+pub(super) fn settle<'a, S: Scalar, P: Poisson<S>>(
     problem: &'a Problem<S, P>,
-    method: &'a M,
+    method: &'a Kept<'a, S, P>,
     options: &Options,
     held: Option<Held>,
-) -> Result<Paced<'a, S, P, M>, IntegrateError> {
+) -> Result<Paced<'a, S, P>, IntegrateError> {
     match options.pace {
         Pace::Step(step) => Ok((step, None)),
         Pace::Tolerance(tolerance) => {
@@ -148,15 +149,16 @@ pub fn choose<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
     tolerance: f64,
     newton: &NewtonOptions,
 ) -> Result<Chosen, IntegrateError> {
-    Ok(chosen_by(problem, method, (tolerance, newton), None)?.chosen)
+    let method = Kept::alone(method);
+    Ok(chosen_by(problem, &method, (tolerance, newton), None)?.chosen)
 }
 
-fn chosen_by<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>>(
+fn chosen_by<'a, S: Scalar, P: Poisson<S>>(
     problem: &'a Problem<S, P>,
-    method: &'a M,
+    method: &'a Kept<'a, S, P>,
     (tolerance, newton): (f64, &NewtonOptions),
     held: Option<Held>,
-) -> Result<Settled<'a, S, P, M>, IntegrateError> {
+) -> Result<Settled<'a, S, P>, IntegrateError> {
     let (start, end) = problem.span;
     let span = end - start;
     if !(least_tolerance::<S>()..1.0).contains(&tolerance) {
@@ -177,7 +179,7 @@ fn chosen_by<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>>(
     {
         let watch = Watch::by_stages(1.0 / found.steps, zero());
         return Ok(Settled {
-            chosen: Chosen::new::<S, _, _>(tolerance, span, &found),
+            chosen: Chosen::new(tolerance, span, &found),
             trial,
             watch: Some(watch),
             begun: found.begun,
@@ -199,7 +201,7 @@ fn chosen_by<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>>(
         error,
         begun: None,
     };
-    let chosen = Chosen::new::<S, _, _>(tolerance, span, &found);
+    let chosen = Chosen::new(tolerance, span, &found);
     let watch = seen.map(|(gauge, seen, part)| {
         Watch::by_field(gauge, (seen, part), &chosen, 1.0 / steps, zero())
     });
@@ -212,11 +214,11 @@ fn chosen_by<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>>(
 }
 
 /// The number of steps that keeps the tolerance at the start and at a pulse; none where the stages tell no errors.
-fn by_stages<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>>(
-    trial: &Trial<'a, S, P, M>,
+fn by_stages<'a, S: Scalar, P: Poisson<S>>(
+    trial: &Trial<'a, S, P>,
     span: f64,
     pulses: &[Pulse],
-) -> Result<Option<FirstStaged<'a, S, P, M>>, IntegrateError> {
+) -> Result<Option<Staged<'a, S, P>>, IntegrateError> {
     let Some(mut found) = trial.by_stages(span, None)? else {
         return Ok(None);
     };
@@ -237,8 +239,8 @@ fn by_stages<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>>(
 }
 
 /// The step that the estimates of a run-in allow, at the start and at a pulse.
-fn by_run_in<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
-    trial: &Trial<'_, S, P, M>,
+fn by_run_in<S: Scalar, P: Poisson<S>>(
+    trial: &Trial<'_, S, P>,
     span: f64,
     pulses: &[Pulse],
 ) -> Result<(f64, Estimates, Gauge<S, P>), IntegrateError> {

@@ -5,8 +5,10 @@ use super::observer::Progress;
 use super::options::Save;
 use super::rows::{Row, Rows};
 use super::solve::IntegrateError;
+use crate::poisson::Poisson;
+use crate::scalar::Scalar;
 
-impl<M> Course<'_, M> {
+impl<S: Scalar, P: Poisson<S>> Course<'_, S, P> {
     /// The size of the steps that are made.
     pub(super) fn size(&self) -> f64 {
         self.grid.step() / f64::from(self.parts)

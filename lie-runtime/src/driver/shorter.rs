@@ -4,7 +4,7 @@ use super::course::{Course, Left};
 use super::pace::count;
 use super::solve::IntegrateError;
 use super::watch::{Change, Guard, JACOBIAN, MOST_PARTS, SLOW_PARTS, divided};
-use crate::methods::{Method, StepFailure};
+use crate::methods::StepFailure;
 use crate::poisson::Poisson;
 use crate::scalar::Scalar;
 
@@ -14,7 +14,7 @@ const MOST_DIVIDED: u64 = 1 << 18;
 /// So many times as many steps are made after one that failed or did not contract, where that can be any number.
 const SHORTER: f64 = 1.4;
 
-impl<M> Course<'_, M> {
+impl<S: Scalar, P: Poisson<S>> Course<'_, S, P> {
     /// Whether steps may change like that: a joint or a singularity asks for smaller ones without end.
     pub(super) fn allows(&self, change: Change) -> bool {
         let (left, size) = match change {
@@ -40,13 +40,7 @@ impl<M> Course<'_, M> {
 
     /// Changes the steps from where the run is.
     #[cold]
-    pub(super) fn change<S: Scalar, P: Poisson<S>>(
-        &mut self,
-        change: Change,
-        guard: Option<&mut Guard<'_, S, P, M>>,
-    ) where
-        M: Method<S, P>,
-    {
+    pub(super) fn change(&mut self, change: Change, guard: Option<&mut Guard<'_, S, P>>) {
         match change {
             Change::Parts(parts) => self.parts = parts,
             Change::Times(factor) => {
@@ -90,16 +84,13 @@ impl<M> Course<'_, M> {
 
     /// Goes on in smaller steps after one that failed, where that may be.
     #[cold]
-    pub(super) fn divided<S: Scalar, P: Poisson<S>>(
+    pub(super) fn divided(
         &mut self,
         system: &P,
         failure: StepFailure,
         mu: &P::State,
-        guard: Option<&mut Guard<'_, S, P, M>>,
-    ) -> Result<Left<P>, IntegrateError>
-    where
-        M: Method<S, P>,
-    {
+        guard: Option<&mut Guard<'_, S, P>>,
+    ) -> Result<Left<P>, IntegrateError> {
         let next = self.shorter();
         let Some(next) = next.filter(|&next| self.divides && self.allows(next)) else {
             return Err(self.stopped(system, failure, self.size(), mu));

@@ -15,7 +15,7 @@ use super::problem::Problem;
 use super::recorder::Recorder;
 use super::solution::Solution;
 use super::stats::{Stats, Status};
-use crate::methods::{Facts as _, Method};
+use crate::methods::Method;
 use crate::poisson::Poisson;
 use crate::scalar::Scalar;
 use crate::state::State as _;
@@ -109,7 +109,7 @@ pub fn integrate<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
     options: &Options,
     observer: &mut impl Observer<S, P>,
 ) -> Result<(Stats, Status), IntegrateError> {
-    run(problem, method, options, None, observer)
+    run(problem, Kept::alone(&method), options, None, observer)
 }
 
 /// [`integrate`] with milestones, where steppers forget, from one of the same problem with the same method and options: what
@@ -124,13 +124,14 @@ pub fn take_up<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
     milestone: Option<&Milestone<P::State>>,
     observer: &mut impl Observer<S, P>,
 ) -> Result<(Stats, Status), IntegrateError> {
+    let method = Kept::alone(&method);
     run(problem, method, options, Some(milestone), observer)
 }
 
 /// A run with milestones, from one of them, or without.
-fn run<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
+fn run<S: Scalar, P: Poisson<S>>(
     problem: &Problem<S, P>,
-    method: M,
+    method: Kept<'_, S, P>,
     options: &Options,
     milestones: Option<Option<&Milestone<P::State>>>,
     observer: &mut impl Observer<S, P>,
@@ -139,10 +140,10 @@ fn run<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
     if expected != found {
         return Err(OptionError::StateLength { expected, found }.into());
     }
-    let method = Kept::new(problem, method, options.keep)?;
+    let method = method.keeping(problem, options.keep)?;
     let follows = options.density == Density::Reversible;
     if follows {
-        density::check(&problem.system, &method, method.keeps())?;
+        density::check(&problem.system, &method)?;
     }
     if problem.system.noise_count() > 0 && !matches!(options.pace, Pace::Step(_)) {
         return Err(OptionError::Noise.into());
@@ -161,8 +162,7 @@ fn run<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
         observer.chosen(&settled.chosen);
     }
     let grid = Grid::new(problem.span, step)?;
-    let divides =
-        settled.is_some() && !follows && Course::<Kept<S, M>>::may_divide::<S, P>(&method);
+    let divides = settled.is_some() && !follows && method.may_divide();
     let newton = settled
         .as_ref()
         .map_or(options.newton, |settled| settled.newton(step));

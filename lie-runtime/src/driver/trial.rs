@@ -2,6 +2,7 @@
 
 use super::error::StepError;
 use super::held::Held;
+use super::kept::Kept;
 use super::observer::Observer as _;
 use super::options::OptionError;
 use super::pace::least_tolerance;
@@ -10,8 +11,8 @@ use super::pulse::Pulse;
 use super::solve::IntegrateError;
 use super::stats::Stats;
 use super::watch::Gauge;
-use crate::methods::{Method, StepFailure, Stepper};
-use crate::newton::{Convergence, Iteration, NewtonOptions};
+use crate::methods::StepFailure;
+use crate::newton::{Convergence, NewtonOptions};
 use crate::poisson::Poisson;
 use crate::scalar::{Scalar, largest};
 use crate::state::State;
@@ -26,9 +27,9 @@ const UNSEEN: f64 = 3.0;
 const SMALLEST: f64 = 1.0 / 64.0;
 
 /// Steps that are tried.
-pub(super) struct Trial<'a, S: Scalar, P: Poisson<S>, M> {
+pub(super) struct Trial<'a, S: Scalar, P: Poisson<S>> {
     pub(super) problem: &'a Problem<S, P>,
-    pub(super) method: &'a M,
+    pub(super) method: &'a Kept<'a, S, P>,
     pub(super) newton: NewtonOptions,
     pub(super) span: f64,
     pub(super) tolerance: f64,
@@ -74,11 +75,11 @@ impl Estimates {
     };
 }
 
-impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'a, S, P, M> {
+impl<'a, S: Scalar, P: Poisson<S>> Trial<'a, S, P> {
     /// Of the steps of a problem by a method.
     pub(super) fn new(
         problem: &'a Problem<S, P>,
-        method: &'a M,
+        method: &'a Kept<'a, S, P>,
         (newton, tolerance): (NewtonOptions, f64),
         mut held: Option<Held>,
     ) -> Self {
@@ -134,18 +135,6 @@ impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'a, S, P, M> {
         let asked = self.tolerance * h / self.span.max(h);
         let part = (asked / least_tolerance::<S>()).clamp(SMALLEST, 1.0);
         h * part.powf(1.0 / f64::from(self.method.order().max(1)))
-    }
-
-    /// The solver without a Jacobian where that is worth a try: shorter steps cost less than one that needs a Jacobian.
-    pub(super) fn cheap(method: &M, newton: NewtonOptions) -> NewtonOptions {
-        let iteration = match newton.iteration {
-            Iteration::Automatic if method.fixed_point() => Iteration::FixedPoint,
-            other => other,
-        };
-        NewtonOptions {
-            iteration,
-            ..newton
-        }
     }
 
     /// The solver of a run with steps of a size: where each digit costs an iteration, as exact as was asked for.

@@ -16,7 +16,6 @@ mod parts;
 use super::pace::Chosen;
 use super::trial::Trial;
 use crate::matrix::SquareMatrix;
-use crate::methods::Method;
 use crate::poisson::Poisson;
 use crate::scalar::{Scalar, largest};
 use crate::state::State;
@@ -348,10 +347,10 @@ impl<S: Scalar, P: Poisson<S>> Field<S, P> {
     /// What becomes of the step of h after a state; `number` is that of the gauge at its end.
     #[cold]
     #[inline(never)]
-    fn needed<M: Method<S, P>>(
+    fn needed(
         &mut self,
         sum: &mut Sum,
-        trial: &Trial<'_, S, P, M>,
+        trial: &Trial<'_, S, P>,
         (system, before): (&P, &P::State),
         (h, parts): (f64, u32),
         number: f64,

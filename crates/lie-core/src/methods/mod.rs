@@ -73,6 +73,8 @@ macro_rules! by_equation {
     };
 }
 
+#[cfg(feature = "std")]
+mod any;
 mod coefficients;
 pub mod cohen_hairer;
 pub mod collective;
@@ -115,6 +117,7 @@ mod series_stepper;
 pub mod spherical_midpoint;
 pub mod splitting;
 mod stage_parallel;
+mod stats;
 mod stepper;
 pub mod taylor;
 pub mod tensor;
@@ -126,6 +129,8 @@ pub(crate) mod equations {
     pub use super::midpoint::Midpoint;
 }
 
+#[cfg(feature = "std")]
+pub use any::{AnyStepper, GroupMotion, Motions};
 pub use coefficients::Scheme;
 pub use cohen_hairer::{
     CohenHairer, CohenHairer2, CohenHairer4, CohenHairer6, CohenHairer8, CohenHairer10,
@@ -176,6 +181,7 @@ pub use splitting::{
     SplittingStepper,
 };
 pub use stage_parallel::{Field, MOST_UNKNOWNS, Slopes, StageParallelStepper};
+pub use stats::Stats;
 pub use stepper::{
     FactorSink, Legs, Method, Relay, Retraction, RungeKutta, Stage, StepFailure, StepReport,
     Stepper,

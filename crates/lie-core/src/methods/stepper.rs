@@ -219,6 +219,16 @@ pub trait Method<S: Scalar, P: Poisson<S>>: Facts {
         P: 'a;
     /// A stepper of step size h, which may be negative and may differ per lane.
     fn stepper<'a>(&self, system: &'a P, h: S, newton: &NewtonOptions) -> Self::Stepper<'a>;
+    /// The same with its type forgotten.
+    #[cfg(feature = "std")]
+    fn boxed<'a>(
+        &'a self,
+        system: &'a P,
+        h: S,
+        newton: &NewtonOptions,
+    ) -> Box<dyn super::AnyStepper<S, P::State> + 'a> {
+        Box::new(self.stepper(system, h, newton))
+    }
 }
 
 /// The failure of an explicit method.

@@ -4,12 +4,13 @@ use super::{Event, Events};
 use crate::driver::course::{Course, Left};
 use crate::driver::grid::Place;
 use crate::driver::joints::Joints;
+use crate::driver::kept::KeptStepper;
 use crate::driver::observer::Observer;
 use crate::driver::options::OptionError;
 use crate::driver::problem::set_time;
 use crate::driver::solve::IntegrateError;
 use crate::driver::stats::Status;
-use crate::methods::{Method, StepFailure, StepReport, Stepper};
+use crate::methods::{StepFailure, StepReport};
 use crate::poisson::Poisson;
 use crate::scalar::Scalar;
 use crate::state::State;
@@ -59,7 +60,7 @@ impl<V> Ahead<V> {
 /// A step that was made before it is shown.
 type Made<V> = Option<Result<(V, StepReport), StepFailure>>;
 
-impl<M> Course<'_, M> {
+impl<S: Scalar, P: Poisson<S>> Course<'_, S, P> {
     /// The time up to which the run is known next: the end of a step, or that of the run behind the last one.
     fn ahead(&self) -> Option<f64> {
         if self.index < self.grid.steps() {
@@ -72,18 +73,15 @@ impl<M> Course<'_, M> {
     }
 
     /// Looks at the step that begins here. Where it is one alone that shows no motion on the group, it is made for that.
-    pub(in crate::driver) fn look_ahead<'s, S: Scalar, P: Poisson<S>, O: Observer<S, P>>(
+    pub(in crate::driver) fn look_ahead<'s, O: Observer<S, P>>(
         &mut self,
         system: &'s P,
         mut joints: Option<&mut Joints<S, P>>,
         events: &mut Events<P::State>,
         mu: &P::State,
-        (stepper, made): (&mut M::Stepper<'s>, &mut Made<P::State>),
+        (stepper, made): (&mut KeptStepper<'s, S, P>, &mut Made<P::State>),
         observer: &O,
-    ) -> Result<Ahead<P::State>, IntegrateError>
-    where
-        M: Method<S, P>,
-    {
+    ) -> Result<Ahead<P::State>, IntegrateError> {
         let Some(time) = self.ahead() else {
             return Ok(Ahead::nothing());
         };
@@ -125,17 +123,14 @@ impl<M> Course<'_, M> {
     }
 
     /// The last row of a run that stops at an event.
-    pub(in crate::driver) fn stop_at<S: Scalar, P: Poisson<S>>(
+    pub(in crate::driver) fn stop_at(
         &mut self,
         system: &P,
         joints: Option<&mut Joints<S, P>>,
         last: Event<P::State>,
         (mu, between): (&P::State, &mut P::State),
         observer: &mut impl Observer<S, P>,
-    ) -> Result<Left<P>, IntegrateError>
-    where
-        M: Method<S, P>,
-    {
+    ) -> Result<Left<P>, IntegrateError> {
         if self.shown != Some(last.time) {
             between.copy_from(mu);
             // the motion on the group goes there too

@@ -19,7 +19,6 @@ use super::joints::Joints;
 use super::observer::Observer as _;
 use super::problem::set_time;
 use crate::EventRule;
-use crate::methods::Method;
 use crate::poisson::Poisson;
 use crate::scalar::{Scalar, largest};
 use crate::state::State;
@@ -152,19 +151,16 @@ fn sign(value: f64) -> f64 {
     }
 }
 
-impl<M> Course<'_, M> {
+impl<S: Scalar, P: Poisson<S>> Course<'_, S, P> {
     /// The events from a grid point to a state ahead, in order, up to the first that ends the run. The work for them is not counted.
-    pub(super) fn events_until<S: Scalar, P: Poisson<S>>(
+    pub(super) fn events_until(
         &mut self,
         system: &P,
         mut joints: Option<&mut Joints<S, P>>,
         events: &mut Events<P::State>,
         (mu, end): (&P::State, (f64, &P::State)),
         mut held: Option<Held>,
-    ) -> Vec<Event<P::State>>
-    where
-        M: Method<S, P>,
-    {
+    ) -> Vec<Event<P::State>> {
         let stats = self.stats;
         let time = self.grid.time(self.index);
         let known = events.last.take();
@@ -212,7 +208,7 @@ impl<M> Course<'_, M> {
     }
 
     /// The events between two states with a smooth motion between them.
-    fn events_between<S: Scalar, P: Poisson<S>>(
+    fn events_between(
         &mut self,
         system: &P,
         rules: &[EventRule],
@@ -273,7 +269,7 @@ impl<M> Course<'_, M> {
     }
 
     /// The ends of a piece, and states in between where the motion turns far.
-    fn knots<S: Scalar, P: Poisson<S>>(
+    fn knots(
         &mut self,
         system: &P,
         (start, finish): (&Knot<P::State>, &Knot<P::State>),

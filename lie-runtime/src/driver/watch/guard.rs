@@ -2,18 +2,17 @@
 
 use super::{BETWEEN, By, FIRST_STEPS, Verdict, WONDER, Watch};
 use crate::driver::trial::Trial;
-use crate::methods::Method;
 use crate::poisson::Poisson;
 use crate::scalar::{Scalar, largest};
 use crate::state::State;
 
 /// A watch with what tries steps.
-pub(in super::super) struct Guard<'a, S: Scalar, P: Poisson<S>, M> {
+pub(in super::super) struct Guard<'a, S: Scalar, P: Poisson<S>> {
     pub(in super::super) watch: Watch<S, P>,
-    pub(in super::super) trial: Trial<'a, S, P, M>,
+    pub(in super::super) trial: Trial<'a, S, P>,
 }
 
-impl<S: Scalar, P: Poisson<S>, M: Method<S, P>> Guard<'_, S, P, M> {
+impl<S: Scalar, P: Poisson<S>> Guard<'_, S, P> {
     /// Whether the step to come, whose number is known, is looked at; keeps the state before it if so.
     #[inline(always)]
     pub(in super::super) fn begins(&mut self, mu: &P::State, index: u64) -> bool {
