@@ -30,7 +30,11 @@ pub fn jacobi_identity(
     let mut prover = Prover::new(scratch, &budget, &domain, name);
     let mut first: Option<(Diagnostic, usize)> = None;
     for (triple, sum) in &sums {
-        let (unproven, shown) = match prover.refute(*sum, first.is_some()) {
+        let proof = match first.is_some() {
+            true => prover.examine_hidden(*sum),
+            false => prover.examine(*sum),
+        };
+        let (unproven, shown) = match proof {
             Proof::Zero => continue,
             Proof::Nonzero(shown) => (false, shown),
             Proof::Unproven { text, values } => {
@@ -88,7 +92,7 @@ pub fn holds(
     let mut prover = Prover::new(scratch, &budget, &domain, name);
     let mut found = Some(true);
     for (_, sum) in &sums {
-        match prover.refute(*sum, false) {
+        match prover.examine_hidden(*sum) {
             Proof::Zero => {}
             Proof::Nonzero(_) => return Some(false),
             Proof::Unproven { .. } => found = None,

@@ -48,8 +48,28 @@ impl<'a> Prover<'a> {
         }
     }
 
-    /// Examines a sum.
+    /// Examines a sum. One that does not vanish modulo a prime is not zero for sure: little work is done to show it then.
     pub fn examine(&mut self, sum: ExprId) -> Proof {
+        if !residues::is_nonzero(self.graph, sum) {
+            return self.decide(sum);
+        }
+        let budget = Budget::new(SHOWN);
+        match Prover::new(self.graph, &budget, &[], self.name).decide(sum) {
+            Proof::Nonzero(shown) => Proof::Nonzero(shown),
+            _ => Proof::Nonzero(long()),
+        }
+    }
+
+    /// Examines a sum whose text nobody is shown if it is not zero.
+    pub fn examine_hidden(&mut self, sum: ExprId) -> Proof {
+        match residues::is_nonzero(self.graph, sum) {
+            true => Proof::Nonzero(String::new()),
+            false => self.decide(sum),
+        }
+    }
+
+    /// Examines a sum by its normal form.
+    fn decide(&mut self, sum: ExprId) -> Proof {
         let text = |text: String| (text.chars().count() <= LONGEST).then_some(text);
         let shown = match self.normal.verdict(sum) {
             Verdict::Zero => return Proof::Zero,
@@ -68,22 +88,6 @@ impl<'a> Prover<'a> {
             }
         };
         Proof::Nonzero(text(shown).unwrap_or_else(long))
-    }
-
-    /// Examines a sum that fails for sure where it does not vanish modulo a prime: to show it, little work is done
-    /// then, and none where it is hidden.
-    pub fn refute(&mut self, sum: ExprId, hidden: bool) -> Proof {
-        if !residues::is_nonzero(self.graph, sum) {
-            return self.examine(sum);
-        }
-        if hidden {
-            return Proof::Nonzero(String::new());
-        }
-        let budget = Budget::new(SHOWN);
-        match Prover::new(self.graph, &budget, &[], self.name).examine(sum) {
-            Proof::Nonzero(shown) => Proof::Nonzero(shown),
-            _ => Proof::Nonzero(long()),
-        }
     }
 
     /// Whether a sum is shown to be nowhere negative.
