@@ -150,8 +150,11 @@ fn invariants(model: &Model, field: &Field, work: u64) -> Option<Sought> {
     if model.declared_casimirs.len() >= count {
         return None;
     }
-    let jacobi = !model.is_almost_poisson();
-    let found = casimirs::find(&field.constants, count, (field.with_unit, jacobi), work);
+    let bracket = casimirs::Kind {
+        with_unit: field.with_unit,
+        jacobi: !model.is_almost_poisson(),
+    };
+    let found = casimirs::find(&field.constants, count, bracket, work);
     let exact = field.constants.try_map(Fraction::as_constant).is_some();
     Some(Sought {
         end: match found.complete {

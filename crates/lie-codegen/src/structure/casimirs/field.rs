@@ -217,3 +217,11 @@ impl Field for Functions<'_> {
         self.budget
     }
 }
+
+/// A number of the prime field for the variable with a number; the same in every run.
+pub fn drawn(index: usize) -> u64 {
+    let mut z = (index as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    (z ^ (z >> 31)) % PRIMES[0]
+}

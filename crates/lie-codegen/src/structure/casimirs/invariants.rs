@@ -5,8 +5,9 @@ use std::collections::BTreeMap;
 use num_bigint::BigInt;
 use rustc_hash::FxHashMap;
 
+use super::Kind;
 use super::characters::{Signs, graded};
-use super::field::{Field, Functions, PRIMES, Prime};
+use super::field::{Field, Functions, PRIMES, Prime, drawn};
 use super::grading::Grading;
 use super::kernel::{Sparse, kernel};
 use super::normal::{largest, normal, normal_rational};
@@ -27,8 +28,7 @@ pub struct Search<'a> {
     constants: &'a StructureConstants<Fraction>,
     budget: &'a Budget,
     grading: Option<(Grading, Signs)>,
-    /// Whether the constants are those of an algebra.
-    jacobi: bool,
+    bracket: Kind,
     /// Basis elements that generate the algebra.
     generators: Vec<usize>,
     /// The operators of these elements over the rationals, where no parameter occurs.
@@ -37,16 +37,6 @@ pub struct Search<'a> {
     point: Vec<u64>,
     gradients: Echelon,
     found: Vec<Polynomial>,
-    /// The number of the unit, which is one.
-    unit: Option<usize>,
-}
-
-/// A number of the prime field for the variable with a number; the same in every run.
-pub fn drawn(index: usize) -> u64 {
-    let mut z = (index as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    (z ^ (z >> 31)) % PRIMES[0]
 }
 
 impl<'a> Search<'a> {
@@ -54,7 +44,7 @@ impl<'a> Search<'a> {
     /// pole at the point that is looked at.
     pub fn new(
         constants: &'a StructureConstants<Fraction>,
-        (with_unit, jacobi): (bool, bool),
+        bracket: Kind,
         budget: &'a Budget,
     ) -> Result<Option<Self>, Exhausted> {
         let n = constants.dimension();
@@ -68,14 +58,13 @@ impl<'a> Search<'a> {
         let table = operators::operators(constants, &all, at_point, |v| field.negative(v));
         let Some(table) = table else { return Ok(None) };
         // what generators annihilate all others do by the Jacobi identity
-        let generators = match jacobi {
+        let generators = match bracket.jacobi {
             true => operators::generators(&field, &table)?,
             false => all,
         };
         let rational = operators::operators(constants, &generators, Fraction::as_constant, |v| -v);
-        let unit = with_unit.then(|| n - 1);
         let mut gradients = Echelon::new(n);
-        if let Some(unit) = unit {
+        if let Some(unit) = bracket.unit(n) {
             let mut row = vec![0; n];
             row[unit] = 1;
             gradients.insert(&field, row)?;
@@ -83,17 +72,16 @@ impl<'a> Search<'a> {
         Ok(Some(Self {
             constants,
             budget,
-            grading: match jacobi {
+            grading: match bracket.jacobi {
                 true => graded(constants, &table, &field)?,
                 false => None,
             },
-            jacobi,
+            bracket,
             generators,
             rational,
             point: (0..n).map(drawn).collect(),
             gradients,
             found: Vec::new(),
-            unit,
         }))
     }
 
@@ -123,10 +111,10 @@ impl<'a> Search<'a> {
         let n = self.constants.dimension();
         let affordable = PRIMES.len() as u64 * traces::cost(n) < self.budget.left();
         if n < LARGE
-            || !self.jacobi
+            || !self.bracket.jacobi
             || !affordable
             || self.rational.is_none()
-            || self.unit.is_some()
+            || self.bracket.with_unit
         {
             return Ok(false);
         }
@@ -192,14 +180,14 @@ impl<'a> Search<'a> {
                 let kernel = self.rational_kernel(exact, monomials)?;
                 Ok(kernel
                     .iter()
-                    .map(|terms| normal_rational(terms, self.unit))
+                    .map(|terms| normal_rational(terms, self.bracket.unit(n)))
                     .collect())
             }
             None => {
                 let kernel = self.functional_kernel(monomials)?;
                 kernel
                     .iter()
-                    .map(|terms| normal(terms, n, self.unit, self.budget))
+                    .map(|terms| normal(terms, n, self.bracket.unit(n), self.budget))
                     .collect()
             }
         }

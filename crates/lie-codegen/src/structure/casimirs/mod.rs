@@ -28,8 +28,8 @@ use invariants::Search;
 
 /// Linear equations over residues and over rational functions, for those that look for other functions.
 pub(crate) mod solve {
+    pub(crate) use super::field::drawn;
     pub(crate) use super::field::{Field, Functions, PRIMES, Prime};
-    pub(crate) use super::invariants::drawn;
     pub(crate) use super::kernel::{Sparse, kernel};
     pub(crate) use super::normal::cleared;
     pub(crate) use super::operators::Echelon;
@@ -71,6 +71,28 @@ impl Casimir {
     }
 }
 
+/// What is known of a bracket with linear and constant terms.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Kind {
+    /// Whether the last basis element is the unit, which stands for the constant terms: it is central, set to one and not counted.
+    pub with_unit: bool,
+    /// Whether it satisfies the Jacobi identity.
+    pub jacobi: bool,
+}
+
+impl Kind {
+    /// The bracket of a Lie algebra.
+    pub const LINEAR: Self = Self {
+        with_unit: false,
+        jacobi: true,
+    };
+
+    /// The number of the unit among n elements.
+    fn unit(self, n: usize) -> Option<usize> {
+        self.with_unit.then(|| n - 1)
+    }
+}
+
 /// What a search found.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Found {
@@ -80,17 +102,16 @@ pub struct Found {
     pub complete: bool,
 }
 
-/// Looks for as many independent Casimirs as there are: the dimension less the generic rank. Where the last basis element
-/// is the unit of a bracket with constant terms, it is central, set to one and not counted.
+/// Looks for as many independent Casimirs as there are: the dimension less the generic rank.
 ///
-/// Without `jacobi` the constants are those of an almost-Poisson bracket, of which no Jacobi identity is asked: kernel functions are
+/// Without [`Kind::jacobi`] the constants are those of an almost-Poisson bracket, of which no Jacobi identity is asked: kernel functions are
 /// the polynomials that every operator annihilates, and nothing else is concluded of them.
 ///
 /// An algebra that is a sum of ideals spanned by basis elements is taken apart, and equal ideals are searched once.
 pub fn find(
     constants: &StructureConstants<Fraction>,
     wanted: usize,
-    (with_unit, jacobi): (bool, bool),
+    bracket: Kind,
     work: u64,
 ) -> Found {
     let mut sum = Found {
@@ -104,11 +125,11 @@ pub fn find(
     // what is left of a small budget is nothing: rational ones are looked for with one of their own
     let budgets = [Budget::new(work), Budget::new(work.min(RATIONAL))];
     let mut kinds: Vec<(StructureConstants<Fraction>, Found)> = Vec::new();
-    for (elements, block) in constants.blocks(with_unit.then(|| n - 1)) {
+    for (elements, block) in constants.blocks(bracket.unit(n)) {
         let found = match kinds.iter().find(|(kind, _)| *kind == block) {
             Some((_, found)) => found,
             None => {
-                let found = of_ideal(&block, (with_unit, jacobi), &budgets);
+                let found = of_ideal(&block, bracket, &budgets);
                 kinds.push((block, found));
                 &kinds[kinds.len() - 1].1
             }
@@ -139,11 +160,11 @@ pub fn find(
 /// What is found in an ideal, with budgets for polynomials and for rational functions.
 fn of_ideal(
     constants: &StructureConstants<Fraction>,
-    (with_unit, jacobi): (bool, bool),
+    bracket: Kind,
     [polynomial, rational]: &[Budget; 2],
 ) -> Found {
     let n = constants.dimension();
-    let wanted = n - rank::generic_rank(constants, n) - usize::from(with_unit);
+    let wanted = n - rank::generic_rank(constants, n) - usize::from(bracket.with_unit);
     let mut found = Found {
         casimirs: Vec::new(),
         complete: true,
@@ -155,14 +176,14 @@ fn of_ideal(
         found.complete = false;
         return found;
     }
-    let mut search = match Search::new(constants, (with_unit, jacobi), polynomial) {
+    let mut search = match Search::new(constants, bracket, polynomial) {
         Ok(Some(search)) => search,
         _ => return Found::default(),
     };
     found.complete = polynomials(&mut search, wanted).is_ok();
     let missing = wanted - search.count();
     let added = match missing {
-        1.. if !with_unit && jacobi => quotients::add(&mut search, constants, missing, rational),
+        1.. if bracket == Kind::LINEAR => quotients::add(&mut search, constants, missing, rational),
         _ => Ok(Vec::new()),
     };
     found
@@ -185,7 +206,7 @@ pub fn invariants(
     degree: usize,
     budget: &Budget,
 ) -> Result<Vec<Polynomial>, Exhausted> {
-    let search = Search::new(constants, (false, true), budget)?;
+    let search = Search::new(constants, Kind::LINEAR, budget)?;
     search.ok_or(Exhausted)?.space(degree)
 }
 

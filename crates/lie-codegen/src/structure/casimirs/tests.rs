@@ -7,7 +7,7 @@ use crate::algebra::rank;
 fn search(constants: &StructureConstants<Fraction>, work: u64) -> Found {
     let n = constants.dimension();
     let wanted = n - rank::generic_rank(constants, n);
-    find(constants, wanted, (false, true), work)
+    find(constants, wanted, Kind::LINEAR, work)
 }
 
 fn degrees(found: &Found) -> Vec<u32> {
@@ -99,7 +99,15 @@ fn parts_keep_their_parameters_and_a_unit_is_of_all() {
         (1, 3, 6, one),
     ];
     let constants = StructureConstants::new(7, entries);
-    let found = find(&constants, 2, (true, true), WORK);
+    let found = find(
+        &constants,
+        2,
+        Kind {
+            with_unit: true,
+            ..Kind::LINEAR
+        },
+        WORK,
+    );
     assert_eq!(shown(&found), ["x4", "x0^2*x7 + x2^2 + x5^2"]);
 }
 

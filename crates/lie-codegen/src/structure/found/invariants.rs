@@ -188,7 +188,7 @@ fn quadratic_casimirs(algebra: &Algebra, elements: &[usize]) -> Vec<Polynomial> 
         .collect();
     let constants = StructureConstants::new(m, entries);
     let wanted = m - rank::generic_rank(&constants, m);
-    let found = casimirs::find(&constants, wanted, (false, true), WORK);
+    let found = casimirs::find(&constants, wanted, casimirs::Kind::LINEAR, WORK);
     let quadratic = found
         .casimirs
         .into_iter()
