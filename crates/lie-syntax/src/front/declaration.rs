@@ -3,13 +3,13 @@
 mod acting;
 mod attitude;
 mod block;
-
 mod entry;
 mod events;
 pub(super) mod family;
 mod functions;
 mod lists;
 mod observables;
+mod parts;
 mod retraction;
 mod statement;
 mod tables;
@@ -21,6 +21,7 @@ use proc_macro2::{Span, TokenStream};
 
 use self::block::{algebra, is_named, names, parameters, realization};
 use self::entry::Entry;
+use self::parts::{Parts, REPEATABLE};
 use self::statement::{Statement, statements};
 use super::entries::{Awaited, Entries, Line, Read, Recorded};
 use super::reader;
@@ -63,87 +64,12 @@ pub fn parse(input: TokenStream, report: &mut Report) -> Parsed {
     parsed
 }
 
-/// The statements of which a declaration may have many.
-const REPEATABLE: [&str; 2] = ["let", "casimir"];
-
 /// The word that begins the statement of a key.
 fn keyword(key: &str) -> &str {
     match key {
         "name" => "system",
         "casimirs" => "casimir",
         key => key,
-    }
-}
-
-/// The statements of a macro.
-struct Parts<'a> {
-    statements: Vec<Statement<'a>>,
-    /// The first token, the place of what is missing.
-    start: Origin,
-}
-
-impl<'a> Parts<'a> {
-    fn all(&self, keyword: &str) -> impl Iterator<Item = &Statement<'a>> {
-        self.statements.iter().filter(move |s| s.keyword == keyword)
-    }
-
-    fn first(&self, keyword: &str) -> Option<&Statement<'a>> {
-        self.all(keyword).next()
-    }
-
-    /// Reports statements that stand twice and visibilities where none belongs.
-    fn check_heads(&self, report: &mut Report) {
-        let mut seen: Vec<&str> = Vec::new();
-        for statement in &self.statements {
-            let keyword = statement.keyword;
-            if !REPEATABLE.contains(&keyword) && seen.contains(&keyword) {
-                report.push(
-                    Diagnostic::new(
-                        Kind::Syntax,
-                        statement.origin,
-                        format!("`{keyword}` stands twice"),
-                    )
-                    .help("remove one of the two"),
-                );
-            }
-            seen.push(keyword);
-            if !matches!(keyword, "system" | "spec")
-                && let Some(place) = span(statement.visibility)
-            {
-                report.push(
-                    Diagnostic::new(
-                        Kind::Syntax,
-                        place,
-                        format!("`{keyword}` has no visibility"),
-                    )
-                    .help("`pub` stands before `system` only"),
-                );
-            }
-        }
-    }
-
-    /// Number of basis elements, however broken the algebra is.
-    fn size_of_basis(&self) -> usize {
-        let tokens = self.first("algebra").map_or(&[][..], |s| s.rest);
-        let Some(basis) = tokens.iter().position(|t| t.is_word("basis")) else {
-            return 0;
-        };
-        let names = &tokens[basis + 1..];
-        let end = names.iter().position(|t| t.is(';')).unwrap_or(names.len());
-        split_commas(&names[..end]).len()
-    }
-
-    fn missing(&self, keyword: &str, example: &str, place: Origin, report: &mut Report) {
-        if self.first(keyword).is_none() {
-            report.push(
-                Diagnostic::new(
-                    Kind::Syntax,
-                    place,
-                    format!("the declaration has no `{keyword}`"),
-                )
-                .help(format!("add `{example}`")),
-            );
-        }
     }
 }
 
