@@ -232,7 +232,7 @@ fn what_is_no_retraction_is_refused() {
         ),
         (
             json!({ "map": turns("2") }),
-            "the derivative of the retraction at 0 along basis element 1",
+            "the derivative of the retraction at 0 along `a`",
         ),
         (off, "the derivative of the retraction at 0"),
         (plane("a/sqrt(b^2 + c^2)"), "has no value where x is 0"),

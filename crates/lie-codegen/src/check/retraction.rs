@@ -115,6 +115,8 @@ type Values<'a> = &'a dyn Fn(&[ExprId]) -> Vec<f64>;
 /// What must hold of a retraction, as matrices that must vanish.
 pub struct Identities {
     graph: Graph,
+    /// The names of the basis.
+    basis: Vec<String>,
     /// The number of coordinates, and of rows.
     count: usize,
     size: usize,
@@ -174,8 +176,10 @@ impl Identities {
             .collect();
         let symmetric = symmetric(&mut graph, &moving, &tangents);
         let entries = matrices.iter().flatten().flatten();
+        let names = model.bracket.algebra()?.basis.iter();
         Some(Self {
             graph,
+            basis: names.map(|name| name.text.clone()).collect(),
             count: matrices.len(),
             size,
             scale: entries
@@ -232,8 +236,8 @@ impl Identities {
             slopes.filter_map(|(a, slope)| Some((a, self.off(values, slope, self.scale)?)));
         off.next().map(|(a, (place, value))| {
             let message = format!(
-                "the derivative of the retraction at 0 along basis element {} is not its matrix: {place} is off by {value}",
-                a + 1,
+                "the derivative of the retraction at 0 along `{}` is not its matrix: {place} is off by {value}",
+                self.basis[a],
             );
             (message, "the derivative at 0 of `map`, less that of `second`, is the element itself")
         })

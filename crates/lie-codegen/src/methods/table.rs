@@ -8,6 +8,7 @@ const ANY: &str = "any Poisson system";
 const ALGEBRA: &str = "any Lie algebra";
 const RETRACTION: &str =
     "any Lie algebra (exp), a matrix representation closed under (abc + cba)/2 (cayley)";
+const MIDPOINT: &str = "any Lie algebra (exp), a matrix representation closed under (abc + cba)/2 (cayley), a declared retraction (spec)";
 const DISCRETE: &str = "a system given by its discrete Lagrangian; for --retraction cayley a matrix representation closed under (abc + cba)/2";
 const LAGRANGIAN: &str = "a system given by its Lagrangian; for --retraction cayley a matrix representation closed under (abc + cba)/2";
 const REDUCTIVE: &str =

@@ -105,7 +105,7 @@ macro_rules! for_each_method {
                 [Gauss(7)] [Gauss14] [Gauss14] {} }
             { "stage-parallel Gauss collocation" ANY HLW
                 [Gauss(8)] [Gauss16] [Gauss16] {} }
-            { "retraction Lie–Poisson integrator" RETRACTION MPS
+            { "retraction Lie–Poisson integrator" MIDPOINT MPS
                 [LieMidpoint(Retraction::Exp)] [LieMidpoint<Exp>] [LieMidpoint::exp()] { [exp Algebra ExpMidpoint] }
                 [LieMidpoint(Retraction::Cayley)] [LieMidpoint<Cayley>] [LieMidpoint::cayley()] { [cayley Closed CayleyMidpoint] }
                 [LieMidpoint(Retraction::Spec)] [LieMidpoint<Declared>] [LieMidpoint::declared()] { [retraction Retraction DeclaredMidpoint] } }
