@@ -78,6 +78,11 @@ impl Interrupt {
         self.0.busy.store(true, Ordering::SeqCst);
     }
 
+    /// From now on nothing has to end in order: a signal ends the process at once.
+    pub fn expect_no_more(&self) {
+        self.0.busy.store(false, Ordering::SeqCst);
+    }
+
     /// Asks the program to stop.
     pub fn stop(&self) {
         drop(lock(&self.0.lifeline).take());

@@ -77,3 +77,11 @@ def test_frequencies_are_found() -> None:
         swing.run("gauss6", h=0.05, x0=[0.5, 0], at=times.tolist()).frequencies("q")
     with pytest.raises(ValueError, match="at least 16"):
         swing.run("gauss6", h=0.05, t=0.2, x0=[0.5, 0]).frequencies("q")
+    undefined = lp.System(
+        poisson=["{q, p} = 1"],
+        state=["q", "p"],
+        hamiltonian="p^2/2 + q^2/2",
+        observables={"ratio": "sin(q - 1)/(q - 1)"},
+    )
+    with pytest.raises(ValueError, match="no number at t = 0"):
+        undefined.run("gauss6", h=0.05, t=4, x0=[1, 0]).frequencies("ratio")

@@ -1,5 +1,6 @@
 //! `lie frequencies`: of which frequencies a motion is made.
 
+use std::collections::HashSet;
 use std::io;
 
 use lie_in_process::request::{Plan, several};
@@ -66,6 +67,9 @@ pub fn run(arguments: &args::Frequencies) -> Result<u8, Failure> {
         return Ok(code);
     }
     let distance = distance(&samples)?;
+    check(&samples)?;
+    // the analysis may take long, and leaves nothing behind
+    interrupt.expect_no_more();
     let options = Options {
         count: arguments.count as usize,
         window: arguments.window,
@@ -105,7 +109,9 @@ fn columns(layout: &Layout, of: &[String]) -> Result<Vec<usize>, Failure> {
     let mut mistakes = Vec::new();
     let places = of.iter().map(place);
     let places = places.filter_map(|place| place.map_err(|wrong| mistakes.push(wrong)).ok());
-    let places: Vec<usize> = places.collect();
+    let mut places: Vec<usize> = places.collect();
+    let mut seen = HashSet::new();
+    places.retain(|place| seen.insert(*place));
     match mistakes.is_empty() {
         true => Ok(places),
         false => Err(Failure::invalid(mistakes)),
@@ -200,6 +206,21 @@ fn distance(samples: &Samples) -> Result<(f64, usize), Failure> {
         let help = "ask for some by `--rows T1:T2:COUNT`";
         Message::option("--of", text).help(help).into()
     })
+}
+
+/// A column that is somewhere no number has no lines.
+fn check(samples: &Samples) -> Result<(), Failure> {
+    let wrong = samples.signals.iter().filter_map(|(name, values)| {
+        let place = values.iter().position(|value| !value.is_finite())?;
+        let text = format!("`{name}` is no number at t = {}", samples.times[place]);
+        let help = "leave the column out, or give an end or rows where it is defined";
+        Some(Message::option("--of", text).help(help))
+    });
+    let wrong: Vec<Message> = wrong.collect();
+    match wrong.is_empty() {
+        true => Ok(()),
+        false => Err(Failure::invalid(wrong)),
+    }
 }
 
 /// What was found, for people.

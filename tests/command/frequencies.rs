@@ -120,8 +120,23 @@ fn what_is_refused_says_why() {
     run("--step 0.1 --at 1,2,4,5,6,7,8,9,10,11,12,13,14,15,16,17,18,19 --of x")
         .error("option", "command line: --of");
     run(&format!("{both} --of x --param I1=1:2:3")).error("option", "command line: SPEC");
-    // a run that stops early: what there is of it is analysed
+    // a column that is named twice is analysed once
+    let twice = run(&format!("{both} --of x,x")).ok().stdout;
+    assert_eq!(twice.matches("x: mean").count(), 1, "{twice}");
+    // 0/0 at the start, and numbers behind it
     let folder = folder();
+    let path = spec(folder.path(), |spec| {
+        spec["observables"] = json!({ "ratio": "sin(x - 1)/(x - 1)" });
+        spec["initial"] = json!([1, 0.5, 0.5]);
+    });
+    let command = format!("frequencies {} {both} --of ratio", path.display());
+    let undefined = lie(&command).error("option", "command line: --of");
+    assert!(
+        undefined.stderr.contains("`ratio` is no number at t = 0"),
+        "{}",
+        undefined.stderr
+    );
+    // a run that stops early: what there is of it is analysed
     let path = spec(folder.path(), |spec| {
         spec["poisson"] = json!(["{x, y} = 1"]);
         spec["state"] = json!(["x", "y"]);

@@ -97,6 +97,11 @@ def frequencies_of(times: Array, values: Array, count: Any, window: Any) -> Freq
         raise ValueError(
             f"{len(times)} rows, and lines take at least {_LEAST}\n  help: give a later t, or a smaller h or every"
         )
+    wrong = np.flatnonzero(~np.isfinite(values))
+    if len(wrong):
+        raise ValueError(
+            f"the column is no number at t = {times[wrong[0]]}\n  help: analyse another one, or give rows where it is defined"
+        )
     found = _core.lines(times, values, count, window)
     if found is None:
         raise ValueError(
