@@ -1,8 +1,8 @@
 //! Methods whose types are forgotten, so that a measurement of many of them is compiled once.
 
+use crate::methods::any::{AnyStepper, Motions};
 use crate::methods::{
-    AnyStepper, FactorSink, Facts, Method, Motions, Preserves, Projection, Relay, StepFailure,
-    StepReport, Stepper,
+    FactorSink, Facts, Method, Preserves, Projection, Relay, StepFailure, StepReport, Stepper,
 };
 use crate::newton::NewtonOptions;
 use crate::poisson::Poisson;

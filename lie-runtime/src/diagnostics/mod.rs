@@ -11,7 +11,7 @@ mod reference;
 mod step;
 mod symmetry;
 
-pub use crate::methods::{AnyStepper, GroupMotion, Motions};
+pub use crate::methods::any::{AnyStepper, GroupMotion, Motions};
 pub use any::{AnyMethod, Claims, Forgotten, ForgottenStepper};
 pub use drift::{Drift, DriftMonitor, InvariantDrift};
 pub use order::{Order, order_of_convergence};

@@ -2,9 +2,8 @@
 
 use super::options::OptionError;
 use super::problem::Problem;
-use crate::methods::{
-    AnyStepper, FactorSink, Keep, Levels, Method, Motions, Projection, StepFailure, StepReport,
-};
+use crate::methods::any::{AnyStepper, Motions};
+use crate::methods::{FactorSink, Keep, Levels, Method, Projection, StepFailure, StepReport};
 use crate::newton::{Iteration, NewtonOptions};
 use crate::poisson::Poisson;
 use crate::scalar::{Mask, Scalar};

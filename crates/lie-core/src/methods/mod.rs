@@ -74,7 +74,7 @@ macro_rules! by_equation {
 }
 
 #[cfg(feature = "std")]
-mod any;
+pub mod any;
 mod coefficients;
 pub mod cohen_hairer;
 pub mod collective;
@@ -129,8 +129,6 @@ pub(crate) mod equations {
     pub use super::midpoint::Midpoint;
 }
 
-#[cfg(feature = "std")]
-pub use any::{AnyStepper, GroupMotion, Motions};
 pub use coefficients::Scheme;
 pub use cohen_hairer::{
     CohenHairer, CohenHairer2, CohenHairer4, CohenHairer6, CohenHairer8, CohenHairer10,

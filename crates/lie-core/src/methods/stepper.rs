@@ -226,7 +226,7 @@ pub trait Method<S: Scalar, P: Poisson<S>>: Facts {
         system: &'a P,
         h: S,
         newton: &NewtonOptions,
-    ) -> Box<dyn super::AnyStepper<S, P::State> + 'a> {
+    ) -> Box<dyn super::any::AnyStepper<S, P::State> + 'a> {
         Box::new(self.stepper(system, h, newton))
     }
 }
