@@ -67,9 +67,12 @@ pub fn run(arguments: &args::Frequencies) -> Result<u8, Failure> {
         return Ok(code);
     }
     let distance = distance(&samples)?;
-    check(&samples)?;
-    // the analysis may take long, and leaves nothing behind
+    check(&samples, distance.1)?;
+    // the analysis may take long, and has nothing to end in order
     interrupt.expect_no_more();
+    if let Some(signal) = interrupt.seen().filter(|_| code == 0) {
+        return Ok(signal);
+    }
     let options = Options {
         count: arguments.count as usize,
         window: arguments.window,
@@ -208,11 +211,12 @@ fn distance(samples: &Samples) -> Result<(f64, usize), Failure> {
     })
 }
 
-/// A column that is somewhere no number has no lines.
-fn check(samples: &Samples) -> Result<(), Failure> {
+/// A column that is not finite somewhere in the samples that are analysed has no lines.
+fn check(samples: &Samples, count: usize) -> Result<(), Failure> {
     let wrong = samples.signals.iter().filter_map(|(name, values)| {
-        let place = values.iter().position(|value| !value.is_finite())?;
-        let text = format!("`{name}` is no number at t = {}", samples.times[place]);
+        let analysed = &values[..count];
+        let place = analysed.iter().position(|value| !value.is_finite())?;
+        let text = format!("`{name}` is not finite at t = {}", samples.times[place]);
         let help = "leave the column out, or give an end or rows where it is defined";
         Some(Message::option("--of", text).help(help))
     });

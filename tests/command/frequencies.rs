@@ -132,7 +132,7 @@ fn what_is_refused_says_why() {
     let command = format!("frequencies {} {both} --of ratio", path.display());
     let undefined = lie(&command).error("option", "command line: --of");
     assert!(
-        undefined.stderr.contains("`ratio` is no number at t = 0"),
+        undefined.stderr.contains("`ratio` is not finite at t = 0"),
         "{}",
         undefined.stderr
     );

@@ -172,7 +172,7 @@ class Solution:
         >>> round(line.frequency, 7), round(line.amplitude, 7), line.drift < 1e-9
         (2.0, 1.0, True)
 
-        Errors: :class:`ValueError` where the rows are at no equal distances, or fewer than 16, or the column is no number at one, :class:`KeyError` for no column.
+        Errors: :class:`ValueError` where the rows are at no equal distances, or fewer than 16, or the column is not finite at one, :class:`KeyError` for no column.
         """
         return frequencies_of(self.t, np.ascontiguousarray(self[name]), count, window)
 

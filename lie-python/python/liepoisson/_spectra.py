@@ -97,16 +97,16 @@ def frequencies_of(times: Array, values: Array, count: Any, window: Any) -> Freq
         raise ValueError(
             f"{len(times)} rows, and lines take at least {_LEAST}\n  help: give a later t, or a smaller h or every"
         )
-    wrong = np.flatnonzero(~np.isfinite(values))
-    if len(wrong):
-        raise ValueError(
-            f"the column is no number at t = {times[wrong[0]]}\n  help: analyse another one, or give rows where it is defined"
-        )
     found = _core.lines(times, values, count, window)
     if found is None:
         raise ValueError(
             "the rows are at no equal distances\n  help: leave out `at`, or give times at equal distances"
         )
     mean, lines, rest = found
+    if not math.isfinite(mean):
+        place = np.flatnonzero(~np.isfinite(values))[0]
+        raise ValueError(
+            f"the column is not finite at t = {times[place]}\n  help: analyse another one, or give rows where it is defined"
+        )
     made = [Line(frequency, size, phase, (a, b)) for frequency, size, phase, (a, b) in lines]
     return Frequencies(mean, made, rest)

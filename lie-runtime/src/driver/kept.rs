@@ -3,7 +3,9 @@
 use super::options::OptionError;
 use super::problem::Problem;
 use crate::methods::any::{AnyStepper, Motions};
-use crate::methods::{FactorSink, Keep, Levels, Method, Projection, StepFailure, StepReport};
+use crate::methods::{
+    FactorSink, Facts, Keep, Levels, Method, Projection, StepFailure, StepReport,
+};
 use crate::newton::{Iteration, NewtonOptions};
 use crate::poisson::Poisson;
 use crate::scalar::{Mask, Scalar};
@@ -25,19 +27,19 @@ trait Steps<S: Scalar, P: Poisson<S>> {
 
 impl<S: Scalar, P: Poisson<S>, M: Method<S, P>> Steps<S, P> for M {
     fn order(&self) -> u32 {
-        self.order()
+        Facts::order(self)
     }
 
     fn fixed_point(&self) -> bool {
-        self.fixed_point()
+        Facts::fixed_point(self)
     }
 
     fn own_steps(&self) -> bool {
-        self.own_steps()
+        Facts::own_steps(self)
     }
 
     fn symmetric(&self) -> bool {
-        self.symmetric()
+        Facts::symmetric(self)
     }
 
     fn boxed<'a>(
@@ -46,7 +48,7 @@ impl<S: Scalar, P: Poisson<S>, M: Method<S, P>> Steps<S, P> for M {
         h: S,
         newton: &NewtonOptions,
     ) -> Box<dyn AnyStepper<S, P::State> + 'a> {
-        self.boxed(system, h, newton)
+        Method::boxed(self, system, h, newton)
     }
 }
 
@@ -88,7 +90,7 @@ impl<'m, S: Scalar, P: Poisson<S>> Kept<'m, S, P> {
         self.levels.is_some()
     }
 
-    /// See [`Facts`](crate::methods::Facts), as of all that is asked here.
+    /// See [`Facts`], as for the next two.
     pub(super) fn order(&self) -> u32 {
         self.method.order()
     }

@@ -219,7 +219,8 @@ pub trait Method<S: Scalar, P: Poisson<S>>: Facts {
         P: 'a;
     /// A stepper of step size h, which may be negative and may differ per lane.
     fn stepper<'a>(&self, system: &'a P, h: S, newton: &NewtonOptions) -> Self::Stepper<'a>;
-    /// The same with its type forgotten.
+    /// The stepper of [`Method::stepper`] in a box, its type forgotten: what a run takes, so that it is compiled once for each system. The box
+    /// borrows the method too.
     #[cfg(feature = "std")]
     fn boxed<'a>(
         &'a self,

@@ -56,7 +56,8 @@ impl<'a> Prover<'a> {
         let budget = Budget::new(SHOWN);
         match Prover::new(self.graph, &budget, &[], self.name).decide(sum) {
             Proof::Nonzero(shown) => Proof::Nonzero(shown),
-            _ => Proof::Nonzero(long()),
+            Proof::Unproven { text, .. } => Proof::Nonzero(text.unwrap_or_else(long)),
+            Proof::Zero => Proof::Nonzero(long()),
         }
     }
 
