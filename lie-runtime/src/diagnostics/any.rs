@@ -101,6 +101,16 @@ pub struct ForgottenStepper<'a, V, S = f64> {
     motions: Motions<V>,
 }
 
+impl<'a, S, V> ForgottenStepper<'a, V, S> {
+    /// Some stepper as a stepper again.
+    pub(crate) const fn new(stepper: Box<dyn AnyStepper<S, V> + 'a>) -> Self {
+        Self {
+            stepper,
+            motions: Motions::new(),
+        }
+    }
+}
+
 impl<S: Scalar, P: Poisson<S>> Facts for Forgotten<'_, P, S> {
     const ID: &'static str = "";
     const ORDER: u32 = 0;
@@ -129,10 +139,7 @@ impl<S: Scalar, P: Poisson<S>> Method<S, P> for Forgotten<'_, P, S> {
         P: 'a;
 
     fn stepper<'a>(&self, system: &'a P, h: S, newton: &NewtonOptions) -> Self::Stepper<'a> {
-        ForgottenStepper {
-            stepper: self.0.any_stepper(system, h, newton),
-            motions: Motions::new(),
-        }
+        ForgottenStepper::new(self.0.any_stepper(system, h, newton))
     }
 
     fn boxed<'a>(

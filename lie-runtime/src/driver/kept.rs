@@ -2,9 +2,10 @@
 
 use super::options::OptionError;
 use super::problem::Problem;
-use crate::methods::any::{AnyStepper, Motions};
+use crate::diagnostics::ForgottenStepper;
+use crate::methods::any;
 use crate::methods::{
-    FactorSink, Facts, Keep, Levels, Method, Projection, StepFailure, StepReport,
+    FactorSink, Facts, Keep, Levels, Method, Projection, StepFailure, StepReport, Stepper as _,
 };
 use crate::newton::{Iteration, NewtonOptions};
 use crate::poisson::Poisson;
@@ -22,7 +23,7 @@ trait Steps<S: Scalar, P: Poisson<S>> {
         system: &'a P,
         h: S,
         newton: &NewtonOptions,
-    ) -> Box<dyn AnyStepper<S, P::State> + 'a>;
+    ) -> Box<dyn any::AnyStepper<S, P::State> + 'a>;
 }
 
 impl<S: Scalar, P: Poisson<S>, M: Method<S, P>> Steps<S, P> for M {
@@ -47,7 +48,7 @@ impl<S: Scalar, P: Poisson<S>, M: Method<S, P>> Steps<S, P> for M {
         system: &'a P,
         h: S,
         newton: &NewtonOptions,
-    ) -> Box<dyn AnyStepper<S, P::State> + 'a> {
+    ) -> Box<dyn any::AnyStepper<S, P::State> + 'a> {
         Method::boxed(self, system, h, newton)
     }
 }
@@ -132,12 +133,11 @@ impl<'m, S: Scalar, P: Poisson<S>> Kept<'m, S, P> {
         h: S,
         newton: &NewtonOptions,
     ) -> KeptStepper<'a, S, P> {
-        let mut stepper = self.method.boxed(system, h, newton);
+        let mut stepper = ForgottenStepper::new(self.method.boxed(system, h, newton));
         let projection = self.levels.map(|levels| Projection::new(system, levels));
         let left = projection.and_then(|projection| stepper.keep(projection));
         KeptStepper {
             stepper,
-            motions: Motions::new(),
             behind: left.map(|projection| Behind {
                 system,
                 projection,
@@ -149,8 +149,7 @@ impl<'m, S: Scalar, P: Poisson<S>> Kept<'m, S, P> {
 
 /// The stepper of a [`Kept`] method.
 pub(super) struct KeptStepper<'a, S: Scalar, P: Poisson<S>> {
-    stepper: Box<dyn AnyStepper<S, P::State> + 'a>,
-    motions: Motions<P::State>,
+    stepper: ForgottenStepper<'a, P::State, S>,
     /// What is done behind each step, where the stepper does not do it itself.
     behind: Option<Behind<'a, S, P>>,
 }
@@ -171,10 +170,10 @@ impl<S: Scalar, P: Poisson<S>> KeptStepper<'_, S, P> {
         sink: &mut K,
     ) -> Result<StepReport, StepFailure> {
         let Some(behind) = &mut self.behind else {
-            return alone(&mut *self.stepper, &mut self.motions, mu, sink);
+            return self.stepper.step(mu, sink);
         };
         behind.before.copy_from(mu);
-        let stepped = alone(&mut *self.stepper, &mut self.motions, mu, sink);
+        let stepped = self.stepper.step(mu, sink);
         let refused = stepped.err().map_or(0, |failure| failure.lanes);
         let moved = !S::Mask::from_bits(refused);
         let lost = behind.projection.bring_back(behind.system, moved, mu);
@@ -202,20 +201,4 @@ impl<S: Scalar, P: Poisson<S>> KeptStepper<'_, S, P> {
     pub(super) fn set_step(&mut self, h: S) -> bool {
         self.stepper.set_step(h)
     }
-}
-
-/// A step without what is behind it.
-fn alone<S, V: Clone>(
-    stepper: &mut dyn AnyStepper<S, V>,
-    motions: &mut Motions<V>,
-    mu: &mut V,
-    sink: &mut impl FactorSink<V>,
-) -> Result<StepReport, StepFailure> {
-    if !sink.is_active() {
-        return stepper.step(mu);
-    }
-    motions.clear();
-    let report = stepper.step_with_motions(mu, motions);
-    motions.show(sink);
-    report
 }
