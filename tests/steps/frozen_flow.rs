@@ -4,8 +4,10 @@ use crate::systems::{
     BodyWithCirculation, Bracketed as _, CanonicalPendulum, LotkaVolterra, distance,
 };
 use lie_runtime::diagnostics::{order_of_convergence, reference, symmetry_defect};
-use lie_runtime::generic::{FrozenFlow, FrozenStep, Motion, OrbitEnergyStep};
-use lie_runtime::methods::{Compose4, Facts, Gonzalez, Method, OrbitEnergy};
+use lie_runtime::generic::{
+    FrozenFlow, FrozenStep, Generating2, Motion, OrbitEnergyStep, RealizationStep,
+};
+use lie_runtime::methods::{Compose4, Facts, Gonzalez, HamiltonJacobi2, Method, OrbitEnergy};
 use lie_runtime::newton::NewtonOptions;
 use lie_runtime::prelude::*;
 use lie_runtime::{Equation, Poisson, State};
@@ -319,4 +321,51 @@ fn on_an_algebra_it_is_the_coadjoint_action() {
     }
     let off = distance(ends[0].as_slice(), ends[1].as_slice());
     assert!(off < 1e-14, "{off:e}");
+}
+
+/// Nodes of the way and the end of the step are found by one iteration, and by Newton's method where the way needs more than one part. The
+/// control takes the unknown alone for the end of that iteration.
+#[test]
+fn nodes_and_end_are_found_together() {
+    let nambu = Nambu::new();
+    let (system, start) = (nambu.system().expect("constants"), nambu.initial_state());
+    let equation = |h: f64| {
+        let mut equation = RealizationStep::with_function(&system, Generating2::new(&system, h), h);
+        equation.set_base(&start);
+        equation
+    };
+    for (h, is_whole) in [(0.1, true), (0.5, false)] {
+        let mut together = equation(h);
+        let (mut unknown, mut update) = (together.zero_unknown(), together.zero_unknown());
+        together.initial_guess(&mut unknown);
+        let mut within = f64::INFINITY;
+        for _ in 0..60 {
+            within = together.approach(&unknown, &mut update, true);
+            unknown -= update;
+        }
+        let moved = together.norm(&update);
+        equation(h).residual(&unknown, &mut update);
+        let off = together.norm(&update);
+        println!("{h}: the unknown moves by {moved:e}, within {within:e}, off {off:e}");
+        assert!(moved < 1e-14, "{h}: {moved:e}");
+        assert_eq!((within < 1e-14, off < 1e-14), (is_whole, is_whole), "{h}");
+        fn check<M: for<'a> Method<f64, NambuSystem<f64>>>(
+            system: &NambuSystem<f64>,
+            method: &M,
+            start: &<NambuSystem<f64> as Poisson<f64>>::State,
+            (h, is_whole): (f64, bool),
+        ) {
+            let [automatic, newton] = [NewtonOptions::default(), NewtonOptions::newton()];
+            let mut states = [*start, *start];
+            let mut stepper = method.stepper(system, h, &automatic);
+            let report = stepper.step(&mut states[0], &mut ()).expect("a step");
+            assert_eq!(report.factorizations == 0, is_whole, "{h}: {report:?}");
+            let mut stepper = method.stepper(system, h, &newton);
+            stepper.step(&mut states[1], &mut ()).expect("a step");
+            let off = distance(states[0].as_slice(), states[1].as_slice());
+            assert!(off < 1e-14, "{h}: {off:e}");
+        }
+        check(&system, &HamiltonJacobi2::new(), &start, (h, is_whole));
+        check(&system, &OrbitEnergy::gonzalez(), &start, (h, is_whole));
+    }
 }

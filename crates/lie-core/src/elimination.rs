@@ -165,6 +165,16 @@ where
     }
 
     #[inline]
+    fn approach(
+        &mut self,
+        unknown: &Self::Unknown,
+        residual: &mut Self::Unknown,
+        active: S::Mask,
+    ) -> S {
+        self.equation.approach(unknown, residual, active)
+    }
+
+    #[inline]
     fn linearize(
         &mut self,
         unknown: &Self::Unknown,

@@ -51,6 +51,18 @@ pub trait Equation<S: Scalar> {
     fn leave_out(&self, _unknown: &mut Self::Unknown) {}
     /// The residual r(u).
     fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown);
+    /// The residual of an iteration without a Jacobian. An equation that solves another one within may go one step in that, in the
+    /// active lanes: what is written is r(u) in the limit, where both iterations have converged. Returns the size of what that step
+    /// changed, in the [`norm`](Equation::norm); 0 where nothing is solved within.
+    fn approach(
+        &mut self,
+        unknown: &Self::Unknown,
+        residual: &mut Self::Unknown,
+        _active: S::Mask,
+    ) -> S {
+        self.residual(unknown, residual);
+        S::zero()
+    }
     /// The residual and its Jacobian `dr/du`. Writes every entry that can be nonzero before or
     /// after [`Equation::factor`] (pattern and fill-in); the others keep the 0 of
     /// [`Equation::zero_matrix`].
@@ -82,7 +94,7 @@ pub trait Equation<S: Scalar> {
     ) -> (S, S::Mask) {
         newton_update(self, unknown, update, factors)
     }
-    /// What an iteration with a Jacobian costs, in evaluations of the residual: [`Equation::linearize`],
+    /// What an iteration with a Jacobian costs, in evaluations of [`Equation::approach`]: [`Equation::linearize`],
     /// [`Equation::factor`] and [`Equation::solve`]. Decides whether iterations without one are tried. The default is
     /// `1.5 + n^2/20` of n unknowns, as counted of equations whose elimination is written out.
     fn jacobian_cost(&self) -> f64 {
@@ -170,6 +182,14 @@ impl<S: Scalar, E: Equation<S> + ?Sized> Equation<S> for &mut E {
     }
     fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
         (**self).residual(unknown, residual);
+    }
+    fn approach(
+        &mut self,
+        unknown: &Self::Unknown,
+        residual: &mut Self::Unknown,
+        active: S::Mask,
+    ) -> S {
+        (**self).approach(unknown, residual, active)
     }
     fn linearize(
         &mut self,

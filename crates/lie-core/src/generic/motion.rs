@@ -17,6 +17,21 @@ pub trait Motion<S: Scalar, P: Poisson<S>> {
     fn begin(&mut self) {}
     /// The end of the motion: `out = y(1)`, `y(0) = start`.
     fn carry(&mut self, system: &P, x: &P::State, start: &P::State, out: &mut P::State);
+    /// The same as far as an iteration has come that changes x too, where the motion is found by one itself: it goes one step in the
+    /// active lanes. Returns the size of what that changed.
+    fn approach(
+        &mut self,
+        system: &P,
+        ends: [&P::State; 2],
+        out: &mut P::State,
+        _active: S::Mask,
+    ) -> S {
+        let [x, start] = ends;
+        self.carry(system, x, start, out);
+        S::zero()
+    }
+    /// The direction is found: what comes depends on it, and on what each lane has approached, alone.
+    fn conclude(&mut self) {}
     /// The mean of `Pi(y) g` along the way, for x, the start and g, such that `y(1) - y(0)` is that of x.
     fn mean(&mut self, system: &P, given: [&P::State; 3], out: &mut P::State);
     /// Makes ready for the derivatives below, of the motion from `start` to `end`.
@@ -40,6 +55,11 @@ pub trait Motion<S: Scalar, P: Poisson<S>> {
         unit: usize,
         space: [&mut P::State; 3],
     );
+    /// See [`Equation::jacobian_cost`](crate::Equation::jacobian_cost), of so many coordinates.
+    fn jacobian_cost(dimension: usize) -> f64 {
+        let size = dimension as f64;
+        1.5 + size * size / 20.0
+    }
     /// The lanes in which the last motion is as exact as its scalar.
     fn resolved(&self) -> S::Mask {
         S::Mask::splat(true)

@@ -93,9 +93,8 @@ where
         }
     }
 
-    /// `r = u - E(x, mu)`; leaves the new state in `moved`, with forces the state before their second half.
+    /// `r = u - E(x, mu)` with the new state in `moved`, with forces the state before their second half.
     fn write_residual(&mut self, unknown: &P::State, residual: &mut P::State) {
-        self.carry();
         let pairs = unknown.as_slice().iter().zip(self.moved.as_slice());
         for (out, (&u, &moved)) in residual.as_mut_slice().iter_mut().zip(pairs) {
             *out = u - moved;
@@ -167,7 +166,18 @@ where
 
     fn residual(&mut self, unknown: &P::State, residual: &mut P::State) {
         self.set_direction(unknown);
+        self.carry();
         self.write_residual(unknown, residual);
+    }
+
+    fn approach(&mut self, unknown: &P::State, residual: &mut P::State, active: S::Mask) -> S {
+        self.set_direction(unknown);
+        let start = start(self.system, &self.beside, &self.base);
+        let ends = [&self.direction, start];
+        let moved = &mut self.moved;
+        let changed = self.motion.approach(self.system, ends, moved, active);
+        self.write_residual(unknown, residual);
+        changed
     }
 
     fn linearize(&mut self, unknown: &P::State, residual: &mut P::State, matrix: &mut P::Jacobian) {
@@ -175,6 +185,7 @@ where
         self.gradient
             .linearize(self.system, unknown, direction, derivative);
         self.complete(unknown);
+        self.carry();
         self.write_residual(unknown, residual);
         let start = start(self.system, &self.beside, &self.base);
         let (motion, ends) = (&mut self.motion, [start, &self.moved]);
@@ -219,6 +230,10 @@ where
         }
     }
 
+    fn jacobian_cost(&self) -> f64 {
+        M::jacobian_cost(self.system.dimension())
+    }
+
     fn resolved(&mut self, unknown: &P::State, _end: &P::State) -> S::Mask {
         let resolved = self.gradient.resolved(self.system, unknown) & self.motion.resolved();
         match self.beside.get(self.system) {
@@ -229,7 +244,7 @@ where
 
     fn result(&mut self, unknown: &P::State, mu: &mut P::State) {
         // lanes that were solved earlier have seen more iterations
-        self.motion.begin();
+        self.motion.conclude();
         self.set_direction(unknown);
         self.carry();
         mu.copy_from(&self.moved);

@@ -1,6 +1,7 @@
 //! The equation of K-HJ methods, on any Poisson manifold.
 
 use super::frozen_flow::FrozenFlow;
+use super::motion::Motion;
 use crate::equation::Equation;
 use crate::generating::GeneratingFunction;
 use crate::matrix::SquareMatrix;
@@ -60,7 +61,6 @@ where
 
     /// `X` less the mean of the way along the covector.
     fn write_residual(&mut self, unknown: &P::State, residual: &mut P::State) {
-        self.walk();
         residual.copy_from(unknown);
         residual.axpy(-S::one(), &self.mean);
     }
@@ -87,12 +87,23 @@ where
 
     fn residual(&mut self, unknown: &P::State, residual: &mut P::State) {
         self.function.gradient(unknown, &mut self.covector);
+        self.walk();
         self.write_residual(unknown, residual);
+    }
+
+    fn approach(&mut self, unknown: &P::State, residual: &mut P::State, active: S::Mask) -> S {
+        self.function.gradient(unknown, &mut self.covector);
+        let given = [&self.covector, &self.base];
+        let mean = &mut self.mean;
+        let changed = self.flow.approach_mean(self.system, given, mean, active);
+        self.write_residual(unknown, residual);
+        changed
     }
 
     fn linearize(&mut self, unknown: &P::State, residual: &mut P::State, matrix: &mut P::Jacobian) {
         let (covector, hessian) = (&mut self.covector, &mut self.hessian);
         self.function.linearize(unknown, covector, hessian);
+        self.walk();
         self.write_residual(unknown, residual);
         let given = [&self.covector, &self.base];
         let slope = self.flow.mean_by_direction(self.system, given);
@@ -107,10 +118,10 @@ where
         }
     }
 
-    /// 3.4 was counted of three coordinates, 8 to 10 of five and six, in generated code: the derivative of the mean takes sweeps over the
-    /// nodes for each of them.
     fn jacobian_cost(&self) -> f64 {
-        2.0 * self.system.dimension() as f64 - 2.0
+        <FrozenFlow<S, P::State, P::Jacobian> as Motion<S, P>>::jacobian_cost(
+            self.system.dimension(),
+        )
     }
 
     fn resolved(&mut self, _unknown: &P::State, _end: &P::State) -> S::Mask {
@@ -119,7 +130,7 @@ where
 
     fn result(&mut self, unknown: &P::State, mu: &mut P::State) {
         // lanes that were solved earlier have seen more iterations
-        self.flow.begin();
+        self.flow.conclude();
         self.function.gradient(unknown, &mut self.covector);
         self.walk();
         mu.copy_from(&self.end);

@@ -245,8 +245,8 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
         let mut size = scale;
         while active.any() {
             let update = &mut self.workspace.update;
-            equation.residual(unknown, update);
-            let step = equation.norm(update);
+            let within = equation.approach(unknown, update, active);
+            let step = S::largest_magnitude(&[equation.norm(update), within]);
             count.saw(active, step);
             unknown.subtract_where(active, update);
             let index = count.add(active);

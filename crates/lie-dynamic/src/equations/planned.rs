@@ -227,6 +227,19 @@ where
         fused.run(self.system, call, (self.h, unknown), targets);
     }
 
+    fn approach(
+        &mut self,
+        unknown: &Self::Unknown,
+        residual: &mut Self::Unknown,
+        active: S::Mask,
+    ) -> S {
+        if self.fused.is_some() {
+            self.residual(unknown, residual);
+            return S::zero();
+        }
+        self.generic.approach(unknown, residual, active)
+    }
+
     fn linearize(
         &mut self,
         unknown: &Self::Unknown,

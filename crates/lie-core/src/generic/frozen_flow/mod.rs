@@ -1,12 +1,11 @@
 //! The flow of a Poisson matrix against a direction that is held.
 
+mod motion;
 mod tangent;
 
 use super::kernels::multiply;
-use super::motion::Motion;
 use super::tableau::{MOST_STAGES, gauss_legendre, gauss_ratio, gauss_weight};
 use crate::matrix::SquareMatrix;
-use crate::methods::Retraction;
 use crate::poisson::Poisson;
 use crate::scalar::{Mask as _, Scalar};
 use crate::state::State;
@@ -23,6 +22,8 @@ const CLOSE: f64 = 2.0;
 /// Coefficient 7 of the slopes in Legendre polynomials, beside the state, up to which the end has all its digits: coefficients fall by a
 /// factor r from one to the next, and the error at the end is as large as coefficient 16, `r^16 <= 2^-57`.
 const RESOLVED: f64 = 1.0 / (1u64 << 25) as f64;
+/// Nodes that were approached are a start where the last sweep changed none by more than so much beside the state.
+const NEAR: f64 = 1e-6;
 
 /// `y' = Pi(y) x` over unit time by Gauss collocation at eight nodes,
 ///
@@ -44,6 +45,11 @@ pub struct FrozenFlow<S: Scalar, V, M> {
     increments: [V; NODES],
     /// The lanes in which the increments are those of a direction near to the one that comes.
     warm: S::Mask,
+    /// Those of an iteration that changes the direction too, while it goes on, and what they leave at the end of the way.
+    approached: [V; NODES],
+    /// Whether there are any, and the lanes in which they are near to a way in one part.
+    approaching: bool,
+    near: S::Mask,
     parts: S,
     resolved: S::Mask,
     /// x over the number of parts, where a part starts and where it comes to, where the way ends.
@@ -80,6 +86,9 @@ impl<S: Scalar, V: State<S>, M: SquareMatrix<S>> FrozenFlow<S, V, M> {
             last: core::array::from_fn(|j| gauss_legendre(NODES, NODES - 1, j)),
             increments: core::array::from_fn(|_| zero.clone()),
             warm: S::Mask::splat(false),
+            approached: core::array::from_fn(|_| zero.clone()),
+            approaching: false,
+            near: S::Mask::splat(false),
             parts: S::one(),
             resolved: S::Mask::splat(true),
             direction: zero.clone(),
@@ -97,6 +106,8 @@ impl<S: Scalar, V: State<S>, M: SquareMatrix<S>> FrozenFlow<S, V, M> {
     /// A new step begins: nothing of the last one is to be seen in it.
     pub(super) fn begin(&mut self) {
         self.warm = S::Mask::splat(false);
+        self.approaching = false;
+        self.near = S::Mask::splat(false);
         self.parts = S::one();
     }
 
@@ -134,14 +145,7 @@ impl<S: Scalar, V: State<S>, M: SquareMatrix<S>> FrozenFlow<S, V, M> {
     {
         let known = self.warm | kept;
         if !known.all() {
-            system.poisson_matrix(&self.start, &mut self.matrix);
-            multiply(&self.matrix, &self.direction, &mut self.slot);
-            for (&weight, increment) in self.weights.iter().zip(&mut self.increments) {
-                let fields = self.slot.as_slice().iter();
-                for (entry, &field) in increment.as_mut_slice().iter_mut().zip(fields) {
-                    *entry = S::select(known, *entry, weight * field);
-                }
-            }
+            self.set_increments(system, known);
         }
         let size = system.norm(&self.start);
         let close = S::from_f64(CLOSE) * S::epsilon() * size;
@@ -155,22 +159,94 @@ impl<S: Scalar, V: State<S>, M: SquareMatrix<S>> FrozenFlow<S, V, M> {
             found = found | change.less_equal(close) | !change.finite();
         }
         self.warm = S::Mask::splat(true);
+        found & self.reach(system).less_equal(S::from_f64(RESOLVED) * size)
+    }
+
+    /// Leaves where a part comes to; returns the size of the last coefficient of its slopes.
+    fn reach<P>(&mut self, system: &P) -> S
+    where
+        P: Poisson<S, State = V, Jacobian = M>,
+    {
         self.reached.copy_from(&self.start);
-        for (k, entry) in self.reached.as_mut_slice().iter_mut().enumerate() {
-            let mut sum = S::zero();
-            for increment in &self.increments {
-                sum += increment.as_slice()[k];
-            }
-            *entry += sum;
+        self.slot.fill(S::zero());
+        for (&weight, increment) in self.last.iter().zip(&self.increments) {
+            self.reached.axpy(S::one(), increment);
+            self.slot.axpy(weight, increment);
         }
-        for (k, entry) in self.slot.as_mut_slice().iter_mut().enumerate() {
-            *entry = S::zero();
-            for (&weight, increment) in self.last.iter().zip(&self.increments) {
-                *entry += weight * increment.as_slice()[k];
+        system.norm(&self.slot)
+    }
+
+    /// Sets the increments of all nodes by the field at the start, but for lanes that know theirs.
+    fn set_increments<P>(&mut self, system: &P, known: S::Mask)
+    where
+        P: Poisson<S, State = V, Jacobian = M>,
+    {
+        system.poisson_matrix(&self.start, &mut self.matrix);
+        multiply(&self.matrix, &self.direction, &mut self.slot);
+        for (&weight, increment) in self.weights.iter().zip(&mut self.increments) {
+            let fields = self.slot.as_slice().iter();
+            for (entry, &field) in increment.as_mut_slice().iter_mut().zip(fields) {
+                *entry = S::select(known, *entry, weight * field);
             }
         }
-        let rest = system.norm(&self.slot);
-        found & rest.less_equal(S::from_f64(RESOLVED) * size)
+    }
+
+    /// A sweep over the nodes of the way in one part, from those of the sweep before, along a direction near to that: an iteration that
+    /// changes the direction finds both. Leaves where they come to, and lanes that are not active as they are. Returns how far the nodes are
+    /// from those of a way in one part, by what has changed and by what they do not resolve.
+    fn approach<P>(&mut self, system: &P, ends: [&V; 2], active: S::Mask) -> S
+    where
+        P: Poisson<S, State = V, Jacobian = M>,
+    {
+        self.parts = S::one();
+        self.warm = S::Mask::splat(false);
+        self.set_out(ends);
+        if self.approaching {
+            core::mem::swap(&mut self.increments, &mut self.approached);
+        } else {
+            self.set_increments(system, S::Mask::splat(false));
+            self.sweep(system, !active);
+        }
+        self.approaching = true;
+        let change = self.sweep(system, !active);
+        let rest = self.reach(system);
+        core::mem::swap(&mut self.increments, &mut self.approached);
+        let size = system.norm(&self.start);
+        let resolved = rest.less_equal(S::from_f64(RESOLVED) * size);
+        let near = resolved & change.less_equal(S::from_f64(NEAR) * size);
+        self.near = near & active | self.near & !active;
+        S::select(resolved, change, S::largest_magnitude(&[change, rest]))
+    }
+
+    /// The direction is found: the nodes start from those that were approached along the way to it, where they came near. No other lane,
+    /// and nothing that was asked beside, is seen in that.
+    pub(super) fn conclude(&mut self) {
+        self.parts = S::one();
+        self.warm = self.near;
+        let pairs = self.increments.iter_mut().zip(&self.approached);
+        for (increment, approached) in pairs {
+            increment.copy_from(approached);
+        }
+    }
+
+    /// The mean of the states along the way as far as [`FrozenFlow::approach`] has come: `sum_j b_j y_j`, and
+    /// `sum_i b_i a_ij = b_j (1 - c_j)`.
+    pub(super) fn approach_mean<P>(
+        &mut self,
+        system: &P,
+        ends: [&V; 2],
+        mean: &mut V,
+        active: S::Mask,
+    ) -> S
+    where
+        P: Poisson<S, State = V, Jacobian = M>,
+    {
+        let changed = self.approach(system, ends, active);
+        mean.copy_from(&self.start);
+        for (&left, increment) in self.left.iter().zip(&self.approached) {
+            mean.axpy(left, increment);
+        }
+        changed
     }
 
     /// Sets one increment after the other by those that are there, but for the lanes that have ended; returns the largest change.
@@ -294,86 +370,5 @@ impl<S: Scalar, V: State<S>, M: SquareMatrix<S>> FrozenFlow<S, V, M> {
         }
         self.warm = self.is_whole();
         exact
-    }
-}
-
-impl<S, P> Motion<S, P> for FrozenFlow<S, P::State, P::Jacobian>
-where
-    S: Scalar,
-    P: Poisson<S>,
-{
-    fn new(system: &P) -> Self {
-        Self::new(system)
-    }
-
-    fn begin(&mut self) {
-        self.begin();
-    }
-
-    fn carry(&mut self, system: &P, x: &P::State, start: &P::State, out: &mut P::State) {
-        self.go(system, [x, start], |_, _| ());
-        out.copy_from(&self.end);
-    }
-
-    /// `sum_j b_j Pi(y_j) g`
-    fn mean(&mut self, system: &P, [x, start, g]: [&P::State; 3], out: &mut P::State) {
-        out.fill(S::zero());
-        self.go(system, [x, start], |flow, lanes| {
-            for node in 0..NODES {
-                flow.set_node(node);
-                system.poisson_matrix(&flow.node, &mut flow.matrix);
-                multiply(&flow.matrix, g, &mut flow.slot);
-                let weight = flow.weights[node] / flow.parts;
-                let weight = S::select(lanes, weight, S::zero());
-                out.axpy(weight, &flow.slot);
-            }
-        });
-    }
-
-    fn linearize(&mut self, system: &P, x: &P::State, [start, end]: [&P::State; 2]) {
-        self.differentiate(system, [x, start], system.is_forced());
-        let ends = start.as_slice().iter().zip(end.as_slice());
-        for (entry, (&start, &end)) in self.node.as_mut_slice().iter_mut().zip(ends) {
-            *entry = S::ratio(1.0, 2.0) * (start + end);
-        }
-        system.poisson_matrix(&self.node, &mut self.matrix);
-    }
-
-    fn slope(
-        &mut self,
-        _system: &P,
-        _x: &P::State,
-        [along, out, _]: [&mut P::State; 3],
-        _end: &P::State,
-    ) -> S::Mask {
-        multiply(&self.tangent.of_x, along, out);
-        S::Mask::splat(true)
-    }
-
-    fn push(&mut self, _system: &P, _x: &P::State, [along, out, _]: [&mut P::State; 3]) {
-        multiply(&self.tangent.of_start, along, out);
-    }
-
-    /// With the Poisson matrix in the middle between the ends.
-    fn mean_slope(
-        &mut self,
-        system: &P,
-        [g, along]: [&P::State; 2],
-        unit: usize,
-        [out, _spare, _turned]: [&mut P::State; 3],
-    ) {
-        multiply(&self.matrix, along, out);
-        system.poisson_slope(&self.node, g, &mut self.turned);
-        for (row, out) in out.as_mut_slice().iter_mut().enumerate() {
-            *out += S::ratio(1.0, 2.0) * self.turned.get(row, unit);
-        }
-    }
-
-    fn resolved(&self) -> S::Mask {
-        self.is_resolved()
-    }
-
-    fn retraction() -> Option<Retraction> {
-        None
     }
 }
