@@ -1,7 +1,7 @@
 //! What methods of the algebra ask of a system, and its forms over other scalars.
 
 use crate::system::Dynamic;
-use crate::system::answers::{by_loops, require};
+use crate::system::answers::{Families as _, by_loops, require};
 use lie_core::family::LateMatrix;
 use lie_core::generic;
 use lie_core::generic::{StageProgram, StageSlopes};

@@ -3,7 +3,7 @@
 use crate::code::Code;
 use crate::compiled::CodeBuilder;
 use crate::system::Dynamic;
-use crate::system::answers::without_loops;
+use crate::system::answers::{Families as _, without_loops};
 use crate::system::family::FamilySite;
 use lie_codegen::derive::{Shape, Update};
 use lie_codegen::plan::{Flow, Found, Function, Plan};
@@ -278,7 +278,7 @@ macro_rules! any {
     ($flows:expr, $some:ident => $value:expr) => {
         match $flows {
             AnyFlows::System($some) => $value,
-            AnyFlows::Family($some) if S::LOOPS => $value,
+            AnyFlows::Family($some) if S::FAMILIES => $value,
             AnyFlows::Family(_) => without_loops(),
         }
     };
@@ -321,7 +321,7 @@ impl<S: Scalar> FoundPoisson<S> for Dynamic<S> {
     type Found<'a> = DrivenFlows<'a, Self, AnyFlows<'a, S>, Vec<S>>;
     fn found(&self) -> Self::Found<'_> {
         let flows = match &self.family {
-            Some(family) if S::LOOPS => AnyFlows::Family(family.found()),
+            Some(family) if S::FAMILIES => AnyFlows::Family(family.found()),
             _ => AnyFlows::System(Flows::new(self, true)),
         };
         DrivenFlows::new(self, flows)

@@ -16,6 +16,7 @@ use crate::code::Code;
 use crate::compiled::{Compiled, Values};
 use crate::engine::{ARGUMENTS, Engine, Interpreter, Machine};
 use crate::recording::PATIENCE;
+use answers::{Families as _, without_loops};
 use family::{FamilySite, sizes};
 use lie_codegen::plan::{Code as Program, Data, Plan};
 use lie_core::parameter::{ParameterError, all_finite, all_positive};
@@ -264,7 +265,8 @@ impl<S: Scalar> Dynamic<S> {
         let branch = branch.map(|values| values.iter().map(|value| constant(*value)).collect());
         let values = self.values.with_scalar(constant, machine);
         let family = match self.sizes() {
-            Some(sizes) if T::LOOPS => Some(Family::new(FamilySite::new(values.clone()), sizes)),
+            Some(sizes) if T::FAMILIES => Some(Family::new(FamilySite::new(values.clone()), sizes)),
+            Some(_) if T::LOOPS => without_loops(),
             _ => None,
         };
         Dynamic {

@@ -1,7 +1,7 @@
 //! The traits of the numeric core, by the kernels of the plan.
 
 use crate::system::Dynamic;
-use crate::system::answers::{by_family, by_loops, require, without_loops};
+use crate::system::answers::{Families as _, by_family, by_loops, require, without_loops};
 use lie_core::family::LateMatrix;
 use lie_core::{Clock, EventRule, generic, lagrangian::legendre};
 use lie_runtime::{Dual, Poisson, Scalar};
