@@ -311,7 +311,9 @@ pub(crate) struct OnGroup<'r, 's, 'o, V> {
 }
 
 impl<P: MatrixGroup<f64>> Observer<f64, P> for OnGroup<'_, '_, '_, P::State> {
-    const MOTION: bool = true;
+    fn follows_motion(&self) -> bool {
+        true
+    }
 
     fn hold(&mut self, system: &P, step: (u64, f64, f64), mu: &mut P::State, _element: &[f64]) {
         Observer::<f64, P>::hold(self.rows, system, step, mu, self.reconstruction.element());

@@ -40,7 +40,7 @@ impl<S: Scalar, P: Poisson<S>> Ended<'_, S, P> {
     ///
     /// Steps of four fifths leave `0.8^p` of the error, which is subtracted. Of a method that chooses its own steps
     /// a change of the start by a part of the tolerance has grown to it.
-    pub(super) fn error(&self, observer: &mut impl Observer<S, P>) -> Option<f64> {
+    pub(super) fn error(&self, observer: &mut dyn Observer<S, P>) -> Option<f64> {
         let (start, end) = self.problem.span;
         if start == end {
             return Some(0.0);
@@ -95,13 +95,13 @@ impl<S: Scalar, P: Poisson<S>> Ended<'_, S, P> {
 }
 
 /// Keeps the last state.
-struct Last<'o, V, O> {
-    state: V,
+struct Last<'o, S: Scalar, P: Poisson<S>> {
+    state: P::State,
     held: Option<Held>,
-    observer: &'o mut O,
+    observer: &'o mut dyn Observer<S, P>,
 }
 
-impl<S: Scalar, P: Poisson<S>, O: Observer<S, P>> Observer<S, P> for Last<'_, P::State, O> {
+impl<S: Scalar, P: Poisson<S>> Observer<S, P> for Last<'_, S, P> {
     fn hold(&mut self, system: &P, step: (u64, f64, f64), mu: &mut P::State, element: &[S]) {
         self.held.hold(system, step, mu, element);
     }

@@ -50,11 +50,6 @@ pub(super) enum Beginning<'m, 's, S: Scalar, P: Poisson<S>> {
     Milestone(&'m Milestone<P::State>),
 }
 
-/// Whether an observer sees the motion on the group.
-fn with_motion<S: Scalar, P: Poisson<S>, O: Observer<S, P>>(_: &O) -> bool {
-    O::MOTION
-}
-
 /// How far a run has come.
 pub(super) struct Course<'r, S: Scalar, P: Poisson<S>> {
     pub(super) grid: Grid,
@@ -127,21 +122,21 @@ impl<'r, S: Scalar, P: Poisson<S>> Course<'r, S, P> {
     }
 
     /// Goes along the grid, from a milestone if there is one, or with a first step that is made; the state at its end.
-    pub(super) fn run<'s, O: Observer<S, P>>(
+    pub(super) fn run<'s>(
         &mut self,
         system: &'s P,
         mut mu: P::State,
         beginning: Beginning<'_, 's, S, P>,
         mut guard: Option<Guard<'_, S, P>>,
         save: &Save,
-        observer: &mut O,
+        observer: &mut dyn Observer<S, P>,
     ) -> Result<(P::State, Status), IntegrateError> {
         let first = system;
         self.by_stages = guard.as_ref().is_some_and(Guard::is_by_stages);
         let (taken_up, begun) = match beginning {
             Beginning::Milestone(milestone) => (Some(milestone), None),
             // what it has shown of the motion on the group is gone
-            Beginning::Step(begun) if !O::MOTION => (None, Some(begun)),
+            Beginning::Step(begun) if !observer.follows_motion() => (None, Some(begun)),
             Beginning::Step(_) | Beginning::Start => (None, None),
         };
         let mut followed = match taken_up {
@@ -170,7 +165,7 @@ impl<'r, S: Scalar, P: Poisson<S>> Course<'r, S, P> {
             false => None,
         };
         let mut curve = match observer.draws() {
-            true => Curve::along(system, &self.grid, with_motion(observer)),
+            true => Curve::along(system, &self.grid, observer.follows_motion()),
             false => None,
         };
         // once, and again with each branch of the system that has to be followed, each size of steps, and from each milestone
@@ -217,14 +212,14 @@ impl<'r, S: Scalar, P: Poisson<S>> Course<'r, S, P> {
     }
 
     /// Goes on with one system and one size of steps, the first of which may be made.
-    fn go<'s, O: Observer<S, P>>(
+    fn go<'s>(
         &mut self,
         system: &'s P,
         begun: Option<Begun<'s, S, P>>,
         (mu, between): &mut (&mut P::State, &mut P::State),
         (rows, curve, events): Shown<'_, P::State>,
         guard: &mut Option<Guard<'_, S, P>>,
-        observer: &mut O,
+        observer: &mut dyn Observer<S, P>,
     ) -> Result<Left<P>, IntegrateError> {
         let size = S::from_f64(self.size());
         let newton = match self.divides_rather(1) {
@@ -339,7 +334,7 @@ impl<'r, S: Scalar, P: Poisson<S>> Course<'r, S, P> {
                     Verdict::Kept => {}
                     Verdict::Change(next, from) if self.allows(next) => {
                         // what has been shown of the motion on the group stays
-                        if from == From::Before && !O::MOTION {
+                        if from == From::Before && !observer.follows_motion() {
                             mu.copy_from(guard.before());
                             self.change(next, Some(guard));
                             return Ok(Left::Divided);

@@ -225,7 +225,7 @@ impl<S: Scalar, P: Poisson<S>> Course<'_, S, P> {
         row: &Row,
         (mu, between): (&P::State, &mut P::State),
         curve: &mut Option<Curve<P::State>>,
-        observer: &mut impl Observer<S, P>,
+        observer: &mut dyn Observer<S, P>,
     ) {
         if let Place::On(_) = row.place {
             return observer.between(system, row.time, mu);

@@ -304,7 +304,7 @@ impl<S: Scalar, P: Poisson<S>> Course<'_, S, P> {
         mut joints: Option<&mut Joints<S, P>>,
         (from, to): Piece,
         mu: &mut P::State,
-        observer: &mut impl Observer<S, P>,
+        observer: &mut dyn Observer<S, P>,
     ) -> Result<(), IntegrateError> {
         let mut from = from;
         let changes = observer

@@ -110,7 +110,7 @@ impl<S: Scalar, P: Poisson<S>> Course<'_, S, P> {
         joints: Option<&mut Joints<S, P>>,
         end: f64,
         mu: &mut P::State,
-        observer: &mut impl Observer<S, P>,
+        observer: &mut dyn Observer<S, P>,
     ) -> Result<(), IntegrateError> {
         observer.leave_grid();
         let whole = (self.grid.time(self.index), end);
@@ -123,7 +123,7 @@ impl<S: Scalar, P: Poisson<S>> Course<'_, S, P> {
         system: &P,
         pieces: &[Piece],
         mu: &mut P::State,
-        observer: &mut impl Observer<S, P>,
+        observer: &mut dyn Observer<S, P>,
     ) -> Result<(), IntegrateError> {
         for &(from, to) in pieces {
             let parts = ((to - from) / self.grid.step() * f64::from(self.parts))

@@ -7,7 +7,6 @@ use super::pace::{Assessed, Chosen};
 use crate::methods::{FactorSink, Retraction, RungeKutta, Stage};
 use crate::poisson::Poisson;
 use crate::scalar::Scalar;
-use core::marker::PhantomData;
 use core::ops::ControlFlow;
 
 /// How far a run has come.
@@ -25,9 +24,6 @@ pub struct Progress {
 ///
 /// A pair of observers is an observer. [`EveryStep`] makes an observer of a closure.
 pub trait Observer<S: Scalar, P: Poisson<S>> {
-    /// Whether it wants to see the motion on the group; steppers skip the work otherwise.
-    const MOTION: bool = false;
-
     /// Sees the step that was chosen, before all else, where the options give a tolerance.
     fn chosen(&mut self, chosen: &Chosen) {
         let _ = chosen;
@@ -106,8 +102,12 @@ pub trait Observer<S: Scalar, P: Poisson<S>> {
     fn between(&mut self, system: &P, time: f64, mu: &P::State) {
         let _ = (system, time, mu);
     }
-    /// Sees how a step moves the group element, in one or several parts, if it asks for it by
-    /// [`Observer::MOTION`]; before it sees the state.
+    /// Whether it wants to see the motion on the group; steppers skip the work otherwise.
+    fn follows_motion(&self) -> bool {
+        false
+    }
+    /// Sees how a step moves the group element, in one or several parts, if it [asks for it](Observer::follows_motion); before it sees the
+    /// state.
     fn motion(&mut self, system: &P, motion: &Motion<'_, P::State>) {
         let _ = (system, motion);
     }
@@ -127,25 +127,20 @@ pub enum Motion<'a, V> {
 }
 
 /// Shows the motion of a stepper to an observer.
-pub(super) struct MotionSink<'a, S, P, O> {
+pub(super) struct MotionSink<'a, S: Scalar, P: Poisson<S>> {
     system: &'a P,
-    observer: &'a mut O,
-    scalar: PhantomData<S>,
+    observer: &'a mut dyn Observer<S, P>,
 }
 
-impl<'a, S, P, O> MotionSink<'a, S, P, O> {
-    pub(super) fn new(observer: &'a mut O, system: &'a P) -> Self {
-        Self {
-            system,
-            observer,
-            scalar: PhantomData,
-        }
+impl<'a, S: Scalar, P: Poisson<S>> MotionSink<'a, S, P> {
+    pub(super) fn new(observer: &'a mut dyn Observer<S, P>, system: &'a P) -> Self {
+        Self { system, observer }
     }
 }
 
-impl<S: Scalar, P: Poisson<S>, O: Observer<S, P>> FactorSink<P::State> for MotionSink<'_, S, P, O> {
+impl<S: Scalar, P: Poisson<S>> FactorSink<P::State> for MotionSink<'_, S, P> {
     fn is_active(&self) -> bool {
-        O::MOTION
+        self.observer.follows_motion()
     }
 
     fn push(&mut self, retraction: Retraction, xi: &P::State) {
@@ -162,9 +157,10 @@ impl<S: Scalar, P: Poisson<S>, O: Observer<S, P>> FactorSink<P::State> for Motio
 /// No observer.
 impl<S: Scalar, P: Poisson<S>> Observer<S, P> for () {}
 
-impl<S: Scalar, P: Poisson<S>, O: Observer<S, P>> Observer<S, P> for &mut O {
-    const MOTION: bool = O::MOTION;
-
+impl<S: Scalar, P: Poisson<S>, O: Observer<S, P> + ?Sized> Observer<S, P> for &mut O {
+    fn follows_motion(&self) -> bool {
+        (**self).follows_motion()
+    }
     fn motion(&mut self, system: &P, motion: &Motion<'_, P::State>) {
         (**self).motion(system, motion);
     }
@@ -229,8 +225,9 @@ impl<S: Scalar, P: Poisson<S>, O: Observer<S, P>> Observer<S, P> for &mut O {
 
 /// Both observe the run; either may end it.
 impl<S: Scalar, P: Poisson<S>, A: Observer<S, P>, B: Observer<S, P>> Observer<S, P> for (A, B) {
-    const MOTION: bool = A::MOTION || B::MOTION;
-
+    fn follows_motion(&self) -> bool {
+        self.0.follows_motion() || self.1.follows_motion()
+    }
     fn motion(&mut self, system: &P, motion: &Motion<'_, P::State>) {
         self.0.motion(system, motion);
         self.1.motion(system, motion);

@@ -277,7 +277,9 @@ impl<S: Scalar, V: State<S>> Reconstruction<S, V> {
 }
 
 impl<S: Scalar, P: MatrixGroup<S>> Observer<S, P> for Reconstruction<S, P::State> {
-    const MOTION: bool = true;
+    fn follows_motion(&self) -> bool {
+        true
+    }
 
     fn start(&mut self, _system: &P, _progress: Progress, _mu: &P::State) {
         self.rows.clear();

@@ -134,7 +134,7 @@ fn run<S: Scalar, P: Poisson<S>>(
     method: Kept<'_, S, P>,
     options: &Options,
     milestones: Option<Option<&Milestone<P::State>>>,
-    observer: &mut impl Observer<S, P>,
+    observer: &mut dyn Observer<S, P>,
 ) -> Result<(Stats, Status), IntegrateError> {
     let (expected, found) = (problem.system.dimension(), problem.mu0.as_slice().len());
     if expected != found {

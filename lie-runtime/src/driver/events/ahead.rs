@@ -36,7 +36,7 @@ impl<V> Ahead<V> {
     pub(in crate::driver) fn tell<S: Scalar, P: Poisson<S, State = V>>(
         &mut self,
         system: &P,
-        observer: &mut impl Observer<S, P>,
+        observer: &mut dyn Observer<S, P>,
     ) {
         for event in self.events.drain(..) {
             observer.event(system, &event);
@@ -47,7 +47,7 @@ impl<V> Ahead<V> {
     pub(in crate::driver) fn take_stop<S: Scalar, P: Poisson<S, State = V>>(
         &mut self,
         system: &P,
-        observer: &mut impl Observer<S, P>,
+        observer: &mut dyn Observer<S, P>,
     ) -> Option<Event<V>> {
         self.stop()?;
         let last = self.events.pop()?;
@@ -73,14 +73,14 @@ impl<S: Scalar, P: Poisson<S>> Course<'_, S, P> {
     }
 
     /// Looks at the step that begins here. Where it is one alone that shows no motion on the group, it is made for that.
-    pub(in crate::driver) fn look_ahead<'s, O: Observer<S, P>>(
+    pub(in crate::driver) fn look_ahead<'s>(
         &mut self,
         system: &'s P,
         mut joints: Option<&mut Joints<S, P>>,
         events: &mut Events<P::State>,
         mu: &P::State,
         (stepper, made): (&mut KeptStepper<'s, S, P>, &mut Made<P::State>),
-        observer: &O,
+        observer: &dyn Observer<S, P>,
     ) -> Result<Ahead<P::State>, IntegrateError> {
         let Some(time) = self.ahead() else {
             return Ok(Ahead::nothing());
@@ -90,12 +90,13 @@ impl<S: Scalar, P: Poisson<S>> Course<'_, S, P> {
             .held()
             .filter(|held| held.changes_within(piece))
             .cloned();
-        if O::MOTION && held.as_ref().is_some_and(|held| held.samples_within(piece)) {
+        if observer.follows_motion() && held.as_ref().is_some_and(|held| held.samples_within(piece))
+        {
             return Err(OptionError::SampledWithin.into());
         }
         let alone = self.parts == 1 && joints.is_none() && held.is_none();
         let whole = self.index < self.grid.steps() && alone;
-        if whole && made.is_none() && !O::MOTION {
+        if whole && made.is_none() && !observer.follows_motion() {
             let mut end = mu.clone();
             let stepped = stepper.step(&mut end, &mut ());
             *made = Some(stepped.map(|report| (end, report)));
@@ -129,7 +130,7 @@ impl<S: Scalar, P: Poisson<S>> Course<'_, S, P> {
         joints: Option<&mut Joints<S, P>>,
         last: Event<P::State>,
         (mu, between): (&P::State, &mut P::State),
-        observer: &mut impl Observer<S, P>,
+        observer: &mut dyn Observer<S, P>,
     ) -> Result<Left<P>, IntegrateError> {
         if self.shown != Some(last.time) {
             between.copy_from(mu);
