@@ -258,7 +258,7 @@ fn no_arrow_between_crates_points_back() {
         ("crates/lie-wasm", "lie-dynamic lie-runtime"),
         (
             "crates/lie-in-process",
-            "lie-codegen lie-dynamic lie-jit lie-measure lie-program lie-runtime lie-spectra lie-symbolic lie-syntax lie-tangents",
+            "lie-codegen lie-dynamic lie-jit lie-judge lie-measure lie-program lie-runtime lie-spectra lie-symbolic lie-syntax lie-tangents",
         ),
         (
             ".",
@@ -266,6 +266,10 @@ fn no_arrow_between_crates_points_back() {
              lie-spectra lie-symbolic lie-syntax",
         ),
         ("crates/lie-equilibria", "lie-symbolic"),
+        (
+            "crates/lie-judge",
+            "lie-codegen lie-core lie-symbolic lie-syntax",
+        ),
         ("crates/lie-spectra", "lie-runtime"),
         ("crates/lie-plot", ""),
     ] {

@@ -1,7 +1,7 @@
 //! Systems with one kernel that lies: the judge names that kernel and no other.
 
 use lie_codegen::compile::compile_spec;
-use lie_codegen::judge::{Judge, Sample};
+use lie_judge::{Judge, Sample};
 use lie_measure::verify::{Found, Options};
 use lie_measure::{Request, Verify};
 use lie_program::listen::listen;

@@ -56,7 +56,6 @@ pub mod compile;
 pub mod derive;
 pub mod expand;
 pub mod golden;
-pub mod judge;
 pub mod methods;
 pub mod model;
 pub mod plan;

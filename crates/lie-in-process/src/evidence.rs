@@ -2,8 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use lie_codegen::judge::{Judge, Sample, Verdict};
 use lie_codegen::structure::Structure;
+use lie_judge::{Judge, Sample, Verdict};
 use lie_measure::verify::{Kernel, Reference};
 use lie_runtime::scalar::Scalar;
 use serde_json::{Value, json};

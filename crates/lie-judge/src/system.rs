@@ -1,9 +1,9 @@
 //! A declaration as it was written, with values for its parameters: energy, brackets, Casimirs over any numbers.
 
-use super::interpret::{Scope, size};
-use super::linear;
-use super::number::{Jet, Number};
-use crate::model::configuration::{Configuration, TIME};
+use crate::interpret::{Scope, size};
+use crate::linear;
+use crate::number::{Jet, Number};
+use lie_codegen::model::configuration::{Configuration, TIME, entries_of};
 use lie_syntax::ast::{Algebra, Declaration, Energy, Expr, Invariance, Name, Structure};
 
 /// Newton's iterations of a Legendre transform, from a velocity that is nearly right.
@@ -154,7 +154,7 @@ impl Declared {
                 .collect()
         };
         let g = linear::solve(half(-1), half(1));
-        let names = crate::model::configuration::entries_of(group, size);
+        let names = entries_of(group, size);
         names.into_iter().zip(g.into_iter().flatten()).collect()
     }
 

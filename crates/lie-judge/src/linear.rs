@@ -1,6 +1,6 @@
 //! Small dense matrices over the numbers of an interpretation.
 
-use super::number::Number;
+use crate::number::Number;
 
 pub(super) type Rows<T> = Vec<Vec<T>>;
 

@@ -1,9 +1,13 @@
 //! A judge of generated kernels: the declaration interpreted as it was written.
 //!
 //! Nothing is shared with what the compiler does after parsing but the values of elementary functions: names are looked
-//! up in the syntax tree, derivatives are taken by jets with rules of their own, brackets are read off the declared ones, and systems on `T*G` or of the time are read as what they
-//! mean. Every expected value comes with a bound of the round-off that the written formula has there, inputs known to one
-//! unit in their last place: a kernel that differs by many such units computes something else.
+//! up in the syntax tree, derivatives are taken by jets with rules of their own, brackets are read off the declared ones, and
+//! systems on `T*G` or of the time are read as what they mean. Every expected value comes with a bound of the round-off that
+//! the written formula has there, inputs known to one unit in their last place: a kernel that differs by many such units
+//! computes something else.
+
+#![forbid(unsafe_code)]
+#![warn(missing_docs)]
 
 mod acting;
 mod constrained;
@@ -17,9 +21,9 @@ mod system;
 #[cfg(test)]
 mod tests;
 
-use crate::model::Configuration;
-use crate::structure::Structure;
 use kernels::{Expected, Kernels, inputs, known};
+use lie_codegen::model::Configuration;
+use lie_codegen::structure::Structure;
 use lie_syntax::ast::{Declaration, Energy, Expr, ExprKind};
 use lie_syntax::diagnostic::{Origin, Report};
 use lie_syntax::front::{Body, spec};

@@ -1,6 +1,6 @@
 //! The elementary functions by rules of the judge's own: those of the compiler are what is judged.
 
-use super::number::Number;
+use crate::number::Number;
 use lie_core::Elementary;
 
 /// The derivative at x of a function whose value there is y.

@@ -1,6 +1,6 @@
 //! Numbers that an interpretation computes with: values with a bound of their round-off, and derivatives of those.
 
-use super::functions::slope;
+use crate::functions::slope;
 use lie_core::Elementary;
 use lie_symbolic::exact::Rational;
 

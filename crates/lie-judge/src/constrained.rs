@@ -3,11 +3,11 @@
 //! With constraints a state is the part `m_f = <mu, e_f>` of mu that sees no reaction. The rest follows from the constraints, which H
 //! satisfies where it is stationary along their forms; the bracket is that of the declared coordinates between the elements e_f.
 
-use super::interpret::Scope;
-use super::linear;
-use super::number::Number;
-use super::system::Declared;
-use crate::model::configuration::Configuration;
+use crate::interpret::Scope;
+use crate::linear;
+use crate::number::Number;
+use crate::system::Declared;
+use lie_codegen::model::configuration::Configuration;
 
 impl Declared {
     /// The number of components of mu as they were declared.

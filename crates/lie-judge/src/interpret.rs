@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::number::Number;
+use crate::number::Number;
 use lie_core::Elementary;
 use lie_syntax::ast::{Expr, ExprKind};
 

@@ -3,9 +3,9 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
-use super::linear;
-use super::number::{Jet, Number, Rounded};
-use super::system::Declared;
+use crate::linear;
+use crate::number::{Jet, Number, Rounded};
+use crate::system::Declared;
 
 /// Entries of second derivatives are looked at in so many columns that their work stays below this.
 const WORK: usize = 4_000_000;

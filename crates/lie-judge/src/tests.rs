@@ -1,6 +1,6 @@
 use super::*;
-use crate::compile::compile_spec;
-use crate::derive::{Kernel, Shape, Source};
+use lie_codegen::compile::compile_spec;
+use lie_codegen::derive::{Kernel, Shape, Source};
 use lie_symbolic::symbolic::{Graph, Symbol};
 
 fn spec_text(name: &str) -> String {
@@ -68,7 +68,7 @@ fn check_text(name: &str, text: &str) -> usize {
         let moved = |(k, x): (usize, &f64)| x + f64::from(turn) * noise(k, 0.4);
         let mu: Vec<f64> = initial.iter().enumerate().map(moved).collect();
         for kernel in &kernels {
-            let argument = |(place, argument): (usize, &crate::derive::Argument)| {
+            let argument = |(place, argument): (usize, &lie_codegen::derive::Argument)| {
                 if argument.name == "mu" {
                     mu.clone()
                 } else {

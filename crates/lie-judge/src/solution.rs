@@ -3,9 +3,9 @@
 //! The coefficients follow from each other: `(k + 1) mu_(k+1)` is the coefficient of degree k of `f(mu(t))`, with the
 //! gradient of H by jets over series and the brackets as they were declared.
 
-use super::functions::slope;
-use super::number::Number;
-use super::system::Declared;
+use crate::functions::slope;
+use crate::number::Number;
+use crate::system::Declared;
 use lie_core::Elementary;
 
 /// Terms of a series.

@@ -1,9 +1,9 @@
 //! What acts beside the Hamiltonian, as it was written: forces, dissipation, inputs and noise.
 
-use super::interpret::Scope;
-use super::number::Number;
-use super::system::Declared;
-use crate::model::configuration::Configuration;
+use crate::interpret::Scope;
+use crate::number::Number;
+use crate::system::Declared;
+use lie_codegen::model::configuration::Configuration;
 use lie_syntax::ast::{DissipationKind, Expr, Metric, Noise, Structure};
 
 impl Declared {
