@@ -3,8 +3,9 @@
 //! With constraints a state is the part `m_f = <mu, e_f>` of mu that sees no reaction. The rest follows from the constraints, which H
 //! satisfies where it is stationary along their forms; the bracket is that of the declared coordinates between the elements e_f.
 
+use crate::derivatives::{derivatives, directions};
 use crate::interpret::Scope;
-use crate::linear;
+use crate::linear::{self, Rows, times};
 use crate::number::Number;
 use crate::system::Declared;
 use lie_codegen::model::configuration::Configuration;
@@ -18,7 +19,7 @@ impl Declared {
     }
 
     /// The names at a state.
-    pub(super) fn state<T: Number>(&self, mu: &[T]) -> Scope<T> {
+    pub(super) fn state(&self, mu: &[Number]) -> Scope {
         match self.determined.is_empty() {
             true => self.declared_state(mu),
             false => self.declared_state(&self.on_constraint(mu)),
@@ -26,7 +27,7 @@ impl Declared {
     }
 
     /// The energy as it was declared; of a Lagrangian `<mu, xi> - l(xi)` with `l'(xi) = mu`, xi near `velocity`.
-    pub(super) fn energy<T: Number>(&self, mu: &[T], velocity: &[f64]) -> T {
+    pub(super) fn energy(&self, mu: &[Number], velocity: &[f64]) -> Number {
         match self.determined.is_empty() {
             true => self.declared_energy(mu, velocity),
             false => self.declared_energy(&self.on_constraint(mu), &[]),
@@ -34,7 +35,7 @@ impl Declared {
     }
 
     /// The energy with the momentum of the time.
-    pub(super) fn hamiltonian<T: Number>(&self, mu: &[T], velocity: &[f64]) -> T {
+    pub(super) fn hamiltonian(&self, mu: &[Number], velocity: &[f64]) -> Number {
         let energy = self.energy(mu, velocity);
         match &self.configuration {
             Some(configuration) if configuration.time => {
@@ -46,17 +47,17 @@ impl Declared {
     }
 
     /// The Poisson matrix; with constraints `E^T Pi E`, where the columns of E are the elements that are left.
-    pub(super) fn poisson<T: Number>(&self, mu: &[T]) -> Vec<Vec<T>> {
+    pub(super) fn poisson(&self, mu: &[Number]) -> Rows {
         if self.determined.is_empty() {
             return self.declared_poisson(mu);
         }
         let declared = self.declared_poisson(&self.on_constraint(mu));
-        let forms = self.reduced_forms::<T>();
-        let columns: Vec<Vec<T>> = self
+        let forms = self.reduced_forms();
+        let columns: Rows = self
             .kept()
             .map(|index| {
-                let mut column = vec![T::integer(0); declared.len()];
-                column[index] = T::integer(1);
+                let mut column = vec![Number::integer(0); declared.len()];
+                column[index] = Number::integer(1);
                 for (pivot, form) in self.determined.iter().zip(&forms) {
                     if let Some(ratio) = form.get(index) {
                         column[*pivot] = ratio.neg();
@@ -65,14 +66,8 @@ impl Declared {
                 column
             })
             .collect();
-        let dot = |a: &[T], b: &[T]| T::sum(a.iter().zip(b).map(|(a, b)| a.mul(b)));
-        let images = columns.iter().map(|column| -> Vec<T> {
-            let rows = declared.iter();
-            rows.map(|row| dot(row, column)).collect()
-        });
-        let images: Vec<Vec<T>> = images.collect();
-        let row = |left: &Vec<T>| images.iter().map(|image| dot(left, image)).collect();
-        columns.iter().map(row).collect()
+        let each = |rows: &Rows| -> Rows { columns.iter().map(|c| times(rows, c)).collect() };
+        each(&each(&declared))
     }
 
     /// The declared coordinates to which those of the state belong.
@@ -82,13 +77,13 @@ impl Declared {
     }
 
     /// The forms of the constraints, each with 1 at its own component and 0 at those of the others.
-    fn reduced_forms<T: Number>(&self) -> Vec<Vec<T>> {
+    fn reduced_forms(&self) -> Rows {
         let own = self.own();
-        let rest = vec![T::integer(0); self.declared_dimension()];
+        let rest = vec![Number::integer(0); self.declared_dimension()];
         let rows = self.declaration.constraint.iter().map(|constraint| {
             let coefficient = |i: usize| {
-                let unit = |k: usize| T::integer(i32::from(i == k));
-                let unit: Vec<T> = (0..own).map(unit).collect();
+                let unit = |k: usize| Number::integer(i32::from(i == k));
+                let unit: Vec<Number> = (0..own).map(unit).collect();
                 let mut scope = self.coordinates(&rest);
                 if self.declaration.energy.velocity().is_empty() {
                     self.abbreviate(&mut scope);
@@ -104,8 +99,8 @@ impl Declared {
             };
             (0..own).map(coefficient).collect()
         });
-        let rows: Vec<Vec<T>> = rows.collect();
-        let square = |row: &Vec<T>| -> Vec<T> {
+        let rows: Rows = rows.collect();
+        let square = |row: &Vec<Number>| -> Vec<Number> {
             let pivots = self.determined.iter();
             pivots.map(|pivot| row[*pivot].clone()).collect()
         };
@@ -114,19 +109,19 @@ impl Declared {
 
     /// The state in the declared coordinates: `mu_f = m_f + sum_p R_pf nu_p` with multipliers `nu_p = mu_p` at which H is stationary. H is
     /// quadratic in them, so that one step of Newton's iteration from 0 finds them.
-    fn on_constraint<T: Number>(&self, mu: &[T]) -> Vec<T> {
-        let forms = self.reduced_forms::<T>();
-        let mut start = vec![T::integer(0); self.declared_dimension()];
+    fn on_constraint(&self, mu: &[Number]) -> Vec<Number> {
+        let forms = self.reduced_forms();
+        let mut start = vec![Number::integer(0); self.declared_dimension()];
         for (index, value) in self.kept().zip(mu) {
             start[index] = value.clone();
         }
         let count = self.determined.len();
-        let zero = vec![T::integer(0); count];
-        let (slope, second) = self.derivatives(&zero, count, |nu, lift| {
-            let mut state: Vec<_> = start.iter().map(lift).collect();
+        let zero = vec![Number::integer(0); count];
+        let (slope, second) = derivatives(&zero, directions(mu), |nu| {
+            let mut state = start.clone();
             for (nu, form) in nu.iter().zip(&forms) {
                 for (entry, ratio) in state.iter_mut().zip(form) {
-                    *entry = entry.add(&lift(ratio).mul(nu));
+                    *entry = entry.add(&ratio.mul(nu));
                 }
             }
             self.declared_energy(&state, &[])

@@ -8,30 +8,30 @@ use lie_syntax::ast::{Expr, ExprKind};
 
 /// What names stand for.
 #[derive(Clone, Debug)]
-pub(super) struct Scope<T> {
-    names: HashMap<String, T>,
+pub(super) struct Scope {
+    names: HashMap<String, Number>,
 }
 
-impl<T: Number> Scope<T> {
+impl Scope {
     /// With `pi` alone.
     pub(super) fn new() -> Self {
-        let pi = T::rounded(std::f64::consts::PI, 1.0);
+        let pi = Number::rounded(std::f64::consts::PI, 1.0);
         Self {
             names: HashMap::from([("pi".to_owned(), pi)]),
         }
     }
 
-    pub(super) fn bind(&mut self, name: &str, value: T) {
+    pub(super) fn bind(&mut self, name: &str, value: Number) {
         self.names.insert(name.to_owned(), value);
     }
 
     /// The value of an expression; not a number where a name is unknown here.
-    pub(super) fn evaluate(&self, expr: &Expr) -> T {
+    pub(super) fn evaluate(&self, expr: &Expr) -> Number {
         match &expr.kind {
-            ExprKind::Number(value) => T::constant(value),
+            ExprKind::Number(value) => Number::constant(value),
             ExprKind::Name { name, .. } => {
                 let known = self.names.get(name).cloned();
-                known.unwrap_or_else(|| T::rounded(f64::NAN, 0.0))
+                known.unwrap_or_else(|| Number::rounded(f64::NAN, 0.0))
             }
             ExprKind::Negative(inner) => self.evaluate(inner).neg(),
             ExprKind::Sum(terms) => {
@@ -47,7 +47,7 @@ impl<T: Number> Scope<T> {
                 function,
                 arguments,
             } => {
-                let values: Vec<T> = arguments.iter().map(|a| self.evaluate(a)).collect();
+                let values: Vec<Number> = arguments.iter().map(|a| self.evaluate(a)).collect();
                 match (function.text.as_str(), values.as_slice()) {
                     ("sqrt", [x]) => x.power(0.5),
                     ("hypot", [x, y]) => x.mul(x).add(&y.mul(y)).power(0.5),
@@ -66,30 +66,30 @@ impl<T: Number> Scope<T> {
                     }
                     (name, [x]) => match Elementary::from_name(name) {
                         Some(function) => x.call(function),
-                        None => T::rounded(f64::NAN, 0.0),
+                        None => Number::rounded(f64::NAN, 0.0),
                     },
-                    _ => T::rounded(f64::NAN, 0.0),
+                    _ => Number::rounded(f64::NAN, 0.0),
                 }
             }
-            ExprKind::IndexedSum { .. } => T::rounded(f64::NAN, 0.0),
+            ExprKind::IndexedSum { .. } => Number::rounded(f64::NAN, 0.0),
         }
     }
 
-    fn product(&self, factors: &[(bool, Expr)]) -> T {
-        let mut product: Option<T> = None;
+    fn product(&self, factors: &[(bool, Expr)]) -> Number {
+        let mut product: Option<Number> = None;
         for (divides, factor) in factors {
             let value = self.evaluate(factor);
             product = Some(match (product, divides) {
                 (None, false) => value,
-                (None, true) => T::integer(1).div(&value),
+                (None, true) => Number::integer(1).div(&value),
                 (Some(product), false) => product.mul(&value),
                 (Some(product), true) => product.div(&value),
             });
         }
-        product.unwrap_or_else(|| T::integer(1))
+        product.unwrap_or_else(|| Number::integer(1))
     }
 
-    fn power(&self, base: &Expr, exponent: &Expr) -> T {
+    fn power(&self, base: &Expr, exponent: &Expr) -> Number {
         let base = self.evaluate(base);
         // a name may stand for a number, and then the base may be negative
         if has_names(exponent) && base.value() > 0.0 {
@@ -103,12 +103,12 @@ impl<T: Number> Scope<T> {
         if exponent.fract() != 0.0 || exponent.abs() > 64.0 {
             return base.power(exponent);
         }
-        let mut product = T::integer(1);
+        let mut product = Number::integer(1);
         for _ in 0..exponent.abs() as u32 {
             product = product.mul(&base);
         }
         if exponent < 0.0 {
-            T::integer(1).div(&product)
+            Number::integer(1).div(&product)
         } else {
             product
         }
@@ -116,10 +116,10 @@ impl<T: Number> Scope<T> {
 }
 
 /// A sum without a zero in front.
-fn sum<T: Number>(terms: impl Iterator<Item = T>) -> T {
+fn sum(terms: impl Iterator<Item = Number>) -> Number {
     terms
         .reduce(|sum, term| sum.add(&term))
-        .unwrap_or_else(|| T::integer(0))
+        .unwrap_or_else(|| Number::integer(0))
 }
 
 fn has_names(expr: &Expr) -> bool {

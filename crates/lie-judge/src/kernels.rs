@@ -3,8 +3,9 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
-use crate::linear;
-use crate::number::{Jet, Number, Rounded};
+use crate::derivatives::{derivatives, gradient, vary};
+use crate::linear::{self, Rows, add_to, dot, times};
+use crate::number::Number;
 use crate::system::Declared;
 
 /// Entries of second derivatives are looked at in so many columns that their work stays below this.
@@ -13,29 +14,26 @@ const WORK: usize = 4_000_000;
 /// A determinant that is below 1 by so much is not one by round-off.
 const EIGENVALUES: f64 = 1e-9;
 
-type Once = Jet<Rounded>;
-type Twice = Jet<Jet<Rounded>>;
-
 /// Energy, brackets and their derivatives at one state.
 #[derive(Debug)]
 pub(super) struct Derivatives {
     mu: Vec<f64>,
     velocity: Vec<f64>,
-    hamiltonian: Rounded,
-    energy: Rounded,
-    gradient: Vec<Rounded>,
+    pub(super) hamiltonian: Number,
+    pub(super) energy: Number,
+    pub(super) gradient: Vec<Number>,
     /// Columns of the Hessian, of those that are looked at.
-    hessian: Vec<Option<Vec<Rounded>>>,
-    poisson: Vec<Vec<Rounded>>,
+    pub(super) hessian: Vec<Option<Vec<Number>>>,
+    pub(super) poisson: Rows,
     /// The derivative of the Poisson matrix by each coordinate.
-    slopes: Vec<Vec<Vec<Rounded>>>,
+    slopes: Vec<Rows>,
     /// What forces and dissipation add to the field, and its derivative by each coordinate; empty where nothing is declared.
-    driven: Vec<Rounded>,
-    driven_slopes: Vec<Vec<Rounded>>,
+    driven: Vec<Number>,
+    driven_slopes: Rows,
 }
 
 /// A column that is not looked at is `None` for each of its entries.
-pub(super) type Expected = Vec<Option<Rounded>>;
+pub(super) type Expected = Vec<Option<Number>>;
 
 /// The kernels of a declared system.
 #[derive(Debug)]
@@ -44,40 +42,29 @@ pub(super) struct Kernels {
     known: RefCell<Option<Rc<Derivatives>>>,
 }
 
-pub(super) fn inputs(values: &[f64]) -> Vec<Rounded> {
-    values.iter().map(|&value| Rounded::input(value)).collect()
+pub(super) fn inputs(values: &[f64]) -> Vec<Number> {
+    values.iter().map(|&value| Number::input(value)).collect()
 }
 
-fn once(values: &[f64], varied: usize) -> Vec<Once> {
-    let variable = |(k, &value): (usize, &f64)| Jet::variable(Rounded::input(value), k == varied);
-    values.iter().enumerate().map(variable).collect()
+/// Numbers of which one varies in the first direction.
+fn once(values: &[f64], varied: usize) -> Vec<Number> {
+    vary(&inputs(values), varied, 1)
 }
 
-fn twice(values: &[f64], first: usize, second: usize) -> Vec<Twice> {
-    let variable = |(k, &value): (usize, &f64)| {
-        let change = Rounded::integer(i32::from(k == second));
-        Jet {
-            at: Jet::variable(Rounded::input(value), k == first),
-            slope: Jet::variable(change, false),
-        }
-    };
-    values.iter().enumerate().map(variable).collect()
-}
-
-fn times(rows: &[Vec<Rounded>], vector: &[Rounded]) -> Vec<Rounded> {
-    let row = |row: &Vec<Rounded>| Rounded::sum(row.iter().zip(vector).map(|(a, b)| a.mul(b)));
-    rows.iter().map(row).collect()
+/// The derivatives in the first direction.
+fn slopes_of(numbers: &[Number]) -> Vec<Number> {
+    numbers.iter().map(|number| number.slope(1)).collect()
 }
 
 /// All of them.
-pub(super) fn known(values: Vec<Rounded>) -> Expected {
+pub(super) fn known(values: Vec<Number>) -> Expected {
     values.into_iter().map(Some).collect()
 }
 
 /// A matrix of columns row by row.
-fn by_rows(columns: &[Option<Vec<Rounded>>]) -> Expected {
+pub(super) fn by_rows(columns: &[Option<Vec<Number>>]) -> Expected {
     let n = columns.len();
-    let entry = |place: usize| columns[place % n].as_ref().map(|column| column[place / n]);
+    let entry = |place: usize| Some(columns[place % n].as_ref()?[place / n].clone());
     (0..n * n).map(entry).collect()
 }
 
@@ -114,20 +101,16 @@ impl Kernels {
         let n = mu.len();
         let declared = &self.declared;
         let looked_at = self.looked_at(n);
-        let slope = |i: usize| declared.hamiltonian(&once(mu, i), velocity).slope;
-        let column = |j: usize| -> Option<Vec<Rounded>> {
-            let second = |i| declared.hamiltonian(&twice(mu, i, j), velocity).slope.slope;
-            looked_at(j).then(|| (0..n).map(second).collect())
-        };
-        let slopes = |j: usize| -> Vec<Vec<Rounded>> {
+        let slope = |mu: &[Number]| gradient(mu, |mu| declared.hamiltonian(mu, velocity));
+        let column = |j: usize| looked_at(j).then(|| slopes_of(&slope(&once(mu, j))));
+        let slopes = |j: usize| -> Rows {
             let rows = declared.poisson(&once(mu, j));
-            let slope = |row: Vec<Once>| row.into_iter().map(|entry| entry.slope).collect();
-            rows.into_iter().map(slope).collect()
+            rows.iter().map(|row| slopes_of(row)).collect()
         };
         let driven = declared.driven(&inputs(mu), velocity);
-        let driven_slope = |j: usize| -> Option<Vec<Rounded>> {
+        let driven_slope = |j: usize| -> Option<Vec<Number>> {
             let extra = declared.driven(&once(mu, j), velocity)?;
-            Some(extra.into_iter().map(|entry| entry.slope).collect())
+            Some(slopes_of(&extra))
         };
         Derivatives {
             driven: driven.unwrap_or_default(),
@@ -136,7 +119,7 @@ impl Kernels {
             velocity: velocity.to_vec(),
             hamiltonian: declared.hamiltonian(&inputs(mu), velocity),
             energy: declared.energy(&inputs(mu), velocity),
-            gradient: (0..n).map(slope).collect(),
+            gradient: slope(&inputs(mu)),
             hessian: (0..n).map(column).collect(),
             poisson: declared.poisson(&inputs(mu)),
             slopes: (0..n).map(slopes).collect(),
@@ -147,30 +130,25 @@ impl Kernels {
     pub(super) fn function(
         &self,
         at: &[f64],
-        function: impl Fn(&[Twice]) -> Twice,
-    ) -> (Rounded, Vec<Rounded>, Vec<Rounded>) {
-        let n = at.len();
-        let value = function(&twice(at, n, n)).at.at;
-        let gradient = (0..n).map(|i| function(&twice(at, i, n)).at.slope);
-        let places = (0..n * n).map(|place| (place / n, place % n));
-        let second = places.map(|(i, j)| function(&twice(at, i, j)).slope.slope);
-        (value, gradient.collect(), second.collect())
+        function: impl Fn(&[Number]) -> Number,
+    ) -> (Number, Vec<Number>, Vec<Number>) {
+        let at = inputs(at);
+        let (slope, second) = derivatives(&at, 0, &function);
+        (function(&at), slope, second.concat())
     }
 
     /// The gradient of a declared function of the state.
-    pub(super) fn slope_of(&self, expr: &lie_syntax::ast::Expr, mu: &[f64]) -> Vec<Rounded> {
-        let n = mu.len();
-        let slope = |i| self.declared.function(expr, &once(mu, i)).slope;
-        (0..n).map(slope).collect()
+    pub(super) fn slope_of(&self, expr: &lie_syntax::ast::Expr, mu: &[f64]) -> Vec<Number> {
+        gradient(&inputs(mu), |mu| self.declared.function(expr, mu))
     }
 
     /// `Pi(mu) xi`, linear in both.
-    pub(super) fn ad_star(&self, xi: &[f64], mu: &[f64]) -> Vec<Rounded> {
+    pub(super) fn ad_star(&self, xi: &[f64], mu: &[f64]) -> Vec<Number> {
         times(&self.declared.poisson(&inputs(mu)), &inputs(xi))
     }
 
     /// Columns `Pi(e_k) xi`.
-    fn ad_star_columns(&self, xi: &[f64]) -> Vec<Vec<Rounded>> {
+    fn ad_star_columns(&self, xi: &[f64]) -> Rows {
         let n = xi.len();
         let column = |k: usize| {
             let mut unit = vec![0.0; n];
@@ -181,31 +159,29 @@ impl Kernels {
     }
 
     /// The matrix of `ad*_xi`, by rows.
-    pub(super) fn ad_star_matrix(&self, xi: &[f64]) -> Vec<Rounded> {
+    pub(super) fn ad_star_matrix(&self, xi: &[f64]) -> Vec<Number> {
         let columns = self.ad_star_columns(xi);
         let n = columns.len();
-        (0..n * n).map(|p| columns[p % n][p / n]).collect()
+        (0..n * n).map(|p| columns[p % n][p / n].clone()).collect()
     }
 
     /// `<e_k, [xi, eta]> = <ad*_xi e_k, eta>`
-    pub(super) fn ad(&self, xi: &[f64], eta: &[f64]) -> Vec<Rounded> {
-        let eta = inputs(eta);
-        let pair =
-            |column: Vec<Rounded>| Rounded::sum(column.iter().zip(&eta).map(|(a, b)| a.mul(b)));
-        self.ad_star_columns(xi).into_iter().map(pair).collect()
+    pub(super) fn ad(&self, xi: &[f64], eta: &[f64]) -> Vec<Number> {
+        times(&self.ad_star_columns(xi), &inputs(eta))
     }
 
     /// Whether the matrix A of an element shows an eigenvalue that is not imaginary: with imaginary ones alone, which come in
     /// pairs, `det (1 - s A)` is at least 1 for every s.
     pub(super) fn has_real_eigenvalue(&self, xi: &[f64]) -> Option<bool> {
-        let matrices = self.declared.matrices::<Rounded>()?;
+        let matrices = self.declared.matrices()?;
         let matrix = element(&matrices, xi);
-        let entries = matrix.iter().flatten().map(|entry| entry.value.abs());
+        let entries = matrix.iter().flatten().map(|entry| entry.value().abs());
         let largest = entries.fold(f64::MIN_POSITIVE, f64::max);
         let shows = |s: f64| {
-            let row = |(r, row): (usize, &Vec<Rounded>)| -> Vec<f64> {
-                let entry =
-                    |(c, a): (usize, &Rounded)| f64::from(u8::from(r == c)) - s / largest * a.value;
+            let row = |(r, row): (usize, &Vec<Number>)| -> Vec<f64> {
+                let entry = |(c, a): (usize, &Number)| {
+                    f64::from(u8::from(r == c)) - s / largest * a.value()
+                };
                 row.iter().enumerate().map(entry).collect()
             };
             let shifted = matrix.iter().enumerate().map(row).collect();
@@ -215,59 +191,36 @@ impl Kernels {
     }
 
     /// `<mu, (x e_b z + z e_b x)/2>` by products of the declared matrices.
-    pub(super) fn triple(&self, x: &[f64], z: &[f64], mu: &[f64]) -> Option<Vec<Rounded>> {
-        let matrices = self.declared.matrices::<Rounded>()?;
+    pub(super) fn triple(&self, x: &[f64], z: &[f64], mu: &[f64]) -> Option<Vec<Number>> {
+        let matrices = self.declared.matrices()?;
         let (x, z, mu) = (element(&matrices, x), element(&matrices, z), inputs(mu));
-        let product =
-            |a: &linear::Rows<Rounded>, e: &linear::Rows<Rounded>, b: &linear::Rows<Rounded>| {
-                linear::product(&linear::product(a, e), b)
-            };
-        let half = Rounded::rounded(0.5, 0.0);
-        let component = |e: &linear::Rows<Rounded>| {
+        let product = |a: &Rows, e: &Rows, b: &Rows| linear::product(&linear::product(a, e), b);
+        let half = Number::rounded(0.5, 0.0);
+        let component = |e: &Rows| {
             let (xez, zex) = (product(&x, e, &z), product(&z, e, &x));
             let rows = xez.iter().zip(&zex);
             let sum =
                 rows.map(|(a, b)| a.iter().zip(b).map(|(a, b)| half.mul(&a.add(b))).collect());
             let coordinates = linear::coordinates(&matrices, &sum.collect());
-            Rounded::sum(coordinates.iter().zip(&mu).map(|(c, mu)| c.mul(mu)))
+            dot(&coordinates, &mu)
         };
         Some(matrices.iter().map(component).collect())
     }
 }
 
 /// The matrix of an element of the algebra.
-fn element(matrices: &[linear::Rows<Rounded>], coordinates: &[f64]) -> linear::Rows<Rounded> {
+fn element(matrices: &[Rows], coordinates: &[f64]) -> Rows {
     let coordinates = inputs(coordinates);
     let size = matrices.first().map_or(0, Vec::len);
     let entry = |r: usize, c: usize| {
         let terms = matrices.iter().zip(&coordinates);
-        Rounded::sum(terms.map(|(m, x)| m[r][c].mul(x)))
+        Number::sum(terms.map(|(m, x)| m[r][c].mul(x)))
     };
     let row = |r| (0..size).map(|c| entry(r, c)).collect();
     (0..size).map(row).collect()
 }
 
 impl Derivatives {
-    pub(super) fn hamiltonian(&self) -> Expected {
-        vec![Some(self.hamiltonian)]
-    }
-
-    pub(super) fn energy(&self) -> Expected {
-        vec![Some(self.energy)]
-    }
-
-    pub(super) fn gradient(&self) -> Expected {
-        known(self.gradient.clone())
-    }
-
-    pub(super) fn hessian(&self) -> Expected {
-        by_rows(&self.hessian)
-    }
-
-    pub(super) fn poisson(&self) -> Expected {
-        known(self.poisson.concat())
-    }
-
     /// `d(Pi xi)_i/dmu_j`
     pub(super) fn poisson_slope(&self, xi: &[f64]) -> Expected {
         let xi = inputs(xi);
@@ -277,28 +230,19 @@ impl Derivatives {
 
     pub(super) fn field(&self) -> Expected {
         let mut field = times(&self.poisson, &self.gradient);
-        for (slot, extra) in field.iter_mut().zip(&self.driven) {
-            *slot = slot.add(extra);
-        }
+        add_to(&mut field, &self.driven);
         known(field)
     }
 
     /// `dPi/dmu_j grad H + Pi H''_j`
     pub(super) fn jacobian(&self) -> Expected {
-        let columns = self
-            .hessian
-            .iter()
-            .zip(&self.slopes)
-            .map(|(second, slope)| {
-                let bent = times(&self.poisson, second.as_ref()?);
-                let turned = times(slope, &self.gradient);
-                Some(bent.iter().zip(&turned).map(|(a, b)| a.add(b)).collect())
-            });
-        let mut columns: Vec<Option<Vec<Rounded>>> = columns.collect();
-        for (column, extra) in columns.iter_mut().zip(&self.driven_slopes) {
-            let entries = column.iter_mut().flatten().zip(extra);
-            entries.for_each(|(entry, extra)| *entry = entry.add(extra));
-        }
-        by_rows(&columns)
+        let column = |j: usize| -> Option<Vec<Number>> {
+            let mut column = times(&self.poisson, self.hessian[j].as_ref()?);
+            add_to(&mut column, &times(&self.slopes[j], &self.gradient));
+            let extra = self.driven_slopes.get(j);
+            add_to(&mut column, extra.map_or(&[], Vec::as_slice));
+            Some(column)
+        };
+        by_rows(&(0..self.mu.len()).map(column).collect::<Vec<_>>())
     }
 }

@@ -2,10 +2,11 @@
 
 use crate::number::Number;
 
-pub(super) type Rows<T> = Vec<Vec<T>>;
+/// A matrix by its rows.
+pub(super) type Rows = Vec<Vec<Number>>;
 
 /// Solves `A X = B` by elimination with row exchanges, decided by values alone.
-pub(super) fn solve<T: Number>(mut a: Rows<T>, mut b: Rows<T>) -> Rows<T> {
+pub(super) fn solve(mut a: Rows, mut b: Rows) -> Rows {
     let size = a.len();
     for k in 0..size {
         let larger = |&i: &usize, &j: &usize| {
@@ -34,25 +35,42 @@ pub(super) fn solve<T: Number>(mut a: Rows<T>, mut b: Rows<T>) -> Rows<T> {
     b
 }
 
-pub(super) fn product<T: Number>(a: &Rows<T>, b: &Rows<T>) -> Rows<T> {
+/// Adds to each number the one in its place.
+pub(super) fn add_to(slots: &mut [Number], values: &[Number]) {
+    for (slot, value) in slots.iter_mut().zip(values) {
+        *slot = slot.add(value);
+    }
+}
+
+/// `sum_k a_k b_k`
+pub(super) fn dot(a: &[Number], b: &[Number]) -> Number {
+    Number::sum(a.iter().zip(b).map(|(a, b)| a.mul(b)))
+}
+
+/// The product of a matrix and a vector.
+pub(super) fn times(rows: &[Vec<Number>], vector: &[Number]) -> Vec<Number> {
+    rows.iter().map(|row| dot(row, vector)).collect()
+}
+
+pub(super) fn product(a: &Rows, b: &Rows) -> Rows {
     let size = a.len();
-    let entry = |r: usize, c: usize| T::sum((0..size).map(|k| a[r][k].mul(&b[k][c])));
+    let entry = |r: usize, c: usize| Number::sum((0..size).map(|k| a[r][k].mul(&b[k][c])));
     (0..size)
         .map(|r| (0..size).map(|c| entry(r, c)).collect())
         .collect()
 }
 
-pub(super) fn difference<T: Number>(a: &Rows<T>, b: &Rows<T>) -> Rows<T> {
+pub(super) fn difference(a: &Rows, b: &Rows) -> Rows {
     let rows = a.iter().zip(b);
     rows.map(|(a, b)| a.iter().zip(b).map(|(a, b)| a.sub(b)).collect())
         .collect()
 }
 
 /// The coefficients by which matrices sum to another, by the normal equations.
-pub(super) fn coordinates<T: Number>(matrices: &[Rows<T>], target: &Rows<T>) -> Vec<T> {
-    let pair = |a: &Rows<T>, b: &Rows<T>| {
+pub(super) fn coordinates(matrices: &[Rows], target: &Rows) -> Vec<Number> {
+    let pair = |a: &Rows, b: &Rows| {
         let entries = a.iter().flatten().zip(b.iter().flatten());
-        T::sum(entries.map(|(a, b)| a.mul(b)))
+        Number::sum(entries.map(|(a, b)| a.mul(b)))
     };
     let gram = matrices
         .iter()

@@ -1,8 +1,9 @@
 //! A declaration as it was written, with values for its parameters: energy, brackets, Casimirs over any numbers.
 
+use crate::derivatives::{derivatives, directions};
 use crate::interpret::{Scope, size};
-use crate::linear;
-use crate::number::{Jet, Number};
+use crate::linear::{self, Rows, dot};
+use crate::number::Number;
 use lie_codegen::model::configuration::{Configuration, TIME, entries_of};
 use lie_syntax::ast::{Algebra, Declaration, Energy, Expr, Invariance, Name, Structure};
 
@@ -41,18 +42,18 @@ impl Declared {
         lets.sum::<usize>() + size(self.declaration.energy.expression()) + driving.sum::<usize>()
     }
 
-    fn parameters<T: Number>(&self) -> Scope<T> {
+    fn parameters(&self) -> Scope {
         let mut scope = Scope::new();
         let pairs = self.declaration.parameters.iter().zip(&self.parameters);
         for (parameter, &value) in pairs {
             let units = if value.fract() == 0.0 { 0.0 } else { 1.0 };
-            scope.bind(&parameter.name.text, T::rounded(value, units));
+            scope.bind(&parameter.name.text, Number::rounded(value, units));
         }
         scope
     }
 
     /// Parameters and coordinates, without the abbreviations.
-    pub(super) fn coordinates<T: Number>(&self, mu: &[T]) -> Scope<T> {
+    pub(super) fn coordinates(&self, mu: &[Number]) -> Scope {
         let mut scope = self.parameters();
         for (name, value) in self.declaration.state.iter().zip(mu) {
             scope.bind(&name.text, value.clone());
@@ -73,7 +74,7 @@ impl Declared {
         scope
     }
 
-    pub(super) fn abbreviate<T: Number>(&self, scope: &mut Scope<T>) {
+    pub(super) fn abbreviate(&self, scope: &mut Scope) {
         for (name, value) in &self.declaration.lets {
             let value = scope.evaluate(value);
             scope.bind(&name.text, value);
@@ -81,26 +82,25 @@ impl Declared {
     }
 
     /// The names at a state in the declared coordinates.
-    pub(super) fn declared_state<T: Number>(&self, mu: &[T]) -> Scope<T> {
+    pub(super) fn declared_state(&self, mu: &[Number]) -> Scope {
         let mut scope = self.coordinates(mu);
         self.abbreviate(&mut scope);
         scope
     }
 
     /// The energy as it was declared; of a Lagrangian `<mu, xi> - l(xi)` with `l'(xi) = mu`, xi near `velocity`.
-    pub(super) fn declared_energy<T: Number>(&self, mu: &[T], velocity: &[f64]) -> T {
+    pub(super) fn declared_energy(&self, mu: &[Number], velocity: &[f64]) -> Number {
         match &self.declaration.energy {
             Energy::Hamiltonian(value) => self.declared_state(mu).evaluate(value),
             _ => {
                 let xi = self.velocity(mu, velocity);
-                let pairs = xi.iter().zip(mu).map(|(xi, mu)| xi.mul(mu));
-                T::sum(pairs).sub(&self.lagrangian(&xi, mu))
+                dot(&xi, mu).sub(&self.lagrangian(&xi, mu))
             }
         }
     }
 
     /// l(xi), also where it is the limit `l_d(h, h xi)/h` of a discrete one.
-    pub(super) fn lagrangian<T: Number>(&self, xi: &[T], mu: &[T]) -> T {
+    pub(super) fn lagrangian(&self, xi: &[Number], mu: &[Number]) -> Number {
         let Energy::DiscreteLagrangian { .. } = &self.declaration.energy else {
             let mut scope = self.coordinates(mu);
             self.bind_velocity(&mut scope, xi);
@@ -108,17 +108,17 @@ impl Declared {
             return scope.evaluate(self.declaration.energy.expression());
         };
         let at = |h: f64| {
-            let h = T::rounded(h, 0.0);
-            let x: Vec<T> = xi.iter().map(|xi| xi.mul(&h)).collect();
+            let h = Number::rounded(h, 0.0);
+            let x: Vec<Number> = xi.iter().map(|xi| xi.mul(&h)).collect();
             self.discrete(&h, &x).div(&h)
         };
         // the error is even or odd in h: both are gone to second order
         let (one, two) = (at(SMALL), at(-SMALL));
-        one.add(&two).div(&T::integer(2))
+        one.add(&two).div(&Number::integer(2))
     }
 
     /// `l_d(h, x)`
-    pub(super) fn discrete<T: Number>(&self, h: &T, x: &[T]) -> T {
+    pub(super) fn discrete(&self, h: &Number, x: &[Number]) -> Number {
         let mut scope = self.parameters();
         self.bind_velocity(&mut scope, x);
         scope.bind("h", h.clone());
@@ -131,23 +131,23 @@ impl Declared {
         scope.evaluate(self.declaration.energy.expression())
     }
 
-    pub(super) fn bind_velocity<T: Number>(&self, scope: &mut Scope<T>, xi: &[T]) {
+    pub(super) fn bind_velocity(&self, scope: &mut Scope, xi: &[Number]) {
         for (name, value) in self.declaration.energy.velocity().iter().zip(xi) {
             scope.bind(&name.text, value.clone());
         }
     }
 
     /// The entries of `(1 - X/2)^-1 (1 + X/2)`.
-    fn cayley_entries<T: Number>(&self, group: &str, x: &[T]) -> Vec<(String, T)> {
-        let Some(matrices) = self.matrices::<T>() else {
+    fn cayley_entries(&self, group: &str, x: &[Number]) -> Vec<(String, Number)> {
+        let Some(matrices) = self.matrices() else {
             return Vec::new();
         };
         let size = matrices.first().map_or(0, Vec::len);
-        let half = |sign: i32| -> Vec<Vec<T>> {
+        let half = |sign: i32| -> Rows {
             let entry = |r: usize, c: usize| {
                 let terms = matrices.iter().zip(x).map(|(m, x)| m[r][c].mul(x));
-                let sum = T::sum(terms).div(&T::integer(2 * sign));
-                sum.add(&T::integer(i32::from(r == c)))
+                let sum = Number::sum(terms).div(&Number::integer(2 * sign));
+                sum.add(&Number::integer(i32::from(r == c)))
             };
             (0..size)
                 .map(|r| (0..size).map(|c| entry(r, c)).collect())
@@ -159,15 +159,12 @@ impl Declared {
     }
 
     /// `l'(xi) = mu`, by Newton's iteration over the numbers themselves.
-    pub(super) fn velocity<T: Number>(&self, mu: &[T], near: &[f64]) -> Vec<T> {
+    pub(super) fn velocity(&self, mu: &[Number], near: &[f64]) -> Vec<Number> {
         let n = self.declaration.state.len();
         let start = |k: usize| near.get(k).copied().unwrap_or(0.0);
-        let mut xi: Vec<T> = (0..n).map(|k| T::rounded(start(k), 0.0)).collect();
+        let mut xi: Vec<Number> = (0..n).map(|k| Number::rounded(start(k), 0.0)).collect();
         for _ in 0..ITERATIONS {
-            let (slope, second) = self.derivatives(&xi, n, |xi, lift| {
-                let mu: Vec<_> = mu.iter().map(lift).collect();
-                self.lagrangian(xi, &mu)
-            });
+            let (slope, second) = derivatives(&xi, directions(mu), |xi| self.lagrangian(xi, mu));
             let gap = (0..n).map(|i| vec![mu[i].sub(&slope[i])]).collect();
             let step = linear::solve(second, gap);
             for (xi, step) in xi.iter_mut().zip(step) {
@@ -177,64 +174,13 @@ impl Declared {
         xi
     }
 
-    /// First and second derivatives of a function of n variables.
-    #[expect(
-        clippy::needless_range_loop,
-        reason = "a matrix is filled on both sides of its diagonal"
-    )]
-    pub(super) fn derivatives<T: Number>(
-        &self,
-        at: &[T],
-        n: usize,
-        function: impl Fn(&[Jet<Jet<T>>], fn(&T) -> Jet<Jet<T>>) -> Jet<Jet<T>>,
-    ) -> (Vec<T>, Vec<Vec<T>>) {
-        let lift: fn(&T) -> Jet<Jet<T>> =
-            |value| Jet::variable(Jet::variable(value.clone(), false), false);
-        let mut slope = Vec::new();
-        let mut second = vec![vec![T::integer(0); n]; n];
-        for i in 0..n {
-            for j in i..n {
-                let varied: Vec<_> = at
-                    .iter()
-                    .enumerate()
-                    .map(|(k, value)| {
-                        let first = Jet::variable(value.clone(), k == i);
-                        let change = T::integer(i32::from(k == j));
-                        Jet {
-                            at: first,
-                            slope: Jet::variable(change, false),
-                        }
-                    })
-                    .collect();
-                let value = function(&varied, lift);
-                if j == i {
-                    slope.push(value.at.slope.clone());
-                }
-                second[i][j] = value.slope.slope.clone();
-                second[j][i] = value.slope.slope;
-            }
-        }
-        (slope, second)
-    }
-
-    /// The gradient of a function over numbers with a derivative.
-    pub(super) fn gradient<T: Number>(&self, mu: &[T], of: impl Fn(&[Jet<T>]) -> Jet<T>) -> Vec<T> {
-        let varied = |i: usize| -> Vec<Jet<T>> {
-            let coordinates = mu.iter().enumerate();
-            coordinates
-                .map(|(k, value)| Jet::variable(value.clone(), k == i))
-                .collect()
-        };
-        (0..mu.len()).map(|i| of(&varied(i)).slope).collect()
-    }
-
     /// A function of the state that was declared.
-    pub(super) fn function<T: Number>(&self, expr: &Expr, mu: &[T]) -> T {
+    pub(super) fn function(&self, expr: &Expr, mu: &[Number]) -> Number {
         self.state(mu).evaluate(expr)
     }
 
     /// The components of the realization at a point.
-    pub(super) fn momentum_map<T: Number>(&self, z: &[T]) -> Option<Vec<T>> {
+    pub(super) fn momentum_map(&self, z: &[Number]) -> Option<Vec<Number>> {
         let realization = self.declaration.realization.as_ref()?;
         let mut scope = self.parameters();
         for (name, value) in realization.names().zip(z) {
@@ -249,7 +195,7 @@ impl Declared {
     }
 
     /// The declared matrices, in the order of the basis.
-    pub(super) fn matrices<T: Number>(&self) -> Option<Vec<Vec<Vec<T>>>> {
+    pub(super) fn matrices(&self) -> Option<Vec<Rows>> {
         let algebra = self.declaration.algebra()?;
         let mut scope = self.parameters();
         self.abbreviate(&mut scope);
@@ -265,10 +211,10 @@ impl Declared {
     }
 
     /// The Poisson matrix `{mu_i, mu_j}` in the declared coordinates.
-    pub(super) fn declared_poisson<T: Number>(&self, mu: &[T]) -> Vec<Vec<T>> {
+    pub(super) fn declared_poisson(&self, mu: &[Number]) -> Rows {
         let n = self.declared_dimension();
-        let mut matrix = vec![vec![T::integer(0); n]; n];
-        let mut set = |i: usize, j: usize, value: T| {
+        let mut matrix = vec![vec![Number::integer(0); n]; n];
+        let mut set = |i: usize, j: usize, value: Number| {
             matrix[j][i] = value.neg();
             matrix[i][j] = value;
         };
@@ -280,7 +226,7 @@ impl Declared {
                     set(i, j, scope.evaluate(&bracket.value));
                 }
                 if let Some(clock) = self.configuration.as_ref().and_then(|c| c.clock()) {
-                    set(clock.time, clock.momentum, T::integer(1));
+                    set(clock.time, clock.momentum, Number::integer(1));
                 }
             }
             Structure::Lie { algebra, cocycle } => {
@@ -290,14 +236,11 @@ impl Declared {
                 if self.configuration.is_some() {
                     self.configured(mu, &mut set);
                 }
-                let scope: Scope<T> = self.parameters();
+                let scope = self.parameters();
                 let unit = self.unit(mu);
-                let mut constants = Vec::new();
                 for bracket in cocycle {
                     let (i, j) = self.pair(&self.declaration.state, bracket);
-                    constants.push((i, j, scope.evaluate(&bracket.value).mul(&unit)));
-                }
-                for (i, j, value) in constants {
+                    let value = scope.evaluate(&bracket.value).mul(&unit);
                     let sum = matrix[i][j].add(&value);
                     matrix[j][i] = sum.neg();
                     matrix[i][j] = sum;
@@ -308,10 +251,10 @@ impl Declared {
     }
 
     /// The unit beside the time; of a system with a constraint, whose bracket is no more that of an algebra, it is the number.
-    fn unit<T: Number>(&self, mu: &[T]) -> T {
+    fn unit(&self, mu: &[Number]) -> Number {
         let clock = self.configuration.as_ref().and_then(|c| c.clock());
         let clock = clock.filter(|_| self.determined.is_empty());
-        clock.map_or(T::integer(1), |clock| mu[clock.time + 1].clone())
+        clock.map_or(Number::integer(1), |clock| mu[clock.time + 1].clone())
     }
 
     fn pair(&self, names: &[Name], bracket: &lie_syntax::ast::Bracket) -> (usize, usize) {
@@ -323,9 +266,9 @@ impl Declared {
     }
 
     /// `{mu_i, mu_j} = -<mu, [e_i, e_j]>`, of a right-invariant system with the other sign.
-    fn brackets<T: Number>(&self, algebra: &Algebra, mu: &[T]) -> Vec<(usize, usize, T)> {
+    fn brackets(&self, algebra: &Algebra, mu: &[Number]) -> Vec<(usize, usize, Number)> {
         let left = self.declaration.invariance == Invariance::Left;
-        let sign = |value: T| if left { value.neg() } else { value };
+        let sign = |value: Number| if left { value.neg() } else { value };
         if let Some(brackets) = &algebra.brackets {
             // the value is linear in the basis: its names stand for the coordinates
             let mut scope = self.parameters();
@@ -339,7 +282,7 @@ impl Declared {
             });
             return written.filter(|(i, j, _)| i != j).collect();
         }
-        let matrices = self.matrices::<T>().unwrap_or_default();
+        let matrices = self.matrices().unwrap_or_default();
         let mut all = Vec::new();
         for i in 0..matrices.len() {
             for j in i + 1..matrices.len() {
@@ -348,19 +291,18 @@ impl Declared {
                     &linear::product(&matrices[j], &matrices[i]),
                 );
                 let coordinates = linear::coordinates(&matrices, &commutator);
-                let pairs = coordinates.iter().zip(mu).map(|(c, mu)| c.mul(mu));
-                all.push((i, j, sign(T::sum(pairs))));
+                all.push((i, j, sign(dot(&coordinates, mu))));
             }
         }
         all
     }
 
     /// `{g, mu_i} = g rho(e_i)`, or `rho(e_i) g`, and `{t, p} = 1`.
-    fn configured<T: Number>(&self, mu: &[T], set: &mut impl FnMut(usize, usize, T)) {
+    fn configured(&self, mu: &[Number], set: &mut impl FnMut(usize, usize, Number)) {
         let Some(configuration) = &self.configuration else {
             return;
         };
-        if let (Some((_, size)), Some(matrices)) = (&configuration.group, self.matrices::<T>()) {
+        if let (Some((_, size)), Some(matrices)) = (&configuration.group, self.matrices()) {
             let (first, size) = (configuration.momenta, *size);
             let g = &mu[first..first + size * size];
             let left = self.declaration.invariance == Invariance::Left;
@@ -374,7 +316,7 @@ impl Declared {
                                 rho[a][c].mul(&g[c * size + b])
                             }
                         });
-                        set(first + a * size + b, i, T::sum(terms));
+                        set(first + a * size + b, i, Number::sum(terms));
                     }
                 }
             }

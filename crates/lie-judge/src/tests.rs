@@ -1,4 +1,5 @@
 use super::*;
+use crate::derivatives::{derivatives, directions, gradient};
 use lie_codegen::compile::compile_spec;
 use lie_codegen::derive::{Kernel, Shape, Source};
 use lie_symbolic::symbolic::{Graph, Symbol};
@@ -177,29 +178,23 @@ fn kernels_with_branches_are_those_of_the_declaration() {
 #[test]
 fn jets_have_the_derivatives_of_all_functions() {
     use lie_core::functions::{Domain, Elementary};
-    use number::Number;
     let h = 1e-5;
-    type Twice = Jet<Jet<Rounded>>;
     let elementary = Elementary::ALL.iter().map(|&function| {
         let x = match function.domain() {
             Domain::Positive | Domain::FromOne => 1.6,
             _ => 0.6,
         };
         let of =
-            Box::new(move |x: Twice| x.call(function).power(1.5)) as Box<dyn Fn(Twice) -> Twice>;
+            Box::new(move |x: Number| x.call(function).power(1.5)) as Box<dyn Fn(Number) -> Number>;
         (function.name(), x, of)
     });
     let angle =
-        Box::new(|x: Twice| x.atan2(&Jet::rounded(0.7, 0.0))) as Box<dyn Fn(Twice) -> Twice>;
+        Box::new(|x: Number| x.atan2(&Number::rounded(0.7, 0.0))) as Box<dyn Fn(Number) -> Number>;
     for (function, x, of) in elementary.chain([("atan2", 0.6, angle)]) {
         let at = |x: f64| {
-            let inner = Jet::variable(Rounded::input(x), true);
-            let one = Jet::variable(Rounded::integer(1), false);
-            let value = of(Jet {
-                at: inner,
-                slope: one,
-            });
-            [value.at.at, value.at.slope, value.slope.slope].map(|v| v.value)
+            let value = of(Number::input(x).variable(1).variable(2));
+            let (at, slope) = (value.at(2), value.slope(2));
+            [at.at(1), at.slope(1), slope.slope(1)].map(|number| number.value())
         };
         let (here, before, after) = (at(x), at(x - h), at(x + h));
         for order in 0..2 {
@@ -208,4 +203,24 @@ fn jets_have_the_derivatives_of_all_functions() {
             assert!(error < 1e-7, "{function}, derivative {order}: {error:e}");
         }
     }
+}
+
+/// `d/dx (x d/dy (x y)) = 2 x`: with one direction for both, the inner derivative would be x + y.
+#[test]
+fn derivatives_within_derivatives_have_directions_of_their_own() {
+    let y = [Number::input(0.3)];
+    let of = |x: &[Number]| {
+        let inner = derivatives(&y, directions(x), |y| x[0].mul(&y[0]));
+        x[0].mul(&inner.0[0])
+    };
+    let slope = gradient(&[Number::input(0.7)], of);
+    assert_eq!(slope[0].value(), 1.4);
+}
+
+/// What is not known has no derivative that is.
+#[test]
+fn derivatives_of_what_is_unknown_are_unknown() {
+    let unknown = Number::rounded(f64::NAN, 0.0);
+    let slope = gradient(&[Number::input(0.7)], |x| x[0].add(&unknown));
+    assert!(slope[0].value().is_nan());
 }
