@@ -57,6 +57,16 @@ lie_poisson! {
     methods = [orbit-energy, gonzalez];
 }
 
+lie_poisson! {
+    /// The way along y is `x' = 1 + x^2`, a tangent.
+    pub system Pole;
+    poisson { {x, y} = 1 + x^2; }
+    state x, y;
+    hamiltonian = x^2/2 + y;
+    initial = [0, 0];
+    methods = [orbit-energy, gonzalez, k-hj2];
+}
+
 /// The largest errors of energy and first Casimir along steps.
 fn drift<P: Poisson<f64>>(
     system: &P,
@@ -288,6 +298,34 @@ fn long_ways_are_divided() {
             "{size}: {off:e}, {level:e}"
         );
     }
+}
+
+/// From -x to x the slopes of a tangent are even about the middle of the way, so that their odd coefficients are zero however coarse the nodes
+/// are.
+#[test]
+fn a_way_that_is_its_own_mirror_image_is_divided() {
+    let pole = Pole::new().system().expect("constants");
+    for x in [0.5_f64, 1.5, 3.0] {
+        let end = ended(&pole, &[0.0, 2.0 * x.atan()].into(), &[-x, 0.0].into());
+        assert!((end[0] - x).abs() < 1e-13 * x * x, "{x}: {end:?}");
+    }
+}
+
+/// Where a way begins at zero what it reaches is its size.
+#[test]
+fn ways_from_zero_have_a_size() {
+    let pole = Pole::new().system().expect("constants");
+    let end = ended(&pole, &[0.0, 0.5].into(), &[0.0, 0.0].into());
+    assert!((end[0] - 0.5_f64.tan()).abs() < 1e-15, "{end:?}");
+    fn check(system: &PoleSystem<f64>, method: &impl Method<f64, PoleSystem<f64>>) {
+        let mut stepper = method.stepper(system, 0.1, &NewtonOptions::default());
+        let mut state = [0.0, 0.0].into();
+        stepper.step(&mut state, &mut ()).expect("a step");
+        let energy = state[0] * state[0] / 2.0 + state[1];
+        assert!(energy.abs() < 1e-4 && state[0] > 0.09, "{state:?}");
+    }
+    check(&pole, &HamiltonJacobi2::new());
+    check(&pole, &OrbitEnergy::gonzalez());
 }
 
 /// On the dual of a Lie algebra the flow is the coadjoint action, and both steps are the same map.

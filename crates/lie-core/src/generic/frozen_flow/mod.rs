@@ -9,6 +9,7 @@ use crate::matrix::SquareMatrix;
 use crate::poisson::Poisson;
 use crate::scalar::{Mask as _, Scalar};
 use crate::state::State;
+pub(super) use motion::jacobian_cost;
 use tangent::Tangent;
 
 /// Nodes of Gauss collocation, of order 16.
@@ -19,9 +20,12 @@ const MOST_SWEEPS: usize = 40;
 const MOST_PARTS: f64 = 64.0;
 /// Nodes are found where a sweep changes none by more than so many units of round-off of the state.
 const CLOSE: f64 = 2.0;
-/// Coefficient 7 of the slopes in Legendre polynomials, beside the state, up to which the end has all its digits: coefficients fall by a
-/// factor r from one to the next, and the error at the end is as large as coefficient 16, `r^16 <= 2^-57`.
-const RESOLVED: f64 = 1.0 / (1u64 << 25) as f64;
+/// Coefficients 6 and 7 of the slopes in Legendre polynomials, beside the state, up to which the end has all its digits: coefficients fall by
+/// a factor r from one to the next, and the error at the end is as large as coefficient 16, `r^16 <= 2^-57`. Slopes that are even about the
+/// middle of the way have no odd coefficients, and odd ones no even ones.
+const RESOLVED: [f64; LAST] = [1.0 / (1u64 << 21) as f64, 1.0 / (1u64 << 25) as f64];
+/// So many coefficients are looked at.
+const LAST: usize = 2;
 /// Nodes that were approached are a start where the last sweep changed none by more than so much beside the state.
 const NEAR: f64 = 1e-6;
 
@@ -39,8 +43,8 @@ pub struct FrozenFlow<S: Scalar, V, M> {
     weights: [S; NODES],
     /// `1 - c_j`, what is left of the way behind each node.
     left: [S; NODES],
-    /// `(2k + 1) P_k` at the nodes, of the highest degree.
-    last: [S; NODES],
+    /// `(2k + 1) P_k` at the nodes, of the highest degrees.
+    last: [[S; NODES]; LAST],
     /// `b_j Pi(y_j) x` of a part of the way.
     increments: [V; NODES],
     /// The lanes in which the increments are those of a direction near to the one that comes.
@@ -64,6 +68,14 @@ pub struct FrozenFlow<S: Scalar, V, M> {
     tangent: Tangent<V, M>,
 }
 
+/// What is known of a part of the way at its end.
+struct Reached<S> {
+    /// The largest of the last coefficients of its slopes, over what its digits allow.
+    rest: S,
+    /// The size of the states, above which `rest` resolves nothing.
+    size: S,
+}
+
 impl<S: Scalar, V: State<S>, M: SquareMatrix<S>> FrozenFlow<S, V, M> {
     /// The flow with its scratch space.
     pub(super) fn new<P>(system: &P) -> Self
@@ -83,7 +95,9 @@ impl<S: Scalar, V: State<S>, M: SquareMatrix<S>> FrozenFlow<S, V, M> {
                 }
                 left
             }),
-            last: core::array::from_fn(|j| gauss_legendre(NODES, NODES - 1, j)),
+            last: core::array::from_fn(|k| {
+                core::array::from_fn(|j| gauss_legendre(NODES, NODES - LAST + k, j))
+            }),
             increments: core::array::from_fn(|_| zero.clone()),
             warm: S::Mask::splat(false),
             approached: core::array::from_fn(|_| zero.clone()),
@@ -147,33 +161,48 @@ impl<S: Scalar, V: State<S>, M: SquareMatrix<S>> FrozenFlow<S, V, M> {
         if !known.all() {
             self.set_increments(system, known);
         }
-        let size = system.norm(&self.start);
-        let close = S::from_f64(CLOSE) * S::epsilon() * size;
         let mut found = kept;
         for _ in 0..MOST_SWEEPS {
             if found.all() {
                 break;
             }
             let change = self.sweep(system, found);
+            // a way from zero has the size of what it reaches
+            let size = S::largest_magnitude(&[system.norm(&self.start), system.norm(&self.node)]);
+            let close = S::from_f64(CLOSE) * S::epsilon() * size;
             // the last sweep is as much nearer as the one before, or not a number
             found = found | change.less_equal(close) | !change.finite();
         }
         self.warm = S::Mask::splat(true);
-        found & self.reach(system).less_equal(S::from_f64(RESOLVED) * size)
+        let Reached { rest, size } = self.reach(system);
+        found & rest.less_equal(size)
     }
 
-    /// Leaves where a part comes to; returns the size of the last coefficient of its slopes.
-    fn reach<P>(&mut self, system: &P) -> S
+    /// Leaves where a part comes to.
+    fn reach<P>(&mut self, system: &P) -> Reached<S>
     where
         P: Poisson<S, State = V, Jacobian = M>,
     {
-        self.reached.copy_from(&self.start);
-        self.slot.fill(S::zero());
-        for (&weight, increment) in self.last.iter().zip(&self.increments) {
-            self.reached.axpy(S::one(), increment);
-            self.slot.axpy(weight, increment);
+        let mut rest = S::zero();
+        for (bound, weights) in RESOLVED.iter().zip(&self.last) {
+            self.slot.fill(S::zero());
+            for (&weight, increment) in weights.iter().zip(&self.increments) {
+                self.slot.axpy(weight, increment);
+            }
+            let coefficient = system.norm(&self.slot) / S::from_f64(*bound);
+            rest = S::largest_magnitude(&[rest, coefficient]);
         }
-        system.norm(&self.slot)
+        // the sum is rounded at its own size, and once at that of the state
+        self.reached.fill(S::zero());
+        for increment in &self.increments {
+            self.reached.axpy(S::one(), increment);
+        }
+        self.reached.axpy(S::one(), &self.start);
+        let ends = [system.norm(&self.start), system.norm(&self.reached)];
+        Reached {
+            rest,
+            size: S::largest_magnitude(&ends),
+        }
     }
 
     /// Sets the increments of all nodes by the field at the start, but for lanes that know theirs.
@@ -209,13 +238,13 @@ impl<S: Scalar, V: State<S>, M: SquareMatrix<S>> FrozenFlow<S, V, M> {
         }
         self.approaching = true;
         let change = self.sweep(system, !active);
-        let rest = self.reach(system);
+        let Reached { rest, size } = self.reach(system);
         core::mem::swap(&mut self.increments, &mut self.approached);
-        let size = system.norm(&self.start);
-        let resolved = rest.less_equal(S::from_f64(RESOLVED) * size);
+        let resolved = rest.less_equal(size);
         let near = resolved & change.less_equal(S::from_f64(NEAR) * size);
         self.near = near & active | self.near & !active;
-        S::select(resolved, change, S::largest_magnitude(&[change, rest]))
+        let missing = rest * S::from_f64(RESOLVED[LAST - 1]);
+        S::select(resolved, change, S::largest_magnitude(&[change, missing]))
     }
 
     /// The direction is found: the nodes start from those that were approached along the way to it, where they came near. No other lane,
@@ -242,10 +271,11 @@ impl<S: Scalar, V: State<S>, M: SquareMatrix<S>> FrozenFlow<S, V, M> {
         P: Poisson<S, State = V, Jacobian = M>,
     {
         let changed = self.approach(system, ends, active);
-        mean.copy_from(&self.start);
+        mean.fill(S::zero());
         for (&left, increment) in self.left.iter().zip(&self.approached) {
             mean.axpy(left, increment);
         }
+        mean.axpy(S::one(), &self.start);
         changed
     }
 
