@@ -96,10 +96,9 @@ pub trait Equation<S: Scalar> {
     }
     /// What an iteration with a Jacobian costs, in evaluations of [`Equation::approach`]: [`Equation::linearize`],
     /// [`Equation::factor`] and [`Equation::solve`]. Decides whether iterations without one are tried. The default is
-    /// `1.5 + n^2/20` of n unknowns, as counted of equations whose elimination is written out.
+    /// that of n unknowns whose elimination is written out.
     fn jacobian_cost(&self) -> f64 {
-        let size = self.zero_unknown().len() as f64;
-        1.5 + size * size / 20.0
+        elimination_cost(self.zero_unknown().len())
     }
     /// The state at the end of the step for a solution u.
     fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State);
@@ -151,6 +150,13 @@ pub fn newton_update<S: Scalar, E: Equation<S> + ?Sized>(
 }
 
 /// A borrowed equation, whose type may be forgotten: what solves it is compiled for its unknown alone.
+/// What an iteration with a Jacobian of so many unknowns costs, `1.5 + n^2/20` evaluations of the residual, as counted of equations whose
+/// elimination is written out.
+pub(crate) fn elimination_cost(unknowns: usize) -> f64 {
+    let size = unknowns as f64;
+    1.5 + size * size / 20.0
+}
+
 impl<S: Scalar, E: Equation<S> + ?Sized> Equation<S> for &mut E {
     type State = E::State;
     type Unknown = E::Unknown;

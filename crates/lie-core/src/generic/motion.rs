@@ -55,10 +55,9 @@ pub trait Motion<S: Scalar, P: Poisson<S>> {
         unit: usize,
         space: [&mut P::State; 3],
     );
-    /// See [`Equation::jacobian_cost`](crate::Equation::jacobian_cost), of so many coordinates.
-    fn jacobian_cost(dimension: usize) -> f64 {
-        let size = dimension as f64;
-        1.5 + size * size / 20.0
+    /// See [`Equation::jacobian_cost`](crate::Equation::jacobian_cost), of so many coordinates, where it is more than the elimination.
+    fn jacobian_cost(_dimension: usize) -> Option<f64> {
+        None
     }
     /// The lanes in which the last motion is as exact as its scalar.
     fn resolved(&self) -> S::Mask {

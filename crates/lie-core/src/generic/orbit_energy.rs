@@ -5,7 +5,7 @@ use super::discrete_gradient::DiscreteGradient;
 use super::frozen_flow::FrozenFlow;
 use super::motion::{Coadjoint, Motion};
 use super::orbit_beside::OrbitBeside;
-use crate::equation::Equation;
+use crate::equation::{Equation, elimination_cost};
 use crate::matrix::SquareMatrix;
 use crate::methods::Retraction;
 use crate::poisson::Poisson;
@@ -231,7 +231,10 @@ where
     }
 
     fn jacobian_cost(&self) -> f64 {
-        M::jacobian_cost(self.system.dimension())
+        let dimension = self.system.dimension();
+        // the direction of what is damped takes whole motions, which an iteration without derivatives repeats
+        let motion = M::jacobian_cost(dimension).filter(|_| !self.system.is_damped());
+        motion.unwrap_or_else(|| elimination_cost(dimension))
     }
 
     fn resolved(&mut self, unknown: &P::State, _end: &P::State) -> S::Mask {

@@ -1,7 +1,6 @@
 //! The equation of K-HJ methods, on any Poisson manifold.
 
-use super::frozen_flow::FrozenFlow;
-use super::motion::Motion;
+use super::frozen_flow::{FrozenFlow, jacobian_cost};
 use crate::equation::Equation;
 use crate::generating::GeneratingFunction;
 use crate::matrix::SquareMatrix;
@@ -119,9 +118,7 @@ where
     }
 
     fn jacobian_cost(&self) -> f64 {
-        <FrozenFlow<S, P::State, P::Jacobian> as Motion<S, P>>::jacobian_cost(
-            self.system.dimension(),
-        )
+        jacobian_cost(self.system.dimension())
     }
 
     fn resolved(&mut self, _unknown: &P::State, _end: &P::State) -> S::Mask {

@@ -12,6 +12,12 @@ use crate::state::State as _;
 /// A whole motion takes so many sweeps.
 const SWEEPS: f64 = 8.0;
 
+/// What derivatives of the motion in so many coordinates cost over a sweep: 3.4 whole motions were counted of three, 8 to 10 of five and six, in
+/// generated code, since they take sweeps for each.
+pub(in crate::generic) fn jacobian_cost(dimension: usize) -> f64 {
+    SWEEPS * (2.0 * dimension as f64 - 2.0)
+}
+
 impl<S, P> Motion<S, P> for FrozenFlow<S, P::State, P::Jacobian>
 where
     S: Scalar,
@@ -100,10 +106,8 @@ where
         }
     }
 
-    /// Those of so many coordinates over a sweep: 3.4 whole motions were counted of three, 8 to 10 of five and six, in generated code, since the
-    /// derivatives take sweeps for each.
-    fn jacobian_cost(dimension: usize) -> f64 {
-        SWEEPS * (2.0 * dimension as f64 - 2.0)
+    fn jacobian_cost(dimension: usize) -> Option<f64> {
+        Some(jacobian_cost(dimension))
     }
 
     fn resolved(&self) -> S::Mask {
