@@ -3,7 +3,7 @@
 /// Which matrix an iteration solves with.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Iteration {
-    /// The fixed point where a Jacobian costs so much more than a residual that this may pay
+    /// The fixed point where a Jacobian costs so much more than an iteration without one that this may pay
     /// ([`Equation::jacobian_cost`](crate::Equation::jacobian_cost)), elsewhere one Jacobian a step: an iteration of Newton's
     /// method and, where the constant of its convergence does not say that this is enough, iterations with its factors. Both
     /// start from the unknowns of the steps before, extrapolated. A lane in which updates shrink too slowly is solved by
@@ -16,7 +16,8 @@ pub enum Iteration {
     /// factor proportional to the change of the Jacobian.
     Simplified,
     /// Fixed point `u -> u - r(u)`, without a Jacobian. Converges linearly, by a factor
-    /// proportional to the step size; fails for stiff systems.
+    /// proportional to the step size; fails for stiff systems. Each residual is that of the whole motion, where `Automatic` finds nodes and
+    /// end of a flow by one iteration ([`Equation::approach`](crate::Equation::approach)).
     FixedPoint,
 }
 

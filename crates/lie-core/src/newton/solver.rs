@@ -246,14 +246,15 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
         while active.any() {
             let update = &mut self.workspace.update;
             let within = equation.approach(unknown, update, active);
-            let step = S::largest_magnitude(&[equation.norm(update), within]);
-            count.saw(active, step);
+            let residual = equation.norm(update);
+            let step = S::largest_magnitude(&[residual, within]);
+            count.saw(active, residual);
             unknown.subtract_where(active, update);
             let index = count.add(active);
             if index % REVIEW == 1 {
                 size = S::largest_magnitude(&[scale, equation.norm(unknown)]);
                 if index == 1 {
-                    self.far = is_far(step, scale) & lanes & predicted;
+                    self.far = is_far(residual, scale) & lanes & predicted;
                     active = active & !self.far;
                 }
             }
