@@ -71,6 +71,8 @@ pub(super) struct Course<'r, S: Scalar, P: Poisson<S>> {
     pub(super) done: u32,
     /// Whether a step may be divided.
     pub(super) divides: bool,
+    /// Whether the observer sees the motion on the group.
+    pub(super) shows_motion: bool,
     /// Whether the stages of steps tell their errors: the grid changes then, by small factors, where parts would be halves.
     pub(super) by_stages: bool,
     /// Jacobians that were factored, and steps since the last division for which some were.
@@ -114,10 +116,24 @@ impl<'r, S: Scalar, P: Poisson<S>> Course<'r, S, P> {
             parts: 1,
             done: 0,
             divides: false,
+            shows_motion: false,
             by_stages: false,
             slow: (0, 0),
             follows: false,
             control: None,
+        }
+    }
+
+    /// Shows the motion of a step to the observer, if it wants to see it.
+    pub(super) fn motion<'o>(
+        &self,
+        system: &'o P,
+        observer: &'o mut dyn Observer<S, P>,
+    ) -> MotionSink<'o, S, P> {
+        MotionSink {
+            system,
+            observer,
+            active: self.shows_motion,
         }
     }
 
@@ -133,10 +149,11 @@ impl<'r, S: Scalar, P: Poisson<S>> Course<'r, S, P> {
     ) -> Result<(P::State, Status), IntegrateError> {
         let first = system;
         self.by_stages = guard.as_ref().is_some_and(Guard::is_by_stages);
+        self.shows_motion = observer.follows_motion();
         let (taken_up, begun) = match beginning {
             Beginning::Milestone(milestone) => (Some(milestone), None),
             // what it has shown of the motion on the group is gone
-            Beginning::Step(begun) if !observer.follows_motion() => (None, Some(begun)),
+            Beginning::Step(begun) if !self.shows_motion => (None, Some(begun)),
             Beginning::Step(_) | Beginning::Start => (None, None),
         };
         let mut followed = match taken_up {
@@ -165,7 +182,7 @@ impl<'r, S: Scalar, P: Poisson<S>> Course<'r, S, P> {
             false => None,
         };
         let mut curve = match observer.draws() {
-            true => Curve::along(system, &self.grid, observer.follows_motion()),
+            true => Curve::along(system, &self.grid, self.shows_motion),
             false => None,
         };
         // once, and again with each branch of the system that has to be followed, each size of steps, and from each milestone
@@ -305,7 +322,7 @@ impl<'r, S: Scalar, P: Poisson<S>> Course<'r, S, P> {
                         Ok(report)
                     }
                     Some(Err(failure)) => Err(failure),
-                    None => stepper.step(mu, &mut MotionSink::new(observer, system)),
+                    None => stepper.step(mu, &mut self.motion(system, observer)),
                 };
                 match stepped {
                     Ok(report) => {
@@ -334,7 +351,7 @@ impl<'r, S: Scalar, P: Poisson<S>> Course<'r, S, P> {
                     Verdict::Kept => {}
                     Verdict::Change(next, from) if self.allows(next) => {
                         // what has been shown of the motion on the group stays
-                        if from == From::Before && !observer.follows_motion() {
+                        if from == From::Before && !self.shows_motion {
                             mu.copy_from(guard.before());
                             self.change(next, Some(guard));
                             return Ok(Left::Divided);

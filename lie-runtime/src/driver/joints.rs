@@ -4,7 +4,7 @@
 //! is made in pieces, each by a stepper of its own; the grid stays as it is.
 
 use super::course::Course;
-use super::observer::{MotionSink, Observer};
+use super::observer::Observer;
 use super::problem::set_time;
 use super::solve::IntegrateError;
 use crate::poisson::Poisson;
@@ -133,7 +133,7 @@ impl<S: Scalar, P: Poisson<S>> Course<'_, S, P> {
             let mut stepper = self.method.stepper(system, S::from_f64(size), &self.newton);
             set_time(system, mu, from);
             for done in 1..=parts as u32 {
-                let report = match stepper.step(mu, &mut MotionSink::new(observer, system)) {
+                let report = match stepper.step(mu, &mut self.motion(system, observer)) {
                     Ok(report) => report,
                     Err(failure) => return Err(self.stopped(system, failure, to - from, mu)),
                 };

@@ -102,7 +102,7 @@ pub trait Observer<S: Scalar, P: Poisson<S>> {
     fn between(&mut self, system: &P, time: f64, mu: &P::State) {
         let _ = (system, time, mu);
     }
-    /// Whether it wants to see the motion on the group; steppers skip the work otherwise.
+    /// Whether it wants to see the motion on the group; asked once, before the start. Steppers skip the work otherwise.
     fn follows_motion(&self) -> bool {
         false
     }
@@ -128,19 +128,15 @@ pub enum Motion<'a, V> {
 
 /// Shows the motion of a stepper to an observer.
 pub(super) struct MotionSink<'a, S: Scalar, P: Poisson<S>> {
-    system: &'a P,
-    observer: &'a mut dyn Observer<S, P>,
-}
-
-impl<'a, S: Scalar, P: Poisson<S>> MotionSink<'a, S, P> {
-    pub(super) fn new(observer: &'a mut dyn Observer<S, P>, system: &'a P) -> Self {
-        Self { system, observer }
-    }
+    pub(super) system: &'a P,
+    pub(super) observer: &'a mut dyn Observer<S, P>,
+    /// Whether the observer wants to see it.
+    pub(super) active: bool,
 }
 
 impl<S: Scalar, P: Poisson<S>> FactorSink<P::State> for MotionSink<'_, S, P> {
     fn is_active(&self) -> bool {
-        self.observer.follows_motion()
+        self.active
     }
 
     fn push(&mut self, retraction: Retraction, xi: &P::State) {

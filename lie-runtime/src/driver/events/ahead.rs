@@ -90,13 +90,12 @@ impl<S: Scalar, P: Poisson<S>> Course<'_, S, P> {
             .held()
             .filter(|held| held.changes_within(piece))
             .cloned();
-        if observer.follows_motion() && held.as_ref().is_some_and(|held| held.samples_within(piece))
-        {
+        if self.shows_motion && held.as_ref().is_some_and(|held| held.samples_within(piece)) {
             return Err(OptionError::SampledWithin.into());
         }
         let alone = self.parts == 1 && joints.is_none() && held.is_none();
         let whole = self.index < self.grid.steps() && alone;
-        if whole && made.is_none() && !observer.follows_motion() {
+        if whole && made.is_none() && !self.shows_motion {
             let mut end = mu.clone();
             let stepped = stepper.step(&mut end, &mut ());
             *made = Some(stepped.map(|report| (end, report)));
