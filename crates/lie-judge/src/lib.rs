@@ -1,8 +1,8 @@
 //! A judge of generated kernels: the declaration interpreted as it was written.
 //!
-//! Nothing is shared with what the compiler does after parsing but the values of elementary functions: names are looked
-//! up in the syntax tree, derivatives are taken by jets with rules of their own, brackets are read off the declared ones, and
-//! systems on `T*G` or of the time are read as what they mean. Every expected value comes with a bound of the round-off that
+//! Names are looked up in the syntax tree, derivatives are taken by jets with rules of their own, brackets are read off the declared ones, and
+//! systems on `T*G` or of the time are read as what they mean. Shared with what the compiler does after parsing are the values of elementary
+//! functions, the order of coordinates, which of them a constraint determines, and the Casimirs that it found. Every expected value comes with a bound of the round-off that
 //! the written formula has there, inputs known to one unit in their last place: a kernel that differs by many such units
 //! computes something else.
 
