@@ -13,6 +13,8 @@ pub enum CasimirKind {
     Polynomial,
     /// A rational function that was found.
     Rational,
+    /// Another function that was found.
+    Function,
 }
 
 /// A Casimir, declared and verified or found; those of a model are functionally independent.

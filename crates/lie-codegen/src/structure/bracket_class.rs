@@ -103,7 +103,11 @@ pub fn class(model: &Model) -> Option<Class> {
             .then_some(Class::Affine)
     };
     positions
-        .or_else(|| jacobian(model, matrix, &mut graph).map(Class::Jacobian))
+        .or_else(|| {
+            let casimir = jacobian(model, matrix, &mut graph)?;
+            let name = |symbol| model.symbol_name(symbol);
+            Some(Class::Jacobian(graph.display(casimir, &name)))
+        })
         .or_else(affine)
 }
 
@@ -134,7 +138,7 @@ fn magnetic(graph: &Graph, matrix: &PoissonMatrix) -> Option<Vec<usize>> {
 }
 
 /// The Casimir C with `w = (Pi_23, Pi_31, Pi_12) = grad C`: `C = int_0^1 <w(t x), x> dt`, which divides a term of degree d of `<w, x>` by d.
-fn jacobian(model: &Model, matrix: &PoissonMatrix, graph: &mut Graph) -> Option<String> {
+pub(super) fn jacobian(model: &Model, matrix: &PoissonMatrix, graph: &mut Graph) -> Option<ExprId> {
     if matrix.dimension != 3 {
         return None;
     }
@@ -158,8 +162,7 @@ fn jacobian(model: &Model, matrix: &PoissonMatrix, graph: &mut Graph) -> Option<
         differences.push(graph.sub(slope, *w));
     }
     let budget = Budget::new(WORK);
-    let name = |symbol| model.symbol_name(symbol);
-    vanish(model, graph, &w, &differences, &budget).then(|| graph.display(casimir, &name))
+    vanish(model, graph, &w, &differences, &budget).then_some(casimir)
 }
 
 /// The degree of a monomial in the coordinates.

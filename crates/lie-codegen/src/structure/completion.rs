@@ -1,11 +1,12 @@
 //! Casimirs that nobody declared: the search, and what is made of its results.
 
+mod of_class;
 mod writer;
 
-use super::{Effort, casimirs, elementwise};
+use super::{Effort, casimirs};
 use crate::algebra::{StructureConstants, rank};
 use crate::model::{Bracket, Casimir, Configuration, Model, PoissonMatrix};
-use lie_symbolic::exact::{Budget, Fraction, Polynomial, Rational, matrix};
+use lie_symbolic::exact::{Fraction, Polynomial, Rational};
 use lie_symbolic::prove::independence::{self, Standing};
 use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 use writer::Writer;
@@ -54,10 +55,16 @@ pub fn completed(model: &Model, effort: Effort, graph: &mut Graph) -> (Vec<Casim
     };
     let sought = match field(&model.bracket, momenta, &mut graph.clone()) {
         Ok(field) => invariants(model, &field, work),
-        Err(reason) => match monomials(model, &mut graph.clone()) {
-            Some(sought) => Some(sought),
-            None => return only(Search::None(reason)),
-        },
+        Err(reason) => {
+            let mut littered = graph.clone();
+            match of_class::sought(model, reason, &mut littered) {
+                Some(mut sought) => {
+                    sought.functions = graph.import(&littered, &sought.functions);
+                    Some(sought)
+                }
+                None => return only(Search::None(reason)),
+            }
+        }
     };
     match sought {
         Some(sought) => complete(model, sought, most, graph),
@@ -68,6 +75,8 @@ pub fn completed(model: &Model, effort: Effort, graph: &mut Graph) -> (Vec<Casim
 /// Casimirs that were found, of so many coordinates.
 struct Sought {
     found: Vec<casimirs::Casimir>,
+    /// Those that are neither polynomials nor products of powers, as expressions.
+    functions: Vec<ExprId>,
     /// How many there are.
     count: usize,
     dimension: usize,
@@ -117,7 +126,7 @@ fn field(
 
 /// The extension for a Poisson matrix with affine entries.
 fn affine(matrix: &PoissonMatrix, graph: &mut Graph) -> Result<Field, &'static str> {
-    const REASON: &str = "the brackets are not affine functions of the coordinates with coefficients that are rational functions of parameters";
+    const REASON: &str = "the brackets are no affine functions of the coordinates with coefficients that are rational functions of parameters, and of no class whose Casimirs are known";
     let n = matrix.dimension;
     let mut entries = Vec::new();
     let mut with_unit = false;
@@ -165,69 +174,10 @@ fn invariants(model: &Model, field: &Field, work: u64) -> Option<Sought> {
             false => Search::Spent,
         },
         found: found.casimirs,
+        functions: Vec::new(),
         count,
         dimension: field.constants.dimension(),
     })
-}
-
-/// Those of a log-canonical bracket `{x_i, x_j} = c_ij x_i x_j` with numbers c: `x_1^(k_1) x_2^(k_2)...` with `c k = 0`, the k integers, and the
-/// coordinates that are in no bracket.
-fn monomials(model: &Model, graph: &mut Graph) -> Option<Sought> {
-    let matrix = model
-        .bracket
-        .matrix()
-        .filter(|_| !model.is_almost_poisson())?;
-    let n = matrix.dimension;
-    let found = elementwise::elementwise(model, matrix, graph)?;
-    let row = |row: &Vec<Fraction>| row.iter().map(Fraction::as_constant).collect();
-    let mut rows: Vec<Vec<Rational>> = found.constants.iter().map(row).collect::<Option<_>>()?;
-    let moves = |i: usize| rows[i].iter().any(|c| !c.is_zero());
-    if !(0..n).all(|i| !moves(i) || found.speeds[i].is_coordinate()) {
-        return None;
-    }
-    let pivots = matrix::reduce(&mut rows, &Budget::new(casimirs::WORK)).ok()?;
-    let mut casimirs = Vec::new();
-    for free in (0..n).filter(|column| !pivots.contains(column)) {
-        let mut exponents = vec![Rational::ZERO; n];
-        exponents[free] = Rational::ONE;
-        for (row, pivot) in rows.iter().zip(&pivots) {
-            exponents[*pivot] = -&row[free];
-        }
-        casimirs.push(monomial(&exponents)?);
-    }
-    Some(Sought {
-        count: casimirs.len(),
-        found: casimirs,
-        dimension: n,
-        end: Search::Complete,
-    })
-}
-
-/// The product of coordinates to these powers, made integers; none where they are large.
-fn monomial(exponents: &[Rational]) -> Option<casimirs::Casimir> {
-    const MOST: i64 = 60;
-    let whole = |factor: i64| {
-        let scaled = exponents.iter().map(|k| k * &Rational::from(factor));
-        let whole = scaled.map(|k| k.to_integer().filter(|k| k.abs() <= MOST));
-        whole.collect::<Option<Vec<i64>>>()
-    };
-    let mut exponents = (1..=MOST).find_map(whole)?;
-    if exponents.iter().find(|k| **k != 0).is_some_and(|k| *k < 0) {
-        exponents.iter_mut().for_each(|k| *k = -*k);
-    }
-    let powers = exponents.into_iter().enumerate().filter(|(_, k)| *k != 0);
-    let powers: Vec<(Polynomial, i64)> =
-        powers.map(|(i, k)| (Polynomial::variable(i), k)).collect();
-    if powers.iter().any(|(_, k)| *k < 0) {
-        return Some(casimirs::Casimir::Rational(powers));
-    }
-    let budget = Budget::new(casimirs::WORK);
-    let mut product = Polynomial::constant(Rational::ONE);
-    for (coordinate, k) in powers {
-        let power = coordinate.pow(u32::try_from(k).ok()?, &budget).ok()?;
-        product = product.mul(&power, &budget).ok()?;
-    }
-    Some(casimirs::Casimir::Polynomial(product))
 }
 
 /// The Casimirs with those that the declared ones lack, and how the search ended.
@@ -240,6 +190,7 @@ fn complete(
     let declared = &model.declared_casimirs;
     let Sought {
         found,
+        functions,
         count,
         dimension,
         mut end,
@@ -261,6 +212,12 @@ fn complete(
         };
         match writer.casimir(&casimir, most) {
             Some(casimir) => written.push(casimir),
+            None => end = Search::Long,
+        }
+    }
+    for function in functions {
+        match writer.function(function) {
+            Some(function) => written.push(function),
             None => end = Search::Long,
         }
     }

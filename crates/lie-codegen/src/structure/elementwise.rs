@@ -7,7 +7,7 @@
 //! of Mathematical Physics 36 (1995) 3520–3534, doi:10.1063/1.530978).
 
 use crate::model::{Model, PoissonMatrix};
-use lie_symbolic::exact::{Budget, Fraction, Rational};
+use lie_symbolic::exact::{Budget, Fraction, Polynomial, Rational};
 use lie_symbolic::prove::proof::Prover;
 use lie_symbolic::symbolic::{Elementary, ExprId, Graph, Symbol};
 
@@ -53,6 +53,13 @@ impl Speed {
     /// Whether it is x.
     pub fn is_coordinate(&self) -> bool {
         self.degree() == 1 && self.0[0].is_zero()
+    }
+
+    /// `a(x_i)` of degree 1 as a polynomial, parameter p the variable n + p.
+    pub fn polynomial(&self, i: usize, n: usize) -> Option<Polynomial> {
+        let constant = self.0[0].numerator().renamed(&|p| n + p);
+        let sum = constant.sum(&Polynomial::variable(i), &Budget::new(WORK));
+        sum.ok().filter(|_| self.degree() == 1)
     }
 
     /// `a(x)`

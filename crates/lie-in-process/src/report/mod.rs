@@ -54,6 +54,7 @@ impl Report {
                         CasimirKind::Declared => "declared",
                         CasimirKind::Polynomial => "polynomial",
                         CasimirKind::Rational => "rational",
+                        CasimirKind::Function => "function",
                     },
                     "degree": casimir.degree,
                     "kept": casimir.kept,

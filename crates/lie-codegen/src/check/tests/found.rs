@@ -106,13 +106,60 @@ fn brackets_with_constant_terms() {
     let affine = general(r#"["{x, y} = z + 1", "{y, z} = x", "{z, x} = y"]"#);
     assert_eq!(texts(&affine), ["C1 = 2*z + x^2 + y^2 + z^2"]);
     let quadratic = general(r#"["{x, y} = x*y + 1"]"#);
-    assert!(quadratic.casimirs.is_empty() && matches!(quadratic.search, Search::None(_)));
+    assert_eq!(texts(&quadratic), ["C1 = z"]);
+    let tangled = general(r#"["{x, y} = (1 + x*y)*exp(z)", "{y, z} = 0"]"#);
+    assert_eq!(texts(&tangled), ["C1 = z"]);
     // monomials of log-canonical ones, and coordinates that are in no bracket
     assert_eq!(texts(&general(r#"["{x, y} = x*y"]"#)), ["C1 = z"]);
     let species = general(r#"["{x, y} = -x*y/2", "{x, z} = x*z/2", "{y, z} = -y*z"]"#);
     assert_eq!(texts(&species), ["C1 = x^2*y*z"]);
     let species = general(r#"["{x, y} = x*y/2", "{x, z} = x*z/3", "{y, z} = y*z"]"#);
     assert_eq!(texts(&species), ["C1 = x^6*z^3/y^2"]);
+}
+
+#[test]
+fn those_of_a_class_of_brackets() {
+    let general = |brackets: &str, more: &[(&str, &str)]| {
+        let base = [("state", r#"["x", "y", "z"]"#), ("hamiltonian", r#""x^2""#)];
+        model(&system(&base, &[&[("poisson", brackets)], more].concat()))
+    };
+    let kind = |model: &Structure| (model.casimirs[0].kind, model.casimirs[0].degree);
+    // Jacobian ones: by the line integral, of any degree, and of other functions
+    let cubic = r#"["{y, z} = x^3 + y*z/2", "{z, x} = y^3 + x*z/2", "{x, y} = z^3 + x*y/2"]"#;
+    let cubic = general(cubic, &[]);
+    assert_eq!(texts(&cubic), ["C1 = z^4/4 + z*x*y/2 + y^4/4 + x^4/4"]);
+    assert_eq!(kind(&cubic), (CasimirKind::Polynomial, Some(4)));
+    let exact = ("parameters", r#"{"a": {"default": 2, "exact": true}}"#);
+    let bent = r#"["{y, z} = a*x^5", "{z, x} = -a*y^3", "{x, y} = z^2"]"#;
+    assert_eq!(
+        texts(&general(bent, &[exact])),
+        ["C1 = a*x^6/6 - a*y^4/4 + z^3/3"]
+    );
+    // elementwise ones: products of powers whatever the signs, and logarithms where there are other terms
+    let shifted = r#"["{x, y} = (1 + x)*(y - 2)", "{x, z} = 3*(1 + x)*z", "{y, z} = (y - 2)*z"]"#;
+    let shifted = general(shifted, &[]);
+    assert_eq!(texts(&shifted), ["C1 = (x + 1)*z/(y - 2)^3"]);
+    let mixed = r#"["{x, y} = 2*(1 + x)*y", "{x, z} = -(1 + x)/3", "{y, z} = 3*y"]"#;
+    let of_mixed = |initial| texts(&general(mixed, &[("initial", initial)]));
+    assert_eq!(of_mixed("[1, 1, 1]"), ["C1 = 6*z + 9*log(x + 1) + log(y)"]);
+    assert_eq!(
+        of_mixed("[-3, 1, 1]"),
+        ["C1 = 6*z + 9*log(-x - 1) + log(y)"]
+    );
+    let nowhere = general(mixed, &[("initial", "[-1, 1, 1]")]);
+    assert_eq!(nowhere.search, Search::Singular);
+    assert!(texts(&nowhere).is_empty());
+    let with_parameter = r#"["{x, y} = a*x*y", "{x, z} = -x*z", "{y, z} = a^2*y*z"]"#;
+    let with_parameter = general(with_parameter, &[exact]);
+    assert_eq!(
+        texts(&with_parameter),
+        ["C1 = a^2*log(x) + log(y) + a*log(z)"]
+    );
+    assert_eq!(kind(&with_parameter), (CasimirKind::Function, None));
+    // a bracket that fails to be Jacobian by one term, and is conformal to one
+    let conformal = r#"["{y, z} = (1 + x)*x", "{z, x} = (1 + x)*y", "{x, y} = (1 + x)*z"]"#;
+    let conformal = general(conformal, &[]);
+    assert!(texts(&conformal).is_empty() && matches!(conformal.search, Search::None(_)));
 }
 
 #[test]

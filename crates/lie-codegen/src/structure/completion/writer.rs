@@ -3,8 +3,9 @@
 use crate::model::{CasimirKind, Model};
 use crate::structure::casimirs;
 use lie_symbolic::exact::{Polynomial, Rational};
-use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
-use lie_syntax::ast::{Expr, ExprKind};
+use lie_symbolic::prove::degree;
+use lie_symbolic::symbolic::{ExprId, Function, Graph, Node, Symbol};
+use lie_syntax::ast::{Expr, ExprKind, Name};
 
 /// The largest arena that they may fill.
 const LARGEST_ARENA: usize = 200_000;
@@ -61,6 +62,82 @@ impl Writer<'_> {
         };
         self.graph.remember_written(written.normal, written.form);
         (self.graph.size() <= LARGEST_ARENA).then_some((written, kind, degree))
+    }
+
+    /// A function as an expression, if it can be declared.
+    pub fn function(&mut self, id: ExprId) -> Option<(Written, CasimirKind, Option<u32>)> {
+        let degree = degree::degree(self.graph, id);
+        let kind = match degree {
+            Some(_) => CasimirKind::Polynomial,
+            None => CasimirKind::Function,
+        };
+        let written = self.expression(id)?;
+        self.graph.remember_written(written.normal, written.form);
+        (self.graph.size() <= LARGEST_ARENA).then_some((written, kind, degree))
+    }
+
+    fn expression(&mut self, id: ExprId) -> Option<Written> {
+        match self.graph.node(id).clone() {
+            Node::Number(value) => Some(self.signed(&value)),
+            Node::Symbol(Symbol::Coordinate(i)) => Some(self.variable(i)),
+            Node::Symbol(Symbol::Parameter(p)) => Some(self.variable(self.dimension + p)),
+            Node::Sum { constant, terms } => {
+                let mut written = Vec::new();
+                for (term, coefficient) in terms {
+                    let mut factors = Vec::new();
+                    if !coefficient.abs().is_one() {
+                        factors.push((false, self.number(coefficient.abs())));
+                    }
+                    factors.push((false, self.expression(term)?));
+                    let term = match factors.len() {
+                        1 => factors.remove(0).1,
+                        _ => self.product(factors),
+                    };
+                    written.push((coefficient.is_negative(), term));
+                }
+                if !constant.is_zero() {
+                    written.push((constant.is_negative(), self.number(constant.abs())));
+                }
+                Some(self.sum(written))
+            }
+            Node::Product(factors) => {
+                let mut written = Vec::new();
+                for (base, exponent) in factors {
+                    let exponent = exponent.to_integer()?;
+                    let base = self.expression(base)?;
+                    written.push((exponent < 0, self.power(base, exponent.unsigned_abs())));
+                }
+                written.sort_by_key(|(below, _)| *below);
+                if written.first().is_some_and(|(below, _)| *below) {
+                    written.insert(0, (false, self.number(Rational::ONE)));
+                }
+                Some(self.product(written))
+            }
+            Node::Call(Function::Elementary(function), arguments) => {
+                let [argument] = *arguments else { return None };
+                let argument = self.expression(argument)?;
+                let name = Name {
+                    text: function.name().to_owned(),
+                    origin: self.model.name_origin,
+                };
+                let id = self.graph.call(function, &[argument.normal]);
+                let text = ExprKind::Call {
+                    function: Box::new(name),
+                    arguments: vec![argument.text],
+                };
+                Some(self.plain(text, id))
+            }
+            _ => None,
+        }
+    }
+
+    /// A number with its sign.
+    fn signed(&mut self, value: &Rational) -> Written {
+        let size = self.number(value.abs());
+        match value.is_negative() {
+            true => self.sum(vec![(true, size)]),
+            false => size,
+        }
     }
 
     fn expr(&self, kind: ExprKind) -> Expr {
