@@ -65,6 +65,7 @@ mod retraction;
 mod splittings;
 mod stage_parallel;
 mod taylor;
+mod tilted_body;
 mod tolerance;
 mod units;
 mod variational;

@@ -24,7 +24,7 @@ macro_rules! by_key {
         /// of an algebra `k_hj_along_exp`, which needs `exp` and `generating`), `cohen_hairer` (`cohen_hairer2`,
         /// `cohen_hairer4`, `cohen_hairer6`); `isospectral2`, `isospectral4`, `isospectral6` (also for `Collective`;
         /// need [`crate::MatrixPoisson`]), `isospectral2_cayley` (needs `cayley` instead), `hopf` and `spherical`
-        /// (need [`crate::SpinPoisson`]), `moser_veselov` (the same with a diagonal quadratic H on so(3)) and
+        /// (need [`crate::SpinPoisson`]), `moser_veselov` (the same with a quadratic H on so(3)) and
         /// `moser_veselov_n` (needs [`crate::InertiaPoisson`]); `variational` (`variational2`, `variational4`,
         /// `variational6`; need [`crate::LagrangianPoisson`], the last two also over [`crate::Lift::Lifted`]) and
         /// `variational_cayley` (needs [`crate::CayleyPoisson`] too); `discrete` and `discrete_cayley` (need

@@ -1,4 +1,4 @@
-//! Free rigid bodies: so(3) with a diagonal quadratic H, and so(n) with
+//! Free rigid bodies: so(3) with a quadratic H, and so(n) with
 //! `H = sum_(i<j) M_ij^2/(2 (J_i + J_j))`.
 //!
 //! so(n), n >= 4, is recognised from its structure constants in any order of the basis
@@ -35,7 +35,9 @@ pub enum Body {
 pub enum Other {
     /// It is neither so(3) nor so(n) in a basis of planes of rotation.
     Algebra,
-    /// H is not a sum of squares of all coordinates with constant coefficients.
+    /// H is no quadratic form with constant coefficients.
+    NotQuadratic,
+    /// It is one of so(n), and not a sum of squares of all coordinates.
     NotDiagonal,
     /// The coefficients are not of the form `1/(J_i + J_j)`.
     NoMoments,
@@ -50,44 +52,60 @@ pub fn body(model: &Model, spins: Option<&[Spin]>, graph: &mut Graph) -> Result<
         Some(spins) if spins.len() == 1 => None,
         _ => Some(planes(model).ok_or(Other::Algebra)?),
     };
-    let squares = squares(model, graph).ok_or(Other::NotDiagonal)?;
+    let form = form(model, graph).ok_or(Other::NotQuadratic)?;
     let Some(planes) = planes else {
         return Ok(Body::Three);
     };
+    let squares = squares(&form, graph).ok_or(Other::NotDiagonal)?;
     let moments = moments(graph, &planes, &squares).ok_or(Other::NoMoments)?;
     Ok(Body::Many { planes, moments })
 }
 
-/// The coefficients `a_k` of `H = sum a_k x_k^2/2 + constant`, none of which vanishes.
-fn squares(model: &Model, graph: &mut Graph) -> Option<Vec<ExprId>> {
+/// The rows of H'', if H is a quadratic form of the coordinates and a constant.
+fn form(model: &Model, graph: &mut Graph) -> Option<Vec<Vec<ExprId>>> {
     let hamiltonian = model.energy.expression()?;
     if hamiltonian.degree != Some(2) {
         return None;
     }
     let n = model.dimension();
-    let mut vanishing = Vec::new();
-    let mut squares = Vec::new();
+    let coordinates: Vec<ExprId> = (0..n)
+        .map(|i| graph.symbol(Symbol::Coordinate(i)))
+        .collect();
+    let (mut rows, mut vanishing) = (Vec::new(), Vec::new());
     for i in 0..n {
         let slope = graph.derivative(hamiltonian.value, Symbol::Coordinate(i));
-        for j in i + 1..n {
-            vanishing.push(graph.derivative(slope, Symbol::Coordinate(j)));
-        }
-        let square = graph.derivative(slope, Symbol::Coordinate(i));
+        let row: Vec<ExprId> = (0..n)
+            .map(|j| graph.derivative(slope, Symbol::Coordinate(j)))
+            .collect();
         let constant = |symbol: &Symbol| !matches!(symbol, Symbol::Coordinate(_));
-        if !graph.symbols(square).iter().all(constant) {
+        let constants = |entry: &ExprId| graph.symbols(*entry).iter().all(constant);
+        if !row.iter().all(constants) {
             return None;
         }
-        let x = graph.symbol(Symbol::Coordinate(i));
-        let quadratic = graph.mul(square, x);
-        vanishing.push(graph.sub(slope, quadratic));
-        squares.push(square);
+        let products = row.iter().zip(&coordinates);
+        let products: Vec<ExprId> = products.map(|(a, x)| graph.mul(*a, *x)).collect();
+        let linear = graph.sum(&products);
+        vanishing.push(graph.sub(slope, linear));
+        rows.push(row);
     }
     let budget = Budget::new(WORK);
     let mut normal = NormalForm::new(graph, &budget);
-    let zero = |verdict: Verdict| matches!(verdict, Verdict::Zero);
-    let diagonal = vanishing.iter().all(|id| zero(normal.verdict(*id)));
-    let definite = squares.iter().all(|id| !zero(normal.verdict(*id)));
-    (diagonal && definite).then_some(squares)
+    let mut zero = |id: &ExprId| matches!(normal.verdict(*id), Verdict::Zero);
+    vanishing.iter().all(&mut zero).then_some(rows)
+}
+
+/// The coefficients `a_k` of `H = sum a_k x_k^2/2`, none of which vanishes.
+fn squares(form: &[Vec<ExprId>], graph: &Graph) -> Option<Vec<ExprId>> {
+    let budget = Budget::new(WORK);
+    let mut normal = NormalForm::new(graph, &budget);
+    let mut zero = |id: ExprId| matches!(normal.verdict(id), Verdict::Zero);
+    for (i, row) in form.iter().enumerate() {
+        let mut entries = row.iter().enumerate();
+        if !entries.all(|(j, entry)| zero(*entry) == (i != j)) {
+            return None;
+        }
+    }
+    Some((0..form.len()).map(|k| form[k][k]).collect())
 }
 
 /// The moments, if there are any.
@@ -219,9 +237,12 @@ pub fn refusal(structure: &Structure) -> Option<(String, String)> {
             "it needs so(3) in a basis with [e1, e2] = c e3 and cyclic, or so(n) in a basis of \
              matrices E_ij - E_ji"
         }
+        (Other::NotQuadratic, _) => {
+            "it needs a free rigid body: H must be a quadratic form with constant coefficients"
+        }
         (Other::NotDiagonal, _) => {
-            "it needs a free rigid body: H must be a sum of squares of all coordinates, with \
-             constant coefficients"
+            "it needs a free rigid body in the axes of its moments: H must be a sum of squares of \
+             all coordinates"
         }
         (Other::NoMoments, _) => {
             "it needs H = sum M_ij^2/(2 (J_i + J_j)), and there are no such J_i for the declared H"
@@ -266,7 +287,7 @@ mod tests {
     #[test]
     fn other_systems_are_refused_for_their_reason() {
         assert_eq!(spec("so3_free_rigid_body").body, Ok(Body::Three));
-        assert_eq!(spec("so3_nonpolynomial").body, Err(Other::NotDiagonal));
+        assert_eq!(spec("so3_nonpolynomial").body, Err(Other::NotQuadratic));
         assert_eq!(spec("se3_heavy_top").body, Err(Other::Algebra));
         assert_eq!(spec("su3_quadratic").body, Err(Other::Algebra));
         assert_eq!(spec("sl2_quadratic").body, Err(Other::Algebra));

@@ -8,7 +8,8 @@ use crate::scalar::Scalar;
 use crate::state::State;
 use crate::structure::SpinPoisson;
 
-/// The discrete rigid body on so(3)*, `[e_1, e_2] = c e_3` and cyclic, for `H = sum_i mu_i^2/(2 I_i)`.
+/// The discrete rigid body on so(3)*, `[e_1, e_2] = c e_3` and cyclic, for `H = <mu, A mu>/2` with any symmetric A, the inverse of the inertia I
+/// where there is one.
 ///
 /// The rotation of the step has the unit quaternion `(q0, v)`, `q0 = sqrt(1 - v.v)`. Unknown: `u = 2 I v/(c h)`, so
 /// that `v = (c h/2) grad H(u)`. Equation: `r(u) = q0 u + v x u - mu = q0 u - (h/2) f(u) - mu`. New state:
@@ -96,8 +97,11 @@ impl<S: Scalar, P: SpinPoisson<S>> Equation<S> for DiscreteTop<'_, S, P> {
         let half = self.step * S::ratio(1.0, 2.0);
         let inverse = (S::one() / real).quantity();
         for column in 0..self.system.dimension() {
-            let curvature = self.half * self.hessian.get(column, column);
-            let slope = (self.direction.as_slice()[column] * curvature * inverse).quantity();
+            let mut along = S::zero();
+            for (row, &v) in self.direction.as_slice().iter().enumerate() {
+                along += v * (self.half * self.hessian.get(row, column));
+            }
+            let slope = (along * inverse).quantity();
             for (row, &u) in unknown.as_slice().iter().enumerate() {
                 let identity = if row == column { real } else { S::zero() };
                 let entry = identity - u * slope - half * self.jacobian.get(row, column);

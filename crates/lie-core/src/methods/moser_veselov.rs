@@ -10,8 +10,8 @@
 //! The discrete Lagrangian is `tr(g J)` up to sign and factor. Integrable like the body itself: order 2,
 //! symmetric, a Poisson map; keeps every Casimir, the coadjoint orbit and the energy.
 //!
-//! * n = 3, any diagonal H (`$I_k = J_i + J_j$`): the rotation as a unit quaternion,
-//!   `h mu = 2 (q0 I v + v x I v)`, `q0 = sqrt(1 - v.v)`; see [`DiscreteTop`](crate::generic::DiscreteTop).
+//! * n = 3, any quadratic form H, since the equation is the same in all axes (`$I_k = J_i + J_j$` in those of the moments): the rotation as a unit
+//!   quaternion, `h mu = 2 (q0 I v + v x I v)`, `q0 = sqrt(1 - v.v)`; see [`DiscreteTop`](crate::generic::DiscreteTop).
 //! * n >= 4: with the Cayley map `g = (1 + X/2)(1 - X/2)^-1` the equation becomes
 //!   `X J + J X = h (1 - X/2) M (1 + X/2)`, polynomial in the n(n-1)/2 entries of X, instead of the Riccati
 //!   equation of `(g J + J g^T)/2` with its n(n+1)/2; see [`DiscreteBody`](crate::generic::DiscreteBody).
