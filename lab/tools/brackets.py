@@ -5,7 +5,7 @@
 
 Each run writes a row every 20 steps. A cell has the largest change of the energy (of the Casimir) and its drift, the mean over the last tenth of
 the rows less that over the first. Times are those of a fifth of the steps, without rows, over those of `gauss4`, which runs before each: the
-median of three.
+median of three. Where `lie canonical` has coordinates for a bracket, some methods run in these too.
 """
 
 import argparse
@@ -26,6 +26,7 @@ RUNS = [
     "specs/brackets/charged_space.json=0.2",
     "specs/brackets/guiding_centre.json=0.2",
 ]
+CANONICAL = ["midpoint", "gauss4", "gauss10"]
 METHODS = ["midpoint", "gauss4", "gauss10", "gonzalez", "orbit-energy", "k-hj2", "k-hj4", "splitting4"]
 
 
@@ -44,8 +45,17 @@ def changes(rows, name):
     return f"{max(map(abs, values)):.1e}, {drift:+.0e}"
 
 
-def cells(lie, spec, method, step, steps, folder):
+def canonical(lie, spec, folder):
+    """The spec in coordinates in which its bracket is constant; none where there are none."""
+    out = Path(folder) / "canonical.json"
+    out.unlink(missing_ok=True)
+    subprocess.run([lie, "canonical", spec, "--out", str(out)], check=False, cwd=ROOT, capture_output=True)
+    return str(out) if out.exists() else None
+
+
+def cells(lie, specs, method, step, steps, folder):
     """Energy, Casimir and what stands for the time: that over the time of `gauss4`, or why the run ended."""
+    spec, declared = specs
     out = str(Path(folder) / "rows.csv")
     Path(out).unlink(missing_ok=True)
     done = run(lie, spec, method, step, steps, 20, out)
@@ -58,14 +68,14 @@ def cells(lie, spec, method, step, steps, folder):
     if stopped:
         return *found, f"ends in step {stopped[1]}"
 
-    def time(method):
+    def time(spec, method):
         text = run(lie, spec, method, step, steps // 5, steps // 5, out).stderr
         return float(re.search(r"\sin\s+([0-9.]+)\s+s", text)[1])
 
     ratios = []
     for _ in range(3):
-        unit = time("gauss4")
-        ratios.append(time(method) / unit)
+        unit = time(declared, "gauss4")
+        ratios.append(time(spec, method) / unit)
     return *found, f"{statistics.median(ratios):.2g}"
 
 
@@ -80,11 +90,14 @@ def main():
             spec, step = entry.rsplit("=", 1)
             name = json.loads((ROOT / spec).read_text())["name"]
             print(f"\n`{name}`, step {step}:\n\n| method | energy, drift | Casimir, drift | time over `gauss4` |\n|---|---|---|---|")
-            found = {m: cells(arguments.lie, spec, m, float(step), arguments.steps, folder) for m in METHODS}
-            for method, row in found.items():
+            rows = [(spec, method, f"`{method}`") for method in METHODS]
+            if other := canonical(arguments.lie, spec, folder):
+                rows += [(other, method, f"`{method}`, `lie canonical`") for method in CANONICAL]
+            for path, method, title in rows:
+                row = cells(arguments.lie, (path, spec), method, float(step), arguments.steps, folder)
                 if row is not None:
                     energy, casimir, time = row
-                    print(f"| `{method}` | {energy} | {casimir or ''} | {time} |", flush=True)
+                    print(f"| {title} | {energy} | {casimir or ''} | {time} |", flush=True)
 
 
 if __name__ == "__main__":

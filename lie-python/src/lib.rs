@@ -17,6 +17,7 @@ mod verify;
 
 use declaration::Declaration;
 use lie_codegen::methods::Choice;
+use lie_in_process::canonical::Canonical;
 use lie_in_process::message::Message;
 use lie_in_process::request::{self, Front, Request};
 use lie_runtime::Poisson as _;
@@ -181,6 +182,15 @@ impl Core {
     /// What `lie check --json` says, with the warnings.
     fn check(&self, py: Python<'_>, deep: bool) -> PyResult<String> {
         report::check(py, &self.0, deep)
+    }
+
+    /// The spec in coordinates in which its bracket is constant, as text.
+    fn canonical(&self, py: Python<'_>) -> PyResult<String> {
+        let found = self.0.with_spec(py, Canonical::of);
+        found.map_or_else(
+            |message| Err(errors::refused(py, &[message])),
+            |new| Ok(new.text),
+        )
     }
 
     /// Every claim of these methods, of all that apply where none is named, measured from a state on; and the kernels before the

@@ -65,6 +65,8 @@ pub enum Command {
     Schema,
     /// Writes a spec that runs, for an algebra by its name
     New(New),
+    /// Writes a spec in coordinates in which its bracket is constant, such as logarithms of populations
+    Canonical(Canonical),
     /// Shows where built programs are kept, or removes them
     Cache(Cache),
     #[command(flatten)]
@@ -96,6 +98,17 @@ pub struct New {
     /// The algebra, as in `"algebra"` of a spec
     #[arg(long, value_name = "ALGEBRA", default_value = "so(3)")]
     pub algebra: String,
+}
+
+/// `lie canonical`.
+#[derive(Args, Debug)]
+pub struct Canonical {
+    /// The spec file
+    #[arg(value_name = "SPEC")]
+    pub spec: PathBuf,
+    /// Where the spec goes, a new file (default: stdout)
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
 }
 
 /// `lie report`.

@@ -2,6 +2,7 @@
 
 pub mod args;
 mod cache;
+mod canonical;
 mod check;
 mod ensemble;
 mod equilibria;
@@ -49,13 +50,14 @@ pub fn run(command: &Command) -> Result<u8, Failure> {
         Command::Methods(arguments) => methods::run(arguments),
         Command::Schema => schema::run(),
         Command::New(arguments) => new::run(arguments),
+        Command::Canonical(arguments) => canonical::run(arguments),
         Command::Cache(arguments) => cache::run(arguments),
         Command::Later(later) => Err(not_built(later)),
     }
 }
 
 /// The commands that are built.
-pub const BUILT: [&str; 17] = [
+pub const BUILT: [&str; 18] = [
     "check",
     "expand",
     "run",
@@ -72,6 +74,7 @@ pub const BUILT: [&str; 17] = [
     "methods",
     "schema",
     "new",
+    "canonical",
     "cache",
 ];
 

@@ -19,6 +19,7 @@ mod attitude;
 mod bounds;
 mod brackets;
 mod build;
+mod canonical;
 mod check;
 mod cocycles;
 mod constraints;

@@ -7,6 +7,7 @@
 
 #![warn(missing_docs)]
 
+pub mod canonical;
 pub mod catalogue;
 pub mod checkpoint;
 pub mod clock;

@@ -11,7 +11,7 @@ __all__ = ["Casimir", "Check", "Motion"]
 
 
 class Casimir(NamedTuple):
-    """A function that is constant for every Hamiltonian; ``kind``: "declared", "polynomial" or "rational". Not ``kept`` where
+    """A function that is constant for every Hamiltonian; ``kind``: "declared", "polynomial", "rational" or "function". Not ``kept`` where
     forces change it."""
 
     name: str

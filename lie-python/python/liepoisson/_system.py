@@ -459,6 +459,22 @@ class System(Declared):
         asked = asked_of(self, "exponents", own, parameters, named)
         return parted(self, asked, (transient, count), progress)
 
+    def canonical(self) -> System:
+        """The same system in coordinates in which its bracket is constant, as `lie canonical` writes it.
+
+        For log-canonical brackets and their like. Gauss methods are Poisson maps there; the old coordinates are observables.
+
+        >>> prey = System(poisson=["{x, y} = x*y"], state=["x", "y"], hamiltonian="x - log(x) + y - log(y)", initial=[0.5, 2])
+        >>> other = prey.canonical()
+        >>> other.coordinates
+        ['log_x', 'log_y']
+        >>> bool(abs(other.run("gauss10", h=0.1, t=5)["x"][-1] - prey.run("gauss10", h=0.1, t=5)["x"][-1]) < 1e-9)
+        True
+
+        Errors: :class:`MethodError` where there are no such coordinates.
+        """
+        return System(self._core.canonical())
+
     def _repr_html_(self) -> str:
         return page_of(self)
 

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use crate::model::WORK;
 use lie_syntax::ast::names::{is_keyword, is_reserved};
-use lie_syntax::ast::{Declaration, Name, Realization};
+use lie_syntax::ast::{Declaration, Expr, ExprKind, Name, Realization};
 use lie_syntax::diagnostic::{Diagnostic, Kind};
 
 /// Types that generated code names without a path: a system of that name would hide them.
@@ -102,7 +102,10 @@ pub fn name_spaces(declaration: &Declaration) -> Vec<Diagnostic> {
         mistakes.extend(columns.filter_map(of_work));
     }
     for (name, what) in declaration.quantities() {
-        let mut spaces = vec![&mut columns, &mut dual];
+        let mut spaces = vec![&mut columns];
+        if !records_abbreviation(declaration, name) {
+            spaces.push(&mut dual);
+        }
         if what == "input" {
             // it stands in expressions, as a parameter does
             spaces.push(&mut algebra);
@@ -176,6 +179,18 @@ fn of_work(name: &Name) -> Option<Diagnostic> {
     })
 }
 
+/// Whether this is an abbreviation that is recorded under its own name.
+fn records_abbreviation(declaration: &Declaration, name: &Name) -> bool {
+    let is_itself = |value: &Expr| matches!(&value.kind, ExprKind::Name { name: value, index: None } if *value == name.text);
+    let mut observables = declaration.observables.iter();
+    let recorded = observables.any(|o| o.name.text == name.text && is_itself(&o.value));
+    recorded
+        && declaration
+            .lets
+            .iter()
+            .any(|(other, _)| other.text == name.text)
+}
+
 fn of_a_type(name: &Name) -> Diagnostic {
     let message = format!(
         "`{}` is the name of a type of the generated code",
@@ -198,7 +213,14 @@ fn declare<'a>(
         let message = if *other == what {
             format!("`{}` is declared twice", name.text)
         } else {
-            format!("the {what} `{}` has the name of a {other}", name.text)
+            let article = match other.starts_with(['a', 'e', 'i', 'o']) {
+                true => "an",
+                false => "a",
+            };
+            format!(
+                "the {what} `{}` has the name of {article} {other}",
+                name.text
+            )
         };
         let help = if name.text.is_ascii() {
             "choose another name"

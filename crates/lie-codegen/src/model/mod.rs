@@ -173,6 +173,19 @@ impl Model {
         (self.dimension() - self.generic_rank).saturating_sub(usize::from(unit) + held)
     }
 
+    /// The brackets of the coordinates that are declared with theirs, without those that carry the time; none beside a group element.
+    pub fn own_matrix(&self) -> Option<PoissonMatrix> {
+        let mut matrix = self.bracket.matrix()?.clone();
+        if let Some(configuration) = &self.configuration {
+            if configuration.group.is_some() {
+                return None;
+            }
+            matrix.dimension = configuration.own_momenta();
+            matrix.entries.retain(|(_, j, _)| *j < matrix.dimension);
+        }
+        Some(matrix)
+    }
+
     /// The coordinates that are shown: all but those that carry the time.
     pub fn shown_coordinates(&self) -> Vec<usize> {
         let hidden = |i: &usize| self.configuration.as_ref().is_some_and(|c| c.is_hidden(*i));

@@ -54,10 +54,10 @@ impl Class {
         match self {
             Self::Constant => "constant: functions of linear forms have exact flows".into(),
             Self::LogCanonical => {
-                "log-canonical, {x_i, x_j} = c_ij x_i x_j: functions of monomials have exact flows, which keep signs".into()
+                "log-canonical, {x_i, x_j} = c_ij x_i x_j: functions of monomials have exact flows, which keep signs; `lie canonical` takes logarithms, in which Gauss methods are Poisson maps".into()
             }
             Self::Elementwise => {
-                "elementwise, {x_i, x_j} = c_ij a_i(x_i) a_j(x_j): functions of sums of int dx_i/a_i have exact flows".into()
+                "elementwise, {x_i, x_j} = c_ij a_i(x_i) a_j(x_j): functions of sums of int dx_i/a_i have exact flows; `lie canonical` takes these as coordinates, in which Gauss methods are Poisson maps".into()
             }
             Self::Magnetic(positions) => format!(
                 "magnetic, with the positions {}: functions of one momentum have exact flows, in a field that is no polynomial by quadrature",
@@ -82,14 +82,9 @@ pub fn class(model: &Model) -> Option<Class> {
     }
     let mut graph = model.graph.clone();
     if let Some(found) = elementwise(model, matrix, &mut graph) {
-        let moving = |i: &usize| found.constants[*i].iter().any(|c| !c.is_zero());
-        let moving: Vec<usize> = (0..matrix.dimension).filter(moving).collect();
-        let all = |of: fn(&super::elementwise::Speed) -> bool| {
-            moving.iter().all(|i| of(&found.speeds[*i]))
-        };
-        return Some(if all(|speed| speed.degree() == 0) {
+        return Some(if found.is_constant() {
             Class::Constant
-        } else if all(super::elementwise::Speed::is_coordinate) {
+        } else if found.all(super::elementwise::Speed::is_coordinate) {
             Class::LogCanonical
         } else {
             Class::Elementwise

@@ -36,6 +36,24 @@ pub enum Change {
     Multiply(ExprId),
 }
 
+impl Elementwise {
+    /// Whether a coordinate is in a bracket; of others there is no speed.
+    pub fn moves(&self, i: usize) -> bool {
+        self.constants[i].iter().any(|c| !c.is_zero())
+    }
+
+    /// Whether the bracket is constant as it is.
+    pub fn is_constant(&self) -> bool {
+        self.all(|speed| speed.degree() == 0)
+    }
+
+    /// Whether something holds of all speeds.
+    pub fn all(&self, of: fn(&Speed) -> bool) -> bool {
+        let mut speeds = self.speeds.iter().enumerate();
+        speeds.all(|(i, speed)| of(speed) || !self.moves(i))
+    }
+}
+
 fn number(value: i64) -> Fraction {
     Fraction::from(Rational::from(value))
 }
@@ -53,6 +71,11 @@ impl Speed {
     /// Whether it is x.
     pub fn is_coordinate(&self) -> bool {
         self.degree() == 1 && self.0[0].is_zero()
+    }
+
+    /// `a_0`
+    pub fn at_zero(&self) -> &Fraction {
+        &self.0[0]
     }
 
     /// `a(x_i)` of degree 1 as a polynomial, parameter p the variable n + p.

@@ -23,6 +23,7 @@ pub mod separable;
 pub mod smoothness;
 pub mod spectrum;
 pub mod spins;
+pub mod straight;
 pub mod unitary;
 pub mod vectors;
 

@@ -16,10 +16,11 @@ const MOST: i64 = 60;
 /// The Casimirs of a bracket of a class, or else the coordinates that are in no bracket, and then why no others are looked for. The graph may be
 /// littered.
 pub(super) fn sought(model: &Model, reason: &'static str, graph: &mut Graph) -> Option<Sought> {
-    let matrix = model.bracket.matrix();
-    let matrix = matrix.filter(|_| !model.is_almost_poisson())?;
+    let matrix = model.own_matrix();
+    let matrix = &matrix.filter(|_| !model.is_almost_poisson())?;
     if let Some(form) = elementwise(model, matrix, graph) {
-        return of_changed_coordinates(model, &form, graph);
+        let found = nothing(matrix, 0, Search::Complete);
+        return of_changed_coordinates(model, &form, found, graph);
     }
     if let Some(casimir) = jacobian(model, matrix, graph) {
         return Some(Sought {
@@ -48,7 +49,12 @@ fn nothing(matrix: &PoissonMatrix, count: usize, end: Search) -> Sought {
 
 /// Those of `{x_i, x_j} = c_ij a_i(x_i) a_j(x_j)`: `sum_i k_i y_i` with `y_i = int dx_i/a_i` and `c k = 0`. Where all `y_i` are logarithms and the
 /// `k_i` are integers, these are products of powers of the `a_i`, which have a value whatever the signs.
-fn of_changed_coordinates(model: &Model, form: &Elementwise, graph: &mut Graph) -> Option<Sought> {
+fn of_changed_coordinates(
+    model: &Model,
+    form: &Elementwise,
+    mut sought: Sought,
+    graph: &mut Graph,
+) -> Option<Sought> {
     let n = form.speeds.len();
     let budget = Budget::new(WORK);
     let field = Functions { budget: &budget };
@@ -57,7 +63,7 @@ fn of_changed_coordinates(model: &Model, form: &Elementwise, graph: &mut Graph) 
         entries.filter(|(_, c)| !c.is_zero()).collect()
     });
     let (vectors, _) = kernel(&field, n, rows).ok()?;
-    let mut sought = nothing(model.bracket.matrix()?, vectors.len(), Search::Complete);
+    sought.count = vectors.len();
     for vector in vectors {
         // a coordinate in no bracket
         if let [(place, _)] = *vector {

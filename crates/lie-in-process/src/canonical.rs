@@ -1,0 +1,178 @@
+//! A spec in coordinates in which its bracket is constant.
+
+use std::collections::BTreeMap;
+
+use lie_codegen::structure::straight::{Refusal, Straight, straight};
+use lie_syntax::diagnostic::Kind;
+use serde_json::Value;
+use serde_json::value::RawValue;
+
+use crate::message::Message;
+use crate::spec::Spec;
+
+/// The keys in the order of a spec; others come behind.
+const ORDER: [&str; 11] = [
+    "$schema",
+    "format",
+    "name",
+    "description",
+    "references",
+    "poisson",
+    "state",
+    "parameters",
+    "functions",
+    "let",
+    "hamiltonian",
+];
+
+/// Such a spec.
+pub struct Canonical {
+    /// Its text.
+    pub text: String,
+    /// What the new coordinates are.
+    pub sentence: String,
+}
+
+impl Canonical {
+    /// That of a spec: the old coordinates are abbreviations and observables, so that every function stays as it was written.
+    ///
+    /// # Errors
+    /// A bracket or a key that such coordinates do not have.
+    pub fn of(spec: &Spec) -> Result<Self, Message> {
+        let found = straight(&spec.model).map_err(|why| refused(spec, why))?;
+        let sentence = sentence(spec, &found);
+        let text = rewritten(spec, &found, &sentence)?;
+        Ok(Self { text, sentence })
+    }
+}
+
+/// What the new coordinates are.
+fn sentence(spec: &Spec, found: &Straight) -> String {
+    let pairs = spec.model.coordinates.iter().zip(&found.coordinates);
+    let changed = pairs.filter_map(|(old, new)| {
+        let logarithm = new.logarithm.as_ref()?;
+        Some(format!("{} = {}", old.text, logarithm.back))
+    });
+    let changed: Vec<String> = changed.collect();
+    format!("the bracket is constant with {}", changed.join(", "))
+}
+
+fn refused(spec: &Spec, why: Refusal) -> Message {
+    let (text, help) = match why {
+        Refusal::Constant => (
+            "the bracket is constant in these coordinates".to_owned(),
+            "every Gauss method is a Poisson map as it is",
+        ),
+        Refusal::Other => (
+            "no change of each coordinate alone is known that makes this bracket constant"
+                .to_owned(),
+            "it is for brackets {x_i, x_j} = c_ij a_i(x_i) a_j(x_j) with constant or linear a_i; `lie check` names the class of a bracket",
+        ),
+        Refusal::Zero(i) => (
+            format!(
+                "the initial state is where the brackets of `{}` vanish, and its logarithm has no value there",
+                spec.model.coordinates[i].text
+            ),
+            "declare an `initial` beside it: no motion leaves this set, or comes to it",
+        ),
+    };
+    Message::new(Kind::Method, text).help(help)
+}
+
+/// The entries of a spec by their keys, as text.
+type Entries = BTreeMap<String, Box<RawValue>>;
+
+fn rewritten(spec: &Spec, found: &Straight, sentence: &str) -> Result<String, Message> {
+    let mut entries: Entries = serde_json::from_str(&spec.source.text).map_err(unread)?;
+    let mut fixed = ["dissipation", "constraint"].into_iter();
+    if let Some(key) = fixed.find(|key| entries.contains_key(*key)) {
+        let text = format!("`{key}` is declared in the coordinates of the bracket as it is");
+        let help = "write it as `forces` of these coordinates, which are taken along";
+        return Err(Message::new(Kind::Method, text).help(help));
+    }
+    let old = || spec.model.coordinates.iter().map(|c| c.text.as_str());
+    let mut lets = Vec::new();
+    let mut observables: serde_json::Map<String, Value> = match entries.get("observables") {
+        Some(declared) => serde_json::from_str(declared.get()).map_err(unread)?,
+        None => serde_json::Map::new(),
+    };
+    for (old, new) in old().zip(&found.coordinates) {
+        if let Some(logarithm) = &new.logarithm {
+            lets.push(Value::from(format!("{old} = {}", logarithm.back)));
+            observables.insert(old.to_owned(), old.into());
+        }
+    }
+    if let Some(declared) = entries.get("let") {
+        lets.extend(serde_json::from_str::<Vec<Value>>(declared.get()).map_err(unread)?);
+    }
+    let names = found.coordinates.iter().map(|c| c.name.as_str());
+    let mut changed = vec![
+        ("poisson", Value::from(found.brackets.clone())),
+        ("state", names.collect()),
+        ("let", Value::from(lets)),
+        ("observables", Value::from(observables)),
+        ("description", Value::from(described(sentence, &entries)?)),
+    ];
+    let initial = found.coordinates.iter().map(|c| c.initial.clone());
+    if let Some(initial) = initial.collect::<Option<Vec<String>>>() {
+        changed.push(("initial", Value::from(initial)));
+    }
+    let along = |force: serde_json::Map<String, Value>| -> Value {
+        let turned = force.into_iter().map(|(name, value)| {
+            let place = old().position(|old| old == name);
+            let new = place.map(|place| &found.coordinates[place]);
+            match (new.and_then(|new| new.logarithm.as_ref()), value) {
+                (Some(logarithm), Value::String(value)) => {
+                    let value = format!("({value})/({})", logarithm.speed);
+                    (new.map_or(name, |new| new.name.clone()), value.into())
+                }
+                (_, value) => (name, value),
+            }
+        });
+        Value::Object(turned.collect())
+    };
+    if let Some(forces) = entries.get("forces") {
+        let forces = serde_json::from_str(forces.get()).map_err(unread)?;
+        changed.push(("forces", along(forces)));
+    }
+    if let Some(noise) = entries.get("noise") {
+        let mut noise: Vec<Value> = serde_json::from_str(noise.get()).map_err(unread)?;
+        for process in &mut noise {
+            if let Some(Value::Object(force)) = process.get_mut("force").map(Value::take) {
+                process["force"] = along(force);
+            }
+        }
+        changed.push(("noise", Value::from(noise)));
+    }
+    for (key, value) in changed {
+        let value = serde_json::value::to_raw_value(&value).map_err(unread)?;
+        entries.insert(key.to_owned(), value);
+    }
+    Ok(written(&entries))
+}
+
+fn described(sentence: &str, entries: &Entries) -> Result<String, Message> {
+    let said: Option<String> = match entries.get("description") {
+        Some(text) => Some(serde_json::from_str(text.get()).map_err(unread)?),
+        None => None,
+    };
+    let sentence = format!("By `lie canonical`: {sentence}.");
+    Ok(said.map_or_else(|| sentence.clone(), |said| format!("{said} {sentence}")))
+}
+
+fn written(entries: &Entries) -> String {
+    let known = ORDER.iter().filter_map(|key| entries.get_key_value(*key));
+    let others = entries
+        .iter()
+        .filter(|(key, _)| !ORDER.contains(&key.as_str()));
+    let lines = known.chain(others);
+    let lines: Vec<String> = lines
+        .map(|(key, value)| format!("  {}: {}", Value::from(key.as_str()), value.get()))
+        .collect();
+    format!("{{\n{}\n}}\n", lines.join(",\n"))
+}
+
+fn unread(error: serde_json::Error) -> Message {
+    let text = format!("the spec cannot be rewritten: {error}");
+    Message::new(Kind::Schema, text)
+}

@@ -1,0 +1,144 @@
+//! `lie canonical`: brackets that are constant in other coordinates.
+
+use crate::common::{folder, lie};
+use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
+
+fn written(folder: &Path, spec: &Value) -> PathBuf {
+    let name = spec["name"].as_str().expect("a name");
+    let path = folder.join(format!("{name}.json"));
+    std::fs::write(&path, spec.to_string()).expect("written");
+    path
+}
+
+/// The command on a spec; the path of what it writes.
+fn canonical(path: &Path) -> PathBuf {
+    let out = path.with_extension("canonical.json");
+    lie(&format!(
+        "canonical {} --out {}",
+        path.display(),
+        out.display()
+    ))
+    .ok();
+    out
+}
+
+/// Every coordinate has a speed of its own, z on the side where it is negative, and forces act, with a parameter.
+fn forced() -> Value {
+    json!({
+        "format": 1, "name": "Forced", "state": ["x", "y", "z"],
+        "poisson": ["{x, y} = (1 + x)*y", "{y, z} = 2*y*(z - 2)", "{x, z} = -(1 + x)*(z - 2)/3"],
+        "parameters": {"k": "1/10"},
+        "let": ["r = x*y"],
+        "hamiltonian": "x^2/3 + y + y^2/4 + z^2/2 + z",
+        "forces": {"x": "-k*x", "z": "k*cos(t)"},
+        "observables": {"r": "r"},
+        "initial": ["3/10", "4/5", "1/2"]
+    })
+}
+
+/// The last row, by the names of the columns.
+fn end(path: &Path, names: &[&str]) -> Vec<f64> {
+    let path = path.display();
+    let run = lie(&format!(
+        "run {path} --method gauss16 --step 0.02 --until 4 --quiet"
+    ))
+    .ok();
+    let (header, rows) = run.csv();
+    let last = rows.last().expect("rows");
+    let place = |name: &&str| header.iter().position(|column| column == *name);
+    let places = names.iter().map(|name| place(name).expect("a column"));
+    places.map(|place| last[place]).collect()
+}
+
+#[test]
+fn the_motion_is_the_same() {
+    let folder = folder();
+    let forced = written(folder.path(), &forced());
+    for (path, names) in [
+        (
+            PathBuf::from("specs/lotka_volterra.json"),
+            ["y1", "y2", "y3"],
+        ),
+        (forced, ["x", "z", "r"]),
+    ] {
+        let copy = folder.path().join(path.file_name().expect("a name"));
+        if copy != path {
+            std::fs::copy(&path, &copy).expect("copied");
+        }
+        let pairs = end(&copy, &names)
+            .into_iter()
+            .zip(end(&canonical(&copy), &names));
+        for (a, b) in pairs {
+            assert!((a - b).abs() < 1e-11, "{}: {a} and {b}", path.display());
+        }
+    }
+}
+
+/// Gauss methods are Poisson maps there, and keep the Casimir; in the declared coordinates they do neither.
+#[test]
+fn gauss_methods_are_poisson_maps() {
+    let folder = folder();
+    let path = folder.path().join("species.json");
+    std::fs::copy("specs/lotka_volterra.json", &path).expect("copied");
+    let defect = |path: &Path| {
+        let verify = lie(&format!(
+            "verify {} --methods gauss4 --quiet --json",
+            path.display()
+        ))
+        .ok();
+        let report: Value = serde_json::from_str(&verify.stdout).expect("JSON");
+        assert_eq!(report["failed"], 0, "{report:#}");
+        let measured = &report["methods"]["gauss4"]["Poisson"]["measured"];
+        measured.as_f64().expect("a number")
+    };
+    let [there, here] = [defect(&canonical(&path)), defect(&path)];
+    assert!(there < 1e-14 && here > 1e-9, "{there:e}, {here:e}");
+}
+
+#[test]
+fn what_has_no_such_coordinates_says_why() {
+    let folder = folder();
+    let refused = |spec: &str, why: &str| {
+        let run = lie(&format!("canonical {spec}"));
+        assert_eq!(run.code, Some(2), "{spec}");
+        assert!(run.stderr.contains(why), "{spec}: {}", run.stderr);
+    };
+    refused(
+        "specs/canonical_pendulum.json",
+        "the bracket is constant in these coordinates",
+    );
+    refused(
+        "specs/brackets/nambu.json",
+        "no change of each coordinate alone",
+    );
+    refused(
+        "specs/se3_heavy_top.json",
+        "no change of each coordinate alone",
+    );
+    let mut resting = forced();
+    resting["initial"] = json!([-1, 1, 1]);
+    let resting = written(folder.path(), &resting);
+    refused(&resting.display().to_string(), "the brackets of `x` vanish");
+    let mut damped = forced();
+    damped["dissipation"] = json!([{"kind": "double-bracket", "strength": "1/5"}]);
+    let damped = written(folder.path(), &damped);
+    refused(
+        &damped.display().to_string(),
+        "`dissipation` is declared in the coordinates",
+    );
+    // nothing is written over
+    let path = written(folder.path(), &forced());
+    let out = canonical(&path);
+    let again = lie(&format!(
+        "canonical {} --out {}",
+        path.display(),
+        out.display()
+    ));
+    assert_eq!(again.code, Some(1));
+    assert!(
+        again.stderr.contains("choose another name"),
+        "{}",
+        again.stderr
+    );
+}
