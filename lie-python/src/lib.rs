@@ -186,7 +186,7 @@ impl Core {
 
     /// The spec in coordinates in which its bracket is constant, as text.
     fn canonical(&self, py: Python<'_>) -> PyResult<String> {
-        let found = self.0.with_spec(py, Canonical::of);
+        let found = self.0.with_spec(py, |spec| Canonical::of(spec, None));
         found.map_or_else(
             |message| Err(errors::refused(py, &[message])),
             |new| Ok(new.text),

@@ -16,8 +16,10 @@ use crate::render;
 /// Invalid input, a bracket or a key that such coordinates do not have, and a file that cannot be written.
 pub fn run(arguments: &args::Canonical) -> Result<u8, Failure> {
     let spec = compiler::load(&arguments.spec)?;
+    let path = arguments.out.as_ref().unwrap_or(&arguments.spec);
+    let folder = path.parent();
     render::print(&spec.warnings());
-    let Canonical { text, sentence } = Canonical::of(&spec)?;
+    let Canonical { text, sentence } = Canonical::of(&spec, folder)?;
     let Some(path) = &arguments.out else {
         print(&text)?;
         return Ok(0);

@@ -96,6 +96,28 @@ fn gauss_methods_are_poisson_maps() {
     assert!(there < 1e-14 && here > 1e-9, "{there:e}, {here:e}");
 }
 
+/// Columns stay in their order, names that are taken are avoided, and a method that does not apply any more is replaced.
+#[test]
+fn what_stays_and_what_is_replaced() {
+    let folder = folder();
+    let mut spec = forced();
+    spec["functions"] = json!({"log_x": {"table": [[0, 0], [1, 1], [2, 3], [3, 4]]}});
+    spec["run"] = json!({"method": "gonzalez", "tensor": "mean", "step": 0.1, "until": 1});
+    let text = spec
+        .to_string()
+        .replace(r#""r":"r""#, r#""r":"r","a":"x + y""#);
+    let path = folder.path().join("Forced.json");
+    std::fs::write(&path, text).expect("written");
+    let out = canonical(&path);
+    let run = lie(&format!("run {} --quiet", out.display())).ok();
+    let (header, _) = run.csv();
+    let own: Vec<&str> = header.iter().map(String::as_str).collect();
+    assert_eq!(own[1..4], ["log_x_", "log_y", "log_z"]);
+    assert_eq!(own[own.len() - 5..], ["r", "a", "x", "y", "z"]);
+    let written = std::fs::read_to_string(&out).expect("a spec");
+    assert!(written.contains(r#""method":"gauss10""#), "{written}");
+}
+
 #[test]
 fn what_has_no_such_coordinates_says_why() {
     let folder = folder();
@@ -126,6 +148,14 @@ fn what_has_no_such_coordinates_says_why() {
     refused(
         &damped.display().to_string(),
         "`dissipation` is declared in the coordinates",
+    );
+    let mut by_a_vector = forced();
+    by_a_vector["vectors"] = json!({"m": ["x", "y", "z"]});
+    by_a_vector["forces"] = json!({"m": "-m/10"});
+    let by_a_vector = written(folder.path(), &by_a_vector);
+    refused(
+        &by_a_vector.display().to_string(),
+        "the spec in the new coordinates is refused",
     );
     // nothing is written over
     let path = written(folder.path(), &forced());

@@ -149,7 +149,6 @@ pub fn newton_update<S: Scalar, E: Equation<S> + ?Sized>(
     (residual, safe)
 }
 
-/// A borrowed equation, whose type may be forgotten: what solves it is compiled for its unknown alone.
 /// What an iteration with a Jacobian of so many unknowns costs, `1.5 + n^2/20` evaluations of the residual, as counted of equations whose
 /// elimination is written out.
 pub(crate) fn elimination_cost(unknowns: usize) -> f64 {
@@ -157,6 +156,7 @@ pub(crate) fn elimination_cost(unknowns: usize) -> f64 {
     1.5 + size * size / 20.0
 }
 
+/// A borrowed equation, whose type may be forgotten: what solves it is compiled for its unknown alone.
 impl<S: Scalar, E: Equation<S> + ?Sized> Equation<S> for &mut E {
     type State = E::State;
     type Unknown = E::Unknown;

@@ -1,13 +1,18 @@
 //! A spec in coordinates in which its bracket is constant.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
+use std::path::Path;
+use std::sync::Arc;
 
+use lie_codegen::compile::compile_spec_in;
+use lie_codegen::structure::Effort;
 use lie_codegen::structure::straight::{Refusal, Straight, straight};
-use lie_syntax::diagnostic::Kind;
+use lie_syntax::diagnostic::{Diagnostic, Kind};
 use serde_json::Value;
 use serde_json::value::RawValue;
 
-use crate::message::Message;
+use crate::message::{Message, Source};
+use crate::request::{self, Request};
 use crate::spec::Spec;
 
 /// The keys in the order of a spec; others come behind.
@@ -34,16 +39,67 @@ pub struct Canonical {
 }
 
 impl Canonical {
-    /// That of a spec: the old coordinates are abbreviations and observables, so that every function stays as it was written.
+    /// That of a spec, as a file of this folder: the old coordinates are abbreviations and observables, so that every function stays as it was
+    /// written. What the `run` of the spec says stays where it applies, else `gauss10` takes its place.
     ///
     /// # Errors
     /// A bracket or a key that such coordinates do not have.
-    pub fn of(spec: &Spec) -> Result<Self, Message> {
-        let found = straight(&spec.model).map_err(|why| refused(spec, why))?;
+    pub fn of(spec: &Spec, folder: Option<&Path>) -> Result<Self, Message> {
+        let mut entries: Entries = serde_json::from_str(&spec.source.text).map_err(unread)?;
+        let found = straight(&spec.model, &names(&entries)).map_err(|why| refused(spec, why))?;
         let sentence = sentence(spec, &found);
-        let text = rewritten(spec, &found, &sentence)?;
+        rewrite(spec, &found, &sentence, &mut entries)?;
+        let plan = |text: &str| {
+            let model = compile_spec_in(text, folder, Effort::Declaration).map_err(wrong)?;
+            let source = Arc::new(Source {
+                path: spec.source.path.clone(),
+                text: text.to_owned(),
+            });
+            Ok(request::plan(
+                &Spec::new(source, model),
+                &Request::default(),
+            ))
+        };
+        let mut text = written(&entries);
+        let ran = request::plan(spec, &Request::default()).is_ok();
+        if plan(&text)?.is_err() && ran {
+            entries.insert("run".to_owned(), kept_of_run(&entries)?);
+            text = written(&entries);
+        }
         Ok(Self { text, sentence })
     }
+}
+
+/// Names that are no coordinates, parameters or abbreviations.
+fn names(entries: &Entries) -> HashSet<String> {
+    let objects = ["vectors", "functions"].into_iter();
+    let objects = objects.filter_map(|key| entries.get(key));
+    let objects = objects.filter_map(|text| serde_json::from_str::<Entries>(text.get()).ok());
+    objects.flat_map(BTreeMap::into_keys).collect()
+}
+
+/// Step and end of a run, by a method that always applies.
+fn kept_of_run(entries: &Entries) -> Result<Box<RawValue>, Message> {
+    let run = entries.get("run").map_or("{}", |run| run.get());
+    let mut run: serde_json::Map<String, Value> = serde_json::from_str(run).map_err(unread)?;
+    run.retain(|key, _| ["step", "tol", "from", "until", "every"].contains(&key.as_str()));
+    run.insert("method".to_owned(), "gauss10".into());
+    serde_json::value::to_raw_value(&run).map_err(unread)
+}
+
+/// What is refused of a spec that was rewritten.
+fn wrong(mistakes: Vec<Diagnostic>) -> Message {
+    let Some(first) = mistakes.into_iter().next() else {
+        return Message::new(Kind::Schema, "the spec cannot be rewritten");
+    };
+    let text = format!(
+        "the spec in the new coordinates is refused: {}",
+        first.message
+    );
+    let help = first.help.unwrap_or_else(|| {
+        "write what it says by coordinates, and files beside the new spec".to_owned()
+    });
+    Message::new(first.kind, text).help(help)
 }
 
 /// What the new coordinates are.
@@ -66,7 +122,7 @@ fn refused(spec: &Spec, why: Refusal) -> Message {
         Refusal::Other => (
             "no change of each coordinate alone is known that makes this bracket constant"
                 .to_owned(),
-            "it is for brackets {x_i, x_j} = c_ij a_i(x_i) a_j(x_j) with constant or linear a_i; `lie check` names the class of a bracket",
+            "it is for brackets {x_i, x_j} = c_ij a_i(x_i) a_j(x_j) with constant or linear a_i, and rational functions of parameters in them; `lie check` names the class of a bracket",
         ),
         Refusal::Zero(i) => (
             format!(
@@ -82,8 +138,12 @@ fn refused(spec: &Spec, why: Refusal) -> Message {
 /// The entries of a spec by their keys, as text.
 type Entries = BTreeMap<String, Box<RawValue>>;
 
-fn rewritten(spec: &Spec, found: &Straight, sentence: &str) -> Result<String, Message> {
-    let mut entries: Entries = serde_json::from_str(&spec.source.text).map_err(unread)?;
+fn rewrite(
+    spec: &Spec,
+    found: &Straight,
+    sentence: &str,
+    entries: &mut Entries,
+) -> Result<(), Message> {
     let mut fixed = ["dissipation", "constraint"].into_iter();
     if let Some(key) = fixed.find(|key| entries.contains_key(*key)) {
         let text = format!("`{key}` is declared in the coordinates of the bracket as it is");
@@ -92,14 +152,11 @@ fn rewritten(spec: &Spec, found: &Straight, sentence: &str) -> Result<String, Me
     }
     let old = || spec.model.coordinates.iter().map(|c| c.text.as_str());
     let mut lets = Vec::new();
-    let mut observables: serde_json::Map<String, Value> = match entries.get("observables") {
-        Some(declared) => serde_json::from_str(declared.get()).map_err(unread)?,
-        None => serde_json::Map::new(),
-    };
+    let mut observables = Vec::new();
     for (old, new) in old().zip(&found.coordinates) {
         if let Some(logarithm) = &new.logarithm {
             lets.push(Value::from(format!("{old} = {}", logarithm.back)));
-            observables.insert(old.to_owned(), old.into());
+            observables.push(format!("{0}: {0}", Value::from(old)));
         }
     }
     if let Some(declared) = entries.get("let") {
@@ -110,8 +167,7 @@ fn rewritten(spec: &Spec, found: &Straight, sentence: &str) -> Result<String, Me
         ("poisson", Value::from(found.brackets.clone())),
         ("state", names.collect()),
         ("let", Value::from(lets)),
-        ("observables", Value::from(observables)),
-        ("description", Value::from(described(sentence, &entries)?)),
+        ("description", Value::from(described(sentence, entries)?)),
     ];
     let initial = found.coordinates.iter().map(|c| c.initial.clone());
     if let Some(initial) = initial.collect::<Option<Vec<String>>>() {
@@ -148,7 +204,17 @@ fn rewritten(spec: &Spec, found: &Straight, sentence: &str) -> Result<String, Me
         let value = serde_json::value::to_raw_value(&value).map_err(unread)?;
         entries.insert(key.to_owned(), value);
     }
-    Ok(written(&entries))
+    // the order of an object is that of columns
+    let declared = entries.get("observables").map_or("{}", |text| text.get());
+    let declared = declared.trim();
+    let declared = &declared[1..declared.len() - 1];
+    if !declared.trim().is_empty() {
+        observables.insert(0, declared.trim().to_owned());
+    }
+    let observables = format!("{{{}}}", observables.join(", "));
+    let observables = RawValue::from_string(observables).map_err(unread)?;
+    entries.insert("observables".to_owned(), observables);
+    Ok(())
 }
 
 fn described(sentence: &str, entries: &Entries) -> Result<String, Message> {

@@ -195,7 +195,13 @@ fn complete(
         dimension,
         mut end,
     } = sought;
-    let initial = model.initial_values(&model.defaults());
+    let parameters = model.defaults();
+    let initial = model.initial_values(&parameters);
+    let parameters: Vec<Rational> = parameters
+        .into_iter()
+        .map(Rational::from_f64)
+        .collect::<Option<_>>()
+        .unwrap_or_default();
     let initial = initial.into_iter().flatten().map(Rational::from_f64);
     let initial: Option<Vec<Rational>> = initial.collect();
     let initial = initial.filter(|mu| !mu.is_empty());
@@ -206,7 +212,7 @@ fn complete(
     };
     let mut written = Vec::new();
     for casimir in found {
-        let Some(casimir) = defined(casimir, initial.as_deref()) else {
+        let Some(casimir) = defined(casimir, dimension, initial.as_deref(), &parameters) else {
             end = Search::Singular;
             continue;
         };
@@ -216,7 +222,7 @@ fn complete(
         }
     }
     for function in functions {
-        match writer.function(function) {
+        match writer.function(function, most) {
             Some(function) => written.push(function),
             None => end = Search::Long,
         }
@@ -259,12 +265,23 @@ fn complete(
     (casimirs, end)
 }
 
-/// A rational function or its reciprocal, whichever is defined at the initial state.
-fn defined(casimir: casimirs::Casimir, initial: Option<&[Rational]>) -> Option<casimirs::Casimir> {
+/// A rational function of so many coordinates or its reciprocal, whichever is defined at the initial state for these parameters.
+fn defined(
+    casimir: casimirs::Casimir,
+    dimension: usize,
+    initial: Option<&[Rational]>,
+    parameters: &[Rational],
+) -> Option<casimirs::Casimir> {
     let (casimirs::Casimir::Rational(factors), Some(initial)) = (&casimir, initial) else {
         return Some(casimir);
     };
-    let value = |v: usize| initial.get(v).cloned().unwrap_or(Rational::ZERO);
+    let value = |v: usize| {
+        let value = match v.checked_sub(dimension) {
+            Some(p) => parameters.get(p),
+            None => initial.get(v),
+        };
+        value.cloned().unwrap_or(Rational::ZERO)
+    };
     let zero = |(function, _): &&(Polynomial, i64)| function.evaluate(&value).is_zero();
     let zeros: Vec<i64> = factors
         .iter()

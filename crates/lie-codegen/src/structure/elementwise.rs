@@ -114,6 +114,17 @@ impl Speed {
     }
 }
 
+/// An expression at the declared initial state and parameters; none without one.
+pub(super) fn at_start(model: &Model, graph: &Graph, value: ExprId) -> Option<f64> {
+    let parameters = model.defaults();
+    let initial = model.initial_values(&parameters)?;
+    Some(graph.evaluate(value, &|symbol| match symbol {
+        Symbol::Coordinate(i) => initial[i],
+        Symbol::Parameter(p) => parameters[p],
+        _ => f64::NAN,
+    }))
+}
+
 /// A coordinate away from others, and from zeros of speeds that anybody declares.
 pub(super) fn sample(coordinate: usize) -> Rational {
     let place = coordinate as i64;

@@ -4,10 +4,11 @@
 //! map that keeps all linear Casimirs, and has its order; in x it is neither. Where `a_i = x_i + a` that is
 //! `y_i = log(x_i + a)`, or `log(-x_i - a)` on the other side, which no motion leaves.
 
-use super::elementwise::elementwise;
+use super::elementwise::{at_start, elementwise};
 use crate::model::Model;
 use lie_symbolic::exact::Fraction;
 use lie_symbolic::symbolic::{ExprId, Symbol};
+use std::collections::HashSet;
 
 /// The coordinates, as they would be declared.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -49,11 +50,11 @@ pub enum Refusal {
     Zero(usize),
 }
 
-/// The coordinates of a system, for states on the side of its initial one.
+/// The coordinates of a system, for states on the side of its initial one, under names that nothing has, nor are taken.
 ///
 /// # Errors
 /// Why there are none.
-pub fn straight(model: &Model) -> Result<Straight, Refusal> {
+pub fn straight(model: &Model, taken: &HashSet<String>) -> Result<Straight, Refusal> {
     let others = model.family.is_some() || model.realization.is_some();
     if others || model.is_almost_poisson() {
         return Err(Refusal::Other);
@@ -64,8 +65,7 @@ pub fn straight(model: &Model) -> Result<Straight, Refusal> {
     if form.is_constant() {
         return Err(Refusal::Constant);
     }
-    let parameters = model.defaults();
-    let start = model.initial_values(&parameters);
+    let mut taken = taken.clone();
     let name = |symbol| model.symbol_name(symbol);
     let mut coordinates = Vec::new();
     for (i, speed) in form.speeds.iter().enumerate() {
@@ -81,14 +81,7 @@ pub fn straight(model: &Model) -> Result<Straight, Refusal> {
             continue;
         }
         let along = speed.at(x, &mut graph);
-        let there = start.as_ref().map(|start| {
-            graph.evaluate(along, &|symbol| match symbol {
-                Symbol::Coordinate(i) => start[i],
-                Symbol::Parameter(p) => parameters[p],
-                _ => f64::NAN,
-            })
-        });
-        let negative = match there {
+        let negative = match at_start(model, &graph, along) {
             Some(value) if value == 0.0 || value.is_nan() => return Err(Refusal::Zero(i)),
             Some(value) => value < 0.0,
             None => false,
@@ -99,7 +92,10 @@ pub fn straight(model: &Model) -> Result<Straight, Refusal> {
             format!("log({})", graph.display(inside, &name))
         };
         let initial = given.map(&mut inside);
-        let new = free_name(model, &format!("log_{own}"));
+        let mut new = format!("log_{own}");
+        while model.taken.contains(&new) || !taken.insert(new.clone()) {
+            new.push('_');
+        }
         let shift = added(&display(model, &speed.at_zero().neg()));
         let sign = if negative { "-" } else { "" };
         coordinates.push(Coordinate {
@@ -140,14 +136,6 @@ fn added(term: &str) -> String {
     }
 }
 
-fn free_name(model: &Model, name: &str) -> String {
-    let mut name = name.to_owned();
-    while model.taken.contains(&name) {
-        name.push('_');
-    }
-    name
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -158,14 +146,18 @@ mod tests {
             r#"{{"format": 1, "name": "Bracket", "state": ["x", "y", "z"], "poisson": [{brackets}], "hamiltonian": "x^2",
                 "parameters": {{"a": {{"default": 2, "exact": true}}}}, "initial": {initial}}}"#
         );
-        straight(&compile_spec(&spec).expect("a spec without mistakes"))
+        let taken = HashSet::from(["log_y".to_owned()]);
+        straight(
+            &compile_spec(&spec).expect("a spec without mistakes"),
+            &taken,
+        )
     }
 
     #[test]
     fn logarithms_are_of_the_side_of_the_initial_state() {
         let bracket = r#""{x, y} = 2*(x - a)*y", "{y, z} = a*y""#;
         let found = of(bracket, r#"["1", "a", "3"]"#).expect("coordinates");
-        assert_eq!(found.brackets, ["{log_x, log_y} = 2", "{log_y, z} = a"]);
+        assert_eq!(found.brackets, ["{log_x, log_y_} = 2", "{log_y_, z} = a"]);
         let [x, y, z] = &found.coordinates[..] else {
             panic!("{found:?}");
         };

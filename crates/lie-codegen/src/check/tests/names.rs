@@ -60,6 +60,16 @@ fn name_spaces() {
         &so3(&[("casimirs", r#"["z = x^2 + y^2 + z^2"]"#)]),
         &["duplicate-name at z: the Casimir `z` has the name of a coordinate"],
     );
+    // an abbreviation is recorded under its own name, and nothing else is
+    let recorded = |value: &str| {
+        let observables = format!(r#"{{"r": "{value}"}}"#);
+        so3(&[("let", r#"["r = x*y"]"#), ("observables", &observables)])
+    };
+    model(&recorded("r"));
+    expect(
+        &recorded("2*r"),
+        &["duplicate-name at r: the observable `r` has the name of an abbreviation"],
+    );
 }
 
 #[test]

@@ -1,13 +1,13 @@
 //! Casimirs of brackets that are declared by their entries, where the class of the bracket says what they are.
 
 use super::Sought;
-use crate::model::{Model, PoissonMatrix};
+use crate::model::Model;
 use crate::structure::bracket_class::jacobian;
 use crate::structure::casimirs::solve::{Functions, Sparse, cleared, kernel};
 use crate::structure::casimirs::{Casimir, WORK};
 use crate::structure::completion::Search;
-use crate::structure::elementwise::{Elementwise, elementwise};
-use lie_symbolic::exact::{Budget, Fraction, Monomial, Polynomial, Rational};
+use crate::structure::elementwise::{Elementwise, at_start, elementwise};
+use lie_symbolic::exact::{Budget, Exhausted, Fraction, Monomial, Polynomial, Rational};
 use lie_symbolic::symbolic::{Elementary, ExprId, Graph, Symbol};
 
 /// The largest exponent in a product of powers.
@@ -18,33 +18,29 @@ const MOST: i64 = 60;
 pub(super) fn sought(model: &Model, reason: &'static str, graph: &mut Graph) -> Option<Sought> {
     let matrix = model.own_matrix();
     let matrix = &matrix.filter(|_| !model.is_almost_poisson())?;
+    let moves = |i: &usize| matrix.entries.iter().any(|(a, b, _)| i == a || i == b);
+    let alone = (0..matrix.dimension).filter(|i| !moves(i));
+    let alone: Vec<Casimir> = alone
+        .map(|i| Casimir::Polynomial(Polynomial::variable(i)))
+        .collect();
+    let beside = |end| Sought {
+        found: alone.clone(),
+        functions: Vec::new(),
+        count: model.casimirs_to_find(),
+        dimension: matrix.dimension,
+        end,
+    };
     if let Some(form) = elementwise(model, matrix, graph) {
-        let found = nothing(matrix, 0, Search::Complete);
-        return of_changed_coordinates(model, &form, found, graph);
+        let found = of_changed_coordinates(model, &form, beside(Search::Complete), graph);
+        return Some(found.unwrap_or_else(|_| beside(Search::Spent)));
     }
     if let Some(casimir) = jacobian(model, matrix, graph) {
         return Some(Sought {
             functions: vec![casimir],
-            ..nothing(matrix, 1, Search::Complete)
+            ..beside(Search::Complete)
         });
     }
-    let moves = |i: &usize| matrix.entries.iter().any(|(a, b, _)| i == a || i == b);
-    let alone = (0..matrix.dimension).filter(|i| !moves(i));
-    let found: Vec<Casimir> = alone
-        .map(|i| Casimir::Polynomial(Polynomial::variable(i)))
-        .collect();
-    let sought = nothing(matrix, found.len(), Search::None(reason));
-    (!found.is_empty()).then_some(Sought { found, ..sought })
-}
-
-fn nothing(matrix: &PoissonMatrix, count: usize, end: Search) -> Sought {
-    Sought {
-        found: Vec::new(),
-        functions: Vec::new(),
-        count,
-        dimension: matrix.dimension,
-        end,
-    }
+    (!alone.is_empty()).then(|| beside(Search::None(reason)))
 }
 
 /// Those of `{x_i, x_j} = c_ij a_i(x_i) a_j(x_j)`: `sum_i k_i y_i` with `y_i = int dx_i/a_i` and `c k = 0`. Where all `y_i` are logarithms and the
@@ -54,7 +50,7 @@ fn of_changed_coordinates(
     form: &Elementwise,
     mut sought: Sought,
     graph: &mut Graph,
-) -> Option<Sought> {
+) -> Result<Sought, Exhausted> {
     let n = form.speeds.len();
     let budget = Budget::new(WORK);
     let field = Functions { budget: &budget };
@@ -62,22 +58,18 @@ fn of_changed_coordinates(
         let entries = row.iter().cloned().enumerate();
         entries.filter(|(_, c)| !c.is_zero()).collect()
     });
-    let (vectors, _) = kernel(&field, n, rows).ok()?;
-    sought.count = vectors.len();
-    for vector in vectors {
-        // a coordinate in no bracket
-        if let [(place, _)] = *vector {
-            let coordinate = Polynomial::variable(place);
-            sought.found.push(Casimir::Polynomial(coordinate));
-        } else if let Some(casimir) = powers(form, &vector) {
+    let (vectors, _) = kernel(&field, n, rows)?;
+    // those of one entry are coordinates in no bracket, which are there
+    for vector in vectors.into_iter().filter(|vector| vector.len() > 1) {
+        if let Some(casimir) = powers(form, &vector) {
             sought.found.push(casimir);
-        } else if let Some(casimir) = logarithms(model, form, &vector, graph) {
+        } else if let Some(casimir) = logarithms(model, form, &vector, graph)? {
             sought.functions.push(casimir);
         } else {
             sought.end = Search::Singular;
         }
     }
-    Some(sought)
+    Ok(sought)
 }
 
 /// `prod_i a_i^k_i`, the k made integers; none where they are none, or large.
@@ -112,44 +104,34 @@ fn powers(form: &Elementwise, vector: &Sparse<Fraction>) -> Option<Casimir> {
     Some(Casimir::Polynomial(product))
 }
 
-/// `sum_i k_i y_i` without denominators in the k, with `log a_i` or `log(-a_i)` for a linear `a_i`, whichever has a value at the initial state: no
-/// `a_i` changes its sign. None where one is zero there.
+/// `sum_i k_i y_i` without denominators in the k, with `log(a_i^2)/2` for a linear `a_i`, which has a value on both of its sides. None where one is
+/// zero at the initial state.
 fn logarithms(
     model: &Model,
     form: &Elementwise,
     vector: &Sparse<Fraction>,
     graph: &mut Graph,
-) -> Option<ExprId> {
+) -> Result<Option<ExprId>, Exhausted> {
     let n = form.speeds.len();
     let budget = Budget::new(WORK);
     let marked = vector
         .iter()
         .map(|(i, k)| (Monomial::power(*i, 1), k.clone()));
-    let whole = cleared(&marked.collect::<Vec<_>>(), n, &budget).ok()?;
-    let parameters = model.defaults();
-    let initial = model.initial_values(&parameters);
+    let whole = cleared(&marked.collect::<Vec<_>>(), n, &budget)?;
     let mut terms = Vec::new();
     for (i, _) in vector {
         let x = graph.symbol(Symbol::Coordinate(*i));
         let speed = &form.speeds[*i];
-        let y = if speed.degree() == 0 {
-            x
+        let (y, factor) = if speed.degree() == 0 {
+            (x, Rational::ONE)
         } else {
             let base = speed.at(x, graph);
-            let there = |initial: &Vec<f64>| {
-                graph.evaluate(base, &|symbol| match symbol {
-                    Symbol::Coordinate(i) => initial[i],
-                    Symbol::Parameter(p) => parameters[p],
-                    _ => f64::NAN,
-                })
-            };
-            let sign = match initial.as_ref().map(there) {
-                Some(value) if value < 0.0 => Rational::MINUS_ONE,
-                Some(value) if value.is_nan() || value == 0.0 => return None,
-                _ => Rational::ONE,
-            };
-            let base = graph.scale(base, &sign);
-            graph.call(Elementary::Log, &[base])
+            if at_start(model, graph, base).is_some_and(|value| value == 0.0 || value.is_nan()) {
+                return Ok(None);
+            }
+            let square = graph.pow(base, &Rational::from(2));
+            let half = &Rational::ONE / &Rational::from(2);
+            (graph.call(Elementary::Log, &[square]), half)
         };
         for (monomial, coefficient) in whole.terms() {
             if monomial.powers().any(|(v, _)| v == *i) {
@@ -160,9 +142,9 @@ fn logarithms(
                 });
                 let mut factors: Vec<(ExprId, Rational)> = factors.collect();
                 factors.push((y, Rational::ONE));
-                terms.push((graph.power_product(&factors), coefficient.clone()));
+                terms.push((graph.power_product(&factors), coefficient * &factor));
             }
         }
     }
-    Some(graph.linear(&terms))
+    Ok(Some(graph.linear(&terms)))
 }

@@ -53,7 +53,7 @@ impl Writer<'_> {
                 let mut powers: Vec<(bool, Written)> = Vec::new();
                 for (function, exponent) in factors {
                     let base = self.polynomial(function);
-                    let power = self.power(base, exponent.unsigned_abs());
+                    let power = self.power(base, &Rational::from(exponent.abs()));
                     powers.push((*exponent < 0, power));
                 }
                 powers.sort_by_key(|(below, _)| *below);
@@ -65,7 +65,14 @@ impl Writer<'_> {
     }
 
     /// A function as an expression, if it can be declared.
-    pub fn function(&mut self, id: ExprId) -> Option<(Written, CasimirKind, Option<u32>)> {
+    pub fn function(
+        &mut self,
+        id: ExprId,
+        most: usize,
+    ) -> Option<(Written, CasimirKind, Option<u32>)> {
+        if self.graph.dependencies(&[id]).len() > most {
+            return None;
+        }
         let degree = degree::degree(self.graph, id);
         let kind = match degree {
             Some(_) => CasimirKind::Polynomial,
@@ -79,6 +86,13 @@ impl Writer<'_> {
     fn expression(&mut self, id: ExprId) -> Option<Written> {
         match self.graph.node(id).clone() {
             Node::Number(value) => Some(self.signed(&value)),
+            Node::Pi => {
+                let pi = ExprKind::Name {
+                    name: "pi".to_owned(),
+                    index: None,
+                };
+                Some(self.plain(pi, id))
+            }
             Node::Symbol(Symbol::Coordinate(i)) => Some(self.variable(i)),
             Node::Symbol(Symbol::Parameter(p)) => Some(self.variable(self.dimension + p)),
             Node::Sum { constant, terms } => {
@@ -103,9 +117,9 @@ impl Writer<'_> {
             Node::Product(factors) => {
                 let mut written = Vec::new();
                 for (base, exponent) in factors {
-                    let exponent = exponent.to_integer()?;
                     let base = self.expression(base)?;
-                    written.push((exponent < 0, self.power(base, exponent.unsigned_abs())));
+                    let power = self.power(base, &exponent.abs());
+                    written.push((exponent.is_negative(), power));
                 }
                 written.sort_by_key(|(below, _)| *below);
                 if written.first().is_some_and(|(below, _)| *below) {
@@ -177,17 +191,16 @@ impl Writer<'_> {
         self.plain(name, id)
     }
 
-    fn power(&mut self, base: Written, exponent: u64) -> Written {
-        if exponent == 1 {
+    fn power(&mut self, base: Written, value: &Rational) -> Written {
+        if value.is_one() {
             return base;
         }
-        let value = Rational::from(exponent as i64);
         let exponent = self.number(value.clone());
         let text = ExprKind::Power(Box::new(base.text), Box::new(exponent.text));
         Written {
             text: self.expr(text),
-            normal: self.graph.pow(base.normal, &value),
-            form: self.graph.pow(base.form, &value),
+            normal: self.graph.pow(base.normal, value),
+            form: self.graph.pow(base.form, value),
         }
     }
 
@@ -247,7 +260,8 @@ impl Writer<'_> {
             }
             for (variable, exponent) in monomial.powers() {
                 let base = self.variable(variable);
-                factors.push((false, self.power(base, u64::from(exponent))));
+                let exponent = Rational::from(i64::from(exponent));
+                factors.push((false, self.power(base, &exponent)));
             }
             let term = match factors.len() {
                 1 => factors.remove(0).1,
