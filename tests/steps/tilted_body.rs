@@ -58,7 +58,7 @@ fn steps_in_tilted_axes_are_tilted_steps() {
     let (upright, tilted) = (Upright::new().system(), Tilted::new().system());
     let (upright, tilted) = (upright.expect("constants"), tilted.expect("constants"));
     let start = [0.4, 0.9, -0.3];
-    for h in [0.1, 0.5, 1.2] {
+    for h in [0.1, 0.3, 0.5] {
         let (end, _) = after(&upright, &MoserVeselov, start, (h, 200));
         let (other, change) = after(&tilted, &MoserVeselov, turned(start), (h, 200));
         let off = |end: [f64; 3]| {

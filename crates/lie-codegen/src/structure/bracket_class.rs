@@ -149,7 +149,7 @@ pub(super) fn jacobian(model: &Model, matrix: &PoissonMatrix, graph: &mut Graph)
     let mut differences = Vec::new();
     for term in additive::terms(graph, radial)? {
         let degree = degree(graph, term)?;
-        casimir.push(graph.scale(term, &Rational::new(1, i64::from(degree))?));
+        casimir.push(graph.scale(term, &degree.recip()?));
     }
     let casimir = graph.sum(&casimir);
     for (i, w) in w.iter().enumerate() {
@@ -160,8 +160,8 @@ pub(super) fn jacobian(model: &Model, matrix: &PoissonMatrix, graph: &mut Graph)
     vanish(model, graph, &w, &differences, &budget).then_some(casimir)
 }
 
-/// The degree of a monomial in the coordinates.
-fn degree(graph: &mut Graph, term: ExprId) -> Option<u32> {
+/// The degree of a monomial in the coordinates, whose exponents may be fractions.
+fn degree(graph: &mut Graph, term: ExprId) -> Option<Rational> {
     let mut sum = Vec::new();
     for i in graph.coordinates(term) {
         let slope = graph.derivative(term, Symbol::Coordinate(i));
@@ -170,8 +170,8 @@ fn degree(graph: &mut Graph, term: ExprId) -> Option<u32> {
     }
     let sum = graph.sum(&sum);
     let ratio = graph.div(sum, term);
-    let ratio = graph.as_number(ratio)?.to_integer()?;
-    u32::try_from(ratio).ok().filter(|degree| *degree > 0)
+    let degree = graph.as_number(ratio)?.clone();
+    (!degree.is_zero() && !degree.is_negative()).then_some(degree)
 }
 
 #[cfg(test)]

@@ -66,7 +66,7 @@ fn methods_must_apply() {
         r#"["midpoint", "lie-midpoint", "gauss4"]"#,
     )]));
     expect(
-        &so3(&[("methods", r#"["midpont", "moser-veselov"]"#)]),
-        &["method at midpont", "method at moser-veselov"],
+        &so3(&[("methods", r#"["midpont", "euler-arnold2"]"#)]),
+        &["method at midpont", "method at euler-arnold2"],
     );
 }
