@@ -104,7 +104,7 @@ pub fn verify<P: Lift<f64>, E>(
         next("strong order")?;
         findings.push(noise.strong_order(system, method));
         next("weak order")?;
-        findings.push(noise.weak_order(system, method));
+        findings.push(noise.weak_order(system, method, None));
         next("means")?;
         findings.extend(noise.means(system, method));
     }

@@ -100,12 +100,20 @@ impl<V: State<f64>> Noise<V> {
         strong::finding(system, self, method)
     }
 
-    /// That of means of functions of the state.
-    pub(super) fn weak_order<P>(&self, system: &P, method: &dyn AnyMethod<f64, P>) -> Finding
+    /// The order of means of functions of the state (the weak order): the slope of what halving the step changes in the means of the
+    /// coordinates, their squares or products, and H, over so many paths for each of four steps, four million at most; 2,000 without a number, fewer where there are more
+    /// than three coordinates. A path, the one of opposite sign and both with increments that change places in pairs are one sample
+    /// (M. B. Giles, L. Szpruch, 2014, doi:10.1214/13-AAP957), and the error of the slope is from twenty batches of samples.
+    pub fn weak_order<P>(
+        &self,
+        system: &P,
+        method: &dyn AnyMethod<f64, P>,
+        paths: Option<usize>,
+    ) -> Finding
     where
         P: Lift<f64> + Poisson<f64, State = V>,
     {
-        weak::finding(system, self, method)
+        weak::finding(system, self, method, paths)
     }
 
     /// The means of long runs, where a temperature is declared.

@@ -17,18 +17,25 @@ pub(super) struct Level {
 }
 
 impl Level {
-    /// Of samples in their order; as many as there are batches, or a multiple.
-    pub(super) fn new(h: f64, samples: &[Vec<f64>]) -> Self {
-        let size = samples.len() / BATCHES;
-        let mean = |batch: &[Vec<f64>]| {
-            let quantities = 0..batch[0].len();
-            let of = |k: usize| batch.iter().map(|x| x[k]).sum::<f64>() / size as f64;
-            quantities.map(of).collect()
+    /// Of so many samples, each by its number; as many as there are batches, or a multiple. None where a sample is none.
+    pub(super) fn of(
+        h: f64,
+        samples: usize,
+        mut sample: impl FnMut(usize) -> Option<Vec<f64>>,
+    ) -> Option<Self> {
+        let size = samples / BATCHES;
+        let mut mean = |batch: usize| {
+            let mut sums: Vec<f64> = Vec::new();
+            for number in batch * size..(batch + 1) * size {
+                let values = sample(number)?;
+                sums.resize(values.len(), 0.0);
+                sums.iter_mut().zip(values).for_each(|(sum, x)| *sum += x);
+            }
+            sums.iter_mut().for_each(|sum| *sum /= size as f64);
+            Some(sums)
         };
-        Self {
-            h,
-            batches: samples.chunks_exact(size).map(mean).collect(),
-        }
+        let batches = (0..BATCHES).map(&mut mean).collect::<Option<_>>()?;
+        Some(Self { h, batches })
     }
 
     /// The mean of a quantity.
@@ -127,8 +134,8 @@ mod tests {
         let mut random = Random::new(3);
         let steps = [0.1, 0.05, 0.025, 0.0125];
         let mut level = |h: f64| {
-            let mut sample = |_| vec![3.0 * h.powf(order) + scatter * h.sqrt() * random.unit()];
-            Level::new(h, &(0..400).map(&mut sample).collect::<Vec<_>>())
+            let mut error = || 3.0 * h.powf(order) + scatter * h.sqrt() * random.unit();
+            Level::of(h, 400, |_| Some(vec![error()])).expect("all samples")
         };
         steps.into_iter().map(&mut level).collect()
     }

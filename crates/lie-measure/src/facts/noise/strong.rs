@@ -53,7 +53,8 @@ pub(super) fn finding<P: Lift<f64>>(
     let paths = noise.samples(PATHS);
     let mut levels = Vec::new();
     for level in 0..LEVELS {
-        let square = |(path, exact): &(Increments, P::State)| {
+        let square = |number: usize| {
+            let (path, exact) = noise.exact.get(number)?;
             let path = path.in_steps(steps(level));
             let start = (&noise.start, noise.span);
             let end = end(system, method, noise.places, start, &path)?;
@@ -64,11 +65,7 @@ pub(super) fn finding<P: Lift<f64>>(
         };
         let h = noise.span / steps(level) as f64;
         // large steps that fail say nothing of the order
-        if noise.exact.len() == paths
-            && let Some(squares) = noise.exact.iter().map(square).collect::<Option<Vec<_>>>()
-        {
-            levels.push(Level::new(h, &squares));
-        }
+        levels.extend(Level::of(h, paths, square));
     }
     let size = noise.places.size(noise.start.as_slice());
     let roots = |means: &[Vec<f64>]| means.iter().map(|mean| mean[0].sqrt()).collect::<Vec<_>>();

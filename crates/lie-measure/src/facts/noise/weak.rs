@@ -1,14 +1,16 @@
 //! The order of means: by how much the mean of functions of the state changes when steps are halved.
 
 use super::paths::{Increments, end};
-use super::slope::{Level, slope};
-use super::{FEWEST, Finding, Noise, judged};
+use super::slope::{BATCHES, Level, slope};
+use super::{FEWEST, FEWEST_SAMPLES, Finding, Noise, judged};
 use lie_runtime::diagnostics::AnyMethod;
 use lie_runtime::poisson::{Lift, Poisson};
 use lie_runtime::state::State;
 
 /// The samples of a batch of a level: means over a path, the one of opposite sign, and both with steps that change places.
 const SAMPLES: usize = 25;
+/// The paths of a sample.
+const PATHS: usize = 4;
 /// Levels, each with steps of half the size.
 const LEVELS: u32 = 4;
 /// The most coordinates of which products are looked at.
@@ -40,8 +42,11 @@ pub(super) fn finding<P: Lift<f64>>(
     system: &P,
     noise: &Noise<P::State>,
     method: &dyn AnyMethod<f64, P>,
+    paths: Option<usize>,
 ) -> Finding {
-    let samples = noise.samples(SAMPLES);
+    let of_batch = |paths: usize| BATCHES * paths.div_ceil(PATHS * BATCHES).max(FEWEST_SAMPLES);
+    let samples = paths.map_or_else(|| noise.samples(SAMPLES), of_batch);
+    let samples = samples.min(FIRST as usize / BATCHES * BATCHES);
     let mut levels = Vec::new();
     for level in 0..LEVELS {
         let steps = FEWEST << level;
@@ -62,14 +67,12 @@ pub(super) fn finding<P: Lift<f64>>(
                 sum.resize(coarse.len(), 0.0);
                 let changes = coarse.iter().zip(&fine);
                 for (sum, (coarse, fine)) in sum.iter_mut().zip(changes) {
-                    *sum += 0.25 * (coarse - fine);
+                    *sum += (coarse - fine) / PATHS as f64;
                 }
             }
             Some(sum)
         };
-        if let Some(changes) = (0..samples).map(change).collect::<Option<Vec<_>>>() {
-            levels.push(Level::new(h, &changes));
-        }
+        levels.extend(Level::of(h, samples, change));
     }
     judged(
         "weak order",
