@@ -1,6 +1,7 @@
 //! The flow of a Poisson matrix against a direction that is held.
 
 mod motion;
+mod reached;
 mod tangent;
 
 use super::kernels::multiply;
@@ -10,6 +11,7 @@ use crate::poisson::Poisson;
 use crate::scalar::{Mask as _, Scalar};
 use crate::state::State;
 pub(super) use motion::jacobian_cost;
+use reached::{LAST, RESOLVED, Reached};
 use tangent::Tangent;
 
 /// Nodes of Gauss collocation, of order 16.
@@ -20,12 +22,6 @@ const MOST_SWEEPS: usize = 40;
 const MOST_PARTS: f64 = 64.0;
 /// Nodes are found where a sweep changes none by more than so many units of round-off of the state.
 const CLOSE: f64 = 2.0;
-/// Coefficients 6 and 7 of the slopes in Legendre polynomials, beside the state, up to which the end has all its digits: coefficients fall by
-/// a factor r from one to the next, and the error at the end is as large as coefficient 16, `r^16 <= 2^-57`. Slopes that are even about the
-/// middle of the way have no odd coefficients, and odd ones no even ones.
-const RESOLVED: [f64; LAST] = [1.0 / (1u64 << 21) as f64, 1.0 / (1u64 << 25) as f64];
-/// So many coefficients are looked at.
-const LAST: usize = 2;
 /// Nodes that were approached are a start where the last sweep changed none by more than so much beside the state.
 const NEAR: f64 = 1e-6;
 
@@ -66,14 +62,6 @@ pub struct FrozenFlow<S: Scalar, V, M> {
     matrix: M,
     turned: M,
     tangent: Tangent<V, M>,
-}
-
-/// What is known of a part of the way at its end.
-struct Reached<S> {
-    /// The largest of the last coefficients of its slopes, over what its digits allow.
-    rest: S,
-    /// The size of the states, above which `rest` resolves nothing.
-    size: S,
 }
 
 impl<S: Scalar, V: State<S>, M: SquareMatrix<S>> FrozenFlow<S, V, M> {
@@ -176,33 +164,6 @@ impl<S: Scalar, V: State<S>, M: SquareMatrix<S>> FrozenFlow<S, V, M> {
         self.warm = S::Mask::splat(true);
         let Reached { rest, size } = self.reach(system);
         found & rest.less_equal(size)
-    }
-
-    /// Leaves where a part comes to.
-    fn reach<P>(&mut self, system: &P) -> Reached<S>
-    where
-        P: Poisson<S, State = V, Jacobian = M>,
-    {
-        let mut rest = S::zero();
-        for (bound, weights) in RESOLVED.iter().zip(&self.last) {
-            self.slot.fill(S::zero());
-            for (&weight, increment) in weights.iter().zip(&self.increments) {
-                self.slot.axpy(weight, increment);
-            }
-            let coefficient = system.norm(&self.slot) / S::from_f64(*bound);
-            rest = S::largest_magnitude(&[rest, coefficient]);
-        }
-        // the sum is rounded at its own size, and once at that of the state
-        self.reached.fill(S::zero());
-        for increment in &self.increments {
-            self.reached.axpy(S::one(), increment);
-        }
-        self.reached.axpy(S::one(), &self.start);
-        let ends = [system.norm(&self.start), system.norm(&self.reached)];
-        Reached {
-            rest,
-            size: S::largest_magnitude(&ends),
-        }
     }
 
     /// Sets the increments of all nodes by the field at the start, but for lanes that know theirs.
