@@ -122,6 +122,22 @@ impl Inputs {
     }
 }
 
+/// Writes a file that is not there yet.
+///
+/// # Errors
+/// `io` where it is, or cannot be written.
+pub fn write_new(path: &Path, text: &str) -> Result<(), Failure> {
+    let written = File::create_new(path).and_then(|mut file| file.write_all(text.as_bytes()));
+    written.map_err(|error| {
+        let text = format!("{} cannot be written: {error}", path.display());
+        let help = match error.kind() {
+            io::ErrorKind::AlreadyExists => "choose another name, or remove the file first",
+            _ => "choose a folder that can be written",
+        };
+        Failure::surroundings(Message::io(path, text).help(help))
+    })
+}
+
 /// A file that does not take anything.
 pub fn unwritable(path: &Path, error: &io::Error) -> Failure {
     let message = Message::io(path, format!("cannot be written: {error}"));

@@ -1,7 +1,5 @@
 //! `lie new`: writes a spec that runs.
 
-use std::fs::OpenOptions;
-use std::io::Write as _;
 use std::path::PathBuf;
 
 use lie_codegen::compile::compile_spec;
@@ -10,7 +8,7 @@ use lie_codegen::structure::directions::Form;
 use lie_in_process::words::counted;
 use lie_syntax::diagnostic::Diagnostic;
 
-use super::{args, print, shell};
+use super::{args, files, print, shell};
 use crate::message::{Failure, Message};
 
 /// Moments of inertia that are all different: without that some motions rest.
@@ -38,19 +36,7 @@ pub fn run(arguments: &args::New) -> Result<u8, Failure> {
     let units = units(&model);
     let text = spec(&name, algebra, &coordinates, &units);
     let path = PathBuf::from(format!("{}.json", arguments.name.trim_end_matches(".json")));
-    let file = OpenOptions::new().write(true).create_new(true).open(&path);
-    let written = file.and_then(|mut file| file.write_all(text.as_bytes()));
-    written.map_err(|error| {
-        let message = Message::io(
-            &path,
-            format!("{} cannot be written: {error}", path.display()),
-        );
-        let help = match error.kind() {
-            std::io::ErrorKind::AlreadyExists => "choose another name, or remove the file first",
-            _ => "choose a folder that can be written",
-        };
-        Failure::surroundings(message.help(help))
-    })?;
+    files::write_new(&path, &text)?;
     let path = path.display().to_string();
     let picture = format!("{}.svg", arguments.name.trim_end_matches(".json"));
     print(&format!(
