@@ -1,7 +1,7 @@
 //! Measures the weak orders of methods on noise over 10^6 paths for each step; writes `lab/docs/weak_orders.md`.
 //!
 //! ```text
-//! cargo run --release -p lab --bin weak_orders            # about an hour of two cores
+//! cargo run --release -p lab --bin weak_orders            # all rows, more than an hour
 //! cargo run --release -p lab --bin weak_orders -- 20000   # over so many paths, to standard output
 //! cargo run --release -p lab --bin weak_orders -- 20000 top   # of rows that say `top` alone
 //! ```
