@@ -313,3 +313,37 @@ fn the_energy_that_is_shown() {
         .map(|mu| (conserved(mu) - drift.initial).abs());
     assert_eq!(drift.max, changes.fold(0.0, f64::max));
 }
+
+/// Changes its mind about the motion with every step.
+struct Wavering {
+    steps: usize,
+    motions: usize,
+}
+
+impl<P: Poisson<f64>> Observer<f64, P> for Wavering {
+    fn follows_motion(&self) -> bool {
+        self.steps.is_multiple_of(2)
+    }
+
+    fn step(&mut self, _: &P, _: Progress, _: &P::State) -> ControlFlow<()> {
+        self.steps += 1;
+        ControlFlow::Continue(())
+    }
+
+    fn motion(&mut self, _: &P, _: &lie_runtime::driver::Motion<'_, P::State>) {
+        self.motions += 1;
+    }
+}
+
+/// What an observer answers before the start holds: no motion of a step is lost.
+#[test]
+fn an_observer_is_asked_once_about_the_motion() {
+    let mut observer = Wavering {
+        steps: 0,
+        motions: 0,
+    };
+    let options = Options::new(0.1).save(Save::Ends);
+    let method = LieMidpoint::cayley();
+    solve_observed(&top((0.0, 1.0)), method, &options, &mut observer).expect("it converges");
+    assert_eq!((observer.steps, observer.motions), (10, 10));
+}
