@@ -37,6 +37,25 @@ lie_poisson! {
     dissipation { rayleigh(matrix = [[1/5, 0, 0], [0, 1/5, 0], [0, 0, 1/5]]); }
 }
 
+lie_poisson! {
+    /// A body whose drag about an axis depends on the momenta about the others, by a factor that changes with the time.
+    system Coupled;
+    algebra = so(3);
+    state x, y, z;
+    inputs { u = 1/3; }
+    hamiltonian = x^2/2 + y^2/4 + z^2/6 + x^4/12 + y/5;
+    forces { x = cos(t) - x/5 + y/7; y = u - x*sin(t)/4 - y/3; z = 1/7 - z/6 + x/9; }
+}
+
+lie_poisson! {
+    /// The energy is a Casimir, and friction mixes two of three coordinates: its rates are 3/5 along x + y, 1/5 along x - y.
+    system Mixed;
+    algebra = so(3);
+    state x, y, z;
+    hamiltonian = (x^2 + y^2 + z^2)/2;
+    dissipation { rayleigh(matrix = [[2/5, 1/5, 0], [1/5, 2/5, 0], [0, 0, 1/5]]); }
+}
+
 const START: [f64; 3] = [0.8, 0.3, -0.5];
 
 /// The state with the coordinates that carry the time, and what is held.
@@ -57,30 +76,21 @@ where
 }
 
 /// The slope of the error of momenta and work.
-fn slope<M: Method<f64, DraggedSystem<f64>> + Copy>(method: M, counts: &[u32]) -> f64 {
-    let run = |count| {
-        let system = Dragged::new().system().expect("a system");
-        end(
-            system,
-            with_time::<7>(&[1.0 / 3.0]).into(),
-            method,
-            count,
-            2.0,
-        )
-    };
-    let system = Dragged::new().system().expect("a system");
-    let exact = end(
-        system,
-        with_time::<7>(&[1.0 / 3.0]).into(),
-        Gauss16,
-        40,
-        2.0,
-    );
+fn slope<P, M>(system: P, method: M, counts: &[u32]) -> f64
+where
+    P: Poisson<f64> + Clone,
+    P::State: From<[f64; 7]>,
+    M: Method<f64, P> + Copy,
+    Gauss16: Method<f64, P>,
+{
+    let start = || with_time::<7>(&[1.0 / 3.0]).into();
+    let run = |count| end(system.clone(), start(), method, count, 2.0);
+    let exact = end(system.clone(), start(), Gauss16, 40, 2.0);
     let points: Vec<(f64, f64)> = counts
         .iter()
         .map(|&count| {
             let pairs = run(count);
-            let pairs = pairs.iter().zip(exact.iter()).take(4);
+            let pairs = pairs.as_slice().iter().zip(exact.as_slice()).take(4);
             let error = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             (2.0 / f64::from(count), error)
         })
@@ -90,15 +100,24 @@ fn slope<M: Method<f64, DraggedSystem<f64>> + Copy>(method: M, counts: &[u32]) -
         .slope
 }
 
-fn check<M: Method<f64, DraggedSystem<f64>> + Facts + Copy>(method: M, counts: &[u32]) {
+fn check<M>(method: M, counts: &[u32])
+where
+    M: Method<f64, DraggedSystem<f64>> + Method<f64, CoupledSystem<f64>> + Facts + Copy,
+{
     const { assert!(M::FORCES) };
-    let found = slope(method, counts);
-    println!("{}: {found:.3}", M::ID);
-    let above = found - f64::from(M::ORDER);
-    assert!((-0.2..0.3).contains(&above), "{} has {found}", M::ID);
+    let dragged = Dragged::new().system().expect("a system");
+    let coupled = Coupled::new().system().expect("a system");
+    for found in [
+        slope(dragged, method, counts),
+        slope(coupled, method, counts),
+    ] {
+        println!("{}: {found:.3}", M::ID);
+        let above = found - f64::from(M::ORDER);
+        assert!((-0.2..0.3).contains(&above), "{} has {found}", M::ID);
+    }
 }
 
-/// Linear drag, pushes of the time and inputs are pieces like others: every splitting has its order, in the work too.
+/// Linear drag, about each axis alone and mixed, pushes of the time and inputs are pieces like others: every splitting has its order, in the work too.
 #[test]
 fn splittings_with_friction_have_their_order() {
     check(Splitting1::new(), &[64, 96, 128, 192]);
@@ -218,22 +237,71 @@ fn work_is_what_friction_takes() {
     assert!(last[3] > 0.3, "something was taken: {}", last[3]);
 }
 
+/// Friction that mixes coordinates takes each of its directions at its own rate, whatever the time: by one part of the series, or by 512.
+#[test]
+fn mixed_friction_is_exact() {
+    let [x, y, z] = START;
+    for (until, bound) in [(0.3, 2e-16), (5.0, 1e-15), (-4.0, 1e-14), (400.0, 1e-13)] {
+        let system = Mixed::new().system().expect("a system");
+        assert!(Poisson::<f64>::force_mixes(&system), "the control");
+        let mut mu = with_time::<6>(&[]).into();
+        let newton = NewtonOptions::default();
+        let method = Splitting1::new();
+        let mut stepper = Method::<f64, _>::stepper(&method, &system, until, &newton);
+        assert!(stepper.step(&mut mu, &mut ()).is_ok());
+        let [fast, slow] = [0.6_f64, 0.2].map(|rate| (-rate * until).exp());
+        let (sum, difference) = ((x + y) * fast / 2.0, (x - y) * slow / 2.0);
+        let exact = [sum + difference, sum - difference, z * slow];
+        for (found, exact) in mu.iter().zip(exact) {
+            let size = exact.abs().max(f64::from(until < 100.0));
+            let error = (found - exact).abs();
+            assert!(
+                error < bound * size.max(START[0]),
+                "{until}: {found} for {exact}"
+            );
+        }
+        let work = system.hamiltonian(&mu) - system.hamiltonian(&with_time::<6>(&[]).into());
+        assert!(work.abs() < bound * 50.0, "{until}: {work:e}");
+    }
+}
+
+/// A time that is too long for the parts of the series ends the step, and the state is as it was.
+#[test]
+fn too_long_a_time_of_mixed_friction_is_refused() {
+    let system = Mixed::new().system().expect("a system");
+    let start = with_time::<6>(&[]);
+    let mut mu = start.into();
+    let newton = NewtonOptions::default();
+    let mut stepper = Method::<f64, _>::stepper(&Splitting1::new(), &system, 1e5, &newton);
+    assert!(stepper.step(&mut mu, &mut ()).is_err());
+    assert_eq!(mu.as_slice(), start);
+}
+
 /// A step of -h undoes a step of h, friction included: its flow exists for negative times.
 #[test]
 fn steps_backwards_undo_steps() {
-    let system = Dragged::new().system().expect("a system");
+    undo(&Dragged::new().system().expect("a system"));
+    undo(&Coupled::new().system().expect("a system"));
+}
+
+fn undo<P>(system: &P)
+where
+    P: Poisson<f64>,
+    P::State: From<[f64; 7]>,
+    Splitting4: Method<f64, P>,
+{
     let start = with_time::<7>(&[1.0 / 3.0]);
-    let mut mu = start.into();
+    let mut mu = P::State::from(start);
     let newton = NewtonOptions::default();
     for h in [0.3, -0.3] {
         let method = Splitting4::new();
-        let mut stepper = Method::<f64, _>::stepper(&method, &system, h, &newton);
+        let mut stepper = Method::<f64, _>::stepper(&method, system, h, &newton);
         assert!(stepper.step(&mut mu, &mut ()).is_ok());
         if h > 0.0 {
-            assert!((mu[0] - start[0]).abs() > 0.05, "the control");
+            assert!((mu.as_slice()[0] - start[0]).abs() > 0.05, "the control");
         }
     }
-    for (found, expected) in mu.iter().zip(start) {
+    for (found, expected) in mu.as_slice().iter().zip(start) {
         assert!((found - expected).abs() < 4e-15, "{found} and {expected}");
     }
 }

@@ -165,6 +165,11 @@ pub trait Poisson<S: Scalar>: Sized {
     fn force(&self, _mu: &Self::State, out: &mut Self::State) {
         out.fill(S::zero());
     }
+    /// Whether the force is linear in the coordinates and that on one of them depends on others: `F = a - K mu` with a matrix K that is not
+    /// diagonal. The flow of such a force takes longer than that of one that acts on each coordinate by itself.
+    fn force_mixes(&self) -> bool {
+        false
+    }
     /// The derivative of the force: `out_ij = dF_i/dmu_j`.
     fn force_slope(&self, _mu: &Self::State, out: &mut Self::Jacobian) {
         *out = self.zero_jacobian();

@@ -6,6 +6,7 @@ use crate::derive::{Kernel, Shape};
 use crate::methods::Choice;
 use crate::model::Model;
 use crate::model::{self, QuantityKind};
+use crate::structure::flows;
 use lie_core::{Clock, EventRule};
 use lie_symbolic::prove::degree::degree;
 use lie_symbolic::symbolic::Symbol;
@@ -27,6 +28,8 @@ pub struct System {
     pub joints: usize,
     /// Whether forces act.
     pub forced: bool,
+    /// Whether forces are linear and mix coordinates.
+    pub force_mixes: bool,
     /// Whether the generator of the motion is not the gradient of H.
     pub damped: bool,
     /// The entropy of a metriplectic term that has a discrete form.
@@ -190,6 +193,7 @@ impl Planner<'_> {
             autonomous: self.is_autonomous(),
             joints,
             forced: self.source.force().is_some(),
+            force_mixes: self.splits() && flows::force_mixes(self.structure),
             damped: self.source.is_damped(),
             entropy: self.entropy(derivatives),
             inputs: model_inputs(self.structure),
@@ -210,6 +214,12 @@ impl Planner<'_> {
             lagrangian,
             discrete: self.functions(&discrete),
         }
+    }
+
+    /// Whether a splitting is among the methods.
+    fn splits(&self) -> bool {
+        let splits = |choice: &Choice| matches!(choice.solved(), Choice::Splitting(..));
+        self.methods.is_empty() || self.methods.iter().any(splits)
     }
 
     fn is_autonomous(&self) -> bool {

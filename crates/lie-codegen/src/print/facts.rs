@@ -19,6 +19,7 @@ impl Printer<'_> {
         let driven = [
             ("is_almost_poisson", plan.almost_poisson),
             ("is_forced", plan.forced),
+            ("force_mixes", plan.force_mixes),
             ("is_damped", plan.damped),
             ("is_metriplectic", plan.entropy.is_some()),
             ("is_autonomous", plan.clock.is_some() && plan.autonomous),

@@ -21,12 +21,17 @@ impl Structure {
     }
 }
 
-/// Why what acts is no piece of a splitting: forces other than `a - k x` on a coordinate x, a double bracket, noise that is not along
+/// Why what acts is no piece of a splitting: forces that are not linear in the coordinates, a double bracket, noise that is not along
 /// constant directions.
 pub fn unsplittable(model: &Model) -> Option<Refusal> {
     let mut parts = Parts::of(model)?;
     let noise = parts.unsteady_noise();
     noise.or_else(|| parts.damping()).or_else(|| parts.force())
+}
+
+/// Whether forces are linear in the coordinates, and that on one of them depends on others.
+pub fn force_mixes(model: &Model) -> bool {
+    model.family.is_none() && Parts::of(model).is_some_and(|mut parts| parts.force_mixes())
 }
 
 /// Why noise has no flow in closed form, or that there is none.
@@ -71,7 +76,7 @@ impl<'a> Parts<'a> {
             || Prover::new(&self.graph, &budget, &self.driving.force, &name).vanishes(value)
     }
 
-    /// A coordinate that is shown neither to be absent nor to be one of some.
+    /// A coordinate, other than one of them, that is not shown to be absent.
     fn depends(&mut self, value: ExprId, but: Option<usize>) -> Option<usize> {
         let moving = (0..self.moving).filter(|place| Some(*place) != but);
         moving.into_iter().find(|place| {
@@ -145,22 +150,27 @@ impl<'a> Parts<'a> {
     fn force(&mut self) -> Option<Refusal> {
         let force = self.quiet(&self.driving.force);
         for (place, value) in force.into_iter().enumerate() {
-            let slope = self.graph.derivative(value, Symbol::Coordinate(place));
-            let other = self.depends(value, Some(place));
-            let Some(on) = other.or_else(|| self.depends(slope, None)) else {
-                continue;
-            };
-            let x = self.coordinate(place);
-            let what = match on == place {
-                true => format!("is not linear in `{x}`"),
-                false => format!("depends on `{}`", self.coordinate(on)),
-            };
-            let message = format!(
-                "forces have a flow in closed form where each is `a - k*x` on its coordinate `x`, and that on `{x}` {what}"
-            );
-            let help = "use `lie-midpoint`, `gauss16` or `taylor`, which take any force";
-            return Some((message, help.into()));
+            for by in 0..self.moving {
+                let slope = self.graph.derivative(value, Symbol::Coordinate(by));
+                if self.depends(slope, None).is_none() {
+                    continue;
+                }
+                let message = format!(
+                    "forces have a flow in closed form where they are linear in the coordinates, and that on `{}` is not linear in `{}`",
+                    self.coordinate(place),
+                    self.coordinate(by)
+                );
+                let help = "use `lie-midpoint`, `gauss16` or `taylor`, which take any force";
+                return Some((message, help.into()));
+            }
         }
         None
+    }
+
+    fn force_mixes(&mut self) -> bool {
+        let force = self.quiet(&self.driving.force);
+        let mut moving = force.into_iter().take(self.moving).enumerate();
+        moving.any(|(place, value)| self.depends(value, Some(place)).is_some())
+            && self.force().is_none()
     }
 }

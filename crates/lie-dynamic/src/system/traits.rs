@@ -153,6 +153,9 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
         by_family!(self.is_forced());
         self.values.compiled.plan.system.forced
     }
+    fn force_mixes(&self) -> bool {
+        self.values.compiled.plan.system.force_mixes
+    }
     fn force(&self, mu: &Vec<S>, out: &mut Vec<S>) {
         match self.values.kernels().driving[0] {
             Some(code) => self.values.call(code, [mu, &[]], out, &mut []),

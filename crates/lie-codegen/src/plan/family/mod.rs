@@ -361,6 +361,7 @@ impl Planner<'_> {
                 clock: None,
                 joints: 0,
                 forced: false,
+                force_mixes: false,
                 damped: false,
                 entropy: None,
                 inputs: family.inputs.iter().map(|input| input.sampling).collect(),
