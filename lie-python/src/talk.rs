@@ -246,7 +246,11 @@ fn refusal(system: &str, what: Obstacle, why: &str) -> String {
             "the reference solution is not confirmed on",
             "take a shorter t",
         ),
-        Obstacle::Request | Obstacle::Option | Obstacle::Milestone | Obstacle::Initial => {
+        Obstacle::Request
+        | Obstacle::Option
+        | Obstacle::Keep
+        | Obstacle::Milestone
+        | Obstacle::Initial => {
             return why.to_owned();
         }
     };

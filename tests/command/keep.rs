@@ -147,6 +147,12 @@ fn the_command_refuses_what_cannot_be_kept() {
             "energy",
             "H depends on the time",
         ),
+        // a quotient, where its denominator vanishes
+        (
+            "tests/data/quotient.json --keep casimirs --initial 1,0,0",
+            "casimirs",
+            "a value at the start is not finite",
+        ),
     ] {
         let run = lie(&format!("run {call} --method rk4 --step 0.1 --until 1"));
         let run = run.error("option", "command line: --keep");

@@ -288,6 +288,9 @@ fn refusal(error: IntegrateError) -> End {
         IntegrateError::Option(error @ OptionError::Milestone(_)) => {
             End::refused(Obstacle::Milestone, error.to_string())
         }
+        IntegrateError::Option(error @ OptionError::Keep(_)) => {
+            End::refused(Obstacle::Keep, error.to_string())
+        }
         IntegrateError::Option(error) => End::refused(Obstacle::Option, error.to_string()),
         IntegrateError::Step(error) => End::Stopped(Stop {
             step: error.step,

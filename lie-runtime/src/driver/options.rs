@@ -166,7 +166,7 @@ pub enum OptionError {
         end: f64,
     },
     /// What is to be kept cannot be.
-    #[error("the run cannot keep this: {0}")]
+    #[error("what is to be kept cannot be: {0}")]
     Keep(Unkept),
     /// Steps cannot follow the motion.
     #[error("steps of a reversible density are not possible: {0}")]

@@ -37,7 +37,7 @@ use crate::build::talk::{Outcome, fault, talk_here};
 use crate::build::{self, Key};
 use crate::compiler::{self, Spec};
 use crate::interrupt::Interrupt;
-use crate::message::{Failure, Message, STOPPED};
+use crate::message::{Failure, Message, STOPPED, keep_refused, step_refused};
 use crate::render;
 use beside::Beside;
 use gathering::Gathering;
@@ -106,8 +106,10 @@ pub fn run(flags: &args::Ensemble) -> Result<u8, Failure> {
         }
         Outcome::NotTaken(error) => return Err(not_taken(&flags.out, error)),
         Outcome::Refused(Obstacle::Option, why) => {
-            let help = "give another step by `--step`, or another end";
-            return Err(Message::option("--step", why).help(help).into());
+            return Err(step_refused(why).into());
+        }
+        Outcome::Refused(Obstacle::Keep, why) => {
+            return Err(keep_refused(why).into());
         }
         other => return Err(Failure::surroundings(fault(&format!("{other:?}")))),
     }

@@ -29,7 +29,7 @@ use crate::command::files::unwritable;
 use crate::command::fold::folded;
 use crate::compiler::Spec;
 use crate::interrupt::Interrupt;
-use crate::message::{Failure, Message, STOPPED};
+use crate::message::{Failure, Message, STOPPED, keep_refused, step_refused};
 use crate::output::{Destination, Rows, Run};
 use crate::render;
 
@@ -365,6 +365,8 @@ impl Session<'_> {
                 let help = "give a step by `--step`, or another tolerance";
                 Err(Message::option("--tol", why).help(help).into())
             }
+            Outcome::Refused(Obstacle::Option, why) => Err(step_refused(why).into()),
+            Outcome::Refused(Obstacle::Keep, why) => Err(keep_refused(why).into()),
             Outcome::Refused(Obstacle::Milestone, why) => {
                 let path = self.flags.checkpoint.as_deref().unwrap_or(Path::new(""));
                 let help = "begin the run anew with `lie run`";

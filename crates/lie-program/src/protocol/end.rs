@@ -42,6 +42,8 @@ pub enum Obstacle {
     Request,
     /// Step, times, or what else the driver does not take.
     Option,
+    /// What a projection is to keep.
+    Keep,
     /// The milestone from which a run is to be taken up.
     Milestone,
     /// The initial state.
