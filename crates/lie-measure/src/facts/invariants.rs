@@ -70,7 +70,7 @@ fn finding<P: Lift<f64>>(
 }
 
 /// Whether steps stay on symplectic leaves, where these are not orbits of an algebra: the level sets of all Casimirs, where enough of them
-/// are known, and else nothing.
+/// are known; else nothing is measured.
 pub(super) fn leaf<P: Lift<f64>>(
     system: &P,
     ground: &Ground<P>,
@@ -88,8 +88,9 @@ pub(super) fn leaf<P: Lift<f64>>(
     let known = Basis::from_span(&gradients).rank();
     let across = n - Basis::from_span(&rows).rank();
     if known < across {
-        let note = format!("{known} of the {across} Casimirs of a leaf are known");
-        return Finding::zero(fact, true, f64::NAN, 0.0).note(note);
+        // those that are known are measured as Casimirs
+        let note = format!("not measured: {known} of the {across} Casimirs of a leaf are known");
+        return Finding::absent(fact, &note);
     }
     let group = Group {
         fact,
