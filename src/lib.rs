@@ -1,6 +1,17 @@
-//! The library part of the root package: what the `lie` command, the examples and the tests share.
+//! The library part of the root package: what the examples and the tests share, and the `lie` command, which is compiled here while the
+//! crates that it stands on become machine code. A program would wait for that.
+
+mod build;
+mod command;
+mod compiler;
+mod interrupt;
+mod message;
+mod output;
+mod process;
+mod render;
 
 pub use lie_plot as plot;
+pub use process::main;
 
 /// The code of the README.
 #[cfg(doctest)]

@@ -1,7 +1,7 @@
 //! The branches over a range of a parameter, drawn: solid where they are stable, dashed elsewhere.
 
 use lie_equilibria::{Branch, Equations, Point, Stability};
-use lie_poisson::plot::chart::{Axis, Chart, Panel, Series, Stroke};
+use lie_plot::chart::{Axis, Chart, Panel, Series, Stroke};
 
 use super::Range;
 

@@ -9,7 +9,7 @@ use lie_in_process::stress::{self, Results, cell_text, methods};
 use lie_in_process::table;
 use lie_in_process::words::{counted, short};
 use lie_measure::stress::{Cell, Experiment, Growth, Moved, Options, Outcome};
-use lie_poisson::plot::map::{self, Cell as Square, Column, Map};
+use lie_plot::map::{self, Cell as Square, Column, Map};
 use lie_syntax::diagnostic::Kind;
 
 use super::{Bed, Ended, bed, files, interrupted};

@@ -1,8 +1,8 @@
 //! The coadjoint orbit with a trajectory on it as lines in space, which a page turns.
 
 use lie_dynamic::Dynamic;
-use lie_poisson::plot::contours::contours;
-use lie_poisson::plot::surface::Point;
+use lie_plot::contours::contours;
+use lie_plot::surface::Point;
 use serde_json::{Value, json};
 
 use crate::command::run::picture::{casimir, energy};

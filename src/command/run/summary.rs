@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use lie_in_process::checkpoint::KeptDrift;
 use lie_in_process::words::counted;
-use lie_poisson::plot::reference;
+use lie_plot::reference;
 use lie_program::protocol::Work;
 use lie_runtime::diagnostics::InvariantDrift;
 

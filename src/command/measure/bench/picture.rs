@@ -4,7 +4,7 @@ use super::by_method;
 use crate::command::measure::{Bed, sense};
 use lie_codegen::methods::Choice;
 use lie_measure::bench::{Options, Point, Reference};
-use lie_poisson::plot::frontier::{Curve, Frontier};
+use lie_plot::frontier::{Curve, Frontier};
 
 /// The name of a method without its order and options; the base of a composition belongs to it.
 fn family(label: &str) -> String {

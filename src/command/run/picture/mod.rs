@@ -10,11 +10,11 @@ mod tip;
 
 use lie_dynamic::Dynamic;
 use lie_in_process::request::{Plan, Several};
-use lie_poisson::plot::compare::Compare;
-use lie_poisson::plot::phase::Phase;
-use lie_poisson::plot::surface::{Field, Point};
-use lie_poisson::plot::view::{OnSurface, View};
-use lie_poisson::plot::{Plot, are_dots};
+use lie_plot::compare::Compare;
+use lie_plot::phase::Phase;
+use lie_plot::surface::{Field, Point};
+use lie_plot::view::{OnSurface, View};
+use lie_plot::{Plot, are_dots};
 use lie_program::protocol::{Event, Start};
 use lie_runtime::Poisson as _;
 use lie_runtime::driver::{Chart, Pace};

@@ -1,6 +1,6 @@
 //! Where the third axis of the group element points to.
 
-use lie_poisson::plot::surface::Point;
+use lie_plot::surface::Point;
 use lie_runtime::driver::Chart;
 
 /// The third column of a rotation by its entries in a chart.
