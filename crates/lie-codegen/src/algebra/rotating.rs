@@ -16,11 +16,6 @@ pub fn are_orthogonal(size: usize, matrices: &[Matrix]) -> bool {
     matrices.iter().all(|matrix| is_antisymmetric(matrix, size))
 }
 
-/// Whether matrices are antisymmetric of size 3: their group is that of rotations.
-pub fn are_rotations(size: usize, matrices: &[Matrix]) -> bool {
-    size == 3 && are_orthogonal(size, matrices)
-}
-
 /// Whether the entries in these rows and columns are zero in all matrices.
 pub fn are_zero(matrices: &[Matrix], rows: Range<usize>, columns: Range<usize>) -> bool {
     matrices.iter().all(|matrix| {

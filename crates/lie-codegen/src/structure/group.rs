@@ -21,11 +21,6 @@ pub struct Group {
 }
 
 impl Group {
-    /// Whether the matrices are antisymmetric of size 3: the group is that of rotations.
-    pub fn is_rotations(&self) -> bool {
-        rotating::are_rotations(self.size, &self.matrices)
-    }
-
     /// Whether the leading block of three rows and columns of every group element is a rotation, and not of all of them the
     /// identity.
     pub fn turns_space(&self) -> bool {
@@ -88,9 +83,9 @@ pub fn refusal(structure: &Structure, chart: Chart) -> Option<(String, String)> 
         Chart::Euler(_) => "Euler angles",
     };
     let reason = format!(
-        "{what} are for matrices of rotations in three dimensions, antisymmetric of size 3"
+        "{what} are for groups that turn space: rotations in three dimensions are the first rows and columns of their matrices"
     );
-    (!group.is_rotations()).then(|| (reason, "write `matrix`".into()))
+    (!group.turns_space()).then(|| (reason, "write `matrix`".into()))
 }
 
 #[cfg(test)]
