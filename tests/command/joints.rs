@@ -50,6 +50,100 @@ fn a_tolerance_without_a_method_is_met_across_joints() {
     assert!(error("--method gauss16").0 > 1e-7);
 }
 
+/// A field that turns round takes the motion back the way that it came: a state that was there before is not the state before.
+#[test]
+fn a_motion_that_comes_back_is_not_where_it_was() {
+    let folder = folder();
+    let path = spec(folder.path(), |spec| {
+        *spec = serde_json::json!({
+            "name": "Flip",
+            "algebra": "so(3)",
+            "state": ["x", "y", "z"],
+            "hamiltonian": "-z*piecewise(t < 5: 1, -1)",
+            "initial": ["3/5", 0, "4/5"]
+        });
+    });
+    let end = [0.6 * 10.0_f64.cos(), -0.6 * 10.0_f64.sin(), 0.8];
+    for options in [
+        "--tol 1e-10",
+        "--method taylor --step 0.5",
+        "--method taylor --step 1",
+        "--method lie-taylor --step 0.5",
+        "--method lie-taylor --step 1",
+        "--method gauss16 --step 0.5",
+    ] {
+        let run = lie(&format!("run {} {options} --at 20", path.display())).ok();
+        let row = run.csv().1[0].clone();
+        for (found, expected) in row[1..4].iter().zip(end) {
+            let error = (found - expected).abs();
+            assert!(error < 1e-9, "{options}: {row:?}");
+        }
+    }
+}
+
+/// At a known time steps of every method end, so that the usual one is picked; what H jumps there is work.
+#[test]
+fn a_jump_at_a_known_time_is_work() {
+    let folder = folder();
+    let path = spec(folder.path(), |spec| {
+        *spec = serde_json::json!({
+            "name": "Flip",
+            "algebra": "so(3)",
+            "state": ["x", "y", "z"],
+            "hamiltonian": "-z*piecewise(t < 5: 1, -1) + x/5",
+            "dissipation": [{ "kind": "double-bracket", "strength": "1/4" }],
+            "initial": ["3/5", 0, "4/5"]
+        });
+    });
+    for options in ["", "--method taylor", "--method lie-midpoint"] {
+        let run = lie(&format!(
+            "run {} --tol 1e-9 --at 0,4,5,6,12 {options}",
+            path.display()
+        ))
+        .ok();
+        assert!(
+            !options.is_empty() || run.stderr.contains("gauss16 was picked"),
+            "{}",
+            run.stderr
+        );
+        let (names, rows) = run.csv();
+        let place = |name: &str| names.iter().position(|column| column == name).expect(name);
+        let [energy, work] = ["energy", "work"].map(place);
+        for row in &rows {
+            let balance = row[energy] - rows[0][energy] - row[work];
+            assert!(balance.abs() < 1e-7, "{options}: {balance:e} at {}", row[0]);
+        }
+        // the control: it jumps by twice the field
+        assert!(rows[3][work] - rows[1][work] > 1.0, "{options}: {rows:?}");
+    }
+}
+
+/// A table of the time that ends where the run does has no values behind that, and no step is tried there.
+#[test]
+fn a_table_may_end_with_the_run() {
+    let folder = folder();
+    let path = spec(folder.path(), |spec| {
+        *spec = serde_json::json!({
+            "name": "Tank",
+            "algebra": "so(3)",
+            "state": ["x", "y", "z"],
+            "functions": { "mass": { "table": [[0, 5], [10, 4], [20, 2], [40, 1]], "degree": 3 } },
+            "let": ["I1 = 1 + mass(t)/5", "I2 = 2 + mass(t)/2", "I3 = 3 + mass(t)/3"],
+            "hamiltonian": "x^2/(2*I1) + y^2/(2*I2) + z^2/(2*I3)",
+            "initial": [1, "1/5", "3/10"]
+        });
+    });
+    for until in ["40", "39.99", "39", "20"] {
+        let run = lie(&format!(
+            "run {} --tol 1e-8 --until {until}",
+            path.display()
+        ))
+        .ok();
+        let rows = run.csv().1.len();
+        assert!((4..200).contains(&rows), "{until}: {rows} {}", run.stderr);
+    }
+}
+
 #[test]
 fn runs_by_series_are_right_across_joints() {
     let folder = folder();

@@ -9,6 +9,7 @@ use super::problem::set_time;
 use super::solve::IntegrateError;
 use crate::poisson::Poisson;
 use crate::scalar::{Scalar, largest};
+use crate::state::State as _;
 
 /// A piece ends so many units of round-off before a joint, and the next one begins as many behind it: which branch holds
 /// at the joint itself does not matter.
@@ -131,7 +132,7 @@ impl<S: Scalar, P: Poisson<S>> Course<'_, S, P> {
                 .max(1.0);
             let size = (to - from) / parts;
             let mut stepper = self.method.stepper(system, S::from_f64(size), &self.newton);
-            set_time(system, mu, from);
+            cross(system, mu, from);
             for done in 1..=parts as u32 {
                 let report = match stepper.step(mu, &mut self.motion(system, observer)) {
                     Ok(report) => report,
@@ -143,6 +144,16 @@ impl<S: Scalar, P: Poisson<S>> Course<'_, S, P> {
             }
         }
         Ok(())
+    }
+}
+
+/// Sets the time, which may go over a joint: by what H jumps there, the momentum of the time falls, so that the jump is work.
+fn cross<S: Scalar, P: Poisson<S>>(system: &P, mu: &mut P::State, time: f64) {
+    let before = system.energy(mu);
+    set_time(system, mu, time);
+    if let Some(clock) = system.clock() {
+        let jump = system.energy(mu) - before;
+        mu.as_mut_slice()[clock.momentum] -= jump;
     }
 }
 

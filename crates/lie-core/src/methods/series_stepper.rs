@@ -120,6 +120,20 @@ impl<S: Scalar, D: Development<S>> SeriesStepper<S, D> {
     }
 }
 
+impl<S: Scalar, D: Development<S>> SeriesStepper<S, D> {
+    /// The lanes in which a state is the one that was left. A motion may come back to the same state at another time, where another field
+    /// acts: so the time, which a driver sets to the grid, is compared too, to a small part of a step.
+    fn follows(&self, mu: &D::State) -> S::Mask {
+        let clock = self.development.clock();
+        let same = equal_lanes(clock, &self.current, mu);
+        clock.map_or(same, |clock| {
+            let [left, now] = [&self.current, mu].map(|state| state.as_slice()[clock.time]);
+            let near = self.length * S::from_f64(SLIVER);
+            same & (now - left).abs().less_equal(near)
+        })
+    }
+}
+
 /// How far a step of the grid has come.
 struct Way<S: Scalar> {
     /// What is behind, of the length of the step.
@@ -228,7 +242,7 @@ impl<S: Scalar, D: Development<S>> Stepper<S> for SeriesStepper<S, D> {
         mu: &mut D::State,
         sink: &mut K,
     ) -> Result<StepReport, StepFailure> {
-        let follows = equal_lanes(self.development.clock(), &self.current, mu);
+        let follows = self.follows(mu);
         self.reach = S::select(follows, self.reach, S::zero());
         self.joint = self.joint & follows;
         self.current.copy_from(mu);

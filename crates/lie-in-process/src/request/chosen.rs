@@ -29,14 +29,16 @@ impl Planner<'_> {
         given.is_some_and(|tolerance| tolerance >= LOOSE)
     }
 
-    /// Whether H or a force has branches that meet, and a method's steps can end there.
+    /// Whether H or a force has branches that meet where the motion takes it, and a method's steps can end there. At times that are known
+    /// beforehand steps of every method end.
     fn has_joints(&self) -> bool {
         let model = &self.spec.model;
         let noisy = model
             .driving
             .as_ref()
             .is_some_and(|driving| driving.noises > 0);
-        !model.joints.is_empty() && !noisy && method::applies(OF_JOINTS.1, model).is_ok()
+        let met = model.joints.iter().any(|joint| !joint.is_known);
+        met && !noisy && method::applies(OF_JOINTS.1, model).is_ok()
     }
 
     /// The method as it is given, or the usual one.
