@@ -128,10 +128,12 @@ fn pairs(spec: &Spec, spectrum: &Spectrum) -> String {
     if spec.model.is_almost_poisson() {
         return "the bracket that the constraint leaves is almost Poisson: exponents need not come in pairs\n".to_owned();
     }
-    if leaf < spec.model.generic_rank {
+    // the time and its momentum are a pair that has no exponents
+    let clock = spec.model.configuration.as_ref().and_then(|c| c.clock());
+    let rank = spec.model.generic_rank - if clock.is_some() { 2 } else { 0 };
+    if leaf < rank {
         return format!(
-            "the start is on a singular leaf, of {leaf} dimensions for {}: exponents across it need not vanish\n",
-            spec.model.generic_rank
+            "the start is on a singular leaf, of {leaf} dimensions for {rank}: exponents across it need not vanish\n",
         );
     }
     let mut text = String::new();

@@ -227,8 +227,52 @@ fn the_time_is_no_coordinate() {
         (values[0] - known).abs() < 1e-7 && (values[1] + known).abs() < 1e-7,
         "{known} {all:#}"
     );
+    let options = format!("--method gauss6 --step {step:.17} --until 60");
+    let said = lie(&format!("exponents {} {options}", path.display()))
+        .ok()
+        .stdout;
+    assert!(
+        said.contains("1 pair on the leaf of 2 dimensions"),
+        "{said}"
+    );
     // the control: a time that stood still would have the exponent of 7/12, none
     assert!(number(&at(0, 20)["exponents"][0]) > 0.5 * known);
+}
+
+/// Vectors that are made orthonormal behind every step are others than those that the step before has left: no memory of a method, of series
+/// or of stages, goes on from these, also where the time is carried. The sum of all is the divergence, which friction makes known.
+#[test]
+fn every_method_sees_the_vectors_that_are_made_orthonormal() {
+    let folder = folder();
+    let pendulum = json!({
+        "format": 1, "name": "Damped", "poisson": ["{q, p} = 1"], "state": ["q", "p"],
+        "hamiltonian": "p^2/2 - cos(q)", "forces": { "p": "-p/10 + cos(2*t)/3" }, "initial": ["1/2", 0],
+    });
+    let path = written(folder.path(), "damped.json", &pendulum);
+    let of = |method: &str| {
+        let options = format!("--method {method} --step 0.1 --until 400");
+        numbers(&found(&path, &options)["exponents"])
+    };
+    let expected = of("gauss4");
+    for method in [
+        "midpoint",
+        "gauss8",
+        "gauss12",
+        "gauss16",
+        "cohen-hairer8",
+        "cohen-hairer16",
+        "taylor",
+        "dopri5",
+        "rk4",
+    ] {
+        let values = of(method);
+        let sum: f64 = values.iter().sum();
+        assert!((sum + 0.1).abs() < 1e-3, "{method}: {values:?}");
+        assert!(
+            (values[0] - expected[0]).abs() < 1e-2,
+            "{method}: {values:?}, {expected:?}"
+        );
+    }
 }
 
 #[test]

@@ -221,6 +221,10 @@ pub(super) fn equal_lanes<S: Scalar, V: State<S>>(
     for (i, (&one, &other)) in one.iter().zip(other).enumerate() {
         if !holds(clock, i) {
             equal = equal & one.less_equal(other) & other.less_equal(one);
+            if S::DERIVATIVES > 0 {
+                // a tangent that was made another one is another state
+                equal = equal & (one - other).magnitude().less_equal(S::zero());
+            }
         }
     }
     equal
