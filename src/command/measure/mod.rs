@@ -9,6 +9,7 @@ pub mod stress;
 pub mod verify;
 
 use lie_codegen::methods::Choice;
+use lie_codegen::model::Driving;
 use lie_codegen::program::{Purpose, program};
 use lie_in_process::Question;
 use lie_in_process::families::Limit;
@@ -18,6 +19,7 @@ use lie_syntax::diagnostic::Kind;
 use serde::Serialize;
 
 use super::args::Measured;
+use super::fold::folded;
 use super::run::bar::Bar;
 use super::run::impossible;
 use super::run::layout::Layout;
@@ -46,6 +48,15 @@ pub enum Ended {
     Interrupted(u8),
     /// With a refusal: what stands against it, and why.
     Refused(Obstacle, String),
+}
+
+/// Warns where noise acts, which no reference solution has.
+fn noiseless(spec: &Spec) {
+    if spec.model.driving.as_ref().is_some_and(Driving::is_noisy) {
+        let text = "warning: the noise is left out: a path has no solution that others are compared with. What is measured is the motion without \
+                    it, which says nothing of methods on noise; `lie verify` measures their orders";
+        render::say(&folded(text));
+    }
 }
 
 /// Reads and checks what the commands share.
@@ -78,6 +89,9 @@ pub fn bed(
     }
     if !flags.quiet {
         render::print(&spec.warnings());
+    }
+    if purpose != Purpose::Verify {
+        noiseless(&spec);
     }
     Ok(Bed {
         spec,
