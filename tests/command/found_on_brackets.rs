@@ -84,6 +84,52 @@ fn steps_are_poisson_maps_of_their_order() {
     }
 }
 
+/// A function times a Jacobian bracket: its Casimir is found, and the leaves with it. With an exponential as the function it is not, so
+/// that what a method claims of leaves is not measured.
+#[test]
+fn leaves_are_measured_where_their_casimir_is_found() {
+    let folder = folder();
+    let verified = |name: &str, factor: &str| {
+        let spec = json!({
+            "format": 1, "name": name, "state": ["x", "y", "z"],
+            "poisson": [format!("{{x, y}} = ({factor})*z"), format!("{{y, z}} = ({factor})*x"), format!("{{z, x}} = 3*({factor})*y^2")],
+            "hamiltonian": "x^2/2 + y^2/3 + z^2/5 + x*y/7",
+            "initial": ["3/5", "2/5", "7/10"]
+        });
+        let path = written(folder.path(), &spec);
+        let path = path.display();
+        let check = lie(&format!("check {path} --json")).ok();
+        let check: Value = serde_json::from_str(&check.stdout).expect("JSON");
+        let verify = lie(&format!(
+            "verify {path} --methods orbit-energy,rk4 --quiet --json"
+        ));
+        let report: Value = serde_json::from_str(&verify.ok().stdout).expect("JSON");
+        assert_eq!(report["failed"], 0, "{report:#}");
+        let facts = |method: &str| report["methods"][method].clone();
+        (
+            check["bracket_class"].clone(),
+            facts("orbit-energy"),
+            facts("rk4"),
+        )
+    };
+    let (class, facts, control) = verified("Rational", "1 + x*z");
+    assert_eq!(class, "multiple of Jacobian");
+    assert_eq!(facts["orbit"]["verdict"], "holds", "{facts:#}");
+    let drift = |facts: &Value| {
+        facts["other Casimirs"]["measured"]
+            .as_f64()
+            .expect("a number")
+    };
+    assert!(
+        drift(&facts) < 1e-13 && drift(&control) > 1e-10,
+        "{facts:#}"
+    );
+    let (class, facts, _) = verified("Transcendental", "exp(x*z)");
+    assert_eq!(class, Value::Null);
+    let note = facts["orbit"]["note"].as_str().expect("a note");
+    assert!(note.contains("not measured: 0 of the 1 Casimirs"), "{note}");
+}
+
 /// Populations stay positive at a step at which Runge and Kutta leave the domain of H.
 #[test]
 fn flows_of_monomials_keep_signs() {

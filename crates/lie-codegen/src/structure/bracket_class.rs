@@ -1,5 +1,7 @@
 //! What a bracket that is declared by its entries is beyond that, found exactly, and what that brings.
 
+pub(super) mod multiple;
+
 use std::collections::BTreeSet;
 
 use super::elementwise::{elementwise, vanish};
@@ -30,6 +32,8 @@ pub enum Class {
     Jacobian(String),
     /// Every entry is affine: that of a Lie algebra with a cocycle.
     Affine,
+    /// In three dimensions a function times a Jacobian bracket, with the text of its Casimir.
+    Multiple(String),
 }
 
 impl Class {
@@ -42,6 +46,7 @@ impl Class {
             Self::Magnetic(_) => "magnetic",
             Self::Jacobian(_) => "Jacobian",
             Self::Affine => "affine",
+            Self::Multiple(_) => "multiple of Jacobian",
         }
     }
 
@@ -64,6 +69,9 @@ impl Class {
                 names(positions)
             ),
             Self::Jacobian(casimir) => format!("Jacobian, with the Casimir {casimir}"),
+            Self::Multiple(casimir) => {
+                format!("a function times a Jacobian one, with the Casimir {casimir}")
+            }
             Self::Affine => {
                 "affine: declared as an algebra with a cocycle it has every method of the algebra".into()
             }
@@ -97,13 +105,17 @@ pub fn class(model: &Model) -> Option<Class> {
             .is_some_and(|degree| degree <= 1)
             .then_some(Class::Affine)
     };
-    positions
-        .or_else(|| {
-            let casimir = jacobian(model, matrix, &mut graph)?;
-            let name = |symbol| model.symbol_name(symbol);
-            Some(Class::Jacobian(graph.display(casimir, &name)))
-        })
-        .or_else(affine)
+    let name = |symbol| model.symbol_name(symbol);
+    if positions.is_some() {
+        return positions;
+    }
+    if let Some(casimir) = jacobian(model, matrix, &mut graph) {
+        return Some(Class::Jacobian(graph.display(casimir, &name)));
+    }
+    affine().or_else(|| {
+        let casimir = multiple::casimir(model, matrix, &mut graph)?;
+        Some(Class::Multiple(graph.display(casimir, &name)))
+    })
 }
 
 /// The positions, if the bracket is that of a particle in a magnetic field.

@@ -156,7 +156,7 @@ impl<'a> Parts<'a> {
                     continue;
                 }
                 let message = format!(
-                    "forces have a flow in closed form where they are linear in the coordinates, and that on `{}` is not linear in `{}`",
+                    "what acts beside H has an exact flow where it is linear in the coordinates, and on `{}` it is not linear in `{}`",
                     self.coordinate(place),
                     self.coordinate(by)
                 );

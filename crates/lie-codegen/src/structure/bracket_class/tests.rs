@@ -42,15 +42,56 @@ fn each_class_is_found() {
     assert_eq!(of("x y z u", &affine), Class::Affine);
 }
 
+/// Terms of a sum in an order of their own.
+fn sorted(sum: &str) -> Vec<String> {
+    let mut terms: Vec<String> = sum
+        .split(" + ")
+        .map(|term| {
+            let mut factors: Vec<&str> = term.split('*').collect();
+            factors.sort_unstable();
+            factors.join("*")
+        })
+        .collect();
+    terms.sort_unstable();
+    terms
+}
+
+/// The Casimir of a function times a Jacobian bracket is found whatever the function is made of, also where it is a quotient or a logarithm.
 #[test]
-fn near_misses_are_in_no_class() {
-    // conformal to a Jacobian bracket, with a factor that is no constant
-    let conformal = [
+fn a_function_times_a_jacobian_bracket_has_its_casimir() {
+    let of = |brackets: &[&str]| {
+        let found = class_of("x y z", brackets, "x^2");
+        let Some(Class::Multiple(casimir)) = found else {
+            panic!("{brackets:?}: {found:?}");
+        };
+        sorted(&casimir)
+    };
+    let factored = [
         "{x, y} = (1 + x)*z",
         "{y, z} = (1 + x)*x",
         "{z, x} = (1 + x)*y",
     ];
-    assert_eq!(class_of("x y z", &conformal, "x^2"), None);
+    assert_eq!(of(&factored), sorted("x^2/2 + y^2/2 + z^2/2"));
+    let expanded = [
+        "{x, y} = z + x*y*z",
+        "{y, z} = x + x^2*y",
+        "{z, x} = 3*y^2 + 3*x*y^3",
+    ];
+    assert_eq!(of(&expanded), sorted("x^2/2 + y^3 + z^2/2"));
+    let divided = [
+        "{x, y} = 2*z/(1 + x*z)^2",
+        "{y, z} = y/(1 + x*z)^2",
+        "{z, x} = x/(1 + x*z)^2",
+    ];
+    assert_eq!(of(&divided), sorted("y*x + z^2"));
+    let inverse = ["{x, y} = 1/z", "{y, z} = 1/x", "{z, x} = 1/y"];
+    assert_eq!(of(&inverse), sorted("log(x^2)/2 + log(y^2)/2 + log(z^2)/2"));
+    let quotient = ["{y, z} = -y*(1 + z + x*y)", "{z, x} = x*(1 + z + x*y)"];
+    assert_eq!(of(&quotient), sorted("y/x"));
+}
+
+#[test]
+fn near_misses_are_in_no_class() {
     // a function of momenta in the place of the field
     assert_eq!(class_of("x y", &["{x, y} = 1 + x*y"], "x^2"), None);
 }

@@ -3,6 +3,7 @@
 use super::Sought;
 use crate::model::Model;
 use crate::structure::bracket_class::jacobian;
+use crate::structure::bracket_class::multiple::casimir;
 use crate::structure::casimirs::solve::{Functions, Sparse, cleared, kernel};
 use crate::structure::casimirs::{Casimir, WORK};
 use crate::structure::completion::Search;
@@ -34,7 +35,8 @@ pub(super) fn sought(model: &Model, reason: &'static str, graph: &mut Graph) -> 
         let found = of_changed_coordinates(model, &form, beside(Search::Complete), graph);
         return Some(found.unwrap_or_else(|_| beside(Search::Spent)));
     }
-    if let Some(casimir) = jacobian(model, matrix, graph) {
+    let of_three = jacobian(model, matrix, graph).or_else(|| casimir(model, matrix, graph));
+    if let Some(casimir) = of_three {
         return Some(Sought {
             functions: vec![casimir],
             ..beside(Search::Complete)

@@ -1,0 +1,201 @@
+//! Brackets in three dimensions that are a function times a Jacobian one: `{f, g} = r <grad C, grad f x grad g>`.
+//!
+//! With `w = (Pi_23, Pi_31, Pi_12)` the Jacobi identity is `<w, curl w> = 0`, and C is a Casimir where `grad C` is parallel to w. Where
+//! `g = prod_k p_k^e_k` makes `curl (g w) = 0`,
+//!
+//! ```math
+//! \sum_k e_k\, \frac{\operatorname{grad} p_k \times w}{p_k} = -\operatorname{curl} w,
+//! ```
+//!
+//! which is linear in the exponents. The `p_k` are coordinates and what the entries have as factors; the exponents follow from values at
+//! points, C from g w term by term, and what was found is proven.
+
+use crate::model::{Model, PoissonMatrix};
+use crate::structure::elementwise::{at_start, vanish};
+use lie_symbolic::exact::matrix::solve;
+use lie_symbolic::exact::{Budget, Fraction, Polynomial, Rational};
+use lie_symbolic::symbolic::{Elementary, ExprId, Graph, Symbol};
+
+/// Work allowed for one bracket.
+const WORK: u64 = 1_000_000;
+/// The largest exponent.
+const MOST: i64 = 20;
+
+/// The Casimir; none where it is not of this form, or has no value at the initial state.
+pub(in crate::structure) fn casimir(
+    model: &Model,
+    matrix: &PoissonMatrix,
+    graph: &mut Graph,
+) -> Option<ExprId> {
+    if matrix.dimension != 3 {
+        return None;
+    }
+    let budget = Budget::new(WORK);
+    let rows = matrix.rows(graph);
+    let w = [rows[1][2], rows[2][0], rows[0][1]];
+    let space = Space {
+        first: model.parameters.len(),
+    };
+    let entries = space.fractions(graph, &w)?;
+    let curl = [(1, 2), (2, 0), (0, 1)].map(|(i, j)| {
+        let one = graph.derivative(w[j], Symbol::Coordinate(i));
+        let other = graph.derivative(w[i], Symbol::Coordinate(j));
+        graph.sub(one, other)
+    });
+    let curl = space.fractions(graph, &curl)?;
+    let factors = space.factors(&entries);
+    let exponents = space.exponents(&entries, &curl, &factors, &budget)?;
+    let mut integrable = entries.to_vec();
+    for (factor, exponent) in factors.iter().zip(exponents) {
+        let power = Fraction::from(factor.clone());
+        let power = power.pow(exponent, &budget).ok()??;
+        for entry in &mut integrable {
+            *entry = entry.mul(&power, &budget).ok()?;
+        }
+    }
+    let casimir = space.potential(&integrable, graph)?;
+    let slopes: Vec<ExprId> = (0..3)
+        .map(|i| graph.derivative(casimir, Symbol::Coordinate(i)))
+        .collect();
+    let differences = [(1, 2), (2, 0), (0, 1)].map(|(i, j)| {
+        let products = [graph.mul(slopes[i], w[j]), graph.mul(slopes[j], w[i])];
+        graph.sub(products[0], products[1])
+    });
+    let has_value = at_start(model, graph, casimir).is_none_or(f64::is_finite);
+    let moves = slopes.iter().any(|slope| !graph.is_zero(*slope));
+    (has_value && moves && vanish(model, graph, &w, &differences, &budget)).then_some(casimir)
+}
+
+/// Rational functions of the parameters, and behind them of three coordinates.
+struct Space {
+    /// The variable that the first coordinate is.
+    first: usize,
+}
+
+impl Space {
+    fn fractions(&self, graph: &mut Graph, w: &[ExprId; 3]) -> Option<[Fraction; 3]> {
+        let variables: Vec<ExprId> = (0..3)
+            .map(|i| graph.symbol(Symbol::Parameter(self.first + i)))
+            .collect();
+        let there = graph.substitute(w, &|symbol| match symbol {
+            Symbol::Coordinate(i) => variables.get(i).copied(),
+            _ => None,
+        });
+        let fractions = there.iter().map(|entry| graph.fraction(*entry, None));
+        fractions.collect::<Option<Vec<_>>>()?.try_into().ok()
+    }
+
+    /// What g may be made of: the coordinates, denominators, and numerators without the monomials that divide them.
+    fn factors(&self, entries: &[Fraction; 3]) -> Vec<Polynomial> {
+        let mut found: Vec<Polynomial> = (0..3)
+            .map(|i| Polynomial::variable(self.first + i))
+            .collect();
+        let denominators = entries.iter().flat_map(Fraction::denominator);
+        let mut others: Vec<Polynomial> = denominators.map(|(factor, _)| factor.clone()).collect();
+        for entry in entries {
+            let numerator = entry.numerator();
+            let stripped = numerator.strip(&numerator.monomial_content());
+            others.extend(stripped.content().recip().map(|one| stripped.scale(&one)));
+        }
+        for factor in others {
+            let moves = (0..3).any(|i| factor.contains(self.first + i));
+            if moves && !found.contains(&factor) {
+                found.push(factor);
+            }
+        }
+        found
+    }
+
+    /// The exponents of factors, from values at points.
+    fn exponents(
+        &self,
+        entries: &[Fraction; 3],
+        curl: &[Fraction; 3],
+        factors: &[Polynomial],
+        budget: &Budget,
+    ) -> Option<Vec<i32>> {
+        let slopes = |value: &Polynomial| [0, 1, 2].map(|i| value.derivative(self.first + i));
+        let slopes: Vec<[Polynomial; 3]> = factors.iter().map(slopes).collect();
+        let (mut rows, mut right) = (Vec::new(), Vec::new());
+        for place in 0..factors.len() as i64 + 2 {
+            let point = |variable: usize| {
+                let variable = variable as i64;
+                let denominator = 3 + (place * 5 + variable) % 11;
+                Rational::new(7 + 13 * variable + place * (variable + 2), denominator)
+                    .unwrap_or(Rational::ONE)
+            };
+            let at_point = |values: &[Fraction; 3]| {
+                let values = values.iter().map(|value| value.evaluate(&point));
+                values.collect::<Option<Vec<Rational>>>()
+            };
+            let (w, curl) = (at_point(entries)?, at_point(curl)?);
+            let [a, b, c] = &w[..] else {
+                return None;
+            };
+            let columns = factors.iter().zip(&slopes).map(|(factor, slope)| {
+                let inverse = factor.evaluate(&point).recip()?;
+                let [x, y, z] = slope
+                    .each_ref()
+                    .map(|slope| &slope.evaluate(&point) * &inverse);
+                Some([
+                    &(&y * c) - &(&z * b),
+                    &(&z * a) - &(&x * c),
+                    &(&x * b) - &(&y * a),
+                ])
+            });
+            let columns: Vec<[Rational; 3]> = columns.collect::<Option<_>>()?;
+            for (axis, curl) in curl.into_iter().enumerate() {
+                rows.push(columns.iter().map(|column| column[axis].clone()).collect());
+                right.push(-curl);
+            }
+        }
+        let found = solve(&rows, &right, budget).ok()??;
+        let whole = found.iter().map(|exponent| {
+            let exponent = exponent.to_integer().filter(|e| e.abs() <= MOST)?;
+            i32::try_from(exponent).ok()
+        });
+        whole.collect()
+    }
+
+    /// The function whose gradient these are, if it is a sum of monomials, whose exponents may be negative, and of logarithms: of each
+    /// component the terms without the coordinates before, integrated.
+    fn potential(&self, gradient: &[Fraction], graph: &mut Graph) -> Option<ExprId> {
+        let mut terms = Vec::new();
+        for (i, slope) in gradient.iter().enumerate() {
+            let mut below = [0; 3];
+            for (factor, exponent) in slope.denominator() {
+                let variable = (0..3).find(|k| *factor == Polynomial::variable(self.first + k));
+                below[variable?] = i64::from(exponent);
+            }
+            for (monomial, coefficient) in slope.numerator().terms() {
+                let exponent = |k: usize| i64::from(monomial.exponent(self.first + k)) - below[k];
+                if (0..i).any(|k| exponent(k) != 0) {
+                    continue;
+                }
+                let parameters = monomial.powers().filter(|(v, _)| *v < self.first);
+                let mut factors: Vec<(ExprId, Rational)> = parameters
+                    .map(|(v, e)| {
+                        let parameter = graph.symbol(Symbol::Parameter(v));
+                        (parameter, Rational::from(i64::from(e)))
+                    })
+                    .collect();
+                for k in i + 1..3 {
+                    let x = graph.symbol(Symbol::Coordinate(k));
+                    factors.push((x, Rational::from(exponent(k))));
+                }
+                let x = graph.symbol(Symbol::Coordinate(i));
+                let raised = Rational::from(exponent(i) + 1);
+                let divisor = if raised.is_zero() {
+                    let square = graph.pow(x, &Rational::from(2));
+                    factors.push((graph.call(Elementary::Log, &[square]), Rational::ONE));
+                    Rational::from(2)
+                } else {
+                    factors.push((x, raised.clone()));
+                    raised
+                };
+                terms.push((graph.power_product(&factors), coefficient / &divisor));
+            }
+        }
+        Some(graph.linear(&terms))
+    }
+}
