@@ -150,7 +150,7 @@ fn the_command_refuses_what_cannot_be_kept() {
         // a quotient, where its denominator vanishes
         (
             "tests/data/quotient.json --keep casimirs --initial 1,0,0",
-            "casimirs",
+            "begin elsewhere",
             "a value at the start is not finite",
         ),
     ] {
