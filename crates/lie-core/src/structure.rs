@@ -304,11 +304,11 @@ impl Plane {
     }
 }
 
-/// The rigid body in n >= 4 dimensions: so(n) in the basis of planes of rotation, and
-/// `H = sum_(i<j) M_ij^2 / (2 (J_i + J_j))`.
+/// The rigid body in n >= 4 dimensions: so(n) in the basis of planes of rotation, and `H = <M, W>/2` with the angular velocity W that the
+/// symmetric matrix J of second moments gives, `M = J W + W J`. In the axes of its moments `H = sum_(i<j) M_ij^2 / (2 (J_i + J_j))`.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a rigid body in n dimensions over the scalar `{S}`",
-    note = "the method needs so(n) in the basis E_ij - E_ji and H = sum M_ij^2/(2 (J_i + J_j))"
+    note = "the method needs so(n) in the basis E_ij - E_ji and H = <M, W>/2 with M = J W + W J"
 )]
 pub trait InertiaPoisson<S: Scalar>: LiePoisson<S> {
     /// An n x n matrix.
@@ -317,6 +317,14 @@ pub trait InertiaPoisson<S: Scalar>: LiePoisson<S> {
     fn planes(&self) -> &[Plane];
     /// An n x n matrix, all entries 0.
     fn zero_matrix(&self) -> Self::Matrix;
-    /// The second moment `J_i` along one axis.
+    /// The second moment `J_ii` along one axis.
     fn moment(&self, axis: usize) -> S;
+    /// Whether J has other entries.
+    fn is_tilted(&self) -> bool {
+        false
+    }
+    /// The product of inertia `J_ij` of two axes.
+    fn product(&self, _row: usize, _column: usize) -> S {
+        S::zero()
+    }
 }

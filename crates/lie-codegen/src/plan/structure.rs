@@ -134,6 +134,8 @@ pub struct Inertia {
     pub planes: Vec<(usize, usize)>,
     /// The moment of each axis.
     pub moments: Vec<Code>,
+    /// The products of inertia that are not zero, by two axes in their order.
+    pub products: Vec<((usize, usize), Code)>,
 }
 
 /// A Poisson map from canonical coordinates.
@@ -217,12 +219,21 @@ impl Planner<'_> {
     }
 
     fn inertia(&mut self) -> Option<Inertia> {
-        let Body::Many { planes, moments } = self.source.body()?.clone() else {
+        let Body::Many {
+            planes,
+            moments,
+            products,
+        } = self.source.body()?.clone()
+        else {
             return None;
         };
+        let products = products.into_iter();
         Some(Inertia {
             planes,
             moments: moments.iter().map(|moment| self.value(*moment)).collect(),
+            products: products
+                .map(|(axes, product)| (axes, self.value(product)))
+                .collect(),
         })
     }
 

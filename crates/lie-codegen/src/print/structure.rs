@@ -216,6 +216,23 @@ impl Printer<'_> {
             quote! { ::lie_runtime::__private::Plane::new(#from, #to) }
         });
         let (argument, value) = self.chosen("axis", &inertia.moments);
+        let products = inertia.products.iter().map(|((i, j), product)| {
+            let ([i, j], value) = ([*i, *j].map(index), self.value_of(product));
+            quote! { (#i, #j) | (#j, #i) => { #value } }
+        });
+        let products = (!inertia.products.is_empty()).then(|| {
+            quote! {
+                fn is_tilted(&self) -> bool {
+                    true
+                }
+                fn product(&self, row: usize, column: usize) -> S {
+                    match (row, column) {
+                        #(#products)*
+                        _ => S::zero(),
+                    }
+                }
+            }
+        });
         Some(quote! {
             impl<S: ::lie_runtime::Scalar> ::lie_runtime::InertiaPoisson<S> for #system<S> {
                 type Matrix = ::lie_runtime::__private::SMatrix<S, #size, #size>;
@@ -233,6 +250,8 @@ impl Printer<'_> {
                 fn moment(&self, #argument: usize) -> S {
                     #value
                 }
+
+                #products
             }
         })
     }

@@ -1,10 +1,12 @@
 //! Free rigid bodies: so(3) with a quadratic H, and so(n) with
-//! `H = sum_(i<j) M_ij^2/(2 (J_i + J_j))`.
+//! `H = sum_(i<j) M_ij^2/(2 (J_i + J_j))`, or the same in other axes.
 //!
 //! so(n), n >= 4, is recognised from its structure constants in any order of the basis
 //! `+-(E_ij - E_ji)`. The moments `J_i = (1/a_ij + 1/a_ik - 1/a_jk)/2` for `H = sum a_ij M_ij^2/2` must give all
 //! `1/a_ij = J_i + J_j`, identically in the parameters; it is proven by the normal form that verifies
-//! Casimirs.
+//! Casimirs. Of another quadratic form the matrix J is looked for as the solution of linear equations.
+
+mod tilted;
 
 use super::Structure;
 use super::spins::Spin;
@@ -25,8 +27,10 @@ pub enum Body {
     Many {
         /// From and to of each basis element `E_(to, from) - E_(from, to)`.
         planes: Vec<(usize, usize)>,
-        /// The moments `J_i`, in the arena that was given.
+        /// The moments `J_ii`, in the arena that was given.
         moments: Vec<ExprId>,
+        /// The products of inertia `J_ij`, i < j, that are not zero.
+        products: Vec<((usize, usize), ExprId)>,
     },
 }
 
@@ -37,9 +41,7 @@ pub enum Other {
     Algebra,
     /// H is no quadratic form with constant coefficients.
     NotQuadratic,
-    /// It is one of so(n), and not a sum of squares of all coordinates.
-    NotDiagonal,
-    /// The coefficients are not of the form `1/(J_i + J_j)`.
+    /// It is one of so(n), and that of no matrix J.
     NoMoments,
 }
 
@@ -56,9 +58,16 @@ pub fn body(model: &Model, spins: Option<&[Spin]>, graph: &mut Graph) -> Result<
     let Some(planes) = planes else {
         return Ok(Body::Three);
     };
-    let squares = squares(&form, graph).ok_or(Other::NotDiagonal)?;
-    let moments = moments(graph, &planes, &squares).ok_or(Other::NoMoments)?;
-    Ok(Body::Many { planes, moments })
+    let moments = squares(&form, graph).map(|squares| moments(graph, &planes, &squares));
+    let body = match moments {
+        Some(moments) => moments.map(|moments| Body::Many {
+            planes,
+            moments,
+            products: Vec::new(),
+        }),
+        None => tilted::body(graph, &planes, &form),
+    };
+    body.ok_or(Other::NoMoments)
 }
 
 /// The rows of H'', if H is a quadratic form of the coordinates and a constant.
@@ -240,12 +249,9 @@ pub fn refusal(structure: &Structure) -> Option<(String, String)> {
         (Other::NotQuadratic, _) => {
             "it needs a free rigid body: H must be a quadratic form with constant coefficients"
         }
-        (Other::NotDiagonal, _) => {
-            "it needs a free rigid body in the axes of its moments: H must be a sum of squares of \
-             all coordinates"
-        }
         (Other::NoMoments, _) => {
-            "it needs H = sum M_ij^2/(2 (J_i + J_j)), and there are no such J_i for the declared H"
+            "it needs a free rigid body, M = J W + W J with a symmetric matrix J and W = grad H(M), and there is no such J for the \
+             declared H"
         }
     };
     let remedy = "use `orbit-energy`, which keeps the orbit and the energy of every system, or \
@@ -267,7 +273,10 @@ mod tests {
     #[test]
     fn moments_of_the_manakov_top_are_its_parameters() {
         let model = spec("so4_manakov");
-        let Ok(Body::Many { planes, moments }) = &model.body else {
+        let Ok(Body::Many {
+            planes, moments, ..
+        }) = &model.body
+        else {
             panic!("{:?}", model.body);
         };
         let mut graph = model.graph.clone();
@@ -291,5 +300,37 @@ mod tests {
         assert_eq!(spec("se3_heavy_top").body, Err(Other::Algebra));
         assert_eq!(spec("su3_quadratic").body, Err(Other::Algebra));
         assert_eq!(spec("sl2_quadratic").body, Err(Other::Algebra));
+    }
+
+    /// Every symmetric J is found in the H that it makes, also with an exact parameter, and a quadratic form of no J is refused.
+    #[test]
+    fn products_of_inertia_are_found() {
+        let of = |hamiltonian: &str| {
+            let text = format!(
+                r#"{{"format": 1, "name": "Four", "algebra": "so(4)", "state": ["a", "b", "c", "d", "e", "f"],
+                    "parameters": {{"k": 2}}, "hamiltonian": "{hamiltonian}"}}"#
+            );
+            compile_spec(&text).expect("a sound spec")
+        };
+        // J = diag(1, 1, 1, 1)/2 with J_12 = k/10: planes (1, 3) and (2, 3) are coupled, and (1, 4) and (2, 4)
+        let coupled = "(b^2 + d^2 - 2*(k/10)*b*d + c^2 + e^2 - 2*(k/10)*c*e)/(2*(1 - k^2/100))";
+        let model = of(&format!("(a^2 + f^2)/2 + {coupled}"));
+        let Ok(Body::Many {
+            moments, products, ..
+        }) = &model.body
+        else {
+            panic!("{:?}", model.body);
+        };
+        let value = |graph: &Graph, id| graph.evaluate(id, &|_| 2.0);
+        let graph = &model.graph;
+        for moment in moments {
+            assert!((value(graph, *moment) - 0.5).abs() < 1e-15);
+        }
+        let [((0, 1), product)] = products[..] else {
+            panic!("{products:?}");
+        };
+        assert!((value(graph, product) - 0.2).abs() < 1e-15);
+        let none = of("(a^2 + f^2)/2 + (b^2 + d^2 - b*d/5)/2 + (c^2 + e^2)/2");
+        assert_eq!(none.body, Err(Other::NoMoments));
     }
 }

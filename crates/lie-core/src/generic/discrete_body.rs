@@ -11,14 +11,15 @@ use crate::structure::{InertiaPoisson, Plane};
 /// Terms of the logarithm; it converges where `|X| < 2`.
 const LOGARITHM: usize = 200;
 
-/// The discrete rigid body on so(n)* for `H = sum_(i<j) M_ij^2/(2 (J_i + J_j))`.
+/// The discrete rigid body on so(n)* with the symmetric matrix J: `M = J W + W J` for the angular velocity `W = grad H(M)`. In the axes of
+/// its moments `H = sum_(i<j) M_ij^2/(2 (J_i + J_j))`.
 ///
 /// The rotation of the step is `g = (1 + X/2)(1 - X/2)^-1` with X antisymmetric, and
 /// `h M = g J - J g^T` becomes `X J + J X = h (1 - X/2) M (1 + X/2)`, a polynomial equation in so(n).
 ///
 /// Unknown: `U = (X J + J X)/h`, so that `X = h grad H(U)`. Equation:
 /// `r(U) = U - (1 - X/2) M (1 + X/2)`. Jacobian, column c, with the basis element R and
-/// `Y = M (1 + X/2)`: `e_c + (Y^T R + R Y)/2 h H''_cc`. New state: `g^T M g = M + [P, X]` with
+/// `Y = M (1 + X/2)`: `e_c + sum_b (Y^T R_b + R_b Y)/2 h H''_bc`, of which H'' has the diagonal alone in those axes. New state: `g^T M g = M + [P, X]` with
 /// `P = (1 + X/2)^-1 M (1 - X/2)^-1`. Start: `U = M + (h/2) f(M)`.
 ///
 /// The solutions near the identity are those with the pivots of `(g J + J g^T)/2` positive, like those of
@@ -87,6 +88,22 @@ impl<'a, S: Scalar, P: InertiaPoisson<S>> DiscreteBody<'a, S, P> {
         }
     }
 
+    /// The entry in a plane of `Y^T R + R Y` with the basis element R of another.
+    fn turned(&self, turned: &Plane, plane: &Plane) -> S {
+        // entry (p, q), R = E_ab - E_ba
+        let ((b, a), (q, p)) = (axes(turned), axes(plane));
+        let entry = |condition: bool, r: usize, c: usize| {
+            if condition {
+                self.product.get(r, c)
+            } else {
+                S::zero()
+            }
+        };
+        let left = entry(q == b, a, p) - entry(q == a, b, p);
+        let right = entry(p == a, b, q) - entry(p == b, a, q);
+        left + right
+    }
+
     /// `r = U - (1 - X/2) M (1 + X/2)`
     fn write_residual(&self, unknown: &P::State, residual: &mut P::State) {
         let planes = self.system.planes().iter().zip(unknown.as_slice());
@@ -138,29 +155,53 @@ impl<'a, S: Scalar, P: InertiaPoisson<S>> DiscreteBody<'a, S, P> {
     /// 0 where the pivots of `J + X J X/4` have the signs of those of J, and not a number elsewhere.
     fn off_the_branch(&mut self) -> S {
         let size = self.momentum.dimension();
+        let tilted = self.system.is_tilted();
         for r in 0..size {
             for c in 0..size {
                 let mut sum = S::zero();
                 for k in 0..size {
                     let moment = self.system.moment(k);
                     sum += self.rotation.get(r, k) * moment * self.rotation.get(k, c);
+                    for l in (0..size).filter(|l| tilted && *l != k) {
+                        let product = self.system.product(k, l);
+                        sum += self.rotation.get(r, k) * product * self.rotation.get(l, c);
+                    }
                 }
-                let diagonal = if r == c {
-                    self.system.moment(r)
-                } else {
-                    S::zero()
-                };
-                self.product.set(r, c, diagonal + sum);
+                self.product.set(r, c, self.second_moment(r, c) + sum);
             }
         }
         dense::factor(&mut self.product);
+        if tilted {
+            for r in 0..size {
+                for c in 0..size {
+                    self.transformed.set(r, c, self.second_moment(r, c));
+                }
+            }
+            dense::factor(&mut self.transformed);
+        }
         let mut good = S::Mask::splat(true);
         for k in 0..size {
-            let moment = self.system.moment(k);
-            let same = S::zero().less(moment * self.product.get(k, k));
-            good = good & (same | moment.abs().less_equal(S::zero()));
+            // of a body that is flat along an axis the pivot is zero, in other axes to round-off
+            let (pivot, least) = match tilted {
+                true => (
+                    self.transformed.get(k, k),
+                    S::epsilon() * S::ratio(64.0, 1.0),
+                ),
+                false => (self.system.moment(k), S::zero()),
+            };
+            let same = S::zero().less(pivot * self.product.get(k, k));
+            let bound = least * self.system.moment(k).abs();
+            good = good & (same | pivot.abs().less_equal(bound));
         }
         S::select(good, S::zero(), S::from_f64(f64::NAN))
+    }
+
+    /// `J_rc`
+    fn second_moment(&self, r: usize, c: usize) -> S {
+        match r == c {
+            true => self.system.moment(r),
+            false => self.system.product(r, c),
+        }
     }
 }
 
@@ -190,21 +231,18 @@ impl<S: Scalar, P: InertiaPoisson<S>> Equation<S> for DiscreteBody<'_, S, P> {
         let half = self.step * S::ratio(1.0, 2.0);
         for (column, turned) in self.system.planes().iter().enumerate() {
             let factor = half * self.hessian.get(column, column);
-            let (b, a) = axes(turned);
             for (row, plane) in self.system.planes().iter().enumerate() {
-                // entry (p, q) of Y^T R + R Y, R = E_ab - E_ba
-                let (q, p) = axes(plane);
-                let entry = |condition: bool, r: usize, c: usize| {
-                    if condition {
-                        self.product.get(r, c)
-                    } else {
-                        S::zero()
-                    }
-                };
-                let left = entry(q == b, a, p) - entry(q == a, b, p);
-                let right = entry(p == a, b, q) - entry(p == b, a, q);
                 let identity = if row == column { S::one() } else { S::zero() };
-                matrix.set(row, column, identity + factor * (left + right));
+                let mut entry = identity + factor * self.turned(turned, plane);
+                if self.system.is_tilted() {
+                    for (b, other) in self.system.planes().iter().enumerate() {
+                        if b != column {
+                            let factor = half * self.hessian.get(b, column);
+                            entry += factor * self.turned(other, plane);
+                        }
+                    }
+                }
+                matrix.set(row, column, entry);
             }
         }
     }

@@ -141,7 +141,7 @@ macro_rules! for_each_method {
             { "step of a declared discrete Lagrangian; its order is at least 1" DISCRETE MPS
                 [DiscreteEulerPoincare(Retraction::Exp)] [DiscreteEulerPoincare<Exp>] [DiscreteEulerPoincare::exp()] { [discrete DiscreteLagrangian ExpDiscrete] }
                 [DiscreteEulerPoincare(Retraction::Cayley)] [DiscreteEulerPoincare<Cayley>] [DiscreteEulerPoincare::cayley()] { [discrete_cayley ClosedDiscreteLagrangian CayleyDiscrete] } }
-            { "discrete rigid body" "so(3) with a quadratic H, or so(n) with H = sum M_ij^2/(2(J_i + J_j))" MV
+            { "discrete rigid body" "so(3) with a quadratic H, or so(n) with M = J W + W J for W = grad H(M)" MV
                 [MoserVeselov] [MoserVeselov] [MoserVeselov] { [moser_veselov Body DiscreteTop] [moser_veselov_n BodyOfMany DiscreteBody] } }
             { "composition of a symmetric method" "a symmetric method of order 2" KL
                 [Compose(4, Scheme::Suzuki, Box::new(Choice::Midpoint))] [Compose4<ImplicitMidpoint>] [Compose4] { compose } }

@@ -1,7 +1,7 @@
 //! The discrete rigid body of Moser and Veselov.
 //!
-//! For the free rigid body in n dimensions, `$M = \Omega J + J \Omega$` with `$J = \mathrm{diag}(J_1, \dots, J_n)$`, that
-//! is `$H = \sum_{i<j} M_{ij}^2 / (2 (J_i + J_j))$` on so(n)*:
+//! For the free rigid body in n dimensions, `$M = \Omega J + J \Omega$` with a symmetric matrix J and `$\Omega = \nabla H(M)$`, in
+//! the axes of the moments `$H = \sum_{i<j} M_{ij}^2 / (2 (J_i + J_j))$` on so(n)*:
 //!
 //! ```math
 //! h M = g J - J g^T, \qquad g \in SO(n) \text{ near } 1, \qquad M' = g^T M g

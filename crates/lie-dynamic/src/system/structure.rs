@@ -37,6 +37,7 @@ pub struct Codes {
     scale: Option<usize>,
     planes: Vec<Plane>,
     moments: Vec<usize>,
+    products: Vec<((usize, usize), usize)>,
     momenta: usize,
     group: Option<Group<'static>>,
     spinor_flow: Option<usize>,
@@ -159,6 +160,11 @@ impl Codes {
                         .collect()
                 })
                 .unwrap_or_default(),
+            products: inertia
+                .into_iter()
+                .flat_map(|inertia| &inertia.products)
+                .map(|(axes, product)| (*axes, making.push(Code::from_program(product))))
+                .collect(),
             momenta: structure.momenta.unwrap_or(0),
             group: structure.group.as_ref().map(|group| Group {
                 size: group.size,
@@ -342,6 +348,15 @@ impl<S: Scalar> InertiaPoisson<S> for Dynamic<S> {
     fn moment(&self, axis: usize) -> S {
         self.values
             .value(self.values.compiled.structure.moments[axis])
+    }
+    fn is_tilted(&self) -> bool {
+        !self.values.compiled.structure.products.is_empty()
+    }
+    fn product(&self, row: usize, column: usize) -> S {
+        let axes = (row.min(column), row.max(column));
+        let mut products = self.values.compiled.structure.products.iter();
+        let known = products.find(|(known, _)| *known == axes);
+        known.map_or_else(S::zero, |(_, code)| self.values.value(*code))
     }
 }
 

@@ -66,6 +66,7 @@ pub struct SymbolicSystem {
     scales: Vec<Sym>,
     planes: Vec<Plane>,
     moments: Vec<Sym>,
+    products: Vec<((usize, usize), Sym)>,
     vectors: Option<SymbolicVectors>,
     closed: Option<Closed>,
     exponential: bool,
@@ -77,11 +78,15 @@ impl SymbolicSystem {
     pub(super) fn new(source: &Source) -> Self {
         let spins = source.spins().into_iter().flatten();
         let (spins, scales) = spins.map(|s| (s.coordinates, Sym(s.scale))).unzip();
-        let (planes, moments) = match source.body() {
-            Some(Body::Many { planes, moments }) => (planes.as_slice(), moments.as_slice()),
+        let (planes, moments, products) = match source.body() {
+            Some(Body::Many {
+                planes,
+                moments,
+                products,
+            }) => (planes.as_slice(), moments.as_slice(), products.as_slice()),
             _ => Default::default(),
         };
-        let planes = planes.iter();
+        let (planes, products) = (planes.iter(), products.iter());
         Self {
             dimension: source.dimension,
             spins,
@@ -90,6 +95,9 @@ impl SymbolicSystem {
                 .map(|&(from, to)| Plane::new(from as u16, to as u16))
                 .collect(),
             moments: moments.iter().map(|moment| Sym(*moment)).collect(),
+            products: products
+                .map(|(axes, product)| (*axes, Sym(*product)))
+                .collect(),
             vectors: source.vectors().map(SymbolicVectors::new),
             closed: None,
             exponential: source.exponential.is_some(),
@@ -319,5 +327,13 @@ impl InertiaPoisson<Sym> for SymbolicSystem {
     }
     fn moment(&self, axis: usize) -> Sym {
         self.moments[axis]
+    }
+    fn is_tilted(&self) -> bool {
+        !self.products.is_empty()
+    }
+    fn product(&self, row: usize, column: usize) -> Sym {
+        let axes = (row.min(column), row.max(column));
+        let known = self.products.iter().find(|(known, _)| *known == axes);
+        known.map(|(_, product)| *product).unwrap_or_default()
     }
 }
