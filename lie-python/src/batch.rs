@@ -14,6 +14,7 @@ use lie_in_process::report::signs;
 use lie_in_process::request::{Request, plan};
 use lie_program::protocol::{End, Obstacle, Start};
 use lie_runtime::driver::Pace;
+use lie_runtime::lattice::count;
 use numpy::{
     IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray2,
     PyUntypedArrayMethods as _,
@@ -131,8 +132,7 @@ pub fn ensemble<'py>(
     let first = parameters.rows().into_iter().next().map(|row| row.to_vec());
     let width = declaration.with_model(py, |model| {
         let family = model.family.as_ref()?;
-        let [rows, columns] = family.sites(&first?)?;
-        Some(rows * columns * model.dimension())
+        Some(count(family.sites(&first?)?) * model.dimension())
     });
     let (mut states, width) = (found.states, width.unwrap_or(length));
     if width < length {

@@ -34,8 +34,8 @@ pub struct Facts {
     pub names: Vec<String>,
     /// Whether it is a family, whose coordinates are those of its sites, as many as the parameters say.
     pub family: bool,
-    /// Whether its sites are on a lattice.
-    pub lattice: bool,
+    /// The number of axes along which its sites stand, 1 of a chain; 0 where it is no family.
+    pub axes: usize,
     /// The places of the coordinates that users give.
     pub shown: Vec<usize>,
     /// The place of the time in the state, where the Hamiltonian depends on it.
@@ -77,10 +77,7 @@ impl Facts {
         Self {
             system: model.name.clone(),
             family: model.family.is_some(),
-            lattice: model
-                .family
-                .as_ref()
-                .is_some_and(|family| family.sizes.len() == 2),
+            axes: model.family.as_ref().map_or(0, |family| family.sizes.len()),
             names: names.collect(),
             shown: model.shown_coordinates(),
             time: clock.map(|clock| clock.time),
@@ -275,8 +272,9 @@ impl Declaration {
     /// The system of these parameters, without code for any method.
     pub fn system(&self, py: Python<'_>, parameters: &[f64]) -> PyResult<Dynamic<f64>> {
         let family = self.spec.model.family.as_ref();
-        if let Some([rows, columns]) = family.and_then(|family| family.sites(parameters)) {
-            let coordinates = rows as f64 * columns as f64 * self.facts.names.len() as f64;
+        if let Some(sizes) = family.and_then(|family| family.sites(parameters)) {
+            let sites: f64 = sizes.iter().map(|size| *size as f64).product();
+            let coordinates = sites * self.facts.names.len() as f64;
             memory::fits(coordinates * memory::COORDINATE)
                 .map_err(|exceeded| PyMemoryError::new_err(exceeded.to_string()))?;
         }

@@ -21,6 +21,7 @@ use lie_in_process::canonical::Canonical;
 use lie_in_process::message::Message;
 use lie_in_process::request::{self, Front, Request};
 use lie_runtime::Poisson as _;
+use lie_runtime::lattice::{AXES, count};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -55,10 +56,10 @@ impl Core {
     fn family(&self) -> bool {
         self.0.facts.family
     }
-    /// Whether its sites are on a lattice.
+    /// The number of axes along which its sites stand, 1 of a chain; 0 where it is no family.
     #[getter]
-    fn lattice(&self) -> bool {
-        self.0.facts.lattice
+    fn axes(&self) -> usize {
+        self.0.facts.axes
     }
     #[getter]
     fn parameters(&self) -> HashMap<String, f64> {
@@ -93,8 +94,8 @@ impl Core {
         parameters.map(|(name, _)| name.clone()).collect()
     }
 
-    /// The number of rows and columns of the sites of a family for these parameters; none of another system.
-    fn sites(&self, py: Python<'_>, parameters: Vec<f64>) -> PyResult<Option<[usize; 2]>> {
+    /// The number of layers, rows and columns of the sites of a family for these parameters; none of another system.
+    fn sites(&self, py: Python<'_>, parameters: Vec<f64>) -> PyResult<Option<[usize; AXES]>> {
         Ok(self.0.system(py, &parameters)?.sizes())
     }
 
@@ -149,8 +150,8 @@ impl Core {
             }
             let states = states.map(|(state, values)| match &model.family {
                 Some(family) => {
-                    let [rows, columns] = family.sites(values)?;
-                    let (sites, fits) = (rows * columns, state.len() == rows * columns * all);
+                    let sites = count(family.sites(values)?);
+                    let fits = sites.checked_mul(all) == Some(state.len());
                     fits.then(|| model.complete_sites(state.clone(), sites))
                 }
                 None => model.complete_state(state, values),

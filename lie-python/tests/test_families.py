@@ -24,6 +24,15 @@ LATTICE = {
     "hamiltonian": "-sum(i in 0..N, j in 0..M: x[i, j]*x[i+1, j] + z[i, j]*z[i, j+1])",
 }
 
+CUBE = {
+    **RING,
+    "algebra": "so(3)^(L, N, M)",
+    "state": ["x[i, j, k]", "y[i, j, k]", "z[i, j, k]"],
+    "parameters": {"L": 3, "N": 2, "M": 4},
+    "hamiltonian": "-sum(i in 0..L, j in 0..N, k in 0..M: x[i, j, k]*x[i+1, j, k] + B[i, j, k]*z[i, j, k])"
+    " - sum(i in 0..L, j in 0..N, k in 0..M-1: z[i, j, k]*z[i, j, k+1])",
+}
+
 
 def test_the_sizes_are_those_of_the_parameters() -> None:
     ring = lp.System(**RING)
@@ -54,6 +63,30 @@ def test_fields_by_numpy() -> None:
     expected = np.moveaxis(np.cross(mu, slope), -1, 0).reshape(-1)
     assert np.abs(field - expected).max() < 1e-15
     assert np.abs(field + expected).max() > 1e-1
+
+
+def test_fields_of_three_dimensions_by_numpy() -> None:
+    field = np.linspace(-1, 2, 24).reshape(3, 2, 4)
+    cube = lp.System(**{**CUBE, "parameters": {**CUBE["parameters"], "B": field}})
+    assert "3 x 2 x 4 sites" in repr(cube) and cube.coordinates[13] == "x[1][1][1]"
+    run = cube.run(t=0.1)
+    assert run.sites.shape[1:] == (3, 2, 4, 3)
+    mu = run.sites[0]
+    x, z = mu[..., 0], mu[..., 2]
+    slope = np.zeros_like(mu)
+    slope[..., 0] = -np.roll(x, 1, axis=0) - np.roll(x, -1, axis=0)
+    slope[..., 2] = -field
+    slope[..., :-1, 2] -= z[..., 1:]
+    slope[..., 1:, 2] -= z[..., :-1]
+    expected = np.moveaxis(np.cross(mu, slope), -1, 0).reshape(-1)
+    assert np.abs(cube.function("vector_field")(run.mu[0]) - expected).max() < 1e-15
+    again = cube.run("rk4", h=0.05, t=0.1, x0=mu)
+    assert np.array_equal(again.mu[0], run.mu[0])
+    with pytest.raises(ValueError, match=r"\(3, 2, 4, 3\), the coordinates of each site"):
+        cube.run(t=0.1, x0=np.moveaxis(mu, 0, 1))
+    with pytest.raises(lp.DeclarationError, match="2 x 3 x 4 values, and there are 3 x 2 x 4"):
+        wrong = field.reshape(2, 3, 4)
+        lp.System(**{**CUBE, "parameters": {**CUBE["parameters"], "B": wrong}})
 
 
 def test_members_are_single_runs() -> None:

@@ -79,7 +79,8 @@ pub use lie_core::{
     Recurrence, RetractedPoisson, Scalar, SeparablePoisson, Series, Spectrum, SpinPoisson,
     SquareMatrix, StageMatrix, Stages, State, UnitaryPoisson, Unknown, VectorPoisson, Widen, clock,
     closed, elimination, equation, functions, generating, generic, generic_equations, lagrangian,
-    matrix, methods, newton, parameter, pieces, poisson, recurrence, scalar, state, structure,
+    lattice, matrix, methods, newton, parameter, pieces, poisson, recurrence, scalar, state,
+    structure,
 };
 #[cfg(feature = "macros")]
 pub use lie_macros::lie_poisson;

@@ -77,7 +77,7 @@ fn compare<K>(family: &Family<K>, energy: impl Fn(&dyn Fn(usize, isize, isize) -
 where
     K: Sites<f64>,
 {
-    let [rows, columns] = family.sizes();
+    let [_, rows, columns] = family.sizes();
     let count = rows * columns;
     let mu: Vec<f64> = unit_spheres(count, 3, 17);
     let value = |moved: usize| {

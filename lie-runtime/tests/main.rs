@@ -18,6 +18,7 @@ mod events;
 mod families;
 mod families_acting;
 mod families_bonds;
+mod families_cubic;
 mod families_driven;
 mod family_splittings;
 mod family_splittings_driven;

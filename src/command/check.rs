@@ -16,8 +16,9 @@ use lie_codegen::methods::{Choice, refusal};
 use lie_codegen::structure::{Effort, Structure, bracket_class};
 use lie_in_process::report::{Report, sites};
 use lie_in_process::request::{self, Request, several};
-use lie_in_process::words::counted;
+use lie_in_process::words::{by, counted};
 use lie_program::protocol::Start;
+use lie_runtime::lattice::{AXES, count, shown};
 use lie_syntax::ast::BONDS;
 use serde_json::Value;
 
@@ -209,19 +210,16 @@ impl Words {
 }
 
 /// How large a family is.
-fn write_family(
-    model: &Structure,
-    [rows, columns]: [usize; 2],
-    text: &mut String,
-) -> std::fmt::Result {
-    let sites = rows * columns;
-    let lattice = match rows {
-        1 => format!("a chain of {columns}"),
-        _ => format!("a lattice of {rows} x {columns}"),
+fn write_family(model: &Structure, sizes: [usize; AXES], text: &mut String) -> std::fmt::Result {
+    let sites = count(sizes);
+    let lattice = match shown(&sizes) {
+        [columns] => format!("a chain of {columns}"),
+        axes => format!("a lattice of {}", by(axes)),
     };
     let (dimension, rank, _) = model.counts();
-    let (dimension, rank) = (sites * dimension, sites * rank);
-    let corank = sites * model.casimirs_to_find();
+    let of_all = |of_site: usize| sites.saturating_mul(of_site);
+    let (dimension, rank) = (of_all(dimension), of_all(rank));
+    let corank = of_all(model.casimirs_to_find());
     writeln!(
         text,
         "  {lattice} sites: dimension {dimension}, generic rank {rank}, {corank} independent Casimirs"
@@ -245,8 +243,8 @@ fn write_family(
 /// What the system is: its rank, its functions, its Casimirs.
 fn write_system(model: &Structure, text: &mut String) -> std::fmt::Result {
     let (dimension, generic_rank, initial_rank) = model.counts();
-    if let Some([rows, columns]) = sites(model) {
-        write_family(model, [rows, columns], text)?;
+    if let Some(sizes) = sites(model) {
+        write_family(model, sizes, text)?;
     }
     write!(text, "  dimension {dimension}, generic rank {generic_rank}")?;
     match initial_rank {

@@ -3,6 +3,8 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
+use lie_runtime::lattice::{AXES, count, named};
+
 /// Names in order.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Names {
@@ -14,8 +16,8 @@ pub struct Names {
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum Part {
     One(String),
-    /// A name at each of rows and columns of sites.
-    Sites(String, [usize; 2]),
+    /// A name at each of layers, rows and columns of sites.
+    Sites(String, [usize; AXES]),
 }
 
 impl Names {
@@ -26,15 +28,14 @@ impl Names {
 
     /// Adds a name.
     pub fn push(&mut self, name: impl Into<String>) {
-        self.ends.push(self.len() + 1);
+        self.ends.push(self.len().saturating_add(1));
         self.parts.push(Part::One(name.into()));
     }
 
-    /// Adds a name at each site; a chain is one row of them.
-    pub fn push_sites(&mut self, name: &str, [rows, columns]: [usize; 2]) {
-        self.ends.push(self.len() + rows * columns);
-        self.parts
-            .push(Part::Sites(name.to_owned(), [rows, columns]));
+    /// Adds a name at each site; a chain is one row of them, a square lattice one layer.
+    pub fn push_sites(&mut self, name: &str, sizes: [usize; AXES]) {
+        self.ends.push(self.len().saturating_add(count(sizes)));
+        self.parts.push(Part::Sites(name.to_owned(), sizes));
     }
 
     /// The name at a place.
@@ -46,11 +47,7 @@ impl Names {
         let begin = part.checked_sub(1).map_or(0, |before| self.ends[before]);
         match &self.parts[part] {
             Part::One(name) => name.into(),
-            Part::Sites(name, [1, _]) => format!("{name}[{}]", place - begin).into(),
-            Part::Sites(name, [_, columns]) => {
-                let site = place - begin;
-                format!("{name}[{}][{}]", site / columns, site % columns).into()
-            }
+            Part::Sites(name, sizes) => named(name, place - begin, *sizes).into(),
         }
     }
 
@@ -80,13 +77,15 @@ mod tests {
     #[test]
     fn names_of_sites_stand_between_others() {
         let mut names: Names = ["t"].into_iter().collect();
-        names.push_sites("x", [1, 3]);
-        names.push_sites("y", [2, 2]);
+        names.push_sites("x", [1, 1, 3]);
+        names.push_sites("y", [1, 2, 2]);
+        names.push_sites("z", [2, 1, 1]);
         names.push("energy");
         let all: Vec<_> = names.iter().collect();
-        let wanted = "t x[0] x[1] x[2] y[0][0] y[0][1] y[1][0] y[1][1] energy";
+        let wanted =
+            "t x[0] x[1] x[2] y[0][0] y[0][1] y[1][0] y[1][1] z[0][0][0] z[1][0][0] energy";
         assert_eq!(all, wanted.split(' ').collect::<Vec<_>>());
-        assert_eq!(names.len(), 9);
+        assert_eq!(names.len(), 11);
         assert_eq!(names.made(3..5), ["x[2]", "y[0][0]"]);
     }
 }

@@ -13,6 +13,7 @@ use lie_runtime::diagnostics::AnyMethod;
 use lie_runtime::methods as m;
 use lie_runtime::{LiePoisson, Poisson, lie_poisson};
 
+lie_poisson! { spec = "tests/data/families/cubic_lattice.json"; }
 lie_poisson! { spec = "tests/data/families/damped_chain.json"; }
 lie_poisson! { spec = "tests/data/families/damped_lattice.json"; }
 lie_poisson! { spec = "tests/data/families/disordered_chain.json"; }
@@ -191,6 +192,12 @@ fn chains_and_lattices() {
         &[("N", 4.0), ("M", 5.0)],
         splittings!(),
     );
+}
+
+#[test]
+fn lattices_of_three_dimensions() {
+    let lattice = CubicLattice::new().system().unwrap();
+    compare("cubic_lattice", &lattice, &[], splittings!());
 }
 
 #[test]

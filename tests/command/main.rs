@@ -31,6 +31,7 @@ mod events;
 mod exponents;
 mod families;
 mod families_acting;
+mod families_cubic;
 mod families_driven;
 mod found_on_brackets;
 mod frequencies;

@@ -20,6 +20,7 @@ pub mod generating;
 pub mod generic;
 mod generic_equations;
 pub mod lagrangian;
+pub mod lattice;
 pub mod matrix;
 pub mod methods;
 pub mod newton;

@@ -20,6 +20,7 @@ pub use scalars::{Lift, Widen};
 use crate::clock::{self, Clock};
 use crate::event::EventRule;
 use crate::generic;
+use crate::lattice::AXES;
 use crate::matrix::SquareMatrix;
 use crate::scalar::Scalar;
 use crate::state::State;
@@ -46,9 +47,9 @@ pub trait Poisson<S: Scalar>: Sized {
     fn name(&self) -> &str;
     /// The name of a coordinate.
     fn coordinate(&self, index: usize) -> &str;
-    /// How many rows and columns of sites there are, of a family: its coordinates are those of its sites, and their names are too
+    /// How many layers, rows and columns of sites there are, of a family: its coordinates are those of its sites, and their names are too
     /// many to be told unless somebody asks.
-    fn sites(&self) -> Option<[usize; 2]> {
+    fn sites(&self) -> Option<[usize; AXES]> {
         None
     }
     /// The number of Casimirs that [`Poisson::casimirs`] writes.

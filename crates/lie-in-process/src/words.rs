@@ -1,5 +1,6 @@
 //! Numbers in the words of measurements.
 
+use lie_runtime::lattice::{AXES, shown};
 use serde_json::{Value, json};
 
 /// A number in few characters: `3.1e-15`, `0`, `2.98`.
@@ -16,6 +17,20 @@ pub fn short(value: f64) -> String {
         format!("{value:.2}")
     } else {
         format!("{value:.1e}")
+    }
+}
+
+/// Sizes along axes, `2 x 3 x 4`.
+pub fn by(sizes: &[usize]) -> String {
+    let sizes: Vec<String> = sizes.iter().map(usize::to_string).collect();
+    sizes.join(" x ")
+}
+
+/// So many sites, `8 sites` or `2 x 4 sites`.
+pub fn sites(sizes: [usize; AXES]) -> String {
+    match shown(&sizes) {
+        [columns] => counted(*columns as u64, "site"),
+        axes => format!("{} sites", by(axes)),
     }
 }
 

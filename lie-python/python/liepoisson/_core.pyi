@@ -19,7 +19,7 @@ class Core:
     name: str
     coordinates: list[str]
     family: bool
-    lattice: bool
+    axes: int
     parameters: dict[str, float]
     casimirs: list[str]
     inputs: list[str]
@@ -27,7 +27,7 @@ class Core:
     quantities: list[tuple[str, bool]]
     events: list[str]
     def __init__(self, text: str) -> None: ...
-    def sites(self, parameters: list[float]) -> tuple[int, int] | None: ...
+    def sites(self, parameters: list[float]) -> tuple[int, int, int] | None: ...
     def names_of_sites(self, parameters: list[float]) -> list[str]: ...
     def initial(self, parameters: list[float]) -> Array | None: ...
     def complete(

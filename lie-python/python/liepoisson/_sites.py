@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,13 +14,13 @@ if TYPE_CHECKING:
 
 
 class Sites:
-    """The sites of a family at values of its parameters: ``shape`` is (N,), of a lattice (N, M)."""
+    """The sites of a family at values of its parameters: ``shape`` is (N,), of a lattice (N, M) or (L, N, M)."""
 
     def __init__(self, system: Declared, values: list[float]) -> None:
-        rows, columns = system._core.sites(values) or (1, 1)
-        self.shape = (rows, columns) if system._core.lattice else (columns,)
+        sizes = system._core.sites(values) or (1,)
+        self.shape = tuple(sizes)[-system._core.axes :]
         self.each = len(system._core.coordinates)
-        self.dimension = self.each * rows * columns
+        self.dimension = self.each * math.prod(sizes)
 
     def state(self, x0: Any) -> Array:
         """A state, from numbers in its order or from an array with a row of coordinates for each site."""
@@ -34,6 +35,6 @@ class Sites:
         )
 
     def of(self, mu: Array) -> Array:
-        """States, shape (…, n), by sites: (…, N, coordinates), of a lattice (…, N, M, coordinates)."""
+        """States, shape (…, n), by sites: (…, N, coordinates), of a lattice (…, N, M, coordinates) or (…, L, N, M, coordinates)."""
         by_coordinate = mu.reshape(*mu.shape[:-1], self.each, *self.shape)
         return np.moveaxis(by_coordinate, mu.ndim - 1, -1)

@@ -189,7 +189,7 @@ class Solution:
 
     @property
     def sites(self) -> Array:
-        """The states of a family by sites: shape (m, N, coordinates), of a lattice (m, N, M, coordinates)."""
+        """The states of a family by sites: shape (m, N, coordinates), of a lattice (m, N, M, coordinates) or (m, L, N, M, coordinates)."""
         if self._sites is None:
             raise AttributeError(f"{self.name} is no family: its states are in `mu`")
         return self._sites.of(self.mu)

@@ -9,6 +9,7 @@ use lie_codegen::model::{Family, Parameter, QuantityKind};
 use lie_codegen::program::{Chart, columns};
 use lie_codegen::structure::{Structure, group};
 use lie_program::protocol::{Columns, Coordinates};
+use lie_runtime::lattice::AXES;
 
 use crate::output::Names;
 
@@ -151,11 +152,11 @@ impl Layout {
         let parameters = model.parameters.iter();
         let value = |p: &Parameter| values.get(&p.name).copied().unwrap_or(p.default_value);
         let parameters: Vec<f64> = parameters.map(value).collect();
-        let [rows, columns] = family.sites(&parameters).unwrap_or([1, 1]);
+        let sizes = family.sites(&parameters).unwrap_or([1; AXES]);
         let mut names = Names::default();
         names.push("t");
         for name in &model.coordinates {
-            names.push_sites(&name.text, [rows, columns]);
+            names.push_sites(&name.text, sizes);
         }
         let states = names.len() - 1;
         names.push("energy");

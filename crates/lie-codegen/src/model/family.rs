@@ -1,8 +1,10 @@
 //! Families of copies of an algebra.
 
+use std::array::from_fn;
 use std::sync::Arc;
 
 use super::Model;
+use lie_core::lattice::{self, AXES, last_axes};
 use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 pub use lie_syntax::ast::Start;
 
@@ -46,11 +48,11 @@ pub fn data_number(symbol: Symbol) -> Option<usize> {
 /// A family `A^N`: H is a function of sums over the sites.
 #[derive(Clone, Debug)]
 pub struct Family {
-    /// The number of sites along each axis, one or two.
+    /// The number of sites along each axis, of which there are one to [`AXES`].
     pub sizes: Vec<Size>,
-    /// The distances, in rows and columns, of the sites that a summand or the motion of a site depends on; a chain is a row.
+    /// The distances, in layers, rows and columns, of the sites that a summand or the motion of a site depends on; a chain is a row.
     /// Coordinate a of a site in slot s is [`Symbol::Coordinate`](lie_symbolic::symbolic::Symbol::Coordinate) `s n + a`.
-    pub slots: Vec<[i64; 2]>,
+    pub slots: Vec<[i64; AXES]>,
     /// The slot of the site itself.
     pub own: usize,
     /// The names of all these coordinates, such as `x[i+1]`.
@@ -95,8 +97,8 @@ pub struct SiteData {
     pub name: String,
     /// Its values, site after site.
     pub values: Arc<[f64]>,
-    /// Rows and columns of a lattice, of which there is a value for each site.
-    pub sizes: Option<[usize; 2]>,
+    /// Layers, rows and columns of a lattice, of which there is a value for each site.
+    pub sizes: Option<[usize; AXES]>,
     /// The number of last sites of a chain of which no sum asks for the value, so that it may be left out.
     pub unused: usize,
     /// Unit, for people, as Markdown within a line.
@@ -128,7 +130,7 @@ pub struct SiteSum {
     /// Whether H depends on it, and not observables alone.
     pub moves: bool,
     /// For each axis the first site and the number of sites behind the last one; none where it goes over all.
-    pub spans: [Option<(usize, usize)>; 2],
+    pub spans: [Option<(usize, usize)>; AXES],
 }
 
 impl Family {
@@ -164,27 +166,17 @@ impl Family {
     /// The symbol of a coefficient as seen from the site in a slot.
     pub fn data_from(&self, symbol: Symbol, slot: usize) -> Option<Symbol> {
         let [at, which] = *self.data_places.get(data_number(symbol)?)?;
-        let ([row, column], [down, right]) = (self.slots[at], self.slots[slot]);
-        let moved = [row - down, column - right];
+        let moved = apart(&self.slots[at], &self.slots[slot]);
         let mut places = self.data_places.iter();
         let place = places.position(|[slot, other]| self.slots[*slot] == moved && *other == which);
         place.map(data_symbol)
     }
 
-    /// The value of a coefficient at a site of so many rows and columns.
-    pub fn value_at(
-        &self,
-        symbol: Symbol,
-        site: usize,
-        [rows, columns]: [usize; 2],
-    ) -> Option<f64> {
+    /// The value of a coefficient at the site at a place, of so many layers, rows and columns.
+    pub fn value_at(&self, symbol: Symbol, place: usize, sizes: [usize; AXES]) -> Option<f64> {
         let [slot, which] = *self.data_places.get(data_number(symbol)?)?;
-        let along = |place: usize, distance: i64, size: usize| {
-            (place as i64 + distance).rem_euclid(size as i64) as usize
-        };
-        let [down, right] = self.slots[slot];
-        let row = along(site / columns, down, rows);
-        let place = row * columns + along(site % columns, right, columns);
+        let offset = self.slots[slot].map(|distance| distance as isize);
+        let place = lattice::place(lattice::site(place, sizes), offset, sizes);
         self.data[which].values.get(place).copied()
     }
 
@@ -196,15 +188,16 @@ impl Family {
         }
     }
 
-    /// Rows and columns for these values of the parameters; none where a value is no size.
-    pub fn sites(&self, parameters: &[f64]) -> Option<[usize; 2]> {
-        let size = |size: &Size| size.value(parameters);
-        match self.sizes.as_slice() {
-            [columns] => Some([1, size(columns)?]),
-            [rows, columns, ..] => Some([size(rows)?, size(columns)?]),
-            [] => None,
-        }
+    /// Layers, rows and columns for these values of the parameters; none where a value is no size.
+    pub fn sites(&self, parameters: &[f64]) -> Option<[usize; AXES]> {
+        let sizes = self.sizes.iter().map(|size| size.value(parameters));
+        last_axes(&sizes.collect::<Option<Vec<_>>>()?, 1)
     }
+}
+
+/// The distance of one site from another, from the distances of both.
+pub fn apart(site: &[i64; AXES], from: &[i64; AXES]) -> [i64; AXES] {
+    from_fn(|axis| site[axis] - from[axis])
 }
 
 impl Model {

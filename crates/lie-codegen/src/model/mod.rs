@@ -27,8 +27,8 @@ pub use constraint::{Constraint, Violation};
 pub use driving::{Acting, Driving, Input};
 pub use energy::{Discrete, Energy, Hamiltonian, Lagrangian};
 pub use family::{
-    Family, SiteData, SiteSum, Size, Start, data_number, data_symbol, shared_number, shared_symbol,
-    slope_symbol, wrong_bond,
+    Family, SiteData, SiteSum, Size, Start, apart, data_number, data_symbol, shared_number,
+    shared_symbol, slope_symbol, wrong_bond,
 };
 pub use quantity::{Event, Quantity, QuantityKind, WORK};
 pub use realization::{CANONICAL, Descent, Realization};

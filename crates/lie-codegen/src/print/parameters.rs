@@ -75,7 +75,7 @@ impl Printer<'_> {
         let described = listed.iter().map(|data| {
             let what = match data.bonds {
                 true => "Three numbers for each: i, j, value.",
-                false => "A value for each site, of a lattice row after row.",
+                false => "A value for each site, of a lattice row after row, layer after layer.",
             };
             format!(" {} {what}", data.doc)
         });

@@ -6,20 +6,22 @@ mod acting;
 mod bonds;
 mod timed;
 
+use std::array::from_fn;
 use std::collections::BTreeMap;
 
 use crate::model::{Family, Model, SiteSum, data_number};
 use crate::structure::separable;
 use crate::structure::spins::Spin;
+use lie_core::lattice::AXES;
 use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 
 /// A piece, the same for all sites that it goes over.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Piece {
     /// The distance of the second site of a bond; 0 of a function of one.
-    pub offset: [i64; 2],
+    pub offset: [i64; AXES],
     /// Where the first sites are.
-    pub spans: [Option<(usize, usize)>; 2],
+    pub spans: [Option<(usize, usize)>; AXES],
     /// What it is.
     pub form: Form,
     /// Its derivative by the time, where it depends on it by itself.
@@ -117,10 +119,13 @@ impl Piece {
     /// What it is, in the names of the coordinates.
     pub fn describe(&self, model: &Model) -> String {
         let name = |a: usize| &model.coordinates[a].text;
-        let at = match self.offset {
-            [0, right] => format!("{right:+}"),
-            [down, right] => format!("{down:+},{right:+}"),
-        };
+        let straight = self.offset.iter().position(|distance| *distance != 0);
+        let offset = &self.offset[straight.unwrap_or(AXES - 1)..];
+        let at: Vec<String> = offset
+            .iter()
+            .map(|distance| format!("{distance:+}"))
+            .collect();
+        let at = at.join(",");
         match &self.form {
             Form::Site(a, _) => format!("f({})", name(*a)),
             Form::Collective(a, ..) => format!("F(sums over {})", name(*a)),
@@ -276,7 +281,7 @@ impl Search<'_> {
         }
         let (a, spans) = known.unwrap_or_default();
         Ok(Piece {
-            offset: [0, 0],
+            offset: [0; AXES],
             spans,
             timed: self.time_slope_of_sums(&shares)?,
             form: Form::Collective(a, slope, shares),
@@ -315,14 +320,14 @@ impl Search<'_> {
     }
 
     /// The spans of a sum as those of the site in a slot.
-    fn spans(&self, sum: &SiteSum, slot: usize) -> [Option<(usize, usize)>; 2] {
+    fn spans(&self, sum: &SiteSum, slot: usize) -> [Option<(usize, usize)>; AXES] {
         let distance = self.family.slots[slot];
         let moved = |axis: usize| {
             let (first, left) = sum.spans[axis]?;
             let moved = |count: usize, by: i64| usize::try_from(count as i64 + by).unwrap_or(0);
             Some((moved(first, distance[axis]), moved(left, -distance[axis])))
         };
-        [moved(0), moved(1)]
+        from_fn(moved)
     }
 
     /// The functions of single coordinates of the site in a slot.
@@ -381,7 +386,7 @@ impl Search<'_> {
                     }
                 }
                 None => self.found.push(Piece {
-                    offset: [0, 0],
+                    offset: [0; AXES],
                     spans,
                     form: Form::Site(a, slope),
                     timed,

@@ -54,8 +54,8 @@ where
         let (kernels, own) = (self.family.kernels(), self.family.own());
         let mut slope = Totals::<Fixed<1>, S>::new(1);
         slope.add(&[kernels.time_slope_of_sums(piece.place, sums)]);
-        for row in 0..self.family.sizes()[0] {
-            self.strips(piece, row, |strip| {
+        for line in 0..self.family.lines() {
+            self.strips(piece, line, |strip| {
                 slope.add(&[kernels.time_slopes(piece.place, (sums, &self.data), &strip, mu)]);
             });
         }
@@ -109,8 +109,8 @@ where
                 at: known,
             } => {
                 (*known, *most) = (turn, S::zero());
-                for row in 0..family.sizes()[0] {
-                    self.strips(piece, row, |strip| {
+                for line in 0..family.lines() {
+                    self.strips(piece, line, |strip| {
                         let first = strip.places[0];
                         let of_strip = rates[first..][..strip.count].iter_mut();
                         for (rate, place) in of_strip.zip(first..) {

@@ -1,12 +1,13 @@
 //! The bonds of a kind: by which axis and in which colours they are done, so that no two of a colour have a site in common.
 
 use super::{Kind, Span};
+use crate::lattice::AXES;
 use core::ops::Range;
 
 /// The bonds of a kind along one axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Bonds {
-    /// 0 where they are told apart by their rows, 1 by their columns.
+    /// By which they are told apart.
     pub(super) axis: usize,
     size: usize,
     /// From the first to the second site.
@@ -19,10 +20,10 @@ pub(super) struct Bonds {
 }
 
 impl Bonds {
-    /// Those of a kind; none where each site would be bound to itself.
-    pub(super) fn new(kind: Kind, sizes: [usize; 2]) -> Option<Self> {
-        [1, 0]
-            .into_iter()
+    /// Those of a kind, along the last axis on which its sites differ; none where each site would be bound to itself.
+    pub(super) fn new(kind: Kind, sizes: [usize; AXES]) -> Option<Self> {
+        (0..AXES)
+            .rev()
             .find_map(|axis| Self::along(axis, kind, sizes[axis]))
     }
 
@@ -104,11 +105,11 @@ mod tests {
                         Span::Within { first: 0, left: 0 }
                     };
                     let kind = Kind {
-                        offset: [0, offset],
-                        spans: [Span::All, span],
+                        offset: [0, 0, offset],
+                        spans: [Span::All, Span::All, span],
                         collective: false,
                     };
-                    let Some(bonds) = Bonds::new(kind, [1, size]) else {
+                    let Some(bonds) = Bonds::new(kind, [1, 1, size]) else {
                         assert_eq!(offset % (if ring { size as isize } else { 100 }), 0);
                         continue;
                     };
@@ -148,14 +149,20 @@ mod tests {
     }
 
     #[test]
-    fn a_lattice_of_one_column_is_told_apart_by_its_rows() {
+    fn bonds_are_told_apart_by_the_last_axis_on_which_their_sites_differ() {
         let kind = Kind {
-            offset: [1, 1],
-            spans: [Span::All; 2],
+            offset: [1, 1, 1],
+            spans: [Span::All; AXES],
             collective: false,
         };
-        assert_eq!(Bonds::new(kind, [4, 1]).map(|bonds| bonds.axis), Some(0));
-        assert_eq!(Bonds::new(kind, [4, 3]).map(|bonds| bonds.axis), Some(1));
-        assert_eq!(Bonds::new(kind, [1, 1]), None);
+        for (sizes, axis) in [
+            ([2, 4, 1], Some(1)),
+            ([1, 4, 1], Some(1)),
+            ([5, 4, 3], Some(2)),
+            ([5, 1, 1], Some(0)),
+            ([1, 1, 1], None),
+        ] {
+            assert_eq!(Bonds::new(kind, sizes).map(|bonds| bonds.axis), axis);
+        }
     }
 }

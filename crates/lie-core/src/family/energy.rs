@@ -2,7 +2,9 @@
 
 use super::shape::{Of, Shape};
 use super::sites::{Sums, width};
+use super::stencil::in_column;
 use super::{Family, Sites};
+use crate::lattice::AXES;
 use crate::scalar::Scalar;
 
 /// So many summands are added before rounding errors are carried.
@@ -50,16 +52,17 @@ impl<K> Family<K> {
     where
         K: Sites<S>,
     {
-        let [rows, columns] = self.sizes();
+        let columns = self.columns();
         let mut totals = Totals::<K::Sums, S>::new(width(self.kernels()));
         let shared = self.shared(mu);
-        for row in 0..rows {
-            let inner = self.inner::<S>(row);
+        for line in 0..self.lines() {
+            let (begin, inner) = (self.begin(line), self.inner::<S>(line));
             for column in (0..inner.start).chain(inner.end..columns) {
-                totals.add(self.summands_at(mu, [row, column], &shared).as_ref());
+                let site = in_column(begin, column);
+                totals.add(self.summands_at(mu, site, &shared).as_ref());
             }
             for from in inner.clone().step_by(BLOCK) {
-                let stretch = self.stretch(mu, row, from..inner.end.min(from + BLOCK));
+                let stretch = self.stretch(mu, line, from..inner.end.min(from + BLOCK));
                 totals.add(self.kernels().sum(&stretch, &shared).as_ref());
             }
         }
@@ -71,18 +74,18 @@ impl<K> Family<K> {
     fn summands_at<S: Scalar>(
         &self,
         mu: &[S],
-        [row, column]: [usize; 2],
+        site: [usize; AXES],
         shared: &Sums<K, S>,
     ) -> Sums<K, S>
     where
         K: Sites<S>,
     {
-        let ([rows, columns], kernels) = (self.sizes(), self.kernels());
-        let mut summands = kernels.shared_summands(&self.around(mu, [row, column]), shared);
+        let (sizes, kernels) = (self.sizes(), self.kernels());
+        let mut summands = kernels.shared_summands(&self.around(mu, site), shared);
         let of_sums = summands.as_mut().iter_mut().take(kernels.count());
         for (k, summand) in of_sums.enumerate() {
-            let [down, right] = kernels.term(k).spans;
-            if !(down.holds(row as isize, rows) && right.holds(column as isize, columns)) {
+            let spans = kernels.term(k).spans;
+            if !(0..AXES).all(|axis| spans[axis].holds(site[axis] as isize, sizes[axis])) {
                 *summand = S::zero();
             }
         }

@@ -1,5 +1,6 @@
 //! What parameters give a family: the number of its sites, and values for each of them.
 
+use crate::lattice::{AXES, count, shown};
 use crate::parameter::{ParameterError, ParameterFault};
 use crate::scalar::Scalar;
 use std::vec::Vec;
@@ -29,11 +30,11 @@ pub fn size<S: Scalar>(value: S, name: &'static str) -> Result<usize, ParameterE
 pub fn values<S: Scalar>(
     given: &[S],
     name: &'static str,
-    [rows, columns]: [usize; 2],
+    sizes: [usize; AXES],
     unused: usize,
 ) -> Result<Vec<S>, ParameterError> {
-    let left_out = if rows == 1 { unused } else { 0 };
-    let count = rows * columns;
+    let left_out = if shown(&sizes).len() == 1 { unused } else { 0 };
+    let count = count(sizes);
     if given.len() > count || count - given.len() > left_out {
         return Err(ParameterError {
             name,

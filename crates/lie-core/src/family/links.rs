@@ -3,6 +3,7 @@
 use super::shape::Shape as _;
 use super::sites::{Site, Sums};
 use super::{Family, Sites};
+use crate::lattice::{AXES, shown};
 use crate::parameter::{ParameterError, ParameterFault};
 use crate::scalar::Scalar;
 use std::vec::Vec;
@@ -14,15 +15,16 @@ use std::vec::Vec;
 pub fn bonds<S: Scalar>(
     given: &[S],
     name: &'static str,
-    [rows, columns]: [usize; 2],
+    sizes: [usize; AXES],
 ) -> Result<Vec<S>, ParameterError> {
     let (bonds, rest) = given.as_chunks::<3>();
+    let (is_chain, count) = (shown(&sizes).len() == 1, sizes[AXES - 1]);
     let site = |place: S| {
         let place = place.to_f64();
-        place >= 0.0 && place < columns as f64 && place as usize as f64 == place
+        place >= 0.0 && place < count as f64 && place as usize as f64 == place
     };
     let joins = |[i, j, _]: &[S; 3]| site(*i) && site(*j) && i.to_f64() != j.to_f64();
-    match rows == 1 && rest.is_empty() && bonds.iter().all(joins) {
+    match is_chain && rest.is_empty() && bonds.iter().all(joins) {
         true => Ok(given.to_vec()),
         false => Err(ParameterError {
             name,
@@ -107,7 +109,7 @@ impl<K> Family<K> {
         slope
     }
 
-    /// Adds what bonds do to the sites of some columns of a row.
+    /// Adds what bonds do to the sites of some columns of a line.
     pub(super) fn add_field_of_bonds<S: Scalar>(
         &self,
         mu: &[S],

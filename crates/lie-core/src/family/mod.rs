@@ -9,7 +9,7 @@
 //! system, with the loops over its sites. A sum over all sites is periodic: indices count modulo the size. A sum over some
 //! of them has no neighbours beyond the ends.
 //!
-//! A state holds the first coordinates of all sites, then the second ones, and so on; the sites of a lattice row after row.
+//! A state holds the first coordinates of all sites, then the second ones, and so on; the sites of a lattice row after row, layer after layer.
 //! Memory is a few states: no method keeps a Jacobian, so that they are those that need none. Matrices of all coordinates are
 //! there for measurements on small families.
 #![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]

@@ -3,7 +3,9 @@
 use super::energy::Totals;
 use super::shape::Fixed;
 use super::sites::Sums;
+use super::stencil::{LAST, in_column};
 use super::{Family, Sites};
+use crate::lattice::{AXES, shown};
 use crate::scalar::Scalar;
 use core::ops::Range;
 use std::vec::Vec;
@@ -16,12 +18,12 @@ const PART: usize = 128;
 pub(super) type Power<S> = Totals<Fixed<1>, S>;
 
 impl<K> Family<K> {
-    /// The vector field on some columns of a row, `inner` being those of the row that have all neighbours.
+    /// The vector field on some columns of a line, `inner` being those of the line that have all neighbours.
     #[inline]
-    pub(super) fn field_of_row<S: Scalar>(
+    pub(super) fn field_of_line<S: Scalar>(
         &self,
         mu: &[S],
-        (row, part): (usize, Range<usize>),
+        (line, part): (usize, Range<usize>),
         inner: Range<usize>,
         weights: &Sums<K, S>,
         out: &mut [S],
@@ -29,7 +31,8 @@ impl<K> Family<K> {
     ) where
         K: Sites<S>,
     {
-        let (kernels, [_, columns]) = (self.kernels(), self.sizes());
+        let (kernels, columns) = (self.kernels(), self.columns());
+        let begin = self.begin(line);
         // where something acts, the field is no sum of what parts of the slope make
         let bonds = !kernels.bonds().is_empty();
         let inner = match kernels.acts() && bonds {
@@ -39,11 +42,11 @@ impl<K> Family<K> {
         let at_ends = [0..inner.start, inner.end..columns];
         let outer = at_ends.map(|end| end.start.max(part.start)..end.end.min(part.end));
         for column in outer.into_iter().flatten() {
-            let site = row * columns + column;
-            let slope = self.slope(mu, [row, column], weights);
+            let (site, at) = (line * columns + column, in_column(begin, column));
+            let slope = self.slope(mu, at, weights);
             let slope = self.with_bonds(slope, mu, site, weights);
             if kernels.acts() {
-                let at = self.around(mu, [row, column]);
+                let at = self.around(mu, at);
                 let (field, part) = kernels.shared_act(&slope, &at, weights);
                 self.set_site(out, site, field.as_ref());
                 power.add(&[part]);
@@ -54,13 +57,13 @@ impl<K> Family<K> {
         }
         let inner = inner.start.max(part.start)..inner.end.min(part.end);
         if !inner.is_empty() {
-            let stretch = self.stretch(mu, row, inner.clone());
+            let stretch = self.stretch(mu, line, inner.clone());
             match kernels.acts() {
                 true => power.add(&[kernels.driven_fields(&stretch, weights, out)]),
                 false => kernels.fields(&stretch, weights, out),
             }
             if bonds {
-                let sites = row * columns + inner.start..row * columns + inner.end;
+                let sites = line * columns + inner.start..line * columns + inner.end;
                 self.add_field_of_bonds(mu, sites, weights, out);
             }
         }
@@ -72,15 +75,15 @@ impl<K> Family<K> {
     where
         K: Sites<S>,
     {
-        let [rows, columns] = self.sizes();
-        let offsets = self.kernels().offsets().iter();
-        let farthest = |axis: usize| {
-            let distances = offsets.clone().map(|offset| offset[axis].unsigned_abs());
-            distances.max().unwrap_or(0)
-        };
-        match rows {
-            1 => 2 * farthest(1),
-            _ => (2 * farthest(0) + 1) * columns,
+        let sizes = self.sizes();
+        let axis = AXES - shown(&sizes).len();
+        let distances = self.kernels().offsets().iter();
+        let distances = distances.map(|offset| offset[axis].unsigned_abs());
+        let farthest = 2 * distances.max().unwrap_or(0);
+        match axis {
+            LAST => farthest,
+            // along the axes behind it sites wrap around
+            _ => (farthest + 1) * sizes[axis + 1..].iter().product::<usize>(),
         }
     }
 
@@ -95,7 +98,7 @@ impl<K> Family<K> {
     ) where
         K: Sites<S>,
     {
-        let (count, [rows, columns]) = (self.count(), self.sizes());
+        let (count, columns) = (self.count(), self.columns());
         let carried = self.kernels().dimension() * count..mu.len();
         if !carried.is_empty() {
             before(mu, carried.clone());
@@ -129,18 +132,18 @@ impl<K> Family<K> {
             };
             let (weights, of_time) = weights;
             power.add(&[of_time]);
-            for row in 0..rows {
-                let inner = self.inner::<S>(row);
+            for line in 0..self.lines() {
+                let inner = self.inner::<S>(line);
                 for start in (0..columns).step_by(PART) {
                     let part = start..columns.min(start + PART);
-                    let sites = row * columns + part.start..row * columns + part.end;
+                    let sites = line * columns + part.start..line * columns + part.end;
                     if is_local(&sites) == at_ends {
                         continue;
                     }
                     if !at_ends {
                         set_to(sites.end + local, mu);
                     }
-                    self.field_of_row(mu, (row, part), inner.clone(), &weights, out, &mut power);
+                    self.field_of_line(mu, (line, part), inner.clone(), &weights, out, &mut power);
                     of_sites(&sites, &mut |entries| after(out, entries));
                 }
             }
@@ -160,26 +163,30 @@ mod tests {
     use crate::poisson::Poisson;
     use core::cell::Cell;
 
-    /// Sites with one coordinate coupled to the four around them by made-up functions, or all to all.
+    /// Sites with one coordinate coupled to those around them by made-up functions, or all to all.
     #[derive(Clone)]
     struct Net {
         mean_field: bool,
-        offsets: [[isize; 2]; 5],
+        offsets: [[isize; AXES]; 7],
     }
 
     impl Net {
-        fn new(lattice: bool, mean_field: bool) -> Self {
-            let down = isize::from(lattice);
+        /// Along so many axes.
+        fn new(axes: usize, mean_field: bool) -> Self {
+            let [down, below] = [1, 2].map(|others| isize::from(axes > others));
+            let behind = [[0, 0, 1], [0, down, 0], [below, 0, 0]];
+            let [right, down, below] = behind;
+            let [left, up, above] = behind.map(|offset| offset.map(|distance| -distance));
             Self {
                 mean_field,
-                offsets: [[0, 0], [0, -1], [0, 1], [-down, 0], [down, 0]],
+                offsets: [[0; AXES], left, right, up, down, above, below],
             }
         }
     }
 
     impl<S: Scalar> Sites<S> for Net {
         type Site = Fixed<1>;
-        type Around = Fixed<5>;
+        type Around = Fixed<7>;
         type Sums = Fixed<1>;
         type Widened = Self;
         type Lifted = Self;
@@ -193,7 +200,7 @@ mod tests {
         fn coordinate(&self, _index: usize) -> &str {
             "x"
         }
-        fn offsets(&self) -> &[[isize; 2]] {
+        fn offsets(&self) -> &[[isize; AXES]] {
             &self.offsets
         }
         fn count(&self) -> usize {
@@ -201,8 +208,8 @@ mod tests {
         }
         fn term(&self, _index: usize) -> Term<'_> {
             Term {
-                slots: &[0, 1, 2, 3, 4],
-                spans: [Span::All; 2],
+                slots: &[0, 1, 2, 3, 4, 5, 6],
+                spans: [Span::All; AXES],
             }
         }
         fn has_mean_field(&self) -> bool {
@@ -221,8 +228,8 @@ mod tests {
             None
         }
         fn field(&self, at: &Around<Self, S>, weights: &Sums<Self, S>) -> Site<Self, S> {
-            let [x, left, right, up, down] = *at;
-            [x * (left - right) + up * down + weights[0]]
+            let [x, left, right, up, down, above, below] = *at;
+            [x * (left - right) + up * down + above * below + weights[0]]
         }
         fn slope(
             &self,
@@ -231,7 +238,7 @@ mod tests {
             at: &Around<Self, S>,
             weights: &Sums<Self, S>,
         ) -> Site<Self, S> {
-            [at[slot] * at[(slot + 1) % 5] + weights[0]]
+            [at[slot] * at[(slot + 1) % 7] + weights[0]]
         }
         fn summands(&self, at: &Around<Self, S>) -> Sums<Self, S> {
             [at[0] * at[2]]
@@ -264,7 +271,7 @@ mod tests {
 
     /// Compares slopes that come part by part with those of the whole, from a state whose entries are not numbers before they are
     /// asked for. How many entries were there when the first slopes were.
-    fn compare(net: Net, sizes: [usize; 2]) -> usize {
+    fn compare(net: Net, sizes: [usize; AXES]) -> usize {
         let family = Family::new(net, sizes);
         let mu: Vec<f64> = unit_spheres(family.count(), 1, 5);
         let mu: Vec<f64> = mu.iter().zip(1..).map(|(x, k)| x / f64::from(k)).collect();
@@ -294,15 +301,21 @@ mod tests {
     #[test]
     fn slopes_that_come_part_by_part_are_those_of_the_whole() {
         for n in [1, 2, 3, 7, 127, 128, 129, 132, 260, 1000] {
-            let there = compare(Net::new(false, false), [1, n]);
+            let there = compare(Net::new(1, false), [1, 1, n]);
             assert_eq!(there < n, n > 258, "{n}: {there}");
-            assert_eq!(compare(Net::new(false, true), [1, n]), n);
+            assert_eq!(compare(Net::new(1, true), [1, 1, n]), n);
         }
         for [rows, columns] in [[2, 2], [3, 5], [6, 9], [7, 300], [20, 11], [40, 130]] {
             let count = rows * columns;
-            let there = compare(Net::new(true, false), [rows, columns]);
+            let there = compare(Net::new(2, false), [1, rows, columns]);
             assert_eq!(there < count, rows > 6, "{rows} {columns}: {there}");
-            assert_eq!(compare(Net::new(true, true), [rows, columns]), count);
+            assert_eq!(compare(Net::new(2, true), [1, rows, columns]), count);
+        }
+        for sizes in [[2, 2, 2], [4, 3, 5], [7, 2, 9], [9, 1, 140], [12, 5, 131]] {
+            let count = sizes.iter().product();
+            let there = compare(Net::new(3, false), sizes);
+            assert_eq!(there < count, sizes[0] > 6, "{sizes:?}: {there}");
+            assert_eq!(compare(Net::new(3, true), sizes), count);
         }
     }
 }

@@ -5,15 +5,16 @@ use super::shape::Shape as _;
 use super::sites::{Around, Site, Sums};
 use super::stencil::around;
 use super::{Sites, Span};
+use crate::lattice::AXES;
 use crate::scalar::Scalar;
 
 /// A kind of pieces: a function of one site, or a bond.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Kind {
-    /// The distance of the second site of a bond, in rows and columns; 0 of a function of one site.
-    pub offset: [isize; 2],
+    /// The distance of the second site of a bond, in layers, rows and columns; 0 of a function of one site.
+    pub offset: [isize; AXES],
     /// The sites that it goes over, the first ones of bonds.
-    pub spans: [Span; 2],
+    pub spans: [Span; AXES],
     /// Whether it is a function of sums over these sites, which its flow keeps.
     pub collective: bool,
 }
@@ -184,7 +185,7 @@ pub fn site_by_site<S: Scalar, K: Pieces<S>>(
     }
 }
 
-/// Sites of a row, or bonds, that are done together: where the first and where the second ones stand, one behind the other.
+/// Sites of a line, or bonds, that are done together: where the first and where the second ones stand, one behind the other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Strip {
     /// The places of the first sites.

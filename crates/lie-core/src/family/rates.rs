@@ -3,8 +3,9 @@
 use super::columns::Columns;
 use super::shape::Shape as _;
 use super::sites::{Around, width};
-use super::stencil::around;
+use super::stencil::{around, in_column};
 use super::{Family, Kind, Pieces, Sites};
+use crate::lattice::AXES;
 use crate::scalar::Scalar;
 use std::vec::Vec;
 
@@ -40,16 +41,17 @@ pub(super) fn coefficients<S: Scalar, K: Sites<S>>(
 
 /// The coefficients that kernels read, in the order of the columns, and space for the rates of noise.
 pub(super) fn data<S: Scalar, K: Sites<S>>(family: &Family<K>, order: Columns) -> Vec<S> {
-    let (kernels, [rows, columns]) = (family.kernels(), family.sizes());
+    let (kernels, columns) = (family.kernels(), family.columns());
     let places = kernels.data_places();
     let mut all = std::vec![S::zero(); (places.len() + kernels.noise_count()) * family.count()];
     let mut parts = all.chunks_exact_mut(family.count());
     for (&[slot, which], part) in places.iter().zip(&mut parts) {
         let (values, offset) = (kernels.data(which), kernels.offsets()[slot]);
-        for row in 0..rows {
+        for line in 0..family.lines() {
+            let begin = family.begin(line);
             for column in 0..columns {
-                let site = family.neighbour([row, column], offset);
-                part[row * columns + order.place(column)] = values[site];
+                let site = family.neighbour(in_column(begin, column), offset);
+                part[line * columns + order.place(column)] = values[site];
             }
         }
     }
@@ -70,12 +72,14 @@ pub(super) fn rate<S: Scalar, K: Pieces<S>>(
             .shared_exchange(number, &at, &shared)
             .map(Rate::Same);
     }
-    let ([rows, columns], spans) = (family.sizes(), kind.spans);
+    let (columns, span) = (family.columns(), kind.spans[AXES - 1]);
     // bonds alone count: behind the ends of a chain there are no values
     let (mut rates, mut most) = (std::vec![S::zero(); count], S::zero());
-    for row in spans[0].range(rows) {
-        for column in spans[1].range(columns) {
-            let place = row * columns + order.place(column);
+    let lines =
+        (0..family.lines()).filter(|line| family.line_holds(family.begin(*line), &kind.spans));
+    for line in lines {
+        for column in span.range(columns) {
+            let place = line * columns + order.place(column);
             let at = coefficients(kernels, data, count, place);
             rates[place] = kernels.shared_exchange(number, &at, &shared)?;
             most = most.max(rates[place].abs());

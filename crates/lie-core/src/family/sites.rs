@@ -2,6 +2,7 @@
 
 use super::shape::{Of, Shape};
 use super::stencil::{Stretch, gathered};
+use crate::lattice::AXES;
 use crate::scalar::{Dual, Scalar};
 use core::ops::Range;
 
@@ -48,8 +49,8 @@ impl Span {
 pub struct Term<'a> {
     /// The slots that the summand depends on.
     pub slots: &'a [usize],
-    /// The sites, by row and by column.
-    pub spans: [Span; 2],
+    /// The sites, by layer, row and column.
+    pub spans: [Span; AXES],
 }
 
 /// The coordinates of a site.
@@ -88,8 +89,8 @@ pub trait Sites<S: Scalar>: Clone {
     fn dimension(&self) -> usize;
     /// The name of a coordinate of a site.
     fn coordinate(&self, index: usize) -> &str;
-    /// The distances of the slots in rows and columns.
-    fn offsets(&self) -> &[[isize; 2]];
+    /// The distances of the slots in layers, rows and columns.
+    fn offsets(&self) -> &[[isize; AXES]];
     /// The number of sums.
     fn count(&self) -> usize;
     /// A sum.

@@ -14,8 +14,9 @@ use super::energy::Totals;
 use super::exchange::Exchange;
 use super::rates::{Rate, data, rate};
 use super::sites::{Sums, width};
-use super::stencil::wrapped;
+use super::stencil::LAST;
 use super::{Effects, Family, Kind, Pieces, Strip};
+use crate::lattice::AXES;
 use crate::pieces::{FoundPoisson, PieceFlows};
 use crate::poisson::Poisson as _;
 use crate::scalar::Scalar;
@@ -57,7 +58,7 @@ where
         let (mut pieces, mut modulus) = (Vec::new(), 1);
         for (place, &kind) in family.kernels().kinds().iter().enumerate() {
             let bonds = Bonds::new(kind, family.sizes());
-            if let Some(bonds) = bonds.filter(|bonds| bonds.axis == 1) {
+            if let Some(bonds) = bonds.filter(|bonds| bonds.axis == LAST) {
                 modulus = bonds.period().max(modulus);
             }
             for colour in 0..bonds.map_or(1, Bonds::colours) {
@@ -71,7 +72,7 @@ where
                 });
             }
         }
-        let columns = Columns::new(family.sizes()[1], modulus);
+        let columns = Columns::new(family.columns(), modulus);
         let data = data(family, columns);
         for piece in &mut pieces {
             piece.exchange = rate(family, (&data, columns), (piece.place, piece.kind));
@@ -94,9 +95,9 @@ where
         }
     }
 
-    /// The strips of a piece whose first sites are in a row.
-    pub(super) fn strips(&self, piece: &Piece<S>, row: usize, mut then: impl FnMut(Strip)) {
-        let [rows, columns] = self.family.sizes();
+    /// The strips of a piece whose first sites are in a line.
+    pub(super) fn strips(&self, piece: &Piece<S>, line: usize, mut then: impl FnMut(Strip)) {
+        let (family, columns) = (self.family, self.family.columns());
         let Piece {
             kind,
             bonds,
@@ -106,21 +107,23 @@ where
         let strip = |places: [usize; 2], count: usize| Strip {
             places,
             count,
-            sites: rows * columns,
+            sites: family.count(),
             bonds: bonds.is_some(),
         };
         let own = |axis: usize, place: usize| {
             bonds.is_none_or(|bonds| bonds.axis != axis || bonds.colour(place) == colour)
         };
-        if !kind.spans[0].holds(row as isize, rows) || !own(0, row) {
+        let (at, mut across) = (family.begin(line), kind.offset);
+        let is_own = (0..LAST).all(|axis| own(axis, at[axis]));
+        if !is_own || !family.line_holds(at, &kind.spans) {
             return;
         }
-        let begin = row * columns;
-        let below = wrapped(row as isize + kind.offset[0], rows) * columns;
-        let span = kind.spans[1].range(columns);
-        let of_columns = bonds.filter(|bonds| bonds.axis == 1);
+        across[LAST] = 0;
+        let (begin, below) = (line * columns, family.neighbour(at, across));
+        let span = kind.spans[LAST].range(columns);
+        let of_columns = bonds.filter(|bonds| bonds.axis == LAST);
         if of_columns.is_none() && span == (0..columns) {
-            // whole rows, whatever the order of their columns is
+            // whole lines, whatever the order of their columns is
             return then(strip([begin, below], columns));
         }
         let parts = of_columns.map_or([(span.clone(), 0), (0..0, 0)], |bonds| {
@@ -128,7 +131,7 @@ where
         });
         let step = self.columns.modulus();
         for (Range { start, end }, shift) in parts {
-            for first in (start..end.min(start + step)).filter(|first| own(1, *first)) {
+            for first in (start..end.min(start + step)).filter(|first| own(LAST, *first)) {
                 let second = (first as isize + shift) as usize;
                 let places = [
                     begin + self.columns.place(first),
@@ -147,8 +150,8 @@ where
         }
         let mut totals = Totals::<K::Sums, S>::new(width(kernels));
         let shared = family.shared(mu);
-        for row in 0..family.sizes()[0] {
-            self.strips(piece, row, |strip| {
+        for line in 0..family.lines() {
+            self.strips(piece, line, |strip| {
                 let first = strip.places[0];
                 for site in first..first + strip.count {
                     let one = family.site(mu, site);
@@ -162,8 +165,8 @@ where
 
     /// The flow of a piece that is no exchange.
     pub(super) fn sites(&self, piece: &Piece<S>, t: S, sums: &Sums<K, S>, mu: &mut [S]) {
-        for row in 0..self.family.sizes()[0] {
-            self.strips(piece, row, |strip| {
+        for line in 0..self.family.lines() {
+            self.strips(piece, line, |strip| {
                 let kernels = self.family.kernels();
                 kernels.flows(piece.place, t, (sums, &self.data), &strip, mu);
             });
@@ -183,8 +186,8 @@ where
             Rate::Same(rate) => Exchange::new(*rate * t, self.largest),
             Rate::Each { most, .. } => Exchange::of_each(t, *most, self.largest),
         };
-        for row in 0..self.family.sizes()[0] {
-            self.strips(piece, row, |strip| {
+        for line in 0..self.family.lines() {
+            self.strips(piece, line, |strip| {
                 let mut parts = mu.chunks_exact_mut(self.family.count());
                 let components: [_; 3] = from_fn(|_| match parts.next() {
                     Some(part) => strip.pair(part),
@@ -267,7 +270,7 @@ where
             effects,
             ..
         } = self.pieces[place];
-        if bonds.is_none() && kind.offset != [0, 0] {
+        if bonds.is_none() && kind.offset != [0; AXES] {
             // a bond of a site with itself is no such piece
             return mu.fill(S::zero() / S::zero());
         }

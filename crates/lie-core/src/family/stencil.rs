@@ -3,7 +3,9 @@
 use super::shape::{Of, Shape};
 use super::sites::{Around, Site, Sums};
 use super::{Family, Sites, Span};
+use crate::lattice::{AXES, count, place, site, wrapped};
 use crate::scalar::Scalar;
+use core::array::from_fn;
 use core::ops::Range;
 
 /// So many numbers stand between the coordinates of the sites and the rates of Wiener processes, where the time is carried: its momentum, the
@@ -52,48 +54,54 @@ pub(super) fn around<S: Scalar, K: Sites<S>>(sites: &K) -> usize {
     coordinates + sites.data_places().len() + sites.noise_count()
 }
 
-/// An index modulo the size.
+/// The axis of columns.
+pub(super) const LAST: usize = AXES - 1;
+
+/// A site of a line, by the first one.
 #[inline]
-pub(super) fn wrapped(index: isize, size: usize) -> usize {
-    index.rem_euclid(size as isize) as usize
+pub(super) fn in_column(mut begin: [usize; AXES], column: usize) -> [usize; AXES] {
+    begin[LAST] = column;
+    begin
 }
 
-/// Columns of a row at which a site has all summands with it, and no neighbour is found by wrapping around.
+/// Columns of a line at which a site has all summands with it, and no neighbour is found by wrapping around.
 #[derive(Clone, Debug)]
 pub struct Stretch<'m, S> {
     mu: &'m [S],
-    sizes: [usize; 2],
-    row: usize,
-    columns: Range<usize>,
+    sizes: [usize; AXES],
+    first: [usize; AXES],
+    len: usize,
 }
 
 impl<'m, S: Scalar> Stretch<'m, S> {
     /// The number of sites.
     #[inline]
     pub fn len(&self) -> usize {
-        self.columns.len()
+        self.len
     }
 
     /// Whether there are none.
     #[inline]
     pub fn is_empty(&self) -> bool {
-        self.columns.is_empty()
+        self.len == 0
     }
 
     /// A coordinate of the sites at a distance from those of the stretch.
     #[inline]
-    pub fn part(&self, [down, right]: [isize; 2], coordinate: usize) -> &'m [S] {
-        let [rows, columns] = self.sizes;
-        self.along(&self.mu[coordinate * rows * columns..], [down, right])
+    pub fn part(&self, offset: [isize; AXES], coordinate: usize) -> &'m [S] {
+        self.along(&self.mu[coordinate * self.count()..], offset)
     }
 
     /// What there is for each site, of those at a distance from the sites of the stretch.
     #[inline]
-    pub fn along<'a>(&self, all: &'a [S], [down, right]: [isize; 2]) -> &'a [S] {
-        let [rows, columns] = self.sizes;
-        let row = wrapped(self.row as isize + down, rows);
-        let from = row * columns + (self.columns.start as isize + right) as usize;
-        &all[from..][..self.len()]
+    pub fn along<'a>(&self, all: &'a [S], offset: [isize; AXES]) -> &'a [S] {
+        &all[place(self.first, offset, self.sizes)..][..self.len]
+    }
+
+    /// The number of sites of the family.
+    #[inline]
+    fn count(&self) -> usize {
+        count(self.sizes)
     }
 
     /// The coordinates of the sites and of their neighbours, slot after slot, and behind them their coefficients.
@@ -108,9 +116,8 @@ impl<'m, S: Scalar> Stretch<'m, S> {
             Entry::Coordinate(slot, k) => self.part(offsets[slot], k),
             Entry::Data(slot, which) => self.along(sites.data(which), offsets[slot]),
             Entry::Rate(which) => {
-                let [rows, columns] = self.sizes;
-                let first = (dimension + which) * rows * columns + carried(sites);
-                self.along(&self.mu[first..], [0, 0])
+                let first = (dimension + which) * self.count() + carried(sites);
+                self.along(&self.mu[first..], [0; AXES])
             }
         })
     }
@@ -122,10 +129,10 @@ impl<'m, S: Scalar> Stretch<'m, S> {
         dimension: usize,
         state: &'o mut [S],
     ) -> Of<A, &'o mut [S]> {
-        let [rows, columns] = self.sizes;
-        let mut parts = state.chunks_exact_mut(rows * columns);
+        let first = place(self.first, [0; AXES], self.sizes);
+        let mut parts = state.chunks_exact_mut(self.count());
         A::make(dimension, |_| match parts.next() {
-            Some(part) => &mut part[self.row * columns + self.columns.start..][..self.len()],
+            Some(part) => &mut part[first..][..self.len],
             None => unreachable!("a part for each coordinate"),
         })
     }
@@ -138,30 +145,59 @@ pub(super) fn gathered<A: Shape, S: Scalar>(along: &[&[S]], place: usize) -> Of<
 }
 
 impl<K> Family<K> {
+    /// How many sites stand one behind the other along the last axis: a line.
+    #[inline]
+    pub(super) fn columns(&self) -> usize {
+        self.sizes()[LAST]
+    }
+
+    /// The number of lines.
+    #[inline]
+    pub(super) fn lines(&self) -> usize {
+        self.sizes()[..LAST].iter().product()
+    }
+
+    /// The first site of a line.
+    #[inline]
+    pub(super) fn begin(&self, line: usize) -> [usize; AXES] {
+        let [layers, rows, _] = self.sizes();
+        site(line, [layers, rows, 1])
+    }
+
+    /// Whether sums over these sites go over some of the line that begins at a site.
+    #[inline]
+    pub(super) fn line_holds(&self, at: [usize; AXES], spans: &[Span; AXES]) -> bool {
+        let sizes = self.sizes();
+        (0..LAST).all(|axis| spans[axis].holds(at[axis] as isize, sizes[axis]))
+    }
+
     /// The columns in which a site has all summands with it, and no neighbour is found by wrapping around; none where
-    /// that is not so of the row.
-    pub(super) fn inner<S: Scalar>(&self, row: usize) -> Range<usize>
+    /// that is not so of the line.
+    pub(super) fn inner<S: Scalar>(&self, line: usize) -> Range<usize>
     where
         K: Sites<S>,
     {
-        let [rows, columns] = self.sizes();
-        let columns = columns as isize;
+        let (sizes, at) = (self.sizes(), self.begin(line));
+        let columns = self.columns() as isize;
         let (mut first, mut end) = (0, columns);
         let offsets = self.kernels().offsets();
-        for [_, offset] in offsets {
+        for offset in offsets.iter().map(|offset| offset[LAST]) {
             first = first.max(-offset);
             end = end.min(columns - offset);
         }
         for term in (0..self.kernels().count()).map(|k| self.kernels().term(k)) {
             // its own summand too, of which H may not depend
             let slots = term.slots.iter().map(|&slot| offsets[slot]);
-            for [down, right] in slots.chain([[0, 0]]) {
-                if !term.spans[0].holds(row as isize - down, rows) {
+            for offset in slots.chain([[0; AXES]]) {
+                let holds = |axis: usize| {
+                    term.spans[axis].holds(at[axis] as isize - offset[axis], sizes[axis])
+                };
+                if !(0..LAST).all(holds) {
                     return 0..0;
                 }
-                if let Span::Within { first: from, left } = term.spans[1] {
-                    first = first.max(from as isize + right);
-                    end = end.min(columns - left as isize + right);
+                if let Span::Within { first: from, left } = term.spans[LAST] {
+                    first = first.max(from as isize + offset[LAST]);
+                    end = end.min(columns - left as isize + offset[LAST]);
                 }
             }
         }
@@ -172,25 +208,25 @@ impl<K> Family<K> {
         }
     }
 
-    /// Some columns of a row, among those in which a site has all neighbours.
+    /// Some columns of a line, among those in which a site has all neighbours.
     #[inline]
     pub(super) fn stretch<'m, S>(
         &self,
         mu: &'m [S],
-        row: usize,
+        line: usize,
         columns: Range<usize>,
     ) -> Stretch<'m, S> {
         Stretch {
             mu,
             sizes: self.sizes(),
-            row,
-            columns,
+            first: in_column(self.begin(line), columns.start),
+            len: columns.len(),
         }
     }
 
     /// The coordinates of a site and of its neighbours, wherever they are, and behind them their coefficients.
     #[inline]
-    pub(super) fn around<S: Scalar>(&self, mu: &[S], site: [usize; 2]) -> Around<K, S>
+    pub(super) fn around<S: Scalar>(&self, mu: &[S], site: [usize; AXES]) -> Around<K, S>
     where
         K: Sites<S>,
     {
@@ -204,16 +240,15 @@ impl<K> Family<K> {
             Entry::Data(slot, which) => kernels.data(which)[self.neighbour(site, offsets[slot])],
             Entry::Rate(which) => {
                 let first = (kernels.dimension() + which) * self.count() + carried(kernels);
-                mu[first + self.neighbour(site, [0, 0])]
+                mu[first + self.neighbour(site, [0; AXES])]
             }
         })
     }
 
     /// The site at a distance from another one.
     #[inline]
-    pub(super) fn neighbour(&self, [row, column]: [usize; 2], [down, right]: [isize; 2]) -> usize {
-        let [rows, columns] = self.sizes();
-        wrapped(row as isize + down, rows) * columns + wrapped(column as isize + right, columns)
+    pub(super) fn neighbour(&self, site: [usize; AXES], offset: [isize; AXES]) -> usize {
+        place(site, offset, self.sizes())
     }
 
     /// The coordinates of a site.
@@ -237,22 +272,22 @@ impl<K> Family<K> {
     pub(super) fn slope<S: Scalar>(
         &self,
         mu: &[S],
-        [row, column]: [usize; 2],
+        site: [usize; AXES],
         weights: &Sums<K, S>,
     ) -> Site<K, S>
     where
         K: Sites<S>,
     {
-        let [rows, columns] = self.sizes();
-        let kernels = self.kernels();
+        let (kernels, sizes) = (self.kernels(), self.sizes());
         let mut sum = K::Site::make(kernels.dimension(), |_| S::zero());
         for k in 0..kernels.count() {
             let term = kernels.term(k);
             for &slot in term.slots {
-                let [down, right] = kernels.offsets()[slot];
-                let (above, before) = (row as isize - down, column as isize - right);
-                if term.spans[0].holds(above, rows) && term.spans[1].holds(before, columns) {
-                    let at = self.around(mu, [wrapped(above, rows), wrapped(before, columns)]);
+                let offset = kernels.offsets()[slot];
+                let from: [isize; AXES] = from_fn(|axis| site[axis] as isize - offset[axis]);
+                if (0..AXES).all(|axis| term.spans[axis].holds(from[axis], sizes[axis])) {
+                    let from = from_fn(|axis| wrapped(from[axis], sizes[axis]));
+                    let at = self.around(mu, from);
                     let slope = kernels.slope(k, slot, &at, weights);
                     for (sum, slope) in sum.as_mut().iter_mut().zip(slope.as_ref()) {
                         *sum += *slope;

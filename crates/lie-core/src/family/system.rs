@@ -5,6 +5,7 @@ use super::parts::Power;
 use super::stencil::inputs;
 use super::{LateMatrix, Sites};
 use crate::clock::Clock;
+use crate::lattice::{AXES, count, named, site};
 use crate::poisson::{LiePoisson, Poisson, Widen};
 use crate::scalar::Scalar;
 use core::ops::Range;
@@ -19,7 +20,7 @@ use std::vec::Vec;
 #[derive(Clone, Debug)]
 pub struct Family<K> {
     kernels: K,
-    sizes: [usize; 2],
+    sizes: [usize; AXES],
     /// The names of the coordinates, made when somebody asks for one: a large family is integrated without.
     coordinates: OnceLock<Vec<String>>,
     casimirs: OnceLock<Vec<String>>,
@@ -38,8 +39,8 @@ enum Recorded {
 pub const STATISTICS: [&str; 3] = ["mean", "min", "max"];
 
 impl<K> Family<K> {
-    /// The family of so many sites, rows and columns; a chain is one row.
-    pub fn new(kernels: K, sizes: [usize; 2]) -> Self {
+    /// The family of so many sites, layers, rows and columns; a chain is one row, a square lattice one layer.
+    pub fn new(kernels: K, sizes: [usize; AXES]) -> Self {
         Self {
             kernels,
             sizes,
@@ -55,16 +56,16 @@ impl<K> Family<K> {
         &self.kernels
     }
 
-    /// Rows and columns.
+    /// Layers, rows and columns.
     #[inline]
-    pub fn sizes(&self) -> [usize; 2] {
+    pub fn sizes(&self) -> [usize; AXES] {
         self.sizes
     }
 
     /// The number of sites.
     #[inline]
     pub fn count(&self) -> usize {
-        self.sizes[0] * self.sizes[1]
+        count(self.sizes)
     }
 
     fn coordinate_names<S: Scalar>(&self) -> &[String]
@@ -72,12 +73,8 @@ impl<K> Family<K> {
         K: Sites<S>,
     {
         self.coordinates.get_or_init(|| {
-            let [rows, columns] = self.sizes;
             let coordinates = 0..self.kernels.dimension();
-            let named = |name: &str, site: usize| match rows {
-                1 => format!("{name}[{site}]"),
-                _ => format!("{name}[{}][{}]", site / columns, site % columns),
-            };
+            let named = |name: &str, site: usize| named(name, site, self.sizes);
             let all = coordinates.map(|k| self.kernels.coordinate(k));
             let all = all.flat_map(|name| (0..self.count()).map(move |site| named(name, site)));
             let carried = ["clock", "t", "unit"].map(str::to_owned);
@@ -165,7 +162,7 @@ where
     fn coordinate(&self, index: usize) -> &str {
         &self.coordinate_names()[index]
     }
-    fn sites(&self) -> Option<[usize; 2]> {
+    fn sites(&self) -> Option<[usize; AXES]> {
         Some(self.sizes)
     }
     fn casimir_count(&self) -> usize {
@@ -262,13 +259,10 @@ where
 
     fn gradient(&self, mu: &Vec<S>, out: &mut Vec<S>) {
         let (weights, of_time) = self.weights(mu);
-        let [rows, columns] = self.sizes;
-        for row in 0..rows {
-            for column in 0..columns {
-                let slope = self.slope(mu, [row, column], &weights);
-                let slope = self.with_bonds(slope, mu, row * columns + column, &weights);
-                self.set_site(out, row * columns + column, slope.as_ref());
-            }
+        for place in 0..self.count() {
+            let slope = self.slope(mu, site(place, self.sizes), &weights);
+            let slope = self.with_bonds(slope, mu, place, &weights);
+            self.set_site(out, place, slope.as_ref());
         }
         self.set_carried(out, [S::one(), of_time]);
         self.set_input_slopes(mu, out);
@@ -290,12 +284,12 @@ where
     #[inline]
     fn vector_field(&self, mu: &Vec<S>, out: &mut Vec<S>) {
         let (weights, of_time) = self.weights(mu);
-        let [rows, columns] = self.sizes;
+        let columns = self.columns();
         let mut power = Power::new(1);
         power.add(&[of_time]);
-        for row in 0..rows {
-            let inner = self.inner::<S>(row);
-            self.field_of_row(mu, (row, 0..columns), inner, &weights, out, &mut power);
+        for line in 0..self.lines() {
+            let inner = self.inner::<S>(line);
+            self.field_of_line(mu, (line, 0..columns), inner, &weights, out, &mut power);
         }
         self.set_carried(out, [-power.end()[0], S::one()]);
     }

@@ -19,6 +19,7 @@ use crate::recording::PATIENCE;
 use answers::{Families as _, without_loops};
 use family::{FamilySite, sizes};
 use lie_codegen::plan::{Code as Program, Data, Plan};
+use lie_core::lattice::AXES;
 use lie_core::parameter::{ParameterError, all_finite, all_positive};
 use lie_runtime::Scalar;
 use lie_runtime::family::{Family, bonds, unit_spheres, values};
@@ -194,7 +195,7 @@ impl Dynamic<f64> {
 }
 
 /// What has a value for each site.
-fn data(all: &[Data], sizes: [usize; 2]) -> Result<Arc<[Vec<f64>]>, ParameterError> {
+fn data(all: &[Data], sizes: [usize; AXES]) -> Result<Arc<[Vec<f64>]>, ParameterError> {
     let columns = all.iter().map(|data| {
         let given: Vec<f64> = data.values().collect();
         let name = names::text(&data.name);
@@ -250,8 +251,8 @@ impl<S: Scalar> Dynamic<S> {
         &self.values.parameters
     }
 
-    /// The number of rows and columns of sites, of a family; a chain is one row.
-    pub fn sizes(&self) -> Option<[usize; 2]> {
+    /// The number of layers, rows and columns of sites, of a family; a chain is one row, a square lattice one layer.
+    pub fn sizes(&self) -> Option<[usize; AXES]> {
         self.family.as_ref().map(Family::sizes)
     }
 

@@ -3,6 +3,7 @@
 use crate::system::Dynamic;
 use crate::system::answers::{Families as _, by_family, by_loops, require, without_loops};
 use lie_core::family::LateMatrix;
+use lie_core::lattice::AXES;
 use lie_core::{Clock, EventRule, generic, lagrangian::legendre};
 use lie_runtime::{Dual, Poisson, Scalar};
 use std::ops::Range;
@@ -22,7 +23,7 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
         by_family!(self.coordinate(index));
         &self.values.compiled.plan.names.coordinates[index]
     }
-    fn sites(&self) -> Option<[usize; 2]> {
+    fn sites(&self) -> Option<[usize; AXES]> {
         self.sizes()
     }
     fn casimir_count(&self) -> usize {

@@ -1,6 +1,7 @@
 //! Random elements of an algebra whose distribution depends neither on the basis nor on the size of the structure constants.
 
 use lie_dynamic::Dynamic;
+use lie_runtime::lattice::count;
 use lie_runtime::{LiePoisson, Poisson};
 
 use lie_runtime::family::SplitMix;
@@ -33,7 +34,7 @@ impl Directions {
     /// Those of a system. A family has the same at each site. What carries the time has none.
     pub fn of(system: &Dynamic<f64>) -> Self {
         let all = Poisson::<f64>::dimension(system);
-        let sites = system.sizes().map_or(1, |[rows, columns]| rows * columns);
+        let sites = system.sizes().map_or(1, count);
         let size = all / sites;
         let mut scales = vec![0.0; size];
         let mut rows: Vec<Vec<(usize, f64)>> = vec![Vec::new(); size];

@@ -312,6 +312,11 @@ impl Walk<'_> {
     }
 
     fn indices(&self, index: &Index) -> String {
+        let all = index.along_axes().map(|index| self.index(index));
+        all.collect::<Vec<_>>().join(&self.0.sign(','))
+    }
+
+    fn index(&self, index: &Index) -> String {
         let variable = index
             .variable
             .as_ref()
@@ -324,10 +329,7 @@ impl Walk<'_> {
             (offset, false) if offset < 0 => self.0.sign('-') + &number(),
             _ => self.0.sign('+') + &number(),
         };
-        let second = index.second.as_ref().map_or(String::new(), |second| {
-            self.0.sign(',') + &self.indices(second)
-        });
-        format!("{variable}{offset}{second}")
+        variable + &offset
     }
 
     fn call(&self, function: &str, arguments: &[Expr]) -> String {

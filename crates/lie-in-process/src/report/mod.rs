@@ -12,6 +12,7 @@ use lie_codegen::compile;
 use lie_codegen::methods::applicability;
 use lie_codegen::model::CasimirKind;
 use lie_codegen::structure::{Structure, bracket_class};
+use lie_runtime::lattice::{AXES, count};
 use serde_json::{Value, json};
 use splitting::Splitting;
 
@@ -81,18 +82,18 @@ impl Report {
             .into_iter()
             .map(|(what, formula)| json!({ "what": what, "formula": formula }))
             .collect();
-        let sites = sites(model).map_or(1, |[rows, columns]| rows * columns);
+        let sites = sites(model).map_or(1, count);
         let (dimension, generic_rank, initial_rank) = model.counts();
         let mut report = json!({
             "name": model.name,
-            "dimension": sites * dimension,
-            "generic_rank": sites * generic_rank,
+            "dimension": sites.saturating_mul(dimension),
+            "generic_rank": sites.saturating_mul(generic_rank),
             "initial_rank": initial_rank,
             "brackets": signs::brackets(model),
             "canonical": signs::canonical(model),
             "casimirs": casimirs,
             "acting": acting,
-            "independent_casimirs": sites * (dimension - generic_rank),
+            "independent_casimirs": sites.saturating_mul(dimension - generic_rank),
             "constants_of_motion": motions::json(model),
             "class": model.algebra.as_ref().map(|report| structure::class(&report.class)),
             "algebra_name": model.algebra.as_ref().and_then(|report| report.name.as_ref().ok()),
@@ -119,7 +120,7 @@ impl Report {
     }
 }
 
-/// Rows and columns of a family with its default parameters.
-pub fn sites(model: &Structure) -> Option<[usize; 2]> {
+/// Layers, rows and columns of a family with its default parameters.
+pub fn sites(model: &Structure) -> Option<[usize; AXES]> {
     model.family.as_ref()?.sites(&model.defaults())
 }

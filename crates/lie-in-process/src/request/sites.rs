@@ -7,6 +7,7 @@ use lie_codegen::model::{Family, SiteData, Start, wrong_bond};
 use lie_codegen::structure::Structure;
 use lie_runtime::driver::MOST_PROCESSES;
 use lie_runtime::family::{unit_spheres, values};
+use lie_runtime::lattice::{self, AXES, count};
 use lie_syntax::diagnostic::{Kind, Origin};
 use lie_syntax::front::npy::{self, Array};
 
@@ -14,7 +15,7 @@ use super::Front;
 use super::plan::Planner;
 use crate::memory;
 use crate::message::{Fault, Message, Place};
-use crate::words::counted;
+use crate::words::{self, counted};
 
 /// What to do about a number that is not finite.
 pub(super) const FINITE: &str = "give each coordinate of each site a finite number";
@@ -36,7 +37,7 @@ impl Planner<'_> {
     /// so on, or what the spec says.
     pub(super) fn family_state(&mut self, family: &Family, parameters: &[f64]) -> Option<Vec<f64>> {
         let n = self.spec.model.dimension();
-        let Some([rows, columns]) = family.sites(parameters) else {
+        let Some(sizes) = family.sites(parameters) else {
             let text = "the number of sites is a whole number from 1 to 2147483648";
             let front = self.request.front;
             let message = Message::new(Kind::Domain, text).at_option(&front.option("param"));
@@ -44,11 +45,11 @@ impl Planner<'_> {
             self.mistakes.push(message.help(help));
             return None;
         };
-        if let Some(message) = self.without_values(family, [rows, columns]) {
+        if let Some(message) = self.without_values(family, sizes) {
             self.mistakes.push(message);
             return None;
         }
-        let sites = rows * columns;
+        let sites = count(sizes);
         if let Err(exceeded) = memory::fits(sites as f64 * n as f64 * memory::COORDINATE) {
             let text = format!("{}: {exceeded}", counted(sites as u64, "site"));
             let option = self.request.front.option("param");
@@ -77,7 +78,7 @@ impl Planner<'_> {
         let Some(given) = self.requested("initial") else {
             return match &family.start {
                 Some(Start::UnitSpheres(seed)) => Some(unit_spheres(sites, n, *seed)),
-                Some(Start::File(path)) => self.file(&path.text, path.origin, [rows, columns]),
+                Some(Start::File(path)) => self.file(&path.text, path.origin, sizes),
                 None => {
                     let text = format!("the spec of {} has no `initial`", self.spec.model.name);
                     let help = format!(
@@ -111,10 +112,9 @@ impl Planner<'_> {
     }
 
     /// What is said of a coefficient that has no value for each of so many sites.
-    fn without_values(&self, family: &Family, sizes: [usize; 2]) -> Option<Message> {
-        let [rows, columns] = sizes;
+    fn without_values(&self, family: &Family, sizes: [usize; AXES]) -> Option<Message> {
         if let Some(data) = family.data.last().filter(|_| family.has_bonds)
-            && let Some(fault) = wrong_bond(&data.values, rows * columns)
+            && let Some(fault) = wrong_bond(&data.values, count(sizes))
         {
             let option = self.request.front.option("param");
             let message = Message::new(Kind::Domain, fault).at_option(&option);
@@ -127,10 +127,7 @@ impl Planner<'_> {
             None => values(&data.values, "", sizes, data.unused).is_ok(),
         };
         let data = of_sites.into_iter().find(|data| !fits(data))?;
-        let sites = match sizes {
-            [1, columns] => counted(columns as u64, "site"),
-            [rows, columns] => format!("{rows} x {columns} sites"),
-        };
+        let sites = words::sites(sizes);
         let given = counted(data.values.len() as u64, "value");
         let text = format!("`{}` has {given}, and there are {sites}", data.name);
         let option = self.request.front.option("param");
@@ -141,7 +138,7 @@ impl Planner<'_> {
     }
 
     /// The numbers of a file, the path of which stands in the spec and is relative to it.
-    fn file(&mut self, name: &str, origin: Origin, sizes: [usize; 2]) -> Option<Vec<f64>> {
+    fn file(&mut self, name: &str, origin: Origin, sizes: [usize; AXES]) -> Option<Vec<f64>> {
         let source = &self.spec.source;
         let place = match origin {
             Origin::Text { start, end } => Place::Text(source.clone(), start..end),
@@ -169,11 +166,17 @@ impl Planner<'_> {
         let n = self.spec.model.dimension();
         let shape = array.shape.clone();
         let Some(state) = state(array, sizes, n) else {
-            let [rows, columns] = sizes;
-            let sites = rows * columns;
+            let sites = count(sizes);
             let text = format!("its shape is {shape:?}, for {sites} sites of {n} coordinates");
+            let by_axes = match lattice::shown(&sizes) {
+                [_] => String::new(),
+                axes => {
+                    let axes: Vec<String> = axes.iter().map(usize::to_string).collect();
+                    format!(" or ({}, {n})", axes.join(", "))
+                }
+            };
             let help = format!(
-                "write an array of the shape ({sites}, {n}), or one-dimensional the first coordinates of all sites, then the second ones; `--param` changes the number of sites"
+                "write an array of the shape ({sites}, {n}){by_axes}, or one-dimensional the first coordinates of all sites, then the second ones; `--param` changes the number of sites"
             );
             return refuse(Kind::StateLength, text, &help);
         };
@@ -194,16 +197,13 @@ pub fn bound_to_itself(
 ) -> Option<Message> {
     let splits = matches!(choice.solved(), Choice::Splitting(..));
     let family = model.family.as_ref().filter(|_| splits)?;
-    let [rows, columns] = family.sites(parameters)?.map(|size| size as i64);
+    let sizes = family.sites(parameters)?;
     let pieces = &model.family_pieces.as_ref()?.as_ref().ok()?.pieces;
     let piece = pieces.iter().find(|piece| {
-        let [down, right] = piece.offset;
-        [down, right] != [0, 0] && down % rows == 0 && right % columns == 0
+        let offset = piece.offset;
+        offset != [0; AXES] && (0..AXES).all(|axis| offset[axis] % sizes[axis] as i64 == 0)
     })?;
-    let sites = match rows {
-        1 => counted(columns as u64, "site"),
-        _ => format!("{rows} x {columns} sites"),
-    };
+    let sites = words::sites(sizes);
     let text = format!(
         "on a ring of {sites} the bond `{}` joins a site to itself, and has no piece of a splitting",
         piece.describe(model)
@@ -215,12 +215,17 @@ pub fn bound_to_itself(
 }
 
 /// The state of a family in an array: a row for each site, or one-dimensional in the order of the state.
-fn state(array: Array, [rows, columns]: [usize; 2], n: usize) -> Option<Vec<f64>> {
-    let (sites, Array { shape, values }) = (rows * columns, array);
+fn state(array: Array, sizes: [usize; AXES], n: usize) -> Option<Vec<f64>> {
+    let (sites, Array { shape, values }) = (count(sizes), array);
     if shape == [sites * n] {
         return Some(values);
     }
-    let by_site = shape == [sites, n] || shape == [rows, columns, n];
+    // axes of one site in front may stand in the shape
+    let by_axes = |axes: &[usize]| axes.ends_with(lattice::shown(&sizes)) && sizes.ends_with(axes);
+    let by_site = match shape.split_last() {
+        Some((last, axes)) => *last == n && (axes == [sites] || by_axes(axes)),
+        None => false,
+    };
     let place = |place: usize| values[place % sites * n + place / sites];
     by_site.then(|| (0..sites * n).map(place).collect())
 }
@@ -237,11 +242,14 @@ mod tests {
             values: values.clone(),
         };
         let by_component = Some(vec![0.0, 3.0, 1.0, 4.0, 2.0, 5.0]);
-        assert_eq!(state(array(&[2, 3]), [1, 2], 3), by_component);
-        assert_eq!(state(array(&[2, 1, 3]), [2, 1], 3), by_component);
-        assert_eq!(state(array(&[6]), [1, 2], 3), Some(values.clone()));
-        for shape in [&[3, 2][..], &[6, 1], &[1, 2, 3, 1], &[]] {
-            let found = state(array(shape), [1, 2], 3);
+        assert_eq!(state(array(&[2, 3]), [1, 1, 2], 3), by_component);
+        assert_eq!(state(array(&[1, 2, 3]), [1, 1, 2], 3), by_component);
+        assert_eq!(state(array(&[2, 1, 3]), [1, 2, 1], 3), by_component);
+        assert_eq!(state(array(&[2, 1, 1, 3]), [2, 1, 1], 3), by_component);
+        assert_eq!(state(array(&[2, 1, 3]), [2, 1, 1], 3), None);
+        assert_eq!(state(array(&[6]), [1, 1, 2], 3), Some(values.clone()));
+        for shape in [&[3, 2][..], &[6, 1], &[1, 2, 3, 1], &[2, 1, 3], &[]] {
+            let found = state(array(shape), [1, 1, 2], 3);
             assert_eq!(found, None, "{shape:?}");
         }
     }

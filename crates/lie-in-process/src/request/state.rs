@@ -1,6 +1,7 @@
 //! Parameters and the initial state.
 
 use lie_codegen::check::violation;
+use lie_runtime::lattice::count;
 use lie_syntax::ast::BONDS;
 use lie_syntax::diagnostic::Kind;
 use lie_syntax::front::names::normalised;
@@ -68,9 +69,8 @@ impl Planner<'_> {
         }
         let (wanted, state) = match &model.family {
             Some(family) => {
-                let [rows, columns] = family.sites(parameters).unwrap_or([1, 1]);
-                let sites = rows * columns;
-                let wanted = sites * model.dimension();
+                let sites = family.sites(parameters).map_or(1, count);
+                let wanted = sites.saturating_mul(model.dimension());
                 let whole = || model.complete_sites(values.to_vec(), sites);
                 (wanted, (values.len() == wanted).then(whole))
             }
@@ -218,9 +218,9 @@ impl Planner<'_> {
     fn initial(&mut self, parameters: &[f64]) -> Option<Vec<f64>> {
         let model = &self.spec.model;
         if let Some(family) = &model.family {
-            let [rows, columns] = family.sites(parameters).unwrap_or([1, 1]);
+            let sites = family.sites(parameters).map_or(1, count);
             let of_sites = self.family_state(family, parameters)?;
-            return Some(model.complete_sites(of_sites, rows * columns));
+            return Some(model.complete_sites(of_sites, sites));
         }
         let dimension = model.shown_coordinates().len();
         let values = if let Some(given) = self.requested("initial") {

@@ -10,8 +10,15 @@ pub struct Index {
     pub variable: Option<Name>,
     /// What is added to it.
     pub offset: i64,
-    /// The second index of a lattice.
-    pub second: Option<Box<Index>>,
+    /// The index along the next axis of a lattice.
+    pub next: Option<Box<Index>>,
+}
+
+impl Index {
+    /// The index along each axis.
+    pub fn along_axes(&self) -> impl Iterator<Item = &Self> {
+        std::iter::successors(Some(self), |index| index.next.as_deref())
+    }
 }
 
 /// The number of sites of a family along one axis.
@@ -24,6 +31,14 @@ pub enum Size {
 }
 
 impl Size {
+    /// It as it is written.
+    pub fn text(&self) -> String {
+        match self {
+            Self::Number(count, _) => count.to_string(),
+            Self::Parameter(name) => name.text.clone(),
+        }
+    }
+
     /// Where it stands.
     pub fn origin(&self) -> Origin {
         match self {
@@ -36,7 +51,7 @@ impl Size {
 /// What makes a declaration that of a family `A^N`: its algebra and its state are those of a site.
 #[derive(Clone, Debug)]
 pub struct Family {
-    /// The number of sites, of a lattice rows and columns.
+    /// The number of sites, of a lattice those along each axis.
     pub sizes: Vec<Size>,
     /// The indices in the names of the state.
     pub indices: Vec<Name>,
@@ -56,7 +71,7 @@ pub const BONDS: &str = "bonds";
 pub struct SiteData {
     /// Its name.
     pub name: Name,
-    /// The values, site after site, of a lattice row after row.
+    /// The values, site after site, of a lattice row after row and layer after layer.
     pub values: SiteValues,
     /// How many there are along each axis; one number where they are one list.
     pub shape: Vec<usize>,

@@ -10,6 +10,7 @@ use super::token::{Cursor, render, span};
 use super::token::{Delimiter, Token, TokenKind};
 use crate::ast::{BONDS, Expr, ExprKind, Index, Name, Size};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
+use lie_core::lattice::AXES;
 use lie_symbolic::exact::Rational;
 
 /// Reports indexed names and sums; whether there were none.
@@ -178,12 +179,20 @@ pub(super) fn index<'a>(
     let Some(open) = parser.cursor.eat_kind(&TokenKind::Open(Delimiter::Bracket)) else {
         return Some((None, name.origin));
     };
-    let mut index = one_index(parser, open)?;
-    if parser.cursor.eat(',').is_some() {
-        index.second = Some(Box::new(one_index(parser, open)?));
+    let mut along_axes = vec![one_index(parser, open)?];
+    while let Some(comma) = parser.cursor.eat(',') {
+        if along_axes.len() == AXES {
+            let message = format!("a site has at most {AXES} indices");
+            let help = "write `x[i]`, `x[i, j]` or `x[i, j, k]`, as many indices as the state has";
+            parser.fail(Diagnostic::new(Kind::Syntax, comma.origin, message).help(help));
+            return None;
+        }
+        along_axes.push(one_index(parser, open)?);
     }
+    let joined = |next: Option<Box<Index>>, index| Some(Box::new(Index { next, ..index }));
+    let index = along_axes.into_iter().rfold(None, joined);
     let end = parser.close(open, Delimiter::Bracket)?;
-    Some((Some(index), name.origin.join(end)))
+    Some((index.map(|index| *index), name.origin.join(end)))
 }
 
 /// `i`, `i+1`, `i-2` or `0`
@@ -224,15 +233,14 @@ fn one_index<'a>(parser: &mut Parser<'a>, open: &'a Token) -> Option<Index> {
         };
         offset = sign * value;
     }
-    let second = None;
     Some(Index {
         variable,
         offset,
-        second,
+        next: None,
     })
 }
 
-/// A name of the state with its indices, `x[i]` or `x[i, j]`; none where it is another text.
+/// A name of the state with its indices, `x[i]`, `x[i, j]` or `x[i, j, k]`; none where it is another text.
 pub(super) fn indexed_state(tokens: &[Token]) -> Option<(Name, Vec<Name>)> {
     let name = |token: &Token| {
         Some(Name {
@@ -245,12 +253,18 @@ pub(super) fn indexed_state(tokens: &[Token]) -> Option<(Name, Vec<Name>)> {
     };
     let brackets = open.kind == TokenKind::Open(Delimiter::Bracket)
         && close.kind == TokenKind::Close(Delimiter::Bracket);
-    let indices: Option<Vec<Name>> = match inside {
-        [i] => Some(vec![name(i)?]),
-        [i, comma, j] if comma.is(',') => Some(vec![name(i)?, name(j)?]),
+    let indices = listed(inside, name).filter(|_| brackets)?;
+    Some((name(first)?, indices))
+}
+
+/// What each token between commas is, of which there is at least one.
+fn listed<T>(tokens: &[Token], one: impl Fn(&Token) -> Option<T>) -> Option<Vec<T>> {
+    let parts = tokens.split(|token| token.is(','));
+    let parts = parts.map(|part| match part {
+        [token] => one(token),
         _ => None,
-    };
-    Some((name(first)?, indices.filter(|_| brackets)?))
+    });
+    parts.collect()
 }
 
 /// A coordinate of the state as it is written, of a family with its indices, `x[i]`: what a force is given for.
@@ -311,7 +325,7 @@ pub(super) fn algebra(tokens: &[Token], place: Origin, report: &mut Report) -> O
     Some(Read { sizes, ..read })
 }
 
-/// What stands before the last `^` of the algebra of a family, and the sizes behind it: `N`, `64` or `(N, M)`.
+/// What stands before the last `^` of the algebra of a family, and the sizes behind it: `N`, `64`, `(N, M)` or `(L, N, M)`.
 fn power<'a>(
     tokens: &'a [Token],
     whole: Origin,
@@ -325,7 +339,7 @@ fn power<'a>(
             "the state has an index, and the algebra `{}` no number of copies",
             render(tokens)
         );
-        let help = "write the algebra as `so(3)^N`, with N a parameter or a number; of a lattice as `so(3)^(N, M)`";
+        let help = "write the algebra as `so(3)^N`, with N a parameter or a number; of a lattice as `so(3)^(N, M)` or `so(3)^(L, N, M)`";
         report.push(Diagnostic::new(Kind::Syntax, place, message).help(help));
     }
     sizes
@@ -352,12 +366,8 @@ fn sizes(tokens: &[Token]) -> Option<Vec<Size>> {
             _ => None,
         };
     }
-    match cursor.rest() {
-        [rows, comma, columns, close]
-            if comma.is(',') && close.kind == TokenKind::Close(Delimiter::Parenthesis) =>
-        {
-            Some(vec![size(rows)?, size(columns)?])
-        }
-        _ => None,
-    }
+    let (close, inside) = cursor.rest().split_last()?;
+    let is_closed = close.kind == TokenKind::Close(Delimiter::Parenthesis);
+    let sizes = listed(inside, size).filter(|_| is_closed)?;
+    (sizes.len() > 1).then_some(sizes)
 }

@@ -216,8 +216,8 @@ objects! {
     /// The initial state of a family from a file.
     struct Numbers requires ["npy"] {
         /// The path of a file in NumPy's format, relative to that of the spec: numbers of type f8 or f4, little-endian, in C
-        /// order, a row for each site, of a lattice `(N, M, coordinates)`; or one-dimensional in the order of the state, the
-        /// first coordinates of all sites, then the second ones.
+        /// order, a row for each site, of a lattice `(N, M, coordinates)` or `(L, N, M, coordinates)`; or one-dimensional in the
+        /// order of the state, the first coordinates of all sites, then the second ones.
         "npy" npy: String,
     }
 
@@ -281,10 +281,10 @@ objects! {
 
     /// A coefficient of a family that has a value for each site, `B[i]` in its sums.
     struct PerSite requires [] {
-        /// The values, site after site; of a lattice a list of rows.
+        /// The values, site after site; of a lattice a list of rows, or of layers that are such.
         "values" values: Option<SiteValues>,
         /// The path of a file with the values, relative to that of the spec: what `numpy.save` wrote, or a number in each line
-        /// of a CSV file.
+        /// of a CSV file, of a lattice a row, layer after layer.
         "file" file: Option<String>,
         /// Its unit.
         "unit" unit: Option<String>,

@@ -1,6 +1,7 @@
 //! What the matrices of a dissipation promise.
 
 use crate::model::{Family, Input, data_number, shared_number};
+use lie_core::lattice::{AXES, count};
 use lie_symbolic::exact::Budget;
 use lie_symbolic::prove::proof::{Proof, Prover};
 use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
@@ -309,20 +310,18 @@ impl Checks<'_> {
             Some(input) => inputs[input].default,
             None => 0.0,
         };
-        let [rows, columns] = family.sites(self.defaults).unwrap_or([1, 1]);
+        let sizes = family.sites(self.defaults).unwrap_or([1; AXES]);
         let differs = |symbol: &Symbol| data_number(*symbol).is_some();
         let sites = match graph.symbols(expression).iter().any(differs) {
-            true => rows * columns,
+            true => count(sizes),
             false => 1,
         };
-        let at = |site: usize| {
+        let at = |place: usize| {
             graph.evaluate(expression, &|symbol| match symbol {
                 Symbol::Parameter(k) => self.defaults[k],
                 other => match shared_number(other) {
                     Some(number) => shared(number),
-                    None => family
-                        .value_at(other, site, [rows, columns])
-                        .unwrap_or(f64::NAN),
+                    None => family.value_at(other, place, sizes).unwrap_or(f64::NAN),
                 },
             })
         };

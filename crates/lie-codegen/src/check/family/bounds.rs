@@ -9,10 +9,7 @@ pub type Span = Option<(usize, usize)>;
 
 /// Where a sum goes, of so many sites.
 pub fn span(from: &Expr, to: &Expr, size: &Size, mistakes: &mut Vec<Diagnostic>) -> Option<Span> {
-    let all = match size {
-        Size::Number(count, _) => count.to_string(),
-        Size::Parameter(name) => name.text.clone(),
-    };
+    let all = size.text();
     let mut wrong = |expr: &Expr| {
         let message = "a sum goes from a number to the number of sites or less";
         let help = format!("write `0..{all}`, which is periodic, or bounds such as `1..{all}-1`");

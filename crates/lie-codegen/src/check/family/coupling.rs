@@ -15,6 +15,7 @@ use crate::model::{
     shared_symbol,
 };
 use lie_core::family::STATISTICS;
+use lie_core::lattice::{self, AXES, last_axes};
 use lie_symbolic::prove::{branches, degree};
 use lie_symbolic::symbolic::{Graph, Symbol};
 use lie_syntax::ast::{self, BONDS, Declaration, Expr, Name, SiteValues};
@@ -42,7 +43,7 @@ pub fn couple(
     let known = Family {
         sizes: sizes(declaration, family, &model, mistakes)?,
         slots: collected.slots.clone(),
-        own: collected.slot([0, 0]),
+        own: collected.slot([0; AXES]),
         names: collected.names.clone(),
         data,
         has_bonds: family.bonds.is_some(),
@@ -178,6 +179,9 @@ fn bonds(data: &ast::SiteData, count: usize, mistakes: &mut Vec<Diagnostic>) -> 
     })
 }
 
+/// The most values, with those that are left out.
+const MOST_VALUES: usize = 1 << 31;
+
 /// The values of what differs from site to site, as many as there are sites at the default sizes.
 fn data(
     family: &ast::Family,
@@ -199,21 +203,26 @@ fn data(
     let all = all.map(|(data, unused)| {
         let name = &data.name.text;
         let values = numbers(data, mistakes)?;
-        let unused_along = &unused[2 - sizes.len()..];
+        let unused_along = &unused[AXES - sizes.len()..];
         // a column or a row of numbers is a list
         let mut shape: Vec<usize> = match data.shape.as_slice() {
             [] => vec![values.len()],
             [1, _] | [_, 1] if sizes.len() == 1 => vec![values.len()],
             shape => shape.to_vec(),
         };
-        let all: usize = sizes.iter().product();
-        if shape.len() == 1 && sizes.len() == 2 && values.len() == all {
-            shape.clone_from(&sizes);
+        let all = last_axes(&sizes, 1).map_or(usize::MAX, lattice::count);
+        match (shape.as_slice(), sizes.as_slice()) {
+            ([_], [_, _, ..]) if values.len() == all => shape.clone_from(&sizes),
+            // the rows of one layer after those of another
+            ([lines, width], [_, rows, _]) if lines.is_multiple_of(*rows) => {
+                shape = vec![lines / rows, *rows, *width];
+            }
+            _ => {}
         }
         let fits = |(given, (size, unused)): (&usize, (&usize, &usize))| {
             given <= size && size - given <= *unused
         };
-        let fits = shape.len() == sizes.len()
+        let fits = (shape.len() == sizes.len() && all <= MOST_VALUES)
             && shape.iter().zip(sizes.iter().zip(unused_along)).all(fits);
         if !fits {
             let shown = |sizes: &[usize]| {
@@ -230,29 +239,25 @@ fn data(
             return None;
         }
         // of a lattice the values that are left out are filled in while it is known where they are
-        let values = match (shape.as_slice(), sizes.as_slice()) {
-            ([rows, width], [all_rows, columns]) => {
-                let value = |site: usize| {
-                    let (row, column) = (site / columns, site % columns);
-                    let there = row < *rows && column < *width;
-                    if there {
-                        values[row * width + column]
-                    } else {
-                        0.0
+        let along_axes = last_axes(&sizes, 1).filter(|_| sizes.len() > 1);
+        let values = match (along_axes, last_axes(&shape, 1)) {
+            (Some(sizes), Some(shape)) => {
+                let value = |at: usize| {
+                    let site = lattice::site(at, sizes);
+                    match (0..AXES).all(|axis| site[axis] < shape[axis]) {
+                        true => values[lattice::place(site, [0; AXES], shape)],
+                        false => 0.0,
                     }
                 };
-                (0..all_rows * columns).map(value).collect()
+                (0..all).map(value).collect()
             }
             _ => values,
         };
         Some(SiteData {
             name: name.clone(),
             values: values.into(),
-            sizes: match sizes.as_slice() {
-                [rows, columns] => Some([*rows, *columns]),
-                _ => None,
-            },
-            unused: unused[1],
+            sizes: along_axes,
+            unused: unused[AXES - 1],
             unit: data.unit.clone(),
             description: data.description.clone(),
         })

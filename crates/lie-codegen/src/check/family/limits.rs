@@ -1,7 +1,11 @@
 //! What a family of systems cannot have.
 
+use lie_core::lattice::AXES;
 use lie_syntax::ast::{Declaration, Dissipation, DissipationKind, Energy, Family, Structure};
 use lie_syntax::diagnostic::{Diagnostic, Kind};
+
+/// Sites, and how they are numbered.
+const LATTICES: &str = "write `so(3)^N` with `x[i]`, `so(3)^(N, M)` with `x[i, j]`, or `so(3)^(L, N, M)` with `x[i, j, k]`";
 
 /// What a family cannot have.
 pub fn violations(declaration: &Declaration, family: &Family) -> Vec<Diagnostic> {
@@ -49,9 +53,11 @@ pub fn violations(declaration: &Declaration, family: &Family) -> Vec<Diagnostic>
     }
     if let Some(bonds) = &family.bonds {
         if family.indices.len() > 1 {
-            let message = "bonds join the sites of a chain, and these have two indices";
+            let count = family.indices.len();
+            let message =
+                format!("bonds join the sites of a chain, and these have {count} indices");
             let help = "number the sites by one index, `so(3)^N` with `x[i]`: with bonds they may be those of any lattice";
-            refuse(bonds.origin, message, help);
+            refuse(bonds.origin, &message, help);
         }
         let parameters = declaration.parameters.iter().map(|p| &p.name);
         let lets = declaration.lets.iter().map(|(name, _)| name);
@@ -81,8 +87,10 @@ pub fn violations(declaration: &Declaration, family: &Family) -> Vec<Diagnostic>
         let (sizes, indices) = (family.sizes.len(), family.indices.len());
         let message = format!("{indices} in the names of the state, and {sizes} in the algebra");
         let message = format!("the numbers of indices differ: {message}");
-        let help = "write `so(3)^N` with `x[i]`, or `so(3)^(N, M)` with `x[i, j]`";
-        refuse(declaration.place(), &message, help);
+        refuse(declaration.place(), &message, LATTICES);
+    } else if family.sizes.len() > AXES {
+        let message = format!("lattices have at most {AXES} dimensions");
+        refuse(declaration.place(), &message, LATTICES);
     }
     mistakes
 }

@@ -25,8 +25,7 @@ pub fn on_site(expr: &Expr, family: &Family, mistakes: &mut Vec<Diagnostic>) -> 
             name,
             index: Some(index),
         } => {
-            let indices = std::iter::successors(Some(&**index), |i| i.second.as_deref());
-            let own = indices.zip(&family.indices).all(|(index, own)| {
+            let own = index.along_axes().zip(&family.indices).all(|(index, own)| {
                 let same = index.variable.as_ref().is_some_and(|v| v.text == own.text);
                 same && index.offset == 0
             });

@@ -4,13 +4,15 @@ mod acting;
 mod bonds;
 mod collected;
 
+use std::array::from_fn;
 use std::collections::BTreeSet;
 
 use super::bounds::{self, Span};
 use super::parts::mapped;
 pub use acting::far;
 pub use collected::Collected;
-use lie_syntax::ast::{BONDS, Declaration, Expr, ExprKind, Family, Index, Name};
+use lie_core::lattice::{AXES, last_axes};
+use lie_syntax::ast::{BONDS, Declaration, Expr, ExprKind, Family, Index, Name, Size};
 use lie_syntax::diagnostic::{Diagnostic, Kind, Origin};
 
 /// What to do where sites differ.
@@ -25,13 +27,13 @@ pub struct Sum {
     /// The summand, its coordinates under the names of their slots.
     pub body: Expr,
     /// The distances of the sites in it.
-    pub sites: BTreeSet<[i64; 2]>,
+    pub sites: BTreeSet<[i64; AXES]>,
     /// Of those whose coordinates are in it.
-    pub moving: BTreeSet<[i64; 2]>,
+    pub moving: BTreeSet<[i64; AXES]>,
     /// The distances of coefficients in it, and which they are.
-    data: BTreeSet<([i64; 2], usize)>,
-    /// Where it goes, by row and by column.
-    pub spans: [Span; 2],
+    data: BTreeSet<([i64; AXES], usize)>,
+    /// Where it goes, by layer, row and column.
+    pub spans: [Span; AXES],
     /// Whether it goes over bonds, with [`Collected::other`] for their second sites.
     pub over_bonds: bool,
     /// Where it stands.
@@ -44,18 +46,20 @@ pub fn total(index: usize) -> String {
 }
 
 /// The name of a coordinate of a site at a distance.
-fn named(name: &str, indices: &[String], [down, right]: [i64; 2]) -> String {
-    let offsets = if indices.len() == 1 {
-        vec![right]
-    } else {
-        vec![down, right]
-    };
+fn named(name: &str, indices: &[String], distance: [i64; AXES]) -> String {
     let index = |(index, offset): (&String, i64)| match offset {
         0 => index.clone(),
         _ => format!("{index}{offset:+}"),
     };
-    let indices: Vec<String> = indices.iter().zip(offsets).map(index).collect();
+    let of_axes = &distance[others(indices)..];
+    let of_axes = of_axes.iter().copied();
+    let indices: Vec<String> = indices.iter().zip(of_axes).map(index).collect();
     format!("{name}[{}]", indices.join(","))
+}
+
+/// How many axes the sites with these indices do not have: those before the last ones.
+fn others<T>(indices: &[T]) -> usize {
+    AXES.saturating_sub(indices.len())
 }
 
 fn indices(family: &Family) -> Vec<String> {
@@ -79,24 +83,24 @@ pub struct Sums<'a> {
     found: Vec<Sum>,
     /// What depends on a site beside the sums.
     acting: Near,
-    /// Of each coefficient how many last rows and columns no sum has asked for; none before one asks.
-    unused: Vec<Option<[usize; 2]>>,
+    /// Of each coefficient how many last layers, rows and columns no sum has asked for; none before one asks.
+    unused: Vec<Option<[usize; AXES]>>,
 }
 
 /// Sites and coefficients at distances.
 #[derive(Default)]
 struct Near {
-    sites: BTreeSet<[i64; 2]>,
-    data: BTreeSet<([i64; 2], usize)>,
+    sites: BTreeSet<[i64; AXES]>,
+    data: BTreeSet<([i64; AXES], usize)>,
 }
 
 /// A sum that is being read.
 struct Reading<'a> {
     variables: Vec<&'a Name>,
     spans: Vec<Span>,
-    sites: BTreeSet<[i64; 2]>,
-    moving: BTreeSet<[i64; 2]>,
-    data: BTreeSet<([i64; 2], usize)>,
+    sites: BTreeSet<[i64; AXES]>,
+    moving: BTreeSet<[i64; AXES]>,
+    data: BTreeSet<([i64; AXES], usize)>,
 }
 
 impl<'a> Sums<'a> {
@@ -152,13 +156,19 @@ impl<'a> Sums<'a> {
     }
 
     fn without_site(&self, name: &str, origin: Origin) -> Diagnostic {
-        let help = format!("write `{}` in a sum", named(name, &self.indices(), [0, 0]));
+        let help = format!(
+            "write `{}` in a sum",
+            named(name, &self.indices(), [0; AXES])
+        );
         let message = format!("`{name}` has a value for each site and needs an index");
         Diagnostic::new(Kind::UnknownSymbol, origin, message).help(help)
     }
 
     fn without_index(&self, name: &str, origin: Origin) -> Diagnostic {
-        let help = format!("write `{}` in a sum", named(name, &self.indices(), [0, 0]));
+        let help = format!(
+            "write `{}` in a sum",
+            named(name, &self.indices(), [0; AXES])
+        );
         let message = format!("`{name}` is a coordinate of each site and needs an index");
         Diagnostic::new(Kind::UnknownSymbol, origin, message).help(help)
     }
@@ -186,15 +196,17 @@ impl<'a> Sums<'a> {
                 body: inner,
             } = &body.kind
             else {
-                let message = "the sum goes over rows alone, and the sites have two indices";
-                let help = "write `sum(i in 0..N, j in 0..M: …)`";
-                mistakes.push(Diagnostic::new(Kind::Syntax, expr.origin, message).help(help));
+                mistakes.push(self.other_ranges(reading.spans.len(), expr.origin));
                 return None;
             };
             self.fresh(index, mistakes)?;
             reading.spans.push(bounds::span(from, to, size, mistakes)?);
             reading.variables.push(index);
             body = inner;
+        }
+        if matches!(body.kind, ExprKind::IndexedSum { .. }) && body.origin == expr.origin {
+            mistakes.push(self.other_ranges(self.family.sizes.len() + 1, expr.origin));
+            return None;
         }
         let body = mapped(body, &mut |part| match &part.kind {
             ExprKind::IndexedSum { .. } => {
@@ -203,21 +215,34 @@ impl<'a> Sums<'a> {
             }
             _ => self.at_site(part, &mut reading, mistakes),
         })?;
-        let span = |axis: usize| {
-            let before = 2 - reading.spans.len();
-            axis.checked_sub(before)
-                .and_then(|axis| reading.spans[axis])
-        };
         self.found.push(Sum {
             body,
             sites: reading.sites,
             moving: reading.moving,
             data: reading.data,
-            spans: [span(0), span(1)],
+            spans: last_axes(&reading.spans, None)?,
             over_bonds: false,
             origin: expr.origin,
         });
         Some(self.last(expr.origin))
+    }
+
+    /// The answer to a sum that goes along another number of axes than the sites have.
+    fn other_ranges(&self, found: usize, origin: Origin) -> Diagnostic {
+        let sizes = &self.family.sizes;
+        let number = |count: usize| match count {
+            1 => "one index".to_owned(),
+            _ => format!("{count} indices"),
+        };
+        let message = format!(
+            "the sum has {}, and the sites have {}",
+            number(found),
+            number(sizes.len())
+        );
+        let range = |(size, index): (&Size, &Name)| format!("{} in 0..{}", index.text, size.text());
+        let ranges: Vec<String> = sizes.iter().zip(&self.family.indices).map(range).collect();
+        let help = format!("write `sum({}: …)`", ranges.join(", "));
+        Diagnostic::new(Kind::Syntax, origin, message).help(help)
     }
 
     /// The name of the sum that was found last.
@@ -305,15 +330,14 @@ impl<'a> Sums<'a> {
             );
             return fail(Kind::UnknownSymbol, message, help);
         }
-        let indices: Vec<&Index> =
-            std::iter::successors(Some(index), |i| i.second.as_deref()).collect();
+        let indices: Vec<&Index> = index.along_axes().collect();
         let variables: Vec<&str> = reading.variables.iter().map(|v| v.text.as_str()).collect();
         let right = format!("write `{name}[{}]`", variables.join(", "));
         if indices.len() != variables.len() {
             let message = format!("`{name}` has {} indices here", indices.len());
             return fail(Kind::Syntax, message, right);
         }
-        let mut distance = [0, 0];
+        let (mut distance, others) = ([0; AXES], others(&variables));
         for (axis, (index, variable)) in indices.iter().zip(&variables).enumerate() {
             match &index.variable {
                 Some(used) if used.text == *variable => {}
@@ -327,8 +351,7 @@ impl<'a> Sums<'a> {
                     return fail(Kind::Syntax, message, right);
                 }
             }
-            let last = 2 - variables.len();
-            distance[axis + last] = index.offset;
+            distance[axis + others] = index.offset;
             if let Some(help) = bounds::beyond(reading.spans[axis], index.offset, variable) {
                 let message = format!(
                     "this site is beyond the end: the sum does not go over all sites, so that `{variable}` does not wrap around"
@@ -356,15 +379,15 @@ impl<'a> Sums<'a> {
 
 impl Sums<'_> {
     /// Notes which of the last values of a coefficient a sum asks for.
-    fn asked(&mut self, place: usize, distance: [i64; 2], spans: &[Span]) {
-        let before = 2 - spans.len();
+    fn asked(&mut self, place: usize, distance: [i64; AXES], spans: &[Span]) {
+        let others = others(spans);
         let unused = |axis: usize| {
-            let span = axis.checked_sub(before).and_then(|axis| spans[axis]);
+            let span = axis.checked_sub(others).and_then(|axis| spans[axis]);
             let left = span.map_or(0, |(_, left)| left as i64 - distance[axis]);
             usize::try_from(left).unwrap_or(0)
         };
-        let found = [unused(0), unused(1)];
+        let found: [usize; AXES] = from_fn(unused);
         let known = self.unused[place].get_or_insert(found);
-        *known = [known[0].min(found[0]), known[1].min(found[1])];
+        *known = from_fn(|axis| known[axis].min(found[axis]));
     }
 }

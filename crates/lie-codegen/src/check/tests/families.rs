@@ -1,5 +1,6 @@
 use super::{expect, model, system};
 use crate::model::Size;
+use lie_core::lattice::AXES;
 
 /// A ring of spins with what is given instead.
 fn ring(extra: &[(&str, &str)]) -> String {
@@ -31,10 +32,10 @@ fn a_ring_has_the_casimirs_of_a_site_and_the_slots_of_its_bonds() {
     let model = model(&ring(&[]));
     let family = model.family.as_ref().expect("a family");
     assert_eq!(family.sizes, [Size::Parameter(0)]);
-    assert_eq!(family.slots, [[0, -1], [0, 0], [0, 1]]);
+    assert_eq!(family.slots, [[0, 0, -1], [0, 0, 0], [0, 0, 1]]);
     assert_eq!(family.own, 1);
     assert_eq!(family.sums[0].slots, [1, 2]);
-    assert_eq!(family.sums[0].spans, [None, None]);
+    assert_eq!(family.sums[0].spans, [None; AXES]);
     assert_eq!(family.degree, Some(2));
     assert_eq!((model.casimirs.len(), model.generic_rank), (1, 2));
     assert_eq!(
@@ -55,8 +56,9 @@ fn open_chains_lattices_and_functions_of_sums() {
     let open = model(&ring(&keys));
     let family = open.family.as_ref().expect("a family");
     // sums of H come behind those of the abbreviations
-    assert_eq!(family.sums[1].spans, [None, Some((1, 2))]);
-    assert_eq!(family.slots, [[0, -3], [0, -1], [0, 0], [0, 2], [0, 3]]);
+    assert_eq!(family.sums[1].spans, [None, None, Some((1, 2))]);
+    let along = family.slots.iter().map(|slot| slot[AXES - 1]);
+    assert_eq!(along.collect::<Vec<_>>(), [-3, -1, 0, 2, 3]);
     assert_eq!(family.degree, Some(4));
     let keys = [
         ("algebra", r#""so(3)^(3, M)""#),
@@ -70,8 +72,8 @@ fn open_chains_lattices_and_functions_of_sums() {
     let lattice = model(&ring(&keys));
     let family = lattice.family.as_ref().expect("a family");
     assert_eq!(family.sizes, [Size::Number(3), Size::Parameter(0)]);
-    assert_eq!(family.sums[0].spans, [Some((0, 1)), None]);
-    assert_eq!(family.sites(&[5.0]), Some([3, 5]));
+    assert_eq!(family.sums[0].spans, [None, Some((0, 1)), None]);
+    assert_eq!(family.sites(&[5.0]), Some([1, 3, 5]));
     assert_eq!(family.sites(&[2.5]), None);
     assert_eq!(
         lattice.display_of_family(family),
@@ -381,34 +383,4 @@ fn coefficients_have_a_value_for_each_site() {
         sum,
         "schema at {: the parameter `B` has both `values` and `file`",
     );
-}
-
-/// Where values of a lattice are left out is known while their rows are.
-#[test]
-fn values_of_a_lattice_keep_their_rows() {
-    let lattice = |values: &str| {
-        let parameters = format!(r#"{{"N": 2, "M": 3, "K": {values}}}"#);
-        ring(&[
-            ("algebra", r#""so(3)^(N, M)""#),
-            ("state", r#"["x[i, j]", "y[i, j]", "z[i, j]"]"#),
-            ("parameters", &parameters),
-            (
-                "hamiltonian",
-                r#""sum(i in 0..N, j in 0..M-1: K[i, j]*z[i, j]*z[i, j+1])""#,
-            ),
-        ])
-    };
-    for (given, values) in [
-        ("[[1, 2], [3, 4]]", [1.0, 2.0, 0.0, 3.0, 4.0, 0.0]),
-        ("[[1, 2, 5], [3, 4, 6]]", [1.0, 2.0, 5.0, 3.0, 4.0, 6.0]),
-        ("[1, 2, 5, 3, 4, 6]", [1.0, 2.0, 5.0, 3.0, 4.0, 6.0]),
-    ] {
-        let model = model(&lattice(given));
-        let data = &model.family.as_ref().expect("a family").data[0];
-        assert_eq!((&*data.values, data.sizes), (&values[..], Some([2, 3])));
-    }
-    for (given, found) in [("[[1, 2, 3]]", "1 x 3"), ("[1, 2, 3, 4]", "4")] {
-        let says = format!("state-length at [: `K` has {found} values, and there are 2 x 3 sites");
-        expect(&lattice(given), &[&says]);
-    }
 }

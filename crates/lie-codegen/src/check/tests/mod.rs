@@ -11,6 +11,7 @@ mod domain;
 mod driving;
 mod extremes;
 mod families;
+mod family_lattices;
 mod family_pieces;
 mod found;
 mod functions;

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::{Data, Family, SiteCasimir, Sum};
 use crate::derive::{Argument, Kernel, Source};
-use crate::model::{self, data_symbol, shared_symbol};
+use crate::model::{self, apart, data_symbol, shared_symbol};
 use crate::plan::constants::Table;
 use crate::plan::function::Function;
 use crate::plan::planner::{Planner, described};
@@ -116,13 +116,10 @@ impl<'p, 'm> Derivation<'p, 'm> {
     /// The expressions with each site moved, so that the one in `slot` comes to stand at the site itself.
     pub(super) fn moved(&mut self, expressions: &[ExprId], slot: usize) -> Vec<ExprId> {
         let (n, slots) = (self.n(), &self.family.slots);
-        let [down, right] = slots[slot];
         let place = |symbol: Symbol| match symbol {
             Symbol::Coordinate(place) if place < n * slots.len() => {
-                let [row, column] = slots[place / n];
-                let moved = slots
-                    .iter()
-                    .position(|s| *s == [row - down, column - right])?;
+                let moved = apart(&slots[place / n], &slots[slot]);
+                let moved = slots.iter().position(|s| *s == moved)?;
                 Some(Symbol::Coordinate(moved * n + place % n))
             }
             symbol => self.family.data_from(symbol, slot),

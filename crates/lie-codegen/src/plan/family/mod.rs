@@ -18,6 +18,7 @@ use crate::model::{self, Size};
 use crate::structure::Structure;
 pub use crate::structure::family::Push;
 use derivation::Derivation;
+use lie_core::lattice::AXES;
 
 /// What is generated for a family.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -27,7 +28,7 @@ pub struct Family {
     /// The number of sites along each axis.
     pub sizes: Vec<Size>,
     /// The distances of the slots.
-    pub offsets: Vec<[i64; 2]>,
+    pub offsets: Vec<[i64; AXES]>,
     /// The slot of the site itself.
     pub own: usize,
     /// What has a value for each site.
@@ -144,8 +145,8 @@ pub struct Data {
     pub doc: String,
     /// The values of the declaration, by their bits.
     pub bits: Arc<[u64]>,
-    /// Rows and columns of a lattice, of which there is a value for each site.
-    pub sizes: Option<[usize; 2]>,
+    /// Layers, rows and columns of a lattice, of which there is a value for each site.
+    pub sizes: Option<[usize; AXES]>,
     /// The number of last sites of a chain of which no sum asks for the value, so that it may be left out.
     pub unused: usize,
     /// Whether these are the bonds: two sites and a value of each.
@@ -174,9 +175,9 @@ pub struct FamilyPieces {
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct FamilyPiece {
     /// The distance of the second site of a bond.
-    pub offset: [i64; 2],
+    pub offset: [i64; AXES],
     /// Where the first sites are.
-    pub spans: [Option<(usize, usize)>; 2],
+    pub spans: [Option<(usize, usize)>; AXES],
     /// What it is.
     pub form: FamilyForm,
     /// The derivative of a function of one coordinate, or of one of two by that of the first site, the factor of a product, or the
@@ -226,8 +227,8 @@ pub enum FamilyForm {
 pub struct Sum {
     /// The slots that its summand depends on.
     pub slots: Vec<usize>,
-    /// By row and by column the first site and the number of sites behind the last; none where it goes over all.
-    pub spans: [Option<(usize, usize)>; 2],
+    /// By layer, row and column the first site and the number of sites behind the last; none where it goes over all.
+    pub spans: [Option<(usize, usize)>; AXES],
 }
 
 impl Family {

@@ -8,6 +8,7 @@ use crate::derive::{Argument, Kernel, Tape, action};
 use crate::plan::function::Function;
 use crate::structure::family::Form;
 use crate::structure::{exponential, separable};
+use lie_core::lattice::AXES;
 use lie_symbolic::symbolic::{ExprId, Symbol};
 
 /// Symbols of intermediate quantities, beyond those of all arguments.
@@ -167,8 +168,8 @@ impl Derivation<'_, '_> {
         kernel.task.definitions = tape.definitions().to_vec();
         let rate = self.function(&format!("flow of piece {place}"), &kernel);
         Some(FamilyPiece {
-            offset: [0, 0],
-            spans: [None, None],
+            offset: [0; AXES],
+            spans: [None; AXES],
             form: FamilyForm::Flow(push),
             rate,
             second: None,

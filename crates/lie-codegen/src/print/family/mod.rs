@@ -13,8 +13,10 @@ use super::names::{ident, index};
 use crate::derive::Shape;
 use crate::model::Size;
 use crate::plan::{Constant, Family, Function};
+use lie_core::lattice::AXES;
 use lie_symbolic::schedule::Value;
 use lie_symbolic::symbolic::Symbol;
+use pieces::span;
 
 impl Printer<'_> {
     /// All items of a family.
@@ -51,10 +53,11 @@ impl Printer<'_> {
             }
         };
         let sizes = family.sizes.iter().map(size);
-        let row = (family.sizes.len() == 1).then(|| quote! { 1, });
+        let before = std::iter::repeat_n(quote! { 1, }, AXES - family.sizes.len());
+        let axes = index(AXES);
         let initial = family.seed.map(|seed| {
             let seed = Literal::u64_unsuffixed(seed);
-            let sites = quote! { ::lie_runtime::family::unit_spheres(rows * columns, #c, #seed) };
+            let sites = quote! { ::lie_runtime::family::unit_spheres(sites, #c, #seed) };
             let state = match family.timed {
                 true => quote! { self.system()?.state(#sites) },
                 false => sites,
@@ -65,7 +68,7 @@ impl Printer<'_> {
                 #[doc = " # Errors"]
                 #[doc = " If a number of sites is none."]
                 pub fn initial_state(&self) -> ::core::result::Result<::std::vec::Vec<S>, ::lie_runtime::ParameterError> {
-                    let [rows, columns] = self.sizes()?;
+                    let sites = ::lie_runtime::lattice::count(self.sizes()?);
                     ::core::result::Result::Ok(#state)
                 }
             }
@@ -77,12 +80,12 @@ impl Printer<'_> {
 
             #[allow(non_snake_case)]
             impl<S: ::lie_runtime::Scalar> #name<S> {
-                #[doc = " The number of rows and columns of sites; a chain is one row."]
+                #[doc = " The number of layers, rows and columns of sites; a chain is one row, a square lattice one layer."]
                 #[doc = ""]
                 #[doc = " # Errors"]
                 #[doc = " If a parameter that gives one is no whole number, at least 1."]
-                pub fn sizes(&self) -> ::core::result::Result<[usize; 2], ::lie_runtime::ParameterError> {
-                    ::core::result::Result::Ok([#row #(#sizes),*])
+                pub fn sizes(&self) -> ::core::result::Result<[usize; #axes], ::lie_runtime::ParameterError> {
+                    ::core::result::Result::Ok([#(#before)* #(#sizes),*])
                 }
 
                 #[doc = " The system for these parameters."]
@@ -169,11 +172,11 @@ impl Printer<'_> {
     /// What the family says of itself.
     fn facts_of_sites(&self, family: &Family) -> TokenStream {
         let [c, ..] = self.counts(family);
-        let t = index(family.sums.len());
+        let (t, axes) = (index(family.sums.len()), index(AXES));
         let name = &self.plan.names.system;
         let offsets = family.offsets.iter().map(|distance| {
-            let [down, right] = distance.map(Literal::i64_unsuffixed);
-            quote! { [#down, #right] }
+            let distance = distance.map(Literal::i64_unsuffixed);
+            quote! { [#(#distance),*] }
         });
         let terms = family.sums.iter().map(|sum| {
             let slots = sum.slots.iter().map(|slot| index(*slot));
@@ -236,7 +239,7 @@ impl Printer<'_> {
                 }
             }
 
-            fn offsets(&self) -> &[[isize; 2]] {
+            fn offsets(&self) -> &[[isize; #axes]] {
                 &[#(#offsets),*]
             }
 
@@ -389,12 +392,4 @@ fn by_place(values: impl Iterator<Item = TokenStream>) -> TokenStream {
         quote! { #place => #value, }
     });
     arms.collect()
-}
-
-fn span(span: &Option<(usize, usize)>) -> TokenStream {
-    let Some((first, left)) = span else {
-        return quote! { ::lie_runtime::family::Span::All };
-    };
-    let (first, left) = (index(*first), index(*left));
-    quote! { ::lie_runtime::family::Span::Within { first: #first, left: #left } }
 }

@@ -5,7 +5,6 @@ use quote::quote;
 
 use super::super::Printer;
 use super::super::names::{ident, index};
-use super::span;
 use crate::plan::{Family, FamilyForm, FamilyPiece, FamilyPieces, Function, Push};
 use lie_symbolic::symbolic::Symbol;
 
@@ -42,10 +41,10 @@ impl Printer<'_> {
         let differ = family.has_coefficients();
         let around = differ.then(|| quote! { , _at: &[S; #p] });
         let kinds = pieces.kinds.iter().map(|kind| {
-            let [down, right] = kind.offset.map(Literal::i64_unsuffixed);
+            let offset = kind.offset.map(Literal::i64_unsuffixed);
             let spans = kind.spans.iter().map(span);
             let collective = kind.share.is_some();
-            quote! { ::lie_runtime::family::Kind { offset: [#down, #right], spans: [#(#spans),*], collective: #collective } }
+            quote! { ::lie_runtime::family::Kind { offset: [#(#offset),*], spans: [#(#spans),*], collective: #collective } }
         });
         let of_rates = pieces.kinds.iter().enumerate();
         let of_rates = of_rates.filter(|(_, kind)| has_rate(kind.form));
@@ -319,4 +318,13 @@ impl Printer<'_> {
         }
         [exchanges, flows]
     }
+}
+
+/// Over which sites a sum or a piece goes.
+pub(super) fn span(span: &Option<(usize, usize)>) -> TokenStream {
+    let Some((first, left)) = span else {
+        return quote! { ::lie_runtime::family::Span::All };
+    };
+    let (first, left) = (index(*first), index(*left));
+    quote! { ::lie_runtime::family::Span::Within { first: #first, left: #left } }
 }

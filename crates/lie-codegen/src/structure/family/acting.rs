@@ -3,6 +3,7 @@
 use super::{Form, Piece, Push, Search};
 use crate::model::{Driving, slope_symbol};
 use crate::structure::exponential;
+use lie_core::lattice::AXES;
 use lie_symbolic::exact::Budget;
 use lie_symbolic::prove::proof::Prover;
 use lie_symbolic::symbolic::{ExprId, Function, Symbol};
@@ -32,8 +33,8 @@ impl Search<'_> {
     /// A piece of all sites.
     fn of_sites(&mut self, form: Form) {
         self.found.push(Piece {
-            offset: [0, 0],
-            spans: [None, None],
+            offset: [0; AXES],
+            spans: [None; AXES],
             form,
             timed: None,
         });

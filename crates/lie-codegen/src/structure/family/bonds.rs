@@ -1,7 +1,7 @@
 //! The bonds of two sites: products of a coordinate of each, exchanges, and other functions of two coordinates.
 
 use super::{Form, Piece, Search};
-use crate::model::SiteSum;
+use crate::model::{SiteSum, apart};
 use lie_symbolic::symbolic::{ExprId, Function, Node, Symbol};
 
 impl Search<'_> {
@@ -52,10 +52,7 @@ impl Search<'_> {
         let timed = self.time_slope(density, &stand, one)?;
         let slots = &self.family.slots;
         self.found.push(Piece {
-            offset: [
-                slots[other][0] - slots[one][0],
-                slots[other][1] - slots[one][1],
-            ],
+            offset: apart(&slots[other], &slots[one]),
             spans: self.spans(sum, one),
             form: Form::Pair(both, slopes),
             timed,
@@ -106,10 +103,7 @@ impl Search<'_> {
             }
         }
         let slots = &self.family.slots;
-        let offset = [
-            slots[other][0] - slots[one][0],
-            slots[other][1] - slots[one][1],
-        ];
+        let offset = apart(&slots[other], &slots[one]);
         let spans = self.spans(sum, one);
         if let Some([common, rate]) = self.exchange(&mut factors) {
             let timed = self.time_slope_of_products(common, &[[0, 0], [1, 1], [2, 2]]);

@@ -2,6 +2,7 @@
 
 use super::{Form, Piece, Search, TimeSlope};
 use crate::model::{SiteSum, shared_symbol};
+use lie_core::lattice::AXES;
 use lie_symbolic::symbolic::{ExprId, Symbol};
 
 /// The symbol of the time.
@@ -136,7 +137,7 @@ impl Search<'_> {
             of_sums: None,
         };
         self.found.push(Piece {
-            offset: [0, 0],
+            offset: [0; AXES],
             spans: sum.spans,
             form: Form::Still,
             timed: Some(timed),

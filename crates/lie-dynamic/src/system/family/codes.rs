@@ -6,12 +6,13 @@ use crate::system::flows;
 use lie_codegen::derive::Update;
 use lie_codegen::plan::{Family, FamilyForm, FamilyPiece, Function, Push};
 use lie_core::family::{Effects, Kind, Span};
+use lie_core::lattice::AXES;
 use std::collections::HashMap;
 
 /// The codes of one site, and where its neighbours are.
 #[derive(Debug)]
 pub struct Codes {
-    pub offsets: Vec<[isize; 2]>,
+    pub offsets: Vec<[isize; AXES]>,
     pub field: usize,
     pub act: Option<usize>,
     pub slopes: HashMap<(usize, usize), usize>,
@@ -58,14 +59,14 @@ pub struct Turn {
 }
 
 /// Over which sites a sum goes.
-pub fn spans(spans: &[Option<(usize, usize)>; 2]) -> [Span; 2] {
+pub fn spans(spans: &[Option<(usize, usize)>; AXES]) -> [Span; AXES] {
     spans.map(|span| match span {
         None => Span::All,
         Some((first, left)) => Span::Within { first, left },
     })
 }
 
-fn offset(offset: [i64; 2]) -> [isize; 2] {
+fn offset(offset: [i64; AXES]) -> [isize; AXES] {
     offset.map(|distance| distance as isize)
 }
 

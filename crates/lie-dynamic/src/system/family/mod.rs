@@ -12,6 +12,7 @@ use crate::system::names;
 use lie_codegen::model::Size;
 use lie_codegen::plan;
 use lie_core::family::{Shape, Sites, Stretch, Term, size};
+use lie_core::lattice::{AXES, last_axes};
 use lie_core::parameter::ParameterError;
 use lie_runtime::{Dual, Scalar};
 use smallvec::{SmallVec, smallvec};
@@ -50,8 +51,8 @@ pub struct FamilySite<S: Scalar> {
     wide: Option<Values<S::Wide>>,
 }
 
-/// The number of rows and columns.
-pub(crate) fn sizes(sizes: &[Size], values: &Values<f64>) -> Result<[usize; 2], ParameterError> {
+/// The number of layers, rows and columns.
+pub(crate) fn sizes(sizes: &[Size], values: &Values<f64>) -> Result<[usize; AXES], ParameterError> {
     let along = |axis: &Size| match axis {
         Size::Number(count) => Ok(*count),
         Size::Parameter(parameter) => size(
@@ -59,9 +60,10 @@ pub(crate) fn sizes(sizes: &[Size], values: &Values<f64>) -> Result<[usize; 2], 
             names::text(&values.compiled.plan.names.parameters[*parameter]),
         ),
     };
-    match sizes {
-        [rows, columns] => Ok([along(rows)?, along(columns)?]),
-        _ => Ok([1, sizes.first().map_or(Ok(1), along)?]),
+    let sizes: Vec<usize> = sizes.iter().map(along).collect::<Result<_, _>>()?;
+    match last_axes(&sizes, 1) {
+        Some(sizes) => Ok(sizes),
+        None => unreachable!("a lattice has at most {AXES} axes"),
     }
 }
 
@@ -149,7 +151,7 @@ impl<S: Scalar> Sites<S> for FamilySite<S> {
     fn coordinate(&self, index: usize) -> &str {
         &self.plan().coordinates[index]
     }
-    fn offsets(&self) -> &[[isize; 2]] {
+    fn offsets(&self) -> &[[isize; AXES]] {
         &self.codes().offsets
     }
     fn count(&self) -> usize {

@@ -8,6 +8,7 @@ use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::front::entries::Read;
 use crate::front::token::{Delimiter, Token, TokenKind, span, split_commas};
 use crate::front::{families, item};
+use lie_core::lattice::AXES;
 
 /// The names of the state, and of a family their indices.
 pub fn state(statement: &Statement<'_>, report: &mut Report) -> (Vec<Name>, Vec<Name>) {
@@ -40,7 +41,7 @@ pub fn algebra(statement: &Statement<'_>, report: &mut Report) -> Option<Read> {
     }
 }
 
-/// `[1, 2, 1/2]`, or of a lattice `[[1, 2], [3, 4]]`: the values of a coefficient, site after site.
+/// `[1, 2, 1/2]`, or of a lattice `[[1, 2], [3, 4]]`, in three dimensions `[[[1, 2]], [[3, 4]]]`: the values of a coefficient, site after site.
 pub fn data(
     list: &[Token],
     name: Name,
@@ -48,26 +49,17 @@ pub fn data(
     report: &mut Report,
 ) -> Option<SiteData> {
     let origin = span(list).unwrap_or(name.origin);
-    let parts = split_commas(list);
-    let rows: Option<Vec<&[Token]>> = parts
-        .iter()
-        .map(|part| inside(part, Delimiter::Bracket))
-        .collect();
-    let rows: Option<Vec<_>> = rows.map(|rows| rows.into_iter().map(split_commas).collect());
-    let shape = match rows.as_deref() {
-        Some([first, rest @ ..]) if rest.iter().all(|row| row.len() == first.len()) => {
-            vec![rest.len() + 1, first.len()]
-        }
-        Some([_, ..]) => {
-            let message = format!("the rows of `{}` have different lengths", name.text);
-            let help = "write a row of values for each row of the lattice";
-            report.push(Diagnostic::new(Kind::Syntax, origin, message).help(help));
+    let mut entries = Vec::new();
+    let shape = match nested(list, AXES, &mut entries) {
+        Ok(shape) => shape,
+        Err((part, shapes)) => {
+            let (message, help) = ragged(&format!("`{}`", name.text), [&shapes[0], &shapes[1]]);
+            let place = span(part).unwrap_or(origin);
+            report.push(Diagnostic::new(Kind::Syntax, place, message).help(help));
             return None;
         }
-        _ => vec![parts.len()],
     };
-    let entries = rows.map_or(parts, |rows| rows.concat()).into_iter();
-    let entries = entries.map(|entry| match entry {
+    let entries = entries.into_iter().map(|entry| match entry {
         [] => {
             report.push(item::missing_constant(origin));
             None
@@ -83,6 +75,51 @@ pub fn data(
         unit: None,
         description,
     })
+}
+
+/// A part of a list that has another shape than the first one, and both shapes.
+type Ragged<'a> = (&'a [Token], [Vec<usize>; 2]);
+
+/// Adds the entries of lists within lists, at most so deep; how many there are along each axis.
+fn nested<'a>(
+    list: &'a [Token],
+    depth: usize,
+    all: &mut Vec<&'a [Token]>,
+) -> Result<Vec<usize>, Ragged<'a>> {
+    let parts = split_commas(list);
+    let rows = parts.iter().map(|part| inside(part, Delimiter::Bracket));
+    let rows: Option<Vec<_>> = rows.collect();
+    let Some(rows) = rows.filter(|rows| depth > 1 && !rows.is_empty()) else {
+        let count = parts.len();
+        all.extend(parts);
+        return Ok(vec![count]);
+    };
+    let (mut shape, count) = (Vec::new(), rows.len());
+    for (row, part) in rows.into_iter().zip(parts) {
+        let of_row = nested(row, depth - 1, all)?;
+        if shape.is_empty() {
+            shape.clone_from(&of_row);
+        }
+        if shape != of_row {
+            return Err((part, [shape, of_row]));
+        }
+    }
+    shape.insert(0, count);
+    Ok(shape)
+}
+
+/// What is said of parts of a list that have these shapes, and what to write.
+pub fn ragged(what: &str, shapes: [&[usize]; 2]) -> (String, &'static str) {
+    match shapes.iter().all(|shape| shape.len() == 1) {
+        true => (
+            format!("the rows of {what} have different lengths"),
+            "write a row of values for each row of the lattice",
+        ),
+        false => (
+            format!("the layers of {what} have different shapes"),
+            "write as many rows of as many values for each layer of the lattice",
+        ),
+    }
 }
 
 /// `= [[0, 1, 1], [1, 5, 1/2]]`: rows of bonds.

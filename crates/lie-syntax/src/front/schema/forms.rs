@@ -133,6 +133,8 @@ pub enum SiteValues {
     Chain(Vec<Constant>),
     /// Of a lattice, row by row.
     Lattice(Vec<Vec<Constant>>),
+    /// Of a lattice of three dimensions, layer by layer.
+    Layers(Vec<Vec<Vec<Constant>>>),
 }
 
 /// Bonds between two sites.

@@ -10,6 +10,7 @@ use crate::front::json::{Type, Value};
 use crate::front::object::{Object, list, string};
 use crate::front::schema::PerSite;
 use crate::front::{file, npy, prose};
+use lie_core::lattice::AXES;
 
 /// The values and how many there are along each axis.
 type Read = (SiteValues, Vec<usize>);
@@ -26,7 +27,7 @@ struct Help {
 
 const OF_SITES: Help = Help {
     list: "give the values as a list, `{\"values\": [1, 2, 3]}`; only the command `lie` and the macro read files",
-    lines: "write a number in each line, of a lattice a row of numbers with commas",
+    lines: "write a number in each line, of a lattice a row of numbers with commas, the rows of one layer after those of another",
     finite: "give each site a finite number",
 };
 
@@ -123,32 +124,42 @@ pub fn bonds(value: Value<'_>, folder: Option<&Path>, report: &mut Report) -> Op
     family::bonds(values, shape, origin, report)
 }
 
-/// A list, or of a lattice a list of rows of one length.
+/// A list, or of a lattice a list of rows of one length, or of layers of such rows.
 fn written(value: Value<'_>, what: &str, report: &mut Report) -> Option<Read> {
-    let elements = list(value, what, report)?;
-    let rows = elements.iter().any(|element| element.kind() == Type::Array);
-    if !rows {
-        let entries = entries(elements, what, report)?;
-        let shape = vec![entries.len()];
-        return Some((SiteValues::Written(entries), shape));
-    }
-    let mut all = Vec::new();
-    let mut length = None;
+    let (mut all, elements) = (Vec::new(), list(value, what, report)?);
+    let shape = nested(elements, what, AXES, &mut all, report)?;
+    Some((SiteValues::Written(all), shape))
+}
+
+/// Adds the values of lists within lists, at most so deep; how many there are along each axis.
+fn nested(
+    elements: Vec<Value<'_>>,
+    what: &str,
+    depth: usize,
+    all: &mut Vec<Expr>,
+    report: &mut Report,
+) -> Option<Vec<usize>> {
     let count = elements.len();
+    let is_list = |element: &Value<'_>| element.kind() == Type::Array;
+    if depth == 1 || !elements.iter().any(is_list) {
+        all.extend(entries(elements, what, report)?);
+        return Some(vec![count]);
+    }
+    let mut shape = Vec::new();
     for row in elements {
         let of_row = list(row, &format!("a row of {what}"), report)?;
-        if *length.get_or_insert(of_row.len()) != of_row.len() {
-            let message = format!("the rows of {what} have different lengths");
-            let help = "write a row of values for each row of the lattice";
+        let of_row = nested(of_row, what, depth - 1, all, report)?;
+        if shape.is_empty() {
+            shape.clone_from(&of_row);
+        }
+        if shape != of_row {
+            let (message, help) = family::ragged(what, [&shape, &of_row]);
             report.push(Diagnostic::new(Kind::Schema, row.head(), message).help(help));
             return None;
         }
-        all.extend(entries(of_row, what, report)?);
     }
-    Some((
-        SiteValues::Written(all),
-        vec![count, length.unwrap_or_default()],
-    ))
+    shape.insert(0, count);
+    Some(shape)
 }
 
 fn entries(elements: Vec<Value<'_>>, what: &str, report: &mut Report) -> Option<Vec<Expr>> {
@@ -159,7 +170,7 @@ fn entries(elements: Vec<Value<'_>>, what: &str, report: &mut Report) -> Option<
     entries.collect::<Vec<_>>().into_iter().collect()
 }
 
-/// The numbers of a file in NumPy's format, or of one with a number in each line, of a lattice a row.
+/// The numbers of a file in NumPy's format, or of one with a number in each line, of a lattice a row, layer after layer.
 fn of_file(
     path: &str,
     origin: Origin,

@@ -85,16 +85,13 @@ pub fn text(expression: &Expr) -> String {
 
 /// `i+1`, or `i+1, j` on a lattice.
 fn place(index: &Index) -> String {
-    let offset = index.offset;
-    let first = match (&index.variable, offset) {
-        (None, _) => offset.to_string(),
+    let along = |index: &Index| match (&index.variable, index.offset) {
+        (None, offset) => offset.to_string(),
         (Some(i), 0) => i.text.clone(),
-        (Some(i), _) => format!("{}{offset:+}", i.text),
+        (Some(i), offset) => format!("{}{offset:+}", i.text),
     };
-    let second = index.second.as_deref();
-    second.map_or(first.clone(), |second| {
-        format!("{first}, {}", place(second))
-    })
+    let all: Vec<String> = index.along_axes().map(along).collect();
+    all.join(", ")
 }
 
 fn chain(operands: &[(bool, Expr)], signs: [&str; 2]) -> String {

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::{Reading, Sums, mapped, named};
+use lie_core::lattice::AXES;
 use lie_syntax::ast::{Expr, ExprKind};
 use lie_syntax::diagnostic::{Diagnostic, Kind, Origin};
 
@@ -17,7 +18,7 @@ pub fn far(origin: Origin) -> Diagnostic {
 impl Sums<'_> {
     /// The name of a coordinate of the site on which something acts.
     pub fn own(&self, name: &str) -> String {
-        named(name, &self.indices(), [0, 0])
+        named(name, &self.indices(), [0; AXES])
     }
 
     /// An expression of what acts on a site, its coordinates under the names of their slots.

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::{Sum, Sums, mapped, within};
+use lie_core::lattice::AXES;
 use lie_syntax::ast::{Expr, ExprKind};
 use lie_syntax::diagnostic::{Diagnostic, Kind, Origin};
 
@@ -57,7 +58,7 @@ impl Sums<'_> {
                     index: Some(index),
                 } => {
                     let variable = index.variable.as_ref().map(|variable| &variable.text);
-                    let (Some(variable), 0, None) = (variable, index.offset, &index.second) else {
+                    let (Some(variable), 0, None) = (variable, index.offset, &index.next) else {
                         let message =
                             format!("`{name}` has another index than that of a site of the bond");
                         return fail(message, "write `x[i]` and `x[j]` for the two sites");
@@ -83,7 +84,7 @@ impl Sums<'_> {
             sites: BTreeSet::new(),
             moving: BTreeSet::new(),
             data: BTreeSet::new(),
-            spans: [None, None],
+            spans: [None; AXES],
             over_bonds: true,
             origin,
         });

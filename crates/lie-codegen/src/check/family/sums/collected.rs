@@ -2,19 +2,21 @@
 
 use super::bonds::{BOND_VALUE, second};
 use super::{Near, Sum, Sums, indices, named};
+use crate::model::apart;
+use lie_core::lattice::AXES;
 
 /// A sum as it was written.
 pub struct Collected {
     /// The distances of all sites that a summand or the motion of a site depends on.
-    pub slots: Vec<[i64; 2]>,
+    pub slots: Vec<[i64; AXES]>,
     /// The names of all coordinates, slot after slot.
     pub names: Vec<String>,
     /// Which slots and coefficients sums and motions depend on.
     pub data_places: Vec<[usize; 2]>,
     /// The names of these coefficients.
     pub data: Vec<String>,
-    /// The number of last rows and columns of which no sum asks for a value.
-    pub unused: Vec<[usize; 2]>,
+    /// The number of last layers, rows and columns of which no sum asks for a value.
+    pub unused: Vec<[usize; AXES]>,
     /// The names of the coordinates of the second site of a bond, and of its value.
     pub other: Vec<String>,
     /// The sums.
@@ -23,7 +25,7 @@ pub struct Collected {
 
 impl Collected {
     /// The slot of a distance.
-    pub fn slot(&self, distance: [i64; 2]) -> usize {
+    pub fn slot(&self, distance: [i64; AXES]) -> usize {
         let found = self.slots.iter().position(|slot| *slot == distance);
         found.unwrap_or_default()
     }
@@ -36,13 +38,13 @@ impl Sums<'_> {
             sites: mut slots,
             data: mut asked,
         } = self.acting;
-        slots.insert([0, 0]);
+        slots.insert([0; AXES]);
         slots.extend(asked.iter().map(|(at, _)| *at));
         for sum in &self.found {
             for one in &sum.sites {
                 slots.insert(*one);
                 let others = sum.sites.iter();
-                slots.extend(others.map(|other| [other[0] - one[0], other[1] - one[1]]));
+                slots.extend(others.map(|other| apart(other, one)));
             }
         }
         let indices: Vec<String> = indices(self.family);
@@ -53,9 +55,9 @@ impl Sums<'_> {
             .collect();
         // the motion of a site asks for those of the summands that it is in
         for sum in &self.found {
-            for from in sum.moving.iter().chain(&[[0, 0]]) {
-                let apart = |at: &[i64; 2]| [at[0] - from[0], at[1] - from[1]];
-                asked.extend(sum.data.iter().map(|(at, which)| (apart(at), *which)));
+            for from in sum.moving.iter().chain(&[[0; AXES]]) {
+                let data = sum.data.iter();
+                asked.extend(data.map(|(at, which)| (apart(at, from), *which)));
             }
         }
         let name = |which: usize| &self.family.data[which].name.text;
@@ -63,7 +65,7 @@ impl Sums<'_> {
             .iter()
             .map(|(at, which)| named(name(*which), &indices, *at))
             .collect();
-        let slots: Vec<[i64; 2]> = slots.into_iter().collect();
+        let slots: Vec<[i64; AXES]> = slots.into_iter().collect();
         let slot = |at| slots.iter().position(|slot| *slot == at);
         let data_places = asked
             .into_iter()
