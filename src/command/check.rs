@@ -291,8 +291,8 @@ fn write_system(model: &Structure, text: &mut String) -> std::fmt::Result {
         writeln!(text, "  attitude at the start: {attitude}")?;
     }
     if let Some(lagrangian) = model.energy.lagrangian() {
-        if let Some(discrete) = lagrangian.discrete {
-            writeln!(text, "  l_d = {}", model.display(discrete.value))?;
+        if let Some(discrete) = &lagrangian.discrete {
+            writeln!(text, "  l_d = {}", model.display(discrete.shown()))?;
         }
         writeln!(text, "  l = {}", model.display(lagrangian.value))?;
     }

@@ -9,6 +9,8 @@ use lie_syntax::ast::{Algebra, Declaration, Energy, Expr, Invariance, Name, Stru
 
 /// Newton's iterations of a Legendre transform, from a velocity that is nearly right.
 const ITERATIONS: usize = 6;
+/// A step of Newton's iteration that needs no other one, as a part of the velocity.
+const NEAR: f64 = 1e-9;
 /// The step at which the limit of a discrete Lagrangian is taken, extrapolated.
 const SMALL: f64 = 1e-4;
 
@@ -39,7 +41,19 @@ impl Declared {
     pub(super) fn size(&self) -> usize {
         let lets = self.declaration.lets.iter().map(|(_, value)| size(value));
         let driving = self.declaration.driving().map(size);
-        lets.sum::<usize>() + size(self.declaration.energy.expression()) + driving.sum::<usize>()
+        let all = lets.sum::<usize>()
+            + size(self.declaration.energy.expression())
+            + driving.sum::<usize>();
+        match (&self.declaration.energy, &self.declaration.group) {
+            // an elimination for each pair of components, on both sides of the limit, over derivatives
+            (Energy::DiscreteLagrangian { .. }, Some(_)) => {
+                let rows = self.declaration.algebra();
+                let rows = rows.and_then(|algebra| Some(algebra.matrices.first()?.rows.len()));
+                let n = self.declaration.state.len();
+                (all + 2 * rows.unwrap_or(0).pow(3)) * 4 * n * n
+            }
+            _ => all,
+        }
     }
 
     fn parameters(&self) -> Scope {
@@ -145,9 +159,11 @@ impl Declared {
         let size = matrices.first().map_or(0, Vec::len);
         let half = |sign: i32| -> Rows {
             let entry = |r: usize, c: usize| {
-                let terms = matrices.iter().zip(x).map(|(m, x)| m[r][c].mul(x));
-                let sum = Number::sum(terms).div(&Number::integer(2 * sign));
-                sum.add(&Number::integer(i32::from(r == c)))
+                let terms = matrices.iter().zip(x);
+                let terms = terms.filter(|(m, _)| m[r][c].value() != 0.0);
+                let sum = Number::sum(terms.map(|(m, x)| m[r][c].mul(x)));
+                let half = sum.div(&Number::integer(2 * sign));
+                half.add(&Number::integer(i32::from(r == c)))
             };
             (0..size)
                 .map(|r| (0..size).map(|c| entry(r, c)).collect())
@@ -159,19 +175,45 @@ impl Declared {
     }
 
     /// `l'(xi) = mu`, by Newton's iteration over the numbers themselves.
+    ///
+    /// That of a discrete Lagrangian in entries of the group element takes much work. It is found for the values first, and then with
+    /// derivatives to the first order: `<mu, xi> - l(xi)` is stationary, so that its second derivatives need no more.
     pub(super) fn velocity(&self, mu: &[Number], near: &[f64]) -> Vec<Number> {
         let n = self.declaration.state.len();
         let start = |k: usize| near.get(k).copied().unwrap_or(0.0);
         let mut xi: Vec<Number> = (0..n).map(|k| Number::rounded(start(k), 0.0)).collect();
-        for _ in 0..ITERATIONS {
-            let (slope, second) = derivatives(&xi, directions(mu), |xi| self.lagrangian(xi, mu));
-            let gap = (0..n).map(|i| vec![mu[i].sub(&slope[i])]).collect();
-            let step = linear::solve(second, gap);
-            for (xi, step) in xi.iter_mut().zip(step) {
-                *xi = xi.add(&step[0]);
+        let in_entries = self.declaration.energy.has_step() && self.declaration.group.is_some();
+        if in_entries {
+            let values: Vec<Number> = mu[..n].iter().map(|m| Number::input(m.value())).collect();
+            for _ in 0..ITERATIONS {
+                if self.improve(&mut xi, &values) < NEAR {
+                    break;
+                }
             }
         }
+        let rest = match (in_entries, directions(mu)) {
+            (true, varying) => varying.min(1),
+            (false, _) => ITERATIONS,
+        };
+        for _ in 0..rest {
+            self.improve(&mut xi, mu);
+        }
         xi
+    }
+
+    /// One of Newton's iterations, and the size of its step as a part of the velocity.
+    fn improve(&self, xi: &mut [Number], mu: &[Number]) -> f64 {
+        let n = xi.len();
+        let (slope, second) = derivatives(xi, directions(mu), |xi| self.lagrangian(xi, mu));
+        let gap = (0..n).map(|i| vec![mu[i].sub(&slope[i])]).collect();
+        let step = linear::solve(second, gap);
+        let (mut moved, mut all) = (0.0_f64, f64::MIN_POSITIVE);
+        for (xi, step) in xi.iter_mut().zip(step) {
+            *xi = xi.add(&step[0]);
+            moved = moved.max(step[0].value().abs());
+            all = all.max(xi.value().abs());
+        }
+        moved / all
     }
 
     /// A function of the state that was declared.

@@ -3,6 +3,7 @@
 
 pub mod antisymmetry;
 pub mod brackets;
+pub mod cayley;
 mod constants;
 mod envelope;
 pub mod jacobi;

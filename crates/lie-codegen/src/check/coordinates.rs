@@ -29,7 +29,8 @@ pub fn whole<'a>(
         sums = Some(found);
         Cow::Owned(site)
     } else if declaration.energy.has_step() && declaration.group.is_some() {
-        Cow::Owned(entries::written_out(declaration, mistakes)?)
+        entries::are_sound(declaration, mistakes)?;
+        Cow::Borrowed(declaration)
     } else if let Some(found) = configuration::configuration(declaration, mistakes) {
         let whole = configuration::extended(declaration, &found, mistakes);
         configuration = Some(found);

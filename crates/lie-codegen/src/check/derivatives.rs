@@ -1,7 +1,7 @@
 //! The size of what is derived: products of many factors and deep compositions are short to write, but their
 //! derivatives swell.
 
-use crate::model::PoissonMatrix;
+use crate::model::{ENTRIES, PoissonMatrix};
 use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 use lie_syntax::diagnostic::{Diagnostic, Kind, Origin};
 
@@ -41,9 +41,12 @@ pub fn momenta(
     origin: Origin,
 ) -> Result<(), Diagnostic> {
     let mut scratch = graph.clone();
+    let entries = graph.symbols(value).into_iter();
+    let entries = entries.filter(|symbol| matches!(symbol, Symbol::Input(i) if *i >= ENTRIES));
+    let variables: Vec<Symbol> = (0..dimension).map(Symbol::Input).chain(entries).collect();
     let mut slopes = |function: ExprId| -> Option<Vec<ExprId>> {
-        let slope = |i| scratch.derivative_within(function, Symbol::Input(i), MOST_DERIVED);
-        (0..dimension).map(slope).collect()
+        let slope = |x: &Symbol| scratch.derivative_within(function, *x, MOST_DERIVED);
+        variables.iter().map(slope).collect()
     };
     let momenta = slopes(value);
     let small = momenta.is_some_and(|momenta| momenta.into_iter().all(|p| slopes(p).is_some()));

@@ -4,6 +4,7 @@
 //! `l_d(h xi)`. Those of lower powers must not depend on xi; a constant in l_d moves nothing.
 
 use super::series::in_step;
+use crate::model::InEntries;
 use lie_symbolic::exact::Budget;
 use lie_symbolic::prove::normal::{NormalForm, Verdict};
 use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
@@ -12,17 +13,17 @@ use lie_syntax::diagnostic::{Diagnostic, Kind, Origin};
 /// Work allowed for the decisions of the normal form.
 const WORK: u64 = 2_000_000;
 
-/// The reduced Lagrangian of a discrete one in the same number of variables.
+/// The reduced Lagrangian of a discrete one in the same number of variables, which may be written in entries of the group element.
 ///
 /// # Errors
 /// `legendre` where it is consistent with none.
 pub fn reduced(
     graph: &mut Graph,
-    discrete: ExprId,
+    (discrete, in_entries): (ExprId, Option<&InEntries>),
     count: usize,
     origin: Origin,
 ) -> Result<ExprId, Diagnostic> {
-    limit(graph, discrete, count).ok_or_else(|| {
+    limit(graph, discrete, in_entries, count).ok_or_else(|| {
         Diagnostic::new(
             Kind::Legendre,
             origin,
@@ -43,8 +44,13 @@ pub fn elsewhere(origin: Origin) -> Diagnostic {
     .help("declare a `hamiltonian` or a `lagrangian`")
 }
 
-fn limit(graph: &mut Graph, discrete: ExprId, count: usize) -> Option<ExprId> {
-    let series = in_step(graph, discrete)?;
+fn limit(
+    graph: &mut Graph,
+    discrete: ExprId,
+    in_entries: Option<&InEntries>,
+    count: usize,
+) -> Option<ExprId> {
+    let series = in_step(graph, discrete, in_entries)?;
     let limit = series.coefficient(graph, 1)?;
     let mut divergent = Vec::new();
     for power in series.start()..1 {

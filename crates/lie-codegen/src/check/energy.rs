@@ -1,7 +1,8 @@
 //! The Hamiltonian of a declaration: as it stands, or that of a Lagrangian.
 
 use super::legendre::{self, Lagrangian, Transform};
-use super::{derivatives, discrete};
+use super::{derivatives, discrete, entries};
+use crate::algebra::Representation;
 use crate::model::configuration::Configuration;
 use crate::model::{self, Discrete, Parameter};
 use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
@@ -16,6 +17,8 @@ pub struct Motion<'a> {
     pub parameters: &'a [Parameter],
     /// The group element and the time, where the function depends on them.
     pub configuration: Option<&'a Configuration>,
+    /// The matrices of the algebra of the system.
+    pub representation: Option<&'a Representation>,
     /// Whether the bracket is that of an algebra, and the function one on it alone.
     pub on_algebra: bool,
 }
@@ -66,11 +69,20 @@ impl Motion<'_> {
     ) -> Result<model::Energy<ExprId>, Diagnostic> {
         let count = velocity.len();
         derivatives::momenta(graph, function, count, origin)?;
-        let discrete = self.declaration.energy.has_step().then_some(function);
-        let value = match discrete {
-            Some(_) if !self.on_algebra => return Err(discrete::elsewhere(origin)),
-            Some(discrete) => discrete::reduced(graph, discrete, count, origin)?,
-            None => function,
+        let has_step = self.declaration.energy.has_step();
+        if has_step && !self.on_algebra {
+            return Err(discrete::elsewhere(origin));
+        }
+        let in_entries = entries::in_entries(self.declaration, self.representation, function);
+        let in_entries = in_entries.filter(|_| has_step);
+        if let Some(written) = &in_entries
+            && let Some(large) = entries::too_large(&mut graph.clone(), written, origin)
+        {
+            return Err(large);
+        }
+        let value = match has_step {
+            true => discrete::reduced(graph, (function, in_entries.as_ref()), count, origin)?,
+            false => function,
         };
         let lagrangian = Lagrangian {
             value,
@@ -81,11 +93,17 @@ impl Motion<'_> {
             on_algebra: self.on_algebra,
         };
         let transform = legendre::hamiltonian(graph, &lagrangian)?;
-        let in_entries = self.declaration.group.is_some();
+        let discrete = has_step.then(|| Discrete {
+            value: match &in_entries {
+                Some(written) => written.of_coordinates(graph),
+                None => function,
+            },
+            in_entries,
+        });
         let lagrangian = model::Lagrangian {
             value,
             velocity: velocity.to_vec(),
-            discrete: discrete.map(|value| Discrete { value, in_entries }),
+            discrete,
         };
         Ok(match transform {
             Transform::InVelocity(function) => model::Energy::Legendre(lagrangian, function),

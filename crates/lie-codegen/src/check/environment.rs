@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::model::{CANONICAL, data_number, shared_number};
+use crate::model::{CANONICAL, ENTRIES, data_number, shared_number};
 use lie_symbolic::symbolic::{ExprId, Function, Opaque, Symbol};
 use lie_syntax::ast::{Declaration, Name, OwnFunction, Realization};
 use lie_syntax::diagnostic::{Diagnostic, Kind, Origin};
@@ -89,6 +89,9 @@ impl Allowed {
                 Self::State | Self::Site | Self::Strength | Self::Everything
             ),
             Symbol::Input(i) if i >= CANONICAL => self == Self::Canonical,
+            Symbol::Input(i) if i >= ENTRIES => {
+                matches!(self, Self::Velocity(_) | Self::Everything)
+            }
             Symbol::Input(_) => {
                 matches!(
                     self,
@@ -171,6 +174,13 @@ impl<'a> Environment<'a> {
     pub fn bind_symbol(&mut self, name: &'a str, symbol: Symbol) {
         let binding = Binding::Symbol(symbol);
         self.bindings.entry(name).or_insert(binding);
+    }
+
+    /// Gives a name that nothing else has an expression.
+    pub fn bind_value(&mut self, name: &'a str, value: ExprId) {
+        self.bindings
+            .entry(name)
+            .or_insert(Binding::Let(Some(value)));
     }
 
     /// Gives an abbreviation its meaning.

@@ -7,8 +7,8 @@ use super::environment::{Allowed, Environment};
 use super::lower::Lowering;
 use super::poisson::{self, Entry};
 use super::{
-    attitude, defaults, driving, exactness, initial, lets, opaque, parameters, realization,
-    retraction,
+    attitude, defaults, driving, entries, exactness, initial, lets, opaque, parameters,
+    realization, retraction,
 };
 use crate::model::{Acting, Attitude, Parameter, Realization, Retraction};
 use lie_symbolic::exact::Rational;
@@ -65,7 +65,9 @@ pub fn lower(
     };
     mistakes.extend(exactness::exactness(declaration));
     let mut graph = Graph::new();
+    let entries = entries::names(declaration);
     let mut environment = Environment::new(declaration);
+    entries::bind(&entries, &mut graph, &mut environment);
     let parameters =
         parameters::parameter_defaults(declaration, &mut graph, &environment, mistakes);
     lets::abbreviations(declaration, &mut graph, &mut environment, mistakes);

@@ -1,5 +1,6 @@
 //! Laurent series of expressions in the step size, exactly: `x_i` stands for `h xi_i`.
 
+use crate::model::{ENTRIES, InEntries};
 use std::collections::HashMap;
 
 use lie_symbolic::exact::{Budget, Rational};
@@ -170,8 +171,14 @@ impl Series {
     }
 }
 
-/// The series of an expression in h and x; `None` where it has none, or none that is found.
-pub fn in_step(graph: &mut Graph, expression: ExprId) -> Option<Series> {
+/// The series of an expression in h, x and entries of the group element; `None` where it has none, or none that is found.
+pub fn in_step(
+    graph: &mut Graph,
+    expression: ExprId,
+    in_entries: Option<&InEntries>,
+) -> Option<Series> {
+    let entries = in_entries.map(|written| written.series(graph, TERMS));
+    let entries = entries.unwrap_or_default();
     let mut known: HashMap<ExprId, Series> = HashMap::new();
     for id in graph.dependencies(&[expression]) {
         let series = match graph.node(id).clone() {
@@ -180,6 +187,10 @@ pub fn in_step(graph: &mut Graph, expression: ExprId) -> Option<Series> {
                 let one = graph.integer(1);
                 Series::monomial(graph, 1, one)
             }
+            Node::Symbol(Symbol::Input(i)) if i >= ENTRIES => Series {
+                start: 1,
+                coefficients: entries.get(i - ENTRIES)?.clone(),
+            },
             Node::Symbol(Symbol::Input(_)) => Series::monomial(graph, 1, id),
             Node::Symbol(_) => Series::monomial(graph, 0, id),
             Node::Written(terms) => {

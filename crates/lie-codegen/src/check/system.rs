@@ -59,7 +59,9 @@ pub fn system(
         }
     }
     let is_lie = algebra.is_some();
+    let representation = algebra.as_ref().and_then(|a| a.representation.as_ref());
     let motion = Motion {
+        representation,
         declaration,
         parameters: &lowered.parameters,
         configuration,

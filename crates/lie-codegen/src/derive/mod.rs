@@ -3,6 +3,7 @@
 mod cayley;
 mod coadjoint;
 mod discrete_gradient;
+mod entries;
 mod exponential;
 mod field;
 mod found;
@@ -273,8 +274,8 @@ impl Source {
 
     /// The kernels of a discrete Lagrangian, if there is one.
     pub fn discrete_kernels(&mut self) -> Option<Vec<Kernel>> {
-        let value = self.discrete()?;
-        Some(lagrangian::discrete_kernels(self, value))
+        let discrete = self.discrete()?.clone();
+        Some(lagrangian::discrete_kernels(self, &discrete))
     }
 
     /// The map of the realization and its derivatives.

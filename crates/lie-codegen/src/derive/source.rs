@@ -187,8 +187,8 @@ impl Source {
     }
 
     /// The discrete Lagrangian by which the system was declared.
-    pub fn discrete(&self) -> Option<ExprId> {
-        Some(self.energy.lagrangian()?.discrete?.value)
+    pub fn discrete(&self) -> Option<&Discrete> {
+        self.energy.lagrangian()?.discrete.as_ref()
     }
 }
 

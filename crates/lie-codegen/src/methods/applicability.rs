@@ -52,10 +52,14 @@ pub fn refusal(structure: &Structure, choice: &Choice) -> Option<(String, String
         | Choice::Variational(_, Retraction::Cayley)
         | Choice::DiscreteEulerPoincare(Retraction::Cayley) => {
             cayley(model).map(|reason| {
-                let help = format!(
-                    "use `{}` with `--retraction exp`, which works for every Lie algebra",
-                    choice.id()
-                );
+                let discrete = matches!(choice, Choice::DiscreteEulerPoincare(_));
+                let help = match in_entries(model) && discrete {
+                    true => IN_OTHERS.into(),
+                    false => format!(
+                        "use `{}` with `--retraction exp`, which works for every Lie algebra",
+                        choice.id()
+                    ),
+                };
                 (reason.into(), help)
             })
         }
@@ -193,12 +197,13 @@ fn lagrangian(model: &Model, choice: &Choice) -> Option<(String, String)> {
             let help = "declare `discrete_lagrangian`; for a system with a `lagrangian` use `variational2`";
             Some((message.into(), help.into()))
         }
-        Choice::DiscreteEulerPoincare(Retraction::Exp)
-            if discrete(model).is_some_and(|discrete| discrete.in_entries) =>
-        {
+        Choice::DiscreteEulerPoincare(Retraction::Exp) if in_entries(model) => {
             let message = "the discrete Lagrangian is written in the entries of the group element, which are functions \
                            of the coordinates of the Cayley map";
-            let help = "use `--retraction cayley`";
+            let help = match cayley(model) {
+                None => "use `--retraction cayley`",
+                Some(_) => IN_OTHERS,
+            };
             Some((message.into(), help.into()))
         }
         _ => None,
@@ -235,6 +240,15 @@ fn bracket(model: &Model, choice: &Choice) -> Option<(String, String)> {
             apply,
         )),
     }
+}
+
+/// What to do where entries of the group element stand in a discrete Lagrangian, and there is no Cayley map.
+const IN_OTHERS: &str = "declare matrices whose span is closed under (abc + cba)/2, such as those of u(n) around su(n), or give the discrete \
+                         Lagrangian in exponential coordinates, without `group`";
+
+/// Whether a discrete Lagrangian is written in the entries of the group element.
+fn in_entries(model: &Model) -> bool {
+    discrete(model).is_some_and(|discrete| discrete.in_entries.is_some())
 }
 
 /// The discrete Lagrangian by which a system is declared.

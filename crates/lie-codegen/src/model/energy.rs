@@ -1,5 +1,7 @@
 //! Where the equations of motion come from.
 
+use super::configuration::entry;
+use lie_symbolic::exact::Rational;
 use lie_symbolic::symbolic::ExprId;
 use lie_syntax::ast::Name;
 
@@ -84,11 +86,49 @@ pub struct Lagrangian {
     pub discrete: Option<Discrete>,
 }
 
+/// [`Symbol::Input`](lie_symbolic::symbolic::Symbol::Input) of the first entry of the matrix `D = g - 1` of a step: beyond the velocity.
+pub const ENTRIES: usize = 1 << 19;
+
 /// A discrete Lagrangian.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Discrete {
     /// The function, in the symbols of the velocity and the step size.
     pub value: ExprId,
-    /// Whether it was written in the entries of the group element, and so in Cayley coordinates.
-    pub in_entries: bool,
+    /// How it was written in the entries of the group element, and so in Cayley coordinates.
+    pub in_entries: Option<InEntries>,
+}
+
+impl Discrete {
+    /// The function as people read it: in the entries, where it was written in them.
+    pub fn shown(&self) -> ExprId {
+        let written = self.in_entries.as_ref();
+        written.map_or(self.value, |written| written.value)
+    }
+}
+
+/// A function of the entries of `g = (1 - X/2)^-1 (1 + X/2)`, the element of a step: of a left-invariant system
+/// `g = g_k^-1 g_(k+1)`, of a right-invariant one `g = g_(k+1) g_k^-1`.
+#[derive(Clone, Debug)]
+pub struct InEntries {
+    /// The function in the entries of `D = g - 1`, which are the symbols from [`ENTRIES`] on, row by row. Those of
+    /// the velocity may stand beside them.
+    pub value: ExprId,
+    /// The number of rows.
+    pub size: usize,
+    /// The declared matrices, whose combination is X.
+    pub basis: Vec<Vec<Vec<Rational>>>,
+    /// The name of the group element.
+    pub group: String,
+}
+
+impl InEntries {
+    /// An entry of D as text: `R12`, and `(R11 - 1)` on the diagonal.
+    pub fn name(&self, place: usize) -> Option<String> {
+        let (row, column) = (place / self.size, place % self.size);
+        let name = entry(&self.group, self.size, row + 1, column + 1);
+        (row < self.size).then(|| match row == column {
+            true => format!("({name} - 1)"),
+            false => name,
+        })
+    }
 }

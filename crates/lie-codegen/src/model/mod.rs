@@ -25,7 +25,7 @@ pub use casimir::{Casimir, CasimirKind};
 pub use configuration::Configuration;
 pub use constraint::{Constraint, Violation};
 pub use driving::{Acting, Driving, Input};
-pub use energy::{Discrete, Energy, Hamiltonian, Lagrangian};
+pub use energy::{Discrete, ENTRIES, Energy, Hamiltonian, InEntries, Lagrangian};
 pub use family::{
     Family, SiteData, SiteSum, Size, Start, apart, data_number, data_symbol, shared_number,
     shared_symbol, slope_symbol, wrong_bond,
@@ -221,6 +221,12 @@ impl Model {
             Symbol::Step => "h".into(),
             Symbol::Time => "t".into(),
             Symbol::Input(i) => {
+                let discrete = self.energy.lagrangian().and_then(|l| l.discrete.as_ref());
+                let written = discrete.and_then(|discrete| discrete.in_entries.as_ref());
+                let entry = i.checked_sub(ENTRIES);
+                if let Some(name) = written.zip(entry).and_then(|(w, k)| w.name(k)) {
+                    return name;
+                }
                 let canonical = i.checked_sub(CANONICAL);
                 let names = match (canonical, &self.realization, self.energy.lagrangian()) {
                     (Some(place), Some(realization), _) => realization.names.get(place),

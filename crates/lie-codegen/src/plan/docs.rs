@@ -58,10 +58,10 @@ pub(super) fn docs(structure: &Structure) -> Vec<String> {
             .iter()
             .map(|v| v.text.as_str())
             .collect();
-        if let Some(discrete) = lagrangian.discrete {
+        if let Some(discrete) = &lagrangian.discrete {
             docs.push(format!(
                 "Discrete Lagrangian `l_d = {}` of a step with the coordinates `{}`.",
-                model.display(discrete.value),
+                model.display(discrete.shown()),
                 velocity.join(", ")
             ));
         }

@@ -138,7 +138,7 @@ fn entries_of_the_group_element_of_a_step() {
         }));
         let model = model.expect("a sound declaration");
         let lagrangian = model.energy.lagrangian().expect("it has one");
-        let discrete = lagrangian.discrete.expect("it has one").value;
+        let discrete = lagrangian.discrete.as_ref().expect("it has one").value;
         for (h, x) in [(0.3, [0.7, -0.4, 1.1]), (1.5, [-2.0, 0.6, 0.5])] {
             let value = model.graph.evaluate(discrete, &|symbol| match symbol {
                 Symbol::Input(i) => x[i],

@@ -52,7 +52,7 @@ impl Planner<'_> {
             return given;
         }
         let model = &self.spec.model;
-        let discrete = model.energy.lagrangian().and_then(|l| l.discrete);
+        let discrete = model.energy.lagrangian().and_then(|l| l.discrete.as_ref());
         let keeping = self.keeping().filter(|_| picks);
         let usual = if let Some(keeping) = keeping {
             keeping
@@ -62,7 +62,7 @@ impl Planner<'_> {
             OF_LOOSE_TOLERANCE
         } else if picks || model.family.is_some() {
             OF_TOLERANCE
-        } else if discrete.is_some_and(|discrete| !discrete.in_entries) {
+        } else if discrete.is_some_and(|discrete| discrete.in_entries.is_none()) {
             DISCRETE
         } else {
             METHODS[usize::from(!model.is_lie_poisson())]

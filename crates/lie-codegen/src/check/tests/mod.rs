@@ -9,6 +9,7 @@ mod constraint_mistakes;
 mod degree;
 mod domain;
 mod driving;
+mod entries;
 mod extremes;
 mod families;
 mod family_lattices;
