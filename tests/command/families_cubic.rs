@@ -44,7 +44,7 @@ fn check_and_expand_show_three_axes() {
     let stdout = run.stdout.replace("\n        ", " ");
     for text in [
         "a lattice of 3 x 2 x 4 sites: dimension 72, generic rank 48, 24 independent Casimirs",
-        "exchange with [+1], ",
+        "exchange with [+1]\n",
         "exchange with [+1,+0,+0]",
         "z*z[+1,+0]",
         "J: 24 values",
@@ -86,9 +86,9 @@ fn rows_have_a_column_for_each_site() {
     lie(&call).ok();
     assert!(fs::read_to_string(picture).unwrap().contains("x[2][1][3]"));
     let wrong = call.replace("x[2][1][3]", "x[2][1]");
-    let wrong = lie(&wrong).error("unknown-symbol", "command line: --picture");
+    let wrong = lie(&wrong).error("option", "command line: --picture");
     assert!(
-        wrong.stderr.contains("unknown coordinate `x[2][1]`"),
+        wrong.stderr.contains("unknown column `x[2][1]`"),
         "{}",
         wrong.stderr
     );
@@ -113,6 +113,7 @@ fn values_of_sites_are_read_from_files() {
         .ok()
         .stdout;
     assert_ne!(other, expected, "the values do something");
+    let place = format!("{}:", folder.path().join("cube.json").display());
     let write = |name: &str, bytes: &[u8]| fs::write(folder.path().join(name), bytes).unwrap();
     let lines: Vec<String> = values
         .chunks(4)
@@ -148,10 +149,11 @@ fn values_of_sites_are_read_from_files() {
         ),
     ] {
         write(name, &bytes);
-        let refused = run(json!({ "file": name })).error("state-length", "cube.json:");
+        let refused = run(json!({ "file": name })).error("state-length", &place);
         assert!(refused.stderr.contains(text), "{text}: {}", refused.stderr);
     }
-    let refused = lie(&format!("run {CUBE} --param L=2")).error("state-length", "--param");
+    let refused =
+        lie(&format!("run {CUBE} --param L=2")).error("state-length", "command line: --param");
     let text = "and there are 2 x 2 x 4 sites";
     assert!(refused.stderr.contains(text), "{}", refused.stderr);
 }
@@ -172,7 +174,7 @@ fn a_run_starts_at_an_array_with_an_axis_for_each_index() {
     }
     assert_eq!(start("(24, 3)").ok().csv().1, rows);
     for shape in ["(2, 3, 4, 3)", "(3, 8, 3)", "(3, 2, 3, 4)"] {
-        let refused = start(shape).error("state-length", "cube.json:");
+        let refused = start(shape).error("state-length", &format!("{path}:"));
         for text in ["for 24 sites of 3 coordinates", "(24, 3) or (3, 2, 4, 3)"] {
             assert!(refused.stderr.contains(text), "{text}: {}", refused.stderr);
         }

@@ -47,9 +47,17 @@ pub fn site(mut place: usize, sizes: [usize; AXES]) -> [usize; AXES] {
 #[inline]
 #[must_use]
 pub fn place(site: [usize; AXES], offset: [isize; AXES], sizes: [usize; AXES]) -> usize {
-    let axes = 0..AXES;
-    axes.fold(0, |place, axis| {
-        place * sizes[axis] + wrapped(site[axis] as isize + offset[axis], sizes[axis])
+    let columns = sizes[AXES - 1];
+    let column = wrapped(site[AXES - 1] as isize + offset[AXES - 1], columns);
+    line(site, offset, sizes) * columns + column
+}
+
+/// The line along the last axis of the site at a distance from another one; indices count modulo the sizes.
+#[inline]
+#[must_use]
+pub fn line(site: [usize; AXES], offset: [isize; AXES], sizes: [usize; AXES]) -> usize {
+    (0..AXES - 1).fold(0, |line, axis| {
+        line * sizes[axis] + wrapped(site[axis] as isize + offset[axis], sizes[axis])
     })
 }
 
@@ -91,6 +99,7 @@ mod tests {
         assert_eq!((site(13, sizes), count(sizes)), ([1, 1, 1], 24));
         assert_eq!(count([1 << 31; AXES]), usize::MAX);
         assert_eq!(place([1, 1, 1], [2, -1, 5], sizes), 2);
+        assert_eq!(line([1, 1, 1], [1, -1, 5], sizes), 4);
         assert_eq!((wrapped(-1, 4), wrapped(-9, 4), wrapped(3, 4)), (3, 3, 3));
     }
 

@@ -1,4 +1,4 @@
-//! Steps of a ring and of a lattice of classical spins, generated, and of the ring written by hand, in a loop for a profiler to
+//! Steps of a ring and of lattices of classical spins, generated, and of the ring written by hand, in a loop for a profiler to
 //! count. `tests/family_counts.rs` builds and runs this under callgrind.
 //!
 //! Prints the energy, the mean of the squares of the spins, and the largest memory of the process.
@@ -27,6 +27,18 @@ lie_poisson! {
     parameters { N = 32; M = 32; J = 1; }
     hamiltonian = -J*sum(i in 0..N, j in 0..M: x[i, j]*x[i+1, j] + y[i, j]*y[i+1, j] + z[i, j]*z[i+1, j]
         + x[i, j]*x[i, j+1] + y[i, j]*y[i, j+1] + z[i, j]*z[i, j+1]);
+    initial = random(unit-sphere, 1);
+}
+
+lie_poisson! {
+    /// Classical spins on a cubic lattice, periodic along all axes.
+    pub system Cube;
+    algebra = so(3)^(L, N, M);
+    state x[i, j, k], y[i, j, k], z[i, j, k];
+    parameters { L = 10; N = 10; M = 10; J = 1; }
+    hamiltonian = -J*sum(i in 0..L, j in 0..N, k in 0..M: x[i, j, k]*x[i+1, j, k] + y[i, j, k]*y[i+1, j, k] + z[i, j, k]*z[i+1, j, k]
+        + x[i, j, k]*x[i, j+1, k] + y[i, j, k]*y[i, j+1, k] + z[i, j, k]*z[i, j+1, k]
+        + x[i, j, k]*x[i, j, k+1] + y[i, j, k]*y[i, j, k+1] + z[i, j, k]*z[i, j, k+1]);
     initial = random(unit-sphere, 1);
 }
 
@@ -96,6 +108,16 @@ fn run(system: &str, method: &str, sites: f64, how: [f64; 2]) -> Option<bool> {
             let mu = square.initial_state().ok()?;
             Some(by_method(&square.system().ok()?, method, mu, how))
         }
+        "cube" => {
+            let cube = Cube {
+                L: sites,
+                N: sites,
+                M: sites,
+                J: 1.0,
+            };
+            let mu = cube.initial_state().ok()?;
+            Some(by_method(&cube.system().ok()?, method, mu, how))
+        }
         _ => None,
     }
 }
@@ -112,6 +134,6 @@ fn main() -> ExitCode {
         }
         return ExitCode::FAILURE;
     }
-    println!("usage: ring|by_hand|square rk4|gauss16|splitting6 SITES STEP STEPS");
+    println!("usage: ring|by_hand|square|cube rk4|gauss16|splitting6 SITES STEP STEPS");
     ExitCode::SUCCESS
 }

@@ -16,7 +16,7 @@ use super::rates::{Rate, data, rate};
 use super::sites::{Sums, width};
 use super::stencil::LAST;
 use super::{Effects, Family, Kind, Pieces, Strip};
-use crate::lattice::AXES;
+use crate::lattice::{self, AXES};
 use crate::pieces::{FoundPoisson, PieceFlows};
 use crate::poisson::Poisson as _;
 use crate::scalar::Scalar;
@@ -113,13 +113,13 @@ where
         let own = |axis: usize, place: usize| {
             bonds.is_none_or(|bonds| bonds.axis != axis || bonds.colour(place) == colour)
         };
-        let (at, mut across) = (family.begin(line), kind.offset);
+        let at = family.begin(line);
         let is_own = (0..LAST).all(|axis| own(axis, at[axis]));
         if !is_own || !family.line_holds(at, &kind.spans) {
             return;
         }
-        across[LAST] = 0;
-        let (begin, below) = (line * columns, family.neighbour(at, across));
+        let below = lattice::line(at, kind.offset, family.sizes()) * columns;
+        let begin = line * columns;
         let span = kind.spans[LAST].range(columns);
         let of_columns = bonds.filter(|bonds| bonds.axis == LAST);
         if of_columns.is_none() && span == (0..columns) {

@@ -3,7 +3,7 @@
 use super::shape::{Of, Shape};
 use super::sites::{Around, Site, Sums};
 use super::{Family, Sites, Span};
-use crate::lattice::{AXES, count, place, site, wrapped};
+use crate::lattice::{AXES, count, line, place, site, wrapped};
 use crate::scalar::Scalar;
 use core::array::from_fn;
 use core::ops::Range;
@@ -87,15 +87,18 @@ impl<'m, S: Scalar> Stretch<'m, S> {
     }
 
     /// A coordinate of the sites at a distance from those of the stretch.
-    #[inline]
+    #[inline(always)]
     pub fn part(&self, offset: [isize; AXES], coordinate: usize) -> &'m [S] {
         self.along(&self.mu[coordinate * self.count()..], offset)
     }
 
     /// What there is for each site, of those at a distance from the sites of the stretch.
-    #[inline]
+    #[inline(always)]
     pub fn along<'a>(&self, all: &'a [S], offset: [isize; AXES]) -> &'a [S] {
-        &all[place(self.first, offset, self.sizes)..][..self.len]
+        // along columns nothing wraps around, and a neighbour is as far as its offset says
+        let column = (self.first[LAST] as isize + offset[LAST]) as usize;
+        let from = line(self.first, offset, self.sizes) * self.sizes[LAST] + column;
+        &all[from..][..self.len]
     }
 
     /// The number of sites of the family.
