@@ -54,19 +54,21 @@ pub(super) fn derivatives(source: &mut Source, written: &InEntries) -> Derivativ
         graph,
     };
     let mut found = chain.derivatives(written.value, &x);
-    if size <= MOST_BY_MINORS {
-        if let Some(first) = direct(graph, &[found.value], &x) {
-            if let Some(second) = direct(graph, &first, &x) {
-                let rows = || second.chunks(x.len());
-                let by_rule = found.second.concat();
-                if weight(graph, &second) < weight(graph, &by_rule) {
-                    found.second = rows().map(<[ExprId]>::to_vec).collect();
-                }
-            }
-            if weight(graph, &first) < weight(graph, &found.first) {
-                found.first = first;
-            }
-        }
+    let first = match size <= MOST_BY_MINORS {
+        true => direct(graph, &[found.value], &x),
+        false => None,
+    };
+    let Some(first) = first else {
+        return found;
+    };
+    if let Some(second) = direct(graph, &first, &x)
+        && weight(graph, &second) < weight(graph, &found.second.concat())
+    {
+        let rows = second.chunks(x.len());
+        found.second = rows.map(<[ExprId]>::to_vec).collect();
+    }
+    if weight(graph, &first) < weight(graph, &found.first) {
+        found.first = first;
     }
     found
 }
@@ -156,7 +158,7 @@ impl Chain<'_> {
         let weights = self.weights();
         let first = self.first(&alone, &weights);
         let tangents = self.tangents(&used, &mixed, &twice);
-        let second = self.second(&weights, &tangents, (&alone_twice, &mixed, &twice));
+        let second = self.second(&weights, &tangents, [&alone_twice, &mixed, &twice]);
         Derivatives {
             value,
             first,
@@ -278,7 +280,7 @@ impl Chain<'_> {
         &mut self,
         weights: &[Terms],
         tangents: &[Vec<ExprId>],
-        (alone, mixed, twice): (&[Vec<ExprId>], &[Vec<ExprId>], &[Vec<ExprId>]),
+        [alone, mixed, twice]: [&[Vec<ExprId>]; 3],
     ) -> Vec<Vec<ExprId>> {
         let (n, count) = (self.size, tangents.len());
         let weights: Vec<ExprId> = weights
