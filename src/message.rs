@@ -12,16 +12,15 @@ pub const STOPPED: u8 = 3;
 /// Exit code: Ctrl-C; the rows so far are written. Other signals have codes of their own.
 pub const INTERRUPTED: u8 = 130;
 
-/// A run that its step does not lead to its end.
+/// A step that does not lead to the end of the run.
 pub fn step_refused(why: String) -> Message {
     let help = "give another step by `--step`, or another end";
     Message::option("--step", why).help(help)
 }
 
-/// A projection that cannot keep what is asked for from where the run begins.
+/// A start from which a projection cannot keep what is asked for.
 pub fn keep_refused(why: String) -> Message {
-    let help =
-        "begin elsewhere, where all that is to be kept has a value, or keep the energy alone";
+    let help = "begin elsewhere, where all that is to be kept has a value, or keep less";
     Message::option("--keep", why).help(help)
 }
 

@@ -92,10 +92,16 @@ fn a_jump_at_a_known_time_is_work() {
             "state": ["x", "y", "z"],
             "hamiltonian": "-z*piecewise(t < 5: 1, -1) + x/5",
             "dissipation": [{ "kind": "double-bracket", "strength": "1/4" }],
+            "forces": { "y": "u" },
+            "inputs": { "u": { "default": 0 } },
             "initial": ["3/5", 0, "4/5"]
         });
     });
-    for options in ["", "--method taylor", "--method lie-midpoint"] {
+    // a table that changes where H jumps
+    let table = folder.path().join("u.csv");
+    std::fs::write(&table, "t,u\n0,0\n5,0.1\n").expect("a table");
+    let input = format!("--input u={}", table.display());
+    for options in ["", "--method taylor", "--method lie-midpoint", &input] {
         let run = lie(&format!(
             "run {} --tol 1e-9 --at 0,4,5,6,12 {options}",
             path.display()
@@ -115,6 +121,31 @@ fn a_jump_at_a_known_time_is_work() {
         }
         // the control: it jumps by twice the field
         assert!(rows[3][work] - rows[1][work] > 1.0, "{options}: {rows:?}");
+    }
+}
+
+/// A force that takes a branch by the state is not linear, though its derivatives vanish or are constant where they exist.
+#[test]
+fn a_branch_is_no_linear_friction() {
+    let folder = folder();
+    for force in [
+        "-piecewise(y < 0: 1, 5)*x",
+        "-abs(x)",
+        "-2*max(x, 0)",
+        "-piecewise(z < 0: 1, 5)",
+    ] {
+        let path = spec(folder.path(), |spec| {
+            *spec = serde_json::json!({
+                "name": "Branched", "algebra": "so(3)", "state": ["x", "y", "z"],
+                "hamiltonian": "x^2/4 + y^2/3 + z^2/2", "forces": { "x": force }, "initial": [1, "1/2", "-1/3"]
+            });
+        });
+        let run = lie(&format!(
+            "run {} --method splitting2 --step 0.1 --until 1",
+            path.display()
+        ));
+        let said = run.error("method", "command line: --method").stderr;
+        assert!(said.contains("on `x` it is not linear"), "{force}: {said}");
     }
 }
 

@@ -16,6 +16,7 @@ mod vectors;
 mod acting;
 mod acting_ends;
 mod attitude;
+mod attitude_in_space;
 mod bounds;
 mod brackets;
 mod build;

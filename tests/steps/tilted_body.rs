@@ -45,6 +45,29 @@ lie_poisson! {
     methods = [moser-veselov];
 }
 
+lie_poisson! {
+    /// A body that is flat along its first axis, in the axes of its moments 0, 7/10, 1/2 and 2/5.
+    pub system FlatOfFour;
+    algebra = so(4);
+    state m12, m13, m14, m23, m24, m34;
+    hamiltonian = m12^2/(7/5) + m13^2 + m14^2/(4/5) + m23^2/(12/5) + m24^2/(11/5) + m34^2/(9/5);
+    methods = [moser-veselov];
+}
+
+lie_poisson! {
+    /// The same, turned in the same planes as the other.
+    pub system TiltedFlatOfFour;
+    algebra = so(4);
+    state m12, m13, m14, m23, m24, m34;
+    let n13 = (3*(5*m13 + 12*m14) + 4*(5*m23 + 12*m24))/65;
+    let n14 = (3*(5*m14 - 12*m13) + 4*(5*m24 - 12*m23))/65;
+    let n23 = (3*(5*m23 + 12*m24) - 4*(5*m13 + 12*m14))/65;
+    let n24 = (3*(5*m24 - 12*m23) - 4*(5*m14 - 12*m13))/65;
+    hamiltonian = ((4*m12 + 3*n13)/5)^2/(7/5) + ((4*n13 - 3*m12)/5)^2 + n14^2/(4/5) + n23^2/(12/5)
+        + ((4*n24 + 3*m34)/5)^2/(11/5) + ((4*m34 - 3*n24)/5)^2/(9/5);
+    methods = [moser-veselov];
+}
+
 /// The planes of so(4) in their order.
 const PLANES: [(usize, usize); 6] = [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)];
 
@@ -144,5 +167,22 @@ fn steps_in_four_dimensions_are_tilted_steps() {
         assert!(change < 1e-14, "{h}: {change:e}");
         let (control, _) = after(&upright, &LieMidpoint::exp(), start, (h, 200));
         assert!(off(control) > 1e-5, "{h}: {:e}", off(control));
+    }
+}
+
+/// A flat body has a pivot that is zero, in axes that are turned to round-off, and its steps are good all the same.
+#[test]
+fn a_flat_body_has_its_steps_in_any_axes() {
+    let (upright, tilted) = (FlatOfFour::new().system(), TiltedFlatOfFour::new().system());
+    let (upright, tilted) = (upright.expect("constants"), tilted.expect("constants"));
+    for start in [
+        [0.4, 0.2, -0.3, 0.5, 0.1, -0.2],
+        [0.0, 0.0, 0.0, 0.0, 0.0, 0.5],
+    ] {
+        let (end, _) = after(&upright, &MoserVeselov, start, (0.1, 100));
+        let (other, _) = after(&tilted, &MoserVeselov, turned_in_four(start), (0.1, 100));
+        for (a, b) in turned_in_four(end).into_iter().zip(other) {
+            assert!((a - b).abs() < 1e-13, "{start:?}: {a} and {b}");
+        }
     }
 }

@@ -251,6 +251,25 @@ fn digits_near_the_identity() {
     }
 }
 
+/// The same by minors, where the function has nothing but what is near the identity.
+#[test]
+fn digits_near_the_identity_by_minors() {
+    let body = general();
+    let system = made(&body);
+    let (h, scale) = (0.5, 1e-10);
+    let x: Vec<f64> = body.start.iter().map(|m| scale * m).collect();
+    let mut out = vec![0.0; x.len()];
+    system.discrete_slope(h, &x, &mut out);
+    // the next terms are smaller by x
+    for (found, x) in out.iter().zip(&x) {
+        let expected = x / h;
+        assert!(
+            (found / expected - 1.0).abs() < 1e-9,
+            "{found:e} {expected:e}"
+        );
+    }
+}
+
 /// Where a leading minor of `1 - X/2` vanishes, and the Cayley map does not care.
 #[test]
 fn an_elimination_without_a_pivot() {

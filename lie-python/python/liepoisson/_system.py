@@ -81,7 +81,7 @@ class System(Declared):
         declaration; its words ``step``, ``from``, ``until`` and ``initial`` are taken for ``h``, ``t0``, ``t`` and ``x0`` too. ``rtol`` and ``atol`` are those of dopri5. ``iteration`` ("automatic", "newton", "simplified",
         "fixed-point"), ``newton_tolerance`` (in units of round-off), ``max_iterations`` and ``converge`` ("state", "map",
         "tolerance") are for the solver of implicit methods. ``group="matrix"`` follows the group element from the declared
-        ``attitude`` or the identity on (``run.group``); for rotations ``"quaternion"``, the real part first, or Euler angles in
+        ``attitude`` or the identity on (``run.group``); for groups that turn space, se(3) too, ``"quaternion"``, the real part first, or Euler angles in
         radians such as ``"euler:zxz"`` for g = Rz(phi) Rx(theta) Rz(psi), which are continuous along the run.
 
         ``keep=["energy", "casimirs"]``, or one of them, brings the state back behind each step of taylor, dopri5 or rk4 to the

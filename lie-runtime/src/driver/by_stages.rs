@@ -283,16 +283,24 @@ impl<'a, S: Scalar, P: Poisson<S>> Trial<'a, S, P> {
     /// A step within the run, or the longest piece of it between joints that are known beforehand: where it begins, and its size.
     fn between_joints(&self, place: &Place<'_, '_, S, P>, h: f64) -> (f64, f64) {
         // a system may end where the run does, as a table of the time: no step goes beyond that
-        let last = self.problem.span.1 - h;
+        let (from, to) = self.problem.span;
+        let last = to - h;
         let start = match (place.time - last) * h > 0.0 {
+            // not by round-off either
+            true if (last - from) * h < 0.0 => from,
             true => last,
             false => place.time,
         };
-        let whole = (start, h);
+        let end = match (start + h - to) * h > 0.0 {
+            true => to,
+            false => start + h,
+        };
+        let size = if end == to { to - start } else { h };
+        let whole = (start, size);
         let Some(mut joints) = Joints::of(place.system) else {
             return whole;
         };
-        let pieces = joints.pieces(place.system, (start, start + h));
+        let pieces = joints.pieces(place.system, (start, end));
         let sizes = pieces.iter().map(|&(start, end)| (start, end - start));
         let longest = sizes.max_by(|a, b| f64::total_cmp(&a.1.abs(), &b.1.abs()));
         longest.filter(|piece| piece.1 != 0.0).unwrap_or(whole)

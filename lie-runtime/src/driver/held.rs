@@ -1,10 +1,9 @@
 //! What is held from step to step: inputs that somebody sets, and the rates of Wiener processes.
 
 use super::course::Course;
-use super::joints::{Joints, Piece};
+use super::joints::{Joints, Piece, cross};
 use super::observer::Observer;
 use super::philox::Wiener;
-use super::problem::set_time;
 use super::solve::IntegrateError;
 use crate::poisson::Poisson;
 use crate::scalar::Scalar;
@@ -318,7 +317,7 @@ impl<S: Scalar, P: Poisson<S>> Course<'_, S, P> {
                 pieces => self.in_pieces(system, pieces, mu, observer)?,
             }
             if end != to {
-                set_time(system, mu, end);
+                cross(system, mu, end);
                 observer.hold(system, (self.index, end, self.grid.step()), mu, &[]);
             }
             from = end;

@@ -148,7 +148,7 @@ impl<S: Scalar, P: Poisson<S>> Course<'_, S, P> {
 }
 
 /// Sets the time, which may go over a joint: by what H jumps there, the momentum of the time falls, so that the jump is work.
-fn cross<S: Scalar, P: Poisson<S>>(system: &P, mu: &mut P::State, time: f64) {
+pub(super) fn cross<S: Scalar, P: Poisson<S>>(system: &P, mu: &mut P::State, time: f64) {
     let before = system.energy(mu);
     set_time(system, mu, time);
     if let Some(clock) = system.clock() {

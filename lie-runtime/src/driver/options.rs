@@ -166,7 +166,7 @@ pub enum OptionError {
         end: f64,
     },
     /// What is to be kept cannot be.
-    #[error("what is to be kept cannot be: {0}")]
+    #[error("this cannot be kept: {0}")]
     Keep(Unkept),
     /// Steps cannot follow the motion.
     #[error("steps of a reversible density are not possible: {0}")]

@@ -89,9 +89,9 @@ pub fn bed(
     }
     if !flags.quiet {
         render::print(&spec.warnings());
-    }
-    if purpose != Purpose::Verify {
-        noiseless(&spec);
+        if purpose != Purpose::Verify {
+            noiseless(&spec);
+        }
     }
     Ok(Bed {
         spec,

@@ -87,12 +87,8 @@ impl CayleyMap {
             }
         };
         let inverse: Square = (0..size * size).map(entry).collect();
-        let entry = |k: usize| {
-            let unit = graph.integer(i64::from(k / size == k % size));
-            let two = Rational::from(2);
-            graph.linear(&[(inverse[k], two.clone()), (unit, -&two)])
-        };
-        let off = (0..size * size).map(entry).collect();
+        // 2 A - 2 would lose the digits of what is near the identity
+        let off = product(graph, &inverse, x, size);
         Self { off, inverse }
     }
 }

@@ -81,7 +81,7 @@ pub fn too_large(graph: &mut Graph, written: &InEntries, origin: Origin) -> Opti
         entries.filter(|entry| !entry.is_zero()).count()
     });
     let (count, filled) = (written.basis.len(), filled.sum::<usize>());
-    let products = count * (count + 1) / 2 * bent + filled * filled;
+    let products = count * (count + 1) / 2 * bent + filled * filled + 3 * written.size.pow(3);
     (products > MOST_PRODUCTS).then(|| {
         let message = format!(
             "the second derivative of the discrete Lagrangian has about {products} products, more than {MOST_PRODUCTS}"

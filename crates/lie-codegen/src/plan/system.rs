@@ -193,7 +193,7 @@ impl Planner<'_> {
             autonomous: self.is_autonomous(),
             joints,
             forced: self.source.force().is_some(),
-            force_mixes: self.splits() && flows::force_mixes(self.structure),
+            force_mixes: flows::force_mixes(self.structure),
             damped: self.source.is_damped(),
             entropy: self.entropy(derivatives),
             inputs: model_inputs(self.structure),
@@ -214,12 +214,6 @@ impl Planner<'_> {
             lagrangian,
             discrete: self.functions(&discrete),
         }
-    }
-
-    /// Whether a splitting is among the methods.
-    fn splits(&self) -> bool {
-        let splits = |choice: &Choice| matches!(choice.solved(), Choice::Splitting(..));
-        self.methods.is_empty() || self.methods.iter().any(splits)
     }
 
     fn is_autonomous(&self) -> bool {

@@ -3,6 +3,7 @@
 use super::Structure;
 use crate::model::{Driving, Model};
 use lie_symbolic::exact::Budget;
+use lie_symbolic::prove::joints::joints_in;
 use lie_symbolic::prove::proof::Prover;
 use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 
@@ -76,13 +77,21 @@ impl<'a> Parts<'a> {
             || Prover::new(&self.graph, &budget, &self.driving.force, &name).vanishes(value)
     }
 
-    /// A coordinate, other than one of them, that is not shown to be absent.
+    /// A coordinate, other than one of them, that is not shown to be absent: a derivative does not vanish, or it says which branch is taken.
     fn depends(&mut self, value: ExprId, but: Option<usize>) -> Option<usize> {
         let moving = (0..self.moving).filter(|place| Some(*place) != but);
-        moving.into_iter().find(|place| {
+        let on = moving.into_iter().find(|place| {
             let slope = self.graph.derivative(value, Symbol::Coordinate(*place));
             !self.vanishes(slope)
-        })
+        });
+        on.or_else(|| self.branches_on(value).filter(|place| Some(*place) != but))
+    }
+
+    /// A coordinate by which branches are taken.
+    fn branches_on(&mut self, value: ExprId) -> Option<usize> {
+        let places = joints_in(&mut self.graph, value, &|_| true).into_iter();
+        let mut on = places.flat_map(|place| self.graph.coordinates(place));
+        on.find(|place| *place < self.moving)
     }
 
     fn rates(&self) -> std::ops::Range<usize> {
@@ -150,9 +159,10 @@ impl<'a> Parts<'a> {
     fn force(&mut self) -> Option<Refusal> {
         let force = self.quiet(&self.driving.force);
         for (place, value) in force.into_iter().enumerate() {
+            let branches = self.branches_on(value);
             for by in 0..self.moving {
                 let slope = self.graph.derivative(value, Symbol::Coordinate(by));
-                if self.depends(slope, None).is_none() {
+                if branches != Some(by) && self.depends(slope, None).is_none() {
                     continue;
                 }
                 let message = format!(

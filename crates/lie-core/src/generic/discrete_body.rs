@@ -156,9 +156,13 @@ impl<'a, S: Scalar, P: InertiaPoisson<S>> DiscreteBody<'a, S, P> {
     fn off_the_branch(&mut self) -> S {
         let size = self.momentum.dimension();
         let tilted = self.system.is_tilted();
+        // a body that is flat along an axis has pivots that are zero, in other axes to round-off: a little is added to all
+        let trace = (0..size).fold(S::zero(), |sum, k| sum + self.system.moment(k).abs());
+        let little = trace * S::epsilon() * S::ratio(1024.0, 1.0);
+        let diagonal = |r, c| if r == c { little } else { S::zero() };
         for r in 0..size {
             for c in 0..size {
-                let mut sum = S::zero();
+                let mut sum = diagonal(r, c);
                 for k in 0..size {
                     let moment = self.system.moment(k);
                     sum += self.rotation.get(r, k) * moment * self.rotation.get(k, c);
@@ -174,24 +178,28 @@ impl<'a, S: Scalar, P: InertiaPoisson<S>> DiscreteBody<'a, S, P> {
         if tilted {
             for r in 0..size {
                 for c in 0..size {
-                    self.transformed.set(r, c, self.second_moment(r, c));
+                    self.transformed
+                        .set(r, c, self.second_moment(r, c) + diagonal(r, c));
                 }
             }
             dense::factor(&mut self.transformed);
         }
         let mut good = S::Mask::splat(true);
         for k in 0..size {
-            // of a body that is flat along an axis the pivot is zero, in other axes to round-off
-            let (pivot, least) = match tilted {
-                true => (
-                    self.transformed.get(k, k),
-                    S::epsilon() * S::ratio(64.0, 1.0),
-                ),
-                false => (self.system.moment(k), S::zero()),
+            // inverse pivots have the signs of pivots
+            let (sign, flat) = match tilted {
+                true => {
+                    let inverse = self.transformed.get(k, k);
+                    let small = inverse.abs() * little * S::ratio(4.0, 1.0);
+                    (inverse, S::one().less_equal(small))
+                }
+                false => {
+                    let moment = self.system.moment(k);
+                    (moment, moment.abs().less_equal(S::zero()))
+                }
             };
-            let same = S::zero().less(pivot * self.product.get(k, k));
-            let bound = least * self.system.moment(k).abs();
-            good = good & (same | pivot.abs().less_equal(bound));
+            let same = S::zero().less(sign * self.product.get(k, k));
+            good = good & (same | flat);
         }
         S::select(good, S::zero(), S::from_f64(f64::NAN))
     }

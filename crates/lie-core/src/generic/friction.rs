@@ -77,7 +77,7 @@ impl<V> Friction<V> {
         self.probe.copy_from(mu);
         // noise is a piece of its own
         quieten(system, &mut self.probe);
-        match system.force_mixes() {
+        match self.mixing.is_some() {
             true => self.mixed(system, t, own, mu),
             false => self.apart(system, t, own, mu),
         }
@@ -228,5 +228,5 @@ fn scale<S: Scalar, V: State<S>>(state: &mut V, own: usize, factor: S) {
 
 fn largest<S: Scalar, V: State<S>>(state: &V, own: usize) -> S {
     let entries = state.as_slice()[..own].iter();
-    entries.fold(S::zero(), |most, entry| most.max(entry.abs()))
+    entries.fold(S::zero(), |most, entry| most.max(entry.magnitude()))
 }

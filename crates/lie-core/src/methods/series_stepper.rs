@@ -100,6 +100,19 @@ impl<S: Scalar, D: Development<S>> SeriesStepper<S, D> {
         }
     }
 
+    /// The lanes in which a state is the one that was left. A motion may come back to the same state at another time, where another field
+    /// acts: so the time, which a driver sets to the grid, is compared too, to a small part of a step or its round-off.
+    fn follows(&self, mu: &D::State) -> S::Mask {
+        let clock = self.development.clock();
+        let same = equal_lanes(clock, &self.current, mu);
+        clock.map_or(same, |clock| {
+            let [left, now] = [&self.current, mu].map(|state| state.as_slice()[clock.time]);
+            let near = self.length * S::from_f64(SLIVER);
+            let near = near.max(left.abs() * S::epsilon() * S::from_f64(4.0));
+            same & (now - left).abs().less_equal(near)
+        })
+    }
+
     /// Develops anew in some lanes; returns those where a coefficient is not finite, and those that do not leave a joint.
     #[inline(always)]
     fn develop(&mut self, lanes: S::Mask) -> [S::Mask; 2] {
@@ -117,20 +130,6 @@ impl<S: Scalar, D: Development<S>> SeriesStepper<S, D> {
         self.place = S::select(taken, S::zero(), self.place);
         self.joint = (self.joint & !taken) | (joint & taken);
         [lanes & !known, lanes & known & stuck]
-    }
-}
-
-impl<S: Scalar, D: Development<S>> SeriesStepper<S, D> {
-    /// The lanes in which a state is the one that was left. A motion may come back to the same state at another time, where another field
-    /// acts: so the time, which a driver sets to the grid, is compared too, to a small part of a step.
-    fn follows(&self, mu: &D::State) -> S::Mask {
-        let clock = self.development.clock();
-        let same = equal_lanes(clock, &self.current, mu);
-        clock.map_or(same, |clock| {
-            let [left, now] = [&self.current, mu].map(|state| state.as_slice()[clock.time]);
-            let near = self.length * S::from_f64(SLIVER);
-            same & (now - left).abs().less_equal(near)
-        })
     }
 }
 

@@ -88,6 +88,32 @@ pub fn turning(right: bool) -> Body {
     }
 }
 
+/// All matrices of two rows, with a function of `g - 1` alone.
+pub fn general() -> Body {
+    let unit = |k: usize| {
+        let mut matrix = vec![vec![0.0; 2]; 2];
+        matrix[k / 2][k % 2] = 1.0;
+        matrix
+    };
+    Body {
+        name: "General",
+        right: false,
+        basis: (0..4).map(unit).collect(),
+        text: "((R11 - 1)^2 + R12^2 + R21^2 + (R22 - 1)^2)/(2*h)".to_owned(),
+        value: |f, h| {
+            let entries = f.iter().flatten().zip([1.0, 0.0, 0.0, 1.0]);
+            entries.map(|(f, one)| (f - one) * (f - one)).sum::<f64>() / (2.0 * h)
+        },
+        slope: |f, h| {
+            let mut slope = f.clone();
+            (0..2).for_each(|k| slope[k][k] -= 1.0);
+            slope.iter_mut().flatten().for_each(|entry| *entry /= h);
+            slope
+        },
+        start: vec![0.9, -0.6, 1.2, 0.3],
+    }
+}
+
 /// The same in five dimensions.
 pub fn five(right: bool) -> Body {
     let pairs = (0..5).flat_map(|i| (i + 1..5).map(move |j| (i, j)));

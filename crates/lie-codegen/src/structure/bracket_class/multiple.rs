@@ -20,6 +20,8 @@ use lie_symbolic::symbolic::{Elementary, ExprId, Graph, Symbol};
 const WORK: u64 = 1_000_000;
 /// The largest exponent.
 const MOST: i64 = 20;
+/// Points that are looked at, at the most.
+const POINTS: i64 = 60;
 
 /// The Casimir; none where it is not of this form, or has no value at the initial state.
 pub(in crate::structure) fn casimir(
@@ -116,8 +118,8 @@ impl Space {
     ) -> Option<Vec<i32>> {
         let slopes = |value: &Polynomial| [0, 1, 2].map(|i| value.derivative(self.first + i));
         let slopes: Vec<[Polynomial; 3]> = factors.iter().map(slopes).collect();
-        let (mut rows, mut right) = (Vec::new(), Vec::new());
-        for place in 0..factors.len() as i64 + 2 {
+        let (mut rows, mut right): (Vec<Vec<Rational>>, _) = (Vec::new(), Vec::new());
+        for place in 0..POINTS {
             let point = |variable: usize| {
                 let variable = variable as i64;
                 let denominator = 3 + (place * 5 + variable) % 11;
@@ -128,33 +130,44 @@ impl Space {
                 let values = values.iter().map(|value| value.evaluate(&point));
                 values.collect::<Option<Vec<Rational>>>()
             };
-            let (w, curl) = (at_point(entries)?, at_point(curl)?);
-            let [a, b, c] = &w[..] else {
-                return None;
-            };
             let columns = factors.iter().zip(&slopes).map(|(factor, slope)| {
                 let inverse = factor.evaluate(&point).recip()?;
-                let [x, y, z] = slope
-                    .each_ref()
-                    .map(|slope| &slope.evaluate(&point) * &inverse);
-                Some([
-                    &(&y * c) - &(&z * b),
-                    &(&z * a) - &(&x * c),
-                    &(&x * b) - &(&y * a),
-                ])
+                let slope = slope.each_ref();
+                Some(slope.map(|slope| &slope.evaluate(&point) * &inverse))
             });
-            let columns: Vec<[Rational; 3]> = columns.collect::<Option<_>>()?;
+            let columns: Option<Vec<[Rational; 3]>> = columns.collect();
+            // not where a factor or a denominator vanishes
+            let (Some(w), Some(curl), Some(columns)) = (at_point(entries), at_point(curl), columns)
+            else {
+                continue;
+            };
             for (axis, curl) in curl.into_iter().enumerate() {
-                rows.push(columns.iter().map(|column| column[axis].clone()).collect());
+                let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
+                let of = |slope: &[Rational; 3]| &(&slope[i] * &w[j]) - &(&slope[j] * &w[i]);
+                rows.push(columns.iter().map(of).collect());
                 right.push(-curl);
             }
+            if rows.len() > 3 * factors.len() + 6 {
+                break;
+            }
         }
-        let found = solve(&rows, &right, budget).ok()??;
-        let whole = found.iter().map(|exponent| {
-            let exponent = exponent.to_integer().filter(|e| e.abs() <= MOST)?;
-            i32::try_from(exponent).ok()
-        });
-        whole.collect()
+        // where several g make it vanish, what is free is 0, or else -1
+        [0, -1].into_iter().find_map(|free| {
+            let free = Rational::from(free);
+            let rest = rows.iter().zip(&right).map(|(row, right)| {
+                let given = row.iter().fold(Rational::ZERO, |sum, entry| &sum + entry);
+                right - &(&given * &free)
+            });
+            let rest: Vec<Rational> = rest.collect();
+            let found = solve(&rows, &rest, budget).ok()??;
+            let whole = found.iter().map(|exponent| {
+                let exponent = (exponent + &free)
+                    .to_integer()
+                    .filter(|e| e.abs() <= MOST)?;
+                i32::try_from(exponent).ok()
+            });
+            whole.collect()
+        })
     }
 
     /// The function whose gradient these are, if it is a sum of monomials, whose exponents may be negative, and of logarithms: of each

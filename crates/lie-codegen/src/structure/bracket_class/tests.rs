@@ -84,6 +84,9 @@ fn a_function_times_a_jacobian_bracket_has_its_casimir() {
         "{z, x} = x/(1 + x*z)^2",
     ];
     assert_eq!(of(&divided), sorted("y*x + z^2"));
+    // of several multipliers one is taken whose exponents are whole
+    let powers = ["{y, z} = 2*z*(1 + x*y)", "{x, y} = 3*x*(1 + x*y)"];
+    assert_eq!(of(&powers), sorted("log(x^2) + 3*log(z^2)/2"));
     let inverse = ["{x, y} = 1/z", "{y, z} = 1/x", "{z, x} = 1/y"];
     assert_eq!(of(&inverse), sorted("log(x^2)/2 + log(y^2)/2 + log(z^2)/2"));
     let quotient = ["{y, z} = -y*(1 + z + x*y)", "{z, x} = x*(1 + z + x*y)"];

@@ -35,7 +35,10 @@ pub(super) fn sought(model: &Model, reason: &'static str, graph: &mut Graph) -> 
         let found = of_changed_coordinates(model, &form, beside(Search::Complete), graph);
         return Some(found.unwrap_or_else(|_| beside(Search::Spent)));
     }
-    let of_three = jacobian(model, matrix, graph).or_else(|| casimir(model, matrix, graph));
+    // those of an affine bracket are looked for as of an algebra
+    let affine = matrix.degree.is_some_and(|degree| degree <= 1);
+    let of_three = jacobian(model, matrix, graph)
+        .or_else(|| (!affine).then(|| casimir(model, matrix, graph)).flatten());
     if let Some(casimir) = of_three {
         return Some(Sought {
             functions: vec![casimir],

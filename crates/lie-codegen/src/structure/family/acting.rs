@@ -5,6 +5,7 @@ use crate::model::{Driving, slope_symbol};
 use crate::structure::exponential;
 use lie_core::lattice::AXES;
 use lie_symbolic::exact::Budget;
+use lie_symbolic::prove::joints::joints_in;
 use lie_symbolic::prove::proof::Prover;
 use lie_symbolic::symbolic::{ExprId, Function, Symbol};
 
@@ -63,11 +64,17 @@ impl Search<'_> {
         let places = 0..self.family.names.len();
         let slopes = (0..self.n()).map(slope_symbol);
         let symbols: Vec<Symbol> = places.map(Symbol::Coordinate).chain(slopes).collect();
-        let mut symbols = symbols.into_iter().filter(|symbol| Some(*symbol) != but);
-        let on = symbols.find(|symbol| {
-            let slope = self.graph.derivative(value, *symbol);
+        let mut others = symbols.iter().filter(|symbol| Some(**symbol) != but);
+        let on = others.find(|symbol| {
+            let slope = self.graph.derivative(value, **symbol);
             !self.vanishes(slope)
-        })?;
+        });
+        // a branch that is taken by the state has no derivative
+        let places = joints_in(self.graph, value, &|_| true).into_iter();
+        let mut branches = places.flat_map(|place| self.graph.symbols(place));
+        let on = on
+            .copied()
+            .or_else(|| branches.find(|on| symbols.contains(on)))?;
         Some(match on {
             Symbol::Coordinate(place) => format!("`{}`", self.family.names[place]),
             Symbol::Input(a) => format!("dH/d`{}`", self.target(a)),
