@@ -144,7 +144,7 @@ fn a_branch_is_no_linear_friction() {
             "run {} --method splitting2 --step 0.1 --until 1",
             path.display()
         ));
-        let said = run.error("method", "command line: --method").stderr;
+        let said = run.error("splitting", "command line: --method").stderr;
         assert!(said.contains("on `x` it is not linear"), "{force}: {said}");
     }
 }

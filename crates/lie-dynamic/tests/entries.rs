@@ -9,7 +9,7 @@ mod bodies;
 #[path = "entries/matrices.rs"]
 mod matrices;
 
-use bodies::{Body, euclidean, five, kinetic, screws, squeezed, turning};
+use bodies::{Body, euclidean, five, general, kinetic, screws, squeezed, turning};
 use lie_codegen::compile::{compile_spec, with_options};
 use lie_codegen::methods::{Choice, Retraction};
 use lie_codegen::plan::plan;

@@ -226,9 +226,18 @@ fn splittings_take_what_has_a_flow() {
         (
             "forces",
             r#"{"x": "-x^3"}"#,
-            "that on `x` is not linear in `x`",
+            "on `x` it is not linear in `x`",
         ),
-        ("forces", r#"{"x": "-y"}"#, "that on `x` depends on `y`"),
+        (
+            "forces",
+            r#"{"x": "-y*z"}"#,
+            "on `x` it is not linear in `y`",
+        ),
+        (
+            "forces",
+            r#"{"x": "-max(y, 0)"}"#,
+            "on `x` it is not linear in `y`",
+        ),
         (
             "noise",
             r#"[{"hamiltonian": "x^2"}]"#,
@@ -249,6 +258,8 @@ fn splittings_take_what_has_a_flow() {
         let found = why(&spec, "splitting2");
         assert!(found.contains(reason), "{value}: {found}");
     }
+    let mixing = so3(&[("forces", r#"{"x": "-y - x/2", "y": "2 - t*z"}"#)]);
+    assert_eq!(why(&mixing, "splitting2"), "");
     let free = so3(&[]);
     assert!(why(&free, "ninomiya-victoir").contains("the method is for noise"));
     let warm = so3(&[(

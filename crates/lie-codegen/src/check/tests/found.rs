@@ -165,10 +165,18 @@ fn those_of_a_class_of_brackets() {
     let root = r#"["{y, z} = z/(2*sqrt(x))", "{x, y} = sqrt(x)"]"#;
     assert_eq!(texts(&general(root, &[])), ["C1 = sqrt(x)*z"]);
     assert_eq!(texts(&general(r#"["{x, y} = sqrt(2)"]"#, &[])), ["C1 = z"]);
-    // a bracket that fails to be Jacobian by one term, and is conformal to one
-    let conformal = r#"["{y, z} = (1 + x)*x", "{z, x} = (1 + x)*y", "{x, y} = (1 + x)*z"]"#;
-    let conformal = general(conformal, &[]);
-    assert!(texts(&conformal).is_empty() && matches!(conformal.search, Search::None(_)));
+    // a function times a Jacobian bracket, and one whose function is not made of factors
+    let multiple = r#"["{y, z} = (1 + x)*x", "{z, x} = (1 + x)*y^2", "{x, y} = (1 + x)*z"]"#;
+    let multiple = general(multiple, &[]);
+    assert_eq!(kind(&multiple).0, CasimirKind::Function);
+    assert!(
+        texts(&multiple)[0].contains("y^3/3"),
+        "{:?}",
+        texts(&multiple)
+    );
+    let other = r#"["{y, z} = exp(x)*x", "{z, x} = exp(x)*y", "{x, y} = exp(x)*z"]"#;
+    let other = general(other, &[]);
+    assert!(texts(&other).is_empty() && matches!(other.search, Search::None(_)));
 }
 
 #[test]
