@@ -85,11 +85,9 @@ fn turned_in_four(entries: [f64; 6]) -> [f64; 6] {
     for ((i, j), [cosine, sine]) in turns {
         for _ in 0..2 {
             // rows, and after the transpose columns
-            for column in 0..4 {
-                let (a, b) = (matrix[i][column], matrix[j][column]);
-                matrix[i][column] = cosine * a - sine * b;
-                matrix[j][column] = sine * a + cosine * b;
-            }
+            let (a, b) = (matrix[i], matrix[j]);
+            matrix[i] = std::array::from_fn(|column| cosine * a[column] - sine * b[column]);
+            matrix[j] = std::array::from_fn(|column| sine * a[column] + cosine * b[column]);
             matrix = std::array::from_fn(|row| std::array::from_fn(|column| matrix[column][row]));
         }
     }

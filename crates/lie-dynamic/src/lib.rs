@@ -42,8 +42,8 @@ mod system;
 pub use cache::Cache;
 pub use code::{Bitwise, Code, Instruction, Number, Register, Source, Store};
 pub use engine::{
-    BINARY, Binary, Engine, Frame, Interpreted, Interpreter, Lengths, Machine, SLICES, Targets,
-    UNARY, Unary, in_turns, phi, place_by_place, stumpff,
+    AROUND, BINARY, Binary, Engine, Frame, Interpreted, Interpreter, Lengths, Machine, SLICES,
+    Targets, UNARY, Unary, in_turns, phi, place_by_place, stumpff,
 };
 pub use lie_runtime::methods::Tolerances;
 pub use methods::{

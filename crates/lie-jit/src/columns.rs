@@ -3,7 +3,7 @@
 use crate::make::{Purpose, make};
 use crate::memory::Memory;
 use crate::registers::Registers;
-use lie_dynamic::{Code, Frame, Lengths};
+use lie_dynamic::{AROUND, Code, Frame, Lengths};
 use lie_runtime::Scalar;
 use smallvec::SmallVec;
 use std::ops::Range;
@@ -88,10 +88,10 @@ impl OverColumns {
         let mut table = frame.slices().map(|slice| slice.as_ptr().cast::<f64>());
         let columns = columns.iter();
         let columns = columns.map(|column| column[places.clone()].as_ptr().cast::<f64>());
-        let mut columns: SmallVec<[*const f64; 24]> = columns.collect();
+        let mut columns: SmallVec<[*const f64; AROUND]> = columns.collect();
         let to = to.iter_mut();
         let to = to.map(|to| to[places.clone()].as_mut_ptr().cast::<f64>());
-        let mut to: SmallVec<[*mut f64; 24]> = to.collect();
+        let mut to: SmallVec<[*mut f64; AROUND]> = to.collect();
         for first in (0..lanes).step_by(self.at_once) {
             if first > 0 {
                 table = table.map(|slice| slice.wrapping_add(self.at_once));

@@ -9,9 +9,9 @@ use std::sync::Arc;
 /// More vector arguments a kernel does not have.
 pub const ARGUMENTS: usize = 4;
 
-/// So many numbers of a site and its neighbours need no memory from the heap: three coordinates of the seven sites of a bond in three
-/// dimensions, and some coefficients.
-pub(crate) const FEW: usize = 32;
+/// So many numbers of a site and those around it need no memory from the heap: three coordinates of each of the thirteen sites that a sum
+/// over bonds along three axes brings together, and some coefficients.
+pub const AROUND: usize = 64;
 
 /// The number of slices in a [`Frame`].
 pub const SLICES: usize = ARGUMENTS + 4;
@@ -154,8 +154,8 @@ pub fn place_by_place<S: Scalar>(
     to: &mut [&mut [S]],
     mut run: impl FnMut(&[S], &mut [S]),
 ) {
-    let mut at: SmallVec<[S; FEW]> = SmallVec::from_elem(S::zero(), columns.len());
-    let mut out: SmallVec<[S; FEW]> = SmallVec::from_elem(S::zero(), to.len());
+    let mut at: SmallVec<[S; AROUND]> = SmallVec::from_elem(S::zero(), columns.len());
+    let mut out: SmallVec<[S; AROUND]> = SmallVec::from_elem(S::zero(), to.len());
     for place in places {
         at.iter_mut()
             .zip(columns)

@@ -8,5 +8,6 @@ mod machine;
 pub use elementary::{BINARY, Binary, UNARY, Unary};
 pub use interpreter::{Interpreted, Interpreter, phi, stumpff};
 pub use layout::Lengths;
-pub(crate) use machine::FEW;
-pub use machine::{ARGUMENTS, Engine, Frame, Machine, SLICES, Targets, in_turns, place_by_place};
+pub use machine::{
+    ARGUMENTS, AROUND, Engine, Frame, Machine, SLICES, Targets, in_turns, place_by_place,
+};

@@ -7,7 +7,7 @@ mod pieces;
 pub(crate) use codes::Codes;
 
 use crate::compiled::Values;
-use crate::engine::{ARGUMENTS, FEW};
+use crate::engine::{ARGUMENTS, AROUND};
 use crate::system::names;
 use lie_codegen::model::Size;
 use lie_codegen::plan;
@@ -22,7 +22,7 @@ use smallvec::{SmallVec, smallvec};
 pub struct Few;
 
 impl Shape for Few {
-    type Of<T> = SmallVec<[T; FEW]>;
+    type Of<T> = SmallVec<[T; AROUND]>;
 
     #[inline]
     fn make<T>(count: usize, one: impl FnMut(usize) -> T) -> Self::Of<T> {
