@@ -17,25 +17,35 @@ use lie_core::parameter::ParameterError;
 use lie_runtime::{Dual, Scalar};
 use smallvec::{SmallVec, smallvec};
 
-/// So many values of a site and those around it need no memory from the heap. They are handed on by value: with 64 in place of 24 a step
-/// of `gauss16` on a lattice took 1.4 times as long.
-const NEAR: usize = 32;
+/// Defines a shape of as many values as there are, of which so many need no memory from the heap. They are handed on by value: with 64
+/// in place of 24 for all of them a step of `gauss16` on a lattice took 1.4 times as long.
+macro_rules! shape {
+    ($(#[$doc:meta])* $name:ident, $count:literal, $of:ident) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug)]
+        pub struct $name;
 
-/// As many as there are: few need no memory from the heap.
-#[derive(Clone, Copy, Debug)]
-pub struct Few;
+        impl Shape for $name {
+            type Of<T> = SmallVec<[T; $count]>;
 
-impl Shape for Few {
-    type Of<T> = SmallVec<[T; NEAR]>;
+            #[inline]
+            fn make<T>(count: usize, one: impl FnMut(usize) -> T) -> Self::Of<T> {
+                (0..count).map(one).collect()
+            }
+        }
 
-    #[inline]
-    fn make<T>(count: usize, one: impl FnMut(usize) -> T) -> Self::Of<T> {
-        (0..count).map(one).collect()
-    }
+        type $of<T> = <$name as Shape>::Of<T>;
+    };
 }
 
-/// So many things.
-type FewOf<T> = <Few as Shape>::Of<T>;
+shape!(
+    /// What a site has by itself, and sums.
+    Few, 16, FewOf
+);
+shape!(
+    /// What a site and those around it have.
+    Near, 32, NearOf
+);
 
 fn zeros<S: Scalar>(count: usize) -> FewOf<S> {
     Few::make(count, |_| S::zero())
@@ -141,7 +151,7 @@ fn eight<S: Scalar>(from: &[S], place: usize) -> S::Wide {
 
 impl<S: Scalar> Sites<S> for FamilySite<S> {
     type Site = Few;
-    type Around = Few;
+    type Around = Near;
     type Sums = Few;
     type Widened = FamilySite<S::Wide>;
     type Lifted = FamilySite<Dual<S>>;
@@ -226,28 +236,28 @@ impl<S: Scalar> Sites<S> for FamilySite<S> {
         self.plan().inputs[index].sampling.map(f64::from_bits)
     }
 
-    fn field(&self, at: &FewOf<S>, weights: &FewOf<S>) -> FewOf<S> {
+    fn field(&self, at: &NearOf<S>, weights: &FewOf<S>) -> FewOf<S> {
         match self.acts() {
             true => self.driven(at, weights).0,
             false => self.vector(self.codes().field, [at, weights], self.dimension()),
         }
     }
-    fn driven(&self, at: &FewOf<S>, weights: &FewOf<S>) -> (FewOf<S>, S) {
+    fn driven(&self, at: &NearOf<S>, weights: &FewOf<S>) -> (FewOf<S>, S) {
         self.with_power(self.codes().field, [at, weights, &[], &[]])
     }
-    fn shared_act(&self, slope: &FewOf<S>, at: &FewOf<S>, shared: &FewOf<S>) -> (FewOf<S>, S) {
+    fn shared_act(&self, slope: &FewOf<S>, at: &NearOf<S>, shared: &FewOf<S>) -> (FewOf<S>, S) {
         match self.codes().act {
             Some(code) => self.with_power(code, [slope, at, shared, &[]]),
             None => unreachable!("nothing acts beside H"),
         }
     }
-    fn slope(&self, term: usize, slot: usize, at: &FewOf<S>, weights: &FewOf<S>) -> FewOf<S> {
+    fn slope(&self, term: usize, slot: usize, at: &NearOf<S>, weights: &FewOf<S>) -> FewOf<S> {
         match self.codes().slopes.get(&(term, slot)) {
             Some(code) => self.vector(*code, [at, weights], self.dimension()),
             None => zeros(self.dimension()),
         }
     }
-    fn shared_summands(&self, at: &FewOf<S>, shared: &FewOf<S>) -> FewOf<S> {
+    fn shared_summands(&self, at: &NearOf<S>, shared: &FewOf<S>) -> FewOf<S> {
         self.vector(self.codes().summands, [at, shared], self.plan().totals())
     }
     fn time_slope(&self, totals: &FewOf<S>) -> S {

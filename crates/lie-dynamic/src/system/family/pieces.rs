@@ -1,7 +1,7 @@
 //! The flows of the pieces of a family.
 
 use super::codes::{PieceCodes, Turn};
-use super::{EIGHT, FamilySite, Few, FewOf, eight, zeros};
+use super::{EIGHT, FamilySite, Few, FewOf, Near, NearOf, eight, zeros};
 use crate::compiled::Values;
 use crate::engine::ARGUMENTS;
 use crate::system::flows::update;
@@ -87,7 +87,7 @@ impl<S: Scalar> Pieces<S> for FamilySite<S> {
         &self.codes().kinds
     }
 
-    fn shared_exchange(&self, kind: usize, at: &FewOf<S>, sums: &FewOf<S>) -> Option<S> {
+    fn shared_exchange(&self, kind: usize, at: &NearOf<S>, sums: &FewOf<S>) -> Option<S> {
         let piece = &self.codes().pieces[kind];
         let site: FewOf<S> = zeros(self.dimension());
         let is_one = piece.form == FamilyForm::Exchange;
@@ -109,7 +109,7 @@ impl<S: Scalar> Pieces<S> for FamilySite<S> {
     fn time_slope_of(
         &self,
         kind: usize,
-        (sums, at): (&FewOf<S>, &FewOf<S>),
+        (sums, at): (&FewOf<S>, &NearOf<S>),
         one: &FewOf<S>,
         other: &FewOf<S>,
     ) -> S {
@@ -132,7 +132,7 @@ impl<S: Scalar> Pieces<S> for FamilySite<S> {
         &self,
         kind: usize,
         t: S,
-        (sums, at): (&FewOf<S>, &FewOf<S>),
+        (sums, at): (&FewOf<S>, &NearOf<S>),
         one: &mut FewOf<S>,
         other: &mut FewOf<S>,
     ) {
@@ -154,7 +154,7 @@ impl<S: Scalar> Pieces<S> for FamilySite<S> {
         let (piece, dimension, count) = (&self.codes().pieces[kind], self.dimension(), strip.count);
         let part = |site: usize, k: usize| k * strip.sites + strip.places[site];
         // the coefficients stand behind the coordinates of all slots
-        let mut at = zeros(self.places());
+        let mut at = Near::make(self.places(), |_| S::Wide::zero());
         let coordinates = self.offsets().len() * dimension;
         let sites = 1 + usize::from(strip.bonds);
         let (t, sums) = (t.widen(), Few::make(sums.len(), |k| sums[k].widen()));
