@@ -44,7 +44,7 @@ fn claims_hold(flags: &str) {
 fn systems_by_lagrangians() {
     for (spec, methods, orders) in [
         (
-            "so3_quartic_lagrangian",
+            "specs/so3_quartic_lagrangian",
             "variational2,variational4,variational6,lie-midpoint,generating4",
             [
                 ("variational2 ", "2: 2.00 ✓"),
@@ -53,7 +53,7 @@ fn systems_by_lagrangians() {
             ],
         ),
         (
-            "so3_discrete_lagrangian",
+            "specs/so3_discrete_lagrangian",
             "discrete-euler-poincare,variational2,variational4,moser-veselov",
             [
                 ("discrete-euler-poincare ", "1: 2.00 ✓"),
@@ -61,11 +61,17 @@ fn systems_by_lagrangians() {
                 ("moser-veselov ", "2: 2.00 ✓"),
             ],
         ),
+        (
+            "tests/data/lagrangian/on_group",
+            "variational2,variational4,euler-arnold2",
+            [
+                ("variational2 ", "2: 2.00 ✓"),
+                ("variational4 ", "4: "),
+                ("euler-arnold2 ", "2: 2.00 ✓"),
+            ],
+        ),
     ] {
-        let run = lie(&format!(
-            "verify specs/{spec}.json --methods {methods} --quiet"
-        ))
-        .ok();
+        let run = lie(&format!("verify {spec}.json --methods {methods} --quiet")).ok();
         for (name, order) in orders {
             let line = run.stdout.lines().find(|line| line.starts_with(name));
             assert!(

@@ -47,6 +47,7 @@ mod general_brackets;
 mod generating;
 mod hamilton_jacobi;
 mod held;
+mod lagrangians_on_groups;
 mod lanes;
 mod lying_kernels;
 mod lying_methods;

@@ -271,7 +271,7 @@ fn is_fused(choice: &Choice) -> bool {
 fn evidence(structure: &Structure) -> TokenStream {
     let lie = structure.is_lie_poisson();
     let representation = structure.bracket.representation().filter(|_| lie);
-    let lagrangian = structure.energy.lagrangian();
+    let lagrangian = structure.energy.reduced();
     let mut calls = TokenStream::new();
     let mut add = |wanted: bool, call: TokenStream| {
         if wanted {

@@ -116,7 +116,7 @@ impl Domain {
         let xi = match &model.energy {
             Energy::Legendre(lagrangian, _) => {
                 let mut scratch = self.graph.clone();
-                match velocity(&mut scratch, lagrangian.value, mu, parameters) {
+                match velocity(&mut scratch, lagrangian, mu, parameters) {
                     Some(xi) => xi,
                     None => return Some(no_velocity()),
                 }

@@ -19,7 +19,9 @@ pub struct Motion<'a> {
     pub configuration: Option<&'a Configuration>,
     /// The matrices of the algebra of the system.
     pub representation: Option<&'a Representation>,
-    /// Whether the bracket is that of an algebra, and the function one on it alone.
+    /// Whether the bracket is that of an algebra.
+    pub is_lie: bool,
+    /// Whether it is, and the function one on it alone.
     pub on_algebra: bool,
 }
 
@@ -50,15 +52,20 @@ impl Motion<'_> {
             }
         };
         Ok(energy.with(|energy| Declared {
-            value: match self.configuration {
-                Some(configuration) if configuration.time => {
-                    let momentum = graph.symbol(Symbol::Coordinate(configuration.momenta - 1));
-                    graph.add(energy, momentum)
-                }
-                _ => energy,
-            },
+            value: self.extended(graph, energy),
             energy,
         }))
+    }
+
+    /// The Hamiltonian whose field moves the state: where the time is part of it, with the momentum of the time.
+    fn extended(&self, graph: &mut Graph, energy: ExprId) -> ExprId {
+        match self.configuration {
+            Some(configuration) if configuration.time => {
+                let momentum = graph.symbol(Symbol::Coordinate(configuration.momenta - 1));
+                graph.add(energy, momentum)
+            }
+            _ => energy,
+        }
     }
 
     fn lagrangian(
@@ -90,7 +97,7 @@ impl Motion<'_> {
             origin,
             parameters: self.parameters,
             configuration: self.configuration,
-            on_algebra: self.on_algebra,
+            iterates: self.is_lie && !self.declaration.is_driven(),
         };
         let transform = legendre::hamiltonian(graph, &lagrangian)?;
         let discrete = has_step.then(|| Discrete {
@@ -101,12 +108,15 @@ impl Motion<'_> {
             in_entries,
         });
         let lagrangian = model::Lagrangian {
+            reduced: self.on_algebra,
             value,
             velocity: velocity.to_vec(),
             discrete,
         };
         Ok(match transform {
-            Transform::InVelocity(function) => model::Energy::Legendre(lagrangian, function),
+            Transform::InVelocity(function) => {
+                model::Energy::Legendre(lagrangian, self.extended(graph, function))
+            }
             Transform::Exact(hamiltonian) if self.on_algebra => {
                 model::Energy::Lagrangian(lagrangian, hamiltonian)
             }

@@ -29,9 +29,9 @@ pub struct Lagrangian<'a> {
     pub parameters: &'a [Parameter],
     /// The group element and the time, where the Lagrangian depends on them.
     pub configuration: Option<&'a Configuration>,
-    /// Whether the velocity is an element of an algebra and the bracket the Lie–Poisson one, so that a Newton
-    /// iteration for it can be generated.
-    pub on_algebra: bool,
+    /// Whether the bracket is the Lie–Poisson one and nothing acts beside it, so that a Newton iteration for the velocity can be
+    /// generated.
+    pub iterates: bool,
 }
 
 impl Lagrangian<'_> {
@@ -69,7 +69,7 @@ pub fn hamiltonian(
         terms.push(graph.neg(form.constant));
         return Ok(Transform::Exact(graph.sum(&terms)));
     }
-    if !lagrangian.on_algebra {
+    if !lagrangian.iterates {
         return Err(not_quadratic(lagrangian));
     }
     if let Some(rank) = form.rank_at_rest(graph) {
@@ -111,8 +111,8 @@ fn not_quadratic(lagrangian: &Lagrangian<'_>) -> Diagnostic {
     Diagnostic::new(
         Kind::Legendre,
         lagrangian.origin,
-        "the Lagrangian is not quadratic in the velocity, or could not be shown to be: then it cannot depend on the \
-         group element or the time, nothing may act beside it, and the bracket must be the bracket of an algebra",
+        "the Lagrangian is not quadratic in the velocity, or could not be shown to be: then nothing may act beside it, and the \
+         bracket must be the bracket of an algebra",
     )
-    .help("the Legendre transform of such Lagrangians is not built yet; give the Hamiltonian `H(mu) = <mu, xi> - l(xi)`")
+    .help("give the Hamiltonian `H(mu) = <mu, xi> - l(xi)`")
 }

@@ -65,6 +65,7 @@ pub fn system(
         declaration,
         parameters: &lowered.parameters,
         configuration,
+        is_lie,
         on_algebra: configuration.is_none() && is_lie,
     };
     let energy = motion.energy(graph, lowered.energy);

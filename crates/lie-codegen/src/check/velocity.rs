@@ -1,6 +1,7 @@
 //! The velocity of a momentum in floating point: where a Lagrangian that is not quadratic is looked at. The same
 //! path as that of generated programs (`lagrangian/legendre.rs` and `path.rs` of lie-runtime).
 
+use crate::model::Lagrangian;
 use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 
 /// Iterations towards one momentum. One that shrinks the steps as fast as is asked for needs fewer.
@@ -15,14 +16,16 @@ const SHORTEST: f64 = 1.0 / (1_u64 << 32) as f64;
 const FAR: f64 = 8.0;
 
 /// The solution of `l'(xi) = mu` at the end of the path `l'(xi) = l'(0) + s (mu - l'(0))` from rest, through folds too,
-/// where s turns round. `None` where it ends before `s = 1`.
+/// where s turns round. `None` where it ends before `s = 1`. The momenta come first in a state; the Lagrangian may depend on the
+/// other coordinates.
 pub fn velocity(
     graph: &mut Graph,
-    lagrangian: ExprId,
-    mu: &[f64],
+    lagrangian: &Lagrangian,
+    state: &[f64],
     parameters: &[f64],
 ) -> Option<Vec<f64>> {
-    let count = mu.len();
+    let count = lagrangian.velocity.len();
+    let (mu, lagrangian) = (&state[..count], lagrangian.value);
     let mut functions: Vec<ExprId> = (0..count)
         .map(|i| graph.derivative(lagrangian, Symbol::Input(i)))
         .collect();
@@ -35,6 +38,7 @@ pub fn velocity(
         graph,
         functions,
         parameters,
+        state,
         first: Vec::new(),
         change: Vec::new(),
     };
@@ -60,6 +64,7 @@ struct Path<'a> {
     /// l', then l'' by rows.
     functions: Vec<ExprId>,
     parameters: &'a [f64],
+    state: &'a [f64],
     first: Vec<f64>,
     change: Vec<f64>,
 }
@@ -68,6 +73,7 @@ impl Path<'_> {
     fn at(&self, xi: &[f64], functions: &[ExprId]) -> Vec<f64> {
         self.graph.evaluate_all(functions, &|symbol| match symbol {
             Symbol::Input(i) => xi[i],
+            Symbol::Coordinate(i) => self.state[i],
             Symbol::Parameter(p) => self.parameters[p],
             _ => f64::NAN,
         })

@@ -3,18 +3,61 @@
 use super::coadjoint::xi;
 use super::entries::{self, Derivatives};
 use super::{Argument, Block, Kernel, Source};
-use crate::model::Discrete;
-use lie_symbolic::symbolic::ExprId;
+use crate::model::{Discrete, Lagrangian};
+use lie_symbolic::symbolic::{ExprId, Symbol};
 
-pub(super) fn kernels(source: &mut Source, value: ExprId) -> Vec<Kernel> {
+pub(super) fn kernels(source: &mut Source, lagrangian: &Lagrangian) -> Vec<Kernel> {
     let argument = xi(source);
-    let formulas = [
-        ("lagrangian", "`l(xi)`"),
-        ("momentum", "`out_i = dl/dxi^i`"),
-        ("inertia", "`out_ij = d^2l/dxi^i dxi^j`"),
-    ];
+    let (value, formulas) = match lagrangian.reduced {
+        true => (
+            lagrangian.value,
+            [
+                ("lagrangian", "`l(xi)`"),
+                ("momentum", "`out_i = dl/dxi^i`"),
+                ("inertia", "`out_ij = d^2l/dxi^i dxi^j`"),
+            ],
+        ),
+        false => (
+            of_one_argument(source, lagrangian.value),
+            [
+                ("lagrangian", "`L(xi, q)`"),
+                (
+                    "momentum",
+                    "`out_i = dL/dxi^i`, and behind the momenta `dL/dq`",
+                ),
+                ("inertia", "`out_ij`, the second derivatives of `L(xi, q)`"),
+            ],
+        ),
+    };
     let derivatives = derivatives(source, value, &argument);
     kernels_of(source, &derivatives, &argument, formulas)
+}
+
+/// A Lagrangian as a function of a state with the velocity in place of the momenta, less the momentum of the time, where that is part of
+/// the state: `H(t, mu) + p` is its Legendre transform then.
+fn of_one_argument(source: &mut Source, value: ExprId) -> ExprId {
+    let clock = source.clock();
+    let graph = &mut source.graph;
+    let symbols = graph.symbols(value);
+    let inputs: Vec<_> = symbols
+        .into_iter()
+        .filter_map(|symbol| match symbol {
+            Symbol::Coordinate(i) => Some((symbol, graph.symbol(Symbol::Input(i)))),
+            _ => None,
+        })
+        .collect();
+    let input = |symbol| {
+        let mut inputs = inputs.iter();
+        inputs.find(|(s, _)| *s == symbol).map(|(_, input)| *input)
+    };
+    let value = graph.substitute(&[value], &input)[0];
+    match clock {
+        Some(clock) => {
+            let momentum = graph.symbol(Symbol::Input(clock.momentum));
+            graph.sub(value, momentum)
+        }
+        None => value,
+    }
 }
 
 pub(super) fn discrete_kernels(source: &mut Source, discrete: &Discrete) -> Vec<Kernel> {

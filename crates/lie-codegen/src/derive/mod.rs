@@ -268,8 +268,8 @@ impl Source {
 
     /// The kernels of a Lagrangian, if there is one.
     pub fn lagrangian_kernels(&mut self) -> Option<Vec<Kernel>> {
-        let value = self.energy.lagrangian()?.value;
-        Some(lagrangian::kernels(self, value))
+        let lagrangian = self.energy.lagrangian()?.clone();
+        Some(lagrangian::kernels(self, &lagrangian))
     }
 
     /// The kernels of a discrete Lagrangian, if there is one.

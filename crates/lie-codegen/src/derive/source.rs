@@ -108,7 +108,7 @@ impl Source {
 
     /// Whether H is the Legendre transform of a Lagrangian that is none on an algebra alone.
     pub fn is_transformed(&self) -> bool {
-        matches!(self.energy, Energy::Transformed(_))
+        self.energy.is_transformed()
     }
 
     fn representation(&self) -> Option<&Representation> {
@@ -188,7 +188,7 @@ impl Source {
 
     /// The discrete Lagrangian by which the system was declared.
     pub fn discrete(&self) -> Option<&Discrete> {
-        self.energy.lagrangian()?.discrete.as_ref()
+        self.energy.reduced()?.discrete.as_ref()
     }
 }
 

@@ -167,9 +167,7 @@ fn own_joints(structure: &Structure) -> Option<(String, String)> {
 /// Why a method for Lagrangians does not apply.
 fn lagrangian(model: &Model, choice: &Choice) -> Option<(String, String)> {
     match choice {
-        Choice::Variational(_, Retraction::Cayley)
-            if matches!(model.energy, Energy::Transformed(_)) =>
-        {
+        Choice::Variational(_, Retraction::Cayley) if model.energy.is_transformed() => {
             let message = "with the Cayley map the method is for reduced Lagrangians, without group element, time and forces";
             let help =
                 "use `variational2` with `--retraction exp`, or `lie-midpoint --retraction cayley`";

@@ -16,9 +16,9 @@ pub enum Energy<H = Hamiltonian> {
     Transformed(H),
     /// A reduced Lagrangian and its Legendre transform, an expression in mu.
     Lagrangian(Lagrangian, H),
-    /// A reduced Lagrangian whose velocity for a momentum is found by Newton's iteration when it is needed. The
-    /// function is `<mu, xi> - l(xi)` in mu and the velocity xi of mu, so that its derivative by a coordinate is a
-    /// component of xi.
+    /// A Lagrangian whose velocity for a momentum is found by Newton's iteration when it is needed. The
+    /// function is `<mu, xi> - l(xi)` in mu and the velocity xi of mu, so that its derivative by a momentum is a
+    /// component of xi; of a system that depends on the time, that of the extended phase space.
     Legendre(Lagrangian, ExprId),
 }
 
@@ -43,11 +43,25 @@ impl<H> Energy<H> {
         }
     }
 
-    /// The reduced Lagrangian, if the system was declared by one.
+    /// The Lagrangian, if the system was declared by one and its kernels are made of it.
     pub fn lagrangian(&self) -> Option<&Lagrangian> {
         match self {
             Energy::Lagrangian(lagrangian, _) | Energy::Legendre(lagrangian, _) => Some(lagrangian),
             Energy::Expression(_) | Energy::Transformed(_) => None,
+        }
+    }
+
+    /// The reduced Lagrangian: a function of the velocity alone, on an algebra.
+    pub fn reduced(&self) -> Option<&Lagrangian> {
+        self.lagrangian().filter(|lagrangian| lagrangian.reduced)
+    }
+
+    /// Whether H is the Legendre transform of a Lagrangian that is none on an algebra alone.
+    pub fn is_transformed(&self) -> bool {
+        match self {
+            Energy::Transformed(_) => true,
+            Energy::Legendre(lagrangian, _) => !lagrangian.reduced,
+            Energy::Expression(_) | Energy::Lagrangian(..) => false,
         }
     }
 
@@ -75,9 +89,12 @@ pub struct Hamiltonian {
     pub degree: Option<u32>,
 }
 
-/// A reduced Lagrangian.
+/// A Lagrangian.
 #[derive(Clone, Debug)]
 pub struct Lagrangian {
+    /// Whether it is a function of the velocity alone, on an algebra. Another one depends on the group element or the time,
+    /// whose coordinates follow the momenta.
+    pub reduced: bool,
     /// The function l(xi); component i of the velocity is [`Symbol::Input`](lie_symbolic::symbolic::Symbol::Input) i.
     pub value: ExprId,
     /// Names of the components of the velocity.

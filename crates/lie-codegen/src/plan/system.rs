@@ -60,6 +60,8 @@ pub struct System {
     pub triple: Option<Function>,
     /// The kernels of `LagrangianPoisson`, of a system by its Lagrangian.
     pub lagrangian: Vec<Function>,
+    /// How many coordinates are momenta with a velocity each, where not all are.
+    pub velocities: Option<usize>,
     /// The kernels of `DiscreteLagrangianPoisson`, of a system by its discrete Lagrangian.
     pub discrete: Vec<Function>,
 }
@@ -179,6 +181,8 @@ impl Planner<'_> {
         let exponential = self.functions(&exponential);
         let lagrangian = self.source.lagrangian_kernels().unwrap_or_default();
         let lagrangian = self.functions(&lagrangian);
+        let of_some = self.source.energy.lagrangian().filter(|l| !l.reduced);
+        let velocities = of_some.map(|lagrangian| lagrangian.velocity.len());
         let discrete = self.source.discrete_kernels().unwrap_or_default();
         System {
             hamiltonian_degree: self.degree_of_h(),
@@ -212,6 +216,7 @@ impl Planner<'_> {
             exponential,
             triple,
             lagrangian,
+            velocities,
             discrete: self.functions(&discrete),
         }
     }

@@ -25,7 +25,7 @@ impl Printer<'_> {
             .collect();
         let gradients = self.casimir_gradients();
         let derived = match (plan.energy, plan.derivatives) {
-            (Energy::Legendre, _) => Some(by_legendre()),
+            (Energy::Legendre, _) => Some(self.by_legendre()),
             (Energy::Expression, false) => Some(by_duals()),
             (Energy::Expression, true) => None,
         };
@@ -80,16 +80,79 @@ impl Printer<'_> {
     /// The impls of `LagrangianPoisson` and `DiscreteLagrangianPoisson`, if there are such Lagrangians.
     pub(super) fn lagrangian(&self) -> Option<TokenStream> {
         let plan = &self.plan.system;
+        let velocities = plan.velocities.map(index).map(|count| {
+            quote! {
+                fn velocities(&self) -> usize {
+                    #count
+                }
+            }
+        });
         let branch = self.has_branches().then(|| {
             quote! {
                 fn branch(&self) -> ::core::option::Option<Self::State> {
                     self._branch.map(<Self::State>::from)
                 }
+
+                #velocities
             }
         });
         let lagrangian = self.trait_of("LagrangianPoisson", &plan.lagrangian, branch);
         let discrete = self.trait_of("DiscreteLagrangianPoisson", &plan.discrete, None);
         Some(quote! { #lagrangian #discrete })
+    }
+
+    /// The methods of `Poisson` for a Hamiltonian that has no expression.
+    fn by_legendre(&self) -> TokenStream {
+        let system = &self.plan.system;
+        let (of_gradient, gradient) = match system.velocities {
+            None => (" `out = xi`, `l'(xi) = mu`.", quote!(velocity)),
+            Some(_) => (" `out = (xi, -dL/dq)`, `dL/dxi = mu`.", quote!(gradient)),
+        };
+        let energy = system.clock.map(|clock| {
+            let momentum = index(clock.momentum);
+            quote! {
+                #[doc = " `H(t, mu)`, without the momentum of the time."]
+                fn energy(&self, mu: &Self::State) -> S {
+                    let mut mu = ::core::clone::Clone::clone(mu);
+                    mu[#momentum] = S::zero();
+                    self.hamiltonian(&mu)
+                }
+            }
+        });
+        quote! {
+            #[doc = " The system with the velocity of mu as a point of its branch."]
+            fn following(&self, mu: &Self::State) -> ::core::option::Option<Self> {
+                self.on_branch(&::lie_runtime::lagrangian::legendre::follow(self, mu)?)
+            }
+
+            #[doc = " The system with a velocity as a point of its branch."]
+            fn on_branch(&self, velocity: &Self::State) -> ::core::option::Option<Self> {
+                let _branch = ::core::option::Option::Some(velocity.data.0[0]);
+                ::core::option::Option::Some(Self { _branch, ..::core::clone::Clone::clone(self) })
+            }
+
+            #[doc = " `H(mu) = <mu, xi> - l(xi)`, `l'(xi) = mu` by Newton's iteration."]
+            fn hamiltonian(&self, mu: &Self::State) -> S {
+                ::lie_runtime::lagrangian::legendre::hamiltonian(self, mu)
+            }
+
+            #energy
+
+            #[doc = #of_gradient]
+            fn gradient(&self, mu: &Self::State, out: &mut Self::State) {
+                ::lie_runtime::lagrangian::legendre::#gradient(self, mu, out);
+            }
+
+            #[doc = " `out = l''(xi)^-1`, `l'(xi) = mu`."]
+            fn hessian(&self, mu: &Self::State, out: &mut Self::Jacobian) {
+                ::lie_runtime::lagrangian::legendre::hessian(self, mu, out);
+            }
+
+            #[doc = " `out_ij = df_i/dmu_j`"]
+            fn jacobian(&self, mu: &Self::State, out: &mut Self::Jacobian) {
+                ::lie_runtime::generic::jacobian(self, mu, out);
+            }
+        }
     }
 
     /// Whether the velocity of a momentum is found along a path, of which the system remembers a point.
@@ -245,42 +308,6 @@ fn casimir_gradient_by_duals(count: usize) -> TokenStream {
         fn casimir_gradient(&self, index: usize, mu: &Self::State, out: &mut Self::State) {
             let values = &mut [::lie_runtime::Dual::constant_of(S::zero()); #count];
             ::lie_runtime::generic::casimir_gradient_by_duals(self, index, mu, out, values);
-        }
-    }
-}
-
-/// The methods of `Poisson` for a Hamiltonian that has no expression.
-fn by_legendre() -> TokenStream {
-    quote! {
-        #[doc = " The system with the velocity of mu as a point of its branch."]
-        fn following(&self, mu: &Self::State) -> ::core::option::Option<Self> {
-            self.on_branch(&::lie_runtime::lagrangian::legendre::follow(self, mu)?)
-        }
-
-        #[doc = " The system with a velocity as a point of its branch."]
-        fn on_branch(&self, velocity: &Self::State) -> ::core::option::Option<Self> {
-            let _branch = ::core::option::Option::Some(velocity.data.0[0]);
-            ::core::option::Option::Some(Self { _branch, ..::core::clone::Clone::clone(self) })
-        }
-
-        #[doc = " `H(mu) = <mu, xi> - l(xi)`, `l'(xi) = mu` by Newton's iteration."]
-        fn hamiltonian(&self, mu: &Self::State) -> S {
-            ::lie_runtime::lagrangian::legendre::hamiltonian(self, mu)
-        }
-
-        #[doc = " `out = xi`, `l'(xi) = mu`."]
-        fn gradient(&self, mu: &Self::State, out: &mut Self::State) {
-            ::lie_runtime::lagrangian::legendre::velocity(self, mu, out);
-        }
-
-        #[doc = " `out = l''(xi)^-1`, `l'(xi) = mu`."]
-        fn hessian(&self, mu: &Self::State, out: &mut Self::Jacobian) {
-            ::lie_runtime::lagrangian::legendre::hessian(self, mu, out);
-        }
-
-        #[doc = " `out_ij = df_i/dmu_j`"]
-        fn jacobian(&self, mu: &Self::State, out: &mut Self::Jacobian) {
-            ::lie_runtime::generic::jacobian(self, mu, out);
         }
     }
 }

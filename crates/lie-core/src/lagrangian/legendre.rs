@@ -17,6 +17,15 @@
 //! velocity with the momentum: where there is just one, it is found behind folds too. From a branch it does not.
 //! Where it ends, the result is not a number, and the driver refuses the step.
 //!
+//! A Lagrangian `$L(\xi, q)$` may depend on coordinates q beside the momenta, those of the group element and the time
+//! ([`LagrangianPoisson::velocities`]). They are given: with `$L_{\xi}(\xi, q) = \mu$`
+//!
+//! ```math
+//! \nabla H = (\xi, -L_q), \qquad
+//! H'' = \begin{pmatrix} A^{-1} & -A^{-1} B \\ -B^T A^{-1} & B^T A^{-1} B - L_{qq} \end{pmatrix}, \qquad
+//! A = L_{\xi\xi}, \; B = L_{\xi q}
+//! ```
+//!
 //! Over dual numbers the iteration goes on after the values have converged until all derivatives have, which
 //! it doubles in order each time: they are exact to round-off. Nothing is allocated.
 #![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
@@ -35,28 +44,48 @@ const NEAR: f64 = 1024.0;
 /// How much the velocity may differ from that of the branch, relative to its size, before the branch follows.
 const FOLLOW: f64 = 0.125;
 
-/// The velocity of a momentum: `l'(out) = mu`.
+/// The velocity of a momentum: `l'(out) = mu`. Coordinates that are no momenta stay what they are in mu.
 // once for all that ask for it
 #[inline(never)]
 pub fn velocity<S: Scalar, P: LagrangianPoisson<S>>(system: &P, mu: &P::State, out: &mut P::State) {
+    let count = system.velocities();
     let branch = system.branch();
     let from = if branch.is_some() {
         From::Branch
     } else {
         From::Rest
     };
-    match &branch {
-        Some(branch) => out.copy_from(branch),
-        None => out.fill(S::zero()),
+    out.copy_from(mu);
+    for (i, entry) in out.as_mut_slice()[..count].iter_mut().enumerate() {
+        *entry = branch
+            .as_ref()
+            .map_or(S::zero(), |known| known.as_slice()[i]);
     }
     solve(
-        |xi, momentum| system.momentum(xi, momentum),
-        |xi, inertia| system.inertia(xi, inertia),
+        |xi, momentum| {
+            system.momentum(xi, momentum);
+            momentum.as_mut_slice()[count..].copy_from_slice(&xi.as_slice()[count..]);
+        },
+        |xi, inertia| {
+            system.inertia(xi, inertia);
+            given(inertia, count);
+        },
         mu,
         from,
         out,
         &mut system.zero_jacobian(),
     );
+}
+
+/// Leaves the rows from `first` on as those of the identity: of what is given.
+fn given<S: Scalar, M: SquareMatrix<S>>(matrix: &mut M, first: usize) {
+    let size = matrix.dimension();
+    for row in first..size {
+        for column in 0..size {
+            let diagonal = row == column;
+            matrix.set(row, column, if diagonal { S::one() } else { S::zero() });
+        }
+    }
 }
 
 /// The velocity of a momentum, where a branch should go on from it: where it has moved away from that of the branch.
@@ -70,11 +99,13 @@ pub fn follow<S: Scalar, P: LagrangianPoisson<S>>(system: &P, mu: &P::State) -> 
         return None;
     }
     let last = branch.clone().unwrap_or_else(|| system.zero_state());
-    let mut moved = S::zero();
-    for (&here, &before) in xi.as_slice().iter().zip(last.as_slice()) {
+    let (mut moved, mut large) = (S::zero(), S::zero());
+    let pairs = xi.as_slice().iter().zip(last.as_slice());
+    for (&here, &before) in pairs.take(system.velocities()) {
         moved = moved.max((here - before).abs());
+        large = large.max(before.abs());
     }
-    let far = S::from_f64(FOLLOW) * size(&last);
+    let far = S::from_f64(FOLLOW) * large;
     if branch.is_some() && !(known & far.less(moved)).any() {
         return None;
     }
@@ -88,13 +119,33 @@ pub fn hamiltonian<S: Scalar, P: LagrangianPoisson<S>>(system: &P, mu: &P::State
     let mut xi = system.zero_state();
     velocity(system, mu, &mut xi);
     let mut pairing = S::zero();
-    for (&mu, &xi) in mu.as_slice().iter().zip(xi.as_slice()) {
+    let pairs = mu.as_slice().iter().zip(xi.as_slice());
+    for (&mu, &xi) in pairs.take(system.velocities()) {
         pairing += mu * xi;
     }
     pairing - system.lagrangian(&xi)
 }
 
-/// The Hessian `H''(mu) = l''(xi)^-1`.
+/// The gradient of H: the velocity, and by the coordinates that are no momenta `-dL/dq`.
+pub fn gradient<S: Scalar, P: LagrangianPoisson<S>>(system: &P, mu: &P::State, out: &mut P::State) {
+    let count = system.velocities();
+    velocity(system, mu, out);
+    if count == mu.as_slice().len() {
+        return;
+    }
+    let mut slope = system.zero_state();
+    system.momentum(out, &mut slope);
+    for (entry, &slope) in out
+        .as_mut_slice()
+        .iter_mut()
+        .zip(slope.as_slice())
+        .skip(count)
+    {
+        *entry = -slope;
+    }
+}
+
+/// The Hessian `H''(mu) = l''(xi)^-1`, with the blocks of the [module's text](self) where not all coordinates are momenta.
 pub fn hessian<S: Scalar, P: LagrangianPoisson<S>>(
     system: &P,
     mu: &P::State,
@@ -104,7 +155,21 @@ pub fn hessian<S: Scalar, P: LagrangianPoisson<S>>(
     velocity(system, mu, &mut xi);
     let mut inertia = system.zero_jacobian();
     system.inertia(&xi, &mut inertia);
+    let count = system.velocities();
+    let whole = (count < inertia.dimension()).then(|| inertia.clone());
+    given(&mut inertia, count);
     exchanging::invert(&mut inertia, out);
+    let Some(whole) = whole else { return };
+    for row in count..whole.dimension() {
+        for column in 0..count {
+            out.set(row, column, out.get(column, row));
+        }
+        for column in count..whole.dimension() {
+            let products = (0..count).map(|k| whole.get(k, row) * out.get(k, column));
+            let sum = products.fold(whole.get(row, column), |sum, product| sum + product);
+            out.set(row, column, -sum);
+        }
+    }
 }
 
 /// The largest value, derivatives left aside.
@@ -215,131 +280,4 @@ fn largest<S: Scalar, M: SquareMatrix<S>>(matrix: &M) -> S {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::scalar::Dual;
-    use nalgebra::{SMatrix, SVector};
-
-    type V<S> = SVector<S, 1>;
-
-    /// Solves `map(xi) = mu` in one variable.
-    fn root<S: Scalar>(map: fn(S) -> S, slope: fn(S) -> S, mu: S) -> S {
-        let mut xi = V::from([S::zero()]);
-        let mut matrix = SMatrix::<S, 1, 1>::repeat(S::zero());
-        solve(
-            |xi: &V<S>, out: &mut V<S>| out[0] = map(xi[0]),
-            |xi: &V<S>, out: &mut SMatrix<S, 1, 1>| out[(0, 0)] = slope(xi[0]),
-            &V::from([mu]),
-            From::Rest,
-            &mut xi,
-            &mut matrix,
-        );
-        xi[0]
-    }
-
-    /// `l = -sqrt(1 - xi^2)`: `mu = xi/sqrt(1 - xi^2)`, a full step from rest leaves the domain.
-    fn relativistic<S: Scalar>(xi: S) -> S {
-        xi / (S::one() - xi * xi).sqrt()
-    }
-
-    fn relativistic_slope<S: Scalar>(xi: S) -> S {
-        let root = (S::one() - xi * xi).sqrt();
-        S::one() / (root * root * root)
-    }
-
-    fn cubic<S: Scalar>(xi: S) -> S {
-        xi + xi * xi * xi
-    }
-
-    fn cubic_slope<S: Scalar>(xi: S) -> S {
-        S::one() + S::from_f64(3.0) * xi * xi
-    }
-
-    /// `l = xi^2/2 - xi^4/12` has momenta up to 2/3 on the branch through rest, and beyond its folds others.
-    #[test]
-    fn no_velocity_beyond_a_fold() {
-        fn map<S: Scalar>(xi: S) -> S {
-            xi - xi * xi * xi * S::ratio(1.0, 3.0)
-        }
-        fn slope<S: Scalar>(xi: S) -> S {
-            S::one() - xi * xi
-        }
-        for mu in [0.0, 0.3, -0.6] {
-            let xi = root::<f64>(map, slope, mu);
-            assert!(xi.abs() < 1.0 && (map(xi) - mu).abs() < 1e-15, "{mu}: {xi}");
-        }
-        for mu in [0.7, 3.0, -5.0] {
-            assert!(root::<f64>(map, slope, mu).is_nan(), "{mu}");
-        }
-    }
-
-    #[test]
-    fn closed_forms() {
-        for mu in [0.0, 1e-12, 0.3, -1.0, 7.0, 1e3] {
-            let xi = root(relativistic, relativistic_slope, mu);
-            let exact = mu / (1.0 + mu * mu).sqrt();
-            assert!(
-                (xi - exact).abs() <= 4e-16 * exact.abs(),
-                "{mu}: {xi} {exact}"
-            );
-            // sinh(3 arsinh) solves the cubic
-            let xi = root(cubic, cubic_slope, mu);
-            let c = 2.0 / 3.0_f64.sqrt();
-            let exact = c * ((1.5 * 3.0_f64.sqrt() * mu).asinh() / 3.0).sinh();
-            assert!(
-                (xi - exact).abs() <= 1e-15 * exact.abs(),
-                "{mu}: {xi} {exact}"
-            );
-            let single = root(cubic, cubic_slope, mu as f32);
-            assert!(
-                (f64::from(single) - exact).abs() <= 4e-7 * exact.abs(),
-                "{mu}"
-            );
-        }
-    }
-
-    /// `xi = mu/sqrt(1 + mu^2)` has the derivatives `r^-3`, `-3 mu r^-5`, `(12 mu^2 - 3) r^-7`.
-    #[test]
-    fn derivatives_are_exact() {
-        let mu = 0.75_f64;
-        let nested = Dual::new(
-            Dual::new(Dual::variable(mu), Dual::one()),
-            Dual::new(Dual::one(), Dual::zero()),
-        );
-        let xi = root(relativistic, relativistic_slope, nested);
-        let r = (1.0 + mu * mu).sqrt();
-        let first = xi.value.value.derivative;
-        assert!((first - r.powi(-3)).abs() < 1e-15);
-        let second = xi.value.derivative.derivative;
-        assert!((second + 3.0 * mu * r.powi(-5)).abs() < 4e-15);
-        let third = xi.derivative.derivative.derivative;
-        assert!((third - (12.0 * mu * mu - 3.0) * r.powi(-7)).abs() < 4e-14);
-    }
-
-    #[test]
-    fn what_has_no_velocity_is_not_a_number() {
-        // l = log cosh xi: |mu| < 1
-        let map = |xi: f64| xi.tanh();
-        let slope = |xi: f64| 1.0 - xi.tanh().powi(2);
-        assert!((root(map, slope, 0.5) - 0.5_f64.atanh()).abs() < 1e-15);
-        assert!(root(map, slope, 1.5).is_nan());
-        assert!(root(map, slope, f64::NAN).is_nan());
-        // singular at rest
-        assert!(!root(|xi: f64| xi.powi(3), |xi| 3.0 * xi * xi, 1.0).is_finite());
-    }
-
-    #[cfg(feature = "lanes")]
-    #[test]
-    fn a_lane_has_the_bits_of_a_run_of_its_own() {
-        use crate::scalar::F64x4;
-        let values = [0.3, 2000.0, -5.0, 1e-9];
-        let mut mu = F64x4::zero();
-        for (lane, value) in values.into_iter().enumerate() {
-            mu = mu.with_lane(lane, value);
-        }
-        let xi = root(relativistic, relativistic_slope, mu);
-        for (lane, value) in values.into_iter().enumerate() {
-            assert_eq!(xi.lane(lane), root(relativistic, relativistic_slope, value));
-        }
-    }
-}
+mod tests;

@@ -35,6 +35,10 @@ use crate::scalar::Scalar;
 /// Its Hamiltonian is the Legendre transform of l, so that `grad H(l'(xi)) = xi`. The velocity xi is passed as a
 /// state: its coordinates in the basis `e_i`.
 ///
+/// Of a Lagrangian `L(g, xi, t)` that is not quadratic in xi a state has the entries of the group element and the time
+/// behind the momenta. The velocity comes first there too, [`velocities`](Self::velocities) components of it, and what is passed
+/// as xi is the state with the velocity in place of the momenta. The derivatives are by all of its coordinates.
+///
 /// Generated for every system with `lagrangian = …;`. By hand: implement it beside
 /// [`Poisson`](crate::Poisson), whose H, gradient and Hessian can come from [`legendre`].
 #[diagnostic::on_unimplemented(
@@ -49,7 +53,14 @@ pub trait LagrangianPoisson<S: Scalar>: LiePoisson<S> {
     /// The inertia `out = l''(xi)`: `out_ij = d^2l/dxi^i dxi^j`.
     fn inertia(&self, xi: &Self::State, out: &mut Self::Jacobian);
 
-    /// The velocity of a momentum, `l'(out) = mu`; not finite where there is none. It is the gradient of H.
+    /// How many of the coordinates are momenta, which come first and have a velocity each: all, unless the Lagrangian
+    /// depends on the group element or the time.
+    fn velocities(&self) -> usize {
+        self.dimension()
+    }
+
+    /// The velocity of a momentum, `l'(out) = mu`; not finite where there is none. It is the gradient of H, where all
+    /// coordinates are momenta.
     fn velocity(&self, mu: &Self::State, out: &mut Self::State) {
         self.gradient(mu, out);
     }

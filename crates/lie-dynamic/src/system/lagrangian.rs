@@ -6,7 +6,7 @@ use crate::system::Dynamic;
 use crate::system::answers::require;
 use lie_codegen::plan::Energy;
 use lie_core::family::LateMatrix;
-use lie_runtime::{DiscreteLagrangianPoisson, LagrangianPoisson, Scalar};
+use lie_runtime::{DiscreteLagrangianPoisson, LagrangianPoisson, Poisson, Scalar};
 
 impl<S: Scalar> Dynamic<S> {
     /// Whether H is a Legendre transform by Newton's iteration.
@@ -36,6 +36,10 @@ impl<S: Scalar> LagrangianPoisson<S> for Dynamic<S> {
     fn inertia(&self, xi: &Vec<S>, out: &mut LateMatrix<S>) {
         let [.., code] = self.values.kernels().lagrangian;
         self.values.matrix(require(code), [xi, &[]], out);
+    }
+    fn velocities(&self) -> usize {
+        let dimension = Poisson::<S>::dimension(self);
+        self.plan().system.velocities.unwrap_or(dimension)
     }
     fn branch(&self) -> Option<Vec<S>> {
         self.branch.clone()

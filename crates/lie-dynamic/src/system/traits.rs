@@ -103,7 +103,14 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
     fn energy(&self, mu: &Vec<S>) -> S {
         by_loops!(self.energy(mu));
         let Some(energy) = self.values.kernels().energy else {
-            return self.hamiltonian(mu);
+            return match self.clock().filter(|_| self.is_by_legendre()) {
+                Some(clock) => {
+                    let mut mu = mu.clone();
+                    mu[clock.momentum] = S::zero();
+                    self.hamiltonian(&mu)
+                }
+                None => self.hamiltonian(mu),
+            };
         };
         self.values.number(energy, [mu, &[]])
     }
@@ -111,7 +118,7 @@ impl<S: Scalar> Poisson<S> for Dynamic<S> {
         by_loops!(self.gradient(mu, out));
         match self.values.kernels().gradient {
             Some(code) => self.values.call(code, [mu, &[]], out, &mut []),
-            None if S::LOOPS => legendre::velocity(self, mu, out),
+            None if S::LOOPS => legendre::gradient(self, mu, out),
             None => without_loops(),
         }
     }

@@ -173,7 +173,7 @@ fn others_are_left_to_newtons_iteration() {
         };
         let found = super::super::velocity::velocity(
             &mut model.graph.clone(),
-            lagrangian.value,
+            lagrangian,
             &mu,
             &model.defaults(),
         );

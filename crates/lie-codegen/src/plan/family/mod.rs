@@ -378,6 +378,7 @@ impl Planner<'_> {
                 exponential: Vec::new(),
                 triple: None,
                 lagrangian: Vec::new(),
+                velocities: None,
                 discrete: Vec::new(),
             },
             structure: super::Structure::default(),
