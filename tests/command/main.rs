@@ -54,6 +54,8 @@ mod resume_refused;
 mod retractions;
 mod run;
 mod signs;
+#[cfg(unix)]
+mod stop;
 mod stress;
 mod time;
 mod units;

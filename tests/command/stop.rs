@@ -1,16 +1,11 @@
 //! Ends of `lie run` that nobody planned: signals, a kill, a reader that goes away, a disk that is full.
-#![cfg(unix)]
-
-mod common;
-#[path = "common/process.rs"]
-mod process;
 
 use std::io::Read as _;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 
-use common::{Run, command, csv, folder};
-use process::{Terminal, ended, signal, wait, wait_for_bytes};
+use crate::common::{Run, command, csv, folder};
+use crate::process::{Terminal, ended, signal, wait, wait_for_bytes};
 
 /// A run of months.
 const LONG: &str = "run specs/so3_free_rigid_body.json --method midpoint --step 0.001 --until 1e9";
@@ -20,7 +15,7 @@ const LONG: &str = "run specs/so3_free_rigid_body.json --method midpoint --step 
 fn start(out: &Path, flags: &str, bytes: u64) -> Child {
     let call = format!("{LONG} {flags} --out {}", out.display());
     let mut command = command(call.split_whitespace());
-    let child = process::start(command.stderr(Stdio::piped()));
+    let child = crate::process::start(command.stderr(Stdio::piped()));
     wait_for_bytes(out, bytes);
     child
 }
@@ -31,7 +26,7 @@ fn shell(script: &str, out: &Path) -> Command {
     shell
         .args(["-c", script, env!("CARGO_BIN_EXE_lie")])
         .arg(out)
-        .env("LIE_CACHE_DIR", common::cache())
+        .env("LIE_CACHE_DIR", crate::common::cache())
         .current_dir(env!("CARGO_MANIFEST_DIR"));
     shell
 }
@@ -187,7 +182,7 @@ fn a_run_that_shall_outlive_its_terminal_does() {
     let folder = folder();
     let out = folder.path().join("rows.csv");
     let script = format!("trap '' HUP; exec \"$0\" {LONG} --out \"$1\"");
-    let child = process::start(shell(&script, &out).stderr(Stdio::null()));
+    let child = crate::process::start(shell(&script, &out).stderr(Stdio::null()));
     wait_for_bytes(&out, 10_000);
     signal(child.id(), "-HUP");
     let length = std::fs::metadata(&out).expect("the rows").len();
@@ -200,7 +195,7 @@ fn a_run_that_shall_outlive_its_terminal_does() {
 fn limited(out: &Path, units: u32) -> Run {
     let script = format!("ulimit -f {units}; exec \"$0\" {LONG} --quiet --out \"$1\"");
     let mut shell = shell(&script, out);
-    ended(process::start(shell.stderr(Stdio::piped())))
+    ended(crate::process::start(shell.stderr(Stdio::piped())))
 }
 
 #[test]
@@ -260,7 +255,7 @@ fn measuring_programs_end_with_the_command() {
     ] {
         for (name, code) in [("-TERM", Some(143)), ("-HUP", Some(129)), ("-KILL", None)] {
             let mut command = command(call.split_whitespace());
-            let child = process::start(command.stdout(Stdio::null()).stderr(Stdio::null()));
+            let child = crate::process::start(command.stdout(Stdio::null()).stderr(Stdio::null()));
             wait("program", || programs(child.id()).len() == 1);
             let programs = programs(child.id());
             // `verify` is done soon: it waits until the signal is there
@@ -385,7 +380,7 @@ fn what_does_not_end_is_left_behind() {
 fn a_signal_ends_the_build() {
     use std::os::unix::fs::PermissionsExt as _;
     let folder = folder();
-    let spec = common::spec(folder.path(), |spec| spec["name"] = "Slow".into());
+    let spec = crate::common::spec(folder.path(), |spec| spec["name"] = "Slow".into());
     let cargo = folder.path().join("cargo");
     std::fs::write(&cargo, "#!/bin/sh\nsleep 1000 &\nwait\n").expect("the script is written");
     let mode = std::fs::Permissions::from_mode(0o755);
@@ -402,7 +397,7 @@ fn a_signal_ends_the_build() {
     command
         .env("CARGO", &cargo)
         .env("LIE_CACHE_DIR", folder.path().join("cache"));
-    let child = process::start(command.stderr(Stdio::null()));
+    let child = crate::process::start(command.stderr(Stdio::null()));
     let of_cargo = || -> Vec<String> {
         let ids = children(child.id())
             .into_iter()
@@ -424,7 +419,7 @@ fn a_signal_ends_the_build() {
 #[test]
 fn a_reader_that_goes_away_ends_the_run_quietly() {
     let mut command = command(LONG.split(' '));
-    let mut child = process::start(command.stdout(Stdio::piped()).stderr(Stdio::piped()));
+    let mut child = crate::process::start(command.stdout(Stdio::piped()).stderr(Stdio::piped()));
     let mut first = [0; 100];
     let mut stdout = child.stdout.take().expect("a pipe");
     stdout.read_exact(&mut first).expect("some rows");
