@@ -81,12 +81,27 @@ fn compare<P: LiePoisson<f64, State = Vec<f64>>>(
         given.map_or(known.default_value, |(_, value)| *value)
     });
     let values: Vec<f64> = values.collect();
+    let n = printed.dimension();
+    let plan = plan(&model, &[]);
+    let mut random = Random(7);
+    let states: Vec<_> = (0..5)
+        .map(|_| [random.numbers(n), random.numbers(n)])
+        .collect();
+    let of_printed: Vec<_> = states
+        .iter()
+        .map(|states| [kernels(printed, &states[1]), brackets(printed, states)])
+        .collect();
+    let start = Dynamic::new(plan.clone(), &values, &Interpreted).unwrap();
+    let start = start.initial_state().unwrap_or_else(|| random.numbers(n));
+    let runs: Vec<_> = methods
+        .iter()
+        .map(|(_, method)| trajectory(printed, method.as_ref(), &start).unwrap())
+        .collect();
     let mut differences = Differences::default();
     let machine_code: Vec<JitWith> = Registers::ALL.into_iter().filter_map(Jit::with).collect();
     let machine_code = machine_code.iter().map(|engine| engine as &dyn Engine);
     for engine in machine_code.chain([&Interpreted as &dyn Engine, &Wasmi]) {
-        let made = Dynamic::new(plan(&model, &[]), &values, engine).unwrap();
-        let n = printed.dimension();
+        let made = Dynamic::new(plan.clone(), &values, engine).unwrap();
         assert_eq!(
             (made.dimension(), made.has_jacobian()),
             (n, printed.has_jacobian())
@@ -98,26 +113,17 @@ fn compare<P: LiePoisson<f64, State = Vec<f64>>>(
             )
         };
         assert!((0..n).map(names).all(|(printed, made)| printed == made));
-        let mut random = Random(7);
-        for _ in 0..5 {
-            let states = [random.numbers(n), random.numbers(n)];
-            let printed = [kernels(printed, &states[1]), brackets(printed, &states)];
-            let made = [kernels(&made, &states[1]), brackets(&made, &states)];
+        for (states, printed) in states.iter().zip(&of_printed) {
+            let made = [kernels(&made, &states[1]), brackets(&made, states)];
             for ((name, printed), (_, made)) in printed.iter().flatten().zip(made.iter().flatten())
             {
                 differences.compare(&format!("{spec} {name} {}", engine.name()), printed, made);
             }
         }
-        let start = made.initial_state().unwrap_or_else(|| random.numbers(n));
-        for (label, of_printed) in methods {
+        for ((label, _), printed) in methods.iter().zip(&runs) {
             let of_made = method(&Choice::from_id(label).unwrap(), Default::default());
-            let printed = trajectory(printed, of_printed.as_ref(), &start).unwrap();
             let made = trajectory(&made, of_made.as_ref(), &start).unwrap();
-            differences.compare(
-                &format!("{spec} {label} {}", engine.name()),
-                &printed,
-                &made,
-            );
+            differences.compare(&format!("{spec} {label} {}", engine.name()), printed, &made);
         }
     }
     assert!(differences.0.is_empty(), "{}", differences.0.join("\n"));

@@ -7,7 +7,7 @@ use crate::random::Random;
 use crate::wasmi_engine::Wasmi;
 use lie_codegen::compile::{compile_spec, with_options};
 use lie_codegen::methods::{Choice, Lift, Retraction, Tensor};
-use lie_codegen::plan::plan;
+use lie_codegen::plan::{Plan, plan};
 use lie_dynamic::{Dynamic, Engine, Interpreted, method};
 use lie_jit::{Jit, JitWith, Registers};
 use lie_runtime::methods as m;
@@ -60,12 +60,17 @@ fn machine_code() -> Vec<JitWith> {
     all.filter_map(Jit::with).collect()
 }
 
-/// A spec as a system made at run time, by an engine.
-fn made(spec: &str, ids: &[&str], engine: &dyn Engine) -> Dynamic<f64> {
+/// The plan of a spec with these methods.
+fn planned(spec: &str, ids: &[&str]) -> Plan {
     let text = std::fs::read_to_string(format!("{}/{spec}", env!("CARGO_MANIFEST_DIR"))).unwrap();
     let model = compile_spec(&text).unwrap();
     let choices: Vec<Choice> = ids.iter().map(|id| Choice::from_id(id).unwrap()).collect();
-    Dynamic::new(plan(&model, &with_options(&model, &choices)), &[], engine).unwrap()
+    plan(&model, &with_options(&model, &choices))
+}
+
+/// A plan as a system made at run time, by an engine.
+fn made(plan: &Plan, engine: &dyn Engine) -> Dynamic<f64> {
+    Dynamic::new(plan.clone(), &[], engine).unwrap()
 }
 
 /// The initial state of a spec.
@@ -196,10 +201,13 @@ macro_rules! compare {
         let spec = $spec;
         let machine_code = machine_code();
         let machine_code = machine_code.iter().map(|engine| engine as &dyn Engine);
-        for engine in machine_code.chain([&Interpreted as &dyn Engine, &Wasmi, &CPython]) {
-            let made = made(spec, &spec_systems::methods::METHODS, engine);
-            let start: Vec<f64> = $system::new().initial_state().as_slice().to_vec();
-            let name = |what: &str| format!("{spec} {} {what}", engine.name());
+        let engines: Vec<&dyn Engine> =
+            machine_code.chain([&Interpreted as &dyn Engine, &Wasmi, &CPython]).collect();
+        let plan = planned(spec, &spec_systems::methods::METHODS);
+        let start: Vec<f64> = $system::new().initial_state().as_slice().to_vec();
+        let systems: Vec<_> = engines.iter().map(|engine| (engine.name(), made(&plan, *engine))).collect();
+        for (engine, made) in &systems {
+            let name = |what: &str| format!("{spec} {engine} {what}");
             let mut random = Random(2018);
             for _ in 0..STATES {
                 let near = |random: &mut Random| -> Vec<f64> {
@@ -207,28 +215,30 @@ macro_rules! compare {
                     start.iter().zip(shifts).map(|(x, shift)| x + 0.5 * shift).collect()
                 };
                 let mu = near(&mut random);
-                for ((what, a), (_, b)) in kernels(&printed, &mu).iter().zip(kernels(&made, &mu)) {
+                for ((what, a), (_, b)) in kernels(&printed, &mu).iter().zip(kernels(made, &mu)) {
                     $differences.compare(&name(what), a, &b);
                 }
                 $(
                     let xi = near(&mut random);
                     let pairs = $algebra(&printed, &xi, &mu);
-                    for ((what, a), (_, b)) in pairs.iter().zip($algebra(&made, &xi, &mu)) {
+                    for ((what, a), (_, b)) in pairs.iter().zip($algebra(made, &xi, &mu)) {
                         $differences.compare(&name(what), a, &b);
                     }
                 )?
             }
-            $({
-                let choice = choice_of($id);
-                let steps = trajectory(&printed, &$method, &start);
-                let method = method(&choice, Default::default());
-                let made = trajectory(&made, method.as_ref(), &start);
-                match (steps, made) {
-                    (Ok(printed), Ok(made)) => $differences.compare(&name($id), &printed, &made),
-                    (printed, made) => $differences.0.push(format!("{} {printed:?} {made:?}", name($id))),
-                }
-            })*
         }
+        $({
+            let choice = choice_of($id);
+            let steps = trajectory(&printed, &$method, &start);
+            let method = method(&choice, Default::default());
+            for (engine, made) in &systems {
+                let name = format!("{spec} {engine} {}", $id);
+                match (&steps, trajectory(made, method.as_ref(), &start)) {
+                    (Ok(printed), Ok(made)) => $differences.compare(&name, printed, &made),
+                    (printed, made) => $differences.0.push(format!("{name} {printed:?} {made:?}")),
+                }
+            }
+        })*
     }};
 }
 
@@ -370,10 +380,11 @@ fn flows_over_a_unitary_representation() {
     let mut differences = Differences::default();
     let (printed, start) = (Threefold::new().system().unwrap(), start_of(SPEC));
     let expected = trajectory(&printed, &m::Collective16::unitary(), &start).unwrap();
+    let plan = planned(SPEC, &["collective16"]);
     let machine_code = machine_code();
     let machine_code = machine_code.iter().map(|engine| engine as &dyn Engine);
     for engine in machine_code.chain([&Interpreted as &dyn Engine, &Wasmi, &CPython]) {
-        let system = made(SPEC, &["collective16"], engine);
+        let system = made(&plan, engine);
         for lift in [Lift::Unitary, Lift::Smallest] {
             let method = method(&Choice::Collective(16, lift), Default::default());
             let found = trajectory(&system, method.as_ref(), &start).unwrap();
@@ -390,9 +401,10 @@ fn flows_over_a_unitary_representation() {
 fn unknowns_left_out_of_long_eliminations() {
     let spec = "specs/so3_cotangent_euler_arnold.json";
     let id = "generating-second-kind2";
+    let plan = planned(spec, &[id]);
     let method = method(&Choice::from_id(id).unwrap(), Default::default());
     for engine in [&Interpreted as &dyn Engine, &Jit] {
-        let system = made(spec, &[id], engine);
+        let system = made(&plan, engine);
         let mut mu = start_of(spec);
         let mut stepper = method.any_stepper(&system, STEP, &NewtonOptions::newton());
         for step in 0..200 {
