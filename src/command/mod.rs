@@ -6,6 +6,7 @@ mod canonical;
 mod check;
 mod ensemble;
 mod equilibria;
+mod events;
 mod expand;
 mod exponents;
 pub mod files;

@@ -1,14 +1,13 @@
-//! `--events`: the events of runs as a table.
+//! The events of runs: their table, and what the summary says of them.
 
-use std::fmt::Write as _;
 use std::path::Path;
 
 use lie_codegen::structure::Structure;
 use lie_in_process::words::counted;
 use lie_program::protocol::Event;
 
-use super::outputs;
 use crate::command::args;
+use crate::command::events::{Columns, open};
 use crate::command::files::{Inputs, unwritable};
 use crate::message::{Failure, Message};
 use crate::output::Destination;
@@ -16,18 +15,15 @@ use crate::output::Destination;
 /// The table on its way to its file.
 pub struct Table {
     destination: Destination,
+    columns: Columns,
     text: String,
-    /// The coordinates that are shown.
-    shown: Vec<usize>,
-    /// Whether rows begin with the number of their run.
-    several: bool,
 }
 
 impl Table {
     /// Opens what the flag names.
     ///
     /// # Errors
-    /// `option` where no events are declared, or for a file that is another one; `io`.
+    /// As of [`open`]; `option` for a file of the rows or of the picture.
     pub fn open(
         flags: &args::Run,
         model: &Structure,
@@ -37,13 +33,6 @@ impl Table {
         let Some(path) = flags.events.as_deref() else {
             return Ok(None);
         };
-        if model.events.is_empty() {
-            let text = format!("{} declares no events", model.name);
-            let help =
-                "declare them in the spec, such as \"events\": { \"down\": { \"when\": \"z\" } }";
-            return Err(Message::option("--events", text).help(help).into());
-        }
-        outputs::table("--events", Some(path))?;
         let beside = [flags.out.as_deref(), flags.plot.as_deref()];
         if beside.contains(&Some(path)) {
             let text = "events cannot go to the file of the rows or of the picture";
@@ -51,33 +40,18 @@ impl Table {
                 .help("give another file")
                 .into());
         }
-        let destination = inputs.open("--events", path)?;
-        let shown = model.shown_coordinates();
-        let names = shown
-            .iter()
-            .map(|&place| model.coordinates[place].text.as_str());
-        let names: Vec<&str> = names.collect();
-        let run = if several { "run," } else { "" };
+        let destination = open(path, model, inputs)?;
+        let columns = Columns::new(model, several.then_some("run"));
         Ok(Some(Self {
             destination,
-            text: format!("{run}event,t,{}\n", names.join(",")),
-            shown,
-            several,
+            text: columns.header(),
+            columns,
         }))
     }
 
     /// Adds the events of a run.
     pub fn add(&mut self, number: usize, events: &[Event]) {
-        for event in events {
-            if self.several {
-                let _ = write!(self.text, "{number},");
-            }
-            let _ = write!(self.text, "{},{:?}", event.name, event.time);
-            for &place in &self.shown {
-                let _ = write!(self.text, ",{:?}", event.state[place]);
-            }
-            self.text.push('\n');
-        }
+        self.columns.add(&mut self.text, number, events);
     }
 
     /// Writes it.
