@@ -7,12 +7,12 @@ use crate::progress::Progress;
 use crate::talk::{Outcome, Who, converse};
 use lie_codegen::structure::Structure;
 use lie_in_process::draw::{Draw, Spread, keeps_norm};
-use lie_in_process::ensemble::{Cast, Ensemble};
+use lie_in_process::ensemble::{self, Cast, Ensemble};
 use lie_in_process::members::Member;
 use lie_in_process::memory::{self, Exceeded};
 use lie_in_process::report::signs;
 use lie_in_process::request::{Request, plan};
-use lie_program::protocol::{End, Obstacle, Start};
+use lie_program::protocol::{End, Event, Obstacle, Start};
 use lie_runtime::driver::Pace;
 use lie_runtime::lattice::count;
 use numpy::{
@@ -26,40 +26,94 @@ use std::io;
 /// A member that ended early: its number, the time, why.
 pub type Failed = (usize, f64, String);
 
-/// What all members gave: the times, the states member after member and row after row, what failed in order. Rows to which a
-/// member did not come are not numbers.
+/// What all members gave: the states member after member and row after row, and what failed in order. Rows to which a member did not
+/// come are not numbers.
 struct Found {
-    times: Vec<f64>,
     states: Vec<f64>,
     failures: Vec<Failed>,
+    stops: Stops,
+    events: Events,
 }
 
-fn collected(width: usize, members: Vec<Member>) -> io::Result<Found> {
-    let longest = members.iter().map(|member| &member.times);
-    let times = longest.max_by_key(|times| times.len());
-    let times = times.cloned().unwrap_or_default();
+/// Of each member the event that ended it, -1 where none did, and when.
+#[derive(Default)]
+struct Stops {
+    events: Vec<i64>,
+    times: Vec<f64>,
+}
+
+/// Events of members: of which, which of the declared ones, when, and the states there.
+#[derive(Default)]
+struct Events {
+    members: Vec<i64>,
+    events: Vec<i64>,
+    times: Vec<f64>,
+    states: Vec<f64>,
+}
+
+impl Events {
+    fn add(&mut self, member: usize, own: Vec<Event>, names: &[String]) {
+        for event in own {
+            let place = names.iter().position(|name| *name == event.name);
+            self.members.push(member as i64);
+            self.events.push(place.map_or(-1, |place| place as i64));
+            self.times.push(event.time);
+            self.states.extend(event.state);
+        }
+    }
+
+    fn arrays<'py>(self, py: Python<'py>, width: usize) -> PyResult<Occurrences<'py>> {
+        let shape = [self.times.len(), width];
+        Ok((
+            self.members.into_pyarray(py),
+            self.events.into_pyarray(py),
+            self.times.into_pyarray(py),
+            self.states.into_pyarray(py).reshape(shape)?,
+        ))
+    }
+}
+
+fn collected(size: usize, members: Vec<Member>, names: &[String]) -> io::Result<Found> {
     let mut states = Vec::new();
-    memory::reserve(&mut states, members.len() * times.len() * width)?;
+    memory::reserve(&mut states, members.len() * size)?;
     let mut failures = Vec::new();
+    let (mut stops, mut events) = (Stops::default(), Events::default());
     for (index, member) in members.into_iter().enumerate() {
-        let missing = width * times.len() - member.states.len();
+        let missing = size - member.states.len();
         states.extend(member.states);
         states.extend(std::iter::repeat_n(f64::NAN, missing));
         failures.extend(member.failed.map(|(time, why)| (index, time, why)));
+        let stop = member.stopped;
+        stops.events.push(stop.map_or(-1, |stop| stop.event as i64));
+        stops.times.push(stop.map_or(f64::NAN, |stop| stop.time));
+        events.add(index, member.events, names);
     }
     Ok(Found {
-        times,
         states,
         failures,
+        stops,
+        events,
     })
 }
 
-/// The times, the states of members by rows, why some ended early, and what is to be noted of their starts.
+/// Members, events by their places in the declaration, times, states.
+type Occurrences<'py> = (
+    Bound<'py, PyArray1<i64>>,
+    Bound<'py, PyArray1<i64>>,
+    Bound<'py, PyArray1<f64>>,
+    Bound<'py, PyArray2<f64>>,
+);
+
+/// The times, the states of members by rows, why some ended early, what is to be noted of their starts, which event ended
+/// each (-1 where none did) and when, and all events where they are kept.
 pub type Saved<'py> = (
     Bound<'py, PyArray1<f64>>,
     Bound<'py, PyArray3<f64>>,
     Vec<Failed>,
     Option<String>,
+    Bound<'py, PyArray1<i64>>,
+    Bound<'py, PyArray1<f64>>,
+    Occurrences<'py>,
 );
 
 /// Many trajectories, from the rows of an array.
@@ -68,7 +122,7 @@ pub fn ensemble<'py>(
     declaration: &Declaration,
     parameters: &PyReadonlyArray2<'py, f64>,
     starts: &PyReadonlyArray2<'py, f64>,
-    (request, threads): (&Request, usize),
+    (request, (threads, events)): (&Request, (usize, bool)),
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Saved<'py>> {
     let plan = arguments::checked(py, declaration, request, plan)?;
@@ -82,9 +136,10 @@ pub fn ensemble<'py>(
         let rows = array.as_array();
         rows.rows().into_iter().map(|row| row.to_vec()).collect()
     };
+    let ends = request.every.is_none() && request.at.is_none();
     let ensemble = Ensemble {
         plan,
-        ends: request.every.is_none() && request.at.is_none(),
+        ends,
         cast: Cast {
             parameters: rows(parameters),
             starts: rows(starts),
@@ -92,8 +147,10 @@ pub fn ensemble<'py>(
         },
         some: 0..starts.shape()[0],
         threads,
+        events,
     };
     ensemble.fits().map_err(|error| of_system(error.into()))?;
+    let times = ensemble::times(&ensemble.plan, ends);
     let note = declaration.with_model(py, |model| note(model, &ensemble));
     let mut members: Vec<Member> = Vec::new();
     let progress = Progress::new("members", progress);
@@ -126,7 +183,8 @@ pub fn ensemble<'py>(
         }
     }
     let length = starts.shape()[1];
-    let found = collected(length, members).map_err(of_system)?;
+    let names = &declaration.facts.events;
+    let found = collected(times.len() * length, members, names).map_err(of_system)?;
     // of a family the coordinates of its sites, which are first
     let parameters = parameters.as_array();
     let first = parameters.rows().into_iter().next().map(|row| row.to_vec());
@@ -139,9 +197,17 @@ pub fn ensemble<'py>(
         let rows = states.chunks_exact(length);
         states = rows.flat_map(|row| &row[..width]).copied().collect();
     }
-    let shape = [starts.shape()[0], found.times.len(), width];
+    let shape = [starts.shape()[0], times.len(), width];
     let states = states.into_pyarray(py).reshape(shape)?;
-    Ok((found.times.into_pyarray(py), states, found.failures, note))
+    Ok((
+        times.into_pyarray(py),
+        states,
+        found.failures,
+        note,
+        found.stops.events.into_pyarray(py),
+        found.stops.times.into_pyarray(py),
+        found.events.arrays(py, length)?,
+    ))
 }
 
 /// What is to be noted of the starts.

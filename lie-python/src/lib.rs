@@ -340,17 +340,17 @@ impl Core {
         })
     }
 
-    /// Many trajectories: the times, the states of members by rows, and why some ended early: member, time, reason.
+    /// Many trajectories, on so many threads, with their events or without: see [`batch::Saved`].
     fn ensemble<'py>(
         &self,
         py: Python<'py>,
         parameters: PyReadonlyArray2<'py, f64>,
         starts: PyReadonlyArray2<'py, f64>,
         asked: &Bound<'py, PyDict>,
-        threads: usize,
+        options: (usize, bool),
         progress: Option<Py<PyAny>>,
     ) -> PyResult<batch::Saved<'py>> {
-        let asked = (&arguments::request(&self.0, asked)?, threads);
+        let asked = (&arguments::request(&self.0, asked)?, options);
         batch::ensemble(py, &self.0, &parameters, &starts, asked, progress)
     }
 

@@ -79,3 +79,52 @@ def test_events_have_times_and_states() -> None:
     )
     times = found.t_events[0]
     assert np.allclose(times[times > 1e-9], low.t, atol=1e-8)
+
+
+def test_events_of_members_have_times_and_states() -> None:
+    # whatever the moments of inertia, the norm falls as exp(-k t)
+    keys: dict[str, Any] = {
+        "algebra": "so(3)",
+        "state": ["x", "y", "z"],
+        "parameters": {"k": 0.3},
+        "hamiltonian": "x^2/2 + y^2/3 + z^2",
+        "forces": {"x": "-k*x", "y": "-k*y", "z": "-k*z"},
+    }
+    events = {
+        "low": {"when": "x^2 + y^2 + z^2 - 1/4", "direction": -1, "stop": True},
+        "turn": {"when": "y"},
+    }
+    system = lp.System({**keys, "events": events})
+    norms = 0.6 + 0.05 * np.arange(20)
+    starts = norms[:, None] * np.array([2, 3, 6]) / 7
+    expected = np.log(norms / 0.5) / 0.3
+    ends = system.ensemble(starts, "gauss12", h=0.1, t=3)
+    early = expected < 3
+    assert 4 < early.sum() < 17 and ends.t.tolist() == [3.0] and ends.events == {}
+    assert np.array_equal(ends.stopped, np.where(early, "low", ""))
+    assert np.allclose(ends.stop_times[early], expected[early], rtol=0, atol=1e-12)
+    assert np.isnan(ends.stop_times[~early]).all()
+    assert np.allclose((ends.mu[early] ** 2).sum(axis=1), 0.25, atol=1e-13)
+    assert f"{early.sum()} ended by events" in repr(ends)
+    # all rows that were asked for, whoever came to them, and every event of each member
+    rows = system.ensemble(starts, "gauss12", h=0.1, t=3, every=1, events=True)
+    assert rows.mu.shape == (20, 31, 3)
+    assert np.array_equal(np.isnan(rows.mu[:, -1, 0]), early)
+    low, turn = rows.events["low"], rows.events["turn"]
+    assert np.array_equal(low.member, np.flatnonzero(early))
+    assert np.array_equal(low.t, ends.stop_times[early])
+    assert np.array_equal(low.mu, ends.mu[early])
+    assert np.all(np.diff(turn.member) >= 0) and np.abs(turn.mu[:, 1]).max() < 1e-13
+    for member in (0, 19):
+        alone = system.run("gauss12", h=0.1, t=3, x0=starts[member]).events["turn"]
+        own = turn.member == member
+        assert np.array_equal(turn.t[own], alone.t) and np.array_equal(turn.mu[own], alone.mu)
+    again = pickle.loads(pickle.dumps(rows))
+    assert np.array_equal(again.stopped, rows.stopped)
+    # where all are ended, there are as many rows as before
+    rows = system.ensemble(starts[:3], "gauss12", h=0.1, t=3, every=1)
+    assert rows.mu.shape == (3, 31, 3) and np.isnan(rows.mu[:, -1]).all()
+    plain = lp.System(keys).ensemble(starts, "gauss12", h=0.1, t=3)
+    assert set(plain.stopped) == {""} and np.isnan(plain.stop_times).all()
+    with pytest.raises(ValueError, match="declares no events"):
+        lp.System(keys).ensemble(starts, "gauss12", h=0.1, t=3, events=True)

@@ -41,7 +41,14 @@ def processes(workers: int) -> ProcessPoolExecutor:
 
 def same(one: lp.Ensemble, other: lp.Ensemble) -> bool:
     bits = np.array_equal(one.mu, other.mu, equal_nan=True) and np.array_equal(one.t, other.t)
-    return bits and one.failures == other.failures
+    ended = np.array_equal(one.stop_times, other.stop_times, equal_nan=True)
+    ended = ended and np.array_equal(one.stopped, other.stopped)
+    events = one.events.keys() == other.events.keys() and all(
+        np.array_equal(mine, its)
+        for name in one.events
+        for mine, its in zip(one.events[name], other.events[name])
+    )
+    return bool(bits and one.failures == other.failures and ended and events)
 
 
 def die(_: object) -> None:
@@ -117,6 +124,32 @@ def test_a_killed_worker_is_named_and_the_same_call_goes_on(
         assert pool.members == 300
 
 
+@pytest.mark.parametrize("rows", [{}, {"every": 10}])
+def test_events_do_not_depend_on_workers_and_shares(
+    rows: dict[str, Any], tmp_path: pathlib.Path
+) -> None:
+    events = {"fall": {"when": "x", "direction": -1, "stop": True}, "turn": {"when": "y"}}
+    system = lp.System(
+        algebra="so(3)",
+        state=["x", "y", "z"],
+        hamiltonian="x^2/2 + y^2/4 + z^2/6",
+        events=events,
+    )
+    call: dict[str, Any] = {"method": "gauss8", "h": 0.1, "t": 4, "events": True, **rows}
+    expected = system.ensemble(STARTS, **call)
+    assert 20 < np.count_nonzero(expected.stopped == "fall") < 280
+    for folder in [None, tmp_path]:
+        with processes(2) as workers:
+            found = system.ensemble(STARTS, **call, executor=workers, shares=7, folder=folder)
+        assert same(found, expected)
+    # from the disk alone
+    with Counting(1) as none:
+        found = system.ensemble(STARTS, **call, executor=none, shares=7, folder=tmp_path)
+    assert same(found, expected) and none.members == 0
+    other = system.ensemble(STARTS + 1e-9, **call)
+    assert not same(other, expected), "the control"
+
+
 def test_mistakes_come_back_as_they_are() -> None:
     with processes(2) as pool:
         with pytest.raises(lp.MethodError, match="euler-arnold2"):
@@ -146,7 +179,7 @@ def test_arrays_from_a_network_need_not_be_aligned() -> None:
     moved[:] = STARTS
     assert not moved.flags.aligned
     work = _shares.Work(
-        body().text, np.ones((1, 1)), moved, {"method": "rk4", "h": 0.1, "t": 1.0}, 1
+        body().text, np.ones((1, 1)), moved, {"method": "rk4", "h": 0.1, "t": 1.0}, 1, False
     )
     part, error = _shares._members(work)
     assert error is None and part is not None

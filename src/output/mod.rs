@@ -3,6 +3,7 @@
 mod destination;
 mod form;
 mod identity;
+mod lines;
 mod names;
 pub mod npy;
 mod written;
@@ -14,6 +15,7 @@ pub use destination::Destination;
 use form::{Csv, Form, Json, JsonLines};
 pub use form::{Header, Run};
 pub use identity::Identity;
+pub use lines::Lines;
 pub use names::Names;
 use npy::Npy;
 pub use written::is_in;

@@ -12,7 +12,7 @@ use serde_json::Value;
 const BODY: &str = "specs/so3_free_rigid_body.json";
 
 /// The shape and the numbers of an array.
-fn array(path: &Path) -> (Vec<usize>, Vec<f64>) {
+pub fn array(path: &Path) -> (Vec<usize>, Vec<f64>) {
     let bytes = fs::read(path).expect("an array");
     let header = std::str::from_utf8(&bytes[10..128]).expect("a header");
     let shape = header.split(['(', ')']).nth(1).expect("a shape");
@@ -30,13 +30,13 @@ fn array(path: &Path) -> (Vec<usize>, Vec<f64>) {
 }
 
 /// What stands beside it.
-fn record(path: &Path) -> Value {
+pub fn record(path: &Path) -> Value {
     let text = fs::read_to_string(format!("{}.json", path.display())).expect("a record");
     serde_json::from_str(&text).expect("JSON")
 }
 
 /// The same files with these ends, byte by byte.
-fn assert_same(one: &Path, other: &Path, ends: &[&str]) {
+pub fn assert_same(one: &Path, other: &Path, ends: &[&str]) {
     for end in ends {
         let read = |path: &Path| fs::read(path.with_extension(end)).expect("a file");
         assert!(read(one) == read(other), "{end} differs");

@@ -27,6 +27,8 @@ mod constraints;
 mod declarations;
 mod density;
 mod ensemble;
+#[cfg(unix)]
+mod ensemble_events;
 mod equilibria;
 mod events;
 mod exponents;

@@ -97,6 +97,8 @@ pub struct Ensemble {
     pub some: Range<usize>,
     /// On so many threads.
     pub threads: usize,
+    /// Whether the events of members are kept.
+    pub events: bool,
 }
 
 impl Ensemble {
@@ -269,6 +271,7 @@ impl Running<'_> {
                 ..self.asked.plan.held.clone()
             },
             sources: Sources(self.asked.plan.sources.clone()),
+            events: self.asked.events,
         };
         members.run(0..some.len(), &self.watch)
     }

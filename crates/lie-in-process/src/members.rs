@@ -6,6 +6,7 @@
 //! their own steps, they take turns.
 
 mod kept;
+mod member;
 mod turns;
 
 use lie_codegen::methods::Choice;
@@ -19,9 +20,10 @@ use lie_runtime::driver::{
 };
 use lie_runtime::{ParameterError, Poisson, Scalar};
 use std::ops::Range;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::atomic::Ordering;
 
 use kept::Kept;
+pub use member::{Member, Stop, Watch};
 use turns::method_in_turns;
 pub use turns::take_turns;
 
@@ -57,62 +59,8 @@ pub struct Members<'a> {
     pub held: Held,
     /// Where the values of inputs come from, in a call.
     pub sources: Sources,
-}
-
-/// The rows of a member, as many as it came to.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Member {
-    /// Their times.
-    pub times: Vec<f64>,
-    /// Their states, one behind the other.
-    pub states: Vec<f64>,
-    /// When and why it ended early, if it did.
-    pub failed: Option<(f64, String)>,
-    /// Whether an event ended it.
-    pub ended: bool,
-    /// Options that suit no member.
-    pub refused: Option<OptionError>,
-}
-
-impl Member {
-    fn failing(time: f64, why: String) -> Self {
-        Self {
-            failed: Some((time, why)),
-            ..Self::default()
-        }
-    }
-}
-
-/// What threads that run members have in common.
-#[derive(Debug, Default)]
-pub struct Watch {
-    /// Whether all is to end early.
-    pub stop: AtomicBool,
-    /// So many members are done.
-    pub done: AtomicUsize,
-    /// Whether there was no memory for a row, which ends all.
-    full: AtomicBool,
-}
-
-impl Watch {
-    fn stopped(&self) -> bool {
-        self.stop.load(Ordering::Relaxed)
-    }
-
-    /// Whether there was no memory for a row.
-    pub fn full(&self) -> bool {
-        self.full.load(Ordering::Relaxed)
-    }
-
-    /// Ends all, since there is no memory for a row.
-    fn is_full(&self) {
-        self.full.store(true, Ordering::Relaxed);
-        self.stop.store(true, Ordering::Relaxed);
-    }
-
-    fn done(&self, members: usize) {
-        self.done.fetch_add(members, Ordering::Relaxed);
-    }
+    /// Whether events are kept. Those that stop end their members anyway.
+    pub events: bool,
 }
 
 /// What a thread needs to run members.
@@ -123,12 +71,6 @@ struct Worker<'a> {
     /// Side by side with steps of the same number, and taking turns.
     together: Option<Method<Wide>>,
     turns: Option<Method<Wide>>,
-}
-
-/// Whether an event ends runs of a system, which are no two of them side by side then.
-fn ends_at_events(system: &Dynamic<f64>) -> bool {
-    let count = Poisson::<f64>::event_count(system);
-    (0..count).any(|index| Poisson::<f64>::event_rule(system, index).stops)
 }
 
 /// Why a group was not run to its end.
@@ -182,6 +124,13 @@ impl Members<'_> {
             Pace::Step(step) => ((self.span.1 - self.span.0) / step).abs() * self.count as f64,
             Pace::Tolerance(_) => 0.0,
         }
+    }
+
+    /// Whether members of a system look for its events, which no two of them do side by side.
+    fn await_events(&self, system: &Dynamic<f64>) -> bool {
+        let count = Poisson::<f64>::event_count(system);
+        let stops = |index| Poisson::<f64>::event_rule(system, index).stops;
+        (0..count).any(|index| self.events || stops(index))
     }
 
     fn parameters(&self, member: usize) -> &[f64] {
@@ -292,7 +241,8 @@ impl Worker<'_> {
         let of_lane = |lane: usize| *starts.get(lane).unwrap_or(&starts[0]);
         let lengths = systems[0].dimension();
         // each member ends steps where its own parameters say, and runs at its own events
-        let joints = Poisson::<f64>::joint_count(systems[0]) > 0 || ends_at_events(systems[0]);
+        let events = self.members.await_events(systems[0]);
+        let joints = Poisson::<f64>::joint_count(systems[0]) > 0 || events;
         // and a controller sees one state
         let controlled = !self.members.sources.0.is_empty();
         if joints || controlled || starts.iter().any(|start| start.len() != lengths) {
@@ -348,20 +298,22 @@ impl Worker<'_> {
         let options = &self.members.options;
         let mut kept = Kept::new(options, self.watch);
         let (held, sources) = (&self.members.held, &self.members.sources);
-        kept.ends = ends_at_events(&problem.system);
+        kept.awaits_events = self.members.await_events(&problem.system);
+        kept.keeps_events = self.members.events;
         let streams = [self.stream(member)];
         kept.held = held.in_lanes(&problem.system, problem.span.0, sources, &streams);
         let outcome = integrate(&problem, Forgotten(self.alone.as_ref()), options, &mut kept);
         let mut member = Member {
             times: kept.times,
             states: kept.states,
+            events: kept.events,
             ..Member::default()
         };
         match outcome {
             Ok((_, status)) => {
-                member.ended = matches!(status, Status::Event(_));
+                member.stopped = kept.stopped.filter(|_| matches!(status, Status::Event(_)));
                 // others have no row there
-                if member.ended
+                if member.stopped.is_some()
                     && !kept.last_alone
                     && member.times.last().is_some_and(|time| !self.has_row(*time))
                 {
@@ -374,7 +326,8 @@ impl Worker<'_> {
             Err(IntegrateError::Step(error)) => {
                 if kept.last_alone {
                     // the end was not reached
-                    member = Member::default();
+                    member.times.clear();
+                    member.states.clear();
                 }
                 member.failed = Some((error.time, error.to_string()));
                 member

@@ -1,10 +1,12 @@
 //! What is computed of all members of an ensemble: mean, covariance, quantiles, histograms. The order of the sums is that of the members,
 //! whatever the threads and the shares.
 
+mod going;
 mod histogram;
 
 use std::io::{self, Read};
 
+pub use going::Going;
 pub use histogram::{Bins, MOST_BINS};
 
 /// Members that are summed one after the other; then sums are added two by two.
@@ -97,6 +99,17 @@ impl Sums {
     }
 }
 
+/// What is computed of the members that came to a row.
+#[derive(Default)]
+pub struct Found {
+    /// How many they are, row by row.
+    pub counts: Vec<u64>,
+    /// Their means, row by row; not a number where there is no member.
+    pub means: Vec<f64>,
+    /// The covariances, a matrix for each row, over the number of members less one; not a number where there are not two members.
+    pub covariances: Vec<f64>,
+}
+
 impl Moments {
     /// Of members with so many rows and columns.
     pub fn new(shape: [usize; 2]) -> Self {
@@ -134,9 +147,8 @@ impl Moments {
         self.levels.push(Some(carried));
     }
 
-    /// The means, row by row, and the covariances, a matrix for each row, with the number of members less one. What no member
-    /// came to is not a number.
-    pub fn found(self) -> (Vec<f64>, Vec<f64>) {
+    /// What is computed of all members.
+    pub fn found(self) -> Found {
         let [rows, width] = self.shape;
         let levels = self.levels.into_iter().flatten();
         let sums = levels.fold(self.leaf, |later, earlier| earlier.and(self.shape, &later));
@@ -160,7 +172,11 @@ impl Moments {
                 }
             }
         }
-        (means, covariances)
+        Found {
+            counts: sums.counts,
+            means,
+            covariances,
+        }
     }
 }
 
@@ -241,7 +257,9 @@ mod tests {
         let members = members();
         let mut moments = Moments::new([2, 2]);
         members.iter().for_each(|member| moments.push(member));
-        let (means, covariances) = moments.found();
+        let found = moments.found();
+        let (means, covariances) = (found.means, found.covariances);
+        assert_eq!(found.counts, [1000, 999]);
         for row in 0..2 {
             let came: Vec<&[f64]> = members.iter().map(|m| &m[2 * row..2 * row + 2]).collect();
             let came: Vec<&&[f64]> = came.iter().filter(|m| !m[0].is_nan()).collect();
@@ -261,8 +279,8 @@ mod tests {
                 }
             }
         }
-        let (means, covariances) = Moments::new([1, 1]).found();
-        assert!(means[0].is_nan() && covariances[0].is_nan());
+        let none = Moments::new([1, 1]).found();
+        assert!(none.means[0].is_nan() && none.covariances[0].is_nan());
     }
 
     #[test]

@@ -1,11 +1,14 @@
 //! A share of the members of an ensemble, and what its file says of itself, so that shares find together again.
 
+mod stops;
+
 use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
 use crate::reduce::Bins;
+pub use stops::{Ended, Stops, Table};
 
 /// One of several shares of the members: those that lie side by side.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
@@ -76,6 +79,15 @@ pub struct Record {
     /// Where members are counted, if they are.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub histogram: Option<Bins>,
+    /// How many members go on at each of the times, or end there.
+    #[serde(default)]
+    pub counts: Vec<u64>,
+    /// When events ended members, where some are declared to do that.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stops: Option<Stops>,
+    /// The table of events, where one was asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub events: Option<Table>,
     /// The members that ended early.
     pub failures: Vec<Failed>,
     /// A digest of the numbers of the share, once all are in the file.
@@ -97,7 +109,7 @@ pub struct Failed {
 
 impl Record {
     /// The form that is written today.
-    pub const FORMAT: u64 = 2;
+    pub const FORMAT: u64 = 3;
 
     /// How the ensemble differs from that of another share, if it does.
     pub fn differs(&self, other: &Self) -> Option<String> {
@@ -124,17 +136,24 @@ impl Record {
                 };
                 format!("{} here, {} there", of(self), of(other))
             }),
+            (self.events.is_some() != other.events.is_some()).then(|| {
+                let given = |one: &Self| {
+                    if one.events.is_some() {
+                        "given"
+                    } else {
+                        "not given"
+                    }
+                };
+                format!(
+                    "--events is {} here and {} there",
+                    given(self),
+                    given(other)
+                )
+            }),
         ];
         let all_else = || {
-            let plain = |one: &Self| Self {
-                share: Share::WHOLE,
-                complete: true,
-                failures: Vec::new(),
-                numbers: None,
-                histogram: one.histogram.as_ref().map(Bins::empty),
-                ..one.clone()
-            };
-            (plain(self) != plain(other)).then(|| "what was asked for differs".to_owned())
+            let differs = self.whole() != other.whole();
+            differs.then(|| "what was asked for differs".to_owned())
         };
         facts
             .into_iter()
@@ -142,6 +161,27 @@ impl Record {
             .chain(options)
             .next()
             .or_else(all_else)
+    }
+
+    /// That of all shares, before there is a member.
+    #[must_use]
+    pub fn whole(&self) -> Self {
+        Self {
+            share: Share::WHOLE,
+            complete: false,
+            counts: Vec::new(),
+            stops: self.stops.as_ref().map(Stops::empty),
+            events: self.events.as_ref().map(|_| Table::default()),
+            failures: Vec::new(),
+            numbers: None,
+            histogram: self.histogram.as_ref().map(Bins::empty),
+            ..self.clone()
+        }
+    }
+
+    /// How many events are declared to end members.
+    pub fn stopping(&self) -> usize {
+        self.stops.as_ref().map_or(0, |stops| stops.events.len())
     }
 
     /// The shape of the array behind the axis of members.

@@ -18,11 +18,12 @@ from __future__ import annotations
 from ._bench import Bench, BenchRow
 from ._check import Casimir, Check, Motion
 from ._core import __version__ as __version__
+from ._ensemble import Ensemble, MemberOccurrences
 from ._errors import DeclarationError, IntegrationError, Interrupted, LostShares, MethodError
 from ._functions import Function
 from ._histogram import Histogram
 from ._methods import Method, Methods
-from ._solution import Ensemble, Occurrences, Solution
+from ._solution import Occurrences, Solution
 from ._spectra import Exponents, Frequencies, Line
 from ._stress import Growth, Stress, StressCell
 from ._system import System, load
@@ -45,6 +46,7 @@ __all__ = [
     "Interrupted",
     "Line",
     "LostShares",
+    "MemberOccurrences",
     "Method",
     "MethodError",
     "Methods",

@@ -85,9 +85,17 @@ class Core:
         parameters: Array,
         starts: Array,
         asked: dict[str, Any],
-        threads: int,
+        options: tuple[int, bool],
         progress: Callable[[int, int, str], object] | None,
-    ) -> tuple[Array, Array, list[tuple[int, float, str]], str | None]: ...
+    ) -> tuple[
+        Array,
+        Array,
+        list[tuple[int, float, str]],
+        str | None,
+        npt.NDArray[np.int64],
+        Array,
+        tuple[npt.NDArray[np.int64], npt.NDArray[np.int64], Array, Array],
+    ]: ...
     def drawn(
         self, parameters: Array, around: list[float], asked: tuple[int, int, float | None]
     ) -> Array: ...

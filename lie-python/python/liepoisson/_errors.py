@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from ._solution import Ensemble
+    from ._ensemble import Ensemble
 
 __all__ = ["DeclarationError", "IntegrationError", "Interrupted", "LostShares", "MethodError"]
 

@@ -15,20 +15,11 @@ import numpy as np
 
 from . import _core
 from ._arguments import Array, Progress
+from ._ensemble import Ensemble, Part
 from ._errors import LostShares
-from ._solution import Ensemble
 
 #: The most shares where nobody says how many, and the fewest members of each.
 SHARES, FEWEST = 64, 64
-
-
-class Part(NamedTuple):
-    """What the members of a share gave."""
-
-    t: Array
-    states: Array
-    failures: list[tuple[int, float, str]]
-    note: str | None
 
 
 class Work(NamedTuple):
@@ -39,6 +30,7 @@ class Work(NamedTuple):
     starts: Array
     asked: dict[str, Any]
     threads: int
+    events: bool
 
     def share(self, some: range) -> Work:
         rows = slice(some.start, some.stop)
@@ -50,11 +42,14 @@ class Work(NamedTuple):
     def digest(self, shares: int) -> str:
         """Tells it from all others."""
         parts = (_core.__version__, self.text, sorted(self.asked.items()), self.table.shape, shares)
-        found = hashlib.sha256(repr((*parts, self.starts.shape)).encode())
+        found = hashlib.sha256(repr((*parts, self.starts.shape, self.events)).encode())
         found.update(np.ascontiguousarray(self.table).tobytes())
         found.update(np.ascontiguousarray(self.starts).tobytes())
         return found.hexdigest()[:16]
 
+
+#: The arrays of events in the file of a share.
+_EVENTS = ("event_members", "event_names", "event_times", "event_states")
 
 #: The shares of the last ensemble that lost some, for the call that asks for the same again.
 _kept: dict[str, dict[int, Part]] = {}
@@ -73,7 +68,8 @@ def _members(work: Work) -> tuple[Part | None, Exception | None]:
         table, starts = (
             np.require(array, requirements=["A", "C"]) for array in (work.table, work.starts)
         )
-        return Part(*core.ensemble(table, starts, work.asked, work.threads, None)), None
+        options = (work.threads, work.events)
+        return Part(*core.ensemble(table, starts, work.asked, options, None)), None
     except Exception as error:  # noqa: BLE001
         return None, error
 
@@ -126,7 +122,12 @@ def gathered(
             f"{len(lost)} of {len(ranges)} shares are missing, since their workers ended: members {named}\n"
             f"  help: the others are {where}: the same call, with an executor that works, does these alone",
             lost,
-            Ensemble(found.states, found.t, found.failures),
+            Ensemble(
+                found.states,
+                found.t,
+                found.failures,
+                **found.recorded(_system(work.text).events, lambda states: states, work.events),
+            ),
         ) from why
     return found
 
@@ -198,7 +199,10 @@ def _load(path: pathlib.Path | None) -> Part | None:
     with np.load(path) as file:
         failures, note = json.loads(str(file["said"]))
         failures = [(member, time, why) for member, time, why in failures]
-        return Part(file["t"], file["states"], failures, note)
+        events = tuple(file[name] for name in _EVENTS)
+        return Part(
+            file["t"], file["states"], failures, note, file["stops"], file["stop_times"], events
+        )
 
 
 def _save(path: pathlib.Path | None, part: Part) -> None:
@@ -209,7 +213,9 @@ def _save(path: pathlib.Path | None, part: Part) -> None:
     draft = path.with_suffix(f".{os.getpid()}.new")
     try:
         with open(draft, "wb") as file:
-            np.savez(file, t=part.t, states=part.states, said=said)
+            arrays = {"t": part.t, "states": part.states, "said": said, "stops": part.stops}
+            events = dict(zip(_EVENTS, part.events))
+            np.savez(file, **arrays, stop_times=part.stop_times, **events)
         os.replace(draft, path)
     finally:
         draft.unlink(missing_ok=True)
@@ -217,11 +223,19 @@ def _save(path: pathlib.Path | None, part: Part) -> None:
 
 def _joined(ranges: list[range], done: dict[int, Part], width: int) -> Part:
     """All members, in order; of a share that is missing no number is one."""
-    times = max((part.t for part in done.values()), key=len, default=np.zeros(0))
-    states = np.full((ranges[-1].stop, len(times), width), np.nan)
+    times = next((part.t for part in done.values()), np.zeros(0))
+    count = ranges[-1].stop
+    states, stop_times = np.full((count, len(times), width), np.nan), np.full(count, np.nan)
+    stops = np.full(count, -1)
     failures = []
     for k, part in sorted(done.items()):
-        states[ranges[k].start : ranges[k].stop, : part.states.shape[1]] = part.states
+        some = slice(ranges[k].start, ranges[k].stop)
+        states[some], stops[some], stop_times[some] = part.states, part.stops, part.stop_times
         failures += [(ranges[k].start + member, time, why) for member, time, why in part.failures]
     notes = (part.note for part in done.values() if part.note is not None)
-    return Part(times, states, failures, next(notes, None))
+    events = [
+        (ranges[k].start + part.events[0], *part.events[1:]) for k, part in sorted(done.items())
+    ]
+    none = (np.zeros(0, int), np.zeros(0, int), np.zeros(0), np.zeros((0, width)))
+    joined = tuple(np.concatenate(arrays) for arrays in zip(none, *events))
+    return Part(times, states, failures, next(notes, None), stops, stop_times, joined)

@@ -16,7 +16,7 @@ from ._spectra import Frequencies, frequencies_of
 if TYPE_CHECKING:
     from ._system import System
 
-__all__ = ["Ensemble", "Occurrences", "Solution"]
+__all__ = ["Occurrences", "Solution"]
 
 #: Coordinates of a family that a picture shows.
 _DRAWN = 12
@@ -27,8 +27,6 @@ _POINTS = 1000
 _NUMBERS = 1_000_000
 #: So many rows are dots on a curve that goes on between them.
 _DOTS = 200
-#: Failures of an ensemble that a notebook shows.
-_SHOWN = 10
 
 
 class Occurrences(NamedTuple):
@@ -290,40 +288,3 @@ class Solution:
         picture = image(self._draw, (8, 5), f"components and errors of {self.name}")
         errors = table(["invariant", "largest error"], drift) if drift else ""
         return page(repr(self).strip("<>"), errors, picture)
-
-
-class Ensemble:
-    """Many trajectories.
-
-    ``mu``: the final states, shape (m, n), or with ``every`` or ``at`` all that were saved, shape (m, rows, n); what a failed
-    member did not reach is not a number. ``t``: the times of the rows, shape (rows,). ``failures``: (member, time, reason).
-    ``kept``: what a projection behind each step kept, by name; such steps are no Poisson maps.
-    """
-
-    def __init__(
-        self,
-        mu: Array,
-        t: Array,
-        failures: list[tuple[int, float, str]],
-        kept: tuple[str, ...] = (),
-    ) -> None:
-        self.mu = mu
-        self.t = t
-        self.failures = failures
-        self.kept = kept
-
-    def __len__(self) -> int:
-        return len(self.mu)
-
-    def __repr__(self) -> str:
-        rows = f" at {len(self.t)} times" if self.mu.ndim == 3 else ""
-        kept = f", {', '.join(self.kept)} kept by a projection" if self.kept else ""
-        return f"<{len(self.mu)} members{rows}, {len(self.failures)} failed{kept}>"
-
-    def _repr_html_(self) -> str:
-        rows = [
-            (str(member), f"{time:g}", reason) for member, time, reason in self.failures[:_SHOWN]
-        ]
-        failed = table(["member", "time", "why it failed"], rows) if rows else ""
-        more = len(self.failures) - len(rows)
-        return page(repr(self).strip("<>"), failed, f"<p>… and {more} more</p>" if more else "")

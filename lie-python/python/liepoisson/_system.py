@@ -14,6 +14,7 @@ from ._again import Again
 from ._arguments import Controllers, Number, Progress, heard, merged, spelled, whole
 from ._bench import Bench
 from ._declared import Declared
+from ._ensemble import Ensemble, Part
 from ._errors import IntegrationError
 from ._functions import Function
 from ._histogram import Histogram, histogram
@@ -21,7 +22,7 @@ from ._measure import asked_of, measured, parted, stressed, verified
 from ._members import drawn, members_of, table_of
 from ._notebook import page_of
 from ._shares import Work, gathered
-from ._solution import Ensemble, Occurrences, Solution
+from ._solution import Occurrences, Solution
 from ._spectra import Exponents
 from ._stress import Stress
 from ._verification import Verification
@@ -202,6 +203,7 @@ class System(Declared):
         members: int | None = None,
         seed: int | None = None,
         spread: Number | None = None,
+        events: bool = False,
         threads: int | None = None,
         executor: Any = None,
         shares: int | None = None,
@@ -222,7 +224,9 @@ class System(Declared):
         The ends are kept, or with ``every`` each so-manyth step, with ``at`` these times. With ``tol`` in the place of ``h`` each
         member has a step of its own, and `every` is not taken. Other arguments are those of :meth:`run`. The bits do not
         depend on the number of threads (all processors by default). A member that fails has rows of not-a-number from there
-        on, and is named in ``failures``. Of a group element that the declaration asks for, nothing is kept. ``progress`` hears how many
+        on, and is named in ``failures``. An event of the declaration that stops ends its member, whose last state is its end; ``stopped`` and
+        ``stop_times`` say which and when. ``events=True`` keeps all declared events, ``many.events["name"]`` with ``.member``, ``.t`` and
+        ``.mu``. Of a group element that the declaration asks for, nothing is kept. ``progress`` hears how many
         members are done, as in :meth:`run`.
 
         ``members=1000`` draws initial states around a single one, that of the declaration where x0 is None: where random
@@ -271,6 +275,10 @@ class System(Declared):
         else:
             starts, table = drawn(self, own.pop("x0"), parameters, (members, seed, spread))
         asked = self._asked(own, None, {})
+        if events and not self._core.events:
+            raise ValueError(
+                f'{self.name} declares no events\n  help: declare some, such as events={{"down": {{"when": "z"}}}}'
+            )
         usual = (os.cpu_count() or 1) if executor is None else 1
         count = usual if threads is None else whole(threads, "threads", 1)
         if executor is None:
@@ -278,21 +286,20 @@ class System(Declared):
                 raise TypeError(
                     "shares and folder are for workers: give executor=ProcessPoolExecutor()"
                 )
-            found = self._core.ensemble(table, starts, asked, count, heard(progress))
+            options = (count, events)
+            found = Part(*self._core.ensemble(table, starts, asked, options, heard(progress)))
         else:
             cut = None if shares is None else whole(shares, "shares", 1)
-            work = Work(self.text, table, starts, asked, count)
+            work = Work(self.text, table, starts, asked, count, events)
             found = gathered(work, executor, cut, folder, heard(progress))
-        rows, states, failures, note = found
-        if note is not None:
-            warnings.warn(note, stacklevel=2)
-        states = self._visible(states)
-        kept = tuple(self._core.kept(asked))
+        if found.note is not None:
+            warnings.warn(found.note, stacklevel=2)
+        states = self._visible(found.states)
         if every is None and at is None:
-            # where none came to its end there is no row
-            ends = states[:, -1] if len(rows) else np.full((len(starts), states.shape[2]), np.nan)
-            return Ensemble(ends, rows, failures, kept)
-        return Ensemble(states, rows, failures, kept)
+            states = states[:, -1]
+        recorded = found.recorded(self._core.events, self._visible, events)
+        kept = tuple(self._core.kept(asked))
+        return Ensemble(states, found.t, found.failures, kept, **recorded)
 
     def histogram(
         self,

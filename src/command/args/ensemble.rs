@@ -12,6 +12,8 @@ use lie_in_process::request::{Request, Value};
     after_help = "FILE.npy is an array of float64 for `numpy.load`: (members, coordinates) of the final states, or with --every or \
         --at (members, rows, coordinates). FILE.npy.json beside it says the times, the names, and which members ended early: what \
         they did not reach is not a number. The bytes are the same for every number of threads and shares.
+An event that stops ends its member: FILE.stops.npy says when, (members, events that stop), and FILE.npy.json how many members go \
+        on at each of the times. Reductions are over these.
 Members: --initial-file has one in each row; --members draws them around the initial state; a parameter NAME=FROM:TO:COUNT has \
         all of these for each of its values, the last parameter fastest.
 Exit codes: 0 done, 1 surroundings failed, 2 invalid input, 3 a member ended early, the others are whole, 130 Ctrl-C, 143 SIGTERM, \
@@ -35,7 +37,7 @@ pub struct Ensemble {
     /// `slurm/N` K alone
     #[arg(long, value_name = "K/N", allow_hyphen_values = true)]
     pub shard: Option<String>,
-    /// Computes these of all members, at each of the times, into FILE.mean.npy, FILE.covariance.npy, FILE.quantiles.npy,
+    /// Computes these of all members that come to it, at each of the times, into FILE.mean.npy, FILE.covariance.npy, FILE.quantiles.npy,
     /// FILE.histogram.npy; of shares `lie merge` does
     #[arg(long, value_enum, value_name = "LIST", value_delimiter = ',')]
     pub reduce: Vec<Reduce>,
@@ -49,6 +51,10 @@ pub struct Ensemble {
     /// Where the members go
     #[arg(long, value_name = "FILE.npy")]
     pub out: PathBuf,
+    /// Writes the events of the members, those that the spec declares, as a table: member,event,t,state (CSV); that of a share
+    /// stands beside its members
+    #[arg(long, value_name = "FILE.csv")]
+    pub events: Option<PathBuf>,
     /// How many threads (default: all processors)
     #[arg(long, value_name = "K")]
     pub threads: Option<NonZeroUsize>,
@@ -83,6 +89,9 @@ pub struct Merge {
     /// Where all members go
     #[arg(long, value_name = "FILE.npy")]
     pub out: PathBuf,
+    /// Where all events go, of shares with tables of them
+    #[arg(long, value_name = "FILE.csv")]
+    pub events: Option<PathBuf>,
     /// Says nothing on stderr unless something fails
     #[arg(long)]
     pub quiet: bool,

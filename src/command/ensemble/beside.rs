@@ -5,7 +5,7 @@ use std::io::{self, BufReader, Seek as _, SeekFrom};
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum as _;
-use lie_in_process::reduce::quantiles;
+use lie_in_process::reduce::{Found, Going, quantiles};
 use lie_in_process::share::{Record, Share};
 
 use crate::command::args::Reduce;
@@ -30,11 +30,26 @@ pub fn path_of_record(out: &Path) -> PathBuf {
     name.into()
 }
 
+/// Where the times are at which events ended members, if some are declared to do that.
+pub fn path_of_stops(out: &Path) -> PathBuf {
+    out.with_extension("stops.npy")
+}
+
+/// The numbers of an array in a file, from the beginning.
+///
+/// # Errors
+/// What cannot be read.
+pub fn numbers(path: &Path) -> io::Result<BufReader<File>> {
+    let mut file = File::open(path)?;
+    file.seek(SeekFrom::Start(npy::LENGTH as u64))?;
+    Ok(BufReader::with_capacity(1 << 20, file))
+}
+
 /// The files, opened before anything is computed.
 pub struct Beside {
     out: PathBuf,
-    /// Takes the members.
-    pub members: Destination,
+    members: Destination,
+    stops: Option<Destination>,
     reductions: Vec<(Reduce, PathBuf, Destination)>,
 }
 
@@ -44,7 +59,10 @@ impl Beside {
     /// # Errors
     /// `option` for an input, with exit code 2; `io`, with exit code 1.
     pub fn open(out: &Path, inputs: &Inputs, record: &Record) -> Result<Self, Failure> {
-        inputs.spare("--out", &path_of_record(out))?;
+        let stops = record.stops.as_ref().map(|_| path_of_stops(out));
+        for path in [path_of_record(out)].iter().chain(&stops) {
+            inputs.spare("--out", path)?;
+        }
         let wanted = Reduce::value_variants().iter().copied().filter(|one| {
             record.share == Share::WHOLE && record.reduce.iter().any(|known| known == name(*one))
         });
@@ -63,6 +81,7 @@ impl Beside {
         Ok(Self {
             out: out.to_owned(),
             members,
+            stops: stops.map(|path| inputs.open("--out", &path)).transpose()?,
             reductions: reductions
                 .into_iter()
                 .map(open)
@@ -70,20 +89,22 @@ impl Beside {
         })
     }
 
-    /// What is left to be written, and where the members go.
-    pub fn split(self) -> (Destination, Rest) {
+    /// Where the members go, where the times go at which they were ended, and what is left to be written.
+    pub fn split(self) -> (Destination, Option<Destination>, Rest) {
         let Self {
             out,
             members,
+            stops,
             reductions,
         } = self;
-        (members, Rest { out, reductions })
+        (members, stops, Rest { out, reductions })
     }
 }
 
 /// The files beside the members.
 pub struct Rest {
-    out: PathBuf,
+    /// The file of the members.
+    pub out: PathBuf,
     reductions: Vec<(Reduce, PathBuf, Destination)>,
 }
 
@@ -107,28 +128,25 @@ impl Rest {
         written.map_err(|error| unwritable(&path, &error))
     }
 
-    /// Writes what is computed: mean and covariance as they were found, quantiles and histograms from the members in the file.
+    /// Writes what is computed: mean and covariance as they were found, quantiles and histograms from the members in the file without
+    /// those that are gone.
     ///
     /// # Errors
     /// `io`.
     pub fn reduce(
         &mut self,
         record: &mut Record,
-        (means, covariances): (Vec<f64>, Vec<f64>),
+        (found, gone): (&Found, &[bool]),
     ) -> Result<(), Failure> {
         let shape = record.shape();
         let columns = shape.iter().product();
-        let again = || {
-            let mut file = File::open(&self.out)?;
-            file.seek(SeekFrom::Start(npy::LENGTH as u64))?;
-            Ok(BufReader::with_capacity(1 << 20, file))
-        };
+        let again = || Ok(Going::new(numbers(&self.out)?, columns, gone));
         for (one, path, destination) in self.reductions.drain(..) {
             let array = match one {
-                Reduce::Mean => Ok(npy::array(&shape, &means)),
+                Reduce::Mean => Ok(npy::array(&shape, &found.means)),
                 Reduce::Covariance => {
                     let shape = [&shape[..], &shape[shape.len() - 1..]].concat();
-                    Ok(npy::array(&shape, &covariances))
+                    Ok(npy::array(&shape, &found.covariances))
                 }
                 Reduce::Quantiles => {
                     let shape = [&[record.quantiles.len()], &shape[..]].concat();

@@ -1,10 +1,15 @@
 //! `lie ensemble`: many trajectories of one spec, as an array.
 
 mod beside;
+mod copying;
 mod gathering;
+mod lost;
 pub mod merge;
+mod record;
 mod reductions;
 mod shard;
+mod stops;
+mod table;
 
 use std::path::Path;
 use std::sync::Arc;
@@ -14,33 +19,32 @@ use std::time::Instant;
 use lie_codegen::program::Purpose;
 use lie_in_process::Work;
 use lie_in_process::clock;
-use lie_in_process::ensemble::{self, Ensemble};
+use lie_in_process::ensemble::Ensemble;
 use lie_in_process::memory::Exceeded;
 use lie_in_process::message::Fault;
 use lie_in_process::report::signs;
-use lie_in_process::request::{Asked, Drawing, Value, cast, seed};
+use lie_in_process::request::{Asked, Drawing, cast, seed};
 use lie_in_process::share::{Record, Share};
 use lie_in_process::words::counted;
 use lie_program::protocol::{Obstacle, Start};
 use lie_syntax::diagnostic::Kind;
-use lie_syntax::front::spec::files;
-use serde_json::Map;
 
 use super::args::{self, Reduce};
+use super::events::{self, Columns};
 use super::files::Inputs;
 use super::fold::folded;
 use super::run::bar::Bar;
-use super::run::layout::Layout;
 use super::run::outputs::writing_failed;
 use super::run::said::of_projection;
 use crate::build::talk::{Outcome, fault, talk_here};
-use crate::build::{self, Key};
 use crate::compiler::{self, Spec};
 use crate::interrupt::Interrupt;
 use crate::message::{Failure, Message, STOPPED, keep_refused, step_refused};
 use crate::render;
 use beside::Beside;
-use gathering::Gathering;
+use gathering::{Gathering, Taking};
+use record::record;
+use table::Table;
 
 /// So many of the members that ended early are named.
 const NAMED: usize = 3;
@@ -64,6 +68,7 @@ pub fn run(flags: &args::Ensemble) -> Result<u8, Failure> {
     }
     let (mut record, places) = record(&spec, flags, &asked, share, quantiles)?;
     let inputs = Inputs::of_request(&flags.spec, &spec, &flags.request);
+    let table = table(&spec, flags, &inputs)?;
     let beside = Beside::open(&flags.out, &inputs, &record)?;
     let interrupt = Interrupt::install();
     let methods = std::slice::from_ref(&asked.plan.method);
@@ -78,12 +83,18 @@ pub fn run(flags: &args::Ensemble) -> Result<u8, Failure> {
         ends: !record.rows,
         some: share.members(record.members),
         threads: threads.map_or(1, Into::into),
+        events: table.is_some(),
         plan: asked.plan,
         cast: asked.cast,
     };
     let (clock, some) = (Instant::now(), ensemble.some.clone());
     let bar = Bar::for_members(!flags.quiet);
-    let mut gathering = Gathering::begin(beside, record, places)?;
+    let taking = Taking {
+        places,
+        stops: stopping(&spec),
+        table,
+    };
+    let mut gathering = Gathering::begin(beside, record, taking)?;
     let talked = talk_here(
         &work,
         ensemble,
@@ -125,6 +136,9 @@ pub fn run(flags: &args::Ensemble) -> Result<u8, Failure> {
         }
         let time = clock.elapsed().as_secs_f64();
         render::say(&folded(&format!("{title}: {count}{of}, in {time:.2} s")));
+        for line in stops::said(&record) {
+            render::say(&folded(&line));
+        }
     }
     Ok(failed(&record))
 }
@@ -189,10 +203,36 @@ fn check(flags: &args::Ensemble) -> Result<(), Failure> {
         let message = Message::option("--bins", "no histogram is computed");
         mistakes.push(message.help("ask for it by `--reduce histogram`"));
     }
+    if let Some(path) = &flags.events
+        && flags.shard.is_some()
+        && path.parent() != flags.out.parent()
+    {
+        let text = "the table of a share stands beside its members, where `lie merge` looks for it";
+        let name = path.file_name().unwrap_or_default();
+        let help = format!("write `{}`", flags.out.with_file_name(name).display());
+        mistakes.push(Message::option("--events", text).help(help));
+    }
     match mistakes.is_empty() {
         true => Ok(()),
         false => Err(Failure::invalid(mistakes)),
     }
+}
+
+/// Which of the declared events end members.
+fn stopping(spec: &Spec) -> Vec<usize> {
+    let events = spec.model.events.iter().enumerate();
+    let stops = events.filter(|(_, event)| event.rule.stops);
+    stops.map(|(place, _)| place).collect()
+}
+
+/// Opens the table of events, if it is asked for.
+fn table(spec: &Spec, flags: &args::Ensemble, inputs: &Inputs) -> Result<Option<Table>, Failure> {
+    let Some(path) = &flags.events else {
+        return Ok(None);
+    };
+    let destination = events::open(path, &spec.model, inputs)?;
+    let columns = Columns::new(&spec.model, Some("member"));
+    Ok(Some(Table::new(path, destination, Some(columns))))
 }
 
 /// The ensemble that is asked for.
@@ -219,128 +259,6 @@ fn note(spec: &Spec, asked: &Asked) -> Option<String> {
         initial: state.clone(),
     });
     signs::note(&spec.model, starts.collect::<Vec<_>>().iter())
-}
-
-/// What the file is to say of itself, and the places of its columns in a state.
-fn record(
-    spec: &Spec,
-    flags: &args::Ensemble,
-    asked: &Asked,
-    share: Share,
-    quantiles: Vec<f64>,
-) -> Result<(Record, Vec<usize>), Failure> {
-    let model = &spec.model;
-    let parameters = asked.cast.parameters.first().cloned().unwrap_or_default();
-    let named = model
-        .parameters
-        .iter()
-        .map(|p| p.name.clone())
-        .zip(parameters);
-    let layout = Layout::new(model, None, &named.collect());
-    let places = match &model.family {
-        Some(_) => (0..layout.states).collect(),
-        None => model.shown_coordinates(),
-    };
-    let members = asked.cast.count();
-    if asked
-        .cast
-        .starts
-        .iter()
-        .any(|start| start.len() != asked.cast.starts[0].len())
-    {
-        let text = "the members have different numbers of sites";
-        let help = "make an ensemble of its own for each number of sites";
-        return Err(Message::option("--param", text).help(help).into());
-    }
-    let reduce = {
-        let mut reduce = flags.reduce.clone();
-        reduce.sort_unstable();
-        reduce.dedup();
-        reduce.into_iter().map(|one| beside::name(one).to_owned())
-    };
-    let ends = asked.ends;
-    let record = Record {
-        format: Record::FORMAT,
-        lie: build::version().to_owned(),
-        complete: false,
-        system: model.name.clone(),
-        method: asked.plan.method.label(),
-        kept: asked.plan.kept(spec),
-        spec: digest_of_spec(&flags.spec, spec)?,
-        asked: options(flags, asked)?,
-        members,
-        share,
-        parameters: asked.swept.clone(),
-        columns: layout.coordinates(),
-        times: ensemble::times(&asked.plan, ends),
-        rows: !ends,
-        reduce: reduce.collect(),
-        quantiles,
-        histogram: None,
-        failures: Vec::new(),
-        numbers: None,
-    };
-    Ok((record, places))
-}
-
-/// A digest of the spec and of the files that it reads.
-fn digest_of_spec(path: &Path, spec: &Spec) -> Result<String, Failure> {
-    let text = &spec.source.text;
-    let folder = path.parent().unwrap_or(Path::new(""));
-    let mut key = Key::new().update(text);
-    for file in files(text) {
-        key = key.update(&digest(&folder.join(file))?);
-    }
-    Ok(key.hex())
-}
-
-fn digest(path: &Path) -> Result<String, Failure> {
-    let bytes = std::fs::read(path).map_err(|error| {
-        let message = Message::io(path, format!("it cannot be read: {error}"));
-        Failure::surroundings(message.help("check that it is still there"))
-    })?;
-    Ok(Key::digest(&bytes))
-}
-
-/// What was asked for, by option; of files their digests.
-fn options(
-    flags: &args::Ensemble,
-    asked: &Asked,
-) -> Result<Map<String, serde_json::Value>, Failure> {
-    let request = serde_json::to_value(&flags.request).unwrap_or_default();
-    let mut options = match request {
-        serde_json::Value::Object(options) => options,
-        _ => Map::new(),
-    };
-    options
-        .retain(|_, value| !value.is_null() && value.as_array().is_none_or(|all| !all.is_empty()));
-    if let Some(path) = &flags.request.initial_file {
-        options.insert("initial-file".to_owned(), digest(path)?.into());
-    }
-    let tables = flags.request.input.iter();
-    let tables = tables.filter_map(|written| written.split_once('='));
-    let tables: Vec<String> = tables
-        .map(|(name, path)| {
-            Ok(format!(
-                "{}={}",
-                name.trim(),
-                digest(Path::new(path.trim()))?
-            ))
-        })
-        .collect::<Result<_, Failure>>()?;
-    if !tables.is_empty() {
-        options.insert("input".to_owned(), tables.into());
-    }
-    if let Some(draw) = asked.cast.drawn.as_ref().map(|drawn| drawn.draw) {
-        options.insert("members".to_owned(), draw.count.into());
-        options.insert("seed".to_owned(), draw.seed.into());
-        let spread = flags.spread.clone().unwrap_or(Value::Number(0.1));
-        options.insert(
-            "spread".to_owned(),
-            serde_json::to_value(spread).unwrap_or_default(),
-        );
-    }
-    Ok(options)
 }
 
 fn title(spec: &Spec, asked: &Asked) -> String {

@@ -9,7 +9,7 @@ use crate::command::args::{self, Reduce};
 use crate::message::{Failure, Message};
 
 /// The probabilities where none are given.
-const QUANTILES: [f64; 5] = [0.05, 0.25, 0.5, 0.75, 0.95];
+pub const QUANTILES: [f64; 5] = [0.05, 0.25, 0.5, 0.75, 0.95];
 
 /// The probabilities of quantiles, in the order in which they are given.
 ///

@@ -1,9 +1,10 @@
 //! What is kept of the run of a member.
 
-use super::Watch;
+use super::{Stop, Watch};
 use lie_dynamic::Dynamic;
-use lie_runtime::Scalar;
+use lie_program::protocol::Event;
 use lie_runtime::driver::{self, Observer, Options, Progress, Save};
+use lie_runtime::{Poisson, Scalar};
 use std::ops::ControlFlow;
 
 /// Keeps the rows of a run, and ends it where the whole is to end.
@@ -13,8 +14,12 @@ pub(super) struct Kept<'a, S> {
     pub(super) last_alone: bool,
     pub(super) watch: &'a Watch,
     pub(super) held: Option<driver::Held>,
-    /// Whether an event may end the run.
-    pub(super) ends: bool,
+    /// Whether events are looked for, which may end the run, and whether they are kept.
+    pub(super) awaits_events: bool,
+    pub(super) keeps_events: bool,
+    pub(super) events: Vec<Event>,
+    /// The last event that may end the run.
+    pub(super) stopped: Option<Stop>,
 }
 
 impl<'a, S> Kept<'a, S> {
@@ -25,7 +30,10 @@ impl<'a, S> Kept<'a, S> {
             last_alone: options.save == Save::Ends,
             watch,
             held: None,
-            ends: false,
+            awaits_events: false,
+            keeps_events: false,
+            events: Vec::new(),
+            stopped: None,
         }
     }
 }
@@ -40,7 +48,29 @@ impl<S: Scalar> Observer<S, Dynamic<S>> for Kept<'_, S> {
     }
 
     fn awaits_events(&self) -> bool {
-        self.ends
+        self.awaits_events
+    }
+
+    fn event(&mut self, system: &Dynamic<S>, event: &driver::Event<Vec<S>>) {
+        if event.stops {
+            self.stopped = Some(Stop {
+                event: event.index,
+                time: event.time,
+            });
+        }
+        if !self.keeps_events {
+            return;
+        }
+        if self.events.try_reserve(1).is_err() {
+            self.watch.is_full();
+            return;
+        }
+        self.events.push(Event {
+            name: Poisson::<S>::event_name(system, event.index).to_owned(),
+            time: event.time,
+            state: event.mu.iter().map(|entry| entry.to_f64()).collect(),
+            stops: event.stops,
+        });
     }
 
     fn step(&mut self, _: &Dynamic<S>, _: Progress, _: &Vec<S>) -> ControlFlow<()> {

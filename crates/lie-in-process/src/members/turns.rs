@@ -9,7 +9,7 @@ use lie_runtime::driver::pace::choose;
 use lie_runtime::driver::{Crew, Pace, Problem, Save, relay};
 use lie_runtime::{Poisson, Scalar};
 
-use super::{LANES, LEAST, Member, Wide, Worker, ends_at_events};
+use super::{LANES, LEAST, Member, Wide, Worker};
 
 impl Worker<'_> {
     /// Runs members from the first on that have the same parameters, where they can take turns: each as it is alone, and those that are to be run
@@ -28,7 +28,9 @@ impl Worker<'_> {
         let starts = &self.members.starts[members.clone()];
         let dimension = Poisson::<f64>::dimension(system);
         let held = Poisson::<f64>::input_count(system) + Poisson::<f64>::noise_count(system);
-        let suits = system.takes_lanes(self.members.choice) && held == 0 && !ends_at_events(system);
+        let suits = system.takes_lanes(self.members.choice)
+            && held == 0
+            && !self.members.await_events(system);
         if !suits || starts.iter().any(|start| start.len() != dimension) {
             return None;
         }

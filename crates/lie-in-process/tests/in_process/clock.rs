@@ -126,6 +126,7 @@ fn members_in_lanes_have_the_bits_of_members_alone() {
             span: (7.0, 9.0),
             held: Default::default(),
             sources: Default::default(),
+            events: false,
             options: Options::new(STEP).save(Save::Ends),
         };
         let bits = |found: Vec<Member>| -> Vec<Vec<u64>> {

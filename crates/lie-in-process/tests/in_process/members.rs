@@ -85,6 +85,7 @@ fn different(name: &str, save: Save, newton: NewtonOptions) -> (usize, Vec<Strin
             span: (0.0, END),
             held: Default::default(),
             sources: Default::default(),
+            events: false,
         };
         let expected = alone(&members);
         let found = all(&members);
@@ -149,6 +150,7 @@ fn sweep<'a>(declared: &'a Declared, choice: &'a Choice, save: Save) -> Members<
         span: (0.0, END),
         held: Default::default(),
         sources: Default::default(),
+        events: false,
     }
 }
 
@@ -262,6 +264,7 @@ fn kernel_by_kernel(members: &Members<'_>) -> Vec<Member> {
             options: members.options.clone(),
             held: members.held.clone(),
             sources: members.sources.clone(),
+            events: false,
             ..*members
         };
         let member = all(&one).remove(0);

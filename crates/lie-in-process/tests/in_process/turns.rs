@@ -86,6 +86,7 @@ fn members_have_the_bits_that_they_have_alone() {
                     span: (0.0, *end),
                     held: Default::default(),
                     sources: Default::default(),
+                    events: false,
                 };
                 let what = format!("{name}, {}, {options:?}", choice.label());
                 assert!(take_turns(choice, members.tolerances));
@@ -114,6 +115,7 @@ fn parameters_may_differ() {
             span: (0.0, 10.0),
             held: Default::default(),
             sources: Default::default(),
+            events: false,
         };
         for (member, values) in members.parameters.iter_mut().enumerate() {
             values[0] *= 1.0 + (member / 10) as f64;
