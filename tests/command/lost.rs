@@ -207,6 +207,10 @@ fn what_does_not_fit_into_memory_is_refused_beforehand() {
         assert!(run.stderr.contains("memory"), "{}", run.stderr);
         assert!(!here.join("rows.csv").exists());
     }
+    let rows = "ensemble body.json --members 2 --method rk4 --step 0.001 --until 1e9 --every 1";
+    let run = limited(&format!("{rows} --out all.npy")).says("limit", "command line: --every");
+    assert!(run.stderr.contains("memory"), "{}", run.stderr);
+    assert!(!here.join("all.npy").exists());
 }
 
 /// Whether a picture has all that a whole run shows.

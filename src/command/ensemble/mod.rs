@@ -290,12 +290,17 @@ fn not_here(spec: &Spec) -> Failure {
 fn not_taken(out: &Path, error: std::io::Error) -> Failure {
     let inner = error.get_ref();
     if let Some(exceeded) = inner.and_then(|inner| inner.downcast_ref::<Exceeded>()) {
-        let message = Message::new(Kind::Limit, exceeded.to_string()).with_fault(Fault::Memory);
-        let help = "keep fewer rows by `--every` or `--at`, or take fewer `--threads`";
-        return Failure::invalid(vec![message.help(help)]);
+        return Failure::invalid(vec![no_room(exceeded)]);
     }
     if error.kind() == std::io::ErrorKind::InvalidData {
         return Failure::surroundings(fault(&error.to_string()));
     }
     writing_failed(Some(out), &error)
+}
+
+/// Rows for which there is no memory.
+fn no_room(exceeded: &Exceeded) -> Message {
+    let message = Message::new(Kind::Limit, exceeded.to_string()).with_fault(Fault::Memory);
+    let help = "keep fewer rows by `--every` or `--at`, or take fewer `--threads`";
+    message.help(help)
 }

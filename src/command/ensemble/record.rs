@@ -3,13 +3,15 @@
 use std::path::Path;
 
 use lie_in_process::ensemble;
+use lie_in_process::memory;
 use lie_in_process::request::{Asked, Value};
 use lie_in_process::share::{Record, Share, Stops, Table};
+use lie_runtime::driver::Pace;
 use lie_syntax::front::spec::files;
 use serde_json::Map;
 
 use super::reductions::QUANTILES;
-use super::beside;
+use super::{beside, no_room};
 use crate::build::{self, Key};
 use crate::command::args;
 use crate::command::run::layout::Layout;
@@ -70,7 +72,7 @@ pub fn record(
         share,
         parameters: asked.swept.clone(),
         columns: layout.coordinates(),
-        times: ensemble::times(&asked.plan, ends),
+        times: times(asked, layout.states)?,
         rows: !ends,
         reduce: reduce.collect(),
         stops: stops(spec, &quantiles),
@@ -82,6 +84,17 @@ pub fn record(
         numbers: None,
     };
     Ok((record, places))
+}
+
+/// The times of the rows, where there is memory for those of a member.
+fn times(asked: &Asked, columns: usize) -> Result<Vec<f64>, Failure> {
+    let plan = &asked.plan;
+    if let (Pace::Step(step), false) = (plan.pace.0, asked.ends) {
+        let rows = memory::rows(&plan.times, plan.from, step);
+        let fits = memory::fits(rows * (1.0 + columns as f64) * memory::NUMBER);
+        fits.map_err(|exceeded| no_room(&exceeded).at_option("--every"))?;
+    }
+    Ok(ensemble::times(plan, asked.ends))
 }
 
 /// What is said of the events that end members, where some are declared to do that.
