@@ -18,7 +18,7 @@ METHODS = {
         "collective4",
     ],
     "lotka_volterra": [
-        "k-hj2", "k-hj4", "k-hj6", "orbit-energy",
+        "k-hj2", "k-hj4", "k-hj6", "orbit-energy", "canonical2", "canonical4", "canonical6",
     ],
     "heisenberg_h3": [
         "cohen-hairer2", "gonzalez", "mean-value", "itoh-abe", "orbit-energy", "orbit-energy --gradient mean-value", "cohen-hairer4",

@@ -27,7 +27,7 @@ RUNS = [
     "specs/brackets/guiding_centre.json=0.2",
 ]
 CANONICAL = ["midpoint", "gauss4", "gauss10"]
-METHODS = ["midpoint", "gauss4", "gauss10", "gonzalez", "orbit-energy", "k-hj2", "k-hj4", "splitting4"]
+METHODS = ["midpoint", "gauss4", "gauss10", "gonzalez", "orbit-energy", "k-hj2", "k-hj4", "canonical2", "canonical4", "splitting4"]
 
 
 def run(lie, spec, method, step, steps, every, out):

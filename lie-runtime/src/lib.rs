@@ -71,16 +71,16 @@ pub mod sources;
 mod test_systems;
 
 pub use lie_core::{
-    CayleyPoisson, Clock, ClosedRealization, CollectivePoisson, ColumnPoisson, CotangentPoisson,
-    DiscreteLagrangian, DiscreteLagrangianPoisson, Dual, Elementary, Equation, EventRule, Expand,
-    FoundPoisson, GeneratingFunction, GradientRecurrence, GradientSeries, Group, Implicit,
-    InertiaPoisson, IntegrablePoisson, LagrangianPoisson, LiePoisson, Lift, Mask, MatrixGroup,
-    MatrixPoisson, Motion, ParameterError, ParameterFault, PieceFlows, Poisson, RealizedPoisson,
-    Recurrence, RetractedPoisson, Scalar, SeparablePoisson, Series, Spectrum, SpinPoisson,
-    SquareMatrix, StageMatrix, Stages, State, UnitaryPoisson, Unknown, VectorPoisson, Widen, clock,
-    closed, elimination, equation, functions, generating, generic, generic_equations, lagrangian,
-    lattice, matrix, methods, newton, parameter, pieces, poisson, recurrence, scalar, state,
-    structure,
+    CanonicalPoisson, CayleyPoisson, Clock, ClosedRealization, CollectivePoisson, ColumnPoisson,
+    CotangentPoisson, DiscreteLagrangian, DiscreteLagrangianPoisson, Dual, Elementary, Equation,
+    EventRule, Expand, FoundPoisson, GeneratingFunction, GradientRecurrence, GradientSeries, Group,
+    Implicit, InertiaPoisson, IntegrablePoisson, LagrangianPoisson, LiePoisson, Lift, Mask,
+    MatrixGroup, MatrixPoisson, Motion, ParameterError, ParameterFault, PieceFlows, Poisson,
+    RealizedPoisson, Recurrence, RetractedPoisson, Scalar, SeparablePoisson, Series, Spectrum,
+    SpinPoisson, SquareMatrix, StageMatrix, Stages, State, UnitaryPoisson, Unknown, VectorPoisson,
+    Widen, clock, closed, elimination, equation, functions, generating, generic, generic_equations,
+    lagrangian, lattice, matrix, methods, newton, parameter, pieces, poisson, recurrence, scalar,
+    state, structure,
 };
 #[cfg(feature = "macros")]
 pub use lie_macros::lie_poisson;
@@ -99,17 +99,17 @@ pub mod prelude {
     #[doc(no_inline)]
     pub use crate::methods::gauss::*;
     pub use crate::methods::{
-        CohenHairer2, CohenHairer4, CohenHairer6, CohenHairer8, CohenHairer10, CohenHairer12,
-        CohenHairer14, CohenHairer16, Collective2, Collective4, Collective6, Collective8,
-        Collective10, Collective12, Collective14, Collective16, CommutatorFree4, Compose4,
-        Compose6, Compose8, CrouchGrossman3, DiscreteEulerPoincare, Dopri5, EulerArnold2, Exact,
-        Generating2, Generating4, Generating6, GeneratingSecondKind2, Gonzalez, HamiltonJacobi2,
-        HamiltonJacobi4, HamiltonJacobi6, ImplicitMidpoint, Isospectral2, Isospectral4,
-        Isospectral6, Isospectral8, Isospectral10, Isospectral12, Isospectral14, Isospectral16,
-        ItohAbe, LieEuler, LieMidpoint, LieTaylor, MeanValue, Method, MoserVeselov,
-        NinomiyaVictoir, OrbitEnergy, Rk4, Rkmk2, Rkmk3, Rkmk4, Rkmk6, Scheme, SphericalMidpoint,
-        Splitting1, Splitting2, Splitting4, Splitting6, Splitting8, Stepper, Taylor, Variational2,
-        Variational4, Variational6,
+        Canonical2, Canonical4, Canonical6, CohenHairer2, CohenHairer4, CohenHairer6, CohenHairer8,
+        CohenHairer10, CohenHairer12, CohenHairer14, CohenHairer16, Collective2, Collective4,
+        Collective6, Collective8, Collective10, Collective12, Collective14, Collective16,
+        CommutatorFree4, Compose4, Compose6, Compose8, CrouchGrossman3, DiscreteEulerPoincare,
+        Dopri5, EulerArnold2, Exact, Generating2, Generating4, Generating6, GeneratingSecondKind2,
+        Gonzalez, HamiltonJacobi2, HamiltonJacobi4, HamiltonJacobi6, ImplicitMidpoint,
+        Isospectral2, Isospectral4, Isospectral6, Isospectral8, Isospectral10, Isospectral12,
+        Isospectral14, Isospectral16, ItohAbe, LieEuler, LieMidpoint, LieTaylor, MeanValue, Method,
+        MoserVeselov, NinomiyaVictoir, OrbitEnergy, Rk4, Rkmk2, Rkmk3, Rkmk4, Rkmk6, Scheme,
+        SphericalMidpoint, Splitting1, Splitting2, Splitting4, Splitting6, Splitting8, Stepper,
+        Taylor, Variational2, Variational4, Variational6,
     };
     pub use crate::newton::{Convergence, Iteration, NewtonOptions};
     #[cfg(feature = "lanes")]

@@ -23,6 +23,7 @@ mod build;
 mod canonical;
 mod check;
 mod cocycles;
+mod conjugate;
 mod constraints;
 mod declarations;
 mod density;

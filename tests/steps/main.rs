@@ -26,6 +26,7 @@ mod round_off;
 #[path = "../common/vectors.rs"]
 mod vectors;
 
+mod canonical;
 mod closed_forms;
 mod closed_loop;
 mod collective;

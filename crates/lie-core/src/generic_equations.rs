@@ -21,7 +21,8 @@ macro_rules! by_key {
         /// `generating4_cayley`; `discrete_gradients` (`gonzalez`, `mean_value`, `itoh_abe`), `orbit_energy` (along
         /// each of them: `orbit_gonzalez`, `orbit_mean_value`, `orbit_itoh_abe`; of other brackets `frozen_flow`: `frozen_gonzalez`,
         /// `frozen_mean_value`, `frozen_itoh_abe`), `k_hj` (`k_hj2`, and `k_hj4` and `k_hj6`, which need [`crate::Lift`];
-        /// of an algebra `k_hj_along_exp`, which needs `exp` and `generating`), `cohen_hairer` (`cohen_hairer2`,
+        /// of an algebra `k_hj_along_exp`, which needs `exp` and `generating`), `canonical` (`canonical2`, `canonical4`, `canonical6`; need
+        /// [`crate::CanonicalPoisson`]), `cohen_hairer` (`cohen_hairer2`,
         /// `cohen_hairer4`, `cohen_hairer6`); `isospectral2`, `isospectral4`, `isospectral6` (also for `Collective`;
         /// need [`crate::MatrixPoisson`]), `isospectral2_cayley` (needs `cayley` instead), `hopf` and `spherical`
         /// (need [`crate::SpinPoisson`]), `moser_veselov` (the same with a quadratic H on so(3)) and
@@ -62,6 +63,9 @@ macro_rules! by_key {
             };
             (@k_hj_along_exp $d($d rest:tt)*) => {
                 $crate::generic_equations!(@@k_hj2_along_exp k_hj4_along_exp k_hj6_along_exp; $d($d rest)*);
+            };
+            (@canonical $d($d rest:tt)*) => {
+                $crate::generic_equations!(@@canonical2 canonical4 canonical6; $d($d rest)*);
             };
             (@cohen_hairer $d($d rest:tt)*) => {
                 $crate::generic_equations!(@@cohen_hairer2 cohen_hairer4 cohen_hairer6; $d($d rest)*);

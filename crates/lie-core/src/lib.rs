@@ -50,7 +50,7 @@ pub use recurrence::{Expand, GradientRecurrence, GradientSeries, Recurrence, Ser
 pub use scalar::{Dual, Mask, Scalar};
 pub use state::{Stages, State, Unknown};
 pub use structure::{
-    ClosedRealization, CollectivePoisson, ColumnPoisson, CotangentPoisson, Group, InertiaPoisson,
-    IntegrablePoisson, MatrixGroup, MatrixPoisson, Motion, RealizedPoisson, RetractedPoisson,
-    Spectrum, SpinPoisson, UnitaryPoisson, VectorPoisson,
+    CanonicalPoisson, ClosedRealization, CollectivePoisson, ColumnPoisson, CotangentPoisson, Group,
+    InertiaPoisson, IntegrablePoisson, MatrixGroup, MatrixPoisson, Motion, RealizedPoisson,
+    RetractedPoisson, Spectrum, SpinPoisson, UnitaryPoisson, VectorPoisson,
 };

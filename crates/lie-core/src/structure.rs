@@ -176,6 +176,26 @@ pub trait MatrixGroup<S: Scalar>: LiePoisson<S> {
     }
 }
 
+/// A Poisson system with coordinates w in which its Poisson matrix is constant.
+///
+/// The matrix `dw/dmu` is triangular in some order of the coordinates. For [`Canonical4`](crate::methods::Canonical4) and its kin.
+#[diagnostic::on_unimplemented(
+    message = "no coordinates are known in which the bracket of `{Self}` is constant over the scalar `{S}`",
+    note = "`lie check` says which methods apply; `HamiltonJacobi4` is a Poisson map for every bracket"
+)]
+pub trait CanonicalPoisson<S: Scalar>: Poisson<S> {
+    /// The coordinates: `out = w(mu)`.
+    fn canonical(&self, mu: &Self::State, out: &mut Self::State);
+    /// Their slopes `out_i = dw_i/dmu_i`. They have one sign on each side of where w has no inverse.
+    fn canonical_slopes(&self, mu: &Self::State, out: &mut Self::State);
+    /// What moves w by xi: `out = (dw/dmu)^-1 xi`.
+    fn canonical_pull(&self, mu: &Self::State, xi: &Self::State, out: &mut Self::State);
+    /// The field in them: `out = (dw/dmu) f(mu)`.
+    fn canonical_field(&self, mu: &Self::State, out: &mut Self::State);
+    /// Its derivative: `out_ij = d((dw/dmu) f)_i/dmu_j`.
+    fn canonical_jacobian(&self, mu: &Self::State, out: &mut Self::Jacobian);
+}
+
 /// A Lie–Poisson system with a retraction of its own: a map `tau` from the algebra to the group with `tau(0) = e`, the identity as its
 /// derivative there, and `tau(x) tau(-x) = e`. For [`LieMidpoint::declared`](crate::methods::LieMidpoint::declared).
 ///

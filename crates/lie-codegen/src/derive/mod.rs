@@ -1,5 +1,6 @@
 //! From a checked system to the kernels that its traits need, as expressions.
 
+mod canonical;
 mod cayley;
 mod coadjoint;
 mod discrete_gradient;
@@ -287,6 +288,11 @@ impl Source {
     /// The tangents of the declared retraction, and what its elements do.
     pub fn retraction_kernels(&mut self) -> Option<Vec<Kernel>> {
         retraction::kernels(self)
+    }
+
+    /// The coordinates in which the bracket is constant, and the field in them.
+    pub fn canonical_kernels(&mut self) -> Option<Vec<Kernel>> {
+        canonical::kernels(self)
     }
 
     /// The flows of the coordinate pieces of a separable Hamiltonian.

@@ -5,8 +5,8 @@ use super::constrained::almost_poisson;
 use super::{CATALOGUE, Choice, Lift, Pieces, Retraction, Scheme, Tensor};
 use crate::model::{Bracket, Descent, Discrete, Energy, Model};
 use crate::structure::{
-    Structure, flows, found, inertia, integrable, lifts, matrices, separable, spins, unitary,
-    vectors,
+    Structure, conjugate, flows, found, inertia, integrable, lifts, matrices, separable, spins,
+    unitary, vectors,
 };
 use lie_syntax::diagnostic::Kind;
 
@@ -64,6 +64,7 @@ pub fn refusal(structure: &Structure, choice: &Choice) -> Option<(String, String
             })
         }
         Choice::LieMidpoint(Retraction::Spec) => retraction(model),
+        Choice::Canonical(order) => conjugate::refusal(structure, *order),
         Choice::Collective(order, Lift::Representation) | Choice::Isospectral(order) => {
             matrices::refusal(structure, *order)
         }

@@ -34,6 +34,8 @@ pub enum Carrier {
     Closed,
     /// Those with a retraction of their own.
     Retraction,
+    /// Those with coordinates in which their bracket is constant, where it is not as it is.
+    Canonical,
     /// Those with a representation that is closed up to matrices that commute with it.
     Matrices,
     /// Those with such a representation that is not closed.

@@ -101,7 +101,9 @@ impl Plan {
         let counted = |function: &Function| (function.label.clone(), function.program.counts);
         let lifted = self.structure.flows();
         let retraction = &self.structure.retraction;
-        let functions = system.chain(realized).chain(retraction).chain(lifted);
+        let canonical = &self.structure.canonical;
+        let functions = system.chain(realized).chain(retraction).chain(canonical);
+        let functions = functions.chain(lifted);
         let mut counts: Vec<_> = functions.map(counted).collect();
         for item in &self.items {
             counts.extend(item.functions().map(counted));

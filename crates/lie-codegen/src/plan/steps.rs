@@ -88,6 +88,13 @@ impl Planner<'_> {
         asked && self.structure.retraction.is_some()
     }
 
+    /// Whether a method may step in the coordinates in which the bracket is constant: one that is asked for, or any where none is named.
+    pub(super) fn follows_canonical(&self) -> bool {
+        let along = |choice: &Choice| matches!(choice.solved(), Choice::Canonical(_));
+        let asked = self.methods.is_empty() || self.methods.iter().any(along);
+        asked && self.structure.conjugate.is_some() && self.source.energy.expression().is_some()
+    }
+
     /// Whether the system has the generic equations of a carrier.
     fn carries(&self, carrier: Carrier) -> bool {
         let source = &self.source;
@@ -97,6 +104,7 @@ impl Planner<'_> {
             Carrier::Algebra => source.is_lie(),
             Carrier::Closed => closed,
             Carrier::Retraction => self.follows_retraction(),
+            Carrier::Canonical => self.follows_canonical(),
             Carrier::Matrices => source.matrices().is_some(),
             Carrier::Reductive => source.matrices().is_some() && !closed,
             Carrier::Spins => source.spins().is_some(),

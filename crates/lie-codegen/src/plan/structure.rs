@@ -43,6 +43,8 @@ pub struct Structure {
     pub realization: Option<Realization>,
     /// The kernels of the declared retraction: its pullback, the slope of that, its action and its matrix; none where there is no such.
     pub retraction: Vec<Function>,
+    /// The kernels of coordinates in which the bracket is constant; none where no such are known or needed.
+    pub canonical: Vec<Function>,
 }
 
 /// A matrix group.
@@ -171,6 +173,7 @@ impl Planner<'_> {
             momenta: self.source.momenta(),
             realization: self.realization(),
             retraction: self.retraction(),
+            canonical: self.canonical(),
         }
     }
 
@@ -242,6 +245,14 @@ impl Planner<'_> {
             return Vec::new();
         }
         let kernels = self.source.retraction_kernels();
+        kernels.map_or_else(Vec::new, |kernels| self.functions(&kernels))
+    }
+
+    fn canonical(&mut self) -> Vec<Function> {
+        if !self.follows_canonical() {
+            return Vec::new();
+        }
+        let kernels = self.source.canonical_kernels();
         kernels.map_or_else(Vec::new, |kernels| self.functions(&kernels))
     }
 

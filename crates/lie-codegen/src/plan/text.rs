@@ -166,9 +166,15 @@ impl fmt::Display for Structure {
                 write!(f, "{function}")?;
             }
         }
-        if !self.retraction.is_empty() {
-            section(f, "retraction")?;
-            for function in &self.retraction {
+        let others = [
+            ("retraction", &self.retraction),
+            ("canonical coordinates", &self.canonical),
+        ];
+        for (title, functions) in others {
+            if !functions.is_empty() {
+                section(f, title)?;
+            }
+            for function in functions {
                 write!(f, "{function}")?;
             }
         }

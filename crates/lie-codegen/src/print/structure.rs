@@ -22,7 +22,8 @@ impl Printer<'_> {
         let (vectors, collective) = (self.vector_poisson(), self.collective_poisson());
         let unitary = self.unitary_poisson();
         let retracted = self.retracted_poisson();
-        quote! { #group #retracted #matrices #spins #integrable #vectors #unitary #collective #inertia #cotangent }
+        let canonical = self.trait_of("CanonicalPoisson", &self.plan.structure.canonical, None);
+        quote! { #group #retracted #canonical #matrices #spins #integrable #vectors #unitary #collective #inertia #cotangent }
     }
 
     fn matrix_poisson(&self) -> Option<TokenStream> {

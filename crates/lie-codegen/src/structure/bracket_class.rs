@@ -4,6 +4,7 @@ pub(super) mod multiple;
 
 use std::collections::BTreeSet;
 
+use super::conjugate::conjugate;
 use super::elementwise::{elementwise, vanish};
 use super::found::additive;
 use crate::model::{Bracket, Model, PoissonMatrix};
@@ -30,6 +31,8 @@ pub enum Class {
     /// In three dimensions `{f, g} = <grad C, grad f x grad g>`, with the text of C (Y. Nambu, Physical Review D 7 (1973) 2405–2412,
     /// doi:10.1103/PhysRevD.7.2405).
     Jacobian(String),
+    /// Pairs `{x, y} = 1/B(x, y)` with a closed integral of B, beside elementwise brackets; the text of `int B dy` and of the pair for each.
+    Conjugate(Vec<String>),
     /// Every entry is affine: that of a Lie algebra with a cocycle.
     Affine,
     /// In three dimensions a function times a Jacobian bracket, with the text of its Casimir.
@@ -45,6 +48,7 @@ impl Class {
             Self::Elementwise => "elementwise",
             Self::Magnetic(_) => "magnetic",
             Self::Jacobian(_) => "Jacobian",
+            Self::Conjugate(_) => "conjugate pairs",
             Self::Affine => "affine",
             Self::Multiple(_) => "multiple of Jacobian",
         }
@@ -59,10 +63,10 @@ impl Class {
         match self {
             Self::Constant => "constant: functions of linear forms have exact flows".into(),
             Self::LogCanonical => {
-                "log-canonical, {x_i, x_j} = c_ij x_i x_j: functions of monomials have exact flows, which keep signs; `lie canonical` takes logarithms, in which Gauss methods are Poisson maps".into()
+                "log-canonical, {x_i, x_j} = c_ij x_i x_j: functions of monomials have exact flows, which keep signs; `canonical2` to `canonical6` are Gauss methods in logarithms, and Poisson maps; `lie canonical` writes the system in these".into()
             }
             Self::Elementwise => {
-                "elementwise, {x_i, x_j} = c_ij a_i(x_i) a_j(x_j): functions of sums of int dx_i/a_i have exact flows; `lie canonical` takes these as coordinates, in which Gauss methods are Poisson maps".into()
+                "elementwise, {x_i, x_j} = c_ij a_i(x_i) a_j(x_j): functions of sums of int dx_i/a_i have exact flows; `canonical2` to `canonical6` are Gauss methods in these, and Poisson maps; `lie canonical` writes the system in them".into()
             }
             Self::Magnetic(positions) => format!(
                 "magnetic, with the positions {}: functions of one momentum have exact flows, in a field that is no polynomial by quadrature",
@@ -72,6 +76,10 @@ impl Class {
             Self::Multiple(casimir) => {
                 format!("a function times a Jacobian one, with the Casimir {casimir}")
             }
+            Self::Conjugate(integrals) => format!(
+                "of conjugate pairs, {{x, y}} = 1/B(x, y): constant with {}; `canonical2` to `canonical6` are Gauss methods in these coordinates, and Poisson maps",
+                integrals.join(", ")
+            ),
             Self::Affine => {
                 "affine: declared as an algebra with a cocycle it has every method of the algebra".into()
             }
@@ -112,10 +120,15 @@ pub fn class(model: &Model) -> Option<Class> {
     if let Some(casimir) = jacobian(model, matrix, &mut graph) {
         return Some(Class::Jacobian(graph.display(casimir, &name)));
     }
-    affine().or_else(|| {
-        let casimir = multiple::casimir(model, matrix, &mut graph)?;
-        Some(Class::Multiple(graph.display(casimir, &name)))
-    })
+    affine()
+        .or_else(|| {
+            let integrals = conjugate(model, &mut graph)?.integrals(&graph, model);
+            (!integrals.is_empty()).then_some(Class::Conjugate(integrals))
+        })
+        .or_else(|| {
+            let casimir = multiple::casimir(model, matrix, &mut graph)?;
+            Some(Class::Multiple(graph.display(casimir, &name)))
+        })
 }
 
 /// The positions, if the bracket is that of a particle in a magnetic field.

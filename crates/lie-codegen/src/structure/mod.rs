@@ -4,6 +4,7 @@ pub mod algebra;
 pub mod bracket_class;
 pub mod casimirs;
 mod completion;
+pub mod conjugate;
 pub mod directions;
 mod driving;
 pub mod elementwise;
@@ -89,6 +90,8 @@ pub struct Structure {
     pub family_pieces: Option<Result<Arc<family::Pieces>, String>>,
     /// Which pairs of coordinates are canonical, and which triples turn.
     pub directions: Arc<directions::Directions>,
+    /// Coordinates in which the bracket is constant, where it is not as it is and they are known.
+    pub conjugate: Option<conjugate::Conjugate>,
     /// Where branches of H meet.
     pub joints: Vec<Joint>,
     /// Constants of the motion, or why none are looked for; none where the effort is that for a declaration.
@@ -115,6 +118,7 @@ pub fn structure(mut model: Model, effort: Effort) -> Structure {
     let mut graph = model.graph.clone();
     let (mut casimirs, search) = completion::completed(&model, effort, &mut graph);
     driving::mark_kept(&model, &mut casimirs, &mut graph);
+    let conjugate = conjugate::conjugate(&model, &mut graph);
     model.graph = graph;
     let (spins, vectors) = (spins::spins(&model), vectors::vectors(&model));
     let unitary = unitary::unitary(&model);
@@ -176,6 +180,7 @@ pub fn structure(mut model: Model, effort: Effort) -> Structure {
         splitting: Arc::new(splitting),
         family_pieces,
         directions,
+        conjugate,
         joints,
         motions,
     }

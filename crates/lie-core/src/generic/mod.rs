@@ -50,6 +50,7 @@ use unknown_of_stages;
 mod acting;
 mod beside;
 mod blocks;
+mod canonical_gauss;
 mod cayley_midpoint;
 mod cayley_variational;
 mod chart;
@@ -110,6 +111,7 @@ mod unitary;
 mod words;
 
 pub use crate::methods::equations::*;
+pub use canonical_gauss::CanonicalGauss;
 pub use cayley_midpoint::{CayleyMidpoint, CayleyRetraction};
 pub use cayley_variational::{CayleyDiscrete, CayleyVariational};
 pub(crate) use chart::invertible_along;

@@ -76,6 +76,8 @@ macro_rules! for_each_method {
                 OrbitEnergy(Gradient),
                 /// `k-hj2`, `k-hj4`, `k-hj6`
                 HamiltonJacobi(u32),
+                /// `canonical2`, `canonical4`, `canonical6`
+                Canonical(u32),
                 /// `cohen-hairer2`, `cohen-hairer4` to `cohen-hairer16`
                 CohenHairer(u32),
                 /// `exact`
@@ -250,6 +252,12 @@ macro_rules! for_each_method {
                 [HamiltonJacobi(4)] [HamiltonJacobi4] [HamiltonJacobi4::new()] { [k_hj4_along_exp Algebra same Generating4<Exp>] [k_hj4 Any RealizationStep along HamiltonJacobi4] } }
             { "generating function on a symplectic realization" ANY CMV
                 [HamiltonJacobi(6)] [HamiltonJacobi6] [HamiltonJacobi6::new()] { [k_hj6_along_exp Algebra same Generating6<Exp>] [k_hj6 Any RealizationStep along HamiltonJacobi6] } }
+            { "Gauss collocation in canonical coordinates" CANONICAL HLW
+                [Canonical(2)] [Canonical2] [Canonical2] { [canonical2 Canonical CanonicalGauss 2] } }
+            { "Gauss collocation in canonical coordinates" CANONICAL HLW
+                [Canonical(4)] [Canonical4] [Canonical4] { [canonical4 Canonical CanonicalGauss 3] } }
+            { "Gauss collocation in canonical coordinates" CANONICAL HLW
+                [Canonical(6)] [Canonical6] [Canonical6] { [canonical6 Canonical CanonicalGauss 4] } }
             { "energy-preserving collocation" ANY CH
                 [CohenHairer(2)] [CohenHairer2] [CohenHairer2::new()] { [cohen_hairer2 Any DiscreteGradientStep of MeanValueGradient] } }
             { "energy-preserving collocation" ANY CH

@@ -15,6 +15,7 @@
 //! | [`WithTensor`] | the same with another tensor, `$\tilde\Pi(\mu, \mu_1, h)$` | 2 and more |
 //! | [`OrbitEnergy`] | `$\mu_1 = \mathrm{Ad}^*_{\exp(h \overline\nabla H(\mu, \mu_1))}\, \mu$` | 2 |
 //! | [`HamiltonJacobi2`], [`HamiltonJacobi4`], [`HamiltonJacobi6`] | `$\mu_1 = y(1)$`, `$\dot y = \Pi(y)\, p$`, `$p = \nabla S(X)$`, X the mean of y, on any bracket | 2, 4, 6 |
+//! | [`Canonical2`], [`Canonical4`], [`Canonical6`] | Gauss in coordinates in which the bracket is constant, `$w(\mu_1) = w(\mu) + h \sum_i b_i\, (w' f)(Y_i)$` | 2, 4, 6 |
 //! | [`CohenHairer`] | collocation with mean gradients, `$s$` stages | `$2s$` |
 //! | [`Isospectral2`], [`Isospectral4`], [`Isospectral6`] | Gauss on `T*V` of a representation V, reduced to g*; also [`Collective`] | 2, 4, 6 |
 //! | [`Collective::hopf`] | Gauss on `T*R^2` by the Hopf map, reduced to so(3)* | 2, 4, 6 |
@@ -75,6 +76,7 @@ macro_rules! by_equation {
 
 #[cfg(feature = "std")]
 pub mod any;
+pub mod canonical;
 mod coefficients;
 pub mod cohen_hairer;
 pub mod collective;
@@ -129,6 +131,7 @@ pub(crate) mod equations {
     pub use super::midpoint::Midpoint;
 }
 
+pub use canonical::{Canonical2, Canonical4, Canonical6};
 pub use coefficients::Scheme;
 pub use cohen_hairer::{
     CohenHairer, CohenHairer2, CohenHairer4, CohenHairer6, CohenHairer8, CohenHairer10,

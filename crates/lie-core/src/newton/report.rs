@@ -36,8 +36,11 @@ pub enum FailureReason {
     /// The updates of the iteration neither grew nor reached round-off.
     #[error("the iteration does not converge")]
     NotConverged,
-    /// The step lies beyond a pole of the Cayley map, or of the rational function of a Gauss method.
-    #[error("the step leaves the chart of the retraction")]
+    /// The step lies beyond a pole of the Cayley map, or of the rational function of a Gauss method, or where canonical coordinates have no
+    /// inverse.
+    #[error(
+        "the step leaves the chart of the retraction, or the side of its canonical coordinates"
+    )]
     OutsideChart,
     /// No rotation near the identity carries the momentum of the step, see
     /// [`MoserVeselov`](crate::methods::MoserVeselov).

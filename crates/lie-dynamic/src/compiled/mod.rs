@@ -133,6 +133,8 @@ pub(crate) struct Compiled {
     pub realization: Option<crate::system::realization::Codes>,
     /// The declared retraction.
     pub retraction: Option<crate::system::retraction::Codes>,
+    /// Coordinates in which the bracket is constant.
+    pub canonical: Option<crate::system::canonical::Codes>,
     pub family: Option<crate::system::family::Codes>,
     pub casimir_degrees: Vec<Option<u32>>,
     /// Steps as one program.
@@ -340,6 +342,7 @@ impl Compiled {
         let realization =
             realization.map(|r| crate::system::realization::Codes::new(r, &mut making));
         let retraction = crate::system::retraction::Codes::new(&plan.structure, &mut making);
+        let canonical = crate::system::canonical::Codes::new(&plan.structure, &mut making);
         let family = plan.family.as_ref();
         let family = family.map(|family| crate::system::family::Codes::new(family, &mut making));
         let casimir_degrees = plan.system.casimirs.iter().map(|c| c.degree).collect();
@@ -359,6 +362,7 @@ impl Compiled {
             structure,
             realization,
             retraction,
+            canonical,
             family,
             casimir_degrees,
             steps: Cache::default(),

@@ -2,6 +2,7 @@
 
 mod algebra;
 mod answers;
+pub(crate) mod canonical;
 pub(crate) mod family;
 pub(crate) mod flows;
 mod lagrangian;

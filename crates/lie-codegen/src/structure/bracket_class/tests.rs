@@ -35,6 +35,20 @@ fn each_class_is_found() {
         panic!("no Jacobian bracket");
     };
     assert!(casimir.contains("z*x*y/2"), "{casimir}");
+    let pairs = ["{x, y} = 1/(1 + x^2 + y^2)", "{z, u} = u*(z + 1)"];
+    let Class::Conjugate(found) = of("x y z u", &pairs) else {
+        panic!("no conjugate pairs");
+    };
+    let (integral, place) = found[0].split_once(" in ").expect("a place");
+    assert_eq!(place, "the place of y beside x");
+    assert_eq!(sorted(integral), sorted("y + y*x^2 + y^3/3"));
+    let Class::Conjugate(found) = of("y z x", &pairs[..1]) else {
+        panic!("no conjugate pair beside a Casimir");
+    };
+    assert!(
+        found[0].ends_with("in the place of x beside y"),
+        "{found:?}"
+    );
     let euler = ["{x, y} = z", "{y, z} = x", "{z, x} = y"];
     assert!(matches!(of("x y z", &euler), Class::Jacobian(_)));
     let affine = ["{x, y} = z + 1", "{y, z} = x", "{z, x} = y"];

@@ -15,7 +15,7 @@ pub(crate) fn terms(graph: &mut Graph, id: ExprId) -> Option<Vec<ExprId>> {
 }
 
 /// The same with the constant number.
-pub(super) fn collected(graph: &mut Graph, id: ExprId) -> Option<(Rational, Vec<ExprId>)> {
+pub(crate) fn collected(graph: &mut Graph, id: ExprId) -> Option<(Rational, Vec<ExprId>)> {
     let normal = graph.normal(id);
     let mut open = vec![normal];
     let mut atoms = Vec::new();
