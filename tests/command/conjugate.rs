@@ -140,6 +140,51 @@ fn steps_of_species_are_those_in_logarithms() {
     assert!(defect("canonical4") < 1e-13 && defect("gauss4") > 1e-9);
 }
 
+/// `lie canonical` writes pairs whose y is a function of the integral in closed form, on the side of the initial state; the motion is the same.
+#[test]
+fn closed_inverses_have_the_same_motion() {
+    let folder = folder();
+    let motion = |spec: &Value, names: &[&str]| {
+        let path = written(folder.path(), spec);
+        let out = folder.path().join("out.json");
+        if out.exists() {
+            std::fs::remove_file(&out).expect("removed");
+        }
+        lie(&format!("canonical {path} --out {}", out.display())).ok();
+        let flags = "--method gauss16 --step 0.02 --until 1";
+        let (here, there) = (
+            end(&path, flags, names),
+            end(&out.display().to_string(), flags, names),
+        );
+        for ((a, b), name) in here.iter().zip(&there).zip(names) {
+            assert!((a - b).abs() < 1e-12, "{spec}, {name}: {a} and {b}");
+        }
+    };
+    let [declared, _] = pairs();
+    motion(&declared, &["x", "p", "q", "y", "c", "v", "u"]);
+    for (density, initial) in [
+        ("1 + x^2", -0.5),
+        ("2 + y", -0.5),
+        // the side where B is negative, and one where the coefficient of y vanishes on the way
+        ("x + y/2", -1.5),
+        ("3 + x*y", 0.5),
+        ("(2*y + 1)^2", -1.5),
+        ("(2*y + 1)^3*exp(x)", -1.5),
+        ("sqrt(2 + y)", -0.5),
+        ("cosh(1 - y)", 0.25),
+        ("exp(-2*y)*cos(x)", 0.25),
+    ] {
+        let spec = json!({
+            "format": 1, "name": "Closed", "state": ["x", "y"],
+            "poisson": [format!("{{x, y}} = 1/({density})")],
+            "hamiltonian": "x^2/4 + y^2/5 + x*y/7 + y/3",
+            "forces": {"x": "-x/9", "y": "sin(t)/8"},
+            "initial": ["-1/3", initial]
+        });
+        motion(&spec, &["x", "y"]);
+    }
+}
+
 /// The energy has no drift, and is as that of Gauss collocation in the declared coordinates, which keeps it here because the system is
 /// reversible.
 #[test]
@@ -225,4 +270,13 @@ fn the_report_names_the_class_and_the_integral() {
     let json = lie(&format!("check {} --json", path.display())).ok();
     let report: Value = serde_json::from_str(&json.stdout).expect("JSON");
     assert_eq!(report["bracket_class"], "conjugate pairs");
+}
+
+#[test]
+fn an_inverse_that_is_not_closed_names_the_method() {
+    let run = lie(&format!("canonical {GUIDING_CENTRE}"));
+    assert_eq!(run.code, Some(2));
+    for text in ["`y` is no function in closed form", "`canonical4`"] {
+        assert!(run.stderr.contains(text), "{}", run.stderr);
+    }
 }

@@ -106,8 +106,8 @@ fn wrong(mistakes: Vec<Diagnostic>) -> Message {
 fn sentence(spec: &Spec, found: &Straight) -> String {
     let pairs = spec.model.coordinates.iter().zip(&found.coordinates);
     let changed = pairs.filter_map(|(old, new)| {
-        let logarithm = new.logarithm.as_ref()?;
-        Some(format!("{} = {}", old.text, logarithm.back))
+        let replaced = new.replaced.as_ref()?;
+        Some(format!("{} = {}", old.text, replaced.back))
     });
     let changed: Vec<String> = changed.collect();
     format!("the bracket is constant with {}", changed.join(", "))
@@ -120,13 +120,19 @@ fn refused(spec: &Spec, why: Refusal) -> Message {
             "every Gauss method is a Poisson map as it is",
         ),
         Refusal::Other => (
-            "no change of each coordinate alone is known that makes this bracket constant"
-                .to_owned(),
-            "it is for brackets {x_i, x_j} = c_ij a_i(x_i) a_j(x_j) with constant or linear a_i, and rational functions of parameters in them; `lie check` names the class of a bracket",
+            "no coordinates are known in which this bracket is constant".to_owned(),
+            "it is for brackets {x_i, x_j} = c_ij a_i(x_i) a_j(x_j) with constant or linear a_i, and rational functions of parameters in them, and for pairs {x, y} = 1/B(x, y); `lie check` names the class of a bracket",
+        ),
+        Refusal::NoInverse(i) => (
+            format!(
+                "`{}` is no function in closed form of the integral that would take its place",
+                spec.model.coordinates[i].text
+            ),
+            "`canonical2`, `canonical4` and `canonical6` are Gauss methods in these coordinates on the system as it is: they find it along with their stages",
         ),
         Refusal::Zero(i) => (
             format!(
-                "the initial state is where the brackets of `{}` vanish, and its logarithm has no value there",
+                "the initial state is where the brackets of `{}` vanish or have no value, and so has what would take its place",
                 spec.model.coordinates[i].text
             ),
             "declare an `initial` beside it: no motion leaves this set, or comes to it",
@@ -154,8 +160,8 @@ fn rewrite(
     let mut lets = Vec::new();
     let mut observables = Vec::new();
     for (old, new) in old().zip(&found.coordinates) {
-        if let Some(logarithm) = &new.logarithm {
-            lets.push(Value::from(format!("{old} = {}", logarithm.back)));
+        if let Some(replaced) = &new.replaced {
+            lets.push(Value::from(format!("{old} = {}", replaced.back)));
             observables.push(format!("{0}: {0}", Value::from(old)));
         }
     }
@@ -173,20 +179,8 @@ fn rewrite(
     if let Some(initial) = initial.collect::<Option<Vec<String>>>() {
         changed.push(("initial", Value::from(initial)));
     }
-    let along = |force: serde_json::Map<String, Value>| -> Value {
-        let turned = force.into_iter().map(|(name, value)| {
-            let place = old().position(|old| old == name);
-            let new = place.map(|place| &found.coordinates[place]);
-            match (new.and_then(|new| new.logarithm.as_ref()), value) {
-                (Some(logarithm), Value::String(value)) => {
-                    let value = format!("({value})/({})", logarithm.speed);
-                    (new.map_or(name, |new| new.name.clone()), value.into())
-                }
-                (_, value) => (name, value),
-            }
-        });
-        Value::Object(turned.collect())
-    };
+    let names: Vec<&str> = old().collect();
+    let along = |force| moved(&names, found, &force);
     if let Some(forces) = entries.get("forces") {
         let forces = serde_json::from_str(forces.get()).map_err(unread)?;
         changed.push(("forces", along(forces)));
@@ -215,6 +209,34 @@ fn rewrite(
     let observables = RawValue::from_string(observables).map_err(unread)?;
     entries.insert("observables".to_owned(), observables);
     Ok(())
+}
+
+/// A force on the new coordinates, for one on the old ones.
+fn moved(names: &[&str], found: &Straight, force: &serde_json::Map<String, Value>) -> Value {
+    let on = |k: usize| {
+        let value = force.get(names[k])?;
+        let text = value
+            .as_str()
+            .map_or_else(|| value.to_string(), str::to_owned);
+        Some(text)
+    };
+    let known = found.coordinates.iter().enumerate();
+    let known = known.filter_map(|(k, new)| {
+        let Some(replaced) = &new.replaced else {
+            return Some((new.name.clone(), force.get(names[k])?.clone()));
+        };
+        let own = on(k).map(|value| format!("({value})/({})", replaced.speed));
+        let beside = replaced.beside.iter();
+        let beside = beside.filter_map(|(k, slope)| Some(format!("({})*({slope})", on(*k)?)));
+        let terms: Vec<String> = own.into_iter().chain(beside).collect();
+        (!terms.is_empty()).then(|| (new.name.clone(), terms.join(" + ").into()))
+    });
+    let mut all: serde_json::Map<String, Value> = known.collect();
+    let others = force
+        .iter()
+        .filter(|(name, _)| !names.contains(&name.as_str()));
+    all.extend(others.map(|(name, value)| (name.clone(), value.clone())));
+    Value::Object(all)
 }
 
 fn described(sentence: &str, entries: &Entries) -> Result<String, Message> {

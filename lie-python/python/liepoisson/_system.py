@@ -469,7 +469,7 @@ class System(Declared):
     def canonical(self) -> System:
         """The same system in coordinates in which its bracket is constant, as `lie canonical` writes it.
 
-        For log-canonical brackets and their like. Gauss methods are Poisson maps there; the old coordinates are observables.
+        For log-canonical brackets and their like, and pairs `{x, y} = 1/B(x, y)` with a closed inverse of `int B dy`. Gauss methods are Poisson maps there; the old coordinates are observables.
 
         >>> prey = System(poisson=["{x, y} = x*y"], state=["x", "y"], hamiltonian="x - log(x) + y - log(y)", initial=[0.5, 2])
         >>> other = prey.canonical()

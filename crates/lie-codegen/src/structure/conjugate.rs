@@ -5,6 +5,7 @@
 //! doi:10.1017/S002237780000060X). Where the integral over y has no closed form, that over x may.
 
 mod integral;
+pub(super) mod inverse;
 
 use super::Structure;
 use super::elementwise::{Elementwise, Speed, elementwise, vanish};

@@ -1,13 +1,16 @@
-//! Coordinates in which an elementwise bracket is constant.
+//! Coordinates in which an elementwise bracket is constant, or one of pairs `{x, y} = 1/B(x, y)`.
 //!
 //! With `{x_i, x_j} = c_ij a_i(x_i) a_j(x_j)` and `y_i = int dx_i/a_i` the bracket is `{y_i, y_j} = c_ij`. There every Gauss method is a Poisson
 //! map that keeps all linear Casimirs, and has its order; in x it is neither. Where `a_i = x_i + a` that is
-//! `y_i = log(x_i + a)`, or `log(-x_i - a)` on the other side, which no motion leaves.
+//! `y_i = log(x_i + a)`, or `log(-x_i - a)` on the other side, which no motion leaves. Of a pair it is `Y = int B dy`, where y is a function of x
+//! and Y in closed form.
 
-use super::elementwise::{at_start, elementwise};
+use super::conjugate::inverse::inverse;
+use super::conjugate::{Change, Form, conjugate};
+use super::elementwise::{Speed, at_start, elementwise};
 use crate::model::Model;
-use lie_symbolic::exact::Fraction;
-use lie_symbolic::symbolic::{ExprId, Symbol};
+use lie_symbolic::exact::{Fraction, Rational};
+use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 use std::collections::HashSet;
 
 /// The coordinates, as they would be declared.
@@ -24,19 +27,21 @@ pub struct Straight {
 pub struct Coordinate {
     /// Its name: that of the system's where that stays.
     pub name: String,
-    /// Where it is a logarithm, what of.
-    pub logarithm: Option<Logarithm>,
+    /// What it is a function of, where it is none that is declared.
+    pub replaced: Option<Replaced>,
     /// The initial value, where the system has one.
     pub initial: Option<String>,
 }
 
-/// A logarithm in the place of a coordinate x.
+/// A logarithm or an integral in the place of a coordinate x.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Logarithm {
-    /// x as a function of it.
+pub struct Replaced {
+    /// x as a function of it, and of coordinates that stay.
     pub back: String,
-    /// `a(x)`: a force on it is one on x over this.
+    /// A force on it is one on x over this, and
     pub speed: String,
+    /// those on other coordinates times these.
+    pub beside: Vec<(usize, String)>,
 }
 
 /// Why there are none.
@@ -44,10 +49,12 @@ pub struct Logarithm {
 pub enum Refusal {
     /// The bracket is constant as it is.
     Constant,
-    /// It is none that a change of each coordinate alone makes constant.
+    /// No coordinates are known in which it is constant.
     Other,
-    /// A logarithm has no value at the initial state, for this coordinate.
+    /// A logarithm has no value at the initial state, for this coordinate, or an integral no inverse near it.
     Zero(usize),
+    /// This coordinate is no function in closed form of the integral that takes its place.
+    NoInverse(usize),
 }
 
 /// The coordinates of a system, for states on the side of its initial one, under names that nothing has, nor are taken.
@@ -61,64 +68,125 @@ pub fn straight(model: &Model, taken: &HashSet<String>) -> Result<Straight, Refu
     }
     let mut graph = model.graph.clone();
     let matrix = model.own_matrix().ok_or(Refusal::Other)?;
-    let form = elementwise(model, &matrix, &mut graph).ok_or(Refusal::Other)?;
-    if form.is_constant() {
+    let form = elementwise(model, &matrix, &mut graph);
+    if form.is_some_and(|form| form.is_constant()) {
         return Err(Refusal::Constant);
     }
+    let found = conjugate(model, &mut graph).ok_or(Refusal::Other)?;
     let mut taken = taken.clone();
-    let name = |symbol| model.symbol_name(symbol);
     let mut coordinates = Vec::new();
-    for (i, speed) in form.speeds.iter().enumerate() {
-        let x = graph.symbol(Symbol::Coordinate(i));
-        let given = model.initial.as_ref().map(|initial| initial[i]);
-        let own = model.coordinates[i].text.clone();
-        if speed.degree() == 0 || !form.moves(i) {
-            coordinates.push(Coordinate {
-                name: own,
-                logarithm: None,
-                initial: given.map(|value| model.display(value)),
-            });
-            continue;
-        }
-        let along = speed.at(x, &mut graph);
-        let negative = match at_start(model, &graph, along) {
-            Some(value) if value == 0.0 || value.is_nan() => return Err(Refusal::Zero(i)),
-            Some(value) => value < 0.0,
-            None => false,
+    for i in 0..matrix.dimension {
+        let mut changes = found.changes.iter();
+        let coordinate = match changes.find(|change| change.coordinate == i) {
+            Some(change) => match &change.form {
+                Form::Logarithm(speed) => logarithm(model, &mut graph, i, speed, &mut taken)?,
+                Form::Integral(_) => integral(model, &mut graph, change, &mut taken)?,
+            },
+            None => Coordinate {
+                name: model.coordinates[i].text.clone(),
+                replaced: None,
+                initial: initial(model, i).map(|value| model.display(value)),
+            },
         };
-        let mut inside = |value: ExprId| {
-            let inside = speed.at(value, &mut graph);
-            let inside = if negative { graph.neg(inside) } else { inside };
-            format!("log({})", graph.display(inside, &name))
-        };
-        let initial = given.map(&mut inside);
-        let mut new = format!("log_{own}");
-        while model.taken.contains(&new) || !taken.insert(new.clone()) {
-            new.push('_');
-        }
-        let shift = added(&display(model, &speed.at_zero().neg()));
-        let sign = if negative { "-" } else { "" };
-        coordinates.push(Coordinate {
-            logarithm: Some(Logarithm {
-                back: format!("{sign}exp({new}){shift}"),
-                speed: graph.display(along, &name),
-            }),
-            name: new,
-            initial,
-        });
+        coordinates.push(coordinate);
     }
-    let mut brackets = Vec::new();
-    for (i, row) in form.constants.iter().enumerate() {
-        for (j, value) in row.iter().enumerate().skip(i + 1) {
-            if !value.is_zero() {
-                let [x, y] = [i, j].map(|k| &coordinates[k].name);
-                brackets.push(format!("{{{x}, {y}}} = {}", display(model, value)));
-            }
-        }
-    }
+    let name = |symbol| model.symbol_name(symbol);
+    let brackets = found.brackets.iter().map(|(i, j, value)| {
+        let [x, y] = [*i, *j].map(|k| &coordinates[k].name);
+        format!("{{{x}, {y}}} = {}", graph.display(*value, &name))
+    });
     Ok(Straight {
+        brackets: brackets.collect(),
         coordinates,
-        brackets,
+    })
+}
+
+fn initial(model: &Model, i: usize) -> Option<ExprId> {
+    model.initial.as_ref().map(|initial| initial[i])
+}
+
+/// A name that nothing has, `log_x` or `int_x`.
+fn fresh(model: &Model, prefix: &str, i: usize, taken: &mut HashSet<String>) -> String {
+    let mut new = format!("{prefix}_{}", model.coordinates[i].text);
+    while model.taken.contains(&new) || !taken.insert(new.clone()) {
+        new.push('_');
+    }
+    new
+}
+
+/// `log |a(x)|` on the side of the initial state.
+fn logarithm(
+    model: &Model,
+    graph: &mut Graph,
+    i: usize,
+    speed: &Speed,
+    taken: &mut HashSet<String>,
+) -> Result<Coordinate, Refusal> {
+    let name = |symbol| model.symbol_name(symbol);
+    let x = graph.symbol(Symbol::Coordinate(i));
+    let along = speed.at(x, graph);
+    let negative = match at_start(model, graph, along) {
+        Some(value) if value == 0.0 || value.is_nan() => return Err(Refusal::Zero(i)),
+        Some(value) => value < 0.0,
+        None => false,
+    };
+    let initial = initial(model, i).map(|value| {
+        let inside = speed.at(value, graph);
+        let inside = if negative { graph.neg(inside) } else { inside };
+        format!("log({})", graph.display(inside, &name))
+    });
+    let new = fresh(model, "log", i, taken);
+    let shift = added(&display(model, &speed.at_zero().neg()));
+    let sign = if negative { "-" } else { "" };
+    Ok(Coordinate {
+        replaced: Some(Replaced {
+            back: format!("{sign}exp({new}){shift}"),
+            speed: graph.display(along, &name),
+            beside: Vec::new(),
+        }),
+        name: new,
+        initial,
+    })
+}
+
+/// `int B dy`, where y is a function of it in closed form, on the side of the initial state.
+fn integral(
+    model: &Model,
+    graph: &mut Graph,
+    change: &Change,
+    taken: &mut HashSet<String>,
+) -> Result<Coordinate, Refusal> {
+    let i = change.coordinate;
+    if at_start(model, graph, change.slope).is_some_and(|slope| slope == 0.0 || slope.is_nan()) {
+        return Err(Refusal::Zero(i));
+    }
+    let w = graph.symbol(Symbol::Input(0));
+    let start = |graph: &Graph, value: ExprId| at_start(model, graph, value);
+    let back = inverse(graph, change.value, i, w, &start).ok_or(Refusal::NoInverse(i))?;
+    let new = fresh(model, "int", i, taken);
+    let name = |symbol| match symbol {
+        Symbol::Input(_) => new.clone(),
+        other => model.symbol_name(other),
+    };
+    let initial = model.initial.as_ref().map(|initial| {
+        let at = |symbol| match symbol {
+            Symbol::Coordinate(k) => initial.get(k).copied(),
+            _ => None,
+        };
+        let value = graph.substitute(&[change.value], &at)[0];
+        graph.display(value, &name)
+    });
+    let speed = graph.pow(change.slope, &Rational::from(-1));
+    let beside = change.beside.iter();
+    let beside = beside.map(|(k, slope)| (*k, graph.display(*slope, &name)));
+    Ok(Coordinate {
+        replaced: Some(Replaced {
+            back: graph.display(back, &name),
+            speed: graph.display(speed, &name),
+            beside: beside.collect(),
+        }),
+        name: new.clone(),
+        initial,
     })
 }
 
@@ -162,10 +230,30 @@ mod tests {
             panic!("{found:?}");
         };
         assert_eq!(x.initial.as_deref(), Some("log(a - 1)"));
-        let x = x.logarithm.as_ref().expect("a logarithm");
+        let x = x.replaced.as_ref().expect("a logarithm");
         assert_eq!((&*x.back, &*x.speed), ("-exp(log_x) + a", "x - a"));
         assert_eq!(y.initial.as_deref(), Some("log(a)"));
-        assert_eq!((z.name.as_str(), &z.logarithm), ("z", &None));
+        assert_eq!((z.name.as_str(), &z.replaced), ("z", &None));
+    }
+
+    /// The inverse at values: it is x again, on the side of the initial state, wherever that is.
+    #[test]
+    fn integrals_have_their_inverse() {
+        let found = of(r#""{x, y} = 2*a*exp(1 - y/2)/(1 + z^2)""#, "[0, 1, 1]");
+        let found = found.expect("coordinates");
+        assert_eq!(found.brackets, ["{x, int_y} = a"]);
+        for (bracket, initial, back, beside) in [
+            ("1/(1 + x^2)", "[0, 1, 1]", "int_y/(x^2 + 1)", "2*x*y"),
+            ("1/y", "[0, -1, 1]", "-sqrt(2*int_y)", ""),
+            ("1/(2*y + 1)^2", "[0, 1, 1]", "", ""),
+        ] {
+            let found = of(&format!("\"{{x, y}} = {bracket}\""), initial);
+            let found = found.expect("coordinates");
+            let y = found.coordinates[1].replaced.as_ref().expect("an integral");
+            assert!(back.is_empty() || y.back == back, "{bracket}: {y:?}");
+            let slopes: Vec<&str> = y.beside.iter().map(|(_, slope)| slope.as_str()).collect();
+            assert_eq!(slopes.concat(), beside, "{bracket}");
+        }
     }
 
     #[test]
@@ -175,5 +263,7 @@ mod tests {
         assert_eq!(of(r#""{x, y} = 3""#, "[0, 1, 1]"), Err(Refusal::Constant));
         let tangled = of(r#""{x, y} = 1 + x*y""#, "[0, 1, 1]");
         assert_eq!(tangled, Err(Refusal::Other));
+        let of_degree_three = of(r#""{x, y} = 1/(1 + x^2 + y^2)""#, "[0, 1, 1]");
+        assert_eq!(of_degree_three, Err(Refusal::NoInverse(1)));
     }
 }
