@@ -1,4 +1,4 @@
-//! `lie canonical`: writes a spec in coordinates in which the bracket is constant.
+//! `lie canonical`: writes a spec in coordinates in which the bracket is constant, or has no cocycle.
 
 use lie_in_process::canonical::Canonical;
 
@@ -16,16 +16,22 @@ pub fn run(arguments: &args::Canonical) -> Result<u8, Failure> {
     let path = arguments.out.as_ref().unwrap_or(&arguments.spec);
     let folder = path.parent();
     render::print(&spec.warnings());
-    let Canonical { text, sentence } = Canonical::of(&spec, folder)?;
+    let Canonical {
+        text,
+        sentence,
+        is_constant,
+    } = Canonical::of(&spec, folder)?;
     let Some(path) = &arguments.out else {
         print(&text)?;
         return Ok(0);
     };
     files::write_new(path, &text)?;
     let path = path.display().to_string();
-    print(&format!(
-        "{path}: {sentence}\nnext: lie run {} --method gauss10\n",
-        shell::word(&path)
-    ))?;
+    let file = shell::word(&path);
+    let next = match is_constant {
+        true => format!("run {file} --method gauss10"),
+        false => format!("check {file}"),
+    };
+    print(&format!("{path}: {sentence}\nnext: lie {next}\n"))?;
     Ok(0)
 }

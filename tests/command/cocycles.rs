@@ -143,3 +143,108 @@ fn an_orbit_is_drawn_in_the_declared_coordinates() {
     assert!(drawn.contains("surface: "), "{drawn}");
     assert!(!drawn.contains("_one"), "{drawn}");
 }
+
+/// The columns of these names in the last row of a run.
+fn end_of(path: &Path, names: &[&str], arguments: &str) -> Vec<f64> {
+    let path = path.display();
+    let run = lie(&format!(
+        "run {path} --step 0.01 --until 2 --quiet {arguments}"
+    ))
+    .ok();
+    let mut lines = run.stdout.lines().filter(|line| !line.starts_with('#'));
+    let header: Vec<&str> = lines.next().expect("a header").split(',').collect();
+    let row: Vec<&str> = lines.last().expect("a row").split(',').collect();
+    let place = |name: &&str| header.iter().position(|column| column == name);
+    let number = |name: &&str| {
+        row[place(name).expect("a column")]
+            .parse()
+            .expect("a number")
+    };
+    names.iter().map(number).collect()
+}
+
+/// `lie canonical` takes a coboundary away: the motion stays, and methods over other spaces apply.
+#[test]
+fn lie_canonical_shifts_a_coboundary_away() {
+    let folder = folder();
+    let beside = json!({ "cocycle": ["{x, y} = l", "{y, z} = -1/2"] });
+    let of = |more: Value| {
+        let mut spec = gyrostat(beside.clone());
+        let all = spec.as_object_mut().expect("an object");
+        all.extend(more.as_object().expect("an object").clone());
+        spec
+    };
+    let by_hamiltonian = json!({
+        "hamiltonian": "x^2/2 + y^2/4 + z^4/6",
+        "observables": { "w": "x*z", "a": "y" }
+    });
+    let by_lagrangian = json!({
+        "velocity": ["u", "v", "w"],
+        "lagrangian": "u^2/2 + v^2 + w^2/3 + u*v/5"
+    });
+    let with_forces = json!({
+        "hamiltonian": "x^2/2 + y^2/4 + z^2/6",
+        "forces": { "x": "-x/10", "z": 0.25 }
+    });
+    let all = [by_hamiltonian, by_lagrangian, with_forces];
+    for (k, (spec, methods)) in all
+        .into_iter()
+        .zip([
+            &[
+                "collective4",
+                "isospectral4",
+                "spherical-midpoint",
+                "lie-midpoint",
+            ][..],
+            &["collective4", "variational2"],
+            &["lie-midpoint"],
+        ])
+        .enumerate()
+    {
+        let old = written(folder.path(), &format!("old{k}.json"), of(spec));
+        let new = folder.path().join(format!("new{k}.json"));
+        let run = lie(&format!(
+            "canonical {} --out {}",
+            old.display(),
+            new.display()
+        ))
+        .ok();
+        let says = "the bracket has no cocycle with x = x_s + (-1/2), z = z_s + (l)";
+        assert!(run.stdout.contains(says), "{}", run.stdout);
+        assert!(run.stdout.contains("next: lie check "), "{}", run.stdout);
+        let check = lie(&format!("check {}", new.display())).ok().stdout;
+        assert!(!check.contains("cocycle"), "{check}");
+        for parameters in ["", "--param l=7/5"] {
+            let exact = format!("--method gauss16 {parameters}");
+            let names = ["x", "y", "z"];
+            let (here, there) = (end_of(&old, &names, &exact), end_of(&new, &names, &exact));
+            let distance = |a: &[f64], b: &[f64]| {
+                let pairs = a.iter().zip(b);
+                pairs.fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()))
+            };
+            assert!(distance(&here, &there) < 1e-13, "{k}: {here:?} {there:?}");
+            for method in methods {
+                let call = format!("--method {method} {parameters}");
+                let by_it = end_of(&new, &names, &call);
+                assert!(
+                    distance(&by_it, &here) < 1e-3,
+                    "{k} {method}: {by_it:?} {here:?}"
+                );
+                if method.starts_with("isospectral") || method.starts_with("collective") {
+                    let refused = lie(&format!(
+                        "run {} {call} --step 0.01 --until 1",
+                        old.display()
+                    ));
+                    assert_eq!(refused.code, Some(2), "{method} beside the cocycle");
+                }
+            }
+        }
+    }
+    // the control: where no shift takes it away there is none
+    let plane = json!({
+        "format": 1, "name": "Plane", "algebra": "se(2)", "state": ["m", "p", "q"],
+        "cocycle": ["{p, q} = 1"], "hamiltonian": "m^2 + p^2/2 + q^2", "initial": [1, 2, 3]
+    });
+    let plane = written(folder.path(), "plane.json", plane);
+    assert_eq!(lie(&format!("canonical {}", plane.display())).code, Some(2));
+}

@@ -1,4 +1,6 @@
-//! A spec in coordinates in which its bracket is constant.
+//! A spec in coordinates in which its bracket is constant, or that of an algebra without a cocycle.
+
+mod shift;
 
 use std::collections::{BTreeMap, HashSet};
 use std::path::Path;
@@ -36,6 +38,8 @@ pub struct Canonical {
     pub text: String,
     /// What the new coordinates are.
     pub sentence: String,
+    /// Whether the bracket is constant in them. Else it is that of an algebra, without a cocycle.
+    pub is_constant: bool,
 }
 
 impl Canonical {
@@ -46,9 +50,12 @@ impl Canonical {
     /// A bracket or a key that such coordinates do not have.
     pub fn of(spec: &Spec, folder: Option<&Path>) -> Result<Self, Message> {
         let mut entries: Entries = serde_json::from_str(&spec.source.text).map_err(unread)?;
-        let found = straight(&spec.model, &names(&entries)).map_err(|why| refused(spec, why))?;
-        let sentence = sentence(spec, &found);
-        rewrite(spec, &found, &sentence, &mut entries)?;
+        let shifted = shift::rewrite(spec, &mut entries)?;
+        let is_constant = shifted.is_none();
+        let sentence = match shifted {
+            Some(sentence) => sentence,
+            None => straightened(spec, &mut entries)?,
+        };
         let plan = |text: &str| {
             let model = compile_spec_in(text, folder, Effort::Declaration).map_err(wrong)?;
             let source = Arc::new(Source {
@@ -66,8 +73,20 @@ impl Canonical {
             entries.insert("run".to_owned(), kept_of_run(&entries)?);
             text = written(&entries);
         }
-        Ok(Self { text, sentence })
+        Ok(Self {
+            text,
+            sentence,
+            is_constant,
+        })
     }
+}
+
+/// Rewrites the spec in coordinates in which its bracket is constant, and says what they are.
+fn straightened(spec: &Spec, entries: &mut Entries) -> Result<String, Message> {
+    let found = straight(&spec.model, &names(entries)).map_err(|why| refused(spec, why))?;
+    let sentence = sentence(spec, &found);
+    rewrite(spec, &found, &sentence, entries)?;
+    Ok(sentence)
 }
 
 /// Names that are no coordinates, parameters or abbreviations.
@@ -162,7 +181,7 @@ fn rewrite(
     for (old, new) in old().zip(&found.coordinates) {
         if let Some(replaced) = &new.replaced {
             lets.push(Value::from(format!("{old} = {}", replaced.back)));
-            observables.push(format!("{0}: {0}", Value::from(old)));
+            observables.push(old);
         }
     }
     if let Some(declared) = entries.get("let") {
@@ -195,10 +214,20 @@ fn rewrite(
         changed.push(("noise", Value::from(noise)));
     }
     for (key, value) in changed {
-        let value = serde_json::value::to_raw_value(&value).map_err(unread)?;
-        entries.insert(key.to_owned(), value);
+        set(entries, key, value)?;
     }
-    // the order of an object is that of columns
+    observe(entries, observables)
+}
+
+/// Adds old coordinates to the observables: the order of that object is the order of columns.
+fn observe<'a>(
+    entries: &mut Entries,
+    old: impl IntoIterator<Item = &'a str>,
+) -> Result<(), Message> {
+    let old = old
+        .into_iter()
+        .map(|old| format!("{0}: {0}", Value::from(old)));
+    let mut observables: Vec<String> = old.collect();
     let declared = entries.get("observables").map_or("{}", |text| text.get());
     let declared = declared.trim();
     let declared = &declared[1..declared.len() - 1];
@@ -237,6 +266,12 @@ fn moved(names: &[&str], found: &Straight, force: &serde_json::Map<String, Value
         .filter(|(name, _)| !names.contains(&name.as_str()));
     all.extend(others.map(|(name, value)| (name.clone(), value.clone())));
     Value::Object(all)
+}
+
+fn set(entries: &mut Entries, key: &str, value: Value) -> Result<(), Message> {
+    let value = serde_json::value::to_raw_value(&value).map_err(unread)?;
+    entries.insert(key.to_owned(), value);
+    Ok(())
 }
 
 fn described(sentence: &str, entries: &Entries) -> Result<String, Message> {
