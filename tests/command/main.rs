@@ -17,6 +17,7 @@ mod acting;
 mod acting_ends;
 mod attitude;
 mod attitude_in_space;
+mod backwards;
 mod bounds;
 mod brackets;
 mod build;

@@ -20,7 +20,8 @@ pub type Controller = Arc<dyn Fn(f64, &[f64], &[f64]) -> f64 + Send + Sync>;
 /// Where the values of an input come from.
 #[derive(Clone)]
 pub enum Source {
-    /// From a table: each value is held from its time on, the first one before it too.
+    /// From a table: each value is held from its time on to the next time, the first one before its time too. That is a function of the time,
+    /// the same one for runs in both directions.
     Table {
         /// The times, ascending.
         times: Arc<[f64]>,
@@ -28,7 +29,8 @@ pub enum Source {
         values: Arc<[f64]>,
     },
     /// From a function of (t, state, group element), asked at each sampling with the state there; again for rows between steps and
-    /// for events.
+    /// for events. A run backwards asks it where it enters an interval, which is at the later end, as the state at the other end is not
+    /// known: what a run forwards has held there is not found that way.
     Controller(Controller),
 }
 
@@ -69,7 +71,8 @@ struct Input {
 
 /// The inputs and the noise of a run, in the order of the system.
 ///
-/// An input is sampled at `t0 + k s` for its sampling interval s, or before every step, and held until the next sampling. The rate of a Wiener
+/// An input is sampled at `t0 + k s` for its sampling interval s (at `t0 - k s` by a run backwards), or before every step, and held until the
+/// next sampling. The rate of a Wiener
 /// process over a step is `z sqrt(1/|h|)` with a normally distributed z, so that a step integrates the equation of Stratonovich along a path
 /// that is linear in each step (E. Wong, M. Zakai, 1965, [doi:10.1214/aoms/1177699916](https://doi.org/10.1214/aoms/1177699916)); in implicit steps z is
 /// bounded by `2 sqrt(|ln h|)` (G. N. Milstein, Yu. M. Repin, M. V. Tretyakov, 2002,
@@ -181,14 +184,17 @@ impl Held {
         self.noise.is_none() && !self.inputs.iter().any(asks)
     }
 
-    /// Times within a span at which inputs are largest and smallest in their tables.
+    /// Times within a span from which on inputs are largest and smallest in their tables.
     pub(super) fn extremes(&self, (from, to): Piece) -> Vec<f64> {
+        // backwards, a value begins where the next one does
+        let later = usize::from(to < from);
         let mut found = Vec::new();
         for input in &self.inputs {
             let Some(Source::Table { times, values }) = &input.source else {
                 continue;
             };
-            let rows = times.iter().copied().zip(values.iter().copied());
+            let begins = times.iter().skip(later);
+            let rows = begins.copied().zip(values.iter().copied());
             let rows = rows.filter(|(time, _)| (*time - from) * (*time - to) < 0.0);
             let by = |a: &(f64, f64), b: &(f64, f64)| a.1.total_cmp(&b.1);
             found.extend(rows.clone().max_by(by).map(|row| row.0));
@@ -236,7 +242,11 @@ impl Input {
         match self.source.as_ref()? {
             Source::Table { times, values } => {
                 let slack = NEAR * step.abs();
-                let behind = times.partition_point(|known| *known <= time + slack);
+                // at a time of the table, the interval that the step enters
+                let behind = match step < 0.0 {
+                    true => times.partition_point(|known| *known < time - slack),
+                    false => times.partition_point(|known| *known <= time + slack),
+                };
                 values.get(behind.saturating_sub(1)).copied()
             }
             Source::Controller(controller) => {
@@ -374,8 +384,16 @@ mod tests {
             [at(-1.0), at(0.5), at(1.0), at(9.0)],
             [Some(3.0), Some(3.0), Some(4.0), Some(5.0)]
         );
-        let mut times = Vec::new();
-        input.changes(0.0, (0.9, 2.6), &mut times);
-        assert_eq!(times, [1.0, 2.5]);
+        let mut back = |time| input.value(0.0, time, -0.1, &[], &[]);
+        assert_eq!(
+            [back(9.0), back(2.5), back(1.0), back(0.0)],
+            [Some(5.0), Some(4.0), Some(3.0), Some(3.0)]
+        );
+        for (piece, known) in [((0.9, 2.6), [1.0, 2.5]), ((2.6, 0.9), [2.5, 1.0])] {
+            let mut times = Vec::new();
+            input.changes(0.0, piece, &mut times);
+            times.sort_by(|a, b| (a - piece.0).abs().total_cmp(&(b - piece.0).abs()));
+            assert_eq!(times, known);
+        }
     }
 }

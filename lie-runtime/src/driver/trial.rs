@@ -100,10 +100,11 @@ impl<'a, S: Scalar, P: Poisson<S>> Trial<'a, S, P> {
     /// The initial state at a time, with the inputs of their tables there.
     pub(super) fn at(&self, time: f64) -> P::State {
         let mut mu = self.start.clone();
+        let span = self.problem.span.1 - self.problem.span.0;
         set_time(&self.problem.system, &mut mu, time);
         self.tables
             .clone()
-            .hold(&self.problem.system, (0, time, 0.0), &mut mu, &[]);
+            .hold(&self.problem.system, (0, time, span), &mut mu, &[]);
         mu
     }
 
