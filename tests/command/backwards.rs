@@ -254,3 +254,57 @@ fn a_run_backwards_is_taken_up() {
     );
     assert!(fs::read(&rows).unwrap() == whole, "other rows");
 }
+
+/// Friction and its noise have one direction of time; either alone has two.
+#[test]
+fn a_temperature_goes_forwards_alone() {
+    let folder = folder();
+    let mut spec = json!({
+        "name": "Spin",
+        "algebra": "so(3)",
+        "state": ["x", "y", "z"],
+        "parameters": { "T": 0.3 },
+        "hamiltonian": "z",
+        "dissipation": [{ "kind": "double-bracket", "strength": 1, "temperature": "T" }],
+        "initial": [0.6, 0, 0.8],
+        "run": { "method": "lie-midpoint", "step": 0.1, "until": 10 }
+    });
+    let warm = written(folder.path(), "warm.json", &spec.to_string());
+    for call in [
+        format!("run {warm} --from 3 --until 0 --step -0.1"),
+        format!("run {warm} --until -3"),
+        format!("run {warm} --step -0.1 --at=-1,-2"),
+        format!(
+            "ensemble {warm} --members 4 --until -3 --step -0.1 --out {}",
+            folder.path().join("e.npy").display()
+        ),
+    ] {
+        let run = lie(&call);
+        assert_eq!(run.code, Some(2), "{call}: {}", run.stderr);
+        assert!(
+            run.stderr
+                .contains("has a temperature, and runs forwards in time alone"),
+            "{call}: {}",
+            run.stderr
+        );
+    }
+    lie(&format!("run {warm} --from -3 --until 0 --step 0.1")).ok();
+    spec["dissipation"][0]
+        .as_object_mut()
+        .unwrap()
+        .remove("temperature");
+    let cold = written(folder.path(), "cold.json", &spec.to_string());
+    let end = last(&lie(&format!("run {cold} --until 2")).ok());
+    let start = from_row(&end, 3);
+    let back = last(
+        &lie(&format!(
+            "run {cold} --from 2 --until 0 --step -0.1 {start}"
+        ))
+        .ok(),
+    );
+    assert!(apart(&back, &[0.0, 0.6, 0.0, 0.8], 3) < 1e-12, "{back:?}");
+    spec["dissipation"] = json!([]);
+    spec["noise"] = json!([{ "hamiltonian": "x/5" }]);
+    let noisy = written(folder.path(), "noisy.json", &spec.to_string());
+    lie(&format!("run {noisy} --until -3 --step -0.1")).ok();
+}

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use lie_codegen::methods::Choice;
+use lie_codegen::model::Acting;
 use lie_program::protocol::{Held, Table};
 use lie_runtime::driver::{Pace, Source};
 use lie_syntax::diagnostic::Kind;
@@ -91,6 +92,26 @@ impl Planner<'_> {
             inputs: tables,
         };
         (held, self.request.sources.clone())
+    }
+
+    /// A temperature has one direction of time.
+    pub(super) fn warm(&mut self, from: f64, end: f64) {
+        let model = &self.spec.model;
+        let mut declared = model.driving.iter().flat_map(|driving| &driving.declared);
+        let warm = declared.any(|acting| match acting {
+            Acting::Temperature(value) => !model.graph.is_zero(*value),
+            _ => false,
+        });
+        if !warm || end >= from {
+            return;
+        }
+        let text = format!(
+            "{} has a temperature, and runs forwards in time alone: backwards its damping would drive, against exp(-H/T) and not towards it",
+            model.name
+        );
+        let help = "give an end behind the start and a positive step, or leave `temperature` out: damping without noise goes backwards too";
+        self.mistakes
+            .push(self.option_mistake("step", text).help(help));
     }
 
     /// Whether a system has an input.

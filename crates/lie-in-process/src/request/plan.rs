@@ -85,10 +85,15 @@ impl Plan {
 
     /// The final time.
     pub fn end(&self) -> f64 {
-        match &self.times {
-            Times::Until { end, .. } | Times::Within { end, .. } => *end,
-            Times::At(times) => times.last().copied().unwrap_or(self.from),
-        }
+        end(&self.times, self.from)
+    }
+}
+
+/// The last of some times, or the start where there are none.
+fn end(times: &Times, from: f64) -> f64 {
+    match times {
+        Times::Until { end, .. } | Times::Within { end, .. } => *end,
+        Times::At(times) => times.last().copied().unwrap_or(from),
     }
 }
 
@@ -131,6 +136,9 @@ pub(super) fn planned(spec: &Spec, request: &Request) -> Planned {
     let pace = planner.pace();
     let from = planner.from();
     let times = from.and_then(|from| planner.times(from, pace.as_ref()));
+    if let Some((from, times)) = from.zip(times.as_ref()) {
+        planner.warm(from, end(times, from));
+    }
     let solved = method.as_ref();
     if let (Some(method), Some((Pace::Tolerance(_), given))) = (solved, &pace) {
         planner.takes_tolerance(method, given);
