@@ -469,3 +469,69 @@ fn new_systems_and_reports_say_the_sign() {
     );
     assert!(words.contains("{q, p} = -z does not change in time"));
 }
+
+/// Rows of three numbers as `numpy.save` writes them.
+fn npy(numbers: &[f64]) -> Vec<u8> {
+    let rows = numbers.len() / 3;
+    let header = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({rows}, 3), }}");
+    let mut file = b"\x93NUMPY\x01\x00\x76\x00".to_vec();
+    file.extend(format!("{header:<117}\n").bytes());
+    file.extend(numbers.iter().flat_map(|x| x.to_le_bytes()));
+    file
+}
+
+/// What is carried beside the sites of a family, the time, inputs and the noise of each, is no site.
+#[test]
+fn the_time_is_no_site() {
+    let mut chain = json!({
+        "name": "Chain",
+        "algebra": "heisenberg(1)^N",
+        "state": ["q[i]", "p[i]", "c[i]"],
+        "parameters": { "N": 3 },
+        "inputs": {},
+        "hamiltonian": "sum(i in 0..N: p[i]^2/2 + q[i]^2/2)",
+        "initial": [],
+        "run": { "method": "splitting4", "step": 0.1, "until": 0.2 }
+    });
+    let noise = json!([{ "force": { "p[i]": "0.1" } }]);
+    for (key, value) in [
+        ("inputs", json!({})),
+        (
+            "hamiltonian",
+            json!("sum(i in 0..N: p[i]^2/2 + q[i]^2*cos(t)/2)"),
+        ),
+        ("forces", json!({ "p[i]": "-0.1*p[i]" })),
+        (
+            "inputs",
+            json!({ "u": { "default": 0 }, "v": { "default": 1 } }),
+        ),
+        ("noise", noise),
+    ] {
+        let mut spec = chain.clone();
+        spec[key] = value;
+        spec.as_object_mut().unwrap().remove("initial");
+        let with = |units: &str, flags: &str| {
+            let call = format!("--initial=1,0,0,0,1,0,{units} {flags}");
+            said(&of(&spec, "run", &call).ok())
+        };
+        let right = with("-1,-1,-2", "");
+        assert!(!right.contains("backwards"), "{key}: {right}");
+        let one = with("-1,3,-2", "");
+        assert!(one.contains("is negative at 1 of 3 sites"), "{key}: {one}");
+    }
+    chain["forces"] = json!({ "p[i]": "-0.1*p[i]" });
+    for (units, says) in [
+        ([-1, -1, -1], "; forwards at the initial state"),
+        ([1, 1, 1], "; backwards at the initial state"),
+        ([1, -1, 1], "; forwards at some sites of the initial state"),
+    ] {
+        let folder = folder();
+        let file = folder.path().join("start.npy");
+        let rows = units.map(|unit| [1.0, 0.0, f64::from(unit)]);
+        std::fs::write(&file, npy(rows.as_flattened())).unwrap();
+        chain["initial"] = json!({ "npy": file });
+        let told = of(&chain, "check", "").ok();
+        let words: Vec<&str> = told.stdout.split_whitespace().collect();
+        assert!(words.join(" ").contains(says), "{says}: {}", told.stdout);
+    }
+}

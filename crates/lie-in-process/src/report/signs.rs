@@ -180,7 +180,7 @@ impl Count {
             let state = &start.initial;
             // the first coordinates of all sites stand before the second ones
             let sites = match model.family {
-                Some(_) => state.len() / model.dimension(),
+                Some(_) => model.of_sites(state).len() / model.dimension(),
                 None => 1,
             };
             count.runs += 1;

@@ -23,7 +23,7 @@ pub(super) const FINITE: &str = "give each coordinate of each site a finite numb
 /// The first number of the state of a family that is not finite, in words.
 pub(super) fn not_finite(model: &Structure, state: &[f64]) -> Option<String> {
     let at = state.iter().position(|value| !value.is_finite())?;
-    let sites = state.len() / model.dimension();
+    let sites = model.of_sites(state).len() / model.dimension();
     let coordinate = &model.coordinates[at / sites].text;
     Some(format!(
         "`{coordinate}` of site {} is {}",
