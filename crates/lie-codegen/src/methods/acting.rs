@@ -1,7 +1,7 @@
 //! Which methods a system can carry beside whose Hamiltonian something acts.
 
 use super::Choice;
-use crate::model::{Acting, Model};
+use crate::model::{Acting, Driving, Model};
 use crate::structure::flows;
 
 /// Why a method does not apply where something acts beside the Hamiltonian.
@@ -33,16 +33,16 @@ pub(super) fn driven(model: &Model, choice: &Choice) -> Option<(String, String)>
         return Some((what.into(), "use `lie-midpoint` or `gauss16`".into()));
     }
     // the power of forces alone does not bend what moves along the orbit
-    let bends = driving.declared.iter().any(along);
+    let bends = driving.declared.iter().find(|acting| along(acting));
     if model.holds() && matches!(choice, Choice::Collective(..) | Choice::Isospectral(_)) {
         let what = "inputs and noise are not carried to the space over the state";
         return Some((what.into(), "use `lie-midpoint` or `gauss16`".into()));
     }
     let what = match (
         driving.is_forced(&model.graph) && !method.forces,
-        bends && !method.damping,
+        bends.filter(|_| !method.damping),
     ) {
-        (false, false) => return None,
+        (false, None) => return None,
         (true, _) => {
             let acts = match driving.pushes() {
                 true => "forces act beside the Hamiltonian",
@@ -50,8 +50,12 @@ pub(super) fn driven(model: &Model, choice: &Choice) -> Option<(String, String)>
             };
             format!("{acts}, and {}", without_forces(choice))
         }
-        (false, true) => {
-            "a double bracket damps, and the step is made of a gradient of H, which its generator is not".into()
+        (false, Some(bends)) => {
+            let what = match bends {
+                Acting::HamiltonianNoise(_) => "noise moves along the orbit",
+                _ => "a double bracket damps",
+            };
+            format!("{what}, and the step is made of a gradient of H, which its generator is not")
         }
     };
     let others = match model.family {
@@ -59,9 +63,22 @@ pub(super) fn driven(model: &Model, choice: &Choice) -> Option<(String, String)>
         None => "`gauss16` or `taylor`",
     };
     let help = format!(
-        "use {others}, which take the whole field, or leave `forces` and `dissipation` out"
+        "use {others}, which take the whole field, or leave {} out",
+        keys(driving)
     );
     Some((what, help))
+}
+
+/// The keys under which things are declared that act.
+fn keys(driving: &Driving) -> String {
+    let key = |acting: &Acting| match acting {
+        Acting::Force(..) => "`forces`",
+        Acting::HamiltonianNoise(_) | Acting::ForceNoise(_) => "`noise`",
+        _ => "`dissipation`",
+    };
+    let mut keys: Vec<&str> = driving.declared.iter().map(key).collect();
+    keys.dedup();
+    keys.join(" and ")
 }
 
 /// What leaves no place for a force in the step of a method.

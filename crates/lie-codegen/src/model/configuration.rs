@@ -95,25 +95,6 @@ impl Configuration {
         parts.join(", ")
     }
 
-    /// Why a method that knows the declared algebra alone does not apply, whatever that algebra is.
-    pub fn refusal(&self) -> &'static str {
-        match (&self.group, self.time) {
-            (None, _) if self.idle => {
-                "it is for the declared algebra alone, and the cocycle makes that larger"
-            }
-            (Some(_), true) if self.idle => {
-                "it is for the declared algebra alone, and the group element and the cocycle make that larger"
-            }
-            (Some(_), false) => {
-                "it is for the declared algebra alone, and the group element makes that larger"
-            }
-            (None, _) => "it is for the declared algebra alone, and the time makes that larger",
-            (Some(_), true) => {
-                "it is for the declared algebra alone, and the group element and the time make that larger"
-            }
-        }
-    }
-
     /// The same beside so many momenta less, those that constraints determine; `None` where none are left.
     pub fn with_fewer_momenta(&self, count: usize) -> Option<Self> {
         let left = self.own_momenta().checked_sub(count);

@@ -8,6 +8,7 @@ mod constraint;
 mod driving;
 mod energy;
 mod family;
+mod larger;
 mod quantity;
 mod realization;
 mod retraction;

@@ -240,8 +240,10 @@ fn verified(planes: &[(usize, usize)], table: &[Vec<Option<(usize, i32)>>]) -> b
 /// Why the discrete rigid body does not apply, with the nearest method that does.
 pub fn refusal(structure: &Structure) -> Option<(String, String)> {
     let other = structure.body.as_ref().err()?;
-    let reason = match (other, &structure.configuration) {
-        (Other::Algebra, Some(configuration)) => configuration.refusal(),
+    let remedy = "use `orbit-energy`, which keeps the orbit and the energy of every system, or \
+                  `lie-midpoint`, which is a Poisson map";
+    let reason = match (other, structure.why_not_declared_algebra()) {
+        (Other::Algebra, Some(larger)) => return Some((larger, remedy.into())),
         (Other::Algebra, None) => {
             "it needs so(3) in a basis with [e1, e2] = c e3 and cyclic, or so(n) in a basis of \
              matrices E_ij - E_ji"
@@ -254,8 +256,6 @@ pub fn refusal(structure: &Structure) -> Option<(String, String)> {
              declared H"
         }
     };
-    let remedy = "use `orbit-energy`, which keeps the orbit and the energy of every system, or \
-                  `lie-midpoint`, which is a Poisson map";
     Some((reason.into(), remedy.into()))
 }
 

@@ -64,7 +64,7 @@ pub fn refusal(structure: &Structure, order: u32) -> Option<(String, String)> {
     if structure.smallest.is_some() {
         return None;
     }
-    let reason = match (made_larger(structure), structure.bracket.representation()) {
+    let reason = match (structure.why_not_declared_algebra(), structure.bracket.representation()) {
         (Some(reason), _) => reason,
         (None, None) => "it needs a direct sum of algebras so(3), or so(3) with vectors that commute, in a basis with \
              [e1, e2] = c e3 and its cyclic permutations, or a matrix representation, and the algebra declares no `matrices`"
@@ -72,12 +72,6 @@ pub fn refusal(structure: &Structure, order: u32) -> Option<(String, String)> {
         (None, Some(_)) => return matrices::refusal(structure, order),
     };
     Some((reason, nearest(structure, order)))
-}
-
-/// Why no lift of the declared algebra carries a system: the time, or the group element, has made the algebra larger.
-pub(super) fn made_larger(structure: &Structure) -> Option<String> {
-    let configuration = structure.configuration.as_ref()?;
-    Some(configuration.refusal().to_owned())
 }
 
 /// What to use instead of a collective method of an order whose space there is not.

@@ -17,14 +17,14 @@ pub fn refusal(structure: &Structure, order: u32) -> Option<(String, String)> {
     };
     let algebra = structure.bracket.algebra();
     if algebra.is_some_and(|algebra| algebra.extension.is_some()) {
-        let reason = super::lifts::made_larger(structure);
+        let reason = structure.why_not_declared_algebra();
         return reason.map(|reason| (reason, nearest("")));
     }
     match structure.bracket.representation() {
         None => {
             let spins = structure.spins.is_some();
             let hopf = format!(", or `collective{order} --lift hopf`");
-            let reason = super::lifts::made_larger(structure).unwrap_or_else(|| {
+            let reason = structure.why_not_declared_algebra().unwrap_or_else(|| {
                 "it needs a matrix representation, and the algebra declares no `matrices`".into()
             });
             Some((

@@ -61,13 +61,11 @@ pub fn refusal(structure: &Structure, hopf: Option<u32>) -> Option<(String, Stri
     if structure.spins.is_some() {
         return None;
     }
-    let reason = match &structure.configuration {
-        Some(configuration) => configuration.refusal(),
-        None => {
-            "it needs so(3), or a direct sum of algebras so(3), in a basis with [e1, e2] = c e3 and its \
-             cyclic permutations"
-        }
-    };
+    let reason = structure.why_not_declared_algebra().unwrap_or_else(|| {
+        "it needs so(3), or a direct sum of algebras so(3), in a basis with [e1, e2] = c e3 and its \
+         cyclic permutations"
+            .into()
+    });
     let remedy = match hopf {
         Some(order) if order <= 6 && super::matrices::refusal(structure, order).is_none() => {
             format!("use `collective{order}` with `--lift representation`")
@@ -78,5 +76,5 @@ pub fn refusal(structure: &Structure, hopf: Option<u32>) -> Option<(String, Stri
         }
         _ => "use `lie-midpoint`, which works for every Lie algebra".into(),
     };
-    Some((reason.into(), remedy))
+    Some((reason, remedy))
 }

@@ -83,7 +83,7 @@ pub fn refusal(structure: &Structure, order: u32) -> Option<(String, String)> {
     if structure.unitary.is_some() {
         return None;
     }
-    if let Some(reason) = super::lifts::made_larger(structure) {
+    if let Some(reason) = structure.why_not_declared_algebra() {
         return Some((reason, super::lifts::nearest(structure, order)));
     }
     let reason = "the lift `unitary` needs matrices that are anti-Hermitian, written as real ones [[Re, -Im], [Im, Re]], and \

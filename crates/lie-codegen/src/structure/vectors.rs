@@ -157,7 +157,7 @@ pub fn refusal(structure: &Structure, order: u32) -> Option<(String, String)> {
     if structure.vectors.is_some() {
         return None;
     }
-    if let Some(reason) = super::lifts::made_larger(structure) {
+    if let Some(reason) = structure.why_not_declared_algebra() {
         return Some((reason, super::lifts::nearest(structure, order)));
     }
     let reason = "the lift `quaternion` needs so(3) with vectors that commute, such as se(3), in a basis with \

@@ -269,3 +269,45 @@ fn splittings_take_what_has_a_flow() {
     assert_eq!(why(&warm, "ninomiya-victoir"), "");
     assert!(why(&warm, "splitting2").contains("a double bracket damps"));
 }
+
+/// What is refused names what was declared: noise is no double bracket, and forces are not the time.
+#[test]
+fn refusals_name_what_was_declared() {
+    use crate::methods::{Choice, refusal};
+    let why = |extra: &[(&str, &str)], id: &str| {
+        let choice = Choice::from_id(id).expect("a method");
+        refusal(&model(&so3(extra)), &choice).expect("a refusal")
+    };
+    let noise = ("noise", r#"[{"hamiltonian": "x"}]"#);
+    let warm = r#"[{"kind": "double-bracket", "strength": 1, "temperature": "1/2"}]"#;
+    let (found, help) = why(&[noise], "generating2");
+    assert!(found.starts_with("noise moves along the orbit"), "{found}");
+    assert!(help.ends_with("leave `noise` out"), "{help}");
+    let (found, help) = why(&[("dissipation", warm)], "generating2");
+    assert!(found.starts_with("a double bracket damps"), "{found}");
+    assert!(help.ends_with("leave `dissipation` out"), "{help}");
+    let timed = ("hamiltonian", r#""x^2 + t*z""#);
+    let input = ("inputs", r#"{"u": {"default": 0}}"#);
+    for (extra, parts) in [
+        (&[timed][..], "the time makes"),
+        (&[noise], "noise makes"),
+        (&[noise, timed], "the time and noise make"),
+        (&[("forces", r#"{"x": "-x"}"#)], "forces make"),
+        (
+            &[("forces", r#"{"x": "-t*x"}"#)],
+            "the time and forces make",
+        ),
+        (&[input, noise], "inputs and noise make"),
+        (
+            &[("dissipation", warm)],
+            "dissipation and its temperature make",
+        ),
+    ] {
+        let known = format!("it is for the declared algebra alone, and {parts} that larger");
+        let found = model(&so3(extra)).why_not_declared_algebra();
+        assert_eq!(found, Some(known), "{extra:?}");
+    }
+    let (found, _) = why(&[noise], "spherical-midpoint");
+    assert!(found.contains("noise makes that larger"), "{found}");
+    assert_eq!(model(&so3(&[])).why_not_declared_algebra(), None);
+}
