@@ -425,3 +425,23 @@ fn what_does_not_apply_to_driven_families_is_not_offered() {
         chain["methods"]
     );
 }
+
+/// The noise of each site counts where a measurement has a limit: what the remedy says is measured.
+#[test]
+fn so_many_noisy_sites_are_measured_as_the_remedy_says() {
+    let folder = folder();
+    let path = folder.path().join("spec.json");
+    fs::write(&path, free().to_string()).unwrap();
+    let verify = |flags: &str| lie(&format!("verify {} {flags}", path.display()));
+    for sites in [30, 11] {
+        let run = verify(&format!("--param N={sites}")).error("limit", "command line: --param");
+        let remedy = "measure fewer sites, at most 10, as with";
+        assert!(run.stderr.contains(remedy), "{}", run.stderr);
+    }
+    let measured = verify("--param N=10 --methods rk4");
+    assert!(
+        !measured.stderr.contains("error[limit]"),
+        "{}",
+        measured.stderr
+    );
+}

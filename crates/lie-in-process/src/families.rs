@@ -39,7 +39,7 @@ impl Limit {
         }
     }
 
-    /// What stands against measuring a family of so many coordinates, and a remedy.
+    /// What stands against measuring a family of so many coordinates in all, and a remedy.
     pub fn exceeded(&self, model: &Structure, coordinates: usize) -> Option<(String, String)> {
         let Self { most, why } = *self;
         if model.family.is_none() || coordinates <= most {
@@ -49,7 +49,12 @@ impl Limit {
             "{} has {coordinates} coordinates, and {why} up to {most}",
             model.name
         );
-        let sites = most / model.dimension();
-        Some((text, format!("measure fewer sites, at most {sites}")))
+        // beside those of the sites there are the time, inputs, and the noise of each site
+        let state = model.complete_sites(Vec::new(), 0).len();
+        let help = match most.saturating_sub(state) / model.numbers_of_a_site() {
+            0 => "a single site has more: measure the sites as a system of their own".to_owned(),
+            sites => format!("measure fewer sites, at most {sites}"),
+        };
+        Some((text, help))
     }
 }

@@ -212,15 +212,19 @@ impl Model {
         of_sites
     }
 
+    /// How many numbers each site of a family has in a whole state: its coordinates, and the rates of its noise.
+    pub fn numbers_of_a_site(&self) -> usize {
+        self.dimension() + self.driving.as_ref().map_or(0, |driving| driving.noises)
+    }
+
     /// The coordinates of sites in a whole state of a family.
     pub fn of_sites<'a>(&self, state: &'a [f64]) -> &'a [f64] {
-        let noises = self.driving.as_ref().map_or(0, |driving| driving.noises);
         let carried = if self.is_timed() {
             3 + self.inputs.len()
         } else {
             0
         };
-        let sites = (state.len() - carried) / (self.dimension() + noises);
+        let sites = (state.len() - carried) / self.numbers_of_a_site();
         &state[..sites * self.dimension()]
     }
 }
