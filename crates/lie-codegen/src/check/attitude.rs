@@ -117,14 +117,14 @@ fn size(
                 ),
             }
         }
-        _ if (3..=4).contains(&size) => Some(size),
+        _ if size >= 3 => Some(size),
         _ => wrong(not_of_rotations().message, &not_of_rotations().help),
     }
 }
 
 fn not_of_rotations() -> Wrong {
     Wrong {
-        message: "quaternions and Euler angles are for groups of rotations in three dimensions, with or without translations".into(),
+        message: "quaternions and Euler angles are for groups of rotations in three dimensions, with or without translations, and with what can be left at rest".into(),
         help: "give the attitude by its `matrix`".into(),
     }
 }

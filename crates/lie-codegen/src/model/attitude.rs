@@ -49,7 +49,9 @@ impl Attitude {
             Form::Euler(sequence) => sequence.quaternion(first(&values())),
             Form::Matrix => {
                 let rows = self.rows(graph, parameters);
-                rotation::quaternion(&[first(&rows), first(&rows[3..]), first(&rows[6..])])
+                // the first rows and columns of a matrix that may be larger
+                let size = rows.len().isqrt();
+                rotation::quaternion(&[0, 1, 2].map(|row| first(&rows[row * size..])))
             }
         };
         match chart {

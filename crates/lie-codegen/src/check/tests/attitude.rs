@@ -109,6 +109,60 @@ fn a_quaternion_is_kept_and_normalised() {
     );
 }
 
+/// What stands beside the rotations is at rest at the start: a wheel, a second body. Blocks that turn with them are not.
+#[test]
+fn what_stands_beside_the_rotations_is_at_rest() {
+    let turn = r#"{"euler": "zyx", "angles": [0.8, 0, 0]}"#;
+    let (s, c) = 0.8_f64.sin_cos();
+    let six = r#"["x", "y", "z", "u", "v", "w"]"#;
+    let [se3, motions] = SE3;
+    for (algebra, state) in [
+        (se3, motions),
+        (r#""so(3) + R^1""#, r#"["x", "y", "z", "u"]"#),
+        (r#""so(3) + R^3""#, six),
+        (r#""so(3)^2""#, six),
+    ] {
+        let turned = model(&named(algebra, state, turn));
+        let rows = rows(&turned);
+        let size = rows.len().isqrt();
+        assert!(size > 3, "{algebra}");
+        for (place, entry) in rows.iter().enumerate() {
+            let known = match (place / size, place % size) {
+                (0, 0) | (1, 1) => c,
+                (0, 1) => -s,
+                (1, 0) => s,
+                (i, j) => f64::from(u8::from(i == j)),
+            };
+            assert!((entry - known).abs() < 1e-15, "{algebra}: {rows:?}");
+        }
+        // the same as a matrix, of which only the first rows and columns turn
+        let written = rows.chunks(size).map(<[f64]>::to_vec).collect::<Vec<_>>();
+        let matrix = self::model(&named(
+            algebra,
+            state,
+            &format!("{{\"matrix\": {written:?}}}"),
+        ));
+        let quaternion = matrix.initial_element(Chart::Quaternion, &matrix.defaults());
+        let half = [0.4_f64.cos(), 0.0, 0.0, 0.4_f64.sin()];
+        close(&quaternion.unwrap(), &half, algebra);
+    }
+    // the same rotation twice: the identity behind it is not in the group
+    let block = |e: &str, a: usize, b: usize| {
+        let entry = |i: usize, j: usize| match (i / 3 == j / 3, i % 3, j % 3) {
+            (true, i, j) if (i, j) == (a, b) => -1,
+            (true, i, j) if (i, j) == (b, a) => 1,
+            _ => 0,
+        };
+        let row = |i: usize| (0..6).map(|j| entry(i, j)).collect::<Vec<i32>>();
+        format!("\"{e}\": {:?}", (0..6).map(row).collect::<Vec<_>>())
+    };
+    let matrices = [block("e1", 1, 2), block("e2", 2, 0), block("e3", 0, 1)].join(", ");
+    let twice = format!(r#"{{"basis": ["e1", "e2", "e3"], "matrices": {{{matrices}}}}}"#);
+    let errors = crate::compile::compile_spec(&named(&twice, r#"["x", "y", "z"]"#, turn));
+    let text = format!("{:?}", errors.err());
+    assert!(text.contains("quaternions and Euler angles"), "{text}");
+}
+
 #[test]
 fn motions_of_space_begin_with_a_rotation_and_no_translation() {
     let [algebra, state] = SE3;
