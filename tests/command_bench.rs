@@ -378,7 +378,7 @@ fn wrong_measures() {
     let run =
         lie("bench tests/data/declarations/pass/time.json --methods midpoint --measure energy")
             .error("option", "command line: --measure");
-    let said = "the energy of Broken varies";
+    let said = "H of Broken changes with the time";
     assert!(run.stderr.contains(said), "{}", run.stderr);
 }
 

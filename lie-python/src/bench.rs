@@ -133,9 +133,12 @@ impl Measurement for Comparison {
 
     fn begin(&self, spec: &Spec, _: &Start) -> PyResult<(Options, Results)> {
         let options = self.options()?;
-        let driven = spec.model.is_timed();
-        if options.measure == Measure::Energy && driven {
-            let text = "the Hamiltonian depends on the time, and the energy is not conserved: take measure=\"state\"";
+        if options.measure == Measure::Energy
+            && let Some(more) = spec.model.beside_hamiltonian()
+        {
+            let text = format!(
+                "{more}, and the drift of its energy says nothing of a method: take measure=\"state\""
+            );
             return Err(PyValueError::new_err(text));
         }
         let without = spec

@@ -401,7 +401,7 @@ fn what_does_not_apply_to_driven_families_is_not_offered() {
     );
     let kept = kept.error("option", "command line: --keep");
     assert!(
-        kept.stderr.contains("more than H acts on it"),
+        kept.stderr.contains("more than H acts on Free"),
         "{}",
         kept.stderr
     );

@@ -145,7 +145,7 @@ fn the_command_refuses_what_cannot_be_kept() {
         (
             "tests/data/driven/top.json --keep energy",
             "energy",
-            "H depends on the time",
+            "H of ShakenTop changes with the time",
         ),
         // a quotient, where its denominator vanishes
         (

@@ -343,7 +343,7 @@ fn messages_name_the_true_reason() {
         (format!("{body} --initial 1"), "1 value for a state of 3"),
         (
             format!("{time} --picture orbit"),
-            "the energy of Broken varies",
+            "H of Broken changes with the time",
         ),
         (
             format!("{chain} --picture section:x[0]=0"),

@@ -376,3 +376,72 @@ fn mistakes() {
         .error("option", "command line: --plot");
     assert!(!Path::new("a.svg").exists() && !Path::new("a.jpg").exists());
 }
+
+/// What keeps its orbit is drawn on it, and why other motion is not is said as it is.
+#[test]
+fn motion_that_stays_on_its_orbit_is_drawn_there() {
+    let folder = folder();
+    let path = folder.path().join("spec.json");
+    let spec = |more: &str| {
+        let text = format!(
+            r#"{{"format": 1, "name": "Spin", "algebra": "so(3)", "state": ["x", "y", "z"], "inputs": {{"u": {{"default": 0}}}},
+            "hamiltonian": "x^2/4 + y^2/3 + z^2/2", "initial": [0.6, 1.1, 0.2], {more}}}"#
+        );
+        std::fs::write(&path, text).unwrap();
+        path.display().to_string()
+    };
+    let call = |spec: &str, kind: &str| {
+        lie(&format!(
+            "run {spec} --until 5 --step 0.05 --picture {kind} --plot {}",
+            folder.path().join("refused.svg").display()
+        ))
+    };
+    let damped = r#""dissipation": [{"kind": "double-bracket", "strength": "1/5"}]"#;
+    let shaken = r#""noise": [{"hamiltonian": "x/5"}]"#;
+    for acting in [damped, shaken] {
+        let svg = draw(
+            folder.path(),
+            &format!(
+                "{} --method lie-midpoint --step 0.05 --until 20 --picture orbit",
+                spec(acting)
+            ),
+        );
+        let levels = lines(&svg, "stroke=\"#a8a8a8\"").len();
+        let curve = lines(&svg, "stroke=\"#0072b2\"").concat();
+        assert!(levels > 5 && curve.len() > 100, "{levels} {}", curve.len());
+    }
+    let gentle = r#""dissipation": [{"kind": "metriplectic", "entropy": "3*(x^2 + y^2 + z^2)/20",
+        "factor": [["0", "z", "-2*y/3"], ["-z", "0", "x/2"], ["2*y/3", "-x/2", "0"]]}]"#;
+    for (acting, kind, says) in [
+        (gentle, "orbit", "the motion leaves its orbit"),
+        (gentle, "section", "more than H acts on Spin"),
+        (damped, "section", "more than H acts on Spin"),
+        (
+            r#""forces": {"x": "-x"}"#,
+            "orbit",
+            "the motion leaves its orbit",
+        ),
+        (
+            r#""hamiltonian": "x^2 + u*z""#,
+            "orbit",
+            "H of Spin changes with the time",
+        ),
+        (
+            r#""hamiltonian": "x^2 + t*z""#,
+            "section",
+            "H of Spin changes with the time",
+        ),
+    ] {
+        let mut text = spec(acting);
+        if acting.contains("\"hamiltonian\"") {
+            let known = std::fs::read_to_string(&text).unwrap();
+            let one = r#""hamiltonian": "x^2/4 + y^2/3 + z^2/2", "#;
+            std::fs::write(&path, known.replacen(one, "", 1)).unwrap();
+            text = path.display().to_string();
+        }
+        let run = call(&text, kind).error("option", "command line: --picture");
+        let said = run.stderr.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(said.contains(says), "{kind}: {said}");
+        assert!(!said.contains("energy of Spin varies"), "{said}");
+    }
+}

@@ -15,7 +15,7 @@ const LISTED: usize = 24;
 /// What the flags ask for.
 ///
 /// # Errors
-/// A surface without its measure, or that is none; the energy of a system that depends on the time; Casimirs of a system
+/// A surface without its measure, or that is none; the energy of a system with the time, or beside whose H something acts; Casimirs of a system
 /// that has none.
 pub fn measure(arguments: &args::Bench, bed: &Bed) -> Result<Measure, Failure> {
     let plane = arguments.section.as_deref();
@@ -31,11 +31,8 @@ pub fn measure(arguments: &args::Bench, bed: &Bed) -> Result<Measure, Failure> {
         Sense::State => Measure::State,
         Sense::Energy => {
             let model = &bed.spec.model;
-            if model.is_timed() {
-                let text = format!(
-                    "the energy of {} varies, by the time or by what acts on it, and its drift says nothing",
-                    model.name
-                );
+            if let Some(more) = model.beside_hamiltonian() {
+                let text = format!("{more}, and the drift of its energy says nothing of a method");
                 let message = Message::option("--measure", text);
                 let help = "measure `state`, or `casimirs` where the system has one";
                 return Err(message.help(help).into());

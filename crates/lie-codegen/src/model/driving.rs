@@ -164,31 +164,52 @@ impl Model {
         }
     }
 
+    /// Whether H changes from outside: with the time or with inputs.
+    pub fn is_energy_driven(&self) -> bool {
+        let energy = self.energy.value(|hamiltonian| hamiltonian.energy);
+        let sums = self.family.iter().flat_map(|family| &family.sums);
+        let summands = sums.filter(|sum| sum.moves).map(|sum| sum.summand);
+        let of_sums = self.family.iter().map(|family| family.energy);
+        self.contains_outside(std::iter::once(energy).chain(summands).chain(of_sums))
+    }
+
+    fn contains_outside(&self, functions: impl IntoIterator<Item = ExprId>) -> bool {
+        let clock = self.configuration.as_ref().and_then(|c| c.clock());
+        let outside = |symbol: &Symbol| match symbol {
+            Symbol::Coordinate(place) => clock.is_some_and(|clock| *place >= clock.time),
+            other => shared_number(*other).is_some(),
+        };
+        let mut symbols = functions
+            .into_iter()
+            .flat_map(|part| self.graph.symbols(part));
+        symbols.any(|symbol| outside(&symbol))
+    }
+
+    /// Why the motion is more than that of an H that keeps itself, as the beginning of a sentence; none where it is not.
+    pub fn beside_hamiltonian(&self) -> Option<String> {
+        let name = &self.name;
+        match (self.is_timed(), self.is_energy_driven()) {
+            (false, _) => None,
+            (true, true) => Some(format!("H of {name} changes with the time")),
+            (true, false) if self.driving.is_none() => {
+                Some(format!("the time is a coordinate of {name}"))
+            }
+            (true, false) => Some(format!("more than H acts on {name}")),
+        }
+    }
+
     /// What dissipation alone does to H and to entropies, as sentences; nothing where forces may do anything.
     pub fn what_dissipation_does(&self) -> Vec<String> {
         let Some(driving) = &self.driving else {
             return Vec::new();
         };
         let mut sentences = Vec::new();
-        // what changes H from outside
-        let clock = self.configuration.as_ref().and_then(|c| c.clock());
-        let energy = self.energy.expression().map(|h| h.energy);
-        let sums = self.family.iter().flat_map(|family| &family.sums);
-        let summands = sums.filter(|sum| sum.moves).map(|sum| sum.summand);
-        let of_sums = self.family.iter().map(|family| family.energy);
-        let energy = energy.into_iter().chain(summands).chain(of_sums);
         // a strength that changes is not known to stay positive
         let strengths = driving.declared.iter().filter_map(|acting| match acting {
             Acting::DoubleBracket(strength, _) => Some(*strength),
             _ => None,
         });
-        let energy = energy.chain(strengths);
-        let outside = |symbol: &Symbol| match symbol {
-            Symbol::Coordinate(place) => clock.is_some_and(|clock| *place >= clock.time),
-            other => shared_number(*other).is_some(),
-        };
-        let mut symbols = energy.flat_map(|part| self.graph.symbols(part));
-        let changes = symbols.any(|symbol| outside(&symbol));
+        let changes = self.is_energy_driven() || self.contains_outside(strengths);
         let (mut pushes, mut damps) = (false, false);
         for acting in &driving.declared {
             match acting {

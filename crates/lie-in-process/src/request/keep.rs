@@ -100,14 +100,10 @@ impl Planner<'_> {
     /// Whether the energy is constant.
     fn energy(&self, word: &OptionValue) -> Result<(), Message> {
         let model = &self.spec.model;
-        if !model.is_timed() {
+        let Some(more) = model.beside_hamiltonian() else {
             return Ok(());
-        }
-        let why = match &model.driving {
-            Some(_) => "more than H acts on it",
-            None => "H depends on the time",
         };
-        let text = format!("the energy of {} is not constant: {why}", model.name);
+        let text = format!("{more}, and the energy is kept of motion by H alone");
         Err(word
             .wrong(text)
             .help(match model.casimirs.iter().any(|casimir| !casimir.kept) {

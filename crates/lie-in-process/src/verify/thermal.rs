@@ -49,25 +49,11 @@ pub(super) fn density(model: &Structure, parameters: &[f64]) -> Option<Thermal> 
     if temperature <= 0.0 {
         return unknown("the temperature is 0, and nothing moves about");
     }
-    if changes_with_time(model) {
+    if model.is_energy_driven() {
         return unknown("H changes with the time");
     }
     Some(match along {
         true => Thermal::Orbit(temperature),
         false => Thermal::Space(temperature),
-    })
-}
-
-/// Whether H contains the time or an input.
-fn changes_with_time(model: &Structure) -> bool {
-    let clock = model.configuration.as_ref().and_then(|c| c.clock());
-    let energy = model.energy.expression();
-    let mut symbols = energy
-        .into_iter()
-        .flat_map(|h| model.graph.symbols(h.energy));
-    symbols.any(|symbol| match symbol {
-        Symbol::Coordinate(place) => clock.is_some_and(|clock| place >= clock.time),
-        Symbol::Time => true,
-        _ => false,
     })
 }

@@ -131,19 +131,25 @@ fn elsewhere(model: &Structure) -> &'static str {
     }
 }
 
-/// Why no orbit is drawn of a system; none where one is.
+/// Why no orbit is drawn of a system; none where one is, as of motion that is damped along its orbit.
 pub fn no_orbit(model: &Structure) -> Option<String> {
-    let (n, ..) = model.counts();
+    let n = model.shown_coordinates().len();
     if model.family.is_some() {
         return Some(format!(
             "{} is a family, and orbits are drawn of systems with 3 coordinates",
             model.name
         ));
     }
-    if model.is_timed() {
+    if model.is_energy_driven() {
         return Some(format!(
-            "the energy of {} varies, by the time or by what acts on it, and an orbit has level curves of one that does not",
+            "H of {} changes with the time, and an orbit has level curves of one that does not",
             model.name
+        ));
+    }
+    if let Some(left) = model.casimirs.iter().find(|casimir| !casimir.kept) {
+        return Some(format!(
+            "what acts beside H of {} changes the Casimir {}: the motion leaves its orbit",
+            model.name, left.name
         ));
     }
     if n != 3 {
@@ -254,10 +260,8 @@ fn section(
     if n < 3 || layout.states != n || build::declared(&spec.model).is_none() {
         let model = &spec.model;
         let name = &model.name;
-        let text = if model.is_timed() {
-            format!(
-                "the energy of {name} varies, by the time or by what acts on it, and sections are drawn of systems whose energy does not"
-            )
+        let text = if let Some(more) = model.beside_hamiltonian() {
+            format!("{more}, and sections are drawn of motion by H alone, on which it is constant")
         } else if model.family.is_some() {
             format!("{name} is a family, and sections are drawn of single systems")
         } else if n < 3 {
