@@ -264,3 +264,39 @@ fn verify_compares_their_functions() {
     .stdout;
     assert!(said.contains("\"events\""), "{said}");
 }
+
+/// Events are expressions of the state: names of columns are told from those that nobody knows.
+#[test]
+fn names_of_columns_are_no_functions() {
+    let mut spec = body();
+    spec["observables"] = json!({ "h": "z^2" });
+    for (when, says, help) in [
+        (
+            "h - 1",
+            "`h` is an observable",
+            "write the expression of `h` out",
+        ),
+        (
+            "energy - 1",
+            "the column of the energy",
+            "write the Hamiltonian out",
+        ),
+        (
+            "nothing - 1",
+            "unknown symbol `nothing`",
+            "declare `nothing` as a parameter",
+        ),
+    ] {
+        spec["events"] = json!({ "e": { "when": when } });
+        let said = check(&spec).error("unknown-symbol", "").stderr;
+        let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(said.contains(says) && said.contains(help), "{said}");
+    }
+    // an entry of a group element that is not declared
+    spec["events"] = json!({});
+    spec["forces"] = json!({ "x": "-R11*x" });
+    let said = check(&spec).error("unknown-symbol", "").stderr;
+    assert!(said.contains("\"group\": \"R\""), "{said}");
+    spec["group"] = json!("R");
+    check(&spec).ok();
+}

@@ -229,6 +229,14 @@ fn what_is_no_integral_is_refused() {
     spec["hamiltonian"] = json!("m1^2/(2*I) + m2^2/(3*I) + m3^2/(2*J) + k*g3");
     let said = check(&spec).error("integral", "").stderr;
     assert!(said.contains("m1*m2"), "{said}");
+    // noise has a name there that people know
+    spec["integrals"] = json!(["spin = m3"]);
+    spec["hamiltonian"] = json!("m1^2/(2*I) + m2^2/(2*I) + m3^2/(2*J) + k*g3");
+    spec["noise"] = json!([{ "hamiltonian": "m1/10" }]);
+    let said = check(&spec).error("integral", "").stderr;
+    let named = said.contains("dW1/dt, where the W are the processes of the noise");
+    assert!(named && !said.contains("_w1"), "{said}");
+    spec.as_object_mut().unwrap().remove("noise");
     spec["integrals"] = json!(["m3 = 1"]);
     check(&spec).error("duplicate-name", "");
     spec["integrals"] = json!(["m3"]);

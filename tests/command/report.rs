@@ -51,6 +51,21 @@ fn everything_is_on_the_page() {
     assert!(!text.contains("<math display=\"block\"><mrow></mrow>"));
 }
 
+/// The rates of noise are no coordinates with names of their own: they are dotted, and said to be what they are.
+#[test]
+fn noise_is_dotted_in_the_equations() {
+    let folder = folder();
+    let path = folder.path().join("noisy.json");
+    let spec = r#"{"format": 1, "name": "Noisy", "algebra": "so(3)", "state": ["x", "y", "z"], "hamiltonian": "x^2/3 + z^2/2",
+        "noise": [{"hamiltonian": "z/10"}, {"force": {"x": "1/10"}}], "initial": [1, 0, 0]}"#;
+    std::fs::write(&path, spec).unwrap();
+    let text = page(&[path.to_str().unwrap(), "--until", "1", "--no-bench"]);
+    assert!(text.contains("<mi>W</mi><mo>˙</mo>"));
+    assert!(text.contains("are the rates of the Wiener processes"));
+    assert!(!text.contains("<mi>_w</mi>"));
+    assert!(!page(&[BODY, "--until", "1", "--no-bench"]).contains("Wiener"));
+}
+
 #[test]
 fn a_family_has_a_page_with_all_that_is_measured() {
     let text = page(&["tests/data/families/xxz_chain.json", "--until", "1"]);

@@ -1,6 +1,7 @@
 //! What the mathematics of a system is, in formulas.
 
-use lie_codegen::model::QuantityKind;
+use lie_codegen::model::configuration::WIENER;
+use lie_codegen::model::{Driving, QuantityKind};
 use lie_codegen::plan::plan;
 use lie_codegen::structure::Structure;
 use lie_in_process::formula::names;
@@ -103,12 +104,22 @@ pub fn formulas(model: &Structure) -> Vec<(&'static str, Vec<String>)> {
             let name = left.and_then(|left| left.strip_suffix('\''));
             name.is_some_and(|name| !hidden(name))
         });
-        let motion: Vec<String> = motion.map(|line| formula(line, &names)).collect();
+        let mut motion: Vec<String> = motion.map(|line| formula(line, &names)).collect();
         if !motion.is_empty() {
+            motion.extend(processes(model));
             all.push(("Equations of motion:", motion));
         }
     }
     all
+}
+
+/// What the rates of noise in the equations are.
+fn processes(model: &Structure) -> Option<String> {
+    let noisy = model.driving.as_ref().is_some_and(Driving::is_noisy);
+    let rate = identifier(WIENER);
+    noisy.then(|| {
+        format!("<p><math>{rate}</math> are the rates of the Wiener processes of the noise, in the sense of Stratonovich.</p>")
+    })
 }
 
 /// `[e1, e2] = e3`

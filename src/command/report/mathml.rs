@@ -1,5 +1,6 @@
 //! Formulas as MathML, which browsers set themselves.
 
+use lie_codegen::model::configuration::WIENER;
 use lie_in_process::formula::{self, GREEK, Notation};
 use lie_syntax::front::Names;
 
@@ -25,7 +26,11 @@ impl Notation for MathMl {
     fn letter(&self, name: &str, index: &str) -> String {
         let greek = GREEK.iter().find(|(word, _)| *word == name);
         let letter = greek.map_or(name, |(_, letter)| letter);
-        let letter = format!("<mi>{}</mi>", escaped(letter));
+        let letter = match letter {
+            // the rate of a Wiener process
+            WIENER => "<mover accent=\"true\"><mi>W</mi><mo>˙</mo></mover>".to_owned(),
+            letter => format!("<mi>{}</mi>", escaped(letter)),
+        };
         match index {
             "" => letter,
             index => format!("<msub>{letter}<mi>{}</mi></msub>", escaped(index)),

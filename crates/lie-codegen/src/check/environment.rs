@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use super::recorded;
 use crate::model::{CANONICAL, ENTRIES, data_number, shared_number};
 use lie_symbolic::symbolic::{ExprId, Function, Opaque, Symbol};
 use lie_syntax::ast::{Declaration, Name, OwnFunction, Realization};
@@ -58,6 +59,8 @@ pub struct Environment<'a> {
     /// The coordinates of the basis elements.
     duals: HashMap<&'a str, &'a str>,
     functions: &'a [OwnFunction],
+    /// The declaration, whose names say what one might have been meant for.
+    declared: Option<&'a Declaration>,
 }
 
 impl Allowed {
@@ -153,6 +156,7 @@ impl<'a> Environment<'a> {
                 .map(|(e, x)| (e.text.as_str(), x.text.as_str()))
                 .collect(),
             functions: &declaration.functions,
+            declared: Some(declaration),
         }
     }
 
@@ -246,6 +250,11 @@ impl<'a> Environment<'a> {
                 format!("unknown symbol `{name}`: it looks like `{latin}`, but has other letters");
             return (message, format!("write `{latin}`"));
         }
+        if allowed == Allowed::State
+            && let Some(mistake) = self.declared.and_then(|all| recorded::meant(all, name))
+        {
+            return mistake;
+        }
         let bindings = self.bindings.iter();
         // sums of a family stand under names that nobody can write
         let written = |name: &str| !name.contains(' ');
@@ -260,7 +269,11 @@ impl<'a> Environment<'a> {
         {
             return (message, help.to_owned());
         }
-        let declare = format!("declare `{name}` as a parameter, an abbreviation or an input");
+        let mut declare = format!("declare `{name}` as a parameter, an abbreviation or an input");
+        if matches!(allowed, Allowed::State | Allowed::Velocity(_)) {
+            let element = self.declared.and_then(|all| recorded::element(all, name));
+            declare.extend(element);
+        }
         let others = series(name, candidates);
         let help = match near {
             Some(near) => format!("did you mean `{near}`?"),

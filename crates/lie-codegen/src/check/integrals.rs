@@ -53,10 +53,18 @@ impl Motion<'_> {
             Some(_) => format!("d{text}/dt"),
             None => format!("{{{text}, H}}"),
         };
+        let noisy = self.driving.is_some_and(Driving::is_noisy);
+        let of_noise = |shown: &str| match noisy && shown.contains("dW") {
+            true => ", where the W are the processes of the noise",
+            false => "",
+        };
         let (message, help) = match proof {
             Proof::Zero => return None,
             Proof::Nonzero(shown) => (
-                format!("`{text}` is not a first integral: {rate} = {shown}"),
+                format!(
+                    "`{text}` is not a first integral: {rate} = {shown}{}",
+                    of_noise(&shown)
+                ),
                 "a first integral keeps its value along every motion: mend it or the Hamiltonian, or make it one of the `observables`",
             ),
             Proof::Unproven {
@@ -66,7 +74,8 @@ impl Motion<'_> {
                 let shown = shown.map_or_else(String::new, |shown| format!(" = {shown}"));
                 (
                     format!(
-                        "`{text}` is unproven: it could not be shown that {rate}{shown} is zero, {values}"
+                        "`{text}` is unproven: it could not be shown that {rate}{shown} is zero{}, {values}",
+                        of_noise(&shown)
                     ),
                     "write it in a simpler form, with fewer different functions and roots, or make it one of the `observables`",
                 )

@@ -44,6 +44,7 @@ mod poisson;
 mod poisson_map;
 mod rank;
 mod realization;
+mod recorded;
 mod refuted_verdict;
 mod retraction;
 mod series;

@@ -7,6 +7,8 @@ use lie_symbolic::exact::Rational;
 pub const TIME_MOMENTUM: &str = "_p";
 /// The name of the central coordinate.
 pub const UNIT: &str = "_one";
+/// What the names of the rates of Wiener processes begin with, in front of their number.
+pub const WIENER: &str = "_w";
 /// The time in expressions.
 pub const TIME: &str = "t";
 /// The size of the block of the time in the matrices of a representation, the last one.

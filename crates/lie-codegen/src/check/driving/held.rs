@@ -1,6 +1,7 @@
 //! What is held from step to step.
 
 use super::*;
+use crate::model::configuration::WIENER;
 
 /// What is held from step to step: inputs with their defaults, then the rates of Wiener processes.
 pub fn held(declaration: &Declaration, mistakes: &mut Vec<Diagnostic>) -> Vec<(String, Rational)> {
@@ -12,7 +13,7 @@ pub fn held(declaration: &Declaration, mistakes: &mut Vec<Diagnostic>) -> Vec<(S
         .filter(|d| d.temperature.is_some());
     let count = declaration.noise.len() + own * warm.count();
     let count = with_coin(count);
-    held.extend((1..=count).map(|k| (format!("_w{k}"), Rational::ZERO)));
+    held.extend((1..=count).map(|k| (format!("{WIENER}{k}"), Rational::ZERO)));
     held
 }
 
