@@ -265,6 +265,61 @@ fn verify_compares_their_functions() {
     assert!(said.contains("\"events\""), "{said}");
 }
 
+/// What happens at the time at which a run stops is told, whatever was declared first; what is behind it is not.
+#[test]
+fn events_at_the_time_of_a_stop_are_kept() {
+    let mut spec = body();
+    let stop = json!({ "when": "t - 1", "stop": true });
+    let [same, doubled] = ["t - 1", "exp(t) - exp(1)"].map(|when| json!({ "when": when }));
+    let later = json!({ "when": "t - 1.0001" });
+    for step in ["0.3", "0.5"] {
+        let mut tables = Vec::new();
+        for order in [["r", "s", "w"], ["s", "r", "w"], ["w", "s", "r"]] {
+            // a map of JSON has the order in which it is written
+            let mut events = String::new();
+            for name in order {
+                let rule = match name {
+                    "r" => format!("\"r\": {same}, \"a\": {doubled}"),
+                    "s" => format!("\"s\": {stop}, \"l\": {later}"),
+                    _ => format!("\"w\": {stop}"),
+                };
+                events = [events, rule].join(if name == order[0] { "" } else { ", " });
+            }
+            spec["events"] = json!("EVENTS");
+            let text = spec
+                .to_string()
+                .replace("\"EVENTS\"", &format!("{{{events}}}"));
+            let folder = folder();
+            let [path, table] = ["spec.json", "events.csv"].map(|name| folder.path().join(name));
+            std::fs::write(&path, text).unwrap();
+            let call = format!(
+                "run {} --step {step} --events {}",
+                path.display(),
+                table.display()
+            );
+            let run = lie(&call).ok();
+            assert_eq!(run.csv().1.last().unwrap()[0], 1.0);
+            let table = std::fs::read_to_string(&table).unwrap();
+            let mut found: Vec<(String, f64)> = Vec::new();
+            for line in table.lines().skip(1) {
+                let mut cells = line.split(',');
+                let name = cells.next().unwrap().to_owned();
+                let time: f64 = cells.next().unwrap().parse().unwrap();
+                if time > 0.999 {
+                    found.push((name, time));
+                }
+            }
+            let off = found.iter().map(|(_, time)| (time - 1.0).abs());
+            assert!(off.fold(0.0, f64::max) < 1e-15, "{found:?}");
+            let mut names: Vec<String> = found.into_iter().map(|(name, _)| name).collect();
+            names.sort();
+            assert_eq!(names, ["a", "r", "s", "w"], "{order:?}: {table}");
+            tables.push(names);
+        }
+        assert_eq!(tables.len(), 3);
+    }
+}
+
 /// Events are expressions of the state: names of columns are told from those that nobody knows.
 #[test]
 fn names_of_columns_are_no_functions() {

@@ -34,6 +34,8 @@ const MOST_PIECES: f64 = 64.0;
 const FIRST: f64 = 1e-4;
 /// A function that has still so much of its change at a change of its sign jumps.
 const JUMP: f64 = 1e-2;
+/// Times that are nearer to each other than so many units of round-off are the same.
+const SAME: f64 = 4.0;
 
 /// An event that a run has come to.
 #[derive(Clone, Debug, PartialEq)]
@@ -140,6 +142,21 @@ fn norm<S: Scalar, P: Poisson<S>>(system: &P, vector: &P::State) -> f64 {
     largest(system.norm(vector))
 }
 
+/// Leaves out what is behind the first event that ends the run, which becomes the last one. What happens at its time happens, in whatever
+/// order it was declared, though the run ends by one event alone.
+fn end_at_stop<V>(found: &mut Vec<Event<V>>, span: f64) {
+    let Some(place) = found.iter().position(|event| event.stops) else {
+        return;
+    };
+    let stop = found.remove(place);
+    let same = SAME * f64::EPSILON * stop.time.abs();
+    found.retain(|event| (event.time - stop.time) * span <= same);
+    for event in &mut found[place..] {
+        (event.time, event.stops) = (stop.time, false);
+    }
+    found.push(stop);
+}
+
 /// 1, -1, or 0 for a zero and for what is no number.
 fn sign(value: f64) -> f64 {
     if value > 0.0 {
@@ -199,9 +216,7 @@ impl<S: Scalar, P: Poisson<S>> Course<'_, S, P> {
         found.extend(self.events_between(system, &events.rules, (&from, &finish), &mut reach));
         let span = (end.0 - time).signum();
         found.sort_by(|a, b| (a.time * span).total_cmp(&(b.time * span)));
-        if let Some(place) = found.iter().position(|event| event.stops) {
-            found.truncate(place + 1);
-        }
+        end_at_stop(&mut found, span);
         events.last = Some(finish);
         self.stats = stats;
         found
