@@ -28,6 +28,7 @@ mod conjugate;
 mod constraints;
 mod declarations;
 mod density;
+mod driven_spins;
 mod ensemble;
 #[cfg(unix)]
 mod ensemble_events;

@@ -146,16 +146,18 @@ fn a_thermal_spin_has_its_orders_and_its_density() {
         "dissipation": [{ "kind": "double-bracket", "strength": "1", "temperature": "T" }],
         "initial": [0.6, 0, 0.8]
     });
-    let found = on_noise(&spec, "lie-midpoint");
-    has_order(&found, "strong order", 0.5);
-    has_order(&found, "weak order", 1.0);
-    for fact in ["mean energy", "mean coordinates"] {
-        assert_eq!(found[fact]["verdict"], "holds", "{found}");
-        assert!(found[fact]["measured"].as_f64() < Some(0.02), "{found}");
+    for method in ["lie-midpoint", "spherical-midpoint"] {
+        let found = on_noise(&spec, method);
+        has_order(&found, "strong order", 0.5);
+        has_order(&found, "weak order", 1.0);
+        for fact in ["mean energy", "mean coordinates"] {
+            assert_eq!(found[fact]["verdict"], "holds", "{found}");
+            assert!(found[fact]["measured"].as_f64() < Some(0.02), "{found}");
+        }
+        // what the quadrature says of H is the function of Langevin, T - coth(1/T)
+        let note = found["mean energy"]["note"].as_str().expect("a note");
+        assert!(note.contains("where -0.7025 is exact"), "{note}");
     }
-    // what the quadrature says of H is the function of Langevin, T - coth(1/T)
-    let note = found["mean energy"]["note"].as_str().expect("a note");
-    assert!(note.contains("where -0.7025 is exact"), "{note}");
 }
 
 /// Noises that commute have order 1 in the mean square: constant forces, of a temperature over the whole space.

@@ -153,6 +153,11 @@ impl Source {
         self.lie()?.spins.as_deref()
     }
 
+    /// The same, where the time and what is held may be beside them.
+    pub fn spheres(&self) -> Option<&[Spin]> {
+        self.lie()?.spheres()
+    }
+
     /// The parts of so(3) with vectors.
     pub fn vectors(&self) -> Option<&Vectors> {
         self.lie()?.vectors.as_ref()

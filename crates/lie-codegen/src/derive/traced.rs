@@ -26,7 +26,7 @@ impl Source {
 
     /// Residual, Jacobian and result of the spherical midpoint method.
     pub fn spherical_kernels(&mut self) -> Option<Vec<Kernel>> {
-        self.spins()?;
+        self.spheres()?;
         let formulas = Formulas {
             residual: "`r = d - h f(w)`, `w = rho s`, `s = 2 mu + d`",
             linearize: "`r = d - h f(w)`, `w = rho s`, and `dr/dd = 1 - h rho Df(w) (1 - s s^T/s.s)`",

@@ -42,6 +42,8 @@ pub enum Carrier {
     Reductive,
     /// Sums of so(3).
     Spins,
+    /// The same, where the time and what is held may be beside it.
+    Spheres,
     /// A rigid body in three dimensions.
     Body,
     /// A rigid body in more.

@@ -108,6 +108,7 @@ impl Planner<'_> {
             Carrier::Matrices => source.matrices().is_some(),
             Carrier::Reductive => source.matrices().is_some() && !closed,
             Carrier::Spins => source.spins().is_some(),
+            Carrier::Spheres => source.spheres().is_some(),
             Carrier::Body => matches!(source.body(), Some(Body::Three)),
             Carrier::BodyOfMany => matches!(source.body(), Some(Body::Many { .. })),
             Carrier::Lagrangian => source.energy.reduced().is_some(),

@@ -213,11 +213,16 @@ impl Planner<'_> {
     }
 
     fn spins(&mut self) -> Option<Spins> {
-        let spins = self.source.spins()?.to_vec();
+        let spins = self.source.spheres()?.to_vec();
         Some(Spins {
             coordinates: spins.iter().map(|spin| spin.coordinates).collect(),
             scales: spins.iter().map(|spin| self.value(spin.scale)).collect(),
-            flow: self.flow_on(Lift::Hopf),
+            flow: self
+                .source
+                .spins()
+                .is_some()
+                .then(|| self.flow_on(Lift::Hopf))
+                .flatten(),
         })
     }
 

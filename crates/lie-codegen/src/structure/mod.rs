@@ -67,6 +67,8 @@ pub struct Structure {
     pub group: Option<group::Group>,
     /// The summands of a direct sum of algebras so(3).
     pub spins: Option<Vec<spins::Spin>>,
+    /// Those of one beside which the time and what is held are coordinates.
+    pub driven_spins: Option<Vec<spins::Spin>>,
     /// The parts of so(3) with vectors.
     pub vectors: Option<vectors::Vectors>,
     /// The unitary representation that the declared matrices are.
@@ -99,6 +101,14 @@ pub struct Structure {
 }
 
 /// A structure has what its model has.
+impl Structure {
+    /// The summands of a direct sum of algebras so(3), beside which the time and what is held may be coordinates.
+    pub fn spheres(&self) -> Option<&[spins::Spin]> {
+        let driven = self.driven_spins.as_deref();
+        self.spins.as_deref().or(driven)
+    }
+}
+
 impl Deref for Structure {
     type Target = Model;
 
@@ -121,6 +131,10 @@ pub fn structure(mut model: Model, effort: Effort) -> Structure {
     let conjugate = conjugate::conjugate(&model, &mut graph);
     model.graph = graph;
     let (spins, vectors) = (spins::spins(&model), vectors::vectors(&model));
+    let (driven_spins, spins) = match model.configuration.is_some() && model.family.is_none() {
+        true => (spins, None),
+        false => (None, spins),
+    };
     let unitary = unitary::unitary(&model);
     let (few, many) = (spins.as_deref(), vectors.as_ref());
     let separable = separable(&model);
@@ -169,6 +183,7 @@ pub fn structure(mut model: Model, effort: Effort) -> Structure {
         algebra,
         group,
         spins,
+        driven_spins,
         vectors,
         unitary,
         smallest,

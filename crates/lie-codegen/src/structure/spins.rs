@@ -17,9 +17,15 @@ pub struct Spin {
     pub scale: ExprId,
 }
 
-/// The summands in the order of their coordinates; `None` where the algebra is no such sum.
+/// The summands in the order of their coordinates; `None` where the declared algebra is no such sum. Coordinates that carry the time or
+/// are held may be beside them.
 pub fn spins(model: &Model) -> Option<Vec<Spin>> {
-    let n = model.dimension();
+    let n = match &model.configuration {
+        _ if model.family.is_some() => model.dimension(),
+        Some(configuration) if configuration.group.is_some() || configuration.idle => return None,
+        Some(configuration) => configuration.own_momenta(),
+        None => model.dimension(),
+    };
     if n == 0 || !n.is_multiple_of(3) {
         return None;
     }
@@ -27,11 +33,16 @@ pub fn spins(model: &Model) -> Option<Vec<Spin>> {
     let algebra = model.bracket.algebra()?;
     let entries = algebra.exact.entries();
     let expressions = algebra.constants.entries();
-    if entries.len() != n || expressions.len() != n {
+    if entries.len() != expressions.len() {
+        return None;
+    }
+    let both = entries.iter().zip(expressions);
+    let both: Vec<_> = both.filter(|((i, ..), _)| *i < n).collect();
+    if both.len() != n || both.iter().any(|((_, j, k, _), _)| *j.max(k) >= n) {
         return None;
     }
     let mut spins = Vec::new();
-    for (entry, expression) in entries.iter().zip(expressions) {
+    for (entry, expression) in both {
         let &(i, j, k, ref c) = entry;
         if j > k || i > j {
             continue;
@@ -56,9 +67,14 @@ pub fn spins(model: &Model) -> Option<Vec<Spin>> {
     (covered == (0..n).collect::<Vec<_>>()).then_some(spins)
 }
 
-/// Why a method for spins does not apply, with the nearest one that does.
+/// Why a method for spins does not apply, with the nearest one that does: the spherical midpoint rule, or a method over the Hopf map of
+/// some order.
 pub fn refusal(structure: &Structure, hopf: Option<u32>) -> Option<(String, String)> {
-    if structure.spins.is_some() {
+    let found = match hopf {
+        Some(_) => structure.spins.is_some(),
+        None => structure.spheres().is_some(),
+    };
+    if found {
         return None;
     }
     let reason = structure.why_not_declared_algebra().unwrap_or_else(|| {

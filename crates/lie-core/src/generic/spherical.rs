@@ -55,6 +55,9 @@ pub fn sphere_ratios_into<S: Scalar, P: SpinPoisson<S>>(
 /// spin, and the vector field f. Jacobian: `1 - h Df(w) dw/dd`, where
 /// `dw/dd = (|mu|/|s|) (1 - s s^T/|s|^2)` for each spin. Start: `d = h f(mu)`.
 ///
+/// Coordinates of no spin, which carry the time, its momentum and what is held over a step, have the midpoint `w = mu + d/2`: on the product
+/// with the plane of the time that is the midpoint rule over both, and a Poisson map as on the spins alone.
+///
 /// An iteration ends a part of a unit of round-off early, always on the same side, which would add up: least where it finds
 /// increments, whose units are smaller. What is left changes the length by `d.s = 2 mu.d + d.d`, which is 0 in the equation;
 /// the result moves d along s until it is.
@@ -66,6 +69,8 @@ pub struct Spherical<'a, S: Scalar, P: SpinPoisson<S>> {
     point: P::State,
     field: P::State,
     jacobian: P::Jacobian,
+    /// Whether each coordinate is one of a spin.
+    alone: bool,
 }
 
 impl<'a, S: Scalar, P: SpinPoisson<S>> Spherical<'a, S, P> {
@@ -79,6 +84,7 @@ impl<'a, S: Scalar, P: SpinPoisson<S>> Spherical<'a, S, P> {
             point: zero.clone(),
             field: zero,
             jacobian: system.zero_jacobian(),
+            alone: 3 * system.spins().len() == system.dimension(),
         }
     }
 
@@ -93,6 +99,10 @@ impl<'a, S: Scalar, P: SpinPoisson<S>> Spherical<'a, S, P> {
 
     /// Sets the point to w.
     fn set_point(&mut self, unknown: &P::State) {
+        if !self.alone {
+            self.point.copy_from(&self.base);
+            self.point.axpy(S::ratio(1.0, 2.0), unknown);
+        }
         for (index, spin) in self.system.spins().iter().enumerate() {
             let (sum, [ratio, _]) = self.sum(index, unknown);
             for (k, &coordinate) in spin.iter().enumerate() {
@@ -133,6 +143,19 @@ impl<S: Scalar, P: SpinPoisson<S>> Equation<S> for Spherical<'_, S, P> {
         self.system
             .linearize(&self.point, &mut self.field, &mut self.jacobian);
         self.write_residual(unknown, residual);
+        if !self.alone {
+            let half = S::ratio(1.0, 2.0) * self.step;
+            for row in 0..self.system.dimension() {
+                for column in 0..self.system.dimension() {
+                    let identity = if row == column { S::one() } else { S::zero() };
+                    matrix.set(
+                        row,
+                        column,
+                        identity - half * self.jacobian.get(row, column),
+                    );
+                }
+            }
+        }
         for (index, spin) in self.system.spins().iter().enumerate() {
             let (sum, [ratio, inverse]) = self.sum(index, unknown);
             let factor = (self.step * ratio).quantity();
@@ -152,6 +175,10 @@ impl<S: Scalar, P: SpinPoisson<S>> Equation<S> for Spherical<'_, S, P> {
     fn group_factor(&mut self, unknown: &P::State, xi: &mut P::State) -> Option<Retraction> {
         self.set_point(unknown);
         self.system.generator(&self.point, &mut self.field);
+        if !self.alone {
+            xi.fill(S::zero());
+            xi.axpy(self.step, &self.field);
+        }
         for (index, spin) in self.system.spins().iter().enumerate() {
             // d = ad*_x s/2 with x = 2 h (|mu|/|s|) grad H: the rotation of the quaternion (1, c x/2)
             let (scale, (_, [ratio, _])) = (self.system.scale(index), self.sum(index, unknown));
@@ -167,6 +194,10 @@ impl<S: Scalar, P: SpinPoisson<S>> Equation<S> for Spherical<'_, S, P> {
     /// `mu + d`, of which the sum `s = 2 mu + d` is orthogonal to d.
     fn result(&mut self, unknown: &P::State, mu: &mut P::State) {
         let dot = |a: [S; 3], b: [S; 3]| (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]).quantity();
+        if !self.alone {
+            mu.copy_from(&self.base);
+            mu.axpy(S::one(), unknown);
+        }
         for (index, spin) in self.system.spins().iter().enumerate() {
             let (sum, [_, inverse]) = self.sum(index, unknown);
             let start = spin.map(|k| self.base.as_slice()[k]);

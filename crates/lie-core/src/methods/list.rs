@@ -220,7 +220,7 @@ macro_rules! for_each_method {
             { "stage-parallel isospectral Runge–Kutta" REDUCTIVE MODIN
                 [Isospectral(16)] [Isospectral16] [Isospectral16::new()] {} }
             { "spherical midpoint" SPINS MMV
-                [SphericalMidpoint] [SphericalMidpoint] [SphericalMidpoint] { [spherical Spins Spherical] } }
+                [SphericalMidpoint] [SphericalMidpoint] [SphericalMidpoint] { [spherical Spheres Spherical] } }
             { "Lie–Trotter splitting" SUM MCL
                 [Splitting(1, Scheme::Suzuki, Pieces::Found)] [Splitting1] [Splitting1::new()] { splitting } }
             { "Strang splitting" SUM MCL

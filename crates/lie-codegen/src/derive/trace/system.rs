@@ -76,7 +76,7 @@ pub struct SymbolicSystem {
 
 impl SymbolicSystem {
     pub(super) fn new(source: &Source) -> Self {
-        let spins = source.spins().into_iter().flatten();
+        let spins = source.spheres().into_iter().flatten();
         let (spins, scales) = spins.map(|s| (s.coordinates, Sym(s.scale))).unzip();
         let (planes, moments, products) = match source.body() {
             Some(Body::Many {
