@@ -28,7 +28,7 @@ fn system() -> (GuidingCentreSystem<f64>, Vec<f64>) {
     (system, declared.initial_state().as_slice().to_vec())
 }
 
-/// The local error of a step, by one with many digits: `shared/math` has slopes of 2.98 and 4.97 for orders 2 and 4.
+/// The local error of a step, by one with many digits: slopes near 3 and 5 for orders 2 and 4.
 #[test]
 fn orders_and_symmetry() {
     fn check<M>(method: &M, counts: [u32; 5])

@@ -103,6 +103,24 @@ fn end<P: Poisson<f64, State = State>>(
     mu
 }
 
+/// The time and its momentum are given, and how large they are says nothing of how near the velocity is.
+#[test]
+fn late_times_leave_the_velocity_all_its_digits() {
+    let lagrangian = TurnedByLagrangian::new().system().expect("finite");
+    let hamiltonian = TurnedByHamiltonian::new().system().expect("finite");
+    for (time, momentum) in [(1e3, 0.7), (1e6, -2.0), (1.7e9, 0.0), (3.0, 1e9)] {
+        let mut mu = somewhere(2);
+        (mu[3], mu[13]) = (momentum, time);
+        let (mut a, mut b) = (mu, mu);
+        lagrangian.gradient(&mu, &mut a);
+        hamiltonian.gradient(&mu, &mut b);
+        assert!(
+            (a - b).amax() < 4e-15 * b.amax(),
+            "{time:e} {momentum:e}: {a} {b}"
+        );
+    }
+}
+
 #[test]
 fn methods_make_the_steps_of_the_closed_hamiltonian() {
     let lagrangian = TurnedByLagrangian::new().system().expect("finite");

@@ -50,6 +50,7 @@ pub trait DiscreteLagrangian<S: Scalar> {
         let mut matrix = inverse.clone();
         x.fill(S::zero());
         legendre::solve(
+            mu.as_slice().len(),
             |x, out| self.slope(x, out),
             |x, out| self.curvature(x, out),
             mu,

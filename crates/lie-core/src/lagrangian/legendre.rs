@@ -62,6 +62,7 @@ pub fn velocity<S: Scalar, P: LagrangianPoisson<S>>(system: &P, mu: &P::State, o
             .map_or(S::zero(), |known| known.as_slice()[i]);
     }
     solve(
+        count,
         |xi, momentum| {
             system.momentum(xi, momentum);
             momentum.as_mut_slice()[count..].copy_from_slice(&xi.as_slice()[count..]);
@@ -172,9 +173,9 @@ pub fn hessian<S: Scalar, P: LagrangianPoisson<S>>(
     }
 }
 
-/// The largest value, derivatives left aside.
-pub(super) fn size<S: Scalar>(vector: &impl State<S>) -> S {
-    let entries = vector.as_slice().iter();
+/// The largest of the first values, derivatives left aside.
+pub(super) fn size<S: Scalar>(vector: &impl State<S>, count: usize) -> S {
+    let entries = vector.as_slice()[..count].iter();
     entries.fold(S::zero(), |norm, entry| norm.max(entry.abs()))
 }
 
@@ -188,8 +189,10 @@ pub enum From {
 }
 
 /// Solves `map(xi) = mu` for a map with the derivative `slope`, along a path that begins at `xi`; `matrix` is space for
-/// the latter. The lanes without a solution are not a number.
+/// the latter. The first `count` components are looked for; the others are given in `mu` and `xi`, whose sizes then say nothing of how near
+/// a velocity is. The lanes without a solution are not a number.
 pub fn solve<S, V, M>(
+    count: usize,
     map: impl Fn(&V, &mut V),
     slope: impl Fn(&V, &mut M),
     mu: &V,
@@ -205,11 +208,13 @@ pub fn solve<S, V, M>(
     let mut step = mu.clone();
     slope(&start, matrix);
     let sign_at_start = exchanging::solve(matrix, &mut step);
-    let reached = newton(&map, &slope, mu, xi, matrix);
+    let reached = newton(count, &map, &slope, mu, xi, matrix);
     let mut failed = !reached;
     for lane in 0..S::LANES {
         let mut end = start.clone();
-        if failed.lane(lane) && path::follow(&map, &slope, mu, from, lane, &mut end, matrix) {
+        if failed.lane(lane)
+            && path::follow(count, (&map, &slope), mu, from, lane, &mut end, matrix)
+        {
             let only = S::Mask::from_bits(1 << lane);
             xi.assign_where(only, &end);
             failed = failed & !only;
@@ -234,6 +239,7 @@ pub fn solve<S, V, M>(
 /// Newton's iteration for `map(xi) = mu` from `xi`. Returns the lanes that have come near the solution with steps each
 /// of which was at most a quarter of the one before.
 pub(super) fn newton<S, V, M>(
+    count: usize,
     map: &impl Fn(&V, &mut V),
     slope: &impl Fn(&V, &mut M),
     mu: &V,
@@ -254,11 +260,13 @@ where
         map(xi, &mut step);
         step.axpy(-S::one(), mu);
         slope(xi, matrix);
-        let defect = size(&step);
-        let round_off = S::from_f64(16.0) * S::epsilon() * (size(mu) + largest(matrix) * size(xi));
+        let defect = size(&step, count);
+        let speed = size(xi, count);
+        let terms = size(mu, count) + largest(matrix, count) * speed;
+        let round_off = S::from_f64(16.0) * S::epsilon() * terms;
         exchanging::solve(matrix, &mut step);
-        let length = size(&step);
-        let close = length.less_equal(S::from_f64(NEAR) * S::epsilon() * size(xi))
+        let length = size(&step, count);
+        let close = length.less_equal(S::from_f64(NEAR) * S::epsilon() * speed)
             | (defect.less_equal(round_off) & length.finite());
         near = near | (open & close);
         open = open & !close & length.less_equal(bound) & length.finite();
@@ -271,9 +279,8 @@ where
     near
 }
 
-/// The largest entry, derivatives left aside.
-fn largest<S: Scalar, M: SquareMatrix<S>>(matrix: &M) -> S {
-    let size = matrix.dimension();
+/// The largest entry of the first rows and columns, derivatives left aside.
+fn largest<S: Scalar, M: SquareMatrix<S>>(matrix: &M, size: usize) -> S {
     (0..size * size).fold(S::zero(), |norm, index| {
         norm.max(matrix.get(index / size, index % size).abs())
     })

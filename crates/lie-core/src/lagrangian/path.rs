@@ -27,12 +27,14 @@ struct Path<'a, V, M, F, G> {
     /// `mu - first`
     change: V,
     lane: usize,
+    /// How many components are looked for.
+    count: usize,
 }
 
 /// Goes along the path from the velocity in `xi` to one of the momentum mu; false where it ends before.
 pub(super) fn follow<S, V, M>(
-    map: &impl Fn(&V, &mut V),
-    slope: &impl Fn(&V, &mut M),
+    count: usize,
+    (map, slope): (&impl Fn(&V, &mut V), &impl Fn(&V, &mut M)),
     mu: &V,
     from: From,
     lane: usize,
@@ -55,6 +57,7 @@ where
         first,
         change,
         lane,
+        count,
     };
     let mut s = 0.0;
     if path.length::<S>(&path.change).is_nan() {
@@ -72,7 +75,7 @@ where
     where
         V: State<S>,
     {
-        size(vector).lane(self.lane).to_f64()
+        size(vector, self.count).lane(self.lane).to_f64()
     }
 
     fn dot<S: Scalar>(&self, a: &V, b: &V) -> f64
@@ -80,7 +83,7 @@ where
         V: State<S>,
     {
         let pairs = a.as_slice().iter().zip(b.as_slice());
-        pairs.fold(0.0, |sum, (&a, &b)| {
+        pairs.take(self.count).fold(0.0, |sum, (&a, &b)| {
             sum + a.lane(self.lane).to_f64() * b.lane(self.lane).to_f64()
         })
     }
@@ -93,7 +96,7 @@ where
     {
         let mut target = self.first.clone();
         target.axpy(S::from_f64(s), &self.change);
-        newton(self.map, self.slope, &target, xi, self.matrix).lane(self.lane)
+        newton(self.count, self.map, self.slope, &target, xi, self.matrix).lane(self.lane)
     }
 
     /// Increases s to 1 in pieces; where they get too short, s and the velocity are those before a fold.

@@ -9,6 +9,7 @@ fn root<S: Scalar>(map: fn(S) -> S, slope: fn(S) -> S, mu: S) -> S {
     let mut xi = V::from([S::zero()]);
     let mut matrix = SMatrix::<S, 1, 1>::repeat(S::zero());
     solve(
+        1,
         |xi: &V<S>, out: &mut V<S>| out[0] = map(xi[0]),
         |xi: &V<S>, out: &mut SMatrix<S, 1, 1>| out[(0, 0)] = slope(xi[0]),
         &V::from([mu]),
