@@ -144,7 +144,7 @@ fn refused(spec: &Spec, why: Refusal) -> Message {
         ),
         Refusal::NoInverse(i) => (
             format!(
-                "`{}` is no function in closed form of the integral that would take its place",
+                "`{}` has no closed form in terms of the integral that would take its place",
                 spec.model.coordinates[i].text
             ),
             "`canonical2`, `canonical4` and `canonical6` are Gauss methods in these coordinates on the system as it is: they find it along with their stages",
@@ -202,13 +202,13 @@ fn rewrite(
     let along = |force| moved(&names, found, &force);
     if let Some(forces) = entries.get("forces") {
         let forces = serde_json::from_str(forces.get()).map_err(unread)?;
-        changed.push(("forces", along(forces)));
+        changed.push(("forces", along(forces)?));
     }
     if let Some(noise) = entries.get("noise") {
         let mut noise: Vec<Value> = serde_json::from_str(noise.get()).map_err(unread)?;
         for process in &mut noise {
             if let Some(Value::Object(force)) = process.get_mut("force").map(Value::take) {
-                process["force"] = along(force);
+                process["force"] = along(force)?;
             }
         }
         changed.push(("noise", Value::from(noise)));
@@ -241,7 +241,14 @@ fn observe<'a>(
 }
 
 /// A force on the new coordinates, for one on the old ones.
-fn moved(names: &[&str], found: &Straight, force: &serde_json::Map<String, Value>) -> Value {
+///
+/// # Errors
+/// One by the name of a vector, whose components would act on several of them.
+fn moved(
+    names: &[&str],
+    found: &Straight,
+    force: &serde_json::Map<String, Value>,
+) -> Result<Value, Message> {
     let on = |k: usize| {
         let value = force.get(names[k])?;
         let text = value
@@ -264,8 +271,15 @@ fn moved(names: &[&str], found: &Straight, force: &serde_json::Map<String, Value
     let others = force
         .iter()
         .filter(|(name, _)| !names.contains(&name.as_str()));
+    let replaced = || found.coordinates.iter().flat_map(|new| &new.replaced);
+    let mixes = replaced().any(|replaced| !replaced.beside.is_empty());
+    if let Some((name, _)) = others.clone().next().filter(|_| mixes) {
+        let text = format!("the force on `{name}` is one on several coordinates");
+        let help = "declare it for each coordinate, as `\"x\": …`";
+        return Err(Message::new(Kind::Method, text).help(help));
+    }
     all.extend(others.map(|(name, value)| (name.clone(), value.clone())));
-    Value::Object(all)
+    Ok(Value::Object(all))
 }
 
 fn set(entries: &mut Entries, key: &str, value: Value) -> Result<(), Message> {

@@ -235,7 +235,7 @@ pub fn refusal(structure: &Structure, order: u32) -> Option<(String, String)> {
         }
     };
     Some((
-        "no coordinates are known in which the bracket is constant: it is none of pairs {x, y} = 1/B(x, y) with a closed integral of B, of {x_i, x_j} = c_ij a_i(x_i) a_j(x_j) with linear a_i, and of constant ones".into(),
+        "no coordinates are known in which the bracket is constant: it is not made of pairs {x, y} = 1/B(x, y) with a closed integral of B, brackets {x_i, x_j} = c_ij a_i(x_i) a_j(x_j) with linear a_i, and constant ones".into(),
         help,
     ))
 }

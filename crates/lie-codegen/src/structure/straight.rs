@@ -53,7 +53,7 @@ pub enum Refusal {
     Other,
     /// A logarithm has no value at the initial state, for this coordinate, or an integral no inverse near it.
     Zero(usize),
-    /// This coordinate is no function in closed form of the integral that takes its place.
+    /// This coordinate has no closed form in terms of the integral that takes its place.
     NoInverse(usize),
 }
 

@@ -65,7 +65,9 @@ pub(in crate::structure) fn inverse(
             };
             let slope = graph.derivative(value, Symbol::Coordinate(i));
             let negative = negative(graph, slope);
-            Some(of_square(graph, [left, linear, square], negative))
+            let sides = [linear, square].map(|part| at(graph, part));
+            let cancels = matches!(sides, [Some(b), Some(a)] if a != 0.0 && (b < 0.0) != negative && b != 0.0);
+            Some(of_square(graph, [left, linear, square], negative, cancels))
         }
         _ => None,
     }
@@ -146,8 +148,9 @@ fn root(graph: &mut Graph, p: &Rational, ratio: ExprId, negative: bool) -> Optio
     Some(graph.neg(size))
 }
 
-/// x of `a x^2 + b x = c` on the side where `2 a x + b` has a sign; a may vanish where it is no number.
-fn of_square(graph: &mut Graph, [c, b, a]: [ExprId; 3], negative: bool) -> ExprId {
+/// x of `a x^2 + b x = c` on the side where `2 a x + b` has a sign; a may vanish where it is no number. Where b has the other sign, the sum of
+/// it and the root cancels, and is 0 on the way.
+fn of_square(graph: &mut Graph, [c, b, a]: [ExprId; 3], negative: bool, cancels: bool) -> ExprId {
     let square = graph.mul(b, b);
     let product = graph.mul(a, c);
     let product = graph.scale(product, &Rational::from(4));
@@ -157,7 +160,7 @@ fn of_square(graph: &mut Graph, [c, b, a]: [ExprId; 3], negative: bool) -> ExprI
     if negative {
         root = graph.neg(root);
     }
-    if graph.as_number(a).is_some() {
+    if cancels || graph.as_number(a).is_some() {
         let difference = graph.sub(root, b);
         let quotient = graph.div(difference, a);
         return graph.scale(quotient, &half);
