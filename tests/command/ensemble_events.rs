@@ -394,3 +394,27 @@ fn what_does_not_fit_is_refused() {
     assert!(!place.path("merged.csv").exists());
     merge("bare", "").ok();
 }
+
+/// The last row of an ensemble is at its end, on the grid or off it: a member that is ended just there has it.
+#[test]
+fn a_stop_at_an_end_off_the_grid_leaves_the_last_row() {
+    let mut spec = body();
+    spec["events"] = json!({ "late": { "when": "t - 2", "stop": true } });
+    let place = Place::new(&spec);
+    for step in ["0.3", "0.25"] {
+        let out = place.array("late");
+        let run = lie(&format!(
+            "ensemble {} --initial-file {} --until 2 --method gauss12 --step {step} --every 1 --out {} --quiet",
+            place.path("body.json").display(),
+            place.path("starts.csv").display(),
+            out.display()
+        ));
+        run.ok();
+        let counts = record(&out)["counts"].clone();
+        let counts = counts.as_array().expect("counts").clone();
+        assert_eq!(counts.last(), Some(&json!(20)), "step {step}: {counts:?}");
+        for name in ["late.npy", "late.npy.json", "late.stops.npy"] {
+            fs::remove_file(place.path(name)).expect("it was written");
+        }
+    }
+}

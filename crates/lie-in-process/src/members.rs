@@ -274,10 +274,12 @@ impl Worker<'_> {
 
     /// Whether all members that come so far have a row at a time.
     fn has_row(&self, time: f64) -> bool {
-        let (options, start) = (&self.members.options, self.members.span.0);
+        let (options, (start, end)) = (&self.members.options, self.members.span);
         let is_multiple = |of: f64| start + ((time - start) / of).round() * of == time;
         match (&options.save, options.pace) {
             (Save::At(times), _) => times.contains(&time),
+            // the last row is at the end, on the grid or off it
+            (Save::Every(_) | Save::Interval(_), _) if time == end => true,
             (Save::Every(every), Pace::Step(step)) => is_multiple(*every as f64 * step),
             (Save::Interval(interval), _) => is_multiple(*interval),
             _ => false,
