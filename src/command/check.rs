@@ -294,14 +294,15 @@ fn write_system(model: &Structure, text: &mut String) -> std::fmt::Result {
         if let Some(discrete) = &lagrangian.discrete {
             writeln!(text, "  l_d = {}", model.display(discrete.shown()))?;
         }
-        writeln!(text, "  l = {}", model.display(lagrangian.value))?;
+        let name = if lagrangian.reduced { "l" } else { "L" };
+        writeln!(text, "  {name} = {}", model.display(lagrangian.value))?;
     }
     match (&model.family, model.energy.expression()) {
         (Some(family), _) => writeln!(text, "  H = {}", model.display_of_family(family))?,
         (None, Some(hamiltonian)) => writeln!(text, "  H = {}", model.display(hamiltonian.energy))?,
         (None, None) => writeln!(
             text,
-            "  H = Legendre transform of l, solved by Newton's iteration"
+            "  H = Legendre transform of the Lagrangian, solved by Newton's iteration"
         )?,
     }
     for (what, formula) in model.acting() {

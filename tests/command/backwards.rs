@@ -283,7 +283,7 @@ fn a_temperature_goes_forwards_alone() {
         assert_eq!(run.code, Some(2), "{call}: {}", run.stderr);
         assert!(
             run.stderr
-                .contains("has a temperature, and runs forwards in time alone"),
+                .contains("has a temperature, and runs only forwards in time"),
             "{call}: {}",
             run.stderr
         );

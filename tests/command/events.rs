@@ -273,7 +273,6 @@ fn events_at_the_time_of_a_stop_are_kept() {
     let [same, doubled] = ["t - 1", "exp(t) - exp(1)"].map(|when| json!({ "when": when }));
     let later = json!({ "when": "t - 1.0001" });
     for step in ["0.3", "0.5"] {
-        let mut tables = Vec::new();
         for order in [["r", "s", "w"], ["s", "r", "w"], ["w", "s", "r"]] {
             // a map of JSON has the order in which it is written
             let mut events = String::new();
@@ -314,9 +313,7 @@ fn events_at_the_time_of_a_stop_are_kept() {
             let mut names: Vec<String> = found.into_iter().map(|(name, _)| name).collect();
             names.sort();
             assert_eq!(names, ["a", "r", "s", "w"], "{order:?}: {table}");
-            tables.push(names);
         }
-        assert_eq!(tables.len(), 3);
     }
 }
 

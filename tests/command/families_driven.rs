@@ -241,7 +241,7 @@ fn what_depends_on_the_time_is_refused_where_it_cannot_be() {
     free["hamiltonian"] = json!("-sum(i in 0..N: x[i]*x[i+1] + cos(w*t)*z[i])");
     let kept = run(&free, "--method rk4 --at 1 --keep energy").stderr;
     assert!(
-        kept.contains("changes with the time, and the energy is kept of motion by H alone"),
+        kept.contains("changes with the time, and only motion by H alone keeps the energy"),
         "{kept}"
     );
     // the energy varies, and there is no column of work, as of single systems

@@ -41,8 +41,12 @@ pub fn formulas(model: &Structure) -> Vec<(&'static str, Vec<String>)> {
         ));
     }
     if let Some(lagrangian) = model.energy.lagrangian() {
-        let text = format!("l = {}", model.display(lagrangian.value));
-        all.push(("Reduced Lagrangian:", vec![formula(&text, &names)]));
+        let (title, name) = match lagrangian.reduced {
+            true => ("Reduced Lagrangian:", "l"),
+            false => ("Lagrangian:", "L"),
+        };
+        let text = format!("{name} = {}", model.display(lagrangian.value));
+        all.push((title, vec![formula(&text, &names)]));
     }
     let acting = model.acting().into_iter();
     let acting: Vec<String> = acting

@@ -191,10 +191,11 @@ impl Model {
         match (self.is_timed(), self.is_energy_driven()) {
             (false, _) => None,
             (true, true) => Some(format!("H of {name} changes with the time")),
-            (true, false) if self.driving.is_none() => {
-                Some(format!("the time is a coordinate of {name}"))
+            // the time may be there for what is recorded
+            (true, false) => {
+                let acts = self.driving.is_some();
+                acts.then(|| format!("more than H acts on {name}"))
             }
-            (true, false) => Some(format!("more than H acts on {name}")),
         }
     }
 

@@ -104,9 +104,21 @@ impl Printer<'_> {
     /// The methods of `Poisson` for a Hamiltonian that has no expression.
     fn by_legendre(&self) -> TokenStream {
         let system = &self.plan.system;
-        let (of_gradient, gradient) = match system.velocities {
-            None => (" `out = xi`, `l'(xi) = mu`.", quote!(velocity)),
-            Some(_) => (" `out = (xi, -dL/dq)`, `dL/dxi = mu`.", quote!(gradient)),
+        let [of_value, of_gradient, of_hessian] = match system.velocities {
+            None => [
+                " `H(mu) = <mu, xi> - l(xi)`, `l'(xi) = mu` by Newton's iteration.",
+                " `out = xi`, `l'(xi) = mu`.",
+                " `out = l''(xi)^-1`, `l'(xi) = mu`.",
+            ],
+            Some(_) => [
+                " `H(mu, q) = <mu, xi> - L(xi, q)`, `dL/dxi = mu` by Newton's iteration.",
+                " `out = (xi, -dL/dq)`, `dL/dxi = mu`.",
+                " `out = H''(mu, q)`, of the blocks of `L''(xi, q)` at `dL/dxi = mu`.",
+            ],
+        };
+        let gradient = match system.velocities {
+            None => quote!(velocity),
+            Some(_) => quote!(gradient),
         };
         let energy = system.clock.map(|clock| {
             let momentum = index(clock.momentum);
@@ -131,7 +143,7 @@ impl Printer<'_> {
                 ::core::option::Option::Some(Self { _branch, ..::core::clone::Clone::clone(self) })
             }
 
-            #[doc = " `H(mu) = <mu, xi> - l(xi)`, `l'(xi) = mu` by Newton's iteration."]
+            #[doc = #of_value]
             fn hamiltonian(&self, mu: &Self::State) -> S {
                 ::lie_runtime::lagrangian::legendre::hamiltonian(self, mu)
             }
@@ -143,7 +155,7 @@ impl Printer<'_> {
                 ::lie_runtime::lagrangian::legendre::#gradient(self, mu, out);
             }
 
-            #[doc = " `out = l''(xi)^-1`, `l'(xi) = mu`."]
+            #[doc = #of_hessian]
             fn hessian(&self, mu: &Self::State, out: &mut Self::Jacobian) {
                 ::lie_runtime::lagrangian::legendre::hessian(self, mu, out);
             }

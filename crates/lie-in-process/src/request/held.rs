@@ -106,7 +106,7 @@ impl Planner<'_> {
             return;
         }
         let text = format!(
-            "{} has a temperature, and runs forwards in time alone: backwards its damping would drive, against exp(-H/T) and not towards it",
+            "{} has a temperature, and runs only forwards in time: backwards its damping would drive, against exp(-H/T) and not towards it",
             model.name
         );
         let help = "give an end behind the start and a positive step, or leave `temperature` out: damping without noise goes backwards too";

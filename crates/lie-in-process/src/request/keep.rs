@@ -103,7 +103,7 @@ impl Planner<'_> {
         let Some(more) = model.beside_hamiltonian() else {
             return Ok(());
         };
-        let text = format!("{more}, and the energy is kept of motion by H alone");
+        let text = format!("{more}, and only motion by H alone keeps the energy");
         Err(word
             .wrong(text)
             .help(match model.casimirs.iter().any(|casimir| !casimir.kept) {

@@ -266,6 +266,10 @@ fn section(
             format!("{name} is a family, and sections are drawn of single systems")
         } else if n < 3 {
             "a section needs three coordinates".to_owned()
+        } else if layout.states != n {
+            format!(
+                "{name} carries the time beside its coordinates, and sections are drawn without it"
+            )
         } else {
             format!("the Hamiltonian of {name} is not known to the command as an expression")
         };
