@@ -184,7 +184,7 @@ fn lie_canonical_shifts_a_coboundary_away() {
     });
     let with_forces = json!({
         "hamiltonian": "x^2/2 + y^2/4 + z^2/6",
-        "forces": { "x": "-x/10", "z": 0.25 }
+        "forces": { "x": "-x/10", "z": "1/4" }
     });
     let all = [by_hamiltonian, by_lagrangian, with_forces];
     for (k, (spec, methods)) in all
