@@ -307,7 +307,10 @@ fn refusals_name_what_was_declared() {
         let found = model(&so3(extra)).why_not_declared_algebra();
         assert_eq!(found, Some(known), "{extra:?}");
     }
-    let (found, _) = why(&[noise], "spherical-midpoint");
-    assert!(found.contains("noise makes that larger"), "{found}");
+    let (found, _) = why(&[timed], "moser-veselov");
+    assert!(found.contains("the time makes that larger"), "{found}");
+    // spins keep their lengths under noise
+    let spheres = Choice::SphericalMidpoint;
+    assert_eq!(refusal(&model(&so3(&[noise])), &spheres), None);
     assert_eq!(model(&so3(&[])).why_not_declared_algebra(), None);
 }
