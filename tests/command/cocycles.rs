@@ -153,7 +153,7 @@ fn end_of(path: &Path, names: &[&str], arguments: &str) -> Vec<f64> {
     .ok();
     let mut lines = run.stdout.lines().filter(|line| !line.starts_with('#'));
     let header: Vec<&str> = lines.next().expect("a header").split(',').collect();
-    let row: Vec<&str> = lines.last().expect("a row").split(',').collect();
+    let row: Vec<&str> = lines.next_back().expect("a row").split(',').collect();
     let place = |name: &&str| header.iter().position(|column| column == name);
     let number = |name: &&str| {
         row[place(name).expect("a column")]
