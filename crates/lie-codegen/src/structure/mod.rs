@@ -19,6 +19,8 @@ pub mod integrals;
 pub mod lifts;
 pub mod matrices;
 pub mod motions;
+#[cfg(test)]
+mod numbers;
 pub mod one_parameter;
 pub mod separable;
 pub mod smoothness;

@@ -1,29 +1,13 @@
 use super::{Conjugate, Form, conjugate, of_matrix};
 use crate::compile::compile_spec;
 use crate::model::Model;
+use crate::structure::numbers::Numbers;
 use lie_symbolic::exact::Rational;
 use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 
-/// Numbers from a linear congruence.
-struct Numbers(u64);
-
 impl Numbers {
-    fn below(&mut self, count: u64) -> u64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1);
-        (self.0 >> 33) % count
-    }
-
     fn of<'a>(&mut self, all: &[&'a str]) -> &'a str {
         all[self.below(all.len() as u64) as usize]
-    }
-
-    /// A number of either sign, not zero.
-    fn factor(&mut self) -> String {
-        let sign = self.of(&["", "-"]);
-        format!("{sign}{}/{}", 1 + self.below(9), 1 + self.below(5))
     }
 
     /// B of a pair x, y with a closed integral over y, its text; c is in no bracket.

@@ -1,28 +1,9 @@
 use super::{Change, Elementwise, Speed, elementwise};
 use crate::compile::compile_spec;
 use crate::model::PoissonMatrix;
+use crate::structure::numbers::Numbers;
 use lie_symbolic::exact::{Fraction, Rational};
 use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
-
-/// Numbers from a linear congruence.
-struct Numbers(u64);
-
-impl Numbers {
-    fn below(&mut self, count: u64) -> u64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1);
-        (self.0 >> 33) % count
-    }
-
-    /// Not zero, of either sign.
-    fn factor(&mut self) -> Rational {
-        let sign = if self.below(2) == 0 { 1 } else { -1 };
-        let (above, below) = (1 + self.below(9) as i64, 1 + self.below(5) as i64);
-        Rational::new(sign * above, below).expect("a number")
-    }
-}
 
 /// `a(x)` with its coefficients, as it may be declared.
 fn speed(
