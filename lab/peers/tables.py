@@ -15,23 +15,20 @@ FUSED = "lie-poisson, --fma"
 PYTHON = "lie-poisson from Python"
 """`System.run` of the installed package: one call for each run, with a row for each step."""
 
-LOOSE = 1e-4
-"""From this tolerance on `--tol` picks gauss8, below it gauss16."""
+PICKED = "gauss16"
+"""What `--tol` picks."""
 
 
 def picked(rows, ending=""):
     """What `--tol` picks, its iteration by default to round-off."""
     for row in rows:
-        if row["by"] == "tolerance":
-            loose = float(row["setting"].removeprefix("tol ")) >= 0.99 * LOOSE
-            if row["method"] == ("gauss8" if loose else "gauss16") + ending:
-                yield row
+        if row["by"] == "tolerance" and row["method"] == PICKED + ending:
+            yield row
 
 
 def stopped(rows):
     """The same, its iteration as exact as the tolerance asks."""
     return picked(rows, ", converge tolerance")
-
 
 
 def integrates(row):
