@@ -21,7 +21,7 @@ pub(super) struct Ending<S: Scalar> {
 
 impl<S: Scalar> Ending<S> {
     /// For slopes of which a part of round-off is `epsilon` times the size.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn new(size: S, rate: S, options: &NewtonOptions) -> Self {
         let unit = S::epsilon() * size;
         let goal = unit * S::from_f64(options.tolerance);
@@ -36,7 +36,7 @@ impl<S: Scalar> Ending<S> {
 
     /// The lanes in which so little is left, by the ratio of the last two of three changes, and those in which changes have dropped to
     /// round-off, after `count` iterations of which the first one changed `first`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn reached(&self, first: S, changes: [S; 3], count: u32) -> [S::Mask; 2] {
         let [_, before, change] = changes;
         let rate = change / before;
@@ -47,7 +47,7 @@ impl<S: Scalar> Ending<S> {
 }
 
 /// The lanes in which eight numbers are all below a bound.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn are_below<S: Scalar>(numbers: S::Wide, bound: S) -> S::Mask {
     if S::LANES == 1 {
         return S::Mask::splat(numbers.less_equal(bound.widen()).all());
@@ -58,7 +58,7 @@ pub(super) fn are_below<S: Scalar>(numbers: S::Wide, bound: S) -> S::Mask {
 }
 
 /// The largest of eight numbers.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn most<S: Scalar>(wide: S::Wide) -> S {
     if S::LANES == 1 {
         let pairs = wide.max(S::exchange::<1>(wide));

@@ -171,7 +171,7 @@ impl<S: Scalar, V: State<S::Wide>> StageParallel<S, V> {
     }
 
     /// Tells the programs what is constant on the space of a lift.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn set_labels(&mut self, _labels: &[S::Wide]) {
         #[cfg(feature = "std")]
         if let Some(program) = &mut self.program {
@@ -198,7 +198,7 @@ impl<S: Scalar, V: State<S::Wide>> StageParallel<S, V> {
     }
 
     /// One over the unit of an entry.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn per_unit(&self, entry: usize) -> S {
         match &self.momenta {
             Some((entries, per_unit)) if entries.contains(&entry) => *per_unit,
@@ -207,7 +207,7 @@ impl<S: Scalar, V: State<S::Wide>> StageParallel<S, V> {
     }
 
     /// Sets the time of the base.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn set_time(&mut self, time: S) {
         if let Some(clock) = self.clock {
             self.base.as_mut_slice()[clock.time] = time.widen();
@@ -215,7 +215,7 @@ impl<S: Scalar, V: State<S::Wide>> StageParallel<S, V> {
     }
 
     /// Starts from the polynomial of the last step.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn go_on(&mut self) {
         #[cfg(feature = "std")]
         if let Some(program) = &mut self.program {
@@ -230,13 +230,13 @@ impl<S: Scalar, V: State<S::Wide>> StageParallel<S, V> {
     }
 
     /// Iterates until what the options say has converged. Sizes are sums of magnitudes. `field` gives the next slopes.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn iterate(&mut self, field: impl FnMut(At<'_, V>, &mut V)) -> Iterated<S> {
         self.iterate_by(field)
     }
 
     /// The same by a rule for the increments.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn iterate_by(&mut self, field: impl Rule<S, V>) -> Iterated<S> {
         match self.options.convergence {
             Convergence::Map => self.iterate_map(field),
@@ -247,7 +247,7 @@ impl<S: Scalar, V: State<S::Wide>> StageParallel<S, V> {
     }
 
     /// How many iterations need no look in any lane.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn least_quiet(&self) -> u32 {
         let quiet = (1..S::LANES).fold(self.quiet.lane(0).to_f64(), |least, lane| {
             least.min(self.quiet.lane(lane).to_f64())
@@ -256,7 +256,7 @@ impl<S: Scalar, V: State<S::Wide>> StageParallel<S, V> {
     }
 
     /// Iterates once; the changes of the slopes. The lanes that have ended keep their increments.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn look(&mut self, work: &mut Work<V>, ended: S::Mask, field: &mut impl Rule<S, V>) -> S::Wide {
         #[cfg(feature = "std")]
         if let Some(program) = &mut self.program {
@@ -274,7 +274,7 @@ impl<S: Scalar, V: State<S::Wide>> StageParallel<S, V> {
     }
 
     /// Iterates so many times without a look at the changes.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn blind(&mut self, work: &mut Work<V>, count: u32, field: &mut impl Rule<S, V>) {
         #[cfg(feature = "std")]
         if let Some(program) = &mut self.program {
@@ -291,7 +291,7 @@ impl<S: Scalar, V: State<S::Wide>> StageParallel<S, V> {
     }
 
     /// What is reported of an iteration; the next one expects nothing in the lanes that have not converged.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn end(&mut self, iterations: u32, change: S::Wide, converged: S::Mask) -> Iterated<S> {
         if !converged.all() {
             self.forget(!converged);
@@ -312,7 +312,7 @@ impl<S: Scalar, V: State<S::Wide>> StageParallel<S, V> {
     }
 
     /// The size of the slopes against which changes are measured: that of the base over h, or of the slopes themselves.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn size(&self) -> S {
         let sum = |entries: &[S::Wide]| {
             let counted = entries.iter().enumerate();
@@ -328,14 +328,14 @@ impl<S: Scalar, V: State<S::Wide>> StageParallel<S, V> {
     }
 
     /// Moves the base to the end of the step.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn advance(&mut self) {
         let increments = self.work.increments.as_slice();
         program::advance::<S>(self.base.as_mut_slice(), increments);
     }
 
     /// Writes the base, in one place of its numbers.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn base_into(&self, out: &mut [S]) {
         for (out, wide) in out.iter_mut().zip(self.base.as_slice()) {
             let [y, ..] = S::scatter(*wide);
@@ -344,7 +344,7 @@ impl<S: Scalar, V: State<S::Wide>> StageParallel<S, V> {
     }
 
     /// The base and the increments of the last step, to be changed together.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn base_and_increments(&mut self) -> (&mut V, &mut V) {
         (&mut self.base, &mut self.work.increments)
     }

@@ -42,7 +42,7 @@ pub struct Open<'a, S: Scalar, V> {
 
 impl<'a, S: Scalar, V: State<S::Wide>> Open<'a, S, V> {
     /// The next increments by what gives the slopes at the points of the stages.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn at_points(self, slopes: impl FnOnce(At<'_, V>, &mut V), next: &mut V) {
         let all = 0..self.points.as_slice().len();
         let Self {
@@ -69,7 +69,7 @@ impl<'a, S: Scalar, V: State<S::Wide>> Open<'a, S, V> {
 
     /// The next increments by the field of a system, which may take the points part by part: of many sites those of a few stay in
     /// the cache until their slopes are there.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn by_parts<P: Poisson<S::Wide, State = V>>(self, system: &P, next: &mut V) {
         let (stages, ratios, weights) = (self.stages, self.ratios, self.weights);
         let from = [self.base, self.increments].map(V::as_slice);
@@ -84,7 +84,7 @@ impl<'a, S: Scalar, V: State<S::Wide>> Open<'a, S, V> {
 }
 
 /// Sets some entries of the points of so many stages, from the base and the increments.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn set_points<S: Scalar>(
     stages: usize,
     ratios: &[S::Wide],
@@ -98,7 +98,7 @@ fn set_points<S: Scalar>(
     }
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn set_points_with<S: Scalar, const PLACES: usize>(
     ratios: &[S::Wide],
     [base, increments]: [&[S::Wide]; 2],
@@ -125,7 +125,7 @@ where
     V: State<S::Wide>,
     F: FnMut(At<'_, V>, &mut V),
 {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn increments(&mut self, stages: Open<'_, S, V>, next: &mut V) {
         stages.at_points(self, next);
     }
@@ -133,7 +133,7 @@ where
 
 impl<V> Work<V> {
     /// Moves it out, to be given back.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn take<S: Scalar>(&mut self) -> Self
     where
         V: State<S::Wide>,
@@ -147,7 +147,7 @@ impl<V> Work<V> {
 
     /// The increments, and what is written over.
     #[cfg(feature = "std")]
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn both<W: Scalar>(&mut self) -> [&mut [W]; 2]
     where
         V: State<W>,
@@ -157,7 +157,7 @@ impl<V> Work<V> {
 
     /// Takes over the next increments.
     #[cfg(feature = "std")]
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn exchange(&mut self) {
         core::mem::swap(&mut self.increments, &mut self.next);
     }
@@ -173,7 +173,7 @@ impl<V> Work<V> {
     }
 
     /// The next increments: `h b_i`, the weights, times the field at the points of the stages.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn evaluate<S: Scalar>(
         &mut self,
         stages: usize,
@@ -195,7 +195,7 @@ impl<V> Work<V> {
     }
 
     /// Takes over the next increments of some entries, which then do not count as changes.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn replace_entries<S: Scalar>(&mut self, entries: &[usize], ended: S::Mask)
     where
         V: State<S::Wide>,
@@ -210,7 +210,7 @@ impl<V> Work<V> {
 
     /// Takes over the next increments but in the lanes that have ended; the sum of all changes at each stage. Entries that have
     /// a unit of their own come with one over it.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn replace<S: Scalar>(
         &mut self,
         ended: S::Mask,
@@ -228,7 +228,7 @@ impl<V> Work<V> {
         })
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn replace_each<S: Scalar>(
         &mut self,
         ended: S::Mask,
@@ -248,7 +248,7 @@ impl<V> Work<V> {
 }
 
 /// The old numbers in the lanes that have ended, the new ones in the others; of a single lane, which has not, the new ones.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn chosen<S: Scalar>(ended: S::Mask, old: S::Wide, new: S::Wide) -> S::Wide {
     if S::LANES == 1 {
         return new;

@@ -97,7 +97,7 @@ impl<S: Scalar, E: Equation<S>> ImplicitStepper<S, E> {
     }
 
     /// Takes the solution for the next prediction.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn remember(&mut self, scale: S, predicted: S::Mask, predictable: S::Mask) {
         if !predictable.any() {
             // the next one that is follows none that was taken
@@ -207,7 +207,7 @@ impl<S: Scalar, E: Equation<S>> Stepper<S> for ImplicitStepper<S, E> {
 }
 
 /// The lanes in which two states are equal but for the time, which a driver sets after each step.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn equal_lanes<S: Scalar, V: State<S>>(
     clock: Option<Clock>,
     one: &V,

@@ -125,14 +125,14 @@ where
     }
 
     /// Moves the point over the state at which a step has ended.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn settle(&mut self) {
         let (point, increments) = self.stages.base_and_increments();
         <L as LinearLift<S::Wide, P::Widened>>::settle(&self.wide, point, increments);
     }
 
     /// The lanes whose point has become large.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn grown(&mut self) -> S::Mask {
         if <L as LinearLift<S, P>>::GROWS {
             self.stages.base_into(self.point.as_mut_slice());

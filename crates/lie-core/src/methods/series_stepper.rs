@@ -114,7 +114,7 @@ impl<S: Scalar, D: Development<S>> SeriesStepper<S, D> {
     }
 
     /// Develops anew in some lanes; returns those where a coefficient is not finite, and those that do not leave a joint.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn develop(&mut self, lanes: S::Mask) -> [S::Mask; 2] {
         let step = self.sign * self.length;
         let Developed {
@@ -146,7 +146,7 @@ struct Way<S: Scalar> {
 }
 
 impl<S: Scalar> Way<S> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn in_lanes(active: S::Mask) -> Self {
         Self {
             covered: S::zero(),
@@ -158,7 +158,7 @@ impl<S: Scalar> Way<S> {
     }
 
     /// Lanes go no further.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn fail(&mut self, reason: FailureReason, lanes: S::Mask) {
         if lanes.any() {
             let first = StepFailure {
@@ -175,7 +175,7 @@ impl<S: Scalar> Way<S> {
 
 impl<S: Scalar, D: Development<S>> SeriesStepper<S, D> {
     /// The lanes on their way whose development is used up.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn spent(&self, way: &Way<S>) -> S::Mask {
         let left = self.reach - self.place;
         let sliver = S::select(self.joint, S::zero(), self.reach * S::from_f64(SLIVER));
@@ -183,7 +183,7 @@ impl<S: Scalar, D: Development<S>> SeriesStepper<S, D> {
     }
 
     /// Develops anew in lanes on their way.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn renew(&mut self, way: &mut Way<S>, spent: S::Mask) {
         let [broken, stuck] = self.develop(spent);
         way.report.evaluations += 1;
@@ -193,7 +193,7 @@ impl<S: Scalar, D: Development<S>> SeriesStepper<S, D> {
     }
 
     /// Goes along the developments in lanes on their way, as far as they reach; answers those that arrive.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn go<K: FactorSink<D::State>>(
         &mut self,
         way: &mut Way<S>,

@@ -23,7 +23,7 @@ const CHORD_RATE: f64 = 1.0 / 64.0;
 impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
     /// Iterates with the Jacobian of a prediction in the lanes of a mask, as long as that converges fast; returns those in
     /// which it led to the solution.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn by_one_jacobian<E>(
         &mut self,
         equation: &mut E,
@@ -54,7 +54,7 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
     }
 
     /// Goes on with the factors in those lanes of a mask that are not solved yet; returns the solved ones.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn with_its_factors<E>(
         &mut self,
         equation: &mut E,

@@ -20,7 +20,7 @@ pub(super) struct Convergence<S> {
 
 impl<S: Scalar> Convergence<S> {
     /// For an iteration that ends at an error of `tolerance` units of round-off.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn new(iteration: Iteration, tolerance: f64) -> Self {
         Self {
             quadratic: iteration == Iteration::Newton,
@@ -39,7 +39,7 @@ impl<S: Scalar> Convergence<S> {
     ///
     /// With `rate` the ratio of the last two updates d, the error left is about `d rate^2` for
     /// Newton's method and `d rate/(1 - rate)` for linear convergence.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn observe(&mut self, update: S, size: S) -> S::Mask {
         let round_off = S::epsilon() * size;
         let goal = self.tolerance * round_off;
@@ -74,7 +74,7 @@ impl<S: Scalar> Convergence<S> {
     }
 
     /// The lanes in which an update may be round-off.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn is_round_off(&self, update: S, size: S) -> S::Mask {
         is_round_off(update, size)
     }
@@ -87,7 +87,7 @@ impl<S: Scalar> Convergence<S> {
 
 /// The lanes in which an iteration with the Jacobian of its start has converged, by its last two updates relative to the
 /// sizes of the entries; `settled` are those whose last update may be round-off of the largest entries.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn ends<S: Scalar>(update: S, before: S, settled: S::Mask, tolerance: f64) -> S::Mask {
     let rate = update / before;
     let left = (update + update) * rate;
@@ -96,7 +96,7 @@ pub(super) fn ends<S: Scalar>(update: S, before: S, settled: S::Mask, tolerance:
 }
 
 /// The lanes in which updates may be round-off, given their size and that of the unknown.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn is_round_off<S: Scalar>(update: S, size: S) -> S::Mask {
     update.less_equal(S::from_f64(STAGNATION) * S::epsilon() * size)
 }
@@ -104,7 +104,7 @@ pub(super) fn is_round_off<S: Scalar>(update: S, size: S) -> S::Mask {
 /// A bound of c in `|e_1| <= c |e_0|^2`, the errors before and after an iteration of Newton's method relative to the
 /// sizes of the entries, by the first two updates of a solution: the first relative to the largest size, which bounds c
 /// from above, the second relative to each.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn curvature<S: Scalar>(first: S, second: S) -> S {
     let noise = S::from_f64(CURVATURE_NOISE) * S::epsilon();
     S::from_f64(CURVATURE_SAFETY) * ((second + noise) / first / first)
@@ -132,7 +132,7 @@ impl<S: Scalar> Settling<S> {
     }
 
     /// Takes the lanes that have converged by their largest entries, and returns those that have by all.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn observe<U: Unknown<S>>(
         &mut self,
         converged: S::Mask,
@@ -157,7 +157,7 @@ impl<S: Scalar> Settling<S> {
     }
 
     /// The lanes that have converged by their largest entries.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn ending(&self) -> S::Mask {
         self.ending
     }

@@ -13,7 +13,7 @@ pub(super) struct Count<S> {
 
 impl<S: Scalar> Count<S> {
     /// Adds one in some lanes; returns their number in all.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn add(&mut self, active: S::Mask) -> u32 {
         self.all += 1;
         if S::LANES > 1 {
@@ -23,19 +23,19 @@ impl<S: Scalar> Count<S> {
     }
 
     /// Takes the residual of some lanes.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn saw(&mut self, active: S::Mask, residual: S) {
         self.residual = S::select(active, residual, self.residual);
     }
 
     /// The largest residual of all lanes.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn residual(&self) -> f64 {
         largest(self.residual)
     }
 
     /// That of the lane that took most.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn most(&self, what: Counted) -> u32 {
         self.lanes.counted(self.all, what)
     }

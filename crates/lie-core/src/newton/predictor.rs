@@ -57,7 +57,7 @@ impl<S: Scalar, U: Unknown<S>> Predictor<S, U> {
     }
 
     /// The lanes in which there is a prediction for a step; it follows the last one in the lanes of a mask.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn ready(&mut self, follows: S::Mask) -> S::Mask {
         if !follows.all() {
             self.forget(!follows);
@@ -78,20 +78,20 @@ impl<S: Scalar, U: Unknown<S>> Predictor<S, U> {
     }
 
     /// The unknown of the step before.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn last(&self) -> &U {
         let [last, ..] = &self.differences;
         last
     }
 
     /// The lanes in which predictions are about to begin; [`Self::last`] is of the step before this one there.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn begins(&self) -> S::Mask {
         S::from_f64(FIRST - BEGINS).less_equal(self.age)
     }
 
     /// The prediction, in lanes where there is one.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn next(&self) -> &U {
         &self.next
     }
@@ -120,7 +120,7 @@ impl<S: Scalar, U: Unknown<S>> Predictor<S, U> {
     }
 
     /// Takes the unknown of a step.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn record(&mut self, unknown: &U) {
         self.age += S::one();
         for part in 0..unknown.parts() {
@@ -162,13 +162,13 @@ impl<S: Scalar, U: Unknown<S>> Predictor<S, U> {
 }
 
 /// The lanes in which a start was far from a solution, by its first update.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn is_far<S: Scalar>(update: S, scale: S) -> S::Mask {
     (scale * S::from_f64(FAR)).less(update)
 }
 
 /// Takes entries from an index on, and returns the sums of their differences.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn update<S: Scalar, const N: usize>(
     rows: &mut [&mut [S]; VALUES],
     index: usize,

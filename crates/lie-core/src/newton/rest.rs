@@ -13,7 +13,7 @@ const STILL: (f64, f64) = (7.0, 8.0);
 
 /// What is left after an update, by its ratio to the one before; not a number or negative where that is none of
 /// convergence.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn left<S: Scalar>(update: S, rate: S) -> S {
     update * (rate / (S::one() - rate))
 }
@@ -23,7 +23,7 @@ pub(crate) fn left<S: Scalar>(update: S, rate: S) -> S {
 /// a quarter.
 ///
 /// Where the mean is larger, ratios say little: updates that turn while they shrink have any.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn dropped<S: Scalar>(first: S, updates: [S; 3], unit: S, count: u32) -> S::Mask {
     let [earlier, before, update] = updates;
     let steps = count.saturating_sub(1).min(500);
@@ -37,7 +37,7 @@ pub(crate) fn dropped<S: Scalar>(first: S, updates: [S; 3], unit: S, count: u32)
 }
 
 /// The lanes in which updates have shrunk by more than a quarter each in the mean.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn is_quick<S: Scalar>([first, update]: [S; 2], count: u32) -> S::Mask {
     let steps = count.saturating_sub(1).min(500);
     (update * S::from_f64(power_of_two(2 * steps))).less_equal(first)
@@ -66,7 +66,7 @@ impl<S: Scalar> Reviews<S> {
     }
 
     /// Takes an update in the lanes of a mask, and returns those at rest and those that do not converge.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn take(&mut self, lanes: S::Mask, update: S, unit: S) -> [S::Mask; 2] {
         let half = S::ratio(1.0, 2.0);
         let settled = update.less_equal(unit * S::from_f64(STAGNATION));

@@ -30,13 +30,13 @@ const STEPS: f64 = 8.0;
 
 impl<U> Sizes<'_, U> {
     /// The size of an entry.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn of<S: Scalar>(unknown: S, before: S) -> S {
         unknown.magnitude() + S::from_f64(STEPS) * (unknown - before).magnitude()
     }
 
     /// The largest size.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn largest<S: Scalar>(&self, unknown: &U) -> S
     where
         U: Unknown<S>,
@@ -53,7 +53,7 @@ impl<U> Sizes<'_, U> {
     }
 
     /// The lanes in which no entry of an update exceeds its size divided by a factor; none where one is not finite.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn small_lanes<S: Scalar>(&self, update: &U, unknown: &U, factor: S) -> S::Mask
     where
         U: Unknown<S>,

@@ -57,7 +57,7 @@ pub(crate) struct Start<'a, U, M> {
 
 impl<M: Mask> Attempts<M> {
     /// The lanes in which any is from a prediction.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn predictable(&self) -> M {
         self.predicted | self.chord
     }
@@ -87,7 +87,7 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
     ///
     /// # Errors
     /// A [`Failure`] if some lane did not converge; the unknown then is the solution in the others.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn solve<E>(
         &mut self,
         equation: &mut E,
@@ -114,7 +114,7 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
     }
 
     /// What is tried in the next step, to be asked once for each.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn attempts(&mut self) -> Attempts<S::Mask> {
         self.far = S::Mask::splat(false);
         let fixed = self.fixed.lanes();
@@ -126,13 +126,13 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
     }
 
     /// The lanes in which a prediction for the last step was far from the solution.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn started_far(&self) -> S::Mask {
         self.far
     }
 
     /// [`Newton::solve`] with these attempts, from this start.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn solve_trying<E>(
         &mut self,
         equation: &mut E,
@@ -225,7 +225,7 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
 
     /// Iterates without a Jacobian in the lanes of a mask, as long as that pays; returns those in which it led to the
     /// solution.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn by_fixed_point<E>(
         &mut self,
         equation: &mut E,
@@ -274,7 +274,7 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
     }
 
     /// Iterates in the lanes of a mask, and says in which it failed.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn iterate<E>(
         &mut self,
         equation: &mut E,

@@ -74,7 +74,7 @@ impl<S: Scalar> Trial<S> {
     }
 
     /// The lanes that try in this step.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn lanes(&mut self) -> S::Mask {
         if !self.tried {
             return S::Mask::splat(false);
@@ -86,7 +86,7 @@ impl<S: Scalar> Trial<S> {
     }
 
     /// Whether anything is tried from predictions.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn predictable(&self) -> bool {
         self.predicted
     }
@@ -112,7 +112,7 @@ impl<S: Scalar> Trial<S> {
     }
 
     /// The bound of the first update.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn bound(&self) -> Bound<S> {
         Bound {
             rate: self.rate,
@@ -132,7 +132,7 @@ pub(super) struct Bound<S> {
 impl<S: Scalar> Bound<S> {
     /// Takes the size of an update, and returns the lanes that may go on: those that keep the rate, from the third
     /// update on, and those whose update is so small that it may be round-off.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn keeps(&mut self, update: S, settled: S::Mask) -> S::Mask {
         self.size = if self.count == 0 {
             update

@@ -33,7 +33,7 @@ pub(super) struct Outcome<S: Scalar> {
 
 /// Computes the update of an iteration at an unknown into `workspace.update`; it is to be
 /// subtracted from the unknown.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn compute<S: Scalar, E: Equation<S>>(
     equation: &mut E,
     unknown: &E::Unknown,

@@ -18,7 +18,7 @@ impl<S: Scalar, V: State<S::Wide>> StageParallel<S, V> {
     /// they reach round-off before it, the last rate is taken to go on; a start at round-off shows no rate, and takes as
     /// many iterations as the last step that showed one. Where changes do not shrink quickly, the last one is looked at: the rate of changes
     /// that turn while they shrink may have been taken for a smaller one, and then the iteration goes on until they are at rest.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn iterate_map(&mut self, mut field: impl Rule<S, V>) -> Iterated<S> {
         let unit = self.size() * S::epsilon();
         let bound = unit * S::from_f64(STAGNATION);
@@ -115,7 +115,7 @@ impl<S: Scalar, V: State<S::Wide>> StageParallel<S, V> {
 
     /// The rate at which changes shrink that have just reached round-off, from the last three of them: single ones may
     /// shrink by much less than those around them. The third look of a step should be the one that sees it.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn seen(&mut self, new: S::Mask, count: S, [size, before, earlier]: [S; 3]) -> S {
         let looks = count - self.quiet;
         let [one, two, three] = [1.0, 2.0, 3.0].map(|k| S::ratio(k, 1.0));
@@ -128,7 +128,7 @@ impl<S: Scalar, V: State<S::Wide>> StageParallel<S, V> {
     }
 
     /// The lanes in which nothing is left of the derivative, after so many iterations.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn derived(&self, left: S, count: S) -> S::Mask {
         let by_rate = left.less_equal(S::epsilon() * S::ratio(1.0, 4.0));
         by_rate | (S::one().less_equal(left) & self.taken.less_equal(count))

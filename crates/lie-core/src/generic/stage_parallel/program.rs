@@ -90,7 +90,7 @@ impl StageStep {
 }
 
 /// Continues the polynomial of a step with so many stages.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn go_on<S: Scalar>(stages: usize, increments: &mut [S::Wide], table: &[S::Wide]) {
     match stages {
         ..5 => go_on_with::<S, 4>(increments, &table[AHEAD]),
@@ -98,7 +98,7 @@ pub(super) fn go_on<S: Scalar>(stages: usize, increments: &mut [S::Wide], table:
     }
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn go_on_with<S: Scalar, const PLACES: usize>(increments: &mut [S::Wide], ahead: &[S::Wide]) {
     for entry in increments {
         *entry = product::<S, PLACES>(ahead, *entry);
@@ -106,7 +106,7 @@ fn go_on_with<S: Scalar, const PLACES: usize>(increments: &mut [S::Wide], ahead:
 }
 
 /// Moves a base by the increments of its step.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn advance<S: Scalar>(base: &mut [S::Wide], increments: &[S::Wide]) {
     for (y, increments) in base.iter_mut().zip(increments) {
         *y += total::<S>(*increments);

@@ -17,7 +17,7 @@ impl<S: Scalar, V: State<S::Wide>> StageParallel<S, V> {
     /// The first change, which is looked at now and then, tells changes that dropped to round-off from those that shrink slowly
     /// and may have any ratio. The latter end by their reviews. Where changes shrink slowly, some iterations more are made for the
     /// entries that are smaller than the state.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn iterate_state(&mut self, mut field: impl Rule<S, V>) -> Iterated<S> {
         let ending = Ending::new(self.size(), self.rate, &self.options);
         let (quiet, stale) = (self.least_quiet(), !self.age.less(S::from_f64(FRESH)));
@@ -125,7 +125,7 @@ impl<S: Scalar, V: State<S::Wide>> StageParallel<S, V> {
 
     /// All iterations of the next step but the last two need no look. Where the first look was enough, or the next two saw
     /// nothing but round-off, it comes earlier.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn expect(&mut self, reached: S::Mask, early: S::Mask, count: S) {
         let [one, two] = [1.0, 2.0].map(|k| S::ratio(k, 1.0));
         let quiet = S::select(early, self.quiet - one, count - two);

@@ -21,7 +21,7 @@ pub trait Slopes<'a, S: Scalar, P: Widen<S> + 'a>: Sized {
     fn next(&mut self, wide: &P::Widened, at: At<'_, WideState<S, P>>, out: &mut WideState<S, P>);
 
     /// The next increments: `h b_i` times those slopes.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn increments(
         &mut self,
         wide: &P::Widened,
@@ -72,12 +72,12 @@ impl<'a, S: Scalar, P: Widen<S> + 'a> Slopes<'a, S, P> for Field {
         true
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn next(&mut self, wide: &P::Widened, at: At<'_, WideState<S, P>>, out: &mut WideState<S, P>) {
         wide.vector_field(at.points, out);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn increments(
         &mut self,
         wide: &P::Widened,
@@ -109,7 +109,7 @@ where
     P: Widen<S> + 'a,
     F: Slopes<'a, S, P>,
 {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn increments(&mut self, stages: Open<'_, S, WideState<S, P>>, next: &mut WideState<S, P>) {
         self.rule.increments(self.wide, stages, next);
     }
