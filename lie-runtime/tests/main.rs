@@ -30,6 +30,8 @@ mod kernels;
 mod lagrange_alembert;
 mod lanes;
 mod lifts;
+mod measured;
+mod orbit_distances;
 mod orders;
 mod own_functions;
 mod own_step;

@@ -1,9 +1,9 @@
 //! The program behind `lie verify` on systems written by hand: what it shows of a sound system, and that it notices a form
 //! that differs and a measurement that is blind.
 
-#[path = "../../../lie-runtime/tests/systems/mod.rs"]
-mod systems;
-
+use crate::systems::nonpolynomial::Nonpolynomial;
+use crate::systems::rigid_body::{RigidBody, dot, hat};
+use crate::systems::state;
 use lie_measure::Verify;
 use lie_measure::facts::{Finding, Ground, Subject, Verdict, broken_measurements};
 use lie_measure::verify::{Found, Options};
@@ -12,9 +12,6 @@ use lie_program::protocol::{End, Message, Start};
 use lie_runtime::prelude::*;
 use nalgebra::{SMatrix, SVector};
 use std::io::{self, Write as _};
-use systems::nonpolynomial::Nonpolynomial;
-use systems::rigid_body::{RigidBody, dot, hat};
-use systems::state;
 
 fn serve<P>(program: &Verify<P>, methods: &[&str]) -> Vec<Found>
 where

@@ -1,13 +1,10 @@
 //! Diagnostics against values that are known.
 
-#[path = "../../../lie-runtime/tests/systems/mod.rs"]
-mod systems;
-
+use crate::systems::affine_line::AffineLine;
+use crate::systems::rigid_body::RigidBody;
+use crate::systems::steps;
 use lie_measure::{act_by_exp, integrals, orbit_distance};
 use lie_runtime::methods::LieMidpoint;
-use systems::affine_line::AffineLine;
-use systems::rigid_body::RigidBody;
-use systems::steps;
 
 #[test]
 fn the_distance_from_a_sphere() {
