@@ -1,9 +1,9 @@
 //! Measures the weak orders of methods on noise over 10^6 paths for each step; writes `lab/docs/weak_orders.md`.
 //!
 //! ```text
-//! cargo run --release -p lab --bin weak_orders            # all rows, more than an hour
-//! cargo run --release -p lab --bin weak_orders -- 20000   # over so many paths, to standard output
-//! cargo run --release -p lab --bin weak_orders -- 20000 top   # of rows that say `top` alone
+//! cargo run --release -p lab --features long --bin weak_orders            # all rows, more than an hour
+//! cargo run --release -p lab --features long --bin weak_orders -- 20000   # over so many paths, to standard output
+//! cargo run --release -p lab --features long --bin weak_orders -- 20000 top   # of rows that say `top` alone
 //! ```
 
 use lie_measure::facts::{Finding, Ground};
