@@ -104,7 +104,7 @@ fn runs_stay_on_their_branch() {
         let rows = solve(&problem, Gauss6, &options).expect("a regular solution");
         assert_eq!(rows.mu.last(), solution.mu.last());
         for (t, mu) in rows.t.iter().zip(&rows.mu) {
-            let xi = in_velocities(first, *t, 4000);
+            let xi = in_velocities(first, *t, 1000);
             Folded::<f64>::default().momentum(&xi, &mut end);
             assert!((mu - end).amax() < 1e-7, "{t}");
         }

@@ -232,7 +232,7 @@ where
 
 #[test]
 fn energy_and_quadratic_casimirs_over_a_long_run() {
-    const STEPS: u32 = daily(5_000, 100_000);
+    const STEPS: u32 = daily(2_000, 100_000);
     macro_rules! check {
         ($method:expr) => {
             let id = method_id(&$method);

@@ -226,7 +226,7 @@ fn noise_that_commutes_has_strong_order_one() {
     let chain = Chain::new().system().expect("sizes");
     let three = Three::new().system().expect("constants");
     assert_eq!((chain.noise_count(), three.noise_count()), (3, 4));
-    let (fine, span) = (1024_usize, 1.0);
+    let (fine, span) = (512_usize, 1.0);
     let steps = [8_usize, 16, 32, 64];
     let mut squares = [0.0_f64; 4];
     let mut random = SplitMix::new(3);

@@ -16,7 +16,7 @@ use systems::driven_body::{self, DrivenBody};
 use systems::driven_top::{DrivenTop, turned};
 use systems::heavy_top::{HeavyTop, START};
 use systems::quartic_lagrangian::{BODY, QuarticBody};
-use systems::{distance, jacobian_against_differences, state, steps};
+use systems::{daily, distance, jacobian_against_differences, state, steps};
 
 lie_runtime::generic_equations!([S: lie_runtime::Scalar] DrivenBody<S>, S: variational2_on_group, variational4_on_group, variational6_on_group);
 lie_runtime::generic_equations!([S: lie_runtime::Scalar] HeavyTop<S>, S: variational2_on_group, variational4_on_group, variational6_on_group);
@@ -121,7 +121,7 @@ fn without_forces_the_step_is_a_poisson_map() {
         let defect = defect.expect("a step");
         assert!(defect < 1e-14, "{}: {defect:e}", M::ID);
         let (start, mut mu) = (state(&system, &START), state(&system, &START));
-        steps(&system, method, 0.2, 500, &mut mu).expect("the steps converge");
+        steps(&system, method, 0.2, daily(150, 500), &mut mu).expect("the steps converge");
         let [mut before, mut after] = [[0.0; 2]; 2];
         system.casimirs(&start, &mut before);
         system.casimirs(&mu, &mut after);
@@ -129,7 +129,7 @@ fn without_forces_the_step_is_a_poisson_map() {
             assert!((before - after).abs() < 1e-13, "{before} {after}");
         }
         let drift = (system.hamiltonian(&mu) - system.hamiltonian(&start)).abs();
-        assert!(drift < 3e-3, "{}: {drift:e}", M::ID);
+        assert!(drift < 6e-3, "{}: {drift:e}", M::ID);
     }
     check(&Variational2::exp());
     check(&Variational4::exp());

@@ -839,14 +839,14 @@ fn orbits_are_kept_and_the_energy_does_not_drift() {
             &Collective8::quaternion(),
             &start,
             0.5,
-            daily(2_000, 20_000),
+            daily(800, 20_000),
         ),
         check(
             &top,
             &Collective16::quaternion(),
             &start,
             2.2,
-            daily(500, 5_000),
+            daily(300, 5_000),
         ),
         check(
             &top,
@@ -862,20 +862,26 @@ fn orbits_are_kept_and_the_energy_does_not_drift() {
             0.3,
             daily(500, 5_000),
         ),
-        check(&su3, &Isospectral8::new(), &some(&su3), 0.4, 2_000),
+        check(
+            &su3,
+            &Isospectral8::new(),
+            &some(&su3),
+            0.4,
+            daily(500, 2_000),
+        ),
         check(
             &su3,
             &Collective8::unitary(),
             &some(&su3),
             1.0,
-            daily(2_000, 10_000),
+            daily(600, 10_000),
         ),
         check(
             &su3,
             &Collective16::smallest(),
             &state(&su3, &SU3),
             2.5,
-            daily(1_000, 5_000),
+            daily(300, 5_000),
         ),
     ] {
         assert!(growth < GROWTH, "{growth}");
