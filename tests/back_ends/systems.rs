@@ -8,8 +8,9 @@ use crate::wasmi_engine::Wasmi;
 use lie_codegen::compile::{compile_spec, with_options};
 use lie_codegen::methods::{Choice, Lift, Retraction, Tensor};
 use lie_codegen::plan::{Plan, plan};
-use lie_dynamic::{Dynamic, Engine, Interpreted, method};
+use lie_dynamic::{Dynamic, Engine, Interpreted};
 use lie_jit::{Jit, JitWith, Registers};
+use lie_methods::method;
 use lie_runtime::methods as m;
 use lie_runtime::newton::NewtonOptions;
 use lie_runtime::{

@@ -253,16 +253,17 @@ fn no_arrow_between_crates_points_back() {
             "crates/lie-dynamic",
             "lie-codegen lie-core lie-runtime lie-symbolic",
         ),
+        ("crates/lie-methods", "lie-codegen lie-dynamic lie-runtime"),
         ("crates/lie-tangents", "lie-codegen lie-dynamic lie-runtime"),
         ("crates/lie-jit", "lie-codegen lie-dynamic lie-runtime"),
         ("crates/lie-wasm", "lie-dynamic lie-runtime"),
         (
             "crates/lie-in-process",
-            "lie-codegen lie-dynamic lie-jit lie-judge lie-measure lie-program lie-runtime lie-spectra lie-symbolic lie-syntax lie-tangents",
+            "lie-codegen lie-dynamic lie-jit lie-judge lie-measure lie-methods lie-program lie-runtime lie-spectra lie-symbolic lie-syntax lie-tangents",
         ),
         (
             ".",
-            "lie-codegen lie-core lie-dynamic lie-equilibria lie-in-process lie-measure lie-plot lie-program lie-runtime \
+            "lie-codegen lie-core lie-dynamic lie-equilibria lie-in-process lie-measure lie-methods lie-plot lie-program lie-runtime \
              lie-spectra lie-symbolic lie-syntax",
         ),
         ("crates/lie-equilibria", "lie-symbolic"),

@@ -10,9 +10,8 @@ mod member;
 mod turns;
 
 use lie_codegen::methods::Choice;
-use lie_dynamic::{
-    Declared, Dynamic, Method, Tolerances, is_compiled_for_lanes, method, method_in_lanes,
-};
+use lie_dynamic::{Declared, Dynamic, Method, Tolerances, is_compiled_for_lanes};
+use lie_methods::{method, method_in_lanes};
 use lie_program::protocol::{Held, Sources};
 use lie_runtime::diagnostics::Forgotten;
 use lie_runtime::driver::{

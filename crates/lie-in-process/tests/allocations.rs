@@ -4,9 +4,10 @@ use allocation_counter::measure;
 use lie_codegen::compile::compile_spec;
 use lie_codegen::methods::Choice;
 use lie_codegen::plan::plan;
-use lie_dynamic::{Declared, Dynamic, Engine, Tolerances, method};
+use lie_dynamic::{Declared, Dynamic, Engine, Tolerances};
 use lie_in_process::list;
 use lie_jit::Jit;
+use lie_methods::method;
 use lie_runtime::newton::NewtonOptions;
 
 /// Steps that are made before any is counted: the first ones make room.

@@ -8,10 +8,9 @@
 use lie_codegen::compile::compile_spec;
 use lie_codegen::methods::Choice;
 use lie_codegen::plan::{Plan, plan};
-use lie_dynamic::{
-    Code, Dynamic, Engine, Frame, Interpreted, Machine, SLICES, method, method_in_lanes,
-};
+use lie_dynamic::{Code, Dynamic, Engine, Frame, Interpreted, Machine, SLICES};
 use lie_jit::{Jit, JitWith, Registers};
+use lie_methods::{method, method_in_lanes};
 use lie_runtime::newton::NewtonOptions;
 use lie_runtime::{Poisson, Scalar, Widen};
 use std::hint::black_box;

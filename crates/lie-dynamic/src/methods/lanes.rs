@@ -10,7 +10,7 @@ use lie_runtime::family::Family;
 use std::sync::Arc;
 
 impl<S: Scalar> Dynamic<S> {
-    /// Whether systems of this declaration can be side by side by a method of [`method_in_lanes`](crate::method_in_lanes).
+    /// Whether systems of this declaration can be side by side by a method of `lie_methods::method_in_lanes`.
     ///
     /// Where a velocity is followed along its branch they cannot: each becomes another system. By a method that is not compiled for
     /// lanes they can where its step is a program.

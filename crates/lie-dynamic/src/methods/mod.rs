@@ -1,8 +1,7 @@
-//! The methods of the catalogue over systems made at run time, and which of them run in lanes.
+//! The methods of the catalogue over systems made at run time and any scalar, and which of them run in lanes.
 
 mod lanes;
 
-use crate::recording::{RecordedMethod, TracedInLanes, TracedMethod};
 use crate::system::Dynamic;
 use lie_codegen::methods::{Choice, Gradient, Lift, Pieces, Retraction, Scheme, Tensor};
 use lie_codegen::structure::lifts::Smallest;
@@ -62,15 +61,8 @@ impl<S: Scalar> AnyMethod<S, Dynamic<S>> for WithClaims<S> {
     }
 }
 
-/// The method of a choice with its own defaults: series at the tolerance at which they are exact on every grid.
-pub fn at_defaults(choice: &Choice) -> Method {
-    match choice {
-        Choice::Taylor | Choice::LieTaylor => at_defaults_over(choice),
-        other => method(other, Tolerances::default()),
-    }
-}
-
-/// The same over any scalar, see [`method_over`].
+/// The method of a choice over any scalar with its own defaults, see [`method_over`]: series at the tolerance at which they are exact on every
+/// grid.
 pub fn at_defaults_over<S: Scalar>(choice: &Choice) -> Method<S> {
     match choice {
         Choice::Taylor => Box::new(m::Taylor::default()),
@@ -79,28 +71,9 @@ pub fn at_defaults_over<S: Scalar>(choice: &Choice) -> Method<S> {
     }
 }
 
-/// The method of a choice. Whether it applies to a system is for the catalogue to say.
+/// The method of a choice over any scalar, without programs of whole steps. Whether it applies to a system is for the catalogue to say.
 ///
-/// Of double precision, so that all methods are compiled once, here, and not with every crate that asks for one.
-pub fn method(choice: &Choice, tolerances: Tolerances) -> Method {
-    if let Some(apart) = explicit(choice) {
-        return Box::new(RecordedMethod::patient(choice, apart));
-    }
-    if !has_equation(choice) {
-        return kernel_by_kernel(choice, tolerances);
-    }
-    composition(choice, move |base| Some(method(base, tolerances))).unwrap_or_else(|| {
-        let apart = kernel_by_kernel(choice, tolerances);
-        Box::new(TracedMethod::new(choice, apart))
-    })
-}
-
-/// The method of a choice without programs of whole steps.
-pub(crate) fn kernel_by_kernel(choice: &Choice, tolerances: Tolerances) -> Method {
-    method_over(choice, tolerances)
-}
-
-/// The same over any scalar. All methods are compiled anew where it is called: over dual numbers that is in `lie-tangents`.
+/// All methods are compiled anew where it is called: over numbers that is in `lie-methods`, over dual numbers in `lie-tangents`.
 pub fn method_over<S: Scalar>(choice: &Choice, tolerances: Tolerances) -> Method<S> {
     if let Some(method) = explicit(choice).or_else(|| by_system(choice)) {
         return method;
@@ -136,7 +109,7 @@ pub fn method_over<S: Scalar>(choice: &Choice, tolerances: Tolerances) -> Method
 }
 
 /// The methods without a solver whose steps depend on mu alone.
-pub(crate) fn explicit<S: Scalar>(choice: &Choice) -> Option<Method<S>> {
+pub fn explicit<S: Scalar>(choice: &Choice) -> Option<Method<S>> {
     macro_rules! rows {
         (
             {} choices $choices:tt
@@ -188,9 +161,28 @@ pub(crate) fn implicit<S: Scalar>(choice: &Choice) -> Option<Method<S>> {
     None
 }
 
-/// Whether [`implicit`] has a method, or the base of a composition.
-pub(crate) fn has_equation(choice: &Choice) -> bool {
-    implicit::<f64>(choice.solved()).is_some()
+/// Whether the step of a method, or of the base of a composition, is an equation: the method over a scalar that records has it.
+pub fn has_equation(choice: &Choice) -> bool {
+    let solved = choice.solved();
+    /// Whether a row that has an equation is the one that is asked for.
+    macro_rules! rows {
+        (
+            {} choices $choices:tt
+            $({ $title:literal $needs:tt $reference:tt
+                $($choice:tt $type:tt $value:tt { $($particular:ident)? $([$($equation:tt)+])* })+
+            })+
+        ) => {
+            $($(rows!($choice $([$($equation)+])*);)+)+
+        };
+        ($choice:tt) => {};
+        ([$($choice:tt)+] $($equation:tt)+) => {
+            if matches!(solved, Choice::$($choice)+) {
+                return true;
+            }
+        };
+    }
+    lie_core::for_each_method!(rows! {});
+    is_by_equation_of_system(solved)
 }
 
 /// Those whose equation depends on what the system has.
@@ -206,6 +198,15 @@ fn by_equation_of_system<S: Scalar>(choice: &Choice) -> Option<Method<S>> {
     }
 }
 
+fn is_by_equation_of_system(choice: &Choice) -> bool {
+    matches!(
+        choice,
+        Choice::Isospectral(2)
+            | Choice::Collective(2, Lift::Representation)
+            | Choice::Variational(_, Retraction::Exp)
+    )
+}
+
 /// The methods that depend on what the system has.
 fn by_system<S: Scalar>(choice: &Choice) -> Option<Method<S>> {
     match choice {
@@ -214,43 +215,9 @@ fn by_system<S: Scalar>(choice: &Choice) -> Option<Method<S>> {
     }
 }
 
-/// The method of a choice over lanes, for systems side by side ([`Dynamic::in_lanes`]) that take it ([`Dynamic::takes_lanes`]).
-///
-/// The step is a program, which is compiled for lanes as for numbers, but for series, which choose their own.
-pub fn method_in_lanes(
-    choice: &Choice,
-    tolerances: Tolerances,
-) -> Option<Method<<f64 as Scalar>::Wide>> {
-    if let Some(method) = compiled_for_lanes(choice, tolerances) {
-        return Some(method);
-    }
-    if has_equation(choice) {
-        let traced = |choice: &Choice| -> Option<Method<<f64 as Scalar>::Wide>> {
-            Some(Box::new(TracedInLanes::new(choice)))
-        };
-        return composition(choice, traced).or_else(|| traced(choice));
-    }
-    let claims = explicit::<f64>(choice)?.claims();
-    Some(Box::new(RecordedMethod::at_once(choice, claims)))
-}
-
-/// The methods that are compiled for lanes.
-fn compiled_for_lanes(
-    choice: &Choice,
-    tolerances: Tolerances,
-) -> Option<Method<<f64 as Scalar>::Wide>> {
-    Some(match choice {
-        Choice::Taylor => Box::new(m::Taylor::from(tolerances)),
-        Choice::Dopri5 => Box::new(m::Dopri5::from(tolerances)),
-        // kernel by kernel for families, whose steps are loops over their sites
-        Choice::Rk4 => Box::new(RecordedMethod::patient(choice, Box::new(m::Rk4))),
-        _ => return None,
-    })
-}
-
-/// Whether a method is compiled for lanes; the others of [`method_in_lanes`] run there as programs of the whole.
+/// Whether a method is compiled for lanes; others run there as programs of the whole.
 pub fn is_compiled_for_lanes(choice: &Choice) -> bool {
-    compiled_for_lanes(choice, Tolerances::default()).is_some()
+    matches!(choice, Choice::Taylor | Choice::Dopri5 | Choice::Rk4)
 }
 
 /// Over the smallest space that the system has.
@@ -305,7 +272,7 @@ fn variational<S: Scalar>(order: u32) -> Method<S> {
 }
 
 /// The composition of a choice, of steps of its base, which `make` makes; none of another method, nor where that makes none.
-fn composition<S: Scalar>(
+pub fn composition<S: Scalar>(
     choice: &Choice,
     make: impl Fn(&Choice) -> Option<Method<S>> + 'static,
 ) -> Option<Method<S>> {

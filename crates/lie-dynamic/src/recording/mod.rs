@@ -32,14 +32,15 @@ use lie_runtime::scalar::Mask;
 use ready::Ready;
 use record::written;
 use recorded::Inlined;
+use std::rc::Rc;
 use std::sync::Arc;
 
 pub(crate) use development::{Development, SeriesCodes};
 pub(crate) use program::program;
 pub(crate) use recorded::Recorded;
 pub(crate) use stages::StageCodes;
-pub(crate) use traced::TracedMethod;
-pub(crate) use traced_lanes::TracedInLanes;
+pub use traced::TracedMethod;
+pub use traced_lanes::TracedInLanes;
 pub(crate) use traces::Traces;
 
 /// Steps that a stepper makes kernel by kernel before it compiles a program of the whole; one whose program has more instructions
@@ -207,11 +208,11 @@ impl Countdown {
 }
 
 /// A method whose steps become one program.
-pub(crate) struct RecordedMethod<S: Scalar> {
+pub struct RecordedMethod<S: Scalar> {
     choice: Choice,
     claims: Claims,
     /// What makes steps kernel by kernel; none where all are made as a whole.
-    apart: Option<Method<S>>,
+    apart: Option<Rc<Method<S>>>,
 }
 
 impl<S: Scalar> RecordedMethod<S> {
@@ -220,7 +221,7 @@ impl<S: Scalar> RecordedMethod<S> {
         Self {
             choice: choice.clone(),
             claims: apart.claims(),
-            apart: Some(apart),
+            apart: Some(Rc::new(apart)),
         }
     }
 
@@ -245,8 +246,11 @@ impl<S: Scalar> AnyMethod<S, Dynamic<S>> for RecordedMethod<S> {
         h: S,
         newton: &NewtonOptions,
     ) -> Box<dyn AnyStepper<S, Vec<S>> + 'a> {
-        let apart = self.apart.as_ref();
-        let apart = apart.map(|method| Forgotten(method.as_ref()).stepper(system, h, newton));
+        let stepper = |method: &Rc<Method<S>>| {
+            let stepper = Forgotten(method.as_ref().as_ref()).stepper(system, h, newton);
+            (Rc::clone(method), stepper)
+        };
+        let apart = self.apart.as_ref().map(stepper);
         let known = system.values.compiled.steps.cached(&self.choice);
         let known = known.as_ref().map(|step| &step.codes);
         let at_once = apart.is_none() || system.compiles_at_once(known);
@@ -285,7 +289,8 @@ struct RecordedStepper<'a, S: Scalar> {
     step_size: [S; 1],
     wait: Countdown,
     whole: Option<CompiledStep<S>>,
-    apart: Option<ForgottenStepper<'a, Vec<S>, S>>,
+    /// What makes steps kernel by kernel, and its stepper.
+    apart: Option<(Rc<Method<S>>, ForgottenStepper<'a, Vec<S>, S>)>,
     /// Whether the other steps have another size by now.
     is_stale: bool,
 }
@@ -295,10 +300,10 @@ impl<S: Scalar> RecordedStepper<'_, S> {
     #[cold]
     fn renew(&mut self) {
         self.is_stale = false;
-        if let (Some(apart), Some(method)) = (&mut self.apart, explicit::<S>(&self.choice)) {
+        if let Some((method, stepper)) = &mut self.apart {
             let [h] = self.step_size;
             let options = NewtonOptions::default();
-            *apart = Forgotten(method.as_ref()).stepper(self.system, h, &options);
+            *stepper = Forgotten(method.as_ref().as_ref()).stepper(self.system, h, &options);
         }
     }
 
@@ -372,7 +377,7 @@ impl<S: Scalar> Stepper<S> for RecordedStepper<'_, S> {
             (Some((good, whole)), None) => whole.accept(good, mu),
             (Some((good, whole)), _) if good.all() || self.is_stale => whole.accept(good, mu),
             // what a step that fails reports is for the method to say
-            (_, Some(apart)) => Stepper::step(apart, mu, sink),
+            (_, Some((_, stepper))) => Stepper::step(stepper, mu, sink),
             (None, None) => unreachable!("systems side by side show no motion on the group"),
         }
     }

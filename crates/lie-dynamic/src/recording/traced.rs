@@ -3,30 +3,32 @@
 use super::followed::Followed;
 use super::trace::{Taken, Trace};
 use super::traces::Traces;
-use crate::methods::{Method, kernel_by_kernel};
+use crate::methods::Method;
 use crate::system::Dynamic;
 use lie_codegen::methods::Choice;
 use lie_runtime::diagnostics::{AnyMethod, AnyStepper, Claims, Forgotten, ForgottenStepper};
-use lie_runtime::methods::{FactorSink, Method as _, StepFailure, StepReport, Stepper, Tolerances};
+use lie_runtime::methods::{FactorSink, Method as _, StepFailure, StepReport, Stepper};
 use lie_runtime::newton::NewtonOptions;
+use std::rc::Rc;
 use std::sync::Arc;
 
 /// So many steps at the beginning of a run are made kernel by kernel: one that has no more is not to wait for traces.
 const BEGINNING: u32 = 4;
 
 /// A method whose steps are run by traces.
-pub(crate) struct TracedMethod {
+pub struct TracedMethod {
     choice: Choice,
     claims: Claims,
-    apart: Method<f64>,
+    apart: Rc<Method<f64>>,
 }
 
 impl TracedMethod {
+    /// The method of a choice, with what makes the steps that no trace is for.
     pub fn new(choice: &Choice, apart: Method<f64>) -> Self {
         Self {
             choice: choice.clone(),
             claims: apart.claims(),
-            apart,
+            apart: Rc::new(apart),
         }
     }
 }
@@ -42,8 +44,7 @@ impl AnyMethod<f64, Dynamic<f64>> for TracedMethod {
         h: f64,
         newton: &NewtonOptions,
     ) -> Box<dyn AnyStepper<f64, Vec<f64>> + 'a> {
-        let apart = Forgotten(self.apart.as_ref()).stepper(system, h, newton);
-        match TracedStepper::new(&self.choice, system, h, newton, apart) {
+        match TracedStepper::new(&self.choice, system, h, newton, &self.apart) {
             Ok(mut stepper) => {
                 stepper.followed.rest(BEGINNING);
                 Box::new(stepper)
@@ -59,8 +60,9 @@ pub(super) struct TracedStepper<'a> {
     newton: NewtonOptions,
     known: Arc<Traces>,
     followed: Followed<'a, f64>,
-    /// What makes the steps that no trace is for, kernel by kernel.
+    /// What makes the steps that no trace is for, kernel by kernel, and the method that it is of.
     apart: ForgottenStepper<'a, Vec<f64>>,
+    method: Rc<Method<f64>>,
     /// Whether that has made the last step, so that it remembers what traces do not.
     is_ahead: bool,
     /// Whether its steps have another size by now.
@@ -74,8 +76,9 @@ impl<'a> TracedStepper<'a> {
         system: &'a Dynamic<f64>,
         h: f64,
         newton: &NewtonOptions,
-        mut apart: ForgottenStepper<'a, Vec<f64>>,
+        method: &Rc<Method<f64>>,
     ) -> Result<Self, ForgottenStepper<'a, Vec<f64>>> {
+        let mut apart = Forgotten(method.as_ref().as_ref()).stepper(system, h, newton);
         if !system.is_traced() {
             return Err(apart);
         }
@@ -92,6 +95,7 @@ impl<'a> TracedStepper<'a> {
             known,
             followed,
             apart,
+            method: Rc::clone(method),
             is_ahead: false,
             is_stale: false,
         })
@@ -133,9 +137,9 @@ impl<'a> TracedStepper<'a> {
     fn renew(&mut self) {
         if self.is_stale {
             self.remember();
-            let method = kernel_by_kernel(&self.choice, Tolerances::default());
             let ([h], system) = (self.followed.h, self.followed.system);
-            self.apart = Forgotten(method.as_ref()).stepper(system, h, &self.newton);
+            let method = self.method.as_ref().as_ref();
+            self.apart = Forgotten(method).stepper(system, h, &self.newton);
             self.is_stale = false;
         }
     }

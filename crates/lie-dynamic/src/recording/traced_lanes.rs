@@ -3,28 +3,30 @@
 use super::followed::Followed;
 use super::traced::TracedStepper;
 use super::traces::Traces;
-use crate::methods::{Method, kernel_by_kernel};
+use crate::methods::Method;
 use crate::system::Dynamic;
 use lie_codegen::methods::Choice;
 use lie_runtime::Scalar;
-use lie_runtime::diagnostics::{AnyMethod, AnyStepper, Claims, Forgotten};
-use lie_runtime::methods::{FactorSink, Method as _, StepFailure, StepReport, Stepper, Tolerances};
+use lie_runtime::diagnostics::{AnyMethod, AnyStepper, Claims};
+use lie_runtime::methods::{FactorSink, StepFailure, StepReport, Stepper};
 use lie_runtime::newton::NewtonOptions;
+use std::rc::Rc;
 use std::sync::Arc;
 
 type Wide = <f64 as Scalar>::Wide;
 
 /// A method with a solver over systems side by side.
-pub(crate) struct TracedInLanes {
+pub struct TracedInLanes {
     choice: Choice,
-    alone: Method<f64>,
+    alone: Rc<Method<f64>>,
 }
 
 impl TracedInLanes {
-    pub fn new(choice: &Choice) -> Self {
+    /// The method of a choice, with what makes the steps of a system alone that no trace is for.
+    pub fn new(choice: &Choice, alone: Method<f64>) -> Self {
         Self {
             choice: choice.clone(),
-            alone: kernel_by_kernel(choice, Tolerances::default()),
+            alone: Rc::new(alone),
         }
     }
 }
@@ -44,8 +46,7 @@ impl AnyMethod<Wide, Dynamic<Wide>> for TracedInLanes {
         let mut members: Vec<TracedStepper<'a>> = members
             .filter_map(|(lane, member)| {
                 let h = h.lane(lane);
-                let apart = Forgotten(self.alone.as_ref()).stepper(member, h, newton);
-                TracedStepper::new(&self.choice, member, h, newton, apart).ok()
+                TracedStepper::new(&self.choice, member, h, newton, &self.alone).ok()
             })
             .collect();
         let makes_steps = !members.is_empty() && members.len() == system.members.len();

@@ -3,7 +3,8 @@
 use std::ops::Range;
 
 use lie_codegen::methods::Choice;
-use lie_dynamic::{Dynamic, Method, Tolerances, method_in_lanes};
+use lie_dynamic::{Dynamic, Method, Tolerances};
+use lie_methods::method_in_lanes;
 use lie_runtime::diagnostics::Forgotten;
 use lie_runtime::driver::pace::choose;
 use lie_runtime::driver::{Crew, Pace, Problem, Save, relay};

@@ -3,9 +3,10 @@
 use lie_codegen::compile::compile_spec;
 use lie_codegen::methods::Choice;
 use lie_codegen::plan::plan;
-use lie_dynamic::{Declared, Dynamic, Interpreted, PATIENCE, Tolerances, method};
+use lie_dynamic::{Declared, Dynamic, Interpreted, PATIENCE, Tolerances};
 use lie_in_process::list;
 use lie_jit::Jit;
+use lie_methods::method;
 use lie_runtime::diagnostics::AnyStepper;
 use lie_runtime::newton::NewtonOptions;
 use std::num::NonZero;

@@ -3,9 +3,10 @@
 use lie_codegen::compile::{compile_spec, with_options};
 use lie_codegen::methods::Choice;
 use lie_codegen::plan::plan;
-use lie_dynamic::{Declared, Dynamic, Tolerances, method_in_lanes};
+use lie_dynamic::{Declared, Dynamic, Tolerances};
 use lie_in_process::members::{LANES, Member, Members, Watch, take_turns};
 use lie_jit::Jit;
+use lie_methods::method_in_lanes;
 use lie_runtime::Scalar;
 use lie_runtime::diagnostics::Forgotten;
 use lie_runtime::driver::{Crew, Options, Save, relay};

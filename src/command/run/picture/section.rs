@@ -1,7 +1,8 @@
 //! Where runs pass a surface of section.
 
 use lie_codegen::methods::Choice;
-use lie_dynamic::{Dynamic, Tolerances, method};
+use lie_dynamic::{Dynamic, Tolerances};
+use lie_methods::method;
 use lie_runtime::newton::NewtonOptions;
 
 /// A surface on which a coordinate has a value, and what is drawn of it.

@@ -13,7 +13,8 @@ use bodies::{Body, euclidean, five, general, kinetic, screws, squeezed, turning}
 use lie_codegen::compile::{compile_spec, with_options};
 use lie_codegen::methods::{Choice, Retraction};
 use lie_codegen::plan::plan;
-use lie_dynamic::{Dynamic, Interpreted, method};
+use lie_dynamic::{Dynamic, Interpreted};
+use lie_methods::method;
 use lie_runtime::DiscreteLagrangianPoisson;
 use lie_runtime::methods::{DiscreteEulerPoincare, Method, Stepper};
 use lie_runtime::newton::NewtonOptions;
