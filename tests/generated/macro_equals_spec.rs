@@ -2,6 +2,8 @@
 //! bits, every time, wherever the files are.
 
 use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::thread;
 
 use crate::common::{command, folder};
 use lie_codegen::compile::{compile_spec, declared_choices, expand, generate};
@@ -476,75 +478,97 @@ fn expansions_are_byte_equal() {
     }
 }
 
+/// Looks at the specs, two side by side.
+fn for_each_spec(look: impl Fn(&Path) + Sync) {
+    let left = Mutex::new(specs());
+    thread::scope(|scope| {
+        for _ in 0..2 {
+            scope.spawn(|| {
+                loop {
+                    // a statement of its own, so that the other does not wait
+                    let next = left.lock().unwrap().pop();
+                    match next {
+                        Some(path) => look(&path),
+                        None => break,
+                    }
+                }
+            });
+        }
+    });
+}
+
 #[test]
 fn the_order_of_what_is_unrelated_does_not_matter() {
-    for path in specs() {
-        let spec = read(&path);
-        let code = from_spec(&spec).to_string();
-        // Keys the other way round.
-        let keys = spec
-            .iter()
-            .rev()
-            .map(|(key, value)| format!("{key:?}: {value}"));
-        let reversed = format!("{{{}}}", keys.collect::<Vec<_>>().join(", "));
-        assert_eq!(code, from_text(&reversed).to_string(), "{}", path.display());
-        // Brackets the other way round, and antisymmetry spelt out.
-        let mut turned = spec.clone();
-        let swapped = |bracket: &str| {
-            let (pair, value) = bracket.split_once('=').expect("a bracket");
-            let pair = pair.trim();
-            let (a, b) = pair
-                .trim_matches(['[', ']', '{', '}'])
-                .split_once(',')
-                .expect("a pair");
-            let (open, close) = (&pair[..1], &pair[pair.len() - 1..]);
-            let (a, b, value) = (a.trim(), b.trim(), value.trim());
-            format!("{open}{b}, {a}{close} = -({value})")
-        };
-        let reverse = |brackets: &Value| -> Value {
-            let brackets: Vec<&str> = strings(brackets).collect();
-            brackets
-                .into_iter()
-                .rev()
-                .map(swapped)
-                .collect::<Vec<_>>()
-                .into()
-        };
-        for key in ["poisson", "cocycle"] {
-            if let Some(brackets) = turned.get_mut(key) {
-                *brackets = reverse(brackets);
-            }
-        }
-        // an algebra that goes by its name has no brackets to turn
-        if let Some(algebra) = turned.get_mut("algebra").filter(|a| a.is_object()) {
-            algebra["brackets"] = reverse(&algebra["brackets"]);
-        }
-        assert_eq!(code, from_spec(&turned).to_string(), "{}", path.display());
-        // Blanks and superfluous parentheses.
-        let mut spaced = spec.clone();
-        let key = energy(&spec);
-        spaced[key] = format!(" ( {} )\n", spec[key].as_str().expect("a function")).into();
-        assert_eq!(code, from_spec(&spaced).to_string(), "{}", path.display());
-        // The statements of the macro in another order.
-        let body = declaration(&spec);
-        let mut statements: Vec<&str> = body.lines().collect();
-        let (casimirs, mut others): (Vec<&str>, Vec<&str>) = statements
-            .drain(..)
-            .partition(|line| line.starts_with("casimir") || line.starts_with("let"));
-        others.reverse();
-        let shuffled = others
+    for_each_spec(order_does_not_matter);
+}
+
+/// The code of a spec is that of the same with everything in another order.
+fn order_does_not_matter(path: &Path) {
+    let spec = read(path);
+    let code = from_spec(&spec).to_string();
+    // Keys the other way round.
+    let keys = spec
+        .iter()
+        .rev()
+        .map(|(key, value)| format!("{key:?}: {value}"));
+    let reversed = format!("{{{}}}", keys.collect::<Vec<_>>().join(", "));
+    assert_eq!(code, from_text(&reversed).to_string(), "{}", path.display());
+    // Brackets the other way round, and antisymmetry spelt out.
+    let mut turned = spec.clone();
+    let swapped = |bracket: &str| {
+        let (pair, value) = bracket.split_once('=').expect("a bracket");
+        let pair = pair.trim();
+        let (a, b) = pair
+            .trim_matches(['[', ']', '{', '}'])
+            .split_once(',')
+            .expect("a pair");
+        let (open, close) = (&pair[..1], &pair[pair.len() - 1..]);
+        let (a, b, value) = (a.trim(), b.trim(), value.trim());
+        format!("{open}{b}, {a}{close} = -({value})")
+    };
+    let reverse = |brackets: &Value| -> Value {
+        let brackets: Vec<&str> = strings(brackets).collect();
+        brackets
             .into_iter()
-            .chain(casimirs)
+            .rev()
+            .map(swapped)
             .collect::<Vec<_>>()
-            .join("\n");
-        let one = without_docs(from_macro(&body)).to_string();
-        assert_eq!(
-            one,
-            without_docs(from_macro(&shuffled)).to_string(),
-            "{}",
-            path.display()
-        );
+            .into()
+    };
+    for key in ["poisson", "cocycle"] {
+        if let Some(brackets) = turned.get_mut(key) {
+            *brackets = reverse(brackets);
+        }
     }
+    // an algebra that goes by its name has no brackets to turn
+    if let Some(algebra) = turned.get_mut("algebra").filter(|a| a.is_object()) {
+        algebra["brackets"] = reverse(&algebra["brackets"]);
+    }
+    assert_eq!(code, from_spec(&turned).to_string(), "{}", path.display());
+    // Blanks and superfluous parentheses.
+    let mut spaced = spec.clone();
+    let key = energy(&spec);
+    spaced[key] = format!(" ( {} )\n", spec[key].as_str().expect("a function")).into();
+    assert_eq!(code, from_spec(&spaced).to_string(), "{}", path.display());
+    // The statements of the macro in another order.
+    let body = declaration(&spec);
+    let mut statements: Vec<&str> = body.lines().collect();
+    let (casimirs, mut others): (Vec<&str>, Vec<&str>) = statements
+        .drain(..)
+        .partition(|line| line.starts_with("casimir") || line.starts_with("let"));
+    others.reverse();
+    let shuffled = others
+        .into_iter()
+        .chain(casimirs)
+        .collect::<Vec<_>>()
+        .join("\n");
+    let one = without_docs(from_macro(&body)).to_string();
+    assert_eq!(
+        one,
+        without_docs(from_macro(&shuffled)).to_string(),
+        "{}",
+        path.display()
+    );
 }
 
 mod by_path {

@@ -1,6 +1,8 @@
 //! The seeds are read, and the targets notice what they are for.
 
+use std::collections::BTreeSet;
 use std::path::Path;
+use std::sync::Mutex;
 
 use lie_codegen::compile::compile_spec;
 use lie_codegen::methods::{CATALOGUE, Choice};
@@ -43,20 +45,23 @@ fn seeds_of_the_specs() {
             "dissipation": [{"kind": "double-bracket", "strength": "1/5", "temperature": "1/3"}]}"#
             .to_vec(),
     );
-    let share = |start: usize| {
-        let mut seen = std::collections::BTreeSet::new();
-        for bytes in specs.iter().skip(start).step_by(2) {
-            read_spec(bytes);
-            spec(bytes);
-            if let Ok(model) = compile_spec(std::str::from_utf8(bytes).expect("UTF-8")) {
+    let left = Mutex::new(specs);
+    let share = || {
+        let mut seen = BTreeSet::new();
+        loop {
+            // a statement of its own, so that the other does not wait
+            let next = left.lock().unwrap().pop();
+            let Some(bytes) = next else { return seen };
+            read_spec(&bytes);
+            spec(&bytes);
+            if let Ok(model) = compile_spec(std::str::from_utf8(&bytes).expect("UTF-8")) {
                 seen.extend(choices(&model).iter().map(Choice::id));
             }
         }
-        seen
     };
     let seen = std::thread::scope(|scope| {
-        let other = scope.spawn(|| share(1));
-        let mut seen = share(0);
+        let other = scope.spawn(share);
+        let mut seen = share();
         seen.append(&mut other.join().expect("no panic"));
         seen
     });
