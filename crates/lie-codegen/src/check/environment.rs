@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::recorded;
+use super::recorded::{Columns, element};
 use crate::model::{CANONICAL, ENTRIES, data_number, shared_number};
 use lie_symbolic::symbolic::{ExprId, Function, Opaque, Symbol};
 use lie_syntax::ast::{Declaration, Name, OwnFunction, Realization};
@@ -59,8 +59,8 @@ pub struct Environment<'a> {
     /// The coordinates of the basis elements.
     duals: HashMap<&'a str, &'a str>,
     functions: &'a [OwnFunction],
-    /// The declaration, whose names say what one might have been meant for.
-    declared: Option<&'a Declaration>,
+    /// The names of the declaration, which say what one might have been meant for.
+    columns: Option<Columns<'a>>,
 }
 
 impl Allowed {
@@ -156,7 +156,7 @@ impl<'a> Environment<'a> {
                 .map(|(e, x)| (e.text.as_str(), x.text.as_str()))
                 .collect(),
             functions: &declaration.functions,
-            declared: Some(declaration),
+            columns: Some(Columns::new(declaration)),
         }
     }
 
@@ -251,7 +251,7 @@ impl<'a> Environment<'a> {
             return (message, format!("write `{latin}`"));
         }
         if allowed == Allowed::State
-            && let Some(mistake) = self.declared.and_then(|all| recorded::meant(all, name))
+            && let Some(mistake) = self.columns.as_ref().and_then(|all| all.meant(name))
         {
             return mistake;
         }
@@ -271,7 +271,8 @@ impl<'a> Environment<'a> {
         }
         let mut declare = format!("declare `{name}` as a parameter, an abbreviation or an input");
         if matches!(allowed, Allowed::State | Allowed::Velocity(_)) {
-            let element = self.declared.and_then(|all| recorded::element(all, name));
+            let declaration = self.columns.as_ref().map(|all| all.declaration);
+            let element = declaration.and_then(|all| element(all, name));
             declare.extend(element);
         }
         let others = series(name, candidates);
