@@ -100,10 +100,13 @@ fn text(spec: &Spec, measurement: &Measurement, spectrum: &Spectrum) -> String {
         text.push_str(&format!("{:3}. {}\n", number + 1, shown(exponent)));
     }
     if let Some(largest) = spectrum.exponents.first() {
+        // what the rounding of a step does to the length of a tangent
+        let round_off = 16.0 * f64::EPSILON / step.abs();
         text.push_str(&match largest.value > 2.0 * largest.error {
             _ if !largest.error.is_finite() => {
                 "no errors are known: less than two of 20 parts of the time were done\n".to_owned()
             }
+            true if largest.value < round_off => "no growth beyond round-off\n".to_owned(),
             true => {
                 let time = 1.0 / largest.value;
                 let error = largest.error * time * time;

@@ -47,6 +47,28 @@ fn number(value: &Value) -> f64 {
     value.as_f64().expect("a number")
 }
 
+/// Rounding makes a tangent longer by a part of its last digit in every step: no growth, however small its error. The control grows.
+#[test]
+fn round_off_is_no_growth() {
+    let folder = folder();
+    let spec = |sign: &str| {
+        let energy = format!("p^2/2 {sign} q^2/2");
+        let spec = json!({ "format": 1, "name": "Oscillator", "poisson": ["{q, p} = 1"], "state": ["q", "p"],
+                           "hamiltonian": energy, "initial": [0, 0] });
+        written(folder.path(), "oscillator.json", &spec)
+    };
+    let said = |path: PathBuf| {
+        let flags = "--method gauss4 --step 0.1 --until 100";
+        lie(&format!("exponents {} {flags}", path.display()))
+            .ok()
+            .stdout
+    };
+    let stable = said(spec("+"));
+    assert!(stable.contains("no growth beyond round-off"), "{stable}");
+    let unstable = said(spec("-"));
+    assert!(unstable.contains("Lyapunov time: 1"), "{unstable}");
+}
+
 /// A free body moves on circles of its sphere: neighbours part linearly, and a finite time T sees log(T)/T.
 #[test]
 fn regular_motion_has_none() {
