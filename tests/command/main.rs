@@ -50,6 +50,7 @@ mod many_runs;
 mod named_algebras;
 mod new;
 mod orbits;
+mod parametric_matrices;
 mod pictures;
 mod quantities;
 mod random_systems;

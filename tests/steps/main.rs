@@ -59,6 +59,7 @@ mod near_integrable;
 mod noise_orders;
 mod noise_splittings;
 mod orders_and_symmetry;
+mod parametric_matrices;
 mod published;
 mod realization;
 mod reconstruction;

@@ -270,7 +270,6 @@ fn is_fused(choice: &Choice) -> bool {
 /// What a judge may look at beyond the kernels of every system.
 fn evidence(structure: &Structure) -> TokenStream {
     let lie = structure.is_lie_poisson();
-    let representation = structure.bracket.representation().filter(|_| lie);
     let lagrangian = structure.energy.reduced();
     let mut calls = TokenStream::new();
     let mut add = |wanted: bool, call: TokenStream| {
@@ -285,7 +284,7 @@ fn evidence(structure: &Structure) -> TokenStream {
     }
     add(structure.group.is_some(), quote! { .with_group() });
     add(
-        representation.is_some_and(|r| r.triple.is_some()),
+        lie && structure.bracket.triple().is_some(),
         quote! { .with_cayley() },
     );
     add(lagrangian.is_some(), quote! { .with_lagrangian() });

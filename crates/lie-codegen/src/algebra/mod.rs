@@ -6,15 +6,17 @@ pub mod brackets;
 pub mod cayley;
 mod constants;
 mod envelope;
+mod field;
 pub mod jacobi;
 pub mod moving;
 pub mod quadratic;
 pub mod rank;
 pub mod representation;
-mod ring;
+pub mod ring;
 pub mod rotating;
 mod sparse;
 mod triple;
+pub mod written;
 
 #[cfg(test)]
 pub(crate) mod known;
@@ -23,4 +25,4 @@ mod tests;
 
 pub use constants::StructureConstants;
 pub use envelope::Columns;
-pub use representation::{Representation, TripleEntry};
+pub use representation::{Parametric, Representation, TripleEntry};

@@ -1,16 +1,16 @@
 //! Matrix representations: `rho(e_i) rho(e_j) - rho(e_j) rho(e_i) = sum_k C_ij^k rho(e_k)`.
 
+use std::collections::BTreeSet;
+
 use super::envelope::Columns;
+use super::field::{Coordinates, Field, NoSpan};
 use super::sparse::SparseMatrix;
 use super::{StructureConstants, envelope, triple};
-use lie_symbolic::exact::span::{NoSpan, Span};
+use crate::model::Parameter;
 use lie_symbolic::exact::{Budget, Exhausted, Fraction, Rational};
-use lie_syntax::ast::{Algebra, Expr, Matrix};
+use lie_syntax::ast::Matrix;
 use lie_syntax::diagnostic::{Diagnostic, Kind};
-use lie_syntax::linear::{Scope, rational};
-
-/// Entries of all matrices together that are still looked at.
-const MAX_ENTRIES: usize = 4_000_000;
+use lie_syntax::linear::{Scope, WORK};
 
 /// An entry `(a, b, c, d, T_abc^d)` of the triple product.
 pub type TripleEntry = (usize, usize, usize, usize, Fraction);
@@ -37,135 +37,95 @@ pub struct Representation {
     pub columns: Option<Columns>,
 }
 
-/// The matrices as they were read, one for each basis element.
-pub struct Matrices<'a> {
-    declared: Vec<&'a Matrix>,
-    sparse: Vec<SparseMatrix>,
-    dimension: usize,
+/// A representation by matrices whose entries are rational functions of exact parameters. What is known of them holds for all values
+/// of the parameters at which it is finite.
+#[derive(Clone, Debug)]
+pub struct Parametric {
+    /// Size of the matrices.
+    pub dimension: usize,
+    /// The matrix of each basis element, by rows.
+    pub matrices: Vec<Vec<Vec<Fraction>>>,
+    /// The triple product, as that of a [`Representation`].
+    pub triple: Option<Vec<TripleEntry>>,
+    /// Whether the brackets are computed from them.
+    pub gives_brackets: bool,
 }
 
-/// Reads the declared matrices: one square matrix of rationals for each basis element, of one size.
-///
-/// # Errors
-/// Every mistake in them.
-pub fn declared_matrices<'a>(
-    algebra: &'a Algebra,
-    scope: &Scope<'_>,
-    budget: &Budget,
-) -> Result<Matrices<'a>, Vec<Diagnostic>> {
-    let mut mistakes = Vec::new();
-    let slots = slots(algebra, scope, &mut mistakes);
-    let dimension = algebra.matrices.first().map_or(0, |m| m.rows.len());
-    if dimension * dimension * algebra.matrices.len() > MAX_ENTRIES {
-        mistakes.push(
-            Diagnostic::new(
-                Kind::Limit,
-                algebra.matrices[0].origin,
-                "the matrices have too many entries",
-            )
-            .help("choose a smaller representation"),
+impl Parametric {
+    /// The parameters that occur, ascending.
+    pub fn parameters(&self) -> BTreeSet<usize> {
+        let entries = self.matrices.iter().flatten().flatten();
+        let polynomials = entries.flat_map(|entry| {
+            let below = entry.denominator().map(|(factor, _)| factor);
+            below.chain([entry.numerator()])
+        });
+        let monomials = polynomials.flat_map(|polynomial| polynomial.terms());
+        let powers = monomials.flat_map(|(monomial, _)| monomial.powers());
+        powers.map(|(parameter, _)| parameter).collect()
+    }
+
+    /// Whether the leading blocks of so many rows of the first matrices, of so many, are antisymmetric.
+    pub fn is_antisymmetric(&self, count: usize, size: usize) -> bool {
+        let pairs = || (0..size).flat_map(|i| (0..=i).map(move |j| (i, j)));
+        let opposite = |matrix: &Vec<Vec<Fraction>>, (i, j): (usize, usize)| {
+            let negative: Fraction = matrix[j][i].neg();
+            let equal = matrix[i][j].equals(&negative, &Budget::new(WORK));
+            equal.unwrap_or(false)
+        };
+        let mut matrices = self.matrices.iter().take(count);
+        matrices.all(|matrix| pairs().all(|pair| opposite(matrix, pair)))
+    }
+
+    /// That something needs matrices of numbers, with the remedy.
+    pub fn refusal(&self, what: &str, parameters: &[Parameter]) -> (String, String) {
+        let names = self.parameters().into_iter();
+        let names = names.map(|p| format!("`{}`", parameters[p].name));
+        let names: Vec<String> = names.collect();
+        let (those, values) = match names.len() {
+            1 => ("the parameter", "the value"),
+            _ => ("the parameters", "the values"),
+        };
+        let names = names.join(", ");
+        let reason = format!(
+            "{what} needs `matrices` of numbers, and the declared ones depend on {those} {names}"
         );
-        return Err(mistakes);
+        (
+            reason,
+            format!("write {values} of {names} into the matrices"),
+        )
     }
-    let mut entries = Vec::new();
-    for matrix in &algebra.matrices {
-        let rows = rows(matrix, dimension, budget, &mut mistakes);
-        entries.push((scope.basis_index(&matrix.name.text), rows));
+
+    /// A linear relation between the matrices at values of the parameters, if there is one.
+    ///
+    /// # Errors
+    /// The index of one that is not finite there.
+    pub fn relation(
+        &self,
+        value: &dyn Fn(usize) -> Rational,
+    ) -> Result<Option<Vec<Rational>>, usize> {
+        let matrices = self.matrices.iter().enumerate();
+        let flat = matrices.map(|(index, matrix)| {
+            let entries = matrix.iter().flatten();
+            let entries = entries.map(|entry| entry.evaluate(value));
+            entries.collect::<Option<_>>().ok_or(index)
+        });
+        let flat: Vec<Vec<Rational>> = flat.collect::<Result<_, _>>()?;
+        Ok(match Rational::span(&flat, &Budget::new(WORK)) {
+            Err(NoSpan::Dependent(relation)) => Some(relation),
+            _ => None,
+        })
     }
-    if !mistakes.is_empty() {
-        return Err(mistakes);
-    }
-    entries.sort_by_key(|(index, _)| *index);
-    let sparse = entries
-        .into_iter()
-        .filter_map(|(_, rows)| rows)
-        .map(|rows| SparseMatrix::from_rows(&rows))
-        .collect();
-    Ok(Matrices {
-        declared: slots.into_iter().flatten().collect(),
-        sparse,
-        dimension,
-    })
 }
 
-/// The matrix of each basis element; that one has none is reported.
-fn slots<'a>(
-    algebra: &'a Algebra,
-    scope: &Scope<'_>,
-    mistakes: &mut Vec<Diagnostic>,
-) -> Vec<Option<&'a Matrix>> {
-    let mut slots: Vec<Option<&Matrix>> = vec![None; scope.basis().len()];
-    for matrix in &algebra.matrices {
-        match scope.basis_index(&matrix.name.text) {
-            None => {
-                mistakes.push(scope.unknown_basis(Kind::Basis, &matrix.name));
-            }
-            Some(index) if slots[index].is_some() => {
-                mistakes.push(
-                    Diagnostic::new(
-                        Kind::Basis,
-                        matrix.name.origin,
-                        format!("a second matrix for `{}`", matrix.name.text),
-                    )
-                    .help("keep one of the two"),
-                );
-            }
-            Some(index) => slots[index] = Some(matrix),
-        }
-    }
-    let missing: Vec<_> = slots
-        .iter()
-        .zip(&algebra.basis)
-        .filter(|(m, _)| m.is_none())
-        .map(|(_, name)| name)
-        .collect();
-    if let Some(first) = missing.first().filter(|_| mistakes.is_empty()) {
-        let names: Vec<&str> = missing.iter().map(|name| name.text.as_str()).collect();
-        mistakes.push(
-            Diagnostic::new(
-                Kind::Representation,
-                first.origin,
-                format!("no matrix for {}", names.join(", ")),
-            )
-            .help("a representation has one matrix for every basis element"),
-        );
-    }
-    slots
+/// The matrices of an algebra, one for each basis element.
+pub struct Matrices<'a, T> {
+    pub(super) declared: Vec<&'a Matrix>,
+    pub(super) sparse: Vec<SparseMatrix<T>>,
+    pub(super) dimension: usize,
 }
 
-/// The entries of a square matrix; all mistakes in them are reported.
-fn rows(
-    matrix: &Matrix,
-    dimension: usize,
-    budget: &Budget,
-    mistakes: &mut Vec<Diagnostic>,
-) -> Option<Vec<Vec<Rational>>> {
-    let square = matrix.rows.len() == dimension
-        && matrix.rows.iter().all(|row| row.len() == dimension)
-        && dimension > 0;
-    if !square {
-        let message = format!(
-            "the matrix of `{}` is not square, or not of the size of the others",
-            matrix.name.text
-        );
-        mistakes.push(
-            Diagnostic::new(Kind::Representation, matrix.origin, message)
-                .help("all matrices of a representation are square and of one size"),
-        );
-    }
-    let row = |row: &Vec<Expr>| {
-        let entries = row.iter().map(|entry| rational(entry, budget));
-        let entries = entries.map(|entry| entry.map_err(|found| mistakes.extend(found)).ok());
-        entries.collect::<Vec<_>>()
-    };
-    let rows: Vec<Vec<Option<Rational>>> = matrix.rows.iter().map(row).collect();
-    let rows = rows.into_iter().map(|row| row.into_iter().collect());
-    let rows: Option<Vec<Vec<Rational>>> = rows.collect();
-    rows.filter(|_| square)
-}
-
-impl Matrices<'_> {
-    fn flat(&self) -> Vec<Vec<Rational>> {
+impl<T: Field> Matrices<'_, T> {
+    fn flat(&self) -> Vec<Vec<T>> {
         self.sparse.iter().map(SparseMatrix::flat).collect()
     }
 
@@ -184,7 +144,7 @@ impl Matrices<'_> {
         scope: &Scope<'_>,
         budget: &Budget,
     ) -> Result<StructureConstants<Fraction>, Diagnostic> {
-        let span = Span::new(&self.flat(), budget).map_err(|none| match none {
+        let span = T::span(&self.flat(), budget).map_err(|none| match none {
             NoSpan::Exhausted => self.limit(),
             NoSpan::Dependent(relation) => self.dependent(relation, scope),
         })?;
@@ -195,7 +155,7 @@ impl Matrices<'_> {
                 let coordinates = commutator.and_then(|c| span.coordinates(&c.flat(), budget));
                 let coordinates = coordinates.map_err(|Exhausted| self.limit())?;
                 let coordinates = coordinates.ok_or_else(|| self.outside(i, j, scope))?;
-                let entry = |(k, value)| (i, j, k, Fraction::from(value));
+                let entry = |(k, value): (usize, T)| (i, j, k, value.to_fraction());
                 entries.extend(nonzero(coordinates).map(entry));
             }
         }
@@ -203,8 +163,8 @@ impl Matrices<'_> {
     }
 
     /// A linear relation between the matrices.
-    fn dependent(&self, relation: Vec<Rational>, scope: &Scope<'_>) -> Diagnostic {
-        let form = nonzero(relation).map(|(k, c)| (k, Fraction::from(c)));
+    fn dependent(&self, relation: Vec<T>, scope: &Scope<'_>) -> Diagnostic {
+        let form = nonzero(relation).map(|(k, c)| (k, c.to_fraction()));
         let form: Vec<_> = form.collect();
         let last = form.last().map_or(0, |(index, _)| *index);
         let message = format!(
@@ -226,17 +186,16 @@ impl Matrices<'_> {
             .help("the matrices must span a Lie algebra; add the missing basis elements")
     }
 
-    /// Checks the matrices against the brackets, and finds their triple product, with a warning where that takes too long.
+    /// Checks the matrices against the brackets.
     ///
     /// # Errors
-    /// A representation that is none: every method that uses it would leave the orbit.
-    pub fn representation(
+    /// A representation that is none.
+    pub fn check(
         &self,
         constants: &StructureConstants<Fraction>,
         scope: &Scope<'_>,
         budget: &Budget,
-        warnings: &mut Vec<Diagnostic>,
-    ) -> Result<Representation, Diagnostic> {
+    ) -> Result<(), Diagnostic> {
         for i in 0..self.sparse.len() {
             for j in i + 1..self.sparse.len() {
                 let wrong = self.first_wrong_entry(i, j, constants, budget);
@@ -245,21 +204,19 @@ impl Matrices<'_> {
                 }
             }
         }
-        let (triple, dual) = self.closures(budget).unwrap_or_else(|Exhausted| {
-            let message = "the matrices are too large to decide how their span is closed under triple products; \
-                           the Cayley retraction, collective and isospectral methods are not available";
-            let warning = Diagnostic::new(Kind::Limit, self.declared[0].origin, message);
-            warnings.push(warning.help("choose a smaller representation").warning());
-            (None, None)
-        });
-        let matrices = self.sparse.iter().map(SparseMatrix::rows).collect();
-        Ok(Representation {
-            dimension: self.dimension,
-            matrices,
-            triple,
-            columns: dual.as_ref().map(|dual| dual.columns.clone()),
-            dual: dual.map(|dual| dual.matrices),
-        })
+        Ok(())
+    }
+
+    fn rows(&self) -> Vec<Vec<Vec<T>>> {
+        self.sparse.iter().map(SparseMatrix::rows).collect()
+    }
+
+    /// That what depends on triple products is not decided.
+    fn undecided(&self) -> Diagnostic {
+        let message = "the matrices are too large to decide how their span is closed under triple products; \
+                       the Cayley retraction, collective and isospectral methods are not available";
+        let warning = Diagnostic::new(Kind::Limit, self.declared[0].origin, message);
+        warning.help("choose a smaller representation").warning()
     }
 
     /// A bracket that the matrices do not represent, by a wrong entry.
@@ -286,18 +243,6 @@ impl Matrices<'_> {
             .help("correct the bracket or the matrices; without `brackets` they are computed from the matrices")
     }
 
-    /// The triple product and the dual matrices, for independent matrices.
-    fn closures(&self, budget: &Budget) -> Result<Closures, Exhausted> {
-        let span = match Span::new(&self.flat(), budget) {
-            Ok(span) => span,
-            Err(NoSpan::Dependent(_)) => return Ok((None, None)),
-            Err(NoSpan::Exhausted) => return Err(Exhausted),
-        };
-        let triple = triple::closure(&self.sparse, &span, budget)?;
-        let dual = envelope::dual(&self.sparse, triple.is_some(), budget)?;
-        Ok((triple, dual))
-    }
-
     /// The first entry of `[rho_i, rho_j] - C_ij^k rho_k` that is not zero.
     fn first_wrong_entry(
         &self,
@@ -307,22 +252,23 @@ impl Matrices<'_> {
         budget: &Budget,
     ) -> Result<Option<(usize, usize, Fraction)>, Exhausted> {
         let mut rest = SparseMatrix::commutator(&self.sparse[i], &self.sparse[j], budget)?.flat();
-        let mut parametric: Vec<(&Fraction, usize)> = Vec::new();
+        let mut beyond: Vec<(&Fraction, usize)> = Vec::new();
         for (_, _, k, value) in constants.upper(i, j) {
-            match value.as_constant() {
+            match T::from_fraction(&value.neg()) {
                 Some(value) => {
                     for (position, entry) in self.sparse[*k].entries() {
-                        rest[position] = &rest[position] - &(&value * entry);
+                        rest[position].add_product(&value, entry, budget)?;
                     }
                 }
-                None => parametric.push((value, *k)),
+                None => beyond.push((value, *k)),
             }
         }
-        let mut rest: Vec<(usize, Fraction)> =
-            rest.into_iter().map(Fraction::from).enumerate().collect();
-        for (value, k) in parametric {
+        let rest = rest.into_iter().map(|value| value.to_fraction());
+        let mut rest: Vec<(usize, Fraction)> = rest.enumerate().collect();
+        for (value, k) in beyond {
             for (position, entry) in self.sparse[k].entries() {
-                rest[position].1 = rest[position].1.sub(&value.scale(entry), budget)?;
+                let product = value.mul(&entry.to_fraction(), budget)?;
+                rest[position].1 = rest[position].1.sub(&product, budget)?;
             }
         }
         let wrong = rest.into_iter().find(|(_, value)| !value.is_zero());
@@ -331,7 +277,65 @@ impl Matrices<'_> {
     }
 }
 
-fn nonzero(values: Vec<Rational>) -> impl Iterator<Item = (usize, Rational)> {
+impl Matrices<'_, Rational> {
+    /// The representation, with a warning where its closures take too long.
+    pub fn representation(
+        &self,
+        budget: &Budget,
+        warnings: &mut Vec<Diagnostic>,
+    ) -> Representation {
+        let (triple, dual) = self.closures(budget).unwrap_or_else(|Exhausted| {
+            warnings.push(self.undecided());
+            (None, None)
+        });
+        Representation {
+            dimension: self.dimension,
+            matrices: self.rows(),
+            triple,
+            columns: dual.as_ref().map(|dual| dual.columns.clone()),
+            dual: dual.map(|dual| dual.matrices),
+        }
+    }
+
+    /// The triple product and the dual matrices, for independent matrices.
+    fn closures(&self, budget: &Budget) -> Result<Closures, Exhausted> {
+        let span = match Rational::span(&self.flat(), budget) {
+            Ok(span) => span,
+            Err(NoSpan::Dependent(_)) => return Ok((None, None)),
+            Err(NoSpan::Exhausted) => return Err(Exhausted),
+        };
+        let triple = triple::closure(&self.sparse, &span, budget)?;
+        let dual = envelope::dual(&self.sparse, triple.is_some(), budget)?;
+        Ok((triple, dual))
+    }
+}
+
+impl Matrices<'_, Fraction> {
+    /// The representation, with a warning where its triple product takes too long.
+    pub fn parametric(&self, budget: &Budget, warnings: &mut Vec<Diagnostic>) -> Parametric {
+        let triple = self.triple(budget).unwrap_or_else(|Exhausted| {
+            warnings.push(self.undecided());
+            None
+        });
+        Parametric {
+            dimension: self.dimension,
+            matrices: self.rows(),
+            triple,
+            gives_brackets: false,
+        }
+    }
+
+    /// The triple product of independent matrices.
+    fn triple(&self, budget: &Budget) -> Result<Option<Vec<TripleEntry>>, Exhausted> {
+        match Fraction::span(&self.flat(), budget) {
+            Ok(span) => triple::closure(&self.sparse, &span, budget),
+            Err(NoSpan::Dependent(_)) => Ok(None),
+            Err(NoSpan::Exhausted) => Err(Exhausted),
+        }
+    }
+}
+
+fn nonzero<T: Field>(values: Vec<T>) -> impl Iterator<Item = (usize, T)> {
     let values = values.into_iter().enumerate();
     values.filter(|(_, value)| !value.is_zero())
 }

@@ -1,14 +1,15 @@
-//! Square matrices of rationals by their nonzero entries: those of representations are mostly zero.
+//! Square matrices by their nonzero entries: those of representations are mostly zero.
 
+use super::ring::Ring;
 use lie_symbolic::exact::{Budget, Exhausted, Rational};
 
 /// A square matrix, rows of `(column, value)` with ascending columns and no zero.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct SparseMatrix(Vec<Vec<(usize, Rational)>>);
+pub(super) struct SparseMatrix<T = Rational>(Vec<Vec<(usize, T)>>);
 
-impl SparseMatrix {
-    pub(super) fn from_rows(rows: &[Vec<Rational>]) -> Self {
-        let sparse = |row: &Vec<Rational>| {
+impl<T: Ring> SparseMatrix<T> {
+    pub(super) fn from_rows(rows: &[Vec<T>]) -> Self {
+        let sparse = |row: &Vec<T>| {
             row.iter()
                 .enumerate()
                 .filter(|(_, v)| !v.is_zero())
@@ -19,10 +20,10 @@ impl SparseMatrix {
     }
 
     /// The matrix by full rows.
-    pub(super) fn rows(&self) -> Vec<Vec<Rational>> {
+    pub(super) fn rows(&self) -> Vec<Vec<T>> {
         let n = self.0.len();
-        let full = |row: &Vec<(usize, Rational)>| {
-            let mut full = vec![Rational::ZERO; n];
+        let full = |row: &Vec<(usize, T)>| {
+            let mut full = vec![T::zero(); n];
             for (column, value) in row {
                 full[*column] = value.clone();
             }
@@ -32,12 +33,12 @@ impl SparseMatrix {
     }
 
     /// All entries row after row.
-    pub(super) fn flat(&self) -> Vec<Rational> {
+    pub(super) fn flat(&self) -> Vec<T> {
         self.rows().concat()
     }
 
     /// The nonzero entries by their position in [`SparseMatrix::flat`].
-    pub(super) fn entries(&self) -> impl Iterator<Item = (usize, &Rational)> {
+    pub(super) fn entries(&self) -> impl Iterator<Item = (usize, &T)> {
         let n = self.0.len();
         self.0
             .iter()
@@ -61,27 +62,24 @@ impl SparseMatrix {
         budget: &Budget,
     ) -> Result<Self, Exhausted> {
         let n = products.first().map_or(0, |(a, ..)| a.0.len());
-        let mut full = vec![Rational::ZERO; n];
+        let mut full = vec![T::zero(); n];
         let mut rows = Vec::with_capacity(n);
         for r in 0..n {
             for (a, b, positive) in products {
                 for (middle, left) in &a.0[r] {
+                    let left = match positive {
+                        true => left.clone(),
+                        false => left.negative(),
+                    };
                     for (column, right) in &b.0[*middle] {
-                        let product = left * right;
-                        budget.spend_on(&product)?;
-                        let entry = &mut full[*column];
-                        *entry = if *positive {
-                            &*entry + &product
-                        } else {
-                            &*entry - &product
-                        };
+                        full[*column].add_product(&left, right, budget)?;
                     }
                 }
             }
             let taken = full.iter_mut().enumerate().filter(|(_, v)| !v.is_zero());
             rows.push(
                 taken
-                    .map(|(c, v)| (c, std::mem::replace(v, Rational::ZERO)))
+                    .map(|(c, v)| (c, std::mem::replace(v, T::zero())))
                     .collect(),
             );
         }

@@ -1,15 +1,15 @@
 //! Jordan-triple closure `(rho_a rho_b rho_c + rho_c rho_b rho_a)/2 = T_abc^d rho_d`: where it
 //! holds, the Cayley retraction has a polynomial form in coordinates.
 
+use super::field::{Coordinates, Field};
 use super::representation::TripleEntry;
 use super::sparse::SparseMatrix;
-use lie_symbolic::exact::span::Span;
-use lie_symbolic::exact::{Budget, Exhausted, Fraction, Rational};
+use lie_symbolic::exact::{Budget, Exhausted, Rational};
 
 /// The triple product of the matrices, `None` where their span is not closed under it.
-pub(super) fn closure(
-    matrices: &[SparseMatrix],
-    span: &Span,
+pub(super) fn closure<T: Field>(
+    matrices: &[SparseMatrix<T>],
+    span: &T::Span,
     budget: &Budget,
 ) -> Result<Option<Vec<TripleEntry>>, Exhausted> {
     let n = matrices.len();
@@ -17,7 +17,7 @@ pub(super) fn closure(
     let mut entries = Vec::new();
     for b in 0..n {
         // rho_b rho_c is needed for every a.
-        let right: Vec<SparseMatrix> = matrices
+        let right: Vec<SparseMatrix<T>> = matrices
             .iter()
             .map(|c| SparseMatrix::product(&matrices[b], c, budget))
             .collect::<Result<_, _>>()?;
@@ -33,7 +33,7 @@ pub(super) fn closure(
                     return Ok(None);
                 };
                 for (d, value) in coordinates.iter().enumerate().filter(|(_, v)| !v.is_zero()) {
-                    let value = Fraction::from(value * &half);
+                    let value = value.to_fraction().scale(&half);
                     if a != c {
                         entries.push((c, b, a, d, value.clone()));
                     }

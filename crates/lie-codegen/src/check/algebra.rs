@@ -1,6 +1,7 @@
 //! The algebra: brackets, Jacobi identity, representation.
 
-use crate::algebra::{Representation, StructureConstants, brackets, jacobi, representation};
+use crate::algebra::written::{Represented, declared_matrices};
+use crate::algebra::{Parametric, Representation, StructureConstants, brackets, jacobi};
 use crate::model;
 use lie_symbolic::exact::{Budget, Fraction};
 use lie_symbolic::symbolic::Graph;
@@ -12,8 +13,10 @@ use lie_syntax::linear::{Scope, WORK};
 pub struct Algebra {
     /// Structure constants, rational functions of the exact parameters.
     pub constants: StructureConstants<Fraction>,
-    /// The declared matrices.
+    /// The declared matrices, where they are numbers.
     pub representation: Option<Representation>,
+    /// The declared matrices, where they have parameters.
+    pub parametric: Option<Parametric>,
 }
 
 impl Algebra {
@@ -28,6 +31,7 @@ impl Algebra {
             constants: turned.constants.map(|value| graph.rational_function(value)),
             exact: turned.constants,
             representation: turned.representation,
+            parametric: turned.parametric.map(Box::new),
             extension: None,
         }
     }
@@ -49,9 +53,15 @@ impl Algebra {
                 *entry = -&*entry;
             }
         }
+        let mut parametric = self.parametric;
+        let matrices = parametric.iter_mut().flat_map(|found| &mut found.matrices);
+        for entry in matrices.flatten().flatten() {
+            *entry = entry.neg();
+        }
         Self {
             constants: self.constants.map(Fraction::neg),
             representation,
+            parametric,
         }
     }
 }
@@ -66,7 +76,7 @@ pub fn lie_algebra(
     let scope = Scope::new(declaration);
     let budget = Budget::new(WORK);
     let matrices = (!algebra.matrices.is_empty()).then(|| {
-        let matrices = representation::declared_matrices(algebra, &scope, &budget);
+        let matrices = declared_matrices(algebra, &scope, &budget);
         matrices.map_err(|found| mistakes.extend(found)).ok()
     });
     let constants = match (&algebra.brackets, &matrices) {
@@ -86,15 +96,20 @@ pub fn lie_algebra(
         }
         (None, None) => StructureConstants::new(algebra.basis.len(), Vec::new()),
     };
-    let representation = match matrices {
-        Some(matrices) => {
-            let found = matrices?.representation(&constants, &scope, &budget, mistakes);
-            Some(found.map_err(|mistake| mistakes.push(mistake)).ok()?)
+    let (mut representation, mut parametric) = (None, None);
+    if let Some(matrices) = matrices {
+        let found = matrices?.represent(&constants, &scope, &budget, mistakes);
+        match found.map_err(|mistake| mistakes.push(mistake)).ok()? {
+            Represented::Numbers(found) => representation = Some(found),
+            Represented::Functions(mut found) => {
+                found.gives_brackets = algebra.brackets.is_none();
+                parametric = Some(found);
+            }
         }
-        None => None,
-    };
+    }
     Some(Algebra {
         constants,
         representation,
+        parametric,
     })
 }

@@ -210,6 +210,15 @@ pub fn mistake(model: &Model) -> Option<Diagnostic> {
 /// Why a system has no group element, or none that is written so.
 fn unsuitable(model: &Model) -> Option<Wrong> {
     let attitude = model.attitude.as_ref()?;
+    if let Some((message, help)) = model.parametric_matrices("an attitude, which is checked,") {
+        let configuration = model.configuration.as_ref();
+        let in_state = configuration.is_some_and(|c| c.group.is_some());
+        let help = match in_state {
+            true => format!("give the entries of the group element in `initial`, or {help}"),
+            false => help,
+        };
+        return Some(Wrong { message, help });
+    }
     let Some((size, matrices)) = model.group_matrices() else {
         return Some(Wrong {
             message: "there is no group element: the bracket is not that of an algebra alone"

@@ -5,7 +5,7 @@
 //! `rho(e_i) + s_i rho(Z)` represent the extension, if `rho(Z)` annihilates all of them.
 
 use super::poisson::Entry;
-use crate::algebra::{Representation, StructureConstants};
+use crate::algebra::{Parametric, Representation, StructureConstants, TripleEntry};
 use crate::model::{Algebra, Cocycle, Extension};
 use lie_symbolic::exact::matrix::reduce;
 use lie_symbolic::exact::{Budget, Fraction, Rational};
@@ -30,15 +30,29 @@ pub fn extension(
     let exact = StructureConstants::new(plain.exact.dimension(), constants.collect());
     let budget = Budget::new(WORK);
     let cocycle = class(&plain.exact, &cocycle, own, &budget).unwrap_or(Cocycle::Undecided);
-    let representation = match (&plain.representation, &cocycle) {
-        (Some(plain), Cocycle::Coboundary(shift)) => represented(plain, shift, unit, &budget),
+    let triple = |plain: &Option<Vec<TripleEntry>>| match &cocycle {
+        Cocycle::Coboundary(shift) => extended(plain.clone()?, shift, unit, &budget),
         _ => None,
     };
+    // the matrices may have parameters, and stay those of the declared algebra
+    let representation = plain.representation.as_ref().and_then(|plain| {
+        Some(Representation {
+            triple: Some(triple(&plain.triple)?),
+            dual: None,
+            columns: None,
+            ..plain.clone()
+        })
+    });
+    let parametric = plain.parametric.as_deref().map(|plain| Parametric {
+        triple: triple(&plain.triple),
+        ..plain.clone()
+    });
     Some(Algebra {
         basis: plain.basis.clone(),
         constants: exact.map(|value| graph.rational_function(value)),
         exact,
         representation,
+        parametric: parametric.map(Box::new),
         extension: Some(Box::new(Extension {
             cocycle,
             unit,
@@ -96,15 +110,14 @@ fn class(
     Some(Cocycle::Coboundary(shift))
 }
 
-/// The representation of the extension, by its triple product: its matrices may have parameters, and stay those of the declared algebra.
-fn represented(
-    plain: &Representation,
+/// The triple product of the extension, from that of the declared algebra.
+fn extended(
+    mut triple: Vec<TripleEntry>,
     shift: &[Fraction],
     unit: usize,
     budget: &Budget,
-) -> Option<Representation> {
+) -> Option<Vec<TripleEntry>> {
     // the product of three is T_abc^d (rho_d + s_d rho(Z)) - T_abc^d s_d rho(Z), since rho(Z) annihilates all
-    let mut triple = plain.triple.clone()?;
     let of_three = triple.chunk_by(|x, y| (x.0, x.1, x.2) == (y.0, y.1, y.2));
     let mut added = Vec::new();
     for entries in of_three {
@@ -121,10 +134,5 @@ fn represented(
     }
     triple.extend(added);
     triple.sort_by_key(|(a, b, c, d, _)| (*a, *b, *c, *d));
-    Some(Representation {
-        triple: Some(triple),
-        dual: None,
-        columns: None,
-        ..plain.clone()
-    })
+    Some(triple)
 }

@@ -59,6 +59,8 @@ pub struct Domain {
     attitude_varies: bool,
     /// What must hold of a retraction that depends on parameters.
     retraction: Option<retraction::Identities>,
+    /// The default parameters.
+    defaults: Vec<f64>,
 }
 
 impl Domain {
@@ -78,6 +80,7 @@ impl Domain {
         };
         let varies = retraction.flat_map(Retraction::entries).any(varies);
         Self {
+            defaults: model.defaults(),
             retraction: varies.then(|| retraction::Identities::of(model)).flatten(),
             attitude_varies: entries.any(|entry| !graph.symbols(*entry).is_empty()),
             parts: graph.dependencies(&roots),
@@ -92,6 +95,14 @@ impl Domain {
             let message = format!("`{}` is not finite", model.coordinates[i].text);
             return Some(Fault {
                 coordinate: Some(i),
+                message,
+            });
+        }
+        if parameters != self.defaults
+            && let Some(message) = undetermined(model, parameters)
+        {
+            return Some(Fault {
+                coordinate: None,
                 message,
             });
         }
@@ -160,6 +171,16 @@ impl Domain {
     }
 }
 
+/// That brackets are computed from matrices which are dependent at values of the parameters; at the defaults they are not.
+fn undetermined(model: &Model, parameters: &[f64]) -> Option<String> {
+    let parametric = model.bracket.parametric();
+    let parametric = parametric.filter(|parametric| parametric.gives_brackets)?;
+    let value = |p: usize| Rational::from_f64(parameters[p]).unwrap_or(Rational::ZERO);
+    // what is not finite is said of the brackets
+    parametric.relation(&value).ok().flatten()?;
+    Some("the algebra, whose matrices are linearly dependent for these values of the parameters, is not determined".into())
+}
+
 fn no_velocity() -> Fault {
     Fault {
         coordinate: None,
@@ -222,14 +243,19 @@ fn outside_the_group(model: &Model, mu: &[f64]) -> Option<Fault> {
     let configuration = model.configuration.as_ref()?;
     let (name, size) = configuration.group.as_ref()?;
     let (first, size) = (configuration.momenta, *size);
-    let matrices = &model.bracket.representation()?.matrices;
     let skew = |matrix: &Vec<Vec<Rational>>| {
         let pairs = (0..size).flat_map(|i| (0..=i).map(move |j| (i, j)));
         let mut sums = pairs.map(|(i, j)| &matrix[i][j] + &matrix[j][i]);
         sums.all(|sum| sum.is_zero())
     };
     // those of the momenta begin with the block of the algebra
-    if !matrices.iter().take(configuration.own_momenta()).all(skew) {
+    let own = configuration.own_momenta();
+    let orthogonal = match (model.bracket.representation(), model.bracket.parametric()) {
+        (Some(known), _) => known.matrices.iter().take(own).all(skew),
+        (None, Some(known)) => known.is_antisymmetric(own, size),
+        (None, None) => false,
+    };
+    if !orthogonal {
         return None;
     }
     let entry = |i: usize, j: usize| mu[first + size * i + j];

@@ -2,12 +2,12 @@
 
 use super::legendre::{self, Lagrangian, Transform};
 use super::{derivatives, discrete, entries};
-use crate::algebra::Representation;
+use crate::algebra::{Parametric, Representation};
 use crate::model::configuration::Configuration;
 use crate::model::{self, Discrete, Parameter};
 use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 use lie_syntax::ast::{Declaration, Energy, Name};
-use lie_syntax::diagnostic::{Diagnostic, Origin};
+use lie_syntax::diagnostic::{Diagnostic, Kind, Origin};
 
 /// What the equations of motion come from.
 pub struct Motion<'a> {
@@ -19,6 +19,8 @@ pub struct Motion<'a> {
     pub configuration: Option<&'a Configuration>,
     /// The matrices of the algebra of the system.
     pub representation: Option<&'a Representation>,
+    /// The same, where they have parameters.
+    pub parametric: Option<&'a Parametric>,
     /// Whether the bracket is that of an algebra.
     pub is_lie: bool,
     /// Whether it is, and the function one on it alone.
@@ -68,6 +70,11 @@ impl Motion<'_> {
         }
     }
 
+    /// Whether entries of the group element may stand in a discrete Lagrangian.
+    fn in_entries(&self) -> bool {
+        self.declaration.energy.has_step() && self.declaration.group.is_some()
+    }
+
     fn lagrangian(
         &self,
         graph: &mut Graph,
@@ -79,6 +86,11 @@ impl Motion<'_> {
         let has_step = self.declaration.energy.has_step();
         if has_step && !self.on_algebra {
             return Err(discrete::elsewhere(origin));
+        }
+        if let Some(parametric) = self.parametric.filter(|_| self.in_entries()) {
+            let what = "a discrete Lagrangian in entries of the group element";
+            let (message, help) = parametric.refusal(what, self.parameters);
+            return Err(Diagnostic::new(Kind::Representation, origin, message).help(help));
         }
         let in_entries = entries::in_entries(self.declaration, self.representation, function);
         let in_entries = in_entries.filter(|_| has_step);

@@ -45,7 +45,7 @@ pub fn parameter_defaults(
         if parameter.exact && rational.is_none() {
             let message = format!("the default of the exact parameter `{name}` is not rational");
             let help =
-                "brackets are checked over the rationals; write a rational default, such as 1/3";
+                "brackets and matrices are checked over the rationals; write a rational default, such as 1/3";
             return refuse(message, help);
         }
         Some(Parameter {

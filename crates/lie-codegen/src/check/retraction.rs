@@ -88,6 +88,10 @@ pub fn mistake(model: &Model) -> Option<Diagnostic> {
     let wrong = |(message, help): Wrong| {
         Diagnostic::new(Kind::Representation, retraction.origin, message).help(help)
     };
+    if let Some((message, help)) = model.parametric_matrices("a retraction of one's own") {
+        let wrong = Diagnostic::new(Kind::Representation, retraction.origin, message);
+        return Some(wrong.help(help));
+    }
     let Some(identities) = Identities::of(model) else {
         let message = "there is no retraction: the algebra has no independent matrices, or the bracket is not that of an algebra alone";
         return Some(wrong((message.into(), "remove `retraction`")));

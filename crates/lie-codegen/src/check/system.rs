@@ -62,6 +62,7 @@ pub fn system(
     let representation = algebra.as_ref().and_then(|a| a.representation.as_ref());
     let motion = Motion {
         representation,
+        parametric: algebra.as_ref().and_then(|a| a.parametric.as_deref()),
         declaration,
         parameters: &lowered.parameters,
         configuration,

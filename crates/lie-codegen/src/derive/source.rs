@@ -11,6 +11,7 @@ use crate::structure::group::Group;
 use crate::structure::inertia::Body;
 use crate::structure::integrable::Motion;
 use crate::structure::separable::Piece;
+use crate::structure::spectrum::is_imaginary_identically;
 use crate::structure::spins::Spin;
 use crate::structure::unitary::Unitary;
 use crate::structure::vectors::Vectors;
@@ -118,7 +119,15 @@ impl Source {
     /// The triple product `(a, b, c, d, T_abc^d)`, all nonzero entries, where the declared
     /// representation is closed under it.
     pub fn triple(&self) -> Option<&[TripleEntry]> {
-        self.representation()?.triple.as_deref()
+        self.lie()?.bracket.triple()
+    }
+
+    /// Whether matrices with parameters have no real eigenvalues but 0.
+    pub fn is_imaginary(&self) -> bool {
+        let algebra = self.lie().and_then(|model| model.bracket.algebra());
+        let alone = algebra.filter(|algebra| algebra.extension.is_none());
+        let parametric = alone.and_then(|algebra| algebra.parametric.as_deref());
+        parametric.is_some_and(is_imaginary_identically)
     }
 
     /// The representation, where it carries collective methods.

@@ -331,20 +331,28 @@ fn cotangent(model: &Model) -> Option<(String, String)> {
 
 /// Why a system has no Cayley map.
 fn cayley(model: &Model) -> Option<&'static str> {
-    let algebra = model.bracket.algebra();
-    match model.bracket.representation() {
-        None if algebra.is_some_and(|a| a.group_representation().is_some()) => Some(
+    let bracket = &model.bracket;
+    if bracket.triple().is_some() {
+        return None;
+    }
+    let represented = bracket.representation().is_some();
+    let parametric = bracket.parametric().is_some();
+    let extended = bracket.algebra().is_some_and(|algebra| {
+        let declared = parametric || algebra.group_representation().is_some();
+        algebra.extension.is_some() && declared && !represented
+    });
+    match () {
+        () if extended => Some(
             "the Cayley map needs a matrix representation, and the declared `matrices` are not those of the central \
              extension that the cocycle makes",
         ),
-        None => Some(
-            "the Cayley map needs a matrix representation, and the algebra declares no `matrices`",
-        ),
-        Some(representation) if representation.triple.is_none() => Some(
+        () if represented || parametric => Some(
             "the Cayley map needs a representation whose span is closed under (abc + cba)/2, \
              and the declared `matrices` are not",
         ),
-        Some(_) => None,
+        () => Some(
+            "the Cayley map needs a matrix representation, and the algebra declares no `matrices`",
+        ),
     }
 }
 

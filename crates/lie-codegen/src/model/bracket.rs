@@ -1,7 +1,7 @@
 //! Brackets: Lie algebras and Poisson matrices.
 
 use super::Model;
-use crate::algebra::{Representation, StructureConstants};
+use crate::algebra::{Parametric, Representation, StructureConstants, TripleEntry};
 use lie_symbolic::exact::Fraction;
 use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 use lie_syntax::ast::Name;
@@ -24,9 +24,23 @@ impl Bracket {
         }
     }
 
-    /// The matrices of the algebra.
+    /// The matrices of the algebra, where they are numbers.
     pub fn representation(&self) -> Option<&Representation> {
         self.algebra()?.representation.as_ref()
+    }
+
+    /// The matrices of the algebra, where they have parameters.
+    pub fn parametric(&self) -> Option<&Parametric> {
+        self.algebra()?.parametric.as_deref()
+    }
+
+    /// The triple product of the matrices, whose entries may have parameters.
+    pub fn triple(&self) -> Option<&[TripleEntry]> {
+        let of_functions = || self.parametric()?.triple.as_deref();
+        match self.representation() {
+            Some(representation) => representation.triple.as_deref(),
+            None => of_functions(),
+        }
     }
 
     /// The Poisson matrix, where structure constants do not say it all.
@@ -72,8 +86,10 @@ pub struct Algebra {
     pub exact: StructureConstants<Fraction>,
     /// The same in the arena.
     pub constants: StructureConstants<ExprId>,
-    /// The matrix representation.
+    /// The matrix representation, where its entries are numbers.
     pub representation: Option<Representation>,
+    /// The matrix representation, where its entries have parameters: those of the declared algebra, and their triple product in this one.
+    pub parametric: Option<Box<Parametric>>,
     /// The cocycle by which this is a central extension of the declared algebra.
     pub extension: Option<Box<Extension>>,
 }
@@ -158,6 +174,12 @@ pub fn bracket_of(
 }
 
 impl Model {
+    /// Why something that needs matrices of numbers is not to be had, with the remedy; none where the declared ones have no parameters.
+    pub fn parametric_matrices(&self, what: &str) -> Option<(String, String)> {
+        let parametric = self.bracket.parametric()?;
+        Some(parametric.refusal(what, &self.parameters))
+    }
+
     /// What the cocycle that is added to the bracket is.
     pub fn cocycle_in_words(&self) -> Option<String> {
         let extension = self.bracket.algebra()?.extension.as_ref()?;

@@ -309,8 +309,10 @@ impl Planner<'_> {
     /// Whether the Cayley map of the representation has poles along real elements.
     pub(super) fn has_poles(&self) -> bool {
         use crate::structure::spectrum::{Spectrum, spectrum};
-        let representation = self.source.matrices();
-        representation.is_none_or(|r| spectrum(&r.matrices) != Spectrum::Imaginary)
+        match self.source.matrices() {
+            Some(numbers) => spectrum(&numbers.matrices) != Spectrum::Imaginary,
+            None => !self.source.is_imaginary(),
+        }
     }
 
     /// A generic equation under an elimination of its pattern, one block for each pair of stages. Equal patterns share

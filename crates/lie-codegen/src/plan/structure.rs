@@ -25,6 +25,8 @@ pub struct Structure {
     pub group: Option<Group>,
     /// The representation, where it carries collective methods.
     pub representation: Option<Representation>,
+    /// Whether no real eigenvalue but 0 has an element of matrices with parameters, of which there is no representation here.
+    pub imaginary: bool,
     /// The summands of a direct sum of algebras so(3).
     pub spins: Option<Spins>,
     /// The form of the flow, where it is known.
@@ -155,6 +157,15 @@ pub struct Realization {
     pub descends: bool,
 }
 
+impl Structure {
+    /// What is known of the eigenvalues of the matrices.
+    pub fn spectrum(&self) -> Option<&Spectrum> {
+        let of_numbers = self.representation.as_ref();
+        let of_numbers = of_numbers.map(|representation| &representation.spectrum);
+        of_numbers.or(self.imaginary.then_some(&Spectrum::Imaginary))
+    }
+}
+
 impl Planner<'_> {
     /// The structure of the system.
     pub(super) fn structure(&mut self) -> Structure {
@@ -164,6 +175,7 @@ impl Planner<'_> {
         Structure {
             group: self.group(),
             representation: self.representation(),
+            imaginary: self.source.is_imaginary(),
             spins,
             motion: self.source.motion(),
             vectors,

@@ -60,8 +60,7 @@ impl Printer<'_> {
 
     /// The method of the traits that says what is known of the eigenvalues of the representation.
     pub(super) fn spectrum(&self) -> Option<TokenStream> {
-        let representation = self.plan.structure.representation.as_ref()?;
-        let value = match &representation.spectrum {
+        let value = match self.plan.structure.spectrum()? {
             Spectrum::Imaginary => quote! { ::lie_runtime::__private::Spectrum::Imaginary },
             Spectrum::Bounded(weights) => {
                 let weights = weights.iter().map(Rational::to_f64);

@@ -51,9 +51,21 @@ pub fn group(model: &Model) -> Option<Group> {
     })
 }
 
+/// Why matrices with parameters have no group element beside the motion; none where it is part of the state.
+fn followed(structure: &Structure) -> Option<(String, String)> {
+    let configuration = structure.configuration.as_ref();
+    let in_state = configuration.is_some_and(|c| c.group.is_some());
+    let alone = structure.family.is_none() && !in_state;
+    let refused = || structure.parametric_matrices("a group element beside the motion");
+    alone.then(refused).flatten()
+}
+
 /// Why a chart of the group cannot be had, with a remedy.
 pub fn refusal(structure: &Structure, chart: Chart) -> Option<(String, String)> {
     let Some(group) = &structure.group else {
+        if let Some(refused) = followed(structure) {
+            return Some(refused);
+        }
         return Some(match &structure.bracket {
             _ if structure.family.is_some() => (
                 "the group elements of the sites of a family are not followed".into(),

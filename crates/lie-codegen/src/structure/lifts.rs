@@ -66,6 +66,7 @@ pub fn refusal(structure: &Structure, order: u32) -> Option<(String, String)> {
     }
     let reason = match (structure.why_not_declared_algebra(), structure.bracket.representation()) {
         (Some(reason), _) => reason,
+        (None, None) if structure.bracket.parametric().is_some() => return matrices::refusal(structure, order),
         (None, None) => "it needs a direct sum of algebras so(3), or so(3) with vectors that commute, in a basis with \
              [e1, e2] = c e3 and its cyclic permutations, or a matrix representation, and the algebra declares no `matrices`"
             .into(),

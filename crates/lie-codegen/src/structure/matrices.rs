@@ -15,22 +15,24 @@ pub fn refusal(structure: &Structure, order: u32) -> Option<(String, String)> {
         };
         format!("{remedy}{also}")
     };
+    let hopf = match structure.spins.is_some() && order < 8 {
+        true => format!(", or `collective{order} --lift hopf`"),
+        false => String::new(),
+    };
     let algebra = structure.bracket.algebra();
     if algebra.is_some_and(|algebra| algebra.extension.is_some()) {
         let reason = structure.why_not_declared_algebra();
         return reason.map(|reason| (reason, nearest("")));
     }
+    if let Some((reason, remedy)) = refusal_of_functions(structure) {
+        return Some((reason, nearest(&format!("{hopf}, or {remedy}"))));
+    }
     match structure.bracket.representation() {
         None => {
-            let spins = structure.spins.is_some();
-            let hopf = format!(", or `collective{order} --lift hopf`");
             let reason = structure.why_not_declared_algebra().unwrap_or_else(|| {
                 "it needs a matrix representation, and the algebra declares no `matrices`".into()
             });
-            Some((
-                reason,
-                nearest(if spins && order < 8 { &hopf } else { "" }),
-            ))
+            Some((reason, nearest(&hopf)))
         }
         Some(representation) if representation.dual.is_none() => Some((
             "it needs a representation whose closure under (abc + cba)/2 adds only matrices that \
@@ -41,4 +43,9 @@ pub fn refusal(structure: &Structure, order: u32) -> Option<(String, String)> {
         )),
         Some(_) => None,
     }
+}
+
+/// Why matrices with parameters carry no such method, and what to do with them.
+pub(super) fn refusal_of_functions(structure: &Structure) -> Option<(String, String)> {
+    structure.parametric_matrices("the space over which it goes")
 }

@@ -1,6 +1,9 @@
 //! Real eigenvalues of representations, at which the Cayley map and Gauss methods have poles.
 
-use lie_symbolic::exact::Rational;
+use crate::algebra::Parametric;
+use crate::algebra::ring::Ring;
+use lie_symbolic::exact::{Budget, Fraction, Rational};
+use lie_syntax::linear::WORK;
 
 /// What is known of the eigenvalues of all elements of a representation.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,24 +19,37 @@ pub enum Spectrum {
 /// Arrange the axes so that all matrices are block triangular, each block strongly connected by their nonzero
 /// entries. Where all diagonal blocks are antisymmetric, the eigenvalues of every combination are imaginary.
 pub fn spectrum(matrices: &[Vec<Vec<Rational>>]) -> Spectrum {
-    let size = matrices.first().map_or(0, Vec::len);
-    let reaches = reachable(matrices, size);
-    let skew = |matrix: &Vec<Vec<Rational>>| {
-        (0..size).all(|i| {
-            (0..=i).all(|j| {
-                let joined = i == j || (reaches[i][j] && reaches[j][i]);
-                !joined || (&matrix[i][j] + &matrix[j][i]).is_zero()
-            })
-        })
-    };
-    if matrices.iter().all(skew) {
+    if is_imaginary(matrices, |a, b| (a + b).is_zero()) {
         return Spectrum::Imaginary;
     }
     Spectrum::Bounded(matrices.iter().map(|matrix| norm(matrix)).collect())
 }
 
+/// Whether matrices with parameters have no real eigenvalues but 0, whatever the values of these.
+pub fn is_imaginary_identically(parametric: &Parametric) -> bool {
+    let budget = Budget::new(WORK);
+    is_imaginary(&parametric.matrices, |a: &Fraction, b| {
+        a.add(b, &budget).is_ok_and(|sum| sum.is_zero())
+    })
+}
+
+/// Whether all diagonal blocks are antisymmetric, in the arrangement that makes the matrices block triangular.
+fn is_imaginary<T: Ring>(matrices: &[Vec<Vec<T>>], are_opposite: impl Fn(&T, &T) -> bool) -> bool {
+    let size = matrices.first().map_or(0, Vec::len);
+    let reaches = reachable(matrices, size);
+    let skew = |matrix: &Vec<Vec<T>>| {
+        (0..size).all(|i| {
+            (0..=i).all(|j| {
+                let joined = i == j || (reaches[i][j] && reaches[j][i]);
+                !joined || are_opposite(&matrix[i][j], &matrix[j][i])
+            })
+        })
+    };
+    matrices.iter().all(skew)
+}
+
 /// Whether there is a way along nonzero entries from one axis to another.
-fn reachable(matrices: &[Vec<Vec<Rational>>], size: usize) -> Vec<Vec<bool>> {
+fn reachable<T: Ring>(matrices: &[Vec<Vec<T>>], size: usize) -> Vec<Vec<bool>> {
     let mut reaches = vec![vec![false; size]; size];
     for matrix in matrices {
         for (i, row) in matrix.iter().enumerate() {

@@ -86,6 +86,10 @@ pub fn refusal(structure: &Structure, order: u32) -> Option<(String, String)> {
     if let Some(reason) = structure.why_not_declared_algebra() {
         return Some((reason, super::lifts::nearest(structure, order)));
     }
+    if let Some((reason, remedy)) = super::matrices::refusal_of_functions(structure) {
+        let nearest = super::lifts::nearest(structure, order);
+        return Some((reason, format!("{nearest}, or {remedy}")));
+    }
     let reason = "the lift `unitary` needs matrices that are anti-Hermitian, written as real ones [[Re, -Im], [Im, Re]], and \
                   closed under (abc + cba)/2 up to matrices that commute with them, such as those of su(n) and u(n)";
     Some((reason.into(), super::lifts::nearest(structure, order)))

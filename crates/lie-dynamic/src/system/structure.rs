@@ -93,7 +93,7 @@ impl Codes {
             let all: Vec<Vec<Entry>> = matrices.iter().map(|matrix| entries(matrix)).collect();
             names::matrices(&all)
         };
-        let spectrum = representation.map(|representation| &representation.spectrum);
+        let spectrum = structure.spectrum();
         let columns = representation.and_then(|known| known.columns.as_ref());
         let vectors = structure.vectors.as_ref();
         let inertia = structure.inertia.as_ref();

@@ -236,8 +236,9 @@ objects! {
         /// Brackets `[a, b] = value`, the value linear in basis names. Of a named algebra: what is added to its brackets, a
         /// cocycle with values in the `central` elements.
         "brackets" brackets: Option<Vec<String>>,
-        /// The matrix of each basis element in a representation, as rows. Without `brackets` the
-        /// brackets are computed from it. Of a named algebra it replaces the one that belongs to the name.
+        /// The matrix of each basis element in a representation, as rows: numbers, or rational functions of exact parameters, such
+        /// as "-k/2". Without `brackets` the brackets are computed from it. Of a named algebra it replaces the one that belongs to
+        /// the name.
         "matrices" matrices: Option<BTreeMap<String, Vec<Vec<Constant>>>>,
     }
 
@@ -271,7 +272,7 @@ objects! {
         "value" value: Option<Constant>,
         /// Whether the parameter takes positive values only. Proofs use it, and a system with another value is refused.
         "positive" positive: Option<bool>,
-        /// Whether brackets may use the parameter, as an exact number.
+        /// Whether brackets and matrices may use the parameter, as an exact number.
         "exact" exact: Option<bool>,
         /// Its unit.
         "unit" unit: Option<String>,

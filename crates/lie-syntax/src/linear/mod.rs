@@ -1,6 +1,8 @@
 //! Expressions that are linear in basis names, with rational functions of exact parameters as
-//! coefficients: the right sides of brackets, and exact constants as the case without names.
+//! coefficients: the right sides of brackets, entries of matrices as the case without basis names, and exact
+//! constants as that without any.
 
+mod names;
 mod scope;
 pub mod walk;
 
@@ -8,7 +10,6 @@ use std::collections::BTreeMap;
 
 use crate::ast::{Expr, ExprKind, Name};
 use crate::diagnostic::{Diagnostic, Kind, Origin};
-use crate::suggest::listed;
 use lie_symbolic::exact::{Budget, Exhausted, Fraction, Rational};
 use lie_symbolic::symbolic::Function;
 use scope::Meaning;
@@ -43,19 +44,25 @@ impl From<Fraction> for Form {
 
 /// Lowers one expression, and finds every mistake in it.
 struct Lowering<'a, 'b> {
-    /// `None` for constants, which know no names.
-    scope: Option<&'b Scope<'a>>,
+    place: Place<'a, 'b>,
     mistakes: Vec<Diagnostic>,
     budget: &'b Budget,
 }
 
-fn lowered(
-    value: &Expr,
-    scope: Option<&Scope<'_>>,
-    budget: &Budget,
-) -> Result<Form, Vec<Diagnostic>> {
+/// Where an expression stands, which tells the names that it may use.
+#[derive(Clone, Copy)]
+enum Place<'a, 'b> {
+    /// On the right side of a bracket: basis names and exact parameters.
+    Bracket(&'b Scope<'a>),
+    /// In a matrix: exact parameters.
+    Matrix(&'b Scope<'a>),
+    /// Where a constant stands: no names.
+    Constant,
+}
+
+fn lowered(value: &Expr, place: Place<'_, '_>, budget: &Budget) -> Result<Form, Vec<Diagnostic>> {
     let mut lowering = Lowering {
-        scope,
+        place,
         mistakes: Vec::new(),
         budget,
     };
@@ -71,7 +78,7 @@ pub fn bracket_value(
     scope: &Scope<'_>,
     budget: &Budget,
 ) -> Result<Vec<(usize, Fraction)>, Vec<Diagnostic>> {
-    let form = lowered(value, Some(scope), budget)?;
+    let form = lowered(value, Place::Bracket(scope), budget)?;
     let wrong = if !form.constant.is_zero() {
         let constant = form.constant.display(&|p| scope.parameter(p));
         let place = constant_term(value, scope, budget).unwrap_or(value.origin);
@@ -107,6 +114,24 @@ pub fn rational_form(
         .ok_or_else(Vec::new)
 }
 
+/// An entry of a matrix, a rational function of exact parameters.
+///
+/// # Errors
+/// Every mistake in it.
+pub fn entry_value(
+    value: &Expr,
+    scope: &Scope<'_>,
+    budget: &Budget,
+) -> Result<Fraction, Vec<Diagnostic>> {
+    let entry = lowered(value, Place::Matrix(scope), budget)?.constant;
+    if degree(&entry) > MAX_EXPONENT {
+        let message = format!("an entry has a degree above {MAX_EXPONENT} in the parameters");
+        let wrong = Diagnostic::new(Kind::Limit, value.origin, message);
+        return Err(vec![wrong.help("simplify the entry")]);
+    }
+    Ok(entry)
+}
+
 /// The largest total degree in numerator and denominator.
 fn degree(value: &Fraction) -> i64 {
     let below = value
@@ -120,7 +145,7 @@ fn constant_term(value: &Expr, scope: &Scope<'_>, budget: &Budget) -> Option<Ori
     let ExprKind::Sum(terms) = &value.kind else {
         return None;
     };
-    let constant = |term| lowered(term, Some(scope), budget).map(|form| form.constant);
+    let constant = |term| lowered(term, Place::Bracket(scope), budget).map(|form| form.constant);
     let found = terms
         .iter()
         .find(|(_, term)| constant(term).is_ok_and(|c| !c.is_zero()));
@@ -132,7 +157,7 @@ fn constant_term(value: &Expr, scope: &Scope<'_>, budget: &Budget) -> Option<Ori
 /// # Errors
 /// Every mistake in it, and anything that is no such constant.
 pub fn rational(value: &Expr, budget: &Budget) -> Result<Rational, Vec<Diagnostic>> {
-    let form = lowered(value, None, budget)?;
+    let form = lowered(value, Place::Constant, budget)?;
     form.constant.as_constant().ok_or_else(Vec::new)
 }
 
@@ -153,16 +178,22 @@ impl Lowering<'_, '_> {
 
     /// What is said of anything that is not rational.
     fn irrational<T>(&mut self, origin: Origin, what: &str) -> Option<T> {
-        let (kind, rule) = match self.scope {
-            Some(_) => (
+        let (kind, rule, help) = match self.place {
+            Place::Bracket(_) => (
                 Kind::Syntax,
                 "the right side of a bracket is linear in the basis, with rational functions of exact parameters as coefficients",
+                "write a linear combination of basis names, such as 2*e1 - k^2*e2",
             ),
-            None => (Kind::Number, "an exact rational constant is expected here"),
-        };
-        let help = match self.scope {
-            Some(_) => "write a linear combination of basis names, such as 2*e1 - k^2*e2",
-            None => "write an integer, a fraction such as 1/2, or a decimal number",
+            Place::Matrix(_) => (
+                Kind::Number,
+                "the entries of matrices are rational numbers, or rational functions of exact parameters",
+                "write an integer, a fraction such as 1/2, a decimal number, or an expression such as -k/2",
+            ),
+            Place::Constant => (
+                Kind::Number,
+                "an exact rational constant is expected here",
+                "write an integer, a fraction such as 1/2, or a decimal number",
+            ),
         };
         self.fail(kind, origin, format!("{what}: {rule}"), help)
     }
@@ -279,69 +310,27 @@ impl Lower for Lowering<'_, '_> {
         if name == "pi" || name == "t" {
             return self.irrational(origin, &format!("`{name}` is not rational"));
         }
-        let Some(scope) = self.scope else {
-            let message = format!("`{name}` is not a number");
-            let help = "write an exact rational constant, such as 1/2";
-            return self.fail(Kind::Number, origin, message, help);
+        let (scope, wrong): (_, fn(_, _, _, &Scope<'_>) -> _) = match self.place {
+            Place::Bracket(scope) => (scope, names::not_in_brackets),
+            Place::Matrix(scope) => (scope, names::not_in_matrices),
+            Place::Constant => {
+                let message = format!("`{name}` is not a number");
+                let help = "write an exact rational constant, such as 1/2";
+                return self.fail(Kind::Number, origin, message, help);
+            }
         };
-        let wrong = match scope.meaning(name) {
-            Some(Meaning::Basis(k)) => {
+        match (scope.meaning(name), self.place) {
+            (Some(Meaning::Basis(k)), Place::Bracket(_)) => {
                 let linear = BTreeMap::from([(k, Fraction::from(Rational::ONE))]);
-                return Some(Form {
+                Some(Form {
                     constant: Fraction::default(),
                     linear,
-                });
+                })
             }
-            Some(Meaning::Exact(parameter)) => return Some(Fraction::variable(parameter).into()),
-            other => not_in_brackets(name, origin, other, scope),
-        };
-        self.mistakes.push(wrong);
-        None
-    }
-}
-
-/// A name that is declared for something else, or not at all.
-fn not_in_brackets(
-    name: &str,
-    origin: Origin,
-    meaning: Option<Meaning>,
-    scope: &Scope<'_>,
-) -> Diagnostic {
-    match meaning {
-        Some(Meaning::Inexact) => Diagnostic::new(
-            Kind::UnknownSymbol,
-            origin,
-            format!("the parameter `{name}` is not exact, so a bracket cannot use it"),
-        )
-        .help(format!(
-            "declare it exact: `exact {name} = …;` in the macro, `\"exact\": true` in a spec"
-        )),
-        Some(Meaning::Let) => Diagnostic::new(
-            Kind::UnknownSymbol,
-            origin,
-            format!(
-                "`{name}` is an abbreviation; a bracket knows basis names and exact parameters only"
-            ),
-        )
-        .help("write it out"),
-        Some(Meaning::Coordinate) => Diagnostic::new(
-            Kind::UnknownSymbol,
-            origin,
-            format!("`{name}` is a coordinate; a bracket is written in basis names"),
-        )
-        .help(format!("the basis is {}", scope.basis().join(", "))),
-        _ => {
-            let diagnostic = Diagnostic::new(
-                Kind::UnknownSymbol,
-                origin,
-                format!("`{name}` is neither a basis name nor an exact parameter"),
-            );
-            match scope.nearest_basis(name) {
-                Some(near) => diagnostic.help(format!("did you mean `{near}`?")),
-                None => diagnostic.help(format!(
-                    "the basis is {}: add it, or declare it as an exact parameter",
-                    listed(scope.basis())
-                )),
+            (Some(Meaning::Exact(parameter)), _) => Some(Fraction::variable(parameter).into()),
+            (other, _) => {
+                self.mistakes.push(wrong(name, origin, other, scope));
+                None
             }
         }
     }

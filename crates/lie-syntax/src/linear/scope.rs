@@ -1,4 +1,4 @@
-//! The names that a bracket may use.
+//! The names that a bracket or a matrix may use.
 
 use std::collections::HashMap;
 
@@ -100,6 +100,12 @@ impl<'a> Scope<'a> {
     /// The names of the basis.
     pub fn basis(&self) -> &[&'a str] {
         &self.basis
+    }
+
+    /// The names of the exact parameters.
+    pub fn exact(&self) -> impl Iterator<Item = &'a str> {
+        let names = self.parameters.iter().copied();
+        names.filter(|name| matches!(self.meaning(name), Some(Meaning::Exact(_))))
     }
 
     /// The name of a parameter.

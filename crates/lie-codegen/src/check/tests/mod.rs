@@ -21,6 +21,7 @@ mod legendre;
 mod limits;
 mod names;
 mod own_functions;
+mod parametric;
 mod poisson;
 mod random;
 mod realization;
