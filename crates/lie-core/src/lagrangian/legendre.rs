@@ -67,26 +67,12 @@ pub fn velocity<S: Scalar, P: LagrangianPoisson<S>>(system: &P, mu: &P::State, o
             system.momentum(xi, momentum);
             momentum.as_mut_slice()[count..].copy_from_slice(&xi.as_slice()[count..]);
         },
-        |xi, inertia| {
-            system.inertia(xi, inertia);
-            given(inertia, count);
-        },
+        |xi, inertia| system.inertia(xi, inertia),
         mu,
         from,
         out,
         &mut system.zero_jacobian(),
     );
-}
-
-/// Leaves the rows from `first` on as those of the identity: of what is given.
-fn given<S: Scalar, M: SquareMatrix<S>>(matrix: &mut M, first: usize) {
-    let size = matrix.dimension();
-    for row in first..size {
-        for column in 0..size {
-            let diagonal = row == column;
-            matrix.set(row, column, if diagonal { S::one() } else { S::zero() });
-        }
-    }
 }
 
 /// The velocity of a momentum, where a branch should go on from it: where it has moved away from that of the branch.
@@ -156,16 +142,20 @@ pub fn hessian<S: Scalar, P: LagrangianPoisson<S>>(
     velocity(system, mu, &mut xi);
     let mut inertia = system.zero_jacobian();
     system.inertia(&xi, &mut inertia);
-    let count = system.velocities();
-    let whole = (count < inertia.dimension()).then(|| inertia.clone());
-    given(&mut inertia, count);
-    exchanging::invert(&mut inertia, out);
+    let (count, size) = (system.velocities(), inertia.dimension());
+    let whole = (count < size).then(|| inertia.clone());
+    exchanging::invert_leading(count, &mut inertia, out);
     let Some(whole) = whole else { return };
-    for row in count..whole.dimension() {
-        for column in 0..count {
-            out.set(row, column, out.get(column, row));
+    for column in count..size {
+        for row in 0..count {
+            let products = (0..count).map(|k| out.get(row, k) * whole.get(k, column));
+            let sum = products.fold(S::zero(), |sum, product| sum + product);
+            out.set(row, column, -sum);
+            out.set(column, row, -sum);
         }
-        for column in count..whole.dimension() {
+    }
+    for row in count..size {
+        for column in count..size {
             let products = (0..count).map(|k| whole.get(k, row) * out.get(k, column));
             let sum = products.fold(whole.get(row, column), |sum, product| sum + product);
             out.set(row, column, -sum);
@@ -189,8 +179,8 @@ pub enum From {
 }
 
 /// Solves `map(xi) = mu` for a map with the derivative `slope`, along a path that begins at `xi`; `matrix` is space for
-/// the latter. The first `count` components are looked for; the others are given in `mu` and `xi`, whose sizes then say nothing of how near
-/// a velocity is. The lanes without a solution are not a number.
+/// the latter. The first `count` components are looked for, and of the derivative no others are used. The others are given: alike in `mu`, `xi`
+/// and the value of the map. Their sizes say nothing of how near a velocity is. The lanes without a solution are not a number.
 pub fn solve<S, V, M>(
     count: usize,
     map: impl Fn(&V, &mut V),
@@ -207,7 +197,7 @@ pub fn solve<S, V, M>(
     let start = xi.clone();
     let mut step = mu.clone();
     slope(&start, matrix);
-    let sign_at_start = exchanging::solve(matrix, &mut step);
+    let sign_at_start = exchanging::solve_block(0..count, matrix, &mut step);
     let reached = newton(count, &map, &slope, mu, xi, matrix);
     let mut failed = !reached;
     for lane in 0..S::LANES {
@@ -226,7 +216,7 @@ pub fn solve<S, V, M>(
         map(xi, &mut step);
         step.axpy(-S::one(), mu);
         slope(xi, matrix);
-        let sign = exchanging::solve(matrix, &mut step);
+        let sign = exchanging::solve_block(0..count, matrix, &mut step);
         failed = failed | (sign * sign_at_start).less(S::zero());
         xi.axpy(-S::one(), &step);
     }
@@ -264,7 +254,7 @@ where
         let speed = size(xi, count);
         let terms = size(mu, count) + largest(matrix, count) * speed;
         let round_off = S::from_f64(16.0) * S::epsilon() * terms;
-        exchanging::solve(matrix, &mut step);
+        exchanging::solve_block(0..count, matrix, &mut step);
         let length = size(&step, count);
         let close = length.less_equal(S::from_f64(NEAR) * S::epsilon() * speed)
             | (defect.less_equal(round_off) & length.finite());

@@ -134,7 +134,7 @@ where
     {
         let mut along = self.change.clone();
         (self.slope)(xi, self.matrix);
-        exchanging::solve(self.matrix, &mut along);
+        exchanging::solve_block(0..self.count, self.matrix, &mut along);
         let length = libm::sqrt(self.dot(&along, &along) + unit * unit);
         for entry in along.as_mut_slice() {
             *entry *= S::from_f64(1.0 / length);
@@ -202,9 +202,9 @@ where
             back.axpy(S::from_f64(-*s), &self.change);
             (self.slope)(xi, self.matrix);
             let mut factors = self.matrix.clone();
-            exchanging::solve(&mut factors, &mut back);
+            exchanging::solve_block(0..self.count, &mut factors, &mut back);
             let mut along = self.change.clone();
-            exchanging::solve(self.matrix, &mut along);
+            exchanging::solve_block(0..self.count, self.matrix, &mut along);
             // (-back + ds along, ds) is perpendicular to the tangent
             let across = self.dot(&tangent.0, &along) + unit * unit * tangent.1;
             let ds = self.dot(&tangent.0, &back) / across;

@@ -2,24 +2,26 @@
 //!
 //! Nothing is allocated and nothing fails: where a matrix is singular or not finite, the solution is not finite.
 
+use core::ops::Range;
+
 use crate::matrix::SquareMatrix;
 use crate::scalar::{Mask, Scalar};
 use crate::state::Unknown;
 
-/// Brings the largest entry of column k, at or below row k, to the diagonal: of the matrix from column k on,
-/// and of what `exchange` exchanges besides.
+/// Brings the largest entry of column k, at or below row k, to the diagonal: of the rows and columns before `end` of the matrix,
+/// from column k on, and of what `exchange` exchanges besides.
 fn pivot<S: Scalar, M: SquareMatrix<S>>(
     matrix: &mut M,
+    end: usize,
     k: usize,
     mut exchange: impl FnMut(S::Mask, usize, usize),
 ) {
-    let size = matrix.dimension();
-    for row in k + 1..size {
+    for row in k + 1..end {
         let larger = matrix.get(k, k).abs().less(matrix.get(row, k).abs());
         if !larger.any() {
             continue;
         }
-        for column in k..size {
+        for column in k..end {
             let (a, b) = (matrix.get(k, column), matrix.get(row, column));
             matrix.set(k, column, S::select(larger, b, a));
             matrix.set(row, column, S::select(larger, a, b));
@@ -30,10 +32,20 @@ fn pivot<S: Scalar, M: SquareMatrix<S>>(
 
 /// Solves `A x = b` in place of b; the matrix is used up. Returns the sign of the determinant, 1 or -1.
 pub fn solve<S: Scalar, M: SquareMatrix<S>, U: Unknown<S>>(matrix: &mut M, vector: &mut U) -> S {
-    let size = matrix.dimension();
+    solve_block(0..matrix.dimension(), matrix, vector)
+}
+
+/// The same with the rows and columns of a block on the diagonal of A, and its entries of b, alone; the others are not looked at and stay.
+#[inline]
+pub fn solve_block<S: Scalar, M: SquareMatrix<S>, U: Unknown<S>>(
+    block: Range<usize>,
+    matrix: &mut M,
+    vector: &mut U,
+) -> S {
+    let end = block.end;
     let mut sign = S::one();
-    for k in 0..size {
-        pivot(matrix, k, |lanes, first, second| {
+    for k in block.clone() {
+        pivot(matrix, end, k, |lanes, first, second| {
             sign = S::select(lanes, -sign, sign);
             let (a, b) = (vector.entry(first), vector.entry(second));
             vector.set_entry(first, S::select(lanes, b, a));
@@ -42,18 +54,18 @@ pub fn solve<S: Scalar, M: SquareMatrix<S>, U: Unknown<S>>(matrix: &mut M, vecto
         let negative = matrix.get(k, k).less(S::zero());
         sign = S::select(negative, -sign, sign);
         let inverse = S::one() / matrix.get(k, k);
-        for row in k + 1..size {
+        for row in k + 1..end {
             let multiplier = matrix.get(row, k) * inverse;
-            for column in k + 1..size {
+            for column in k + 1..end {
                 let reduced = matrix.get(row, column) - multiplier * matrix.get(k, column);
                 matrix.set(row, column, reduced);
             }
             vector.set_entry(row, vector.entry(row) - multiplier * vector.entry(k));
         }
     }
-    for row in (0..size).rev() {
+    for row in block.rev() {
         let mut sum = vector.entry(row);
-        for column in row + 1..size {
+        for column in row + 1..end {
             sum -= matrix.get(row, column) * vector.entry(column);
         }
         vector.set_entry(row, sum / matrix.get(row, row));
@@ -63,7 +75,12 @@ pub fn solve<S: Scalar, M: SquareMatrix<S>, U: Unknown<S>>(matrix: &mut M, vecto
 
 /// Writes the inverse of a matrix to `out`; the matrix is used up.
 pub fn invert<S: Scalar, M: SquareMatrix<S>>(matrix: &mut M, out: &mut M) {
-    let size = matrix.dimension();
+    invert_leading(matrix.dimension(), matrix, out);
+}
+
+/// The same of the block of the leading `size` rows and columns; the other entries are not looked at and stay.
+#[inline]
+pub fn invert_leading<S: Scalar, M: SquareMatrix<S>>(size: usize, matrix: &mut M, out: &mut M) {
     for row in 0..size {
         for column in 0..size {
             out.set(
@@ -74,7 +91,7 @@ pub fn invert<S: Scalar, M: SquareMatrix<S>>(matrix: &mut M, out: &mut M) {
         }
     }
     for k in 0..size {
-        pivot(matrix, k, |lanes, first, second| {
+        pivot(matrix, size, k, |lanes, first, second| {
             for column in 0..size {
                 let (a, b) = (out.get(first, column), out.get(second, column));
                 out.set(first, column, S::select(lanes, b, a));
@@ -121,6 +138,41 @@ mod tests {
         invert(&mut matrix.clone(), &mut inverse);
         assert!((matrix * inverse - SMatrix::identity()).amax() < 1e-14);
         assert!((inverse * right - solution).amax() < 1e-14);
+    }
+
+    /// A block has the bits of a matrix of its own, whatever stands around it, which stays.
+    #[test]
+    fn a_block_stands_alone() {
+        let (whole, right) = (example(), SVector::from([1.0, -2.0, 0.5, 3.0]));
+        for first in [0, 1] {
+            let block = whole.fixed_view::<3, 3>(first, first).into_owned();
+            let mut expected = right.fixed_rows::<3>(first).into_owned();
+            let sign = solve(&mut block.clone(), &mut expected);
+            let mut expected_inverse = block;
+            invert(&mut block.clone(), &mut expected_inverse);
+            for around in [0.0, -7.0, f64::NAN] {
+                let mut matrix = SMatrix::<f64, 4, 4>::repeat(around);
+                matrix
+                    .fixed_view_mut::<3, 3>(first, first)
+                    .copy_from(&block);
+                let (mut factors, mut solution) = (matrix, right);
+                let own_sign = solve_block(first..first + 3, &mut factors, &mut solution);
+                assert_eq!(own_sign, sign);
+                assert_eq!(solution.fixed_rows::<3>(first), expected);
+                let other = 3 - 3 * first;
+                assert_eq!(solution[other], right[other]);
+                if first == 0 {
+                    let mut inverse = whole;
+                    invert_leading(3, &mut matrix, &mut inverse);
+                    assert_eq!(inverse.fixed_view::<3, 3>(0, 0), expected_inverse);
+                    assert_eq!(inverse.row(3), whole.row(3));
+                    assert_eq!(inverse.column(3), whole.column(3));
+                }
+            }
+            let mut solution = right;
+            solve(&mut whole.clone(), &mut solution);
+            assert_ne!(solution.fixed_rows::<3>(first), expected);
+        }
     }
 
     #[test]
