@@ -75,25 +75,60 @@ fn the_motion_is_the_same() {
     }
 }
 
+/// The Poisson defect of `gauss4`.
+fn defect(path: &Path) -> f64 {
+    let verify = lie(&format!(
+        "verify {} --methods gauss4 --quiet --json",
+        path.display()
+    ))
+    .ok();
+    let report: Value = serde_json::from_str(&verify.stdout).expect("JSON");
+    assert_eq!(report["failed"], 0, "{report:#}");
+    let measured = &report["methods"]["gauss4"]["Poisson"]["measured"];
+    measured.as_f64().expect("a number")
+}
+
 /// Gauss methods are Poisson maps there, and keep the Casimir; in the declared coordinates they do neither.
 #[test]
 fn gauss_methods_are_poisson_maps() {
     let folder = folder();
     let path = folder.path().join("species.json");
     std::fs::copy("specs/lotka_volterra.json", &path).expect("copied");
-    let defect = |path: &Path| {
-        let verify = lie(&format!(
-            "verify {} --methods gauss4 --quiet --json",
-            path.display()
-        ))
-        .ok();
-        let report: Value = serde_json::from_str(&verify.stdout).expect("JSON");
-        assert_eq!(report["failed"], 0, "{report:#}");
-        let measured = &report["methods"]["gauss4"]["Poisson"]["measured"];
-        measured.as_f64().expect("a number")
-    };
     let [there, here] = [defect(&canonical(&path)), defect(&path)];
     assert!(there < 1e-14 && here > 1e-9, "{there:e}, {here:e}");
+}
+
+/// The integral over y has no closed inverse, that over x has one on either side of where B changes its sign: the motion is the same, and Gauss
+/// methods are Poisson maps.
+#[test]
+fn the_other_coordinate_of_a_pair_is_replaced_where_only_that_has_an_inverse() {
+    let folder = folder();
+    for (name, x, centre) in [("Right", "1/4", "0"), ("Left", "-7/2", "4")] {
+        let mut spec = json!({
+            "format": 1, "name": name, "state": ["x", "y", "z"],
+            "poisson": ["{x, y} = 2/(1 + x + y^2)"],
+            "parameters": {"k": "1/10"},
+            "hamiltonian": format!("(x + {centre})^2/3 + y^2/4 + x*y*z/90"),
+            "initial": [x, "1/5", "1/2"]
+        });
+        let path = written(folder.path(), &spec);
+        let out = canonical(&path);
+        let text = std::fs::read_to_string(&out).expect("a spec");
+        assert!(text.contains(r#""state": ["int_x","y","z"]"#), "{text}");
+        if centre == "0" {
+            let [there, here] = [&out, &path].map(|path| defect(path));
+            assert!(there < 1e-14 && here > 1e-9, "{there:e}, {here:e}");
+        }
+        spec["name"] = json!(format!("{name}Forced"));
+        spec["forces"] = json!({"x": "k*sin(t)", "y": "k*cos(t)"});
+        let path = written(folder.path(), &spec);
+        let pairs = end(&path, &["x", "y"])
+            .into_iter()
+            .zip(end(&canonical(&path), &["x", "y"]));
+        for (a, b) in pairs {
+            assert!((a - b).abs() < 1e-11, "{name}: {a} and {b}");
+        }
+    }
 }
 
 /// Columns stay in their order, names that are taken are avoided, and a method that does not apply any more is replaced.

@@ -164,6 +164,25 @@ fn pair(model: &Model, graph: &mut Graph, [x, y]: [usize; 2], density: ExprId) -
     })
 }
 
+impl Change {
+    /// The integral over the other coordinate of the pair, which may take the place of that one instead; none where it is not closed.
+    pub(super) fn turned(
+        &self,
+        model: &Model,
+        matrix: &PoissonMatrix,
+        graph: &mut Graph,
+    ) -> Option<Self> {
+        let Form::Integral(other) = self.form else {
+            return None;
+        };
+        let pair_of = [self.coordinate.min(other), self.coordinate.max(other)];
+        let mut entries = matrix.entries.iter();
+        let (.., entry) = entries.find(|(i, j, _)| [*i, *j] == pair_of)?;
+        let [_, density] = apart(graph, *entry);
+        pair(model, graph, [self.coordinate, other], density)
+    }
+}
+
 /// c and B of an entry `c/B`, c the factors that are free of coordinates, but for numbers: nothing is divided by a parameter, which may be 0.
 fn apart(graph: &mut Graph, entry: ExprId) -> [ExprId; 2] {
     let normal = graph.normal(entry);

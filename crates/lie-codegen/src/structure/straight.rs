@@ -3,7 +3,7 @@
 //! With `{x_i, x_j} = c_ij a_i(x_i) a_j(x_j)` and `y_i = int dx_i/a_i` the bracket is `{y_i, y_j} = c_ij`. There every Gauss method is a Poisson
 //! map that keeps all linear Casimirs, and has its order; in x it is neither. Where `a_i = x_i + a` that is
 //! `y_i = log(x_i + a)`, or `log(-x_i - a)` on the other side, which no motion leaves. Of a pair it is `Y = int B dy`, where y is a function of x
-//! and Y in closed form.
+//! and Y in closed form, or else `X = int B dx`, where x is one of X and y.
 
 use super::conjugate::inverse::inverse;
 use super::conjugate::{Change, Form, conjugate};
@@ -72,7 +72,15 @@ pub fn straight(model: &Model, taken: &HashSet<String>) -> Result<Straight, Refu
     if form.is_some_and(|form| form.is_constant()) {
         return Err(Refusal::Constant);
     }
-    let found = conjugate(model, &mut graph).ok_or(Refusal::Other)?;
+    let mut found = conjugate(model, &mut graph).ok_or(Refusal::Other)?;
+    for change in &mut found.changes {
+        if back(model, &mut graph, change).is_none() {
+            let other = change.turned(model, &matrix, &mut graph);
+            if let Some(other) = other.filter(|other| back(model, &mut graph, other).is_some()) {
+                *change = other;
+            }
+        }
+    }
     let mut taken = taken.clone();
     let mut coordinates = Vec::new();
     for i in 0..matrix.dimension {
@@ -149,6 +157,13 @@ fn logarithm(
     })
 }
 
+/// The coordinate as a function of its change, [`Symbol::Input`], in closed form, on the side of the initial state.
+fn back(model: &Model, graph: &mut Graph, change: &Change) -> Option<ExprId> {
+    let w = graph.symbol(Symbol::Input(0));
+    let start = |graph: &Graph, value: ExprId| at_start(model, graph, value);
+    inverse(graph, change.value, change.coordinate, w, &start)
+}
+
 /// `int B dy`, where y is a function of it in closed form, on the side of the initial state.
 fn integral(
     model: &Model,
@@ -160,9 +175,7 @@ fn integral(
     if at_start(model, graph, change.slope).is_some_and(|slope| slope == 0.0 || slope.is_nan()) {
         return Err(Refusal::Zero(i));
     }
-    let w = graph.symbol(Symbol::Input(0));
-    let start = |graph: &Graph, value: ExprId| at_start(model, graph, value);
-    let back = inverse(graph, change.value, i, w, &start).ok_or(Refusal::NoInverse(i))?;
+    let back = back(model, graph, change).ok_or(Refusal::NoInverse(i))?;
     let new = fresh(model, "int", i, taken);
     let name = |symbol| match symbol {
         Symbol::Input(_) => new.clone(),
@@ -254,6 +267,28 @@ mod tests {
             let slopes: Vec<&str> = y.beside.iter().map(|(_, slope)| slope.as_str()).collect();
             assert_eq!(slopes.concat(), beside, "{bracket}");
         }
+    }
+
+    /// Of degree three in y, which stays, and of degree two or an exponential in x, which is replaced.
+    #[test]
+    fn the_other_coordinate_is_replaced_where_only_it_has_an_inverse() {
+        for (bracket, initial, is_root) in [
+            ("1/(1 + x + y^2)", "[0, 1, 1]", true),
+            ("-a*exp(-x)/(2 + y + y^3)", "[0, 1, 1]", false),
+        ] {
+            let found = of(&format!("\"{{x, y}} = {bracket}\""), initial).expect("coordinates");
+            let [x, y, _] = &found.coordinates[..] else {
+                panic!("{found:?}");
+            };
+            assert!(found.brackets[0].starts_with("{int_x, y} = "), "{found:?}");
+            assert_eq!((y.name.as_str(), &y.replaced), ("y", &None), "{bracket}");
+            let x = x.replaced.as_ref().expect("an integral");
+            assert_eq!(x.back.contains("sqrt("), is_root, "{}", x.back);
+            assert_eq!(x.beside.len(), 1, "{x:?}");
+        }
+        // of both roles the declared one, where it has an inverse
+        let found = of(r#""{x, y} = 1/(1 + x^2)""#, "[0, 1, 1]").expect("coordinates");
+        assert_eq!(found.brackets, ["{x, int_y} = 1"]);
     }
 
     #[test]
