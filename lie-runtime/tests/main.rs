@@ -3,6 +3,7 @@
 mod allocations;
 mod balances;
 mod branches;
+mod cayley_paths;
 mod charts;
 mod choices;
 mod coadjoint_orbit;

@@ -104,6 +104,9 @@ fn variational_methods_take_forces_on_the_group() {
         ("variational2", 2, [0.02, 0.01]),
         ("variational4", 4, [0.1, 0.05]),
         ("variational6", 6, [0.2, 0.1]),
+        ("variational2 --retraction cayley", 2, [0.02, 0.01]),
+        ("variational4 --retraction cayley", 4, [0.1, 0.05]),
+        ("variational6 --retraction cayley", 6, [0.2, 0.1]),
         ("euler-arnold2", 2, [0.02, 0.01]),
     ] {
         let slope = (far(&end(method, steps[0])) / far(&end(method, steps[1]))).log2();
@@ -111,10 +114,6 @@ fn variational_methods_take_forces_on_the_group() {
         assert!(near, "{method}: {slope}");
     }
     for (method, reason) in [
-        (
-            "variational2 --retraction cayley",
-            "for reduced Lagrangians",
-        ),
         ("generating4", "the generating function is one of H alone"),
         ("discrete-euler-poincare", "has the motion without it"),
         ("exact", "the closed solution is that of H alone"),
@@ -125,6 +124,28 @@ fn variational_methods_take_forces_on_the_group() {
         let refused = refused.error("method", "command line: --method");
         assert!(refused.stderr.contains(reason), "{}", refused.stderr);
     }
+}
+
+/// Of a reduced Lagrangian there is the Cayley map for order 2 alone, and of a Hamiltonian no variational method.
+#[test]
+fn higher_orders_along_the_cayley_map_are_for_what_has_a_path_in_phase_space() {
+    for (spec, reason) in [
+        (
+            "so3_gyrostat_lagrangian",
+            "of a reduced Lagrangian the step of this order is along the exponential map",
+        ),
+        (
+            "so3_free_rigid_body",
+            "the system is given by its Hamiltonian",
+        ),
+    ] {
+        let refused = lie(&format!(
+            "run specs/{spec}.json --method variational4 --retraction cayley --step 0.1 --until 1"
+        ));
+        assert_eq!(refused.code, Some(2), "{spec}");
+        assert!(refused.stderr.contains(reason), "{}", refused.stderr);
+    }
+    lie("run specs/so3_gyrostat_lagrangian.json --method variational2 --retraction cayley --step 0.1 --until 1").ok();
 }
 
 /// The control: what acts is seen at the end.

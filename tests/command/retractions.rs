@@ -188,6 +188,45 @@ fn a_declared_cayley_map_makes_the_steps_of_the_built_in_one() {
     }
 }
 
+/// Of a reduced Lagrangian `variational2` goes along the declared map: where that is the one of Cayley, by the steps of the equation in its
+/// coordinates.
+#[test]
+fn variational_steps_of_a_lagrangian_go_along_the_declared_map() {
+    let folder = folder();
+    let mut spec = body("Lagrangian", &cayley());
+    let own = spec.as_object_mut().expect("an object");
+    own.remove("hamiltonian");
+    own.insert("velocity".into(), json!(["a", "b", "c"]));
+    own.insert(
+        "lagrangian".into(),
+        json!("a^2 + b^2/2 + c^2/3 + a^4/9 + a*b/5 + c/4"),
+    );
+    let path = written(folder.path(), &spec);
+    let end = |retraction: &str| {
+        let path = path.display();
+        let call = format!(
+            "run {path} --method variational2 --retraction {retraction} --step 0.1 --until 5 --quiet"
+        );
+        let (_, rows) = lie(&call).ok().csv();
+        let rows = rows.into_iter().map(|row| row[1..4].to_vec());
+        rows.collect::<Vec<Vec<f64>>>()
+    };
+    let declared = end("spec");
+    let off = difference(&declared, &end("cayley"));
+    assert!(off < 1e-12, "{off:e}");
+    // the control
+    assert!(difference(&declared, &end("exp")) > 1e-5);
+    let verify = lie(&format!(
+        "verify {} --methods variational2 --quiet --json",
+        path.display()
+    ))
+    .ok();
+    let report: Value = serde_json::from_str(&verify.stdout).expect("JSON");
+    assert_eq!(report["failed"], 0, "{report:#}");
+    let measured = &report["methods"]["variational2 --retraction spec"]["Poisson"]["measured"];
+    assert!(measured.as_f64().expect("a number") < 1e-13, "{report:#}");
+}
+
 /// The element of a step belongs to the momenta: `Ad*_(g^-1) mu` stays.
 #[test]
 fn the_group_element_keeps_the_spatial_momentum() {

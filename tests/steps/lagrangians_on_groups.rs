@@ -178,4 +178,7 @@ fn variational_methods_have_their_order() {
     slope!(Variational2::exp(), 20, 2.0);
     slope!(Variational4::exp(), 10, 4.0);
     slope!(Variational6::exp(), 6, 6.0);
+    slope!(Variational2::cayley(), 20, 2.0);
+    slope!(Variational4::cayley(), 10, 4.0);
+    slope!(Variational6::cayley(), 6, 6.0);
 }

@@ -211,6 +211,14 @@ where
         self.equation.within_chart(unknown)
     }
 
+    fn earlier_factor(
+        &mut self,
+        unknown: &Self::Unknown,
+        eta: &mut Self::State,
+    ) -> Option<Retraction> {
+        self.equation.earlier_factor(unknown, eta)
+    }
+
     fn group_factor(
         &mut self,
         unknown: &Self::Unknown,

@@ -113,6 +113,15 @@ pub trait Equation<S: Scalar> {
     fn within_chart(&mut self, _unknown: &Self::Unknown) -> S::Mask {
         S::Mask::splat(true)
     }
+    /// For a solution u of a method of coadjoint form whose step is by two elements, `mu1 = Ad*_(tau(xi)) Ad*_(sigma(eta)) mu`: writes eta
+    /// and returns the retraction sigma of the one that comes first; [`group_factor`](Self::group_factor) has the other. None of other methods.
+    fn earlier_factor(
+        &mut self,
+        _unknown: &Self::Unknown,
+        _eta: &mut Self::State,
+    ) -> Option<Retraction> {
+        None
+    }
     /// For a solution u of a method of coadjoint form, `mu1 = Ad*_(tau(xi)) mu`: writes xi and
     /// returns the retraction tau. None of other methods.
     fn group_factor(
@@ -230,6 +239,13 @@ impl<S: Scalar, E: Equation<S> + ?Sized> Equation<S> for &mut E {
     }
     fn within_chart(&mut self, unknown: &Self::Unknown) -> S::Mask {
         (**self).within_chart(unknown)
+    }
+    fn earlier_factor(
+        &mut self,
+        unknown: &Self::Unknown,
+        eta: &mut Self::State,
+    ) -> Option<Retraction> {
+        (**self).earlier_factor(unknown, eta)
     }
     fn group_factor(
         &mut self,

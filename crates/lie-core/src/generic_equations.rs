@@ -28,7 +28,9 @@ macro_rules! by_key {
         /// (need [`crate::SpinPoisson`]), `moser_veselov` (the same with a quadratic H on so(3)) and
         /// `moser_veselov_n` (needs [`crate::InertiaPoisson`]); `variational` (`variational2`, `variational4`,
         /// `variational6`; need [`crate::LagrangianPoisson`], the last two also over [`crate::Lift::Lifted`]) and
-        /// `variational_cayley` (needs [`crate::CayleyPoisson`] too); `discrete` and `discrete_cayley` (need
+        /// `variational_cayley` (needs [`crate::CayleyPoisson`] too) and `variational2_declared` (needs `retraction`); in phase space, with forces, the time and the group element,
+        /// `variational2_on_group`, `variational4_on_group`, `variational6_on_group` (need [`crate::CotangentPoisson`]) and
+        /// `variational2_cayley`, `variational4_cayley`, `variational6_cayley` (need [`crate::CayleyPoisson`] too); `discrete` and `discrete_cayley` (need
         /// [`crate::DiscreteLagrangianPoisson`]). `splitting` implements
         /// [`crate::SeparablePoisson`] and [`crate::FoundPoisson`], for a Hamiltonian that is a sum of functions of one
         /// coordinate each, `coordinate_splitting` the first alone; `taylor` and

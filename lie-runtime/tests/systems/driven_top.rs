@@ -3,7 +3,7 @@
 
 use super::heavy_top::HeavyTop;
 use super::rigid_body::cross;
-use lie_runtime::{CotangentPoisson, Dual, LiePoisson, Lift, Poisson, Scalar};
+use lie_runtime::{CayleyPoisson, CotangentPoisson, Dual, LiePoisson, Lift, Poisson, Scalar};
 use nalgebra::{SMatrix, SVector};
 
 type Vector<S> = SVector<S, 6>;
@@ -110,6 +110,12 @@ impl<S: Scalar> LiePoisson<S> for DrivenTop<S> {
     }
 }
 
+impl<S: Scalar> CayleyPoisson<S> for DrivenTop<S> {
+    fn triple(&self, x: &Vector<S>, z: &Vector<S>, mu: &Vector<S>, out: &mut Vector<S>) {
+        self.top.triple(x, z, mu, out);
+    }
+}
+
 impl<S: Scalar> Lift<S> for DrivenTop<S> {
     type Lifted = DrivenTop<Dual<S>>;
     fn lift(&self) -> Self::Lifted {
@@ -139,3 +145,4 @@ pub fn turned(x: [f64; 3], m: [f64; 3]) -> [f64; 3] {
 
 lie_runtime::generic_equations!([S: Scalar] DrivenTop<S>, S: gauss6, exp);
 lie_runtime::generic_equations!([S: Scalar] DrivenTop<S>, S: variational2_on_group, variational4_on_group, variational6_on_group);
+lie_runtime::generic_equations!([S: Scalar] DrivenTop<S>, S: variational2_cayley, variational4_cayley, variational6_cayley);

@@ -63,7 +63,9 @@ pub fn refusal(structure: &Structure, choice: &Choice) -> Option<(String, String
                 (reason.into(), help)
             })
         }
-        Choice::LieMidpoint(Retraction::Spec) => retraction(model),
+        Choice::LieMidpoint(Retraction::Spec) | Choice::Variational(_, Retraction::Spec) => {
+            retraction(model)
+        }
         Choice::Canonical(order) => conjugate::refusal(structure, *order),
         Choice::Collective(order, Lift::Representation) | Choice::Isospectral(order) => {
             matrices::refusal(structure, *order)
@@ -168,12 +170,6 @@ fn own_joints(structure: &Structure) -> Option<(String, String)> {
 /// Why a method for Lagrangians does not apply.
 fn lagrangian(model: &Model, choice: &Choice) -> Option<(String, String)> {
     match choice {
-        Choice::Variational(_, Retraction::Cayley) if model.energy.is_transformed() => {
-            let message = "with the Cayley map the method is for reduced Lagrangians, without group element, time and forces";
-            let help =
-                "use `variational2` with `--retraction exp`, or `lie-midpoint --retraction cayley`";
-            Some((message.into(), help.into()))
-        }
         Choice::Variational(order, _) if matches!(model.energy, Energy::Expression(_)) => {
             let other = match (&model.driving, order) {
                 (None, order) => {
@@ -190,6 +186,16 @@ fn lagrangian(model: &Model, choice: &Choice) -> Option<(String, String)> {
                     "declare `velocity` and `lagrangian` instead of `hamiltonian`, or use {other}"
                 ),
             ))
+        }
+        Choice::Variational(order @ (4 | 6), Retraction::Cayley)
+            if !model.energy.is_transformed() =>
+        {
+            let message = "of a reduced Lagrangian the step of this order is along the exponential map; along the Cayley map it is for Lagrangians \
+                           with the group element, the time or something that acts beside them";
+            let help = format!(
+                "use `variational{order}` with `--retraction exp`, or `compose{order}(variational2)` with `--retraction cayley`"
+            );
+            Some((message.into(), help))
         }
         Choice::DiscreteEulerPoincare(_) if discrete(model).is_none() => {
             let message = "the method needs a discrete Lagrangian, and the system declares none";

@@ -157,7 +157,7 @@ impl Choice {
         match self {
             Self::LieMidpoint(retraction)
             | Self::Generating(_, retraction)
-            | Self::Variational(2, retraction)
+            | Self::Variational(_, retraction)
             | Self::DiscreteEulerPoincare(retraction) => {
                 vec![("retraction", retraction.name())]
             }

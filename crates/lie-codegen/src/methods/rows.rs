@@ -52,8 +52,12 @@ pub enum Carrier {
     Lagrangian,
     /// The same with a closed representation.
     ClosedLagrangian,
+    /// The same with a retraction of their own.
+    RetractedLagrangian,
     /// Those by a Lagrangian that carry the group element or the time.
     LagrangianOnGroup,
+    /// The same with a closed representation.
+    ClosedLagrangianOnGroup,
     /// Those by a discrete Lagrangian.
     DiscreteLagrangian,
     /// The same with a closed representation.

@@ -10,7 +10,7 @@ const RETRACTION: &str =
     "any Lie algebra (exp), a matrix representation closed under (abc + cba)/2 (cayley)";
 const MIDPOINT: &str = "any Lie algebra (exp), a matrix representation closed under (abc + cba)/2 (cayley), a declared retraction (spec)";
 const DISCRETE: &str = "a system given by its discrete Lagrangian; for --retraction cayley a matrix representation closed under (abc + cba)/2";
-const LAGRANGIAN: &str = "a system given by its Lagrangian; for --retraction cayley a matrix representation closed under (abc + cba)/2";
+const LAGRANGIAN: &str = "a system given by its Lagrangian; for --retraction cayley a matrix representation closed under (abc + cba)/2, for --retraction spec a declared retraction";
 const REDUCTIVE: &str =
     "a matrix representation closed under (abc + cba)/2, up to matrices that commute with it";
 const COLLECTIVE: &str = "a matrix representation closed under (abc + cba)/2, up to matrices that commute with it; with --lift hopf a direct sum of algebras so(3)";

@@ -83,7 +83,12 @@ impl Planner<'_> {
 
     /// Whether a method may move along the declared retraction: one that is asked for, or any where none is named.
     pub(super) fn follows_retraction(&self) -> bool {
-        let along = |choice: &Choice| *choice.solved() == Choice::LieMidpoint(Retraction::Spec);
+        let along = |choice: &Choice| {
+            matches!(
+                choice.solved(),
+                Choice::LieMidpoint(Retraction::Spec) | Choice::Variational(_, Retraction::Spec)
+            )
+        };
         let asked = self.methods.is_empty() || self.methods.iter().any(along);
         asked && self.structure.retraction.is_some()
     }
@@ -113,7 +118,11 @@ impl Planner<'_> {
             Carrier::BodyOfMany => matches!(source.body(), Some(Body::Many { .. })),
             Carrier::Lagrangian => source.energy.reduced().is_some(),
             Carrier::ClosedLagrangian => source.energy.reduced().is_some() && closed,
+            Carrier::RetractedLagrangian => {
+                source.energy.reduced().is_some() && self.follows_retraction()
+            }
             Carrier::LagrangianOnGroup => source.is_transformed() && source.momenta().is_some(),
+            Carrier::ClosedLagrangianOnGroup => self.carries(Carrier::LagrangianOnGroup) && closed,
             Carrier::DiscreteLagrangian => source.discrete().is_some(),
             Carrier::ClosedDiscreteLagrangian => source.discrete().is_some() && closed,
         }

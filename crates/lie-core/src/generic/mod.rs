@@ -135,7 +135,7 @@ pub use exp_variational::{ExpDiscrete, ExpVariational};
 pub use free_body::{FreeBody, principal_axes};
 pub use friction::Friction;
 pub use frozen_flow::FrozenFlow;
-pub use galerkin::{GalerkinOnGroup, GalerkinStep};
+pub use galerkin::{GalerkinAlong, GalerkinCayley, GalerkinOnGroup, GalerkinStep};
 pub use gauss::Gauss;
 pub use generating::{
     CayleyGenerating4, Generating2, Generating4, Generating6, HamiltonJacobi4, HamiltonJacobi6,

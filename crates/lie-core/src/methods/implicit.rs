@@ -183,6 +183,10 @@ impl<S: Scalar, E: Equation<S>> Stepper<S> for ImplicitStepper<S, E> {
             if failed.all() {
                 return outcome;
             }
+            if let Some(retraction) = self.equation.earlier_factor(&self.unknown, factor) {
+                clear(factor, failed);
+                sink.push(retraction, factor);
+            }
             if let Some(retraction) = self.equation.group_factor(&self.unknown, factor) {
                 clear(factor, failed);
                 sink.push(retraction, factor);

@@ -45,7 +45,7 @@ macro_rules! for_each_method {
                 CrouchGrossman3,
                 /// `cf4`
                 CommutatorFree4,
-                /// `variational2`, `variational4`, `variational6`; only the first has another retraction than exp.
+                /// `variational2`, `variational4`, `variational6`; of reduced Lagrangians only the first has another retraction than exp.
                 Variational(u32, Retraction),
                 /// `discrete-euler-poincare`
                 DiscreteEulerPoincare(Retraction),
@@ -135,11 +135,14 @@ macro_rules! for_each_method {
                 [CommutatorFree4] [CommutatorFree4] [CommutatorFree4] { explicit } }
             { "variational integrator (discrete Euler–Poincaré)" LAGRANGIAN MPS
                 [Variational(2, Retraction::Exp)] [Variational2<Exp>] [Variational2::exp()] { [variational2 Lagrangian ExpVariational] [variational2_on_group LagrangianOnGroup GalerkinOnGroup 1] }
-                [Variational(2, Retraction::Cayley)] [Variational2<Cayley>] [Variational2::cayley()] { [variational_cayley ClosedLagrangian CayleyVariational] } }
-            { "variational integrator (Lie-group Galerkin)" "a system given by its Lagrangian" LEOK
-                [Variational(4, Retraction::Exp)] [Variational4<Exp>] [Variational4::exp()] { [variational4 Lagrangian GalerkinStep 2] [variational4_on_group LagrangianOnGroup GalerkinOnGroup 2] } }
-            { "variational integrator (Lie-group Galerkin)" "a system given by its Lagrangian" LEOK
-                [Variational(6, Retraction::Exp)] [Variational6<Exp>] [Variational6::exp()] { [variational6 Lagrangian GalerkinStep 3] [variational6_on_group LagrangianOnGroup GalerkinOnGroup 3] } }
+                [Variational(2, Retraction::Cayley)] [Variational2<Cayley>] [Variational2::cayley()] { [variational_cayley ClosedLagrangian CayleyVariational] [variational2_cayley ClosedLagrangianOnGroup GalerkinCayley 1] }
+                [Variational(2, Retraction::Spec)] [Variational2<Declared>] [Variational2::declared()] { [variational2_declared RetractedLagrangian same LieMidpoint<Declared>] } }
+            { "variational integrator (Lie-group Galerkin)" "a system given by its Lagrangian; for --retraction cayley one with the group element, the time or something that acts in it, and a matrix representation closed under (abc + cba)/2" LEOK
+                [Variational(4, Retraction::Exp)] [Variational4<Exp>] [Variational4::exp()] { [variational4 Lagrangian GalerkinStep 2] [variational4_on_group LagrangianOnGroup GalerkinOnGroup 2] }
+                [Variational(4, Retraction::Cayley)] [Variational4<Cayley>] [Variational4::cayley()] { [variational4_cayley ClosedLagrangianOnGroup GalerkinCayley 2] } }
+            { "variational integrator (Lie-group Galerkin)" "a system given by its Lagrangian; for --retraction cayley one with the group element, the time or something that acts in it, and a matrix representation closed under (abc + cba)/2" LEOK
+                [Variational(6, Retraction::Exp)] [Variational6<Exp>] [Variational6::exp()] { [variational6 Lagrangian GalerkinStep 3] [variational6_on_group LagrangianOnGroup GalerkinOnGroup 3] }
+                [Variational(6, Retraction::Cayley)] [Variational6<Cayley>] [Variational6::cayley()] { [variational6_cayley ClosedLagrangianOnGroup GalerkinCayley 3] } }
             { "step of a declared discrete Lagrangian; its order is at least 1" DISCRETE MPS
                 [DiscreteEulerPoincare(Retraction::Exp)] [DiscreteEulerPoincare<Exp>] [DiscreteEulerPoincare::exp()] { [discrete DiscreteLagrangian ExpDiscrete] }
                 [DiscreteEulerPoincare(Retraction::Cayley)] [DiscreteEulerPoincare<Cayley>] [DiscreteEulerPoincare::cayley()] { [discrete_cayley ClosedDiscreteLagrangian CayleyDiscrete] } }

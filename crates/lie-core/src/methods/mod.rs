@@ -191,4 +191,6 @@ pub use taylor::{Taylor, TaylorDevelopment};
 pub use tensor::{
     AlongGradient, MeanTensor, MidpointTensor, PoissonTensor, TensorFacts, WithTensor,
 };
-pub use variational::{OnGroup, Variational, Variational2, Variational4, Variational6};
+pub use variational::{
+    CayleyOnGroup, OnGroup, Variational, Variational2, Variational4, Variational6,
+};

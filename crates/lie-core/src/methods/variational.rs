@@ -35,12 +35,17 @@
 //! \mathrm{Ad}^*_{g_1^{-1}}\, \mu_1 - \mathrm{Ad}^*_{g^{-1}}\, \mu = h \sum_i b_i\, \mathrm{Ad}^*_{g_i^{-1}}\, F_i
 //! ```
 //!
+//! Along the Cayley map the coordinates are those about the middle of the step, `$\theta(1/2) = 0$`, in phase space only, where orders 4 and 6
+//! are too; see [`GalerkinCayley`](crate::generic::GalerkinCayley). Along a retraction that the system declares there is order 2 of a reduced
+//! Lagrangian, whose equation is that of [`LieMidpoint`].
+//!
 //! Without forces and damping all are Poisson maps, keep every Casimir and the coadjoint orbit, and the energy without drift though not
 //! exactly. Order 2 is symmetric and makes, of a reduced Lagrangian, the steps of [`LieMidpoint`] of the Legendre transform; the others are
-//! symmetric up to terms of their error only, because the coordinates are centred at the left end of the step.
+//! symmetric along the Cayley map, and along the exponential map up to terms of their error only, because the coordinates are centred at the left
+//! end of the step.
 //!
-//! Needs: a system by its Lagrangian, `$l'$` and `$l''$`, ad, ad*, and for the Cayley map, which is for reduced Lagrangians, the triple
-//! product; in phase space the Legendre transform alone. Newton's matrix is exact: analytic for order 2, by dual numbers for the others.
+//! Needs: a system by its Lagrangian, `$l'$` and `$l''$`, ad, ad*, and for the Cayley map the triple product; in phase space the Legendre transform
+//! alone. Newton's matrix is exact: analytic for order 2 of a reduced Lagrangian, by dual numbers for the others.
 //!
 //! References: J. E. Marsden, S. Pekarsky, S. Shkoller, "Discrete Euler–Poincaré and Lie–Poisson
 //! equations", Nonlinearity 12 (1999) 1647–1662,
@@ -57,7 +62,7 @@
 #[cfg(doc)]
 use super::LieMidpoint;
 use super::facts::{Facts, Preserves};
-use super::lie_midpoint::{Cayley, Exp};
+use super::lie_midpoint::{Cayley, Declared, Exp};
 
 /// A variational integrator of order 2, 4 or 6; see the [module's text](self).
 ///
@@ -67,11 +72,11 @@ pub struct Variational<T, const ORDER: u32> {
     retraction: T,
 }
 
-/// Order 2: `Variational2::exp()`, `Variational2::cayley()`.
+/// Order 2: `Variational2::exp()`, `Variational2::cayley()`, `Variational2::declared()`.
 pub type Variational2<T = Exp> = Variational<T, 2>;
-/// Order 4: `Variational4::exp()`.
+/// Order 4: `Variational4::exp()`, `Variational4::cayley()`.
 pub type Variational4<T = Exp> = Variational<T, 4>;
-/// Order 6: `Variational6::exp()`.
+/// Order 6: `Variational6::exp()`, `Variational6::cayley()`.
 pub type Variational6<T = Exp> = Variational<T, 6>;
 
 /// In place of a retraction: paths by the exponential map in phase space, which is what a system takes that carries the group element or the
@@ -79,8 +84,13 @@ pub type Variational6<T = Exp> = Variational<T, 6>;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct OnGroup;
 
+/// In place of a retraction: paths by the Cayley map in phase space. A method with [`Cayley`] finds them by itself where they are the
+/// equation of the system.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct CayleyOnGroup;
+
 macro_rules! variational {
-    ($retraction:ident, $constructor:ident, $forces:literal, $doc:literal: $($order:literal $id:literal),+) => {$(
+    ($retraction:ident, $constructor:ident, $symmetric:literal, $forces:literal, $doc:literal: $($order:literal $id:literal),+) => {$(
         impl Variational<$retraction, $order> {
             #[doc = $doc]
             pub const fn $constructor() -> Self {
@@ -91,7 +101,7 @@ macro_rules! variational {
         impl Facts for Variational<$retraction, $order> {
             const ID: &'static str = $id;
             const ORDER: u32 = $order;
-            const SYMMETRIC: bool = $order == 2;
+            const SYMMETRIC: bool = $symmetric || $order == 2;
             const EXPLICIT: bool = false;
             const PRESERVES: Preserves = Preserves::POISSON;
             const FORCES: bool = $forces;
@@ -100,8 +110,10 @@ macro_rules! variational {
     )+};
 }
 
-variational!(Exp, exp, true, "With the exponential map.": 2 "variational2", 4 "variational4", 6 "variational6");
-variational!(OnGroup, on_group, true, "With the exponential map, in phase space.": 2 "variational2", 4 "variational4", 6 "variational6");
-variational!(Cayley, cayley, false, "With the Cayley map of the declared representation.": 2 "variational2");
+variational!(Exp, exp, false, true, "With the exponential map.": 2 "variational2", 4 "variational4", 6 "variational6");
+variational!(OnGroup, on_group, false, true, "With the exponential map, in phase space.": 2 "variational2", 4 "variational4", 6 "variational6");
+variational!(Cayley, cayley, true, true, "With the Cayley map of the declared representation.": 2 "variational2", 4 "variational4", 6 "variational6");
+variational!(CayleyOnGroup, cayley_on_group, true, true, "With the Cayley map, in phase space.": 2 "variational2", 4 "variational4", 6 "variational6");
+variational!(Declared, declared, true, false, "With the retraction that the system declares.": 2 "variational2");
 
 by_equation!([T, const ORDER: u32] Variational<T, ORDER> where Self: Facts);

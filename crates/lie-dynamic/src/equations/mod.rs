@@ -45,6 +45,13 @@ macro_rules! equations {
         equations!(@row $choice [$name<Exp>] $equation);
         equations!(@row $choice [$name<OnGroup>] [$key LagrangianOnGroup $($other)+]);
     };
+    (
+        @row $choice:tt [$name:ident<Cayley>] $equation:tt
+        [$key:ident ClosedLagrangianOnGroup $($other:tt)+]
+    ) => {
+        equations!(@row $choice [$name<Cayley>] $equation);
+        equations!(@row $choice [$name<CayleyOnGroup>] [$key ClosedLagrangianOnGroup $($other)+]);
+    };
     // over a closed representation the method is another one
     (@row $choice:tt $type:tt $equation:tt [$key:ident Closed same $($other:tt)+]) => {
         equations!(@row $choice $type $equation);

@@ -352,6 +352,11 @@ where
         }
     }
 
+    fn earlier_factor(&mut self, unknown: &Self::Unknown, eta: &mut Vec<S>) -> Option<Retraction> {
+        let (generic, completed) = self.partner(unknown);
+        generic.earlier_factor(completed.as_ref().unwrap_or(unknown), eta)
+    }
+
     fn group_factor(&mut self, unknown: &Self::Unknown, xi: &mut Vec<S>) -> Option<Retraction> {
         let (generic, completed) = self.partner(unknown);
         generic.group_factor(completed.as_ref().unwrap_or(unknown), xi)

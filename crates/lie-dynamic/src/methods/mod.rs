@@ -194,6 +194,7 @@ fn by_equation_of_system<S: Scalar>(choice: &Choice) -> Option<Method<S>> {
             Some(isospectral2(claims))
         }
         Choice::Variational(order, Retraction::Exp) => Some(variational(*order)),
+        Choice::Variational(2, Retraction::Cayley) => Some(variational_cayley()),
         _ => None,
     }
 }
@@ -268,6 +269,20 @@ fn variational<S: Scalar>(order: u32) -> Method<S> {
         choose: Box::new(move |system: &Dynamic<S>| {
             make(order, system.plan().structure.momenta.is_some())
         }),
+    })
+}
+
+/// The same along the Cayley map, whose other orders are in phase space always.
+fn variational_cayley<S: Scalar>() -> Method<S> {
+    let choose = |system: &Dynamic<S>| -> Method<S> {
+        match system.plan().structure.momenta {
+            Some(_) => Box::new(m::Variational2::cayley_on_group()),
+            None => Box::new(m::Variational2::cayley()),
+        }
+    };
+    Box::new(WithClaims {
+        claims: Claims::from_facts::<m::Variational2<m::Cayley>>(),
+        choose: Box::new(choose),
     })
 }
 

@@ -1,11 +1,13 @@
 //! The equation of Lie-group Galerkin methods: discrete Lagrangians of higher order in exponential coordinates.
 
 mod body_velocity;
+mod cayley_path;
+mod node_path;
 mod on_group;
 mod path;
 mod phase_path;
 
-pub use on_group::GalerkinOnGroup;
+pub use on_group::{GalerkinAlong, GalerkinCayley, GalerkinOnGroup};
 
 use super::kernels::multiply;
 use super::series::coadjoint_action_in;

@@ -1,12 +1,12 @@
 //! The equation of Lie-group Galerkin methods in phase space: with forces, damping, the group element and the time.
 
-use super::phase_path::PhasePath;
+use super::node_path::{Along, NodePath};
 use crate::clock::Clock;
 use crate::equation::Equation;
 use crate::generic::momenta;
 use crate::generic::tableau::gauss_tableau;
 use crate::matrix::{SquareMatrix, StageMatrix};
-use crate::methods::Retraction;
+use crate::methods::{Cayley, Exp, Retraction};
 use crate::poisson::{Lift, Poisson};
 use crate::scalar::{Dual, Scalar};
 use crate::state::{Stages, State};
@@ -31,9 +31,17 @@ use crate::structure::CotangentPoisson;
 /// Lagrangian. The line between them is the balance of the spatial momentum: it changes by exactly the impulses of the forces, each carried to space
 /// by the group element of its node, whatever the error of the unknown.
 ///
+/// Along the Cayley map the coordinates are those about the middle of the step, see [`GalerkinCayley`].
+///
 /// Unknown: `|mu| theta_i'` and `m_i` of each node, a pair, so that an angle is solved for to round-off whatever the units of mu. The
 /// Jacobian comes from dual numbers and is exact. Start: along the field.
-pub struct GalerkinOnGroup<'a, S: Scalar, P: Lift<S> + CotangentPoisson<S>, const STAGES: usize> {
+pub struct GalerkinAlong<'a, S, P, T, const STAGES: usize>
+where
+    S: Scalar,
+    P: Lift<S> + CotangentPoisson<S>,
+    P::Lifted: CotangentPoisson<Dual<S>>,
+    T: Along<S, P, STAGES> + Along<Dual<S>, P::Lifted, STAGES>,
+{
     system: &'a P,
     lifted: P::Lifted,
     step: S,
@@ -41,34 +49,54 @@ pub struct GalerkinOnGroup<'a, S: Scalar, P: Lift<S> + CotangentPoisson<S>, cons
     size: S,
     base: P::State,
     lifted_base: LiftedState<S, P>,
-    path: PhasePath<S, P::State, STAGES>,
-    lifted_path: PhasePath<Dual<S>, LiftedState<S, P>, STAGES>,
+    path: <T as Along<S, P, STAGES>>::Path,
+    lifted_path: <T as Along<Dual<S>, P::Lifted, STAGES>>::Path,
     columns: [P::State; 3],
 }
+
+/// Along the exponential map.
+pub type GalerkinOnGroup<'a, S, P, const STAGES: usize> = GalerkinAlong<'a, S, P, Exp, STAGES>;
+
+/// Along the Cayley map, on systems with a closed representation.
+///
+/// The path is `g cay(theta(t/h))` with `theta(1/2) = 0`, so that it is the same backwards, and every order is symmetric. With
+/// `e_j` the weight of the rate of a node in the change of theta over the first half of the step, (M, A) the state seen from the middle,
+/// `Ad*_(cay -theta(0)) (mu, a)`, and N what M becomes by the impulses, the equations are
+///
+/// ```text
+/// dcay_(-theta_i) theta_i' = h xi_i,   theta_i = sum_j (a_ij - e_j) theta_j',   a_i = Ad*_(cay theta_i) A
+/// N = M + h sum_i b_i Ad*_(cay -theta_i) f_i,   mu1 = Ad*_(cay theta(1)) N,   a1 = Ad*_(cay theta(1)) A
+/// (dcay_(-theta_i))* m_i + sum_j (b_j - a_ij - b_j e_i/b_i) q_j = (1 - e_i/b_i) (dcay_(theta(1)))* N + (e_i/b_i) (dcay_(theta(0)))* M
+/// ```
+///
+/// They are those of the paths that move as a whole and have theta vary, with the ends fixed: the step is variational too. It is no collocation
+/// in fixed coordinates, and its order, by slope, is the same 2s. With one node theta is 0 there and the step is by `cay(x/2)` twice,
+/// where that of a reduced Lagrangian ([`crate::generic::CayleyVariational`]) is by `cay(x)`.
+pub type GalerkinCayley<'a, S, P, const STAGES: usize> = GalerkinAlong<'a, S, P, Cayley, STAGES>;
 
 type LiftedState<S, P> = <<P as Lift<S>>::Lifted as Poisson<Dual<S>>>::State;
 /// Rate and momentum of a node.
 type Pair<V> = Stages<V, 2>;
 
-impl<'a, S, P, const STAGES: usize> GalerkinOnGroup<'a, S, P, STAGES>
+impl<'a, S, P, T, const STAGES: usize> GalerkinAlong<'a, S, P, T, STAGES>
 where
     S: Scalar,
     P: Lift<S> + CotangentPoisson<S>,
     P::Lifted: CotangentPoisson<Dual<S>>,
+    T: Along<S, P, STAGES> + Along<Dual<S>, P::Lifted, STAGES>,
 {
     /// The equation of a step of size h.
     pub fn new(system: &'a P, h: S) -> Self {
         let zero = system.zero_state();
         let lifted = system.lift();
-        let lifted_zero = lifted.zero_state();
         Self {
             system,
             step: h,
             size: S::one(),
             base: zero.clone(),
-            path: PhasePath::new(&zero, h),
-            lifted_path: PhasePath::new(&lifted_zero, Dual::constant_of(h)),
-            lifted_base: lifted_zero,
+            path: NodePath::new(system, h),
+            lifted_path: NodePath::new(&lifted, Dual::constant_of(h)),
+            lifted_base: lifted.zero_state(),
             lifted,
             columns: core::array::from_fn(|_| zero.clone()),
         }
@@ -76,7 +104,7 @@ where
 
     /// Gives the path the rates and momenta of an unknown.
     fn set_nodes(&mut self, unknown: &Stages<Pair<P::Momentum>, STAGES>) {
-        for (node, pair) in self.path.nodes.iter_mut().zip(&unknown.0) {
+        for (node, pair) in self.path.nodes_mut().iter_mut().zip(&unknown.0) {
             let [rate, momentum] = &pair.0;
             let momenta = momentum.as_slice().len();
             for (out, &y) in node.rate.as_mut_slice().iter_mut().zip(rate.as_slice()) {
@@ -88,8 +116,8 @@ where
 
     /// The derivative of what is left along an entry of the rate or the momentum of a node, where `of_rate` and `of_momentum` then are.
     fn differentiate(&mut self, stage: usize, part: usize, index: usize) {
-        let seed = |path: &mut PhasePath<Dual<S>, LiftedState<S, P>, STAGES>, slope: S| {
-            let node = &mut path.nodes[stage];
+        let seed = |path: &mut <T as Along<Dual<S>, P::Lifted, STAGES>>::Path, slope: S| {
+            let node = &mut path.nodes_mut()[stage];
             let of = if part == 0 {
                 &mut node.rate
             } else {
@@ -109,11 +137,12 @@ fn lift<S: Scalar>(vector: &impl State<S>, out: &mut impl State<Dual<S>>) {
     pairs.for_each(|(out, &value)| *out = Dual::constant_of(value));
 }
 
-impl<S, P, const STAGES: usize> Equation<S> for GalerkinOnGroup<'_, S, P, STAGES>
+impl<S, P, T, const STAGES: usize> Equation<S> for GalerkinAlong<'_, S, P, T, STAGES>
 where
     S: Scalar,
     P: Lift<S> + CotangentPoisson<S>,
     P::Lifted: CotangentPoisson<Dual<S>>,
+    T: Along<S, P, STAGES> + Along<Dual<S>, P::Lifted, STAGES>,
 {
     type State = P::State;
     type Unknown = Stages<Pair<P::Momentum>, STAGES>;
@@ -165,7 +194,7 @@ where
     fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
         self.set_nodes(unknown);
         self.path.set(self.system, &self.base);
-        for (pair, node) in residual.0.iter_mut().zip(&self.path.nodes) {
+        for (pair, node) in residual.0.iter_mut().zip(self.path.nodes()) {
             let [rate, momentum] = &mut pair.0;
             let momenta = momentum.as_slice().len();
             for (out, &rest) in rate.as_mut_slice().iter_mut().zip(node.of_rate.as_slice()) {
@@ -185,7 +214,8 @@ where
     ) {
         self.residual(unknown, residual);
         lift(&self.base, &mut self.lifted_base);
-        for (node, lifted) in self.path.nodes.iter().zip(&mut self.lifted_path.nodes) {
+        let nodes = self.path.nodes().iter();
+        for (node, lifted) in nodes.zip(self.lifted_path.nodes_mut()) {
             lift(&node.rate, &mut lifted.rate);
             lift(&node.momentum, &mut lifted.momentum);
         }
@@ -196,7 +226,7 @@ where
             for (part, &of_column) in columns.iter().enumerate() {
                 for index in 0..self.system.momenta() {
                     self.differentiate(stage, part, index);
-                    for (row_stage, node) in self.lifted_path.nodes.iter().enumerate() {
+                    for (row_stage, node) in self.lifted_path.nodes().iter().enumerate() {
                         let blocks = &mut matrix.0[row_stage][stage];
                         for (row_part, left) in
                             [&node.of_rate, &node.of_momentum].into_iter().enumerate()
@@ -218,10 +248,18 @@ where
         self.path.move_to_end(self.system, &self.base, mu);
     }
 
+    fn within_chart(&mut self, unknown: &Self::Unknown) -> S::Mask {
+        self.set_nodes(unknown);
+        self.path.within_chart(self.system)
+    }
+
+    fn earlier_factor(&mut self, unknown: &Self::Unknown, xi: &mut P::State) -> Option<Retraction> {
+        self.set_nodes(unknown);
+        self.path.earlier_factor(xi)
+    }
+
     fn group_factor(&mut self, unknown: &Self::Unknown, xi: &mut P::State) -> Option<Retraction> {
         self.set_nodes(unknown);
-        self.path.set_end(self.system, &self.base);
-        xi.copy_from(&self.path.end);
-        Some(Retraction::Exp)
+        Some(self.path.factor(xi))
     }
 }

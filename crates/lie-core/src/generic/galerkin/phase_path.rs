@@ -1,37 +1,22 @@
 //! The path of a step in phase space: what its equations leave, over some scalar.
 
 use super::body_velocity::BodyVelocity;
+use super::node_path::Node;
 use crate::generic::series::{Scratch, coadjoint_action_in, dexp_dual_in};
 use crate::generic::tableau::{Tableau, gauss_tableau};
 use crate::scalar::Scalar;
 use crate::state::State;
 use crate::structure::CotangentPoisson;
 
-/// What belongs to a node.
-pub(super) struct Node<V> {
-    /// `h theta'`, an element of the algebra of the group.
-    pub(super) rate: V,
-    /// The momentum m.
-    pub(super) momentum: V,
-    /// What is left of `dexp_(-theta) (h theta') = h xi`.
-    pub(super) of_rate: V,
-    /// What is left of the equation of the momentum.
-    pub(super) of_momentum: V,
-    /// theta
-    point: V,
-    /// h times the derivative of `(dexp_(-theta))* m`, with the force on it.
-    change: V,
-}
-
 /// The path `exp(theta(t/h))` of a step with the momenta at its nodes, see [`super::GalerkinOnGroup`].
-pub(super) struct PhasePath<S, V, const STAGES: usize> {
+pub struct PhasePath<S, V, const STAGES: usize> {
     step: S,
-    tableau: Tableau<S, STAGES>,
+    pub(super) tableau: Tableau<S, STAGES>,
     pub(super) nodes: [Node<V>; STAGES],
     /// The state from which the step starts, and then with what the forces of all nodes bring there.
-    pub(super) pushed: V,
+    pushed: V,
     /// `theta(1)`
-    pub(super) end: V,
+    end: V,
     body: BodyVelocity<S, V>,
     scratch: Scratch<V>,
     columns: [V; 4],
@@ -42,14 +27,7 @@ impl<S: Scalar, V: State<S>, const STAGES: usize> PhasePath<S, V, STAGES> {
         Self {
             step: h,
             tableau: gauss_tableau(),
-            nodes: core::array::from_fn(|_| Node {
-                rate: zero.clone(),
-                momentum: zero.clone(),
-                of_rate: zero.clone(),
-                of_momentum: zero.clone(),
-                point: zero.clone(),
-                change: zero.clone(),
-            }),
+            nodes: core::array::from_fn(|_| Node::new(zero)),
             pushed: zero.clone(),
             end: zero.clone(),
             body: BodyVelocity::new(zero),
@@ -87,7 +65,7 @@ impl<S: Scalar, V: State<S>, const STAGES: usize> PhasePath<S, V, STAGES> {
 
     /// Sets the end of the path and what the forces bring to its beginning, so that the new state is the action of the one on the
     /// other; of the equations all but what one node has of another.
-    pub(super) fn set_end<P>(&mut self, system: &P, base: &V)
+    fn set_end<P>(&mut self, system: &P, base: &V)
     where
         P: CotangentPoisson<S, State = V>,
     {
