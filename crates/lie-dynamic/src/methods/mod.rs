@@ -182,30 +182,35 @@ pub fn has_equation(choice: &Choice) -> bool {
         };
     }
     lie_core::for_each_method!(rows! {});
-    is_by_equation_of_system(solved)
+    of_system(solved).is_some()
 }
 
-/// Those whose equation depends on what the system has.
-fn by_equation_of_system<S: Scalar>(choice: &Choice) -> Option<Method<S>> {
-    match choice {
-        Choice::Isospectral(2) => Some(isospectral2(Claims::from_facts::<m::Isospectral2>())),
+/// The methods whose equation depends on what the system has.
+enum OfSystem {
+    /// In coordinates of the algebra or of a representation.
+    Isospectral(Claims),
+    Variational(u32),
+    VariationalCayley,
+}
+
+fn of_system(choice: &Choice) -> Option<OfSystem> {
+    Some(match choice {
+        Choice::Isospectral(2) => OfSystem::Isospectral(Claims::from_facts::<m::Isospectral2>()),
         Choice::Collective(2, Lift::Representation) => {
-            let claims = Claims::from_facts::<m::Collective2<m::Representation>>();
-            Some(isospectral2(claims))
+            OfSystem::Isospectral(Claims::from_facts::<m::Collective2<m::Representation>>())
         }
-        Choice::Variational(order, Retraction::Exp) => Some(variational(*order)),
-        Choice::Variational(2, Retraction::Cayley) => Some(variational_cayley()),
-        _ => None,
-    }
+        Choice::Variational(order, Retraction::Exp) => OfSystem::Variational(*order),
+        Choice::Variational(2, Retraction::Cayley) => OfSystem::VariationalCayley,
+        _ => return None,
+    })
 }
 
-fn is_by_equation_of_system(choice: &Choice) -> bool {
-    matches!(
-        choice,
-        Choice::Isospectral(2)
-            | Choice::Collective(2, Lift::Representation)
-            | Choice::Variational(_, Retraction::Exp)
-    )
+fn by_equation_of_system<S: Scalar>(choice: &Choice) -> Option<Method<S>> {
+    Some(match of_system(choice)? {
+        OfSystem::Isospectral(claims) => isospectral2(claims),
+        OfSystem::Variational(order) => variational(order),
+        OfSystem::VariationalCayley => variational_cayley(),
+    })
 }
 
 /// The methods that depend on what the system has.
