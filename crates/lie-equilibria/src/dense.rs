@@ -10,6 +10,9 @@ pub const MOST: usize = 10_000;
 /// Solves `A x = b`, A by rows; `None` where A is singular.
 pub fn solve<T: ComplexField>(a: &[T], b: Vec<T>) -> Option<Vec<T>> {
     let n = b.len();
+    if n == 0 {
+        return Some(b);
+    }
     let x = DMatrix::from_row_slice(n, n, a)
         .lu()
         .solve(&DVector::from_vec(b))?;

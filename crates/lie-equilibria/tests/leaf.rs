@@ -7,7 +7,7 @@ use lie_equilibria::{
     At, ChangeKind, Equations, Equilibrium, Presence, Reason, Stability, System, trace,
 };
 use lie_symbolic::exact::Rational;
-use systems::{lagrange_top, number, on_se3, quadratic, rigid_body};
+use systems::{canonical, lagrange_top, number, on_se3, quadratic, rigid_body};
 
 fn all(system: System, parameters: &[Rational]) -> (Vec<Equilibrium>, lie_equilibria::Found) {
     let equations = Equations::new(system, None).expect("expressions");
@@ -244,4 +244,29 @@ fn kirchhoff_moves_along_its_axes() {
         }
     }
     assert_eq!(found.len(), 6 + planes, "{paths:?}");
+}
+
+/// Without a Casimir there are no multipliers, and every stationary point of H on the plane is an equilibrium.
+#[test]
+fn polynomials_without_a_casimir() {
+    // p^2/2 + q^2/2 - q^4/4: at rest in 0, and unstable with rate sqrt(2) in 1 and -1
+    let system = canonical(|graph, q| {
+        let square = graph.mul(q, q);
+        let fourth = graph.mul(square, square);
+        graph.linear(&[(square, number(1, 2)), (fourth, number(-1, 4))])
+    });
+    let (found, search) = all(system, &[]);
+    let paths = search.paths.expect("polynomials");
+    assert_eq!((paths.all, paths.real, paths.lost), (3, 3, 0));
+    assert_eq!(found.len(), 3);
+    for one in &found {
+        let at_rest = one.state[0].abs() < 0.5;
+        let stable = match at_rest {
+            true => Stability::Stable,
+            false => Stability::Unstable,
+        };
+        assert_eq!((one.judgement.stability, one.judgement.proven), (stable, true));
+        let rate = if at_rest { 0.0 } else { 2.0_f64.sqrt() };
+        assert!((one.linearisation.growth() - rate).abs() < 1e-13);
+    }
 }

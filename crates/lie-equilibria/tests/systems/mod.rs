@@ -123,3 +123,24 @@ pub fn lagrange_top(i1: Rational, i3: Rational, mgl: Rational) -> System {
         true,
     )
 }
+
+/// One degree of freedom, `{q, p} = 1` with `H = p^2/2 + V(q)`.
+pub fn canonical(potential: impl FnOnce(&mut Graph, ExprId) -> ExprId) -> System {
+    let mut graph = Graph::new();
+    let q = x(&mut graph, 0);
+    let potential = potential(&mut graph, q);
+    let kinetic = quadratic(&mut graph, 1, &[number(1, 1)]);
+    let hamiltonian = graph.add(kinetic, potential);
+    let one = graph.integer(1);
+    System {
+        hamiltonian,
+        casimirs: Vec::new(),
+        levels: Vec::new(),
+        bracket: vec![(0, 1, one)],
+        integrals: Vec::new(),
+        state: vec![one, one],
+        coordinates: ["q", "p"].map(str::to_owned).to_vec(),
+        parameters: Vec::new(),
+        graph,
+    }
+}
