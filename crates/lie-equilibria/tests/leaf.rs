@@ -265,8 +265,49 @@ fn polynomials_without_a_casimir() {
             true => Stability::Stable,
             false => Stability::Unstable,
         };
-        assert_eq!((one.judgement.stability, one.judgement.proven), (stable, true));
+        assert_eq!(
+            (one.judgement.stability, one.judgement.proven),
+            (stable, true)
+        );
         let rate = if at_rest { 0.0 } else { 2.0_f64.sqrt() };
         assert!((one.linearisation.growth() - rate).abs() < 1e-13);
     }
+}
+
+/// A top that hardly spins falls with rate `sqrt(mgl/I1 - (spin/(2 I1))^2)`: two pairs of eigenvalues that nearly meet.
+#[test]
+fn a_top_that_hardly_spins_falls() {
+    let (i1, mgl) = (number(7, 5), number(3, 7));
+    for spin in [
+        number(0, 1),
+        number(1, 1_000_000),
+        number(1, 100),
+        number(1, 80),
+    ] {
+        let system = lagrange_top(i1.clone(), number(1, 2), mgl.clone());
+        let (found, _) = all(system, std::slice::from_ref(&spin));
+        let upright = found
+            .iter()
+            .find(|one| one.family == 0 && one.state[5] > 0.5);
+        let upright = upright.expect("the upright position");
+        let half = spin.to_f64() / (2.0 * i1.to_f64());
+        let rate = (mgl.to_f64() / i1.to_f64() - half * half).sqrt();
+        let growth = upright.linearisation.growth();
+        assert!((growth - rate).abs() < 1e-12, "{spin:?}: {growth} {rate}");
+        assert_eq!(upright.linearisation.eigenvalues.len(), 4);
+        assert_eq!(upright.judgement.stability, Stability::Unstable);
+    }
+    let system = lagrange_top(i1, number(1, 2), mgl);
+    let equations = Equations::new(system, Some(0)).expect("expressions");
+    let grid: Vec<f64> = (0..11).map(|k| 0.05 * f64::from(k)).collect();
+    let traced = trace(&equations, &[0.0], 0, &grid, 60, 1);
+    let of = |branch: &&lie_equilibria::Branch| branch.family == 0 && branch.points[0].y[5] > 0.5;
+    let upright = traced.branches.iter().filter(of);
+    let points: Vec<_> = upright.flat_map(|branch| &branch.points).collect();
+    assert!(points.len() > 10);
+    assert!(
+        points
+            .iter()
+            .all(|point| point.stability == Stability::Unstable)
+    );
 }
