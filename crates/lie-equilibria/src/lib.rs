@@ -32,6 +32,7 @@ mod search;
 pub mod stability;
 mod system;
 mod tape;
+mod uncertainty;
 
 pub use branch::{Branch, Change, ChangeKind, Point, Traced, trace};
 pub use homotopy::Paths;
@@ -66,7 +67,7 @@ pub struct Equilibrium {
     pub energy: f64,
     /// The dimension of the family, 0 where it is isolated.
     pub family: usize,
-    /// Whether the linearisation has a kernel along which no equilibria go on.
+    /// Whether the linearisation has a kernel along which no equilibria go on, as far as the numbers tell.
     pub degenerate: bool,
     /// How often the search found it.
     pub hits: usize,
@@ -99,6 +100,9 @@ impl Equilibrium {
                 }
                 Proven::Enclosed(_) => Presence::Enclosed,
             };
+        }
+        if !judgement.proven && candidate.degenerate {
+            judgement = judgement.undecided();
         }
         let (state, multipliers) = candidate.y.split_at(equations.sizes.n);
         Some(Self {

@@ -38,9 +38,10 @@ impl At<'_> {
         let n = self.equations.unknowns();
         let (mut y, mut damping) = (y.to_vec(), 0.1);
         let mut linear = self.equations.linear(&y, self.parameters)?;
+        let least = 1e-14 * self.reference();
         for _ in 0..MOST {
             let size = norm(&linear.residual);
-            if size <= 1e-10 * self.scale(&linear.slope, &y) {
+            if size <= least.max(1e-10 * self.scale(&linear.slope, &y)) {
                 return Some(y);
             }
             let (mut matrix, mut right) = (vec![0.0; n * n], vec![0.0; n]);
@@ -95,14 +96,42 @@ impl At<'_> {
             }
             let singular = Singular::new(&linear.slope, n, n)?;
             let step = singular.shortest(&linear.residual, singular.rank(RANK));
-            if norm(&step) > 1e-2 * (norm(&y) + f64::MIN_POSITIVE) && size > 1e-6 * scale {
+            if norm(&step) > 1e-2 * norm(&y).max(self.size(&y)) && size > 1e-6 * scale {
                 return None;
             }
             add(&mut y, -1.0, &step);
         }
         let (size, y) = best?;
         let linear = self.equations.linear(&y, self.parameters)?;
-        (size <= 1e-12 * self.scale(&linear.slope, &y)).then_some(y)
+        let is_root = size <= 1e-12 * self.scale(&linear.slope, &y)
+            || size <= 1e-13 * self.reference() && self.contracts(&y);
+        is_root.then_some(y)
+    }
+
+    /// The size of F where the states are of the size of the initial one.
+    fn reference(self) -> f64 {
+        let state = self.equations.leaf(self.parameters);
+        let linear = state.and_then(|(_, state)| {
+            let y = [state, vec![0.0; self.equations.sizes.m]].concat();
+            Some((self.equations.linear(&y, self.parameters)?.slope, y))
+        });
+        linear.map_or(0.0, |(slope, y)| norm(&slope) * self.size(&y))
+    }
+
+    /// Whether Newton's steps become shorter, as they do near a multiple root: by a half near a double one. Far away, where F dies out
+    /// like `exp(-x)`, they stay as long as they are.
+    fn contracts(self, y: &[f64]) -> bool {
+        let step = |y: &[f64]| {
+            let linear = self.equations.linear(y, self.parameters)?;
+            solve(&linear.slope, linear.residual)
+        };
+        let Some(first) = step(y) else {
+            return true;
+        };
+        let mut next = y.to_vec();
+        add(&mut next, -1.0, &first);
+        let small = norm(&first) <= 0.1 * self.size(y);
+        small && step(&next).is_none_or(|second| norm(&second) <= 0.9 * norm(&first))
     }
 
     /// The size of the terms of F.

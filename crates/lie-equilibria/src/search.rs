@@ -9,6 +9,7 @@ use crate::dense::{add, difference, dot, norm};
 use crate::homotopy::{self, Paths};
 use crate::newton::At;
 use crate::random::Random;
+use crate::stability::Linearisation;
 
 /// States closer than this part of their size are one.
 const SAME: f64 = 1e-6;
@@ -30,8 +31,10 @@ pub struct Candidate {
     pub energy: f64,
     /// The dimension of the family that it belongs to, 0 where it is isolated.
     pub dimension: usize,
-    /// Whether the linearisation has a kernel along which no solutions go on.
+    /// Whether the linearisation has a kernel along which no solutions go on, as far as the numbers tell.
     pub degenerate: bool,
+    /// How far it may be from where the numbers see it.
+    pub reach: f64,
     /// How often it was found.
     pub hits: usize,
 }
@@ -105,7 +108,16 @@ impl At<'_> {
         if !self.is_regular(&y) {
             return false;
         }
-        let near = |other: &&mut Candidate| distance(&y[..n], &other.y[..n]) < SAME;
+        let scale = self.size(&y);
+        let near = |other: &&mut Candidate| {
+            let apart = norm(&difference(&y[..n], &other.y[..n]));
+            let uncertain = if other.degenerate {
+                4.0 * other.reach
+            } else {
+                0.0
+            };
+            apart < uncertain || apart < SAME * scale
+        };
         if let Some(other) = known.iter_mut().find(near) {
             other.hits += 1;
             return true;
@@ -131,14 +143,20 @@ impl At<'_> {
 
     /// What a solution is.
     pub fn candidate(self, y: Vec<f64>) -> Option<Candidate> {
-        let energy = self.equations.shape(&y, self.parameters)?.energy;
+        let shape = self.equations.shape(&y, self.parameters)?;
         let kernel = self.kernel(&y)?;
         let goes_on = |direction: &Vec<f64>| self.goes_on(&y, direction, kernel.len());
         let dimension = kernel.iter().filter(|direction| goes_on(direction)).count();
+        let linearisation = Linearisation::new(self.equations.sizes, &shape)?;
+        let reach = self.reach(&y, dimension);
+        let is_sure = reach
+            .as_ref()
+            .is_none_or(|reach| self.keeps_signs(&linearisation, reach));
         Some(Candidate {
-            energy,
+            energy: shape.energy,
             dimension,
-            degenerate: dimension < kernel.len(),
+            degenerate: dimension < kernel.len() || !is_sure,
+            reach: reach.map_or(0.0, |reach| reach.length),
             hits: 1,
             y,
         })
@@ -146,7 +164,8 @@ impl At<'_> {
 
     /// Whether solutions with a kernel of this dimension go on along a direction of it.
     fn goes_on(self, y: &[f64], direction: &[f64], dimension: usize) -> bool {
-        let stride = 0.1 * STRIDE * norm(y);
+        // not within the uncertainty of a point that is small itself
+        let stride = 0.1 * STRIDE * norm(y).max(self.size(y));
         let mut other = y.to_vec();
         add(&mut other, stride, direction);
         let Some(other) = self.polish(other) else {

@@ -36,6 +36,8 @@ pub enum Stability {
     Spectral,
     /// Unstable.
     Unstable,
+    /// Nothing is decided.
+    Undecided,
 }
 
 /// Why.
@@ -62,6 +64,8 @@ pub enum Reason {
         /// And different from each other and from zero.
         simple: bool,
     },
+    /// The linearisation is degenerate as far as the numbers tell: a sign that decides changes within their uncertainty.
+    Degenerate,
 }
 
 /// The linearisation at an equilibrium in double precision.
@@ -87,6 +91,17 @@ pub struct Judgement {
     pub reason: Reason,
     /// Whether rational numbers or balls prove it.
     pub proven: bool,
+}
+
+impl Judgement {
+    /// What is left of what numbers say where their uncertainty changes signs.
+    pub fn undecided(self) -> Self {
+        Self {
+            stability: Stability::Undecided,
+            reason: Reason::Degenerate,
+            proven: false,
+        }
+    }
 }
 
 impl Linearisation {
@@ -132,6 +147,9 @@ impl Linearisation {
         if self.inertia.is_definite(family) {
             let minimum = self.inertia.negative == 0;
             return numerical(Stability::Stable, Reason::Definite { minimum });
+        }
+        if self.eigenvalues.len() < self.tangent.len() {
+            return numerical(Stability::Undecided, Reason::Degenerate);
         }
         if self.growth() > 0.0 {
             return numerical(Stability::Unstable, Reason::Right);

@@ -7,6 +7,7 @@ use lie_equilibria::{
     At, ChangeKind, Equations, Equilibrium, Presence, Reason, Stability, System, trace,
 };
 use lie_symbolic::exact::Rational;
+use lie_symbolic::symbolic::{Elementary, ExprId, Graph, Symbol};
 use systems::{canonical, lagrange_top, number, on_se3, quadratic, rigid_body};
 
 fn all(system: System, parameters: &[Rational]) -> (Vec<Equilibrium>, lie_equilibria::Found) {
@@ -310,4 +311,81 @@ fn a_top_that_hardly_spins_falls() {
             .iter()
             .all(|point| point.stability == Stability::Unstable)
     );
+}
+
+/// Degenerate equilibria: each counts once, is no family, and nothing is said of its stability.
+#[test]
+fn degenerate_equilibria_are_not_decided() {
+    // stationary in q = 0 alone on the way of the starts: q^3/3, exp(q) - q - q^2/2, sin q - q
+    let cubic = |graph: &mut Graph, q: ExprId| {
+        let square = graph.mul(q, q);
+        let cube = graph.mul(square, q);
+        graph.scale(cube, &number(1, 3))
+    };
+    let exponential = |graph: &mut Graph, q: ExprId| {
+        let (square, exp) = (graph.mul(q, q), graph.call(Elementary::Exp, &[q]));
+        graph.linear(&[
+            (exp, number(1, 1)),
+            (q, number(-1, 1)),
+            (square, number(-1, 2)),
+        ])
+    };
+    let sine = |graph: &mut Graph, q: ExprId| {
+        let sine = graph.call(Elementary::Sin, &[q]);
+        graph.sub(sine, q)
+    };
+    for (name, system) in [
+        ("cubic", canonical(cubic)),
+        ("exponential", canonical(exponential)),
+        ("sine", canonical(sine)),
+    ] {
+        let (found, _) = all(system, &[]);
+        let near: Vec<_> = found
+            .iter()
+            .filter(|one| one.state[0].abs() < 1.0)
+            .collect();
+        let states: Vec<_> = near
+            .iter()
+            .map(|one| (&one.state, one.family, one.hits))
+            .collect();
+        assert_eq!(near.len(), 1, "{name}: {states:?}");
+        let one = near[0];
+        assert!(
+            one.state[0].abs() < 1e-6 && one.family == 0,
+            "{name}: {one:?}"
+        );
+        assert!(one.degenerate, "{name}: {one:?}");
+        assert_eq!(one.judgement.stability, Stability::Undecided, "{name}");
+        assert!(found.iter().all(|one| one.family == 0), "{name}");
+    }
+    // x^3 + y^2 on the sphere: degenerate in (0, 0, 1) and (0, 0, -1) alone
+    let mut system = rigid_body([1, 1, 1], [number(0, 1), number(3, 5), number(4, 5)]);
+    let graph = &mut system.graph;
+    let [x, y] = [0, 1].map(|i| graph.symbol(Symbol::Coordinate(i)));
+    let (square, height) = (graph.mul(x, x), graph.mul(y, y));
+    let cube = graph.mul(square, x);
+    system.hamiltonian = graph.add(cube, height);
+    let (found, _) = all(system, &[]);
+    let poles = found.iter().filter(|one| one.state[2].abs() > 0.9);
+    let poles: Vec<_> = poles.collect();
+    assert_eq!(poles.len(), 2);
+    for pole in poles {
+        assert!(pole.degenerate && pole.family == 0, "{pole:?}");
+        let stability = pole.judgement.stability;
+        assert!(
+            matches!(stability, Stability::Undecided | Stability::Spectral),
+            "{pole:?}"
+        );
+    }
+    assert!(found.iter().all(|one| one.family == 0));
+    // the control: a minimum of the fourth part of the cube's height is told
+    let control = canonical(|graph, q| {
+        let cube = cubic(graph, q);
+        let square = graph.mul(q, q);
+        graph.linear(&[(cube, number(1, 1)), (square, number(1, 2000))])
+    });
+    let (found, _) = all(control, &[]);
+    let stability: Vec<Stability> = found.iter().map(|one| one.judgement.stability).collect();
+    assert_eq!(stability.len(), 2);
+    assert!(stability.contains(&Stability::Stable) && stability.contains(&Stability::Unstable));
 }

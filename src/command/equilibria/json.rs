@@ -94,6 +94,7 @@ fn reason(reason: &Reason) -> Value {
             json!({ "kind": "integrals", "energy": number(*energy), "integrals": weights, "held": held })
         }
         Reason::Right => json!({ "kind": "positive real part" }),
+        Reason::Degenerate => json!({ "kind": "degenerate" }),
         Reason::Imaginary { simple } => json!({ "kind": "imaginary", "simple": simple }),
     }
 }

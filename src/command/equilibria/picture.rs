@@ -73,7 +73,7 @@ fn panel(title: &str, range: &Range, of: &dyn Fn(&Point) -> f64) -> Panel {
 fn pieces(number: usize, branch: &Branch, of: &dyn Fn(&Point) -> f64) -> Vec<Series> {
     let stroke = |point: &Point| match point.stability {
         Stability::Unstable => Stroke::Over,
-        Stability::Stable | Stability::Spectral => Stroke::Curve,
+        Stability::Stable | Stability::Spectral | Stability::Undecided => Stroke::Curve,
     };
     let mut series: Vec<Series> = Vec::new();
     for point in &branch.points {

@@ -17,6 +17,7 @@ pub fn word(stability: Stability) -> &'static str {
         Stability::Stable => "stable",
         Stability::Spectral => "spectrally stable",
         Stability::Unstable => "unstable",
+        Stability::Undecided => "not decided",
     }
 }
 
@@ -255,6 +256,9 @@ pub fn reason(reason: &Reason, family: usize) -> String {
             text
         }
         Reason::Right => "an eigenvalue has a positive real part".to_owned(),
+        Reason::Degenerate => {
+            "the linearisation is degenerate, as far as double precision tells, and decides nothing".to_owned()
+        }
         Reason::Imaginary { simple: true } => {
             "all eigenvalues are imaginary and different, and H is indefinite: nonlinear stability is not decided".to_owned()
         }
