@@ -9,6 +9,8 @@ use crate::dense::{Singular, add, dot, norm};
 use crate::newton::At;
 use crate::system::Equations;
 
+/// A point of the curve has a residual below this part of its terms.
+const SOLVED: f64 = 1e-11;
 /// Corrections of a step.
 const MOST: usize = 8;
 
@@ -130,6 +132,9 @@ impl Curve<'_> {
             }
         }
         let moved = norm(&crate::dense::difference(&at, u));
-        (last < 1e-8).then_some((at, moved))
+        // the shortest step leaves a residual where the family goes on no more
+        let (residual, rows) = self.linear(&at)?;
+        let solved = norm(&residual) <= SOLVED * norm(&rows) * norm(&at);
+        (solved && last < 1e-8).then_some((at, moved))
     }
 }

@@ -1,6 +1,7 @@
 //! Following one branch, and refining what changes along it.
 
 use crate::branch::{Branch, Change, ChangeKind, Point, is_same};
+use crate::crossing::{self, Node, places};
 use crate::curve::Curve;
 use crate::dense::{add, difference, dot, norm};
 use crate::discriminant::discriminant;
@@ -21,6 +22,11 @@ struct Stop {
     point: Point,
     tests: [f64; 3],
 }
+
+/// A product of eigenvalues below this part of the one before is on a change.
+const ON: f64 = 1e-3;
+/// What bisection alone finds is known to this part of the range.
+const THRESHOLD: f64 = 1e-6;
 
 /// What follows a branch.
 pub struct Follower<'a> {
@@ -69,9 +75,12 @@ impl Follower<'_> {
         let family = self.curve.family;
         let judgement = linearisation.judge(self.curve.equations, &shape, family);
         let q = linearisation.even.get(family..).unwrap_or_default();
+        // the product of the squares of all eigenvalues is smooth, and not in parts of the largest
+        let degree = 2 * q.len().saturating_sub(1) as i32;
+        let product = q.first().map(|q| q * linearisation.scale.powi(degree));
         let tests = [
             tangent[tangent.len() - 1],
-            q.first().copied().unwrap_or(1.0),
+            product.unwrap_or(1.0),
             discriminant(q),
         ];
         Some(Stop {
@@ -115,6 +124,11 @@ impl Follower<'_> {
                     return;
                 }
                 continue;
+            };
+            // not onto a change itself, where nothing has a sign
+            let next = match next.tests[1].abs() < ON * from.tests[1].abs() {
+                true => self.ahead(&from, 1.1 * stride).unwrap_or(next),
+                false => next,
             };
             let at = next.point.parameter;
             if !(low..=high).contains(&at) {
@@ -206,17 +220,21 @@ impl Follower<'_> {
                 kinds.push((2, ChangeKind::Collision));
             }
         }
-        let before = branch.changes.len();
+        let mut located = false;
         let length = {
             let way = difference(&to.u, &from.u);
             dot(&way, &from.tangent)
         };
         for (test, kind) in kinds {
             let sign = |stop: &Stop| Some(stop.tests[test]);
-            let found = self.zero(from, length, from.tests[test], to.tests[test], &sign);
+            let crossing = (kind == ChangeKind::Zero).then(|| self.crossing(from, length));
+            let found = crossing
+                .flatten()
+                .or_else(|| self.zero(from, length, from.tests[test], to.tests[test], &sign));
+            located |= found.is_some();
             self.add(found, kind, stability, branch, range);
         }
-        if differs && branch.changes.len() == before {
+        if differs && !located {
             let side = |stop: &Stop| {
                 Some(if stop.point.stability == stability[0] {
                     -1.0
@@ -225,6 +243,9 @@ impl Follower<'_> {
                 })
             };
             let found = self.zero(from, length, -1.0, 1.0, &side);
+            // what is bisected has a threshold, and moves with it
+            let least = THRESHOLD * self.curve.scale[self.curve.scale.len() - 1];
+            let found = found.map(|(stop, error)| (stop, error.max(least)));
             self.add(found, ChangeKind::Other, stability, branch, range);
         }
     }
@@ -237,7 +258,14 @@ impl Follower<'_> {
         branch: &mut Branch,
         [low, high]: [f64; 2],
     ) {
-        let Some((stop, error)) = found else { return };
+        let Some((mut stop, error)) = found else {
+            return;
+        };
+        // an end of the range but for the error
+        let inside = stop.point.parameter.clamp(low, high);
+        if (inside - stop.point.parameter).abs() <= error {
+            stop.point.parameter = inside;
+        }
         if (low..=high).contains(&stop.point.parameter) {
             branch.changes.push(Change {
                 parameter: stop.point.parameter,
@@ -248,6 +276,22 @@ impl Follower<'_> {
                 stability,
             });
         }
+    }
+
+    /// Where an eigenvalue passes zero along a step.
+    fn crossing(&self, from: &Stop, length: f64) -> Option<(Stop, f64)> {
+        let node = |place: f64| {
+            let stop = self.ahead(from, place)?;
+            Some(Node {
+                place,
+                value: stop.tests[1],
+                u: stop.u,
+            })
+        };
+        let nodes: Vec<Node> = places(length).filter_map(node).collect();
+        let (u, error) = crossing::zero(&nodes, length)?;
+        let stop = self.stop(u, from.tangent.clone())?;
+        Some((stop, error * self.curve.scale[self.curve.scale.len() - 1]))
     }
 
     /// The zero of a function along a step: regula falsi that halves an end which stays (Illinois), and bisection.

@@ -17,6 +17,7 @@
 
 mod arithmetic;
 mod branch;
+mod crossing;
 mod curve;
 mod dense;
 mod discriminant;

@@ -79,6 +79,8 @@ pub struct Linearisation {
     pub inertia: Inertia,
     /// The coefficients of q, `det(s - L) = q(s^2)` on the leaf, the constant one first, scaled so that eigenvalues are about 1.
     pub even: Vec<f64>,
+    /// The size of the largest eigenvalue.
+    pub scale: f64,
     tangent: Vec<Vec<f64>>,
 }
 
@@ -120,6 +122,7 @@ impl Linearisation {
         Some(Self {
             inertia: signs(&symmetric_eigen(&form, r)?.0),
             zeros: m,
+            scale: largest(&eigenvalues),
             even: even(&motion, r, largest(&eigenvalues)),
             eigenvalues,
             tangent,

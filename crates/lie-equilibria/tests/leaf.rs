@@ -389,3 +389,75 @@ fn degenerate_equilibria_are_not_decided() {
     assert_eq!(stability.len(), 2);
     assert!(stability.contains(&Stability::Stable) && stability.contains(&Stability::Unstable));
 }
+
+/// A body with a parameter: `H = k x^2/2 + y^2/2 + 3 z^2/4 + l z` with one of k and l the parameter, on the sphere.
+fn body_with(parameter: &str) -> Equations {
+    let mut system = rigid_body([1, 1, 1], [number(0, 1), number(3, 5), number(4, 5)]);
+    let graph = &mut system.graph;
+    let value = graph.symbol(Symbol::Parameter(0));
+    let [x, y, z] = [0, 1, 2].map(|i| graph.symbol(Symbol::Coordinate(i)));
+    let [xx, yy, zz] = [x, y, z].map(|x| graph.mul(x, x));
+    let (own, at) = match parameter {
+        "k" => (graph.mul(value, xx), number(1, 2)),
+        _ => (graph.mul(value, z), number(1, 1)),
+    };
+    let rest = if parameter == "k" {
+        number(0, 1)
+    } else {
+        number(1, 4)
+    };
+    let terms = [
+        (own, at),
+        (xx, rest),
+        (yy, number(1, 2)),
+        (zz, number(3, 4)),
+    ];
+    system.hamiltonian = graph.linear(&terms);
+    system.parameters = vec![parameter.to_owned()];
+    Equations::new(system, Some(0)).expect("expressions")
+}
+
+/// Axes change their stability where k is 1 and 3/2, and at l = 1/2 and 1; every point is an equilibrium at its parameter.
+#[test]
+fn branches_change_where_they_do() {
+    let expected = [
+        ("k", 0.5, 1.6, [1.0, 1.5]),
+        ("k", 0.45, 1.65, [1.0, 1.5]),
+        ("l", 0.2, 0.8, [0.5, 1.0]),
+        ("l", 0.2, 1.3, [0.5, 1.0]),
+    ];
+    for (name, from, to, thresholds) in expected {
+        let equations = body_with(name);
+        let grid: Vec<f64> = (0..11)
+            .map(|k| from + 0.1 * (to - from) * f64::from(k))
+            .collect();
+        let traced = trace(&equations, &[0.0], 0, &grid, 60, 1);
+        let mut zeros = 0;
+        for branch in &traced.branches {
+            for point in &branch.points {
+                let linear = equations
+                    .linear(&point.y, &[point.parameter])
+                    .expect("finite");
+                let most = linear
+                    .residual
+                    .iter()
+                    .fold(0.0_f64, |most, x| most.max(x.abs()));
+                assert!(most < 1e-12, "{name}: {point:?}");
+            }
+            for change in branch
+                .changes
+                .iter()
+                .filter(|one| one.kind != ChangeKind::Fold)
+            {
+                let off = |threshold: &f64| (change.parameter - threshold).abs();
+                let off = thresholds.iter().map(off).fold(f64::INFINITY, f64::min);
+                assert!(off <= change.error, "{name}: {change:?} off by {off}");
+                if change.kind == ChangeKind::Zero {
+                    assert!(change.error < 1e-11, "{name}: {change:?}");
+                    zeros += 1;
+                }
+            }
+        }
+        assert!(zeros > 0, "{name} from {from}: {:?}", traced.branches);
+    }
+}
