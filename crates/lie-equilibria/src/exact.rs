@@ -9,6 +9,8 @@ use lie_symbolic::exact::{Ball, Rational};
 
 use crate::arithmetic::{Arithmetic as _, Balls, Rationals};
 use crate::dense::{norm, solve};
+use crate::homotopy::multiplier;
+use crate::newton::At;
 use crate::system::{Equations, Shape};
 use crate::tape::Tape;
 
@@ -52,8 +54,8 @@ impl<'a> Prover<'a> {
 
     fn rational(&self, y: &[f64], parameters: &[Rational]) -> Option<Proven> {
         let [first, second] = self.rational.as_ref()?;
-        let size = norm(y);
-        let exact: Option<Vec<Rational>> = y.iter().map(|y| fraction(*y, size)).collect();
+        let pairs = y.iter().zip(self.sizes(y, parameters));
+        let exact: Option<Vec<Rational>> = pairs.map(|(y, size)| fraction(*y, size)).collect();
         let exact = exact?;
         let inputs = [exact.as_slice(), parameters].concat();
         let linear = self.equations.sizes.linear(first.evaluate(&inputs)?);
@@ -62,6 +64,20 @@ impl<'a> Prover<'a> {
         }
         let shape = self.equations.sizes.shape(second.evaluate(&inputs)?);
         Some(Proven::Rational(exact, shape))
+    }
+
+    /// The scale of each unknown: states and multipliers have units of their own.
+    fn sizes(&self, y: &[f64], parameters: &[Rational]) -> Vec<f64> {
+        let values: Vec<f64> = parameters.iter().map(Rational::to_f64).collect();
+        let at = At {
+            equations: self.equations,
+            parameters: &values,
+        };
+        let (x, lambda) = y.split_at(self.equations.sizes.n);
+        let size = at.size(y);
+        let multiplier = multiplier(at, x, size).max(norm(lambda));
+        let of = |k: usize| if k < x.len() { size } else { multiplier };
+        (0..y.len()).map(of).collect()
     }
 
     fn enclosed(&self, y: &[f64], parameters: &[Rational]) -> Option<Proven> {
@@ -76,24 +92,25 @@ impl<'a> Prover<'a> {
             let middle: Vec<Ball> = exact.iter().map(|y| balls.rational(y)).collect();
             at(&middle)?.slope.iter().map(Ball::to_f64).collect()
         };
+        let scales = self.sizes(y, parameters);
         for _ in 0..REFINEMENTS {
             let middle: Vec<Ball> = exact.iter().map(|y| balls.rational(y)).collect();
             let residual = at(&middle)?.residual.iter().map(Ball::to_f64).collect();
-            let step = solve(&slope, residual)?;
+            let step = balanced(&slope, &scales, residual)?;
             for (y, d) in exact.iter_mut().zip(step) {
                 *y = &*y - &Rational::from_f64(d)?;
             }
         }
         let middle: Vec<Ball> = exact.iter().map(|y| balls.rational(y)).collect();
-        let size = match norm(y) {
-            0.0 => 1.0,
-            size => size,
-        };
-        let reach = size.log2().ceil() as i64 - WIDTH;
-        let zero = balls.around_zero(reach);
-        let whole: Vec<Ball> = middle.iter().map(|y| balls.add(y, &zero)).collect();
+        let reach: Vec<i64> = scales
+            .iter()
+            .map(|size| size.log2().ceil() as i64 - WIDTH)
+            .collect();
+        let zero: Vec<Ball> = reach.iter().map(|k| balls.around_zero(*k)).collect();
+        let whole = middle.iter().zip(&zero).map(|(y, zero)| balls.add(y, zero));
+        let whole: Vec<Ball> = whole.collect();
         let (residual, derivative) = (at(&middle)?.residual, at(&whole)?.slope);
-        let inverse = inverse(&slope, n, balls)?;
+        let inverse = inverse(&slope, &scales, balls)?;
         for (own, row) in inverse.chunks(n).enumerate() {
             let mut moved = balls.rational(&Rational::ZERO);
             for (y, f) in row.iter().zip(&residual) {
@@ -104,10 +121,10 @@ impl<'a> Prover<'a> {
                 for (y, slopes) in row.iter().zip(derivative.chunks(n)) {
                     entry = balls.sub(&entry, &balls.mul(y, &slopes[j]));
                 }
-                moved = balls.add(&moved, &balls.mul(&entry, &zero));
+                moved = balls.add(&moved, &balls.mul(&entry, &zero[j]));
             }
             // less than the box in every coordinate
-            if moved.magnitude() > reach {
+            if moved.magnitude() > reach[own] {
                 return None;
             }
         }
@@ -116,12 +133,32 @@ impl<'a> Prover<'a> {
     }
 }
 
+/// The solution of `A x = b` for unknowns of these scales: each row in parts of its largest term.
+fn balanced(a: &[f64], scales: &[f64], b: Vec<f64>) -> Option<Vec<f64>> {
+    let (mut matrix, mut right) = (Vec::with_capacity(a.len()), Vec::with_capacity(b.len()));
+    for (row, value) in a.chunks(scales.len()).zip(b) {
+        let terms: Vec<f64> = row.iter().zip(scales).map(|(a, scale)| a * scale).collect();
+        let size = terms.iter().fold(0.0_f64, |size, x| size.max(x.abs()));
+        matrix.extend(terms.iter().map(|x| x / size));
+        right.push(value / size);
+    }
+    let found = solve(&matrix, right)?;
+    Some(
+        found
+            .iter()
+            .zip(scales)
+            .map(|(x, scale)| x * scale)
+            .collect(),
+    )
+}
+
 /// An approximate inverse, as numbers that are what they are.
-fn inverse(slope: &[f64], n: usize, balls: &Balls) -> Option<Vec<Ball>> {
+fn inverse(slope: &[f64], scales: &[f64], balls: &Balls) -> Option<Vec<Ball>> {
+    let n = scales.len();
     let mut columns = Vec::new();
     for j in 0..n {
         let unit = (0..n).map(|i| f64::from(u8::from(i == j))).collect();
-        columns.push(solve(slope, unit)?);
+        columns.push(balanced(slope, scales, unit)?);
     }
     let entries = (0..n).flat_map(|i| columns.iter().map(move |column| column[i]));
     entries

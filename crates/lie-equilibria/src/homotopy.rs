@@ -159,7 +159,7 @@ fn is_real(end: &[c64]) -> bool {
 }
 
 /// About how large multipliers are: `|grad H|/|grad C|` at a state.
-fn multiplier(at: At<'_>, state: &[f64], size: f64) -> f64 {
+pub(crate) fn multiplier(at: At<'_>, state: &[f64], size: f64) -> f64 {
     let m = at.equations.sizes.m;
     let shifted: Vec<f64> = state.iter().map(|x| x + 0.1 * size).collect();
     let y = [shifted, vec![0.0; m]].concat();

@@ -29,6 +29,7 @@ mod integrals;
 mod newton;
 pub mod proof;
 mod random;
+mod scaling;
 mod search;
 pub mod stability;
 mod system;

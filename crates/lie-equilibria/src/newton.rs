@@ -8,6 +8,7 @@
 //! doi:10.1007/978-3-7091-6217-0_18.
 
 use crate::dense::{Singular, add, dot, norm, solve};
+use crate::homotopy::multiplier;
 use crate::system::Equations;
 
 /// A singular value below this part of the largest counts as zero at a solution.
@@ -26,6 +27,12 @@ pub struct At<'a> {
     pub parameters: &'a [f64],
 }
 
+/// Whether each entry is at most a part of a size of its own.
+pub fn is_below(values: &[f64], part: f64, sizes: &[f64]) -> bool {
+    let mut pairs = values.iter().zip(sizes);
+    pairs.all(|(value, size)| value.abs() <= part * size)
+}
+
 impl At<'_> {
     /// A solution near y; `None` where the iteration ends at none.
     pub fn solve(self, y: &[f64]) -> Option<Vec<f64>> {
@@ -38,10 +45,12 @@ impl At<'_> {
         let n = self.equations.unknowns();
         let (mut y, mut damping) = (y.to_vec(), 0.1);
         let mut linear = self.equations.linear(&y, self.parameters)?;
-        let least = 1e-14 * self.reference();
+        let references = self.references();
         for _ in 0..MOST {
             let size = norm(&linear.residual);
-            if size <= least.max(1e-10 * self.scale(&linear.slope, &y)) {
+            if size <= 1e-10 * self.scale(&linear.slope, &y)
+                || is_below(&linear.residual, 1e-14, &references)
+            {
                 return Some(y);
             }
             let (mut matrix, mut right) = (vec![0.0; n * n], vec![0.0; n]);
@@ -104,18 +113,27 @@ impl At<'_> {
         let (size, y) = best?;
         let linear = self.equations.linear(&y, self.parameters)?;
         let is_root = size <= 1e-12 * self.scale(&linear.slope, &y)
-            || size <= 1e-13 * self.reference() && self.contracts(&y);
+            || is_below(&linear.residual, 1e-13, &self.references()) && self.contracts(&y);
         is_root.then_some(y)
     }
 
-    /// The size of F where the states are of the size of the initial one.
-    fn reference(self) -> f64 {
-        let state = self.equations.leaf(self.parameters);
-        let linear = state.and_then(|(_, state)| {
-            let y = [state, vec![0.0; self.equations.sizes.m]].concat();
-            Some((self.equations.linear(&y, self.parameters)?.slope, y))
+    /// The sizes of the terms of each equation beside the initial state, for states and multipliers of their own scales.
+    pub fn references(self) -> Vec<f64> {
+        let n = self.equations.unknowns();
+        let sizes = self.equations.sizes;
+        let terms = self.equations.leaf(self.parameters).and_then(|(_, state)| {
+            let size = self.size(&state);
+            let lambda = multiplier(self, &state, size);
+            let beside = state.iter().map(|x| x + 0.1 * size);
+            let y: Vec<f64> = beside.chain(vec![lambda; sizes.m]).collect();
+            let slope = self.equations.linear(&y, self.parameters)?.slope;
+            let term = |row: &[f64]| {
+                let of = |(k, a): (usize, &f64)| a.abs() * if k < sizes.n { size } else { lambda };
+                row.iter().enumerate().map(of).sum()
+            };
+            Some(slope.chunks(n).map(term).collect())
         });
-        linear.map_or(0.0, |(slope, y)| norm(&slope) * self.size(&y))
+        terms.unwrap_or_else(|| vec![0.0; n])
     }
 
     /// Whether Newton's steps become shorter, as they do near a multiple root: by a half near a double one. Far away, where F dies out

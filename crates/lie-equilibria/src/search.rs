@@ -9,6 +9,7 @@ use crate::dense::{add, difference, dot, norm};
 use crate::homotopy::{self, Paths};
 use crate::newton::At;
 use crate::random::Random;
+use crate::scaling::Scaled;
 use crate::stability::Linearisation;
 
 /// States closer than this part of their size are one.
@@ -56,6 +57,22 @@ impl At<'_> {
     /// Looks for all solutions from so many starts, and by paths in the complex plane where they are few enough. `None` where the leaf
     /// is not one: its values are not finite.
     pub fn search(self, starts: usize, seed: u64, with_paths: bool) -> Option<Found> {
+        let Some(scaled) = Scaled::new(self) else {
+            return self.search_as_given(starts, seed, with_paths);
+        };
+        let at = At {
+            equations: &scaled.equations,
+            parameters: self.parameters,
+        };
+        let mut found = at.search_as_given(starts, seed, with_paths)?;
+        found
+            .candidates
+            .iter_mut()
+            .for_each(|candidate| scaled.back(candidate));
+        Some(found)
+    }
+
+    fn search_as_given(self, starts: usize, seed: u64, with_paths: bool) -> Option<Found> {
         let (_, state) = self.equations.leaf(self.parameters)?;
         let n = state.len();
         let size = match norm(&state) {

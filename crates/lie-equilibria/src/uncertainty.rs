@@ -1,11 +1,11 @@
 //! How far a solution may be from where numbers see it.
 //!
-//! The residual F has round-off of the size `rho = c eps |F'| s`, with the scale s of the state. Where `|F| <= rho` all along a piece of a line
+//! The residual F has round-off of the size `rho = c eps |F'| s` in each equation, with the scales s of states and multipliers. Where `|F| <= rho` all along a piece of a line
 //! through a solution, no number tells which point of the piece the solution is: of a simple root it is about rho/sigma long, with the
 //! smallest singular value sigma of F', of a double one about `sqrt(rho)`, of a triple one `rho^(1/3)`.
 
 use crate::dense::{Singular, add, norm};
-use crate::newton::At;
+use crate::newton::{At, is_below};
 use crate::stability::Linearisation;
 
 /// The constant c.
@@ -40,7 +40,11 @@ impl At<'_> {
         let singular = Singular::new(&linear.slope, n, n)?;
         let direction = singular.right.get(n.checked_sub(family + 1)?)?;
         let size = self.size(y);
-        let round_off = ROUNDING * singular.values.first()? * size;
+        // what was accepted as a solution is round-off too
+        let references = self.references().into_iter().zip(&linear.residual);
+        let round_off: Vec<f64> = references
+            .map(|(size, residual)| (ROUNDING * size).max(2.0 * residual.abs()))
+            .collect();
         let at = |part: f64| {
             let mut other = y.to_vec();
             add(&mut other, part, direction);
@@ -48,7 +52,7 @@ impl At<'_> {
         };
         let is_flat = |part: f64| {
             let linear = self.equations.linear(&at(part), self.parameters);
-            linear.is_some_and(|linear| norm(&linear.residual) <= round_off)
+            linear.is_some_and(|linear| is_below(&linear.residual, 1.0, &round_off))
         };
         let mut length = f64::EPSILON * size;
         while length < LONG * size && (is_flat(2.0 * length) || is_flat(-2.0 * length)) {

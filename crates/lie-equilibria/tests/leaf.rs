@@ -461,3 +461,45 @@ fn branches_change_where_they_do() {
         assert!(zeros > 0, "{name} from {from}: {:?}", traced.branches);
     }
 }
+
+/// `H = h (X^4 + Y^4 + Z)` on the sphere `|x| = s` with `x = s X` has the same equilibria for all s and h.
+#[test]
+fn scales_change_nothing() {
+    let of = |s: i32, h: i32| {
+        let power = |k: i32| Rational::from(10).pow(k).expect("a power");
+        let scale = power(s);
+        let state = [number(0, 1), &scale * &number(3, 5), &scale * &number(4, 5)];
+        let mut system = rigid_body([1, 1, 1], state);
+        let graph = &mut system.graph;
+        let [x, y, z] = [0, 1, 2].map(|i| {
+            let x = graph.symbol(Symbol::Coordinate(i));
+            graph.scale(x, &power(-s))
+        });
+        let [xx, yy] = [x, y].map(|x| graph.mul(x, x));
+        let [x4, y4] = [xx, yy].map(|x| graph.mul(x, x));
+        let terms = [x4, y4, z].map(|term| (term, power(h)));
+        system.hamiltonian = graph.linear(&terms);
+        let (found, search) = all(system, &[]);
+        let size = scale.to_f64();
+        let mut states: Vec<(Vec<i64>, Stability, bool)> = found
+            .iter()
+            .map(|one| {
+                let digits = one.state.iter().map(|x| (1e9 * x / size).round() as i64);
+                (
+                    digits.collect(),
+                    one.judgement.stability,
+                    one.judgement.proven,
+                )
+            })
+            .collect();
+        states.sort_by(|a, b| a.0.cmp(&b.0));
+        let paths = search.paths.expect("polynomials");
+        assert_eq!((paths.lost, paths.real), (0, 10), "{s} {h}: {paths:?}");
+        states
+    };
+    let plain = of(0, 0);
+    assert_eq!(plain.len(), 10);
+    for (s, h) in [(-8, 0), (8, 0), (0, -12), (-8, -9), (8, -9), (8, 12)] {
+        assert_eq!(of(s, h), plain, "{s} {h}");
+    }
+}
