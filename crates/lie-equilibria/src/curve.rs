@@ -11,6 +11,8 @@ use crate::system::Equations;
 
 /// A point of the curve has a residual below this part of its terms.
 const SOLVED: f64 = 1e-11;
+/// A singular value of a direction of the family is below this part of the largest.
+const KERNEL: f64 = 1e-10;
 /// Corrections of a step.
 const MOST: usize = 8;
 
@@ -133,8 +135,13 @@ impl Curve<'_> {
         }
         let moved = norm(&crate::dense::difference(&at, u));
         // the shortest step leaves a residual where the family goes on no more
-        let (residual, rows) = self.linear(&at)?;
+        let (residual, mut rows) = self.linear(&at)?;
         let solved = norm(&residual) <= SOLVED * norm(&rows) * norm(&at);
+        // nor is a member of the family what has no kernel of its dimension
+        rows.extend_from_slice(t);
+        let values = Singular::new(&rows, n + 1, n + 1)?.values;
+        let own = values.get(n + 1 - self.family);
+        let solved = solved && own.is_none_or(|value| *value <= KERNEL * values[0]);
         (solved && last < 1e-8).then_some((at, moved))
     }
 }

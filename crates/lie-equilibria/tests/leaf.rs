@@ -421,6 +421,7 @@ fn body_with(parameter: &str) -> Equations {
 #[test]
 fn branches_change_where_they_do() {
     let expected = [
+        ("k", 0.5, 1.5, [1.0, 1.5]),
         ("k", 0.5, 1.6, [1.0, 1.5]),
         ("k", 0.45, 1.65, [1.0, 1.5]),
         ("l", 0.2, 0.8, [0.5, 1.0]),
@@ -434,6 +435,12 @@ fn branches_change_where_they_do() {
         let traced = trace(&equations, &[0.0], 0, &grid, 60, 1);
         let mut zeros = 0;
         for branch in &traced.branches {
+            // equators are equilibria at one value of k alone
+            let one = |point: &lie_equilibria::Point| point.parameter == branch.points[0].parameter;
+            assert!(
+                branch.family == 0 || branch.points.iter().all(one),
+                "{name}: {branch:?}"
+            );
             for point in &branch.points {
                 let linear = equations
                     .linear(&point.y, &[point.parameter])
