@@ -79,6 +79,12 @@ impl At<'_> {
             0.0 => 1.0,
             size => size,
         };
+        // paths need the scale of the leaf, which a state far from it does not tell
+        let near = self.on_leaf(&state).is_some_and(|y| {
+            let part = norm(&y[..n]) / size;
+            part == 0.0 || (1e-2..1e2).contains(&part)
+        });
+        let with_paths = with_paths && near;
         let mut found = Found {
             candidates: Vec::new(),
             starts: 0,

@@ -469,6 +469,17 @@ fn branches_change_where_they_do() {
     }
 }
 
+/// Levels that are far from those of the state leave the scale open, and nothing is said to be complete.
+#[test]
+fn a_state_far_from_the_leaf_tells_no_scale() {
+    for (level, complete) in [(number(3, 1), true), (number(1, 1_000_000_000), false)] {
+        let mut system = rigid_body([1, 2, 3], [number(1, 1), number(2, 1), number(2, 1)]);
+        system.levels = vec![system.graph.number(level)];
+        let (_, search) = all(system, &[]);
+        assert_eq!(search.paths.is_some(), complete);
+    }
+}
+
 /// `H = h (X^4 + Y^4 + Z)` on the sphere `|x| = s` with `x = s X` has the same equilibria for all s and h.
 #[test]
 fn scales_change_nothing() {
