@@ -13,6 +13,9 @@ const NODES: usize = 9;
 /// So many of them must be points.
 const LEAST: usize = 6;
 
+/// No parameter is known better, relative to its size: what the functions are computed from is rounded.
+pub const LAST_DIGITS: f64 = 8.0 * f64::EPSILON;
+
 /// A point of a step.
 pub struct Node {
     /// Where along the step.
@@ -37,7 +40,7 @@ pub fn zero(nodes: &[Node], length: f64) -> Option<(Vec<f64>, f64)> {
     let all: Vec<&Node> = nodes.iter().collect();
     let found = point(&all, length)?;
     let parameter = found.last().copied()?;
-    let mut error = 4.0 * f64::EPSILON * parameter.abs();
+    let mut error = LAST_DIGITS * parameter.abs();
     for left_out in 0..nodes.len() {
         let mut rest = all.clone();
         rest.remove(left_out);

@@ -1,7 +1,7 @@
 //! Following one branch, and refining what changes along it.
 
 use crate::branch::{Branch, Change, ChangeKind, Point, is_same};
-use crate::crossing::{self, Node, places};
+use crate::crossing::{self, LAST_DIGITS, Node, places};
 use crate::curve::Curve;
 use crate::dense::{add, difference, dot, norm};
 use crate::discriminant::discriminant;
@@ -316,7 +316,7 @@ impl Follower<'_> {
             let stop = self.ahead(from, middle)?;
             let value = of(&stop)?;
             if value == 0.0 {
-                let error = f64::EPSILON * stop.point.parameter.abs();
+                let error = LAST_DIGITS * stop.point.parameter.abs();
                 return Some((stop, error));
             }
             if value * fa > 0.0 {
@@ -332,7 +332,7 @@ impl Follower<'_> {
             _ => length.abs() * self.curve.scale[self.curve.scale.len() - 1],
         };
         let stop = low.or(high)?;
-        let error = error.max(f64::EPSILON * stop.point.parameter.abs());
+        let error = error.max(LAST_DIGITS * stop.point.parameter.abs());
         Some((stop, error))
     }
 }

@@ -6,7 +6,6 @@ use super::envelope::Columns;
 use super::field::{Coordinates, Field, NoSpan};
 use super::sparse::SparseMatrix;
 use super::{StructureConstants, envelope, triple};
-use crate::model::Parameter;
 use lie_symbolic::exact::{Budget, Exhausted, Fraction, Rational};
 use lie_syntax::ast::Matrix;
 use lie_syntax::diagnostic::{Diagnostic, Kind};
@@ -76,10 +75,10 @@ impl Parametric {
         matrices.all(|matrix| pairs().all(|pair| opposite(matrix, pair)))
     }
 
-    /// That something needs matrices of numbers, with the remedy.
-    pub fn refusal(&self, what: &str, parameters: &[Parameter]) -> (String, String) {
+    /// That something needs matrices of numbers, with the remedy, by the names of the parameters.
+    pub fn refusal<'n>(&self, what: &str, name: impl Fn(usize) -> &'n str) -> (String, String) {
         let names = self.parameters().into_iter();
-        let names = names.map(|p| format!("`{}`", parameters[p].name));
+        let names = names.map(|parameter| format!("`{}`", name(parameter)));
         let names: Vec<String> = names.collect();
         let (those, values) = match names.len() {
             1 => ("the parameter", "the value"),

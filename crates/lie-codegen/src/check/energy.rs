@@ -89,7 +89,7 @@ impl Motion<'_> {
         }
         if let Some(parametric) = self.parametric.filter(|_| self.in_entries()) {
             let what = "a discrete Lagrangian in entries of the group element";
-            let (message, help) = parametric.refusal(what, self.parameters);
+            let (message, help) = parametric.refusal(what, |index| &self.parameters[index].name);
             return Err(Diagnostic::new(Kind::Representation, origin, message).help(help));
         }
         let in_entries = entries::in_entries(self.declaration, self.representation, function);

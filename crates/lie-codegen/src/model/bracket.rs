@@ -177,7 +177,7 @@ impl Model {
     /// Why something that needs matrices of numbers is not to be had, with the remedy; none where the declared ones have no parameters.
     pub fn parametric_matrices(&self, what: &str) -> Option<(String, String)> {
         let parametric = self.bracket.parametric()?;
-        Some(parametric.refusal(what, &self.parameters))
+        Some(parametric.refusal(what, |index| &self.parameters[index].name))
     }
 
     /// What the cocycle that is added to the bracket is.
