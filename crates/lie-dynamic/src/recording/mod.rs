@@ -282,6 +282,9 @@ struct CompiledStep<S> {
     results: Vec<S>,
 }
 
+/// A method and a stepper of it.
+type Apart<'a, S> = (Rc<Method<S>>, ForgottenStepper<'a, Vec<S>, S>);
+
 /// The stepper of a [`RecordedMethod`].
 struct RecordedStepper<'a, S: Scalar> {
     system: &'a Dynamic<S>,
@@ -290,7 +293,7 @@ struct RecordedStepper<'a, S: Scalar> {
     wait: Countdown,
     whole: Option<CompiledStep<S>>,
     /// What makes steps kernel by kernel, and its stepper.
-    apart: Option<(Rc<Method<S>>, ForgottenStepper<'a, Vec<S>, S>)>,
+    apart: Option<Apart<'a, S>>,
     /// Whether the other steps have another size by now.
     is_stale: bool,
 }
