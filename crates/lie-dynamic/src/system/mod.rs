@@ -34,7 +34,7 @@ const QUICK: u32 = 64;
 /// A Lie–Poisson system made at run time, over states on the heap.
 ///
 /// It implements the traits of the numeric core by the codes of its plan. Traits for structure that it does not have answer
-/// with what is empty, or panic: [`method`](crate::method) is asked for methods that apply.
+/// with what is empty, or panic: [`method_over`](crate::method_over) is asked for methods that apply.
 #[derive(Clone)]
 pub struct Dynamic<S: Scalar> {
     pub(crate) values: Values<S>,
