@@ -2,6 +2,7 @@
 
 mod lanes;
 
+use crate::recording::Recorded;
 use crate::system::Dynamic;
 use lie_codegen::methods::{Choice, Gradient, Lift, Pieces, Retraction, Scheme, Tensor};
 use lie_codegen::structure::lifts::Smallest;
@@ -161,56 +162,23 @@ pub(crate) fn implicit<S: Scalar>(choice: &Choice) -> Option<Method<S>> {
     None
 }
 
-/// Whether the step of a method, or of the base of a composition, is an equation: the method over a scalar that records has it.
+/// Whether the step of a method, or of the base of a composition, is an equation: then the method over a scalar that records is there.
 pub fn has_equation(choice: &Choice) -> bool {
-    let solved = choice.solved();
-    /// Whether a row that has an equation is the one that is asked for.
-    macro_rules! rows {
-        (
-            {} choices $choices:tt
-            $({ $title:literal $needs:tt $reference:tt
-                $($choice:tt $type:tt $value:tt { $($particular:ident)? $([$($equation:tt)+])* })+
-            })+
-        ) => {
-            $($(rows!($choice $([$($equation)+])*);)+)+
-        };
-        ($choice:tt) => {};
-        ([$($choice:tt)+] $($equation:tt)+) => {
-            if matches!(solved, Choice::$($choice)+) {
-                return true;
-            }
-        };
-    }
-    lie_core::for_each_method!(rows! {});
-    of_system(solved).is_some()
+    implicit::<Recorded<8>>(choice.solved()).is_some()
 }
 
 /// The methods whose equation depends on what the system has.
-enum OfSystem {
-    /// In coordinates of the algebra or of a representation.
-    Isospectral(Claims),
-    Variational(u32),
-    VariationalCayley,
-}
-
-fn of_system(choice: &Choice) -> Option<OfSystem> {
-    Some(match choice {
-        Choice::Isospectral(2) => OfSystem::Isospectral(Claims::from_facts::<m::Isospectral2>()),
-        Choice::Collective(2, Lift::Representation) => {
-            OfSystem::Isospectral(Claims::from_facts::<m::Collective2<m::Representation>>())
-        }
-        Choice::Variational(order, Retraction::Exp) => OfSystem::Variational(*order),
-        Choice::Variational(2, Retraction::Cayley) => OfSystem::VariationalCayley,
-        _ => return None,
-    })
-}
-
 fn by_equation_of_system<S: Scalar>(choice: &Choice) -> Option<Method<S>> {
-    Some(match of_system(choice)? {
-        OfSystem::Isospectral(claims) => isospectral2(claims),
-        OfSystem::Variational(order) => variational(order),
-        OfSystem::VariationalCayley => variational_cayley(),
-    })
+    match choice {
+        Choice::Isospectral(2) => Some(isospectral2(Claims::from_facts::<m::Isospectral2>())),
+        Choice::Collective(2, Lift::Representation) => {
+            let claims = Claims::from_facts::<m::Collective2<m::Representation>>();
+            Some(isospectral2(claims))
+        }
+        Choice::Variational(order, Retraction::Exp) => Some(variational(*order)),
+        Choice::Variational(2, Retraction::Cayley) => Some(variational_cayley()),
+        _ => None,
+    }
 }
 
 /// The methods that depend on what the system has.
