@@ -89,7 +89,7 @@ fn searched(found: &Found, equilibria: &[Equilibrium]) -> String {
         found.converged
     );
     text.push_str(&match found.paths {
-        None => "searched, not proven to be all: the equations are no polynomials, or have too many complex solutions to follow all\n".to_owned(),
+        None => "searched, not proven to be all: the equations are no polynomials, have too many complex solutions to follow all, or the initial state is far from the leaf\n".to_owned(),
         Some(paths) => complete(paths, isolated),
     });
     text
