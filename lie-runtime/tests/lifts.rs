@@ -881,7 +881,7 @@ fn orbits_are_kept_and_the_energy_does_not_drift() {
             &Collective16::smallest(),
             &state(&su3, &SU3),
             2.5,
-            daily(300, 5_000),
+            daily(1_000, 5_000),
         ),
     ] {
         assert!(growth < GROWTH, "{growth}");
