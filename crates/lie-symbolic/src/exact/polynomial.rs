@@ -1,5 +1,6 @@
 //! Sparse multivariate polynomials over the rationals.
 
+mod common;
 mod division;
 
 use std::collections::BTreeMap;
