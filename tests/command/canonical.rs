@@ -131,6 +131,56 @@ fn the_other_coordinate_of_a_pair_is_replaced_where_only_that_has_an_inverse() {
     }
 }
 
+/// Functions of each coordinate that are not linear: the motion is the same on the side of the initial state, and Gauss methods are Poisson maps.
+#[test]
+fn integrals_of_each_coordinate_are_undone() {
+    let folder = folder();
+    for (name, [a, b, c], initial) in [
+        ("Powers", ["1 + x^2", "y", "z^2"], ["3/10", "1", "7/10"]),
+        ("Left", ["1/x", "sqrt(y)", "z^2"], ["-7/10", "1/2", "-3/5"]),
+        (
+            "Within",
+            ["x*(1 - x)", "cosh(y)", "exp(-z)"],
+            ["3/10", "1/2", "1/5"],
+        ),
+        (
+            "Outside",
+            ["x*(1 - x)", "1/cosh(y)", "z^2 - 2"],
+            ["13/10", "1/2", "-2"],
+        ),
+        (
+            "Turned",
+            ["cos(x)^2", "sqrt(1 + y^2)", "sin(z)"],
+            ["7/2", "-1/2", "-1"],
+        ),
+        (
+            "Hyperbolic",
+            ["sinh(x)", "tanh(y)", "cosh(z)^2"],
+            ["-1/2", "1", "1/5"],
+        ),
+    ] {
+        let spec = json!({
+            "format": 1, "name": name, "state": ["x", "y", "z"],
+            "poisson": [
+                format!("{{x, y}} = ({a})*({b})/4"),
+                format!("{{y, z}} = ({b})*({c})/2"),
+                format!("{{x, z}} = -({a})*({c})/12")
+            ],
+            "hamiltonian": "x^2/3 + y^2/4 + z^2/5 + x*y*z/9",
+            "initial": initial
+        });
+        let path = written(folder.path(), &spec);
+        let out = canonical(&path);
+        let names = ["x", "y", "z"];
+        let pairs = end(&path, &names).into_iter().zip(end(&out, &names));
+        for (a, b) in pairs {
+            assert!((a - b).abs() < 1e-11, "{name}: {a} and {b}");
+        }
+        let [there, here] = [&out, &path].map(|path| defect(path));
+        assert!(there < 1e-13 && here > 1e-11, "{name}: {there:e}, {here:e}");
+    }
+}
+
 /// Columns stay in their order, names that are taken are avoided, and a method that does not apply any more is replaced.
 #[test]
 fn what_stays_and_what_is_replaced() {

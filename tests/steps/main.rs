@@ -36,6 +36,7 @@ mod declared_attitude;
 mod drift;
 mod driven_splittings;
 mod driving;
+mod elementwise;
 mod energy_methods;
 mod exact;
 mod explicit_declarations;

@@ -186,8 +186,8 @@ pub trait MatrixGroup<S: Scalar>: LiePoisson<S> {
 pub trait CanonicalPoisson<S: Scalar>: Poisson<S> {
     /// The coordinates: `out = w(mu)`.
     fn canonical(&self, mu: &Self::State, out: &mut Self::State);
-    /// Their slopes `out_i = dw_i/dmu_i`. They have one sign on each side of where w has no inverse.
-    fn canonical_slopes(&self, mu: &Self::State, out: &mut Self::State);
+    /// The side of mu: `out_i > 0` exactly where no zero or pole of `dw_i/dmu_i` lies between mu and xi, a second state.
+    fn canonical_sides(&self, mu: &Self::State, xi: &Self::State, out: &mut Self::State);
     /// What moves w by xi: `out = (dw/dmu)^-1 xi`.
     fn canonical_pull(&self, mu: &Self::State, xi: &Self::State, out: &mut Self::State);
     /// The field in them: `out = (dw/dmu) f(mu)`.

@@ -3,9 +3,11 @@
 use super::coadjoint::xi;
 use super::field::mu;
 use super::{Block, Kernel, Source};
-use lie_symbolic::symbolic::ExprId;
+use crate::structure::conjugate::{Change, Form};
+use crate::structure::elementwise::Side;
+use lie_symbolic::symbolic::{Elementary, ExprId, Function, Graph, Symbol};
 
-/// `canonical`, `canonical_slopes`, `canonical_pull`, `canonical_field` and `canonical_jacobian`.
+/// `canonical`, `canonical_sides`, `canonical_pull`, `canonical_field` and `canonical_jacobian`.
 ///
 /// Each coordinate w_i is a function of x_i and of coordinates that stay, so that `(dw/dmu)^-1` is
 /// `v_i = (xi_i - sum_(k != i) dw_i/dx_k xi_k)/(dw_i/dx_i)`.
@@ -14,14 +16,14 @@ pub(super) fn kernels(source: &mut Source) -> Option<Vec<Kernel>> {
     let (field, moved) = (source.field(), source.block(Block::Xi));
     let one = source.graph.integer(1);
     let mut values = source.coordinates();
-    let mut slopes = vec![one; source.dimension];
+    let mut sides = vec![one; source.dimension];
     let mut pulled = moved.clone();
     let mut along = field.clone();
     for change in changes {
         let graph = &mut source.graph;
         let i = change.coordinate;
-        values[i] = change.value;
-        slopes[i] = change.slope;
+        values[i] = value(graph, &change);
+        sides[i] = side(graph, &change.sides, &moved);
         let mut terms = vec![graph.mul(change.slope, field[i])];
         let mut beside = vec![moved[i]];
         for &(k, slope) in &change.beside {
@@ -44,7 +46,13 @@ pub(super) fn kernels(source: &mut Source) -> Option<Vec<Kernel>> {
             "`out = w(mu)`, in which the bracket is constant",
             &values,
         ),
-        vector("canonical_slopes", "`out_i = dw_i/dmu_i`", &slopes),
+        Kernel::vector(
+            graph,
+            "canonical_sides",
+            "`out_i > 0` where w_i has an inverse between mu and xi",
+            vec![mu(source), xi(source)],
+            &sides,
+        ),
         Kernel::vector(
             graph,
             "canonical_pull",
@@ -62,4 +70,44 @@ pub(super) fn kernels(source: &mut Source) -> Option<Vec<Kernel>> {
         ),
     ];
     Some(kernels)
+}
+
+/// `w_i`, a logarithm without the square of what it is of, which may be too small for a number.
+fn value(graph: &mut Graph, change: &Change) -> ExprId {
+    if !matches!(change.form, Form::Logarithm(_)) {
+        return change.value;
+    }
+    let speed = graph.pow(change.slope, &(-1).into());
+    let size = graph.neg(speed);
+    let size = graph.call(Function::Below, &[speed, size, speed]);
+    graph.call(Elementary::Log, &[size])
+}
+
+/// What is positive where two states, that of the coordinates and another one, are on the same side of all zeros and poles.
+fn side(graph: &mut Graph, sides: &[Side], other: &[ExprId]) -> ExprId {
+    let there = |graph: &mut Graph, value: ExprId| {
+        let at = |symbol| match symbol {
+            Symbol::Coordinate(i) => other.get(i).copied(),
+            _ => None,
+        };
+        graph.substitute(&[value], &at)[0]
+    };
+    let each = sides.iter().map(|side| match side {
+        Side::Sign(value) => {
+            let end = there(graph, *value);
+            graph.div(end, *value)
+        }
+        Side::Turn(angle) => {
+            let end = there(graph, *angle);
+            let turned = graph.sub(end, *angle);
+            let [turned, half] = [turned, graph.pi()].map(|angle| graph.mul(angle, angle));
+            graph.sub(half, turned)
+        }
+    });
+    let each: Vec<ExprId> = each.collect();
+    let least = each.into_iter().reduce(|one, other| {
+        let difference = graph.sub(one, other);
+        graph.call(Function::Below, &[difference, one, other])
+    });
+    least.unwrap_or_else(|| graph.integer(1))
 }

@@ -19,7 +19,7 @@ const LINEAR: &str = "a direct sum of algebras so(3) (hopf), so(3) with vectors 
 const SPINS: &str = "a direct sum of algebras so(3)";
 const EXPRESSION: &str = "a Hamiltonian with an expression";
 const NOISE: &str = "any Lie algebra, noise along constant directions";
-const CANONICAL: &str = "a bracket of pairs {x, y} = 1/B(x, y) with a closed integral of B, of {x_i, x_j} = c_ij a_i(x_i) a_j(x_j) with linear a_i, and constant ones";
+const CANONICAL: &str = "a bracket of pairs {x, y} = 1/B(x, y) with a closed integral of B, of {x_i, x_j} = c_ij a_i(x_i) a_j(x_j) with closed integrals of 1/a_i, and constant ones";
 const SUM: &str = "H of functions of commuting coordinates and of Casimirs of subalgebras, or quadratic; for --pieces coordinate H = sum f_i(x_i)";
 
 const AKW: &str = "Austin, Krishnaprasad, Wang (1993), 10.1006/jcph.1993.1128";

@@ -5,10 +5,10 @@ pub(super) mod multiple;
 use std::collections::BTreeSet;
 
 use super::conjugate::conjugate;
-use super::elementwise::{elementwise, vanish};
-use super::found::additive;
+use super::conjugate::integral::integral;
+use super::elementwise::{Speed, elementwise, vanish};
 use crate::model::{Bracket, Model, PoissonMatrix};
-use lie_symbolic::exact::{Budget, Rational};
+use lie_symbolic::exact::Budget;
 use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 
 /// Work allowed for identities.
@@ -23,8 +23,8 @@ pub enum Class {
     Constant,
     /// `{x_i, x_j} = c_ij x_i x_j`
     LogCanonical,
-    /// `{x_i, x_j} = c_ij a_i(x_i) a_j(x_j)`, the `a_i` constant or linear.
-    Elementwise,
+    /// `{x_i, x_j} = c_ij a_i(x_i) a_j(x_j)`, with the texts of `int dx_i/a_i` where an `a_i` is neither constant nor linear.
+    Elementwise(Vec<String>),
     /// Half of the coordinates, these positions, commute; their brackets with the others are constant, and those of the others functions of the
     /// positions: a particle in a magnetic field.
     Magnetic(Vec<usize>),
@@ -45,7 +45,7 @@ impl Class {
         match self {
             Self::Constant => "constant",
             Self::LogCanonical => "log-canonical",
-            Self::Elementwise => "elementwise",
+            Self::Elementwise(_) => "elementwise",
             Self::Magnetic(_) => "magnetic",
             Self::Jacobian(_) => "Jacobian",
             Self::Conjugate(_) => "conjugate pairs",
@@ -65,9 +65,13 @@ impl Class {
             Self::LogCanonical => {
                 "log-canonical, {x_i, x_j} = c_ij x_i x_j: functions of monomials have exact flows, which keep signs; `canonical2` to `canonical6` are Gauss methods in logarithms, and Poisson maps; `lie canonical` writes the system in these".into()
             }
-            Self::Elementwise => {
+            Self::Elementwise(others) if others.is_empty() => {
                 "elementwise, {x_i, x_j} = c_ij a_i(x_i) a_j(x_j): functions of sums of int dx_i/a_i have exact flows; `canonical2` to `canonical6` are Gauss methods in these, and Poisson maps; `lie canonical` writes the system in them".into()
             }
+            Self::Elementwise(others) => format!(
+                "elementwise, {{x_i, x_j}} = c_ij a_i(x_i) a_j(x_j): constant with int dx_i/a_i, which are {} among others; `canonical2` to `canonical6` are Gauss methods in these, and Poisson maps",
+                others.join(", ")
+            ),
             Self::Magnetic(positions) => format!(
                 "magnetic, with the positions {}: functions of one momentum have exact flows, in a field that is no polynomial by quadrature",
                 names(positions)
@@ -97,14 +101,20 @@ pub fn class(model: &Model) -> Option<Class> {
         return None;
     }
     let mut graph = model.graph.clone();
+    let name = |symbol| model.symbol_name(symbol);
     if let Some(found) = elementwise(model, matrix, &mut graph) {
-        return Some(if found.is_constant() {
-            Class::Constant
-        } else if found.all(super::elementwise::Speed::is_coordinate) {
-            Class::LogCanonical
-        } else {
-            Class::Elementwise
-        });
+        if found.is_constant() {
+            return Some(Class::Constant);
+        }
+        if found.all(Speed::is_coordinate) {
+            return Some(Class::LogCanonical);
+        }
+        // what else is a pair is named below
+        if found.is_affine() || matrix.entries.len() > 1 {
+            let others = found.closed();
+            let texts = others.map(|closed| graph.display(closed.integral, &name));
+            return Some(Class::Elementwise(texts.collect()));
+        }
     }
     let positions = magnetic(&graph, matrix).map(Class::Magnetic);
     let affine = || {
@@ -113,7 +123,6 @@ pub fn class(model: &Model) -> Option<Class> {
             .is_some_and(|degree| degree <= 1)
             .then_some(Class::Affine)
     };
-    let name = |symbol| model.symbol_name(symbol);
     if positions.is_some() {
         return positions;
     }
@@ -157,46 +166,35 @@ fn magnetic(graph: &Graph, matrix: &PoissonMatrix) -> Option<Vec<usize>> {
     Some((0..n).filter(|i| is_position(set, *i)).collect())
 }
 
-/// The Casimir C with `w = (Pi_23, Pi_31, Pi_12) = grad C`: `C = int_0^1 <w(t x), x> dt`, which divides a term of degree d of `<w, x>` by d.
+/// The Casimir C with `w = (Pi_23, Pi_31, Pi_12) = grad C`.
 pub(super) fn jacobian(model: &Model, matrix: &PoissonMatrix, graph: &mut Graph) -> Option<ExprId> {
     if matrix.dimension != 3 {
         return None;
     }
     let rows = matrix.rows(graph);
-    let w = [rows[1][2], rows[2][0], rows[0][1]];
-    let x: Vec<ExprId> = (0..3)
-        .map(|i| graph.symbol(Symbol::Coordinate(i)))
-        .collect();
-    let products = w.iter().zip(&x).map(|(w, x)| graph.mul(*w, *x));
-    let products: Vec<ExprId> = products.collect();
-    let radial = graph.sum(&products);
-    let mut casimir = Vec::new();
-    let mut differences = Vec::new();
-    for term in additive::terms(graph, radial)? {
-        let degree = degree(graph, term)?;
-        casimir.push(graph.scale(term, &degree.recip()?));
-    }
-    let casimir = graph.sum(&casimir);
-    for (i, w) in w.iter().enumerate() {
-        let slope = graph.derivative(casimir, Symbol::Coordinate(i));
-        differences.push(graph.sub(slope, *w));
-    }
-    let budget = Budget::new(WORK);
-    vanish(model, graph, &w, &differences, &budget).then_some(casimir)
+    gradient_of(model, &[rows[1][2], rows[2][0], rows[0][1]], graph)
 }
 
-/// The degree of a monomial in the coordinates, whose exponents may be fractions.
-fn degree(graph: &mut Graph, term: ExprId) -> Option<Rational> {
-    let mut sum = Vec::new();
-    for i in graph.coordinates(term) {
-        let slope = graph.derivative(term, Symbol::Coordinate(i));
-        let x = graph.symbol(Symbol::Coordinate(i));
-        sum.push(graph.mul(x, slope));
+/// The function whose gradient these are, by an integral over each coordinate of what the others leave; none where one of them is not closed.
+fn gradient_of(model: &Model, w: &[ExprId; 3], graph: &mut Graph) -> Option<ExprId> {
+    let mut sum = graph.integer(0);
+    for (i, entry) in w.iter().enumerate() {
+        let slope = graph.derivative(sum, Symbol::Coordinate(i));
+        let rest = graph.sub(*entry, slope);
+        let rest = graph.normal(rest);
+        if !graph.is_zero(rest) {
+            let integral = integral(graph, rest, i)?;
+            sum = graph.add(sum, integral);
+        }
     }
-    let sum = graph.sum(&sum);
-    let ratio = graph.div(sum, term);
-    let degree = graph.as_number(ratio)?.clone();
-    (!degree.is_zero() && !degree.is_negative()).then_some(degree)
+    let differences: Vec<ExprId> = (w.iter().enumerate())
+        .map(|(i, entry)| {
+            let slope = graph.derivative(sum, Symbol::Coordinate(i));
+            graph.sub(slope, *entry)
+        })
+        .collect();
+    let budget = Budget::new(WORK);
+    vanish(model, graph, w, &differences, &budget).then_some(sum)
 }
 
 #[cfg(test)]

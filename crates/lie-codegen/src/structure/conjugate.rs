@@ -4,13 +4,13 @@
 //! a charged particle, B the strength of the field (R. G. Littlejohn, Journal of Plasma Physics 29 (1983) 111–125,
 //! doi:10.1017/S002237780000060X). Where the integral over y has no closed form, that over x may.
 
-mod integral;
+pub(super) mod integral;
 pub(super) mod inverse;
 
 use super::Structure;
-use super::elementwise::{Elementwise, Speed, elementwise, vanish};
+use super::elementwise::{Elementwise, Side, Speed, elementwise, half, vanish};
 use crate::model::{Bracket, Model, PoissonMatrix};
-use lie_symbolic::exact::{Budget, Rational};
+use lie_symbolic::exact::{Budget, Fraction, Rational};
 use lie_symbolic::symbolic::{Elementary, ExprId, Graph, Node, Symbol};
 
 /// Work allowed for the proof that an integral is one.
@@ -38,13 +38,17 @@ pub struct Change {
     pub slope: ExprId,
     /// The slopes by others, which stay.
     pub beside: Vec<(usize, ExprId)>,
+    /// What states between which w has an inverse have in common.
+    pub sides: Vec<Side>,
 }
 
 /// What takes the place of a coordinate.
 #[derive(Clone, Debug)]
 pub enum Form {
-    /// `log |a(x)|` in an elementwise block, with this speed a.
-    Logarithm(Speed),
+    /// `log |a(x)|` in an elementwise block, with this speed `a = a_0 + a_1 x`.
+    Logarithm([Fraction; 2]),
+    /// `int dx/a(x)` in an elementwise block, with another a.
+    Elementwise,
     /// `int B dy` beside this coordinate.
     Integral(usize),
 }
@@ -63,30 +67,22 @@ pub fn conjugate(model: &Model, graph: &mut Graph) -> Option<Conjugate> {
 
 /// The same for these entries.
 fn of_matrix(model: &Model, matrix: &PoissonMatrix, graph: &mut Graph) -> Option<Conjugate> {
-    let (mut scratch, mut own) = (graph.clone(), graph.clone());
+    let mut own = graph.clone();
     let (mut changes, mut brackets) = (Vec::new(), Vec::new());
     for block in &blocks(matrix) {
-        if let Some(form) = elementwise(model, block, &mut scratch) {
-            changes.extend(logarithms(&form, &mut own));
-            for (i, j, _) in &block.entries {
-                let constant = own.rational_function(&form.constants[*i][*j]);
-                brackets.push((*i, *j, constant));
-            }
-        } else {
-            let [(i, j, entry)] = block.entries[..] else {
-                return None;
-            };
-            let stays = |k: &usize| {
-                let mut pairs = matrix.entries.iter();
-                [i, j].contains(k) || !pairs.any(|(a, b, _)| a == k || b == k)
-            };
-            if !graph.coordinates(entry).iter().all(stays) {
-                return None;
-            }
-            let [constant, density] = apart(&mut own, entry);
-            let change = pair(model, &mut own, [i, j], density);
-            changes.push(change.or_else(|| pair(model, &mut own, [j, i], density))?);
-            brackets.push((i, j, constant));
+        let form = elementwise(model, block, &mut own);
+        if !form.as_ref().is_some_and(Elementwise::is_affine)
+            && let Some((change, bracket)) = single_pair(model, matrix, block, &mut own)
+        {
+            changes.push(change);
+            brackets.push(bracket);
+            continue;
+        }
+        let form = form?;
+        changes.extend(integrals(&form, &mut own));
+        for (i, j, _) in &block.entries {
+            let constant = own.rational_function(&form.constants[*i][*j]);
+            brackets.push((*i, *j, constant));
         }
     }
     changes.sort_by_key(|change| change.coordinate);
@@ -121,22 +117,52 @@ fn blocks(matrix: &PoissonMatrix) -> Vec<PoissonMatrix> {
     blocks.filter(|block| !block.entries.is_empty()).collect()
 }
 
-/// The logarithms `log |a_i(x_i)|` of an elementwise block.
-fn logarithms(form: &Elementwise, graph: &mut Graph) -> Vec<Change> {
+/// That of a block which is a pair, and its bracket.
+fn single_pair(
+    model: &Model,
+    matrix: &PoissonMatrix,
+    block: &PoissonMatrix,
+    graph: &mut Graph,
+) -> Option<(Change, (usize, usize, ExprId))> {
+    let [(i, j, entry)] = block.entries[..] else {
+        return None;
+    };
+    let stays = |k: &usize| {
+        let mut pairs = matrix.entries.iter();
+        [i, j].contains(k) || !pairs.any(|(a, b, _)| a == k || b == k)
+    };
+    if !graph.coordinates(entry).iter().all(stays) {
+        return None;
+    }
+    let [constant, density] = apart(graph, entry);
+    let change = pair(model, graph, [i, j], density);
+    let change = change.or_else(|| pair(model, graph, [j, i], density))?;
+    Some((change, (i, j, constant)))
+}
+
+/// The integrals `int dx_i/a_i` of an elementwise block, where they are not the coordinates.
+fn integrals(form: &Elementwise, graph: &mut Graph) -> Vec<Change> {
     let moved = form.speeds.iter().enumerate();
-    let moved = moved.filter(|(i, speed)| speed.degree() == 1 && form.moves(*i));
+    let moved = moved.filter(|(i, speed)| !speed.is_constant() && form.moves(*i));
     let change = |(i, speed): (usize, &Speed)| {
-        let x = graph.symbol(Symbol::Coordinate(i));
-        let along = speed.at(x, graph);
-        let square = graph.mul(along, along);
-        let logarithm = graph.call(Elementary::Log, &[square]);
-        let half = Rational::new(1, 2).unwrap_or(Rational::ONE);
+        let along = speed.at(i, graph);
+        let (form, value, sides) = match speed {
+            Speed::Affine(coefficients) => {
+                let square = graph.mul(along, along);
+                let logarithm = graph.call(Elementary::Log, &[square]);
+                let form = Form::Logarithm(coefficients.clone());
+                let value = graph.scale(logarithm, &half());
+                (form, value, vec![Side::Sign(along)])
+            }
+            Speed::Other(closed) => (Form::Elementwise, closed.integral, closed.sides.clone()),
+        };
         Change {
             coordinate: i,
-            form: Form::Logarithm(speed.clone()),
-            value: graph.scale(logarithm, &half),
+            form,
+            value,
             slope: graph.pow(along, &Rational::from(-1)),
             beside: Vec::new(),
+            sides,
         }
     };
     moved.map(change).collect()
@@ -161,6 +187,7 @@ fn pair(model: &Model, graph: &mut Graph, [x, y]: [usize; 2], density: ExprId) -
         value,
         slope,
         beside,
+        sides: vec![Side::Sign(slope)],
     })
 }
 
@@ -254,7 +281,7 @@ pub fn refusal(structure: &Structure, order: u32) -> Option<(String, String)> {
         }
     };
     Some((
-        "no coordinates are known in which the bracket is constant: it is not made of pairs {x, y} = 1/B(x, y) with a closed integral of B, brackets {x_i, x_j} = c_ij a_i(x_i) a_j(x_j) with linear a_i, and constant ones".into(),
+        "no coordinates are known in which the bracket is constant: it is not made of pairs {x, y} = 1/B(x, y) with a closed integral of B, brackets {x_i, x_j} = c_ij a_i(x_i) a_j(x_j) with closed integrals of 1/a_i, and constant ones".into(),
         help,
     ))
 }

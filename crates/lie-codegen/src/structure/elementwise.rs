@@ -1,15 +1,23 @@
 //! Brackets that are constant after a change of each coordinate alone: `{x_i, x_j} = c_ij a_i(x_i) a_j(x_j)`.
 //!
-//! With `y_i = int dx_i/a_i(x_i)` the bracket is `{y_i, y_j} = c_ij`, and a function of y whose gradient is constant along its flow has the
-//! flow `y -> y + t c grad_y`: by each coordinate that of `x' = s a(x)` over the time 1. Where every `a_i` is constant or linear, that is an
-//! elementary map without poles; a quadratic `a_i` has solutions that are infinite after a time, which its closed form passes over in silence.
+//! With `y_i = int dx_i/a_i(x_i)` the bracket is `{y_i, y_j} = c_ij`, where that integral is closed ([`Closed`]). A function of y whose gradient is
+//! constant along its flow has the flow `y -> y + t c grad_y`: by each coordinate that of `x' = s a(x)` over the time 1. Where every `a_i` is
+//! constant or linear, that is an elementary map without poles; others have solutions that are infinite after a time, which their closed
+//! forms pass over in silence.
 //! Those of degree 0 are constant brackets, and all `a_i = x_i` the log-canonical ones of the equations of Lotka and Volterra (M. Plank, Journal
 //! of Mathematical Physics 36 (1995) 3520–3534, doi:10.1063/1.530978).
 
+mod closed;
+mod partial_fractions;
+
+pub use closed::{Closed, Side};
+pub(super) use partial_fractions::half;
+
+use super::found::additive;
 use crate::model::{Model, PoissonMatrix};
 use lie_symbolic::exact::{Budget, Fraction, Polynomial, Rational};
 use lie_symbolic::prove::proof::Prover;
-use lie_symbolic::symbolic::{Elementary, ExprId, Graph, Symbol};
+use lie_symbolic::symbolic::{Elementary, ExprId, Graph, Node, Symbol};
 
 /// Work allowed for the proof that a bracket is such a one.
 const WORK: u64 = 2_000_000;
@@ -23,9 +31,14 @@ pub struct Elementwise {
     pub constants: Vec<Vec<Fraction>>,
 }
 
-/// A polynomial `a(x) = a_0 + a_1 x` whose leading coefficient is 1.
+/// A function `a(x)` of one coordinate, without the factors that are free of it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Speed([Fraction; 2]);
+pub enum Speed {
+    /// A polynomial `a_0 + a_1 x` whose leading coefficient is 1.
+    Affine([Fraction; 2]),
+    /// Another function, in the arena in which it was found.
+    Other(Closed),
+}
 
 /// What the flow of a piece does with a coordinate.
 #[derive(Clone, Copy, Debug)]
@@ -44,7 +57,21 @@ impl Elementwise {
 
     /// Whether the bracket is constant as it is.
     pub fn is_constant(&self) -> bool {
-        self.all(|speed| speed.degree() == 0)
+        self.all(Speed::is_constant)
+    }
+
+    /// Whether every speed is constant or linear.
+    pub fn is_affine(&self) -> bool {
+        self.all(|speed| matches!(speed, Speed::Affine(_)))
+    }
+
+    /// The speeds in brackets that are neither constant nor linear.
+    pub fn closed(&self) -> impl Iterator<Item = &Closed> {
+        let speeds = self.speeds.iter().enumerate();
+        speeds.filter_map(|(i, speed)| match speed {
+            Speed::Other(closed) if self.moves(i) => Some(closed),
+            _ => None,
+        })
     }
 
     /// Whether something holds of all speeds.
@@ -60,58 +87,67 @@ fn number(value: i64) -> Fraction {
 
 impl Speed {
     fn constant() -> Self {
-        Self([number(1), number(0)])
+        Self::Affine([number(1), number(0)])
     }
 
-    /// Its degree.
-    pub fn degree(&self) -> usize {
-        usize::from(!self.0[1].is_zero())
+    /// Whether it is 1.
+    pub fn is_constant(&self) -> bool {
+        matches!(self, Self::Affine([_, slope]) if slope.is_zero())
+    }
+
+    /// `a_0` of degree 1.
+    pub fn linear(&self) -> Option<&Fraction> {
+        match self {
+            Self::Affine([at_zero, slope]) if !slope.is_zero() => Some(at_zero),
+            _ => None,
+        }
     }
 
     /// Whether it is x.
     pub fn is_coordinate(&self) -> bool {
-        self.degree() == 1 && self.0[0].is_zero()
-    }
-
-    /// `a_0`
-    pub fn at_zero(&self) -> &Fraction {
-        &self.0[0]
+        self.linear().is_some_and(Fraction::is_zero)
     }
 
     /// `a(x_i)` of degree 1 as a polynomial, parameter p the variable n + p.
     pub fn polynomial(&self, i: usize, n: usize) -> Option<Polynomial> {
-        let constant = self.0[0].numerator().renamed(&|p| n + p);
+        let constant = self.linear()?.numerator().renamed(&|p| n + p);
         let sum = constant.sum(&Polynomial::variable(i), &Budget::new(WORK));
-        sum.ok().filter(|_| self.degree() == 1)
+        sum.ok()
     }
 
-    /// `a(x)`
-    pub fn at(&self, x: ExprId, graph: &mut Graph) -> ExprId {
-        let terms = self.0.iter().zip(0..);
-        let terms: Vec<ExprId> = terms
-            .map(|(coefficient, k)| {
-                let factor = graph.rational_function(coefficient);
-                let power = graph.pow(x, &Rational::from(k));
-                graph.mul(factor, power)
-            })
-            .collect();
-        graph.sum(&terms)
-    }
-
-    /// The flow of `x' = s a(x)` over the time 1: of degree 1 it adds `a(x) (exp s - 1)`.
-    pub fn flow(&self, x: ExprId, s: ExprId, graph: &mut Graph) -> Change {
-        if self.degree() == 0 {
-            return Change::Add(s);
+    /// `a(x_i)`
+    pub fn at(&self, i: usize, graph: &mut Graph) -> ExprId {
+        let x = graph.symbol(Symbol::Coordinate(i));
+        match self {
+            Self::Affine(coefficients) => affine(coefficients, x, graph),
+            Self::Other(closed) => closed.speed,
         }
+    }
+
+    /// The flow of `x_i' = s a(x_i)` over the time 1, of degree 1 at most: of degree 1 it adds `a(x) (exp s - 1)`.
+    pub fn flow(&self, i: usize, s: ExprId, graph: &mut Graph) -> Option<Change> {
+        if self.is_constant() {
+            return Some(Change::Add(s));
+        }
+        self.linear()?;
         let grown = graph.call(Elementary::Exp, &[s]);
         if self.is_coordinate() {
-            return Change::Multiply(grown);
+            return Some(Change::Multiply(grown));
         }
         let one = graph.integer(1);
         let grown = graph.sub(grown, one);
-        let speed = self.at(x, graph);
-        Change::Add(graph.mul(speed, grown))
+        let speed = self.at(i, graph);
+        Some(Change::Add(graph.mul(speed, grown)))
     }
+}
+
+/// `a_0 + a_1 x`
+pub(super) fn affine(coefficients: &[Fraction; 2], x: ExprId, graph: &mut Graph) -> ExprId {
+    let [at_zero, slope] = coefficients
+        .each_ref()
+        .map(|coefficient| graph.rational_function(coefficient));
+    let moved = graph.mul(slope, x);
+    graph.add(at_zero, moved)
 }
 
 /// An expression at the declared initial state and parameters; none without one.
@@ -133,18 +169,27 @@ pub(super) fn sample(coordinate: usize) -> Rational {
 
 /// An expression where all coordinates have their samples.
 pub(super) fn sampled(graph: &mut Graph, value: ExprId) -> Option<Fraction> {
-    let coordinates = graph.coordinates(value);
+    let value = sampled_value(graph, value);
+    graph.fraction(value, None)
+}
+
+fn sampled_value(graph: &mut Graph, value: ExprId) -> ExprId {
+    with_samples(graph, value, None)
+}
+
+/// The same, one coordinate left as it is.
+fn with_samples(graph: &mut Graph, value: ExprId, but: Option<usize>) -> ExprId {
+    let coordinates = graph.coordinates(value).into_iter();
     let numbers: Vec<(usize, ExprId)> = coordinates
-        .into_iter()
+        .filter(|i| Some(*i) != but)
         .map(|i| (i, graph.number(sample(i))))
         .collect();
-    let value = graph.substitute(&[value], &|symbol| {
+    graph.substitute(&[value], &|symbol| {
         let place = numbers
             .iter()
             .find(|(i, _)| symbol == Symbol::Coordinate(*i));
         place.map(|(_, number)| *number)
-    })[0];
-    graph.fraction(value, None)
+    })[0]
 }
 
 /// Whether expressions vanish identically, where those of a domain are defined.
@@ -181,12 +226,16 @@ pub fn elementwise(
     let mut constants = vec![vec![zero; n]; n];
     let mut differences = Vec::new();
     for (i, j, entry) in &matrix.entries {
-        let x = [*i, *j].map(|k| graph.symbol(Symbol::Coordinate(k)));
-        let [first, second] = [(*i, x[0]), (*j, x[1])].map(|(k, x)| speeds[k].at(x, graph));
+        let [first, second] = [*i, *j].map(|k| speeds[k].at(k, graph));
         let product = graph.mul(first, second);
-        let there = sampled(graph, product)?;
-        let constant = sampled(graph, *entry)?.div(&there, &budget).ok()??;
-        if there.as_constant().is_none() && !divides_by_numbers(&constant) {
+        let there = sampled_value(graph, product);
+        if graph.is_zero(there) {
+            return None;
+        }
+        let ratio = graph.div(*entry, product);
+        let constant = sampled(graph, ratio)?;
+        let divides = graph.symbols(there).is_empty() || divides_by_numbers(&constant);
+        if !divides {
             return None;
         }
         let factor = graph.rational_function(&constant);
@@ -200,11 +249,17 @@ pub fn elementwise(
         .then_some(Elementwise { speeds, constants })
 }
 
-/// The polynomial in a coordinate that an entry is a multiple of, where the others have their samples, if it is one of degree 1 at most: what
-/// it is otherwise is found out when it is compared. None is divided by a parameter, which may be 0.
+/// The function of a coordinate that an entry is a multiple of, where the others have their samples, if it is one with a closed integral: what it
+/// is otherwise is found out when it is compared. None is divided by a parameter, which may be 0.
 fn speed_in(graph: &mut Graph, entry: ExprId, i: usize, budget: &Budget) -> Option<Speed> {
-    let slope = graph.derivative(entry, Symbol::Coordinate(i));
-    let [value, slope] = [entry, slope].map(|value| sampled(graph, value));
+    let alone = with_samples(graph, entry, Some(i));
+    let value = without_constants(graph, alone)?;
+    let slope = graph.derivative(value, Symbol::Coordinate(i));
+    let slope = graph.normal(slope);
+    if !graph.coordinates(slope).is_empty() {
+        return closed::closed(graph, value, i).map(Speed::Other);
+    }
+    let [value, slope] = [value, slope].map(|value| sampled(graph, value));
     let (value, slope) = (value?, slope?);
     // value + slope (x - s)
     let low = value.sub(&slope.scale(&sample(i)), budget).ok()?;
@@ -212,7 +267,34 @@ fn speed_in(graph: &mut Graph, entry: ExprId, i: usize, budget: &Budget) -> Opti
         return Some(Speed::constant());
     }
     let ratio = low.div(&slope, budget).ok()??;
-    divides_by_numbers(&ratio).then(|| Speed([ratio, number(1)]))
+    divides_by_numbers(&ratio).then(|| Speed::Affine([ratio, number(1)]))
+}
+
+/// An expression without the factors of its first term that are free of coordinates, as are functions of samples.
+fn without_constants(graph: &mut Graph, value: ExprId) -> Option<ExprId> {
+    let (constant, mut terms) = additive::collected(graph, value)?;
+    if !constant.is_zero() {
+        terms.push(graph.number(constant));
+    }
+    let (number, product) = graph.coefficient(*terms.first()?);
+    let mut fixed = factors(graph, product);
+    fixed.retain(|(base, _)| graph.coordinates(*base).is_empty());
+    for (_, exponent) in &mut fixed {
+        *exponent = &*exponent * &Rational::from(-1);
+    }
+    let inverse = graph.power_product(&fixed);
+    let inverse = graph.scale(inverse, &number.recip()?);
+    let divided: Vec<ExprId> = terms.iter().map(|term| graph.mul(*term, inverse)).collect();
+    Some(graph.sum(&divided))
+}
+
+/// The factors of a product, with their exponents.
+pub(super) fn factors(graph: &Graph, product: ExprId) -> Vec<(ExprId, Rational)> {
+    match graph.node(product) {
+        Node::Product(factors) => factors.to_vec(),
+        Node::Number(_) => Vec::new(),
+        _ => vec![(product, Rational::ONE)],
+    }
 }
 
 /// Whether a fraction is defined whatever the parameters are.

@@ -7,7 +7,7 @@
 
 use super::conjugate::inverse::inverse;
 use super::conjugate::{Change, Form, conjugate};
-use super::elementwise::{Speed, at_start, elementwise};
+use super::elementwise::{affine, at_start, elementwise};
 use crate::model::Model;
 use lie_symbolic::exact::{Fraction, Rational};
 use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
@@ -88,7 +88,9 @@ pub fn straight(model: &Model, taken: &HashSet<String>) -> Result<Straight, Refu
         let coordinate = match changes.find(|change| change.coordinate == i) {
             Some(change) => match &change.form {
                 Form::Logarithm(speed) => logarithm(model, &mut graph, i, speed, &mut taken)?,
-                Form::Integral(_) => integral(model, &mut graph, change, &mut taken)?,
+                Form::Integral(_) | Form::Elementwise => {
+                    integral(model, &mut graph, change, &mut taken)?
+                }
             },
             None => Coordinate {
                 name: model.coordinates[i].text.clone(),
@@ -127,24 +129,24 @@ fn logarithm(
     model: &Model,
     graph: &mut Graph,
     i: usize,
-    speed: &Speed,
+    speed: &[Fraction; 2],
     taken: &mut HashSet<String>,
 ) -> Result<Coordinate, Refusal> {
     let name = |symbol| model.symbol_name(symbol);
     let x = graph.symbol(Symbol::Coordinate(i));
-    let along = speed.at(x, graph);
+    let along = affine(speed, x, graph);
     let negative = match at_start(model, graph, along) {
         Some(value) if value == 0.0 || value.is_nan() => return Err(Refusal::Zero(i)),
         Some(value) => value < 0.0,
         None => false,
     };
     let initial = initial(model, i).map(|value| {
-        let inside = speed.at(value, graph);
+        let inside = affine(speed, value, graph);
         let inside = if negative { graph.neg(inside) } else { inside };
         format!("log({})", graph.display(inside, &name))
     });
     let new = fresh(model, "log", i, taken);
-    let shift = added(&display(model, &speed.at_zero().neg()));
+    let shift = added(&display(model, &speed[0].neg()));
     let sign = if negative { "-" } else { "" };
     Ok(Coordinate {
         replaced: Some(Replaced {

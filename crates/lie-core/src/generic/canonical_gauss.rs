@@ -21,8 +21,6 @@ pub struct CanonicalGauss<'a, S: Scalar, P: CanonicalPoisson<S>, const STAGES: u
     base: P::State,
     /// `w(mu)`
     start: P::State,
-    /// The slopes `dw_i/dmu_i` at mu.
-    slopes: P::State,
     fields: [P::State; STAGES],
     change: P::State,
     pulled: P::State,
@@ -52,7 +50,6 @@ impl<'a, S: Scalar, P: CanonicalPoisson<S>, const STAGES: usize> CanonicalGauss<
             weights: core::array::from_fn(|i| core::array::from_fn(|j| weight(i, j))),
             base: zero.clone(),
             start: zero.clone(),
-            slopes: zero.clone(),
             fields: core::array::from_fn(|_| zero.clone()),
             change: zero.clone(),
             pulled: zero,
@@ -99,7 +96,6 @@ impl<S: Scalar, P: CanonicalPoisson<S>, const STAGES: usize> Equation<S>
     fn set_base(&mut self, mu: &P::State) {
         self.base.copy_from(mu);
         self.system.canonical(mu, &mut self.start);
-        self.system.canonical_slopes(mu, &mut self.slopes);
     }
 
     fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
@@ -148,10 +144,10 @@ impl<S: Scalar, P: CanonicalPoisson<S>, const STAGES: usize> Equation<S>
     fn within_chart(&mut self, unknown: &Self::Unknown) -> S::Mask {
         let mut within = S::Mask::splat(true);
         for state in &unknown.0 {
-            self.system.canonical_slopes(state, &mut self.change);
-            let pairs = self.slopes.as_slice().iter().zip(self.change.as_slice());
-            for (&start, &slope) in pairs {
-                within = within & S::zero().less(start * slope);
+            let side = &mut self.change;
+            self.system.canonical_sides(&self.base, state, side);
+            for &side in side.as_slice() {
+                within = within & S::zero().less(side);
             }
         }
         within

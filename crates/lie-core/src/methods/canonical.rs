@@ -9,7 +9,7 @@
 //! declared, and no inverse of w is needed: the stages and the end are found together, as states. For a pair `$\{x, y\} = 1/B(x, y)$` that
 //! is `$w = (x, Y)$`, `$Y = \int B\, \mathrm{d}y$`, `$\{x, Y\} = 1$`, the guiding centre of a charged particle; for `$\{x_i, x_j\} = c_{ij} x_i x_j$` it is the logarithms.
 //!
-//! A step whose stages leave the side of the state, where a slope `$\partial w_i/\partial \mu_i$` has another sign, is refused.
+//! A step whose stages leave the side of the state, behind a zero or a pole of a slope `$\partial w_i/\partial \mu_i$`, is refused.
 //!
 //! Needs: such coordinates, with the field in them and its derivative.
 //!

@@ -5,17 +5,17 @@ use crate::system::Dynamic;
 use lie_codegen::plan::Structure;
 use lie_runtime::{CanonicalPoisson, Scalar};
 
-/// The codes of the coordinates: of themselves, their slopes, what moves them, the field in them and its derivative.
+/// The codes of the coordinates: of themselves, their sides, what moves them, the field in them and its derivative.
 #[derive(Debug)]
 pub struct Codes([usize; 5]);
 
 impl Codes {
     /// Of the kernels of a plan, in their order; none where there are none.
     pub(crate) fn new(plan: &Structure, making: &mut CodeBuilder) -> Option<Self> {
-        let [value, slopes, pull, field, jacobian] = &plan.canonical[..] else {
+        let [value, sides, pull, field, jacobian] = &plan.canonical[..] else {
             return None;
         };
-        let kernels = [value, slopes, pull, field, jacobian];
+        let kernels = [value, sides, pull, field, jacobian];
         Some(Self(kernels.map(|kernel| making.kernel(kernel))))
     }
 }
@@ -34,9 +34,9 @@ impl<S: Scalar> CanonicalPoisson<S> for Dynamic<S> {
         let code = self.canonical_code(0);
         self.values.call(code, [mu, &[]], out, &mut []);
     }
-    fn canonical_slopes(&self, mu: &Vec<S>, out: &mut Vec<S>) {
+    fn canonical_sides(&self, mu: &Vec<S>, xi: &Vec<S>, out: &mut Vec<S>) {
         let code = self.canonical_code(1);
-        self.values.call(code, [mu, &[]], out, &mut []);
+        self.values.call(code, [mu, xi], out, &mut []);
     }
     fn canonical_pull(&self, mu: &Vec<S>, xi: &Vec<S>, out: &mut Vec<S>) {
         let code = self.canonical_code(2);

@@ -8,7 +8,7 @@ mod class;
 mod extensions;
 mod name;
 mod parts;
-mod roots;
+pub(super) mod roots;
 mod series;
 mod simple;
 mod subspace;

@@ -20,7 +20,7 @@ fn each_class_is_found() {
         Class::Constant
     );
     assert_eq!(of("x y", &["{x, y} = -x*y/2"]), Class::LogCanonical);
-    assert_eq!(of("x y", &["{x, y} = (1 + x)*y"]), Class::Elementwise);
+    assert_eq!(of("x y", &["{x, y} = (1 + x)*y"]), Class::Elementwise(Vec::new()));
     let field = ["{x, z} = 1", "{y, u} = 1", "{z, u} = 1 + cos(x)*y"];
     assert_eq!(of("x y z u", &field), Class::Magnetic(vec![0, 1]));
     // the positions come last

@@ -7,7 +7,7 @@ use crate::structure::bracket_class::multiple::casimir;
 use crate::structure::casimirs::solve::{Functions, Sparse, cleared, kernel};
 use crate::structure::casimirs::{Casimir, WORK};
 use crate::structure::completion::Search;
-use crate::structure::elementwise::{Elementwise, at_start, elementwise};
+use crate::structure::elementwise::{Elementwise, Speed, at_start, elementwise, half};
 use lie_symbolic::exact::{Budget, Exhausted, Fraction, Monomial, Polynomial, Rational};
 use lie_symbolic::symbolic::{Elementary, ExprId, Graph, Symbol};
 
@@ -109,8 +109,8 @@ fn powers(form: &Elementwise, vector: &Sparse<Fraction>) -> Option<Casimir> {
     Some(Casimir::Polynomial(product))
 }
 
-/// `sum_i k_i y_i` without denominators in the k, with `log(a_i^2)/2` for a linear `a_i`, which has a value on both of its sides. None where one is
-/// zero at the initial state.
+/// `sum_i k_i y_i` without denominators in the k, with `log(a_i^2)/2` for a linear `a_i`, which has a value on both of its sides. None where one has
+/// no value at the initial state.
 fn logarithms(
     model: &Model,
     form: &Elementwise,
@@ -125,19 +125,18 @@ fn logarithms(
     let whole = cleared(&marked.collect::<Vec<_>>(), n, &budget)?;
     let mut terms = Vec::new();
     for (i, _) in vector {
-        let x = graph.symbol(Symbol::Coordinate(*i));
-        let speed = &form.speeds[*i];
-        let (y, factor) = if speed.degree() == 0 {
-            (x, Rational::ONE)
-        } else {
-            let base = speed.at(x, graph);
-            if at_start(model, graph, base).is_some_and(|value| value == 0.0 || value.is_nan()) {
-                return Ok(None);
+        let (y, factor) = match &form.speeds[*i] {
+            Speed::Other(closed) => (closed.integral, Rational::ONE),
+            speed if speed.is_constant() => (graph.symbol(Symbol::Coordinate(*i)), Rational::ONE),
+            speed => {
+                let base = speed.at(*i, graph);
+                let square = graph.pow(base, &Rational::from(2));
+                (graph.call(Elementary::Log, &[square]), half())
             }
-            let square = graph.pow(base, &Rational::from(2));
-            let half = &Rational::ONE / &Rational::from(2);
-            (graph.call(Elementary::Log, &[square]), half)
         };
+        if at_start(model, graph, y).is_some_and(|value| !value.is_finite()) {
+            return Ok(None);
+        }
         for (monomial, coefficient) in whole.terms() {
             if monomial.powers().any(|(v, _)| v == *i) {
                 let parameters = monomial.powers().filter(|(v, _)| *v >= n);

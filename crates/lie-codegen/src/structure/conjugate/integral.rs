@@ -6,7 +6,7 @@ use lie_symbolic::symbolic::{Elementary, ExprId, Function, Graph, Node, Symbol};
 
 /// `int value dx_i` where every term is a function of the other coordinates times 1, a power above -1 or one of exp, sin, cos, sinh and cosh
 /// of `a x_i + b` with a number a; none of others. It is continuous wherever the value is defined.
-pub(super) fn integral(graph: &mut Graph, value: ExprId, i: usize) -> Option<ExprId> {
+pub(in crate::structure) fn integral(graph: &mut Graph, value: ExprId, i: usize) -> Option<ExprId> {
     // a power of a sum is not taken apart
     if let Some(integral) = of_term(graph, value, i) {
         return Some(integral);
@@ -76,7 +76,11 @@ fn of_factor(graph: &mut Graph, base: ExprId, exponent: &Rational, i: usize) -> 
 }
 
 /// The number a of what is `a x_i + b` and no constant.
-pub(super) fn slope_of(graph: &mut Graph, value: ExprId, i: usize) -> Option<Rational> {
+pub(in crate::structure) fn slope_of(
+    graph: &mut Graph,
+    value: ExprId,
+    i: usize,
+) -> Option<Rational> {
     let slope = graph.derivative(value, Symbol::Coordinate(i));
     let slope = graph.normal(slope);
     graph.as_number(slope).filter(|a| !a.is_zero()).cloned()

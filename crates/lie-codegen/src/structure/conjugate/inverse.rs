@@ -1,9 +1,11 @@
 //! The inverse of an integral over a coordinate, where that has a closed form: y of `Y(x, y)`.
 
 use super::integral::slope_of;
+use crate::structure::elementwise::half;
 use crate::structure::found::additive;
 use lie_symbolic::exact::Rational;
 use lie_symbolic::symbolic::{Elementary, ExprId, Function, Graph, Node, Symbol};
+use std::f64::consts::PI;
 
 /// A function of the coordinate: a power of what is affine in it, or an elementary one.
 #[derive(Clone, PartialEq)]
@@ -12,8 +14,9 @@ struct Factor {
     exponent: Rational,
 }
 
-/// `value = w` solved for `x_i`: where value is `b + a f(x_i)` with f a power of what is affine in it, exp or sinh of that, or of degree 2. On the
-/// side of a state at which `at` evaluates; without one where powers and slopes are positive.
+/// `value = w` solved for `x_i`: where value is `b + a f(g(x_i))` with f a power or an elementary function, g of this form again or affine, or
+/// where value is of degree 2 or the logarithm of the quotient of two affine functions. On the side of a state at which `at` evaluates; without one
+/// where powers and slopes are positive.
 pub(in crate::structure) fn inverse(
     graph: &mut Graph,
     value: ExprId,
@@ -51,8 +54,10 @@ pub(in crate::structure) fn inverse(
     match &varying[..] {
         [(factor, scale)] => {
             let ratio = graph.div(left, *scale);
-            let negative = negative(graph, factor.base);
-            of_factor(graph, factor, ratio, i, negative)
+            of_factor(graph, factor, ratio, i, at)
+        }
+        [one, other] if of_logarithm(graph, &one.0).is_some() => {
+            of_quotient(graph, [one, other], left, i, at)
         }
         [one, other] => {
             let power = |of: &(Factor, ExprId), n: i64| {
@@ -97,40 +102,138 @@ fn apart(graph: &mut Graph, term: ExprId, i: usize) -> Option<(Option<Factor>, E
     }
 }
 
+/// What an elementary function is undone by.
+fn undone_by(function: Elementary) -> Option<Elementary> {
+    use Elementary::{Asin, Asinh, Atan, Atanh, Exp, Log, Sin, Sinh, Tan, Tanh};
+    Some(match function {
+        Exp => Log,
+        Log => Exp,
+        Sinh => Asinh,
+        Asinh => Sinh,
+        Tan => Atan,
+        Atan => Tan,
+        Tanh => Atanh,
+        Asin => Sin,
+        _ => return None,
+    })
+}
+
 /// `x_i` of `f(x_i) = ratio`.
 fn of_factor(
     graph: &mut Graph,
     factor: &Factor,
     ratio: ExprId,
     i: usize,
-    negative: bool,
+    at: &dyn Fn(&Graph, ExprId) -> Option<f64>,
 ) -> Option<ExprId> {
+    let is_negative = |graph: &Graph, value| at(graph, value).is_some_and(|value| value < 0.0);
+    if let Some(base) = of_logarithm(graph, factor) {
+        let exponent = graph.scale(ratio, &half());
+        let mut size = graph.call(Elementary::Exp, &[exponent]);
+        if is_negative(graph, base) {
+            size = graph.neg(size);
+        }
+        return inverse(graph, base, i, size, at);
+    }
+    let negative = is_negative(graph, factor.base);
     let (argument, inside) = match graph.node(factor.base).clone() {
         Node::Call(Function::Elementary(function), arguments) if arguments.len() == 1 => {
+            let argument = arguments[0];
+            let inverse = undone_by(function)?;
             let inside = match function {
                 Elementary::Exp => {
-                    let logarithm = graph.call(Elementary::Log, &[ratio]);
+                    let logarithm = graph.call(inverse, &[ratio]);
                     graph.scale(logarithm, &factor.exponent.recip()?)
                 }
-                Elementary::Sinh if factor.exponent == Rational::ONE => {
-                    graph.call(Elementary::Asinh, &[ratio])
+                Elementary::Tan => {
+                    let start = at(graph, argument).unwrap_or(0.0);
+                    of_tangent(graph, &factor.exponent, ratio, start)?
                 }
-                _ => return None,
+                _ => {
+                    let root = root(graph, &factor.exponent, ratio, negative)?;
+                    graph.call(inverse, &[root])
+                }
             };
-            (arguments[0], inside)
+            (argument, inside)
         }
         _ => {
             let root = root(graph, &factor.exponent, ratio, negative)?;
             (factor.base, root)
         }
     };
+    let Some(slope) = slope_of(graph, argument, i) else {
+        let nested = argument != factor.base || factor.exponent != Rational::ONE;
+        return nested.then(|| inverse(graph, argument, i, inside, at))?;
+    };
     // the argument is a x_i + b
-    let slope = slope_of(graph, argument, i)?;
     let x = graph.symbol(Symbol::Coordinate(i));
     let moved = graph.scale(x, &slope);
     let rest = graph.sub(argument, moved);
     let moved = graph.sub(inside, rest);
     Some(graph.scale(moved, &slope.recip()?))
+}
+
+/// u of `tan u = ratio`, or of `1/tan u = ratio`, on the branch of a start.
+fn of_tangent(graph: &mut Graph, exponent: &Rational, ratio: ExprId, start: f64) -> Option<ExprId> {
+    let angle = graph.call(Elementary::Atan, &[ratio]);
+    let (angle, halves) = match exponent.to_integer()? {
+        1 => (angle, 2.0 * (start / PI).round()),
+        -1 => (graph.neg(angle), 2.0 * (start / PI).floor() + 1.0),
+        _ => return None,
+    };
+    let pi = graph.pi();
+    let turned = graph.scale(pi, &(&Rational::from_f64(halves)? * &half()));
+    Some(graph.add(angle, turned))
+}
+
+/// g of a factor `log g^2`.
+fn of_logarithm(graph: &Graph, factor: &Factor) -> Option<ExprId> {
+    let Node::Call(Function::Elementary(Elementary::Log), arguments) = graph.node(factor.base)
+    else {
+        return None;
+    };
+    match graph.node(arguments[0]) {
+        Node::Product(factors) if factor.exponent == Rational::ONE => match &factors[..] {
+            [(base, exponent)] if *exponent == Rational::from(2) => Some(*base),
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+/// `x_i` of `s log g^2 - s log h^2 = left` with affine g and h: of `g = m h` with `m^2 = exp(left/s)`.
+fn of_quotient(
+    graph: &mut Graph,
+    [one, other]: [&(Factor, ExprId); 2],
+    left: ExprId,
+    i: usize,
+    at: &dyn Fn(&Graph, ExprId) -> Option<f64>,
+) -> Option<ExprId> {
+    let [above, below] = [of_logarithm(graph, &one.0)?, of_logarithm(graph, &other.0)?];
+    let slopes = [slope_of(graph, above, i)?, slope_of(graph, below, i)?];
+    let sum = graph.add(one.1, other.1);
+    let sum = graph.normal(sum);
+    if !graph.is_zero(sum) {
+        return None;
+    }
+    let exponent = graph.div(left, one.1);
+    let exponent = graph.scale(exponent, &half());
+    let mut m = graph.call(Elementary::Exp, &[exponent]);
+    let ratio = graph.div(above, below);
+    if at(graph, ratio).is_some_and(|value| value < 0.0) {
+        m = graph.neg(m);
+    }
+    let x = graph.symbol(Symbol::Coordinate(i));
+    let mut rest = |value: ExprId, slope: &Rational| {
+        let moved = graph.scale(x, slope);
+        graph.sub(value, moved)
+    };
+    // a x + b = m (c x + d)
+    let [b, d] = [rest(above, &slopes[0]), rest(below, &slopes[1])];
+    let [a, c] = slopes.map(|slope| graph.number(slope));
+    let [moved, along] = [d, c].map(|value| graph.mul(m, value));
+    let [moved, along] = [graph.sub(moved, b), graph.sub(a, along)];
+    Some(graph.div(moved, along))
 }
 
 /// b of `b^p = ratio` on its side.
@@ -155,7 +258,7 @@ fn of_square(graph: &mut Graph, [c, b, a]: [ExprId; 3], negative: bool, cancels:
     let product = graph.mul(a, c);
     let product = graph.scale(product, &Rational::from(4));
     let inside = graph.add(square, product);
-    let half = Rational::new(1, 2).unwrap_or(Rational::ONE);
+    let half = half();
     let mut root = graph.pow(inside, &half);
     if negative {
         root = graph.neg(root);

@@ -60,7 +60,7 @@ pub(super) fn pieces(
     let search = Search {
         model,
         matrix,
-        elementwise: elementwise::elementwise(model, matrix, graph),
+        elementwise: elementwise::elementwise(model, matrix, graph).filter(Elementwise::is_affine),
         hamiltonian,
         budget: Budget::new(WORK),
     };
@@ -177,8 +177,7 @@ impl Search<'_> {
                 let Some(elementwise) = &self.elementwise else {
                     return slope;
                 };
-                let x = graph.symbol(Symbol::Coordinate(i));
-                let speed = elementwise.speeds[i].at(x, graph);
+                let speed = elementwise.speeds[i].at(i, graph);
                 let product = graph.mul(speed, slope);
                 graph.tidy(product)
             })
@@ -348,8 +347,7 @@ impl Search<'_> {
                 continue;
             }
             let s = graph.mul(time, speed_of_y);
-            let x = graph.symbol(Symbol::Coordinate(i));
-            map.push((i, speed.flow(x, s, graph)));
+            map.push((i, speed.flow(i, s, graph)?));
         }
         Some(map)
     }
