@@ -8,13 +8,15 @@
 //! ```
 //!
 //! which is linear in the exponents. The `p_k` are coordinates and what the entries have as factors; the exponents follow from values at
-//! points, C from g w term by term, and what was found is proven.
+//! points, C from g w term by term, and what was found is proven. A common factor of the entries is taken out first, whatever function it is.
 
+use super::gradient_of;
 use crate::model::{Model, PoissonMatrix};
-use crate::structure::elementwise::{at_start, vanish};
+use crate::structure::elementwise::{at_start, factors, vanish};
+use crate::structure::found::additive;
 use lie_symbolic::exact::matrix::solve;
 use lie_symbolic::exact::{Budget, Fraction, Polynomial, Rational};
-use lie_symbolic::symbolic::{Elementary, ExprId, Graph, Symbol};
+use lie_symbolic::symbolic::{Elementary, ExprId, Graph, Node, Symbol};
 
 /// Work allowed for one bracket.
 const WORK: u64 = 1_000_000;
@@ -32,30 +34,12 @@ pub(in crate::structure) fn casimir(
     if matrix.dimension != 3 {
         return None;
     }
-    let budget = Budget::new(WORK);
     let rows = matrix.rows(graph);
     let w = [rows[1][2], rows[2][0], rows[0][1]];
-    let space = Space {
-        first: model.parameters.len(),
-    };
-    let entries = space.fractions(graph, &w)?;
-    let curl = [(1, 2), (2, 0), (0, 1)].map(|(i, j)| {
-        let one = graph.derivative(w[j], Symbol::Coordinate(i));
-        let other = graph.derivative(w[i], Symbol::Coordinate(j));
-        graph.sub(one, other)
-    });
-    let curl = space.fractions(graph, &curl)?;
-    let factors = space.factors(&entries);
-    let exponents = space.exponents(&entries, &curl, &factors, &budget)?;
-    let mut integrable = entries.to_vec();
-    for (factor, exponent) in factors.iter().zip(exponents) {
-        let power = Fraction::from(factor.clone());
-        let power = power.pow(exponent, &budget).ok()??;
-        for entry in &mut integrable {
-            *entry = entry.mul(&power, &budget).ok()?;
-        }
-    }
-    let casimir = space.potential(&integrable, graph)?;
+    let casimir = of_polynomials(model, &w, graph).or_else(|| {
+        let without = without_functions(&w, graph)?;
+        gradient_of(model, &without, graph)
+    })?;
     let slopes: Vec<ExprId> = (0..3)
         .map(|i| graph.derivative(casimir, Symbol::Coordinate(i)))
         .collect();
@@ -65,7 +49,62 @@ pub(in crate::structure) fn casimir(
     });
     let has_value = at_start(model, graph, casimir).is_none_or(f64::is_finite);
     let moves = slopes.iter().any(|slope| !graph.is_zero(*slope));
+    let budget = Budget::new(WORK);
     (has_value && moves && vanish(model, graph, &w, &differences, &budget)).then_some(casimir)
+}
+
+/// That of entries whose ratios are rational functions.
+fn of_polynomials(model: &Model, w: &[ExprId; 3], graph: &mut Graph) -> Option<ExprId> {
+    let budget = Budget::new(WORK);
+    let space = Space {
+        first: model.parameters.len(),
+    };
+    let entries = space.ratios(graph, w)?;
+    let along = space.direction(&entries, &budget)?;
+    let curl = [(1, 2), (2, 0), (0, 1)].map(|(i, j)| {
+        let one = along[j].derivative(space.first + i);
+        &one - &along[i].derivative(space.first + j)
+    });
+    let factors = space.factors(entries.iter().chain(&along.clone().map(Fraction::from)));
+    let exponents = space.exponents(&along, &curl, &factors, &budget)?;
+    let mut integrable = along.map(Fraction::from);
+    for (factor, exponent) in factors.iter().zip(exponents) {
+        let power = Fraction::from(factor.clone());
+        let power = power.pow(exponent, &budget).ok()??;
+        for entry in &mut integrable {
+            *entry = entry.mul(&power, &budget).ok()?;
+        }
+    }
+    space.potential(&integrable, graph)
+}
+
+/// The entries without the functions that are factors of every term of all of them.
+fn without_functions(w: &[ExprId; 3], graph: &mut Graph) -> Option<[ExprId; 3]> {
+    let mut common: Option<Vec<(ExprId, Rational)>> = None;
+    for entry in w {
+        let (constant, terms) = additive::collected(graph, *entry)?;
+        if !constant.is_zero() {
+            return None;
+        }
+        for term in terms {
+            let (_, product) = graph.coefficient(term);
+            let mut factors = factors(graph, product);
+            factors.retain(|(base, _)| matches!(graph.node(*base), Node::Call(..)));
+            if let Some(common) = &common {
+                factors.retain(|factor| common.contains(factor));
+            }
+            common = Some(factors);
+        }
+    }
+    let mut common = common.filter(|common| !common.is_empty())?;
+    for (_, exponent) in &mut common {
+        *exponent = -&*exponent;
+    }
+    let inverse = graph.power_product(&common);
+    Some(w.map(|entry| {
+        let product = graph.mul(entry, inverse);
+        graph.normal(product)
+    }))
 }
 
 /// Rational functions of the parameters, and behind them of three coordinates.
@@ -75,6 +114,19 @@ struct Space {
 }
 
 impl Space {
+    /// The entries, or else their ratios to one of them.
+    fn ratios(&self, graph: &mut Graph, w: &[ExprId; 3]) -> Option<[Fraction; 3]> {
+        if let Some(entries) = self.fractions(graph, w) {
+            return Some(entries);
+        }
+        let divisor = *w.iter().find(|entry| !graph.is_zero(**entry))?;
+        let ratios = w.map(|entry| {
+            let ratio = graph.div(entry, divisor);
+            graph.normal(ratio)
+        });
+        self.fractions(graph, &ratios)
+    }
+
     fn fractions(&self, graph: &mut Graph, w: &[ExprId; 3]) -> Option<[Fraction; 3]> {
         let variables: Vec<ExprId> = (0..3)
             .map(|i| graph.symbol(Symbol::Parameter(self.first + i)))
@@ -87,14 +139,45 @@ impl Space {
         fractions.collect::<Option<Vec<_>>>()?.try_into().ok()
     }
 
+    /// Polynomials without a common factor that have the ratios of these fractions.
+    fn direction(&self, entries: &[Fraction; 3], budget: &Budget) -> Option<[Polynomial; 3]> {
+        let mut whole = entries.clone();
+        for entry in entries {
+            for (factor, exponent) in entry.denominator() {
+                let power = factor.pow(exponent, budget).ok()?;
+                for other in &mut whole {
+                    *other = other.mul(&Fraction::from(power.clone()), budget).ok()?;
+                }
+            }
+        }
+        let mut common = Polynomial::default();
+        for entry in &whole {
+            if entry.denominator().next().is_some() {
+                return None;
+            }
+            common = common.gcd(entry.numerator(), budget).ok()?;
+        }
+        // nothing is divided by a parameter, which may be 0
+        let parameters = (0..self.first).any(|p| common.contains(p));
+        if parameters || common.is_zero() {
+            common = Polynomial::constant(Rational::ONE);
+        }
+        let quotients = whole.each_ref().map(|entry| {
+            let quotient = entry.numerator().divide_exactly(&common, budget);
+            quotient.ok().flatten()
+        });
+        let [x, y, z] = quotients;
+        Some([x?, y?, z?])
+    }
+
     /// What g may be made of: the coordinates, denominators, and numerators without the monomials that divide them.
-    fn factors(&self, entries: &[Fraction; 3]) -> Vec<Polynomial> {
+    fn factors<'a>(&self, entries: impl Iterator<Item = &'a Fraction>) -> Vec<Polynomial> {
         let mut found: Vec<Polynomial> = (0..3)
             .map(|i| Polynomial::variable(self.first + i))
             .collect();
-        let denominators = entries.iter().flat_map(Fraction::denominator);
-        let mut others: Vec<Polynomial> = denominators.map(|(factor, _)| factor.clone()).collect();
+        let mut others: Vec<Polynomial> = Vec::new();
         for entry in entries {
+            others.extend(entry.denominator().map(|(factor, _)| factor.clone()));
             let numerator = entry.numerator();
             let stripped = numerator.strip(&numerator.monomial_content());
             others.extend(stripped.content().recip().map(|one| stripped.scale(&one)));
@@ -111,8 +194,8 @@ impl Space {
     /// The exponents of factors, from values at points.
     fn exponents(
         &self,
-        entries: &[Fraction; 3],
-        curl: &[Fraction; 3],
+        entries: &[Polynomial; 3],
+        curl: &[Polynomial; 3],
         factors: &[Polynomial],
         budget: &Budget,
     ) -> Option<Vec<i32>> {
@@ -126,9 +209,9 @@ impl Space {
                 Rational::new(7 + 13 * variable + place * (variable + 2), denominator)
                     .unwrap_or(Rational::ONE)
             };
-            let at_point = |values: &[Fraction; 3]| {
-                let values = values.iter().map(|value| value.evaluate(&point));
-                values.collect::<Option<Vec<Rational>>>()
+            let at_point = |values: &[Polynomial; 3]| {
+                let values = values.each_ref();
+                values.map(|value| value.evaluate(&point))
             };
             let columns = factors.iter().zip(&slopes).map(|(factor, slope)| {
                 let inverse = factor.evaluate(&point).recip()?;
@@ -136,11 +219,11 @@ impl Space {
                 Some(slope.map(|slope| &slope.evaluate(&point) * &inverse))
             });
             let columns: Option<Vec<[Rational; 3]>> = columns.collect();
-            // not where a factor or a denominator vanishes
-            let (Some(w), Some(curl), Some(columns)) = (at_point(entries), at_point(curl), columns)
-            else {
+            // not where a factor vanishes
+            let Some(columns) = columns else {
                 continue;
             };
+            let (w, curl) = (at_point(entries), at_point(curl));
             for (axis, curl) in curl.into_iter().enumerate() {
                 let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
                 let of = |slope: &[Rational; 3]| &(&slope[i] * &w[j]) - &(&slope[j] * &w[i]);

@@ -20,7 +20,10 @@ fn each_class_is_found() {
         Class::Constant
     );
     assert_eq!(of("x y", &["{x, y} = -x*y/2"]), Class::LogCanonical);
-    assert_eq!(of("x y", &["{x, y} = (1 + x)*y"]), Class::Elementwise(Vec::new()));
+    assert_eq!(
+        of("x y", &["{x, y} = (1 + x)*y"]),
+        Class::Elementwise(Vec::new())
+    );
     let field = ["{x, z} = 1", "{y, u} = 1", "{z, u} = 1 + cos(x)*y"];
     assert_eq!(of("x y z u", &field), Class::Magnetic(vec![0, 1]));
     // the positions come last
@@ -102,9 +105,46 @@ fn a_function_times_a_jacobian_bracket_has_its_casimir() {
     let powers = ["{y, z} = 2*z*(1 + x*y)", "{x, y} = 3*x*(1 + x*y)"];
     assert_eq!(of(&powers), sorted("log(x^2) + 3*log(z^2)/2"));
     let inverse = ["{x, y} = 1/z", "{y, z} = 1/x", "{z, x} = 1/y"];
-    assert_eq!(of(&inverse), sorted("log(x^2)/2 + log(y^2)/2 + log(z^2)/2"));
+    assert_eq!(of(&inverse), sorted("x*y*z"));
     let quotient = ["{y, z} = -y*(1 + z + x*y)", "{z, x} = x*(1 + z + x*y)"];
     assert_eq!(of(&quotient), sorted("y/x"));
+}
+
+/// The function that it is multiplied with may be any that all entries have as a factor, or be multiplied out.
+#[test]
+fn any_common_factor_is_taken_out() {
+    let gradient = ["2*z + x*y", "x^3 + y*z", "y^4 + x*z"];
+    let expected = sorted("x^4/4 + y^5/5 + z^2 + z*x*y");
+    for factor in [
+        "(1 + x^2)",
+        "exp(y)",
+        "sin(x*y + z)*exp(y)",
+        "1/(2 + z^2)",
+        "sqrt(2 + z + x^2)",
+        "(1 + x*y*z)^3",
+        "(exp(x) + z)",
+    ] {
+        let pairs = ["{x, y}", "{y, z}", "{z, x}"];
+        let brackets = pairs.iter().zip(gradient);
+        let brackets: Vec<String> = brackets
+            .map(|(pair, slope)| format!("{pair} = {factor}*({slope})"))
+            .collect();
+        let brackets: Vec<&str> = brackets.iter().map(String::as_str).collect();
+        let Some(Class::Multiple(casimir)) = class_of("x y z", &brackets, "x^2") else {
+            panic!("{factor}");
+        };
+        assert_eq!(sorted(&casimir), expected, "{factor}");
+    }
+    // neither of them rational
+    let both = [
+        "{x, y} = cosh(z)*exp(z)",
+        "{y, z} = cosh(z)*cos(x)",
+        "{z, x} = 2*cosh(z)*y",
+    ];
+    let Some(Class::Multiple(casimir)) = class_of("x y z", &both, "x^2") else {
+        panic!("a function times a Jacobian bracket");
+    };
+    assert_eq!(sorted(&casimir), sorted("sin(x) + y^2 + exp(z)"));
 }
 
 #[test]
