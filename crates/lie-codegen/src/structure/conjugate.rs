@@ -72,8 +72,14 @@ fn of_matrix(model: &Model, matrix: &PoissonMatrix, graph: &mut Graph) -> Option
     for block in &blocks(matrix) {
         let form = elementwise(model, block, &mut own);
         if !form.as_ref().is_some_and(Elementwise::is_affine)
-            && let Some((change, bracket)) = single_pair(model, matrix, block, &mut own)
+            && let Some((mut change, bracket)) = single_pair(model, matrix, block, &mut own)
         {
+            // more than the sign of B, where that depends on one coordinate
+            if let Some(Speed::Other(closed)) =
+                form.map(|form| form.speeds[change.coordinate].clone())
+            {
+                change.sides = closed.sides;
+            }
             changes.push(change);
             brackets.push(bracket);
             continue;

@@ -1,6 +1,7 @@
 use super::{Conjugate, Form, conjugate, of_matrix};
 use crate::compile::compile_spec;
 use crate::model::Model;
+use crate::structure::elementwise::Side;
 use crate::structure::numbers::Numbers;
 use lie_symbolic::exact::Rational;
 use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
@@ -201,6 +202,24 @@ fn integrals_are_over_the_coordinate_that_has_one() {
     // of exp(y^2) there is no integral over y
     is("{x, y} = 1/(exp(y^2) + x)", 0);
     assert_eq!(changed(&["{x, y} = 1/(exp(y^2) + exp(x^2))"]), None);
+}
+
+/// B has the same sign behind both of its zeros, which are two sides.
+#[test]
+fn both_zeros_of_a_density_are_borders() {
+    let model = model(&["x", "y", "u"], &["{x, y} = 1/(y^2 - 1)".to_owned()]);
+    let (found, graph) = found(&model).expect("coordinates");
+    let sides = |y: f64| -> Vec<bool> {
+        let sides = found.changes[0].sides.iter();
+        let signs = sides.map(|side| match side {
+            Side::Sign(value) => graph.evaluate(*value, &|_| y) > 0.0,
+            Side::Turn(_) => panic!("no angle"),
+        });
+        signs.collect()
+    };
+    assert_eq!(sides(1.5), sides(3.0));
+    assert_ne!(sides(1.5), sides(-1.5));
+    assert_ne!(sides(1.5), sides(0.5));
 }
 
 #[test]
