@@ -6,6 +6,9 @@ use lie_runtime::methods::{Canonical2, Canonical4, Facts, Gauss4, Method};
 use lie_runtime::newton::NewtonOptions;
 use lie_runtime::prelude::*;
 use lie_runtime::{CanonicalPoisson, Lift};
+use nalgebra::Vector3;
+
+type Vector = Vector3<f64>;
 
 lie_poisson! {
     /// Constant in `atan(x)`, `log(y)` and `-1/z`.
@@ -17,7 +20,7 @@ lie_poisson! {
     }
     state x, y, z;
     hamiltonian = x^2/2 + y - log(y)/2 + z^2/3 + x*y*z/5;
-    casimir = log(y) + 6*atan(x) - 3/z;
+    casimir C = log(y) + 6*atan(x) - 3/z;
     initial = [3/10, 1, 7/10];
     methods = [canonical2, canonical4, gauss4];
 }
@@ -35,7 +38,7 @@ lie_poisson! {
     methods = [canonical2, canonical4, gauss4];
 }
 
-fn mixed() -> (MixedSystem<f64>, [f64; 3]) {
+fn mixed() -> (MixedSystem<f64>, Vector) {
     let declared = Mixed::new();
     (
         declared.system().expect("constants"),
@@ -54,7 +57,7 @@ fn orders() {
             let mut mu = start;
             let mut stepper = method.stepper(&system, h, &NewtonOptions::default());
             stepper.step(&mut mu, &mut ()).expect("the step converges");
-            (h, distance(&mu, &exact))
+            (h, distance(mu.as_slice(), exact.as_slice()))
         });
         let order = order_of_convergence(&points, 1e-14).unwrap_or_else(|| panic!("{points:?}"));
         let stated = f64::from(M::ORDER) + 1.0;
@@ -76,10 +79,10 @@ fn steps_are_poisson_maps() {
     let from = bounded.initial_state();
     for h in [0.05, 0.2, 0.4] {
         let defects = [
-            poisson_defect(&dual, &Canonical2, h, &start, &options),
-            poisson_defect(&dual, &Canonical4, h, &start, &options),
-            poisson_defect(&other, &Canonical2, h, &from, &options),
-            poisson_defect(&other, &Canonical4, h, &from, &options),
+            poisson_defect(&dual, &Canonical2, h, start.as_slice(), &options),
+            poisson_defect(&dual, &Canonical4, h, start.as_slice(), &options),
+            poisson_defect(&other, &Canonical2, h, from.as_slice(), &options),
+            poisson_defect(&other, &Canonical4, h, from.as_slice(), &options),
         ];
         for defect in defects {
             let defect = defect.expect("the step converges");
@@ -87,8 +90,8 @@ fn steps_are_poisson_maps() {
         }
     }
     let controls = [
-        poisson_defect(&dual, &Gauss4, 0.2, &start, &options),
-        poisson_defect(&other, &Gauss4, 0.2, &from, &options),
+        poisson_defect(&dual, &Gauss4, 0.2, start.as_slice(), &options),
+        poisson_defect(&other, &Gauss4, 0.2, from.as_slice(), &options),
     ];
     for control in controls {
         assert!(control.expect("the step converges") > 1e-8);
@@ -100,7 +103,7 @@ fn steps_are_poisson_maps() {
 fn the_casimir_is_kept() {
     fn moved<M: Method<f64, MixedSystem<f64>>>(method: &M) -> f64 {
         let (system, start) = mixed();
-        let casimir = |mu: &[f64; 3]| {
+        let casimir = |mu: &Vector| {
             let mut value = [0.0];
             system.casimirs(mu, &mut value);
             value[0]
@@ -123,22 +126,26 @@ fn the_casimir_is_kept() {
 #[test]
 fn no_side_is_left() {
     let (system, start) = mixed();
-    let mut side = [0.0; 3];
-    system.canonical_sides(&start, &[-4.0, 0.2, 3.0], &mut side);
+    let mut side = Vector::zeros();
+    system.canonical_sides(&start, &Vector::new(-4.0, 0.2, 3.0), &mut side);
     assert!(side.iter().all(|value| *value > 0.0), "{side:?}");
-    system.canonical_sides(&start, &[0.3, 1.0, -0.7], &mut side);
+    system.canonical_sides(&start, &Vector::new(0.3, 1.0, -0.7), &mut side);
     assert!(side[2] < 0.0, "{side:?}");
     let bounded = Bounded::new();
     let system = bounded.system().expect("constants");
     for (other, place) in [
-        ([2.5, 0.4, 0.8], 0),
-        ([6.5, 0.4, 0.8], 0),
-        ([0.2, 1.4, 0.8], 1),
+        (Vector::new(2.5, 0.4, 0.8), 0),
+        (Vector::new(6.5, 0.4, 0.8), 0),
+        (Vector::new(0.2, 1.4, 0.8), 1),
     ] {
         system.canonical_sides(&bounded.initial_state(), &other, &mut side);
         assert!(side[place] < 0.0, "{other:?}: {side:?}");
     }
     // of two zeros both signs count
-    system.canonical_sides(&[0.2, -0.5, 0.8], &[0.2, 1.5, 0.8], &mut side);
+    system.canonical_sides(
+        &Vector::new(0.2, -0.5, 0.8),
+        &Vector::new(0.2, 1.5, 0.8),
+        &mut side,
+    );
     assert!(side[1] < 0.0, "{side:?}");
 }
