@@ -6,7 +6,6 @@ mod command;
 mod compiler;
 mod interrupt;
 mod message;
-mod output;
 mod process;
 mod render;
 

@@ -9,6 +9,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use lie_in_process::request::Request;
+use lie_output::Format;
 
 pub use ensemble::{Ensemble, Merge, Reduce};
 pub use equilibria::Equilibria;
@@ -272,20 +273,6 @@ pub struct Run {
     /// Rounds a product and its sum once (faster; other digits than on a processor without it)
     #[arg(long)]
     pub fma: bool,
-}
-
-/// `--format`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Format {
-    /// A header line, then one line per row
-    Csv,
-    /// One object with columns and rows, which is whole when the command has ended by itself
-    Json,
-    /// One object a line for each row, which can be read whatever ends the command
-    #[value(alias = "ndjson")]
-    Jsonl,
-    /// A numpy array of float64, one row per time
-    Npy,
 }
 
 /// `--cpu`.

@@ -9,7 +9,7 @@ use lie_program::protocol::Event;
 use super::files::Inputs;
 use super::run::outputs;
 use crate::message::{Failure, Message};
-use crate::output::Destination;
+use lie_output::Destination;
 
 /// The columns of a table.
 pub struct Columns {

@@ -9,7 +9,7 @@ use lie_syntax::front::spec::files;
 
 use crate::compiler::Spec;
 use crate::message::{Failure, Message};
-use crate::output::{Destination, Identity};
+use lie_output::{Destination, Identity};
 
 /// What was read: what it is, and which file.
 #[derive(Default)]

@@ -6,7 +6,7 @@ use super::args::{Command, Resume};
 use super::run::{self, checkpoint, checkpoint::Checkpoint, checkpoint::refused};
 use super::usage::{Parsed, parse};
 use crate::message::Failure;
-use crate::output::is_in;
+use lie_output::is_in;
 
 /// Goes on with a run.
 ///

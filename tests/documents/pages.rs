@@ -263,8 +263,8 @@ fn no_arrow_between_crates_points_back() {
         ),
         (
             ".",
-            "lie-codegen lie-core lie-dynamic lie-equilibria lie-in-process lie-measure lie-methods lie-plot lie-program lie-runtime \
-             lie-spectra lie-symbolic lie-syntax",
+            "lie-codegen lie-core lie-dynamic lie-equilibria lie-in-process lie-measure lie-methods lie-output lie-plot lie-program \
+             lie-runtime lie-spectra lie-symbolic lie-syntax",
         ),
         ("crates/lie-equilibria", "lie-symbolic"),
         (
@@ -272,6 +272,10 @@ fn no_arrow_between_crates_points_back() {
             "lie-codegen lie-core lie-symbolic lie-syntax",
         ),
         ("crates/lie-spectra", "lie-runtime"),
+        (
+            "crates/lie-output",
+            "lie-in-process lie-program lie-runtime",
+        ),
         ("crates/lie-plot", ""),
     ] {
         let found = dependencies(&format!("{package}/Cargo.toml"));

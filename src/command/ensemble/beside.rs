@@ -11,7 +11,7 @@ use lie_in_process::share::{Record, Share};
 use crate::command::args::Reduce;
 use crate::command::files::{Inputs, put, unwritable};
 use crate::message::Failure;
-use crate::output::{Destination, npy};
+use lie_output::{Destination, npy};
 
 /// The name of a reduction.
 pub fn name(reduce: Reduce) -> &'static str {

@@ -12,7 +12,7 @@ use super::gathering::Gathering;
 use super::merge::Part;
 use crate::command::run::outputs::writing_failed;
 use crate::message::{Failure, Message};
-use crate::output::npy;
+use lie_output::npy;
 
 /// Numbers, and bytes of a table, that are read at a time.
 const CHUNK: usize = 1 << 16;

@@ -12,7 +12,7 @@ use super::stops::Stopping;
 use super::table::Table;
 use crate::command::run::outputs::writing_failed;
 use crate::message::Failure;
-use crate::output::{Rows, Run};
+use lie_output::{Rows, Run};
 
 /// What is taken of a member.
 #[derive(Default)]

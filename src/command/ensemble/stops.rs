@@ -11,7 +11,7 @@ use lie_in_process::words::{counted, with_digits, with_error};
 use super::beside::{numbers, path_of_stops};
 use crate::command::files::unwritable;
 use crate::message::Failure;
-use crate::output::{Destination, Rows, Run};
+use lie_output::{Destination, Rows, Run};
 
 /// Takes the times at which members were ended: of each one for every event that stops, not a number where it was not that one.
 pub struct Stopping {

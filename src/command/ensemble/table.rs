@@ -9,7 +9,7 @@ use lie_program::protocol::Event;
 use crate::command::events::Columns;
 use crate::command::files::unwritable;
 use crate::message::Failure;
-use crate::output::{Destination, Lines};
+use lie_output::{Destination, Lines};
 
 /// The table on its way into its file.
 pub struct Table {

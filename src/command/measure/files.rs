@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::command::files::{Inputs, unwritable};
 use crate::command::run::outputs;
 use crate::message::Failure;
-use crate::output::Destination;
+use lie_output::Destination;
 
 /// Opens the files of `--out` and `--plot`, if they are given.
 ///

@@ -10,7 +10,7 @@ use crate::command::args;
 use crate::command::events::{Columns, open};
 use crate::command::files::{Inputs, unwritable};
 use crate::message::{Failure, Message};
-use crate::output::Destination;
+use lie_output::Destination;
 
 /// The table on its way to its file.
 pub struct Table {

@@ -15,7 +15,7 @@ use crate::command::args;
 use crate::command::files::{Inputs, unwritable};
 use crate::compiler::Spec;
 use crate::message::{Failure, Message};
-use crate::output::Rows;
+use lie_output::Rows;
 
 /// The checkpoint of a run, and where it is.
 pub struct Keeper {

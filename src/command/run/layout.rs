@@ -11,7 +11,7 @@ use lie_codegen::structure::{Structure, group};
 use lie_program::protocol::{Columns, Coordinates};
 use lie_runtime::lattice::AXES;
 
-use crate::output::Names;
+use lie_output::Names;
 
 /// The columns that are shown.
 pub struct Layout {

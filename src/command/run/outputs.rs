@@ -6,10 +6,10 @@ use std::path::Path;
 use clap::ValueEnum as _;
 
 use super::picture::Form;
-use crate::command::args::{self, Format};
+use crate::command::args;
 use crate::command::files::Inputs;
 use crate::message::{Failure, Message};
-use crate::output::Destination;
+use lie_output::{Destination, Format};
 
 /// The form of the output, and whether the names of files make sense.
 ///

@@ -12,7 +12,7 @@ use super::layout::{Layout, Places};
 use super::picture::Picture;
 use super::summary::Drift;
 use crate::compiler::Spec;
-use crate::output::{Rows, Run};
+use lie_output::{Rows, Run};
 
 /// Takes what the program of a run finds.
 pub struct Reception<'a, 'p> {

@@ -30,8 +30,8 @@ use crate::command::fold::folded;
 use crate::compiler::Spec;
 use crate::interrupt::Interrupt;
 use crate::message::{Failure, Message, STOPPED, keep_refused, step_refused};
-use crate::output::{Destination, Rows, Run};
 use crate::render;
+use lie_output::{Destination, Rows, Run};
 
 /// What all runs have in common.
 pub struct Session<'a> {

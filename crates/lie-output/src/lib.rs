@@ -20,8 +20,22 @@ pub use names::Names;
 use npy::Npy;
 pub use written::is_in;
 
-use crate::command::args::Format;
 use lie_program::protocol::Event;
+
+/// How rows are written, `--format`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
+pub enum Format {
+    /// A header line, then one line per row
+    Csv,
+    /// One object with columns and rows, which is whole when the command has ended by itself
+    Json,
+    /// One object a line for each row, which can be read whatever ends the command
+    #[cfg_attr(feature = "clap", value(alias = "ndjson"))]
+    Jsonl,
+    /// A numpy array of float64, one row per time
+    Npy,
+}
 
 /// The rows of runs on their way out.
 ///

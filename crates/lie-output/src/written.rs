@@ -6,9 +6,9 @@ use std::io::{self, Read as _, Seek as _, SeekFrom};
 use std::path::Path;
 
 use lie_in_process::checkpoint::Written;
+use lie_in_process::key::Key;
 
 use super::{Rows, Run};
-use crate::build::Key;
 
 /// So many of the last bytes tell the file from another one.
 const TAIL: u64 = 4096;
