@@ -287,6 +287,5 @@ fn json_number(value: f64, out: &mut Vec<u8>) {
 
 /// The shortest decimal that reads back as the same number.
 fn number(value: f64, out: &mut Vec<u8>) {
-    // Writing to memory does not fail.
-    let _ = write!(out, "{value:?}");
+    out.extend_from_slice(zmij::Buffer::new().format(value).as_bytes());
 }
