@@ -120,6 +120,9 @@ pub fn start(
         }
     };
     let values = values.as_deref().unwrap_or(&declaration.facts.defaults);
+    if spec.model.void_constraint(values).is_some() {
+        return None;
+    }
     let initial = match x0.is_none() {
         true => spec.model.initial_values(values)?,
         false => {

@@ -4,14 +4,14 @@ use crate::common::{folder, lie};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
-fn written(folder: &Path, name: &str, spec: &Value) -> PathBuf {
+pub fn written(folder: &Path, name: &str, spec: &Value) -> PathBuf {
     let path = folder.join(name);
     std::fs::write(&path, spec.to_string()).expect("written");
     path
 }
 
 /// Suslov's body with products of inertia and a blade along its third axis.
-fn suslov() -> Value {
+pub fn suslov() -> Value {
     json!({
         "format": 1,
         "name": "Suslov",

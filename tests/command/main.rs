@@ -25,6 +25,7 @@ mod canonical;
 mod check;
 mod cocycles;
 mod conjugate;
+mod constraint_parameters;
 mod constraints;
 mod declarations;
 mod density;

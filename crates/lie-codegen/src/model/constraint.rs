@@ -4,6 +4,8 @@ use super::{Model, at_parameters};
 use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 use lie_syntax::ast::Name;
 
+/// A coefficient below this part of its equation is zero beside it.
+const SINGULAR: f64 = 1e-13;
 /// A declared state may be off the constraint by this part of its momenta, as one that is written with few digits is.
 const OFF_THE_CONSTRAINT: f64 = 1e-6;
 
@@ -14,6 +16,8 @@ const OFF_THE_CONSTRAINT: f64 = 1e-6;
 pub struct Constraint {
     /// The equations, as they were reduced: each has a component that no other one has.
     pub forms: Vec<String>,
+    /// The equations as they are declared, which hold for other velocities where a parameter has another value.
+    pub equations: Vec<Equation>,
     /// The declared coordinates, those of mu first.
     pub declared: Vec<Name>,
     /// The names of the components of xi: those of the velocity, or of the basis.
@@ -32,6 +36,15 @@ pub struct Constraint {
     pub declared_initial: Option<Vec<ExprId>>,
     /// Whether the Jacobi identity holds, although nothing presupposes it; `None` where it was not decided.
     pub jacobi: Option<bool>,
+}
+
+/// An equation `<a, xi> = 0` as it is declared.
+#[derive(Clone, Debug)]
+pub struct Equation {
+    /// The equation.
+    pub text: String,
+    /// The coefficients a, one for each component, functions of the parameters.
+    pub coefficients: Vec<ExprId>,
 }
 
 /// A state in the declared coordinates off the constraint.
@@ -150,10 +163,74 @@ impl Model {
         })
     }
 
+    /// What is wrong with a constraint at values of the parameters, with a remedy: an equation says nothing there, or not what it was
+    /// solved for. The equations were solved at the default parameters, in letters, and the solution knows nothing of a factor that
+    /// becomes zero.
+    pub fn void_constraint(&self, parameters: &[f64]) -> Option<[String; 2]> {
+        let constraint = self.constraint.as_ref()?;
+        let row =
+            |equation: &Equation| at_parameters(&self.graph, &equation.coefficients, parameters);
+        let rows: Vec<Vec<f64>> = constraint.equations.iter().map(row).collect();
+        let all: Vec<usize> = (0..constraint.components.len()).collect();
+        let other = "give other values of its parameters, or remove the equation from the spec";
+        if let Some((place, size)) = dependent(rows.clone(), &all) {
+            let text = &constraint.equations[place].text;
+            let what = match size {
+                0.0 => "holds for every velocity",
+                size if size.is_finite() => "follows from those before it",
+                _ => "has coefficients that are not finite",
+            };
+            let message = format!("the constraint {text} {what} at these parameters");
+            return Some([message, other.to_owned()]);
+        }
+        dependent(rows, &constraint.determined)?;
+        let names = constraint.determined.iter();
+        let names: Vec<&str> = names.map(|i| constraint.components[*i].as_str()).collect();
+        let message = format!(
+            "the constraint {} cannot be solved for {} at these parameters, as it is at the default ones",
+            constraint.forms.join(", "),
+            names.join(", ")
+        );
+        let help = "write these values as the defaults of the spec: what the constraint is solved for is chosen there";
+        Some([message, help.to_owned()])
+    }
+
     /// Whether the bracket is almost Poisson: the Jacobi identity is not asked of what a constraint leaves.
     pub fn is_almost_poisson(&self) -> bool {
         self.constraint.is_some()
     }
+}
+
+/// The first of rows that depends on those before it in some columns, and how large its entries are.
+fn dependent(mut rows: Vec<Vec<f64>>, columns: &[usize]) -> Option<(usize, f64)> {
+    let size = |row: &Vec<f64>| match row.iter().all(|x| x.is_finite()) {
+        true => row.iter().fold(0.0_f64, |most, x| most.max(x.abs())),
+        false => f64::NAN,
+    };
+    let sizes: Vec<f64> = rows.iter().map(size).collect();
+    let mut free = columns.to_vec();
+    for (place, size) in sizes.into_iter().enumerate() {
+        let mut row = rows[place].clone();
+        let pivot = free
+            .iter()
+            .copied()
+            .max_by(|i, j| row[*i].abs().total_cmp(&row[*j].abs()));
+        let pivot = pivot.filter(|pivot| row[*pivot].abs() > SINGULAR * size);
+        let Some(pivot) = pivot else {
+            return Some((place, size));
+        };
+        free.retain(|column| *column != pivot);
+        let scale = row[pivot];
+        row.iter_mut().for_each(|x| *x /= scale);
+        for later in &mut rows[place + 1..] {
+            let factor = later[pivot];
+            later
+                .iter_mut()
+                .zip(&row)
+                .for_each(|(x, y)| *x -= factor * y);
+        }
+    }
+    None
 }
 
 /// A number to twelve digits.

@@ -24,7 +24,7 @@ pub use attitude::{Attitude, Form};
 pub use bracket::{Algebra, Bracket, Cocycle, Extension, PoissonMatrix, bracket_of};
 pub use casimir::{Casimir, CasimirKind};
 pub use configuration::Configuration;
-pub use constraint::{Constraint, Violation};
+pub use constraint::{Constraint, Equation, Violation};
 pub use driving::{Acting, Driving, Input};
 pub use energy::{Discrete, ENTRIES, Energy, Hamiltonian, InEntries, Lagrangian};
 pub use family::{

@@ -17,7 +17,7 @@ use crate::words::counted;
 impl Planner<'_> {
     pub(super) fn start(&mut self) -> Option<Point> {
         let parameters = self.parameters()?;
-        self.dissipates(&parameters);
+        self.holds(&parameters);
         let initial = self.initial(&parameters)?;
         Some(Point {
             parameters,
@@ -30,7 +30,7 @@ impl Planner<'_> {
         let Some(parameters) = self.parameters() else {
             return Vec::new();
         };
-        self.dissipates(&parameters);
+        self.holds(&parameters);
         let mut points = Vec::new();
         let before = self.mistakes.len();
         for (values, place) in &states.all {
@@ -47,8 +47,14 @@ impl Planner<'_> {
         points
     }
 
-    /// What was checked of dissipation at the default parameters holds at these.
-    fn dissipates(&mut self, parameters: &[f64]) {
+    /// What was checked of constraints and of dissipation at the default parameters holds at these.
+    fn holds(&mut self, parameters: &[f64]) {
+        if let Some([text, help]) = self.spec.model.void_constraint(parameters) {
+            let option = self.request.front.option("param");
+            let mut message = Message::option(&option, text);
+            message.kind = Kind::Constraint;
+            self.mistakes.push(message.help(help));
+        }
         if let Some(wrong) = violation(&self.spec.model, parameters) {
             let option = self.request.front.option("param");
             let message = Message::option(&option, wrong.message);

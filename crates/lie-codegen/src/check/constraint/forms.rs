@@ -28,6 +28,8 @@ pub struct Distribution {
     pub free: Vec<usize>,
     /// `R_pf`, by the places of p and f in these lists.
     pub ratios: Vec<Vec<Fraction>>,
+    /// The coefficients of the equations as they are declared, one for each component.
+    pub declared: Vec<Vec<Fraction>>,
     /// Where the constraints stand.
     pub origin: Origin,
 }
@@ -70,6 +72,7 @@ pub fn distribution(
         budget: Budget::new(WORK),
         own,
     };
+    let declared = rows.iter().map(|(row, _)| row.clone()).collect();
     match elimination.reduce(rows, graph) {
         Ok((pivots, rows)) => {
             let free: Vec<usize> = (0..own).filter(|i| !pivots.contains(i)).collect();
@@ -81,6 +84,7 @@ pub fn distribution(
             let ratios = ratios.map(|row| free.iter().map(|f| row[*f].clone()).collect());
             Some(Some(Distribution {
                 ratios: ratios.collect(),
+                declared,
                 pivots,
                 free,
                 origin: first.origin,
@@ -190,7 +194,10 @@ impl Elimination<'_> {
                 self.subtract(&mut row, known, &factor).map_err(limit)?;
             }
             let pivot = self.pivot(&row, size, graph);
-            let pivot = pivot.ok_or_else(|| dependent(origin, &row))?;
+            let pivot = pivot.ok_or_else(|| match size {
+                0.0 => void(origin),
+                _ => dependent(origin, &row),
+            })?;
             let inverse = row[pivot].recip(&self.budget).map_err(limit)?;
             let inverse = inverse.unwrap_or_default();
             for entry in &mut row {
@@ -235,6 +242,13 @@ impl Elimination<'_> {
             |i: &usize| !row[*i].is_zero() && (self.value)(graph, &row[*i]).abs() > SINGULAR * size;
         (0..self.own).rev().find(|i| usable(i))
     }
+}
+
+/// A constraint whose coefficients are zero where it is looked at.
+fn void(origin: Origin) -> Diagnostic {
+    let message = "this constraint holds for every velocity at the default parameters";
+    Diagnostic::new(Kind::Constraint, origin, message)
+        .help("choose other defaults, for which it constrains something, or remove it")
 }
 
 /// A constraint that follows from those before it, at least where it is looked at.

@@ -12,7 +12,7 @@ use crate::check::energy::Declared;
 use crate::check::poisson::Entry;
 use crate::check::system::{System, too_large};
 use crate::check::{jacobi, symbols};
-use crate::model::{Configuration, Constraint, Energy, PoissonMatrix};
+use crate::model::{Configuration, Constraint, Energy, Equation, PoissonMatrix};
 use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 use lie_syntax::ast::{Declaration, Expr, ExprKind, Observable, Structure};
 use lie_syntax::diagnostic::{Diagnostic, Kind};
@@ -298,8 +298,15 @@ impl<'a> Reduction<'a> {
         let velocity = velocity.collect();
         let reduced = self.declaration();
         let name = |symbol| symbols::symbol_name(&reduced, symbol);
+        let texts = names::declared(self.declared, self.distribution);
+        let equations = texts.into_iter().zip(&self.distribution.declared);
+        let equations = equations.map(|(text, row)| Equation {
+            text,
+            coefficients: row.iter().map(|c| graph.rational_function(c)).collect(),
+        });
         Constraint {
             forms: self.forms.clone(),
+            equations: equations.collect(),
             declared: self.declared.state.clone(),
             components: names::components(self.declared)[..self.own()].to_vec(),
             elements: self.declared.basis()[..self.own()]
