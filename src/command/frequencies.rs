@@ -1,6 +1,7 @@
 //! `lie frequencies`: of which frequencies a motion is made.
 
 use std::collections::HashSet;
+use std::f64::consts::PI;
 use std::io;
 
 use lie_in_process::request::{Plan, several};
@@ -22,6 +23,9 @@ use crate::compiler::{self, Spec};
 use crate::interrupt::Interrupt;
 use crate::message::{Failure, Message, STOPPED};
 use crate::render;
+
+/// Lines below this part of the largest one are not warned of.
+const NOTICED: f64 = 1e-6;
 
 /// The columns that are analysed, beside the times of their rows.
 struct Samples {
@@ -82,6 +86,9 @@ pub fn run(arguments: &args::Frequencies) -> Result<u8, Failure> {
         (name.clone(), found)
     };
     let found: Vec<(String, Frequencies)> = samples.signals.iter().map(find).collect();
+    if !arguments.quiet {
+        render::print(&at_the_limit(distance, options.window, &found));
+    }
     let title = title(&spec, plan, samples.step);
     match arguments.json {
         true => {
@@ -227,6 +234,32 @@ fn check(samples: &Samples, count: usize) -> Result<(), Failure> {
     }
 }
 
+/// Warnings for columns with a line within the resolution of the largest frequency that samples tell, pi over their distance: there its
+/// amplitude and phase are those of the samples, and a faster line looks the same.
+fn at_the_limit(
+    (distance, count): (f64, usize),
+    window: u8,
+    found: &[(String, Frequencies)],
+) -> Vec<Message> {
+    let limit = PI / distance;
+    let resolution = 2.0 * limit * f64::from(window + 1) / count as f64;
+    let warning = |(name, found): &(String, Frequencies)| {
+        let most = found.lines.first()?.amplitude;
+        let at_limit =
+            |line: &&Line| line.frequency > limit - resolution && line.amplitude > NOTICED * most;
+        let line = found.lines.iter().find(at_limit)?;
+        let text = format!(
+            "`{name}` has a line at {}, where samples at distances of {distance} end to tell frequencies, at {}: its amplitude and phase mean nothing, and it may be a faster one",
+            with_digits(line.frequency, resolution),
+            with_digits(limit, resolution),
+        );
+        let mut message = Message::option("--of", text);
+        message.warning = true;
+        Some(message.help("take rows at smaller distances, with a smaller `--step` or `--every`"))
+    };
+    found.iter().filter_map(warning).collect()
+}
+
 /// What was found, for people.
 fn text(title: &str, (distance, count): (f64, usize), found: &[(String, Frequencies)]) -> String {
     let mut text = format!("{title}: {count} samples at distances of {distance}\n");
@@ -282,6 +315,7 @@ fn as_json(
         "step": number(samples.step),
         "samples": count,
         "distance": number(distance),
+        "largest_frequency": number(PI / distance),
         "from": number(samples.times[0]),
         "signals": signals.collect::<Map<String, Value>>(),
     })

@@ -157,3 +157,34 @@ fn what_is_refused_says_why() {
         run.stdout
     );
 }
+
+/// A cosine of frequency w whose samples are pi/w apart alternates, and tells neither its amplitude nor that of a faster one; half as far it does.
+#[test]
+fn a_line_at_the_limit_of_the_samples_is_warned_of() {
+    let folder = folder();
+    let path = folder.path().join("oscillator.json");
+    let text = r#"{"format": 1, "name": "Oscillator", "poisson": ["{q, p} = 1"], "state": ["q", "p"], "parameters": {"w": 1},
+        "hamiltonian": "w*(p^2 + q^2)/2", "initial": ["3/5", "4/5"]}"#;
+    std::fs::write(&path, text).expect("written");
+    let path = path.display();
+    let run = |rows: &str| {
+        let call = format!(
+            "frequencies {path} --method taylor --step 1/20 --param w=1 {rows} --of q --count 1"
+        );
+        lie(&call).ok()
+    };
+    let pi = std::f64::consts::PI;
+    let at = run(&format!("--rows 0:{}:101", 100.0 * pi));
+    let what = "`q` has a line at";
+    assert!(
+        at.stderr.contains("warning") && at.stderr.contains(what),
+        "{}",
+        at.stderr
+    );
+    assert!(at.stderr.contains("faster"), "{}", at.stderr);
+    let below = run(&format!("--rows 0:{}:201", 100.0 * pi));
+    assert!(!below.stderr.contains(what), "{}", below.stderr);
+    // an amplitude of 3/5 is what the samples tell of one of 1
+    assert!(below.stdout.contains("1.000000"), "{}", below.stdout);
+    assert!(at.stdout.contains("6.0000000e-1"), "{}", at.stdout);
+}
