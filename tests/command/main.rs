@@ -34,6 +34,7 @@ mod ensemble;
 #[cfg(unix)]
 mod ensemble_events;
 mod equilibria;
+mod equilibria_of_constraints;
 mod events;
 mod exponents;
 mod families;

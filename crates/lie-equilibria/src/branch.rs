@@ -7,6 +7,7 @@
 
 use crate::curve::Curve;
 use crate::dense::{add, norm};
+use crate::family::Solutions as _;
 use crate::follower::Follower;
 use crate::newton::At;
 use crate::search::{close, distance};

@@ -129,6 +129,35 @@ pub fn product(a: &[f64], b: &[f64], n: usize) -> Vec<f64> {
     c
 }
 
+/// The sign of the Pfaffian of an antisymmetric matrix by rows: -1, 0 or 1. Elimination in pairs of rows.
+pub fn pfaffian_sign(mut a: Vec<f64>, n: usize) -> f64 {
+    let mut sign = 1.0;
+    if n % 2 == 1 {
+        return 0.0;
+    }
+    for k in (0..n).step_by(2) {
+        let largest = |i: &usize, j: &usize| a[k * n + i].abs().total_cmp(&a[k * n + j].abs());
+        let place = (k + 1..n).max_by(largest).unwrap_or(k + 1);
+        if place != k + 1 {
+            (0..n).for_each(|j| a.swap(place * n + j, (k + 1) * n + j));
+            (0..n).for_each(|i| a.swap(i * n + place, i * n + k + 1));
+            sign = -sign;
+        }
+        let pivot = a[k * n + k + 1];
+        if pivot == 0.0 {
+            return 0.0;
+        }
+        sign *= pivot.signum();
+        for i in k + 2..n {
+            for j in k + 2..n {
+                let minor = a[i * n + k + 1] * a[k * n + j] - a[i * n + k] * a[(k + 1) * n + j];
+                a[i * n + j] -= minor / pivot;
+            }
+        }
+    }
+    sign
+}
+
 /// The scalar product.
 pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(x, y)| x * y).sum()
@@ -175,6 +204,18 @@ mod tests {
             let b = times(&a, columns, &part(&mut random, columns));
             let x = found.shortest(&b, 2);
             assert!(norm(&difference(&times(&a, columns, &x), &b)) < 1e-13);
+        }
+        // Pf of 4 x 4 is a12 a34 - a13 a24 + a14 a23
+        for _ in 0..20 {
+            let [p, q, r, s, t, u]: [f64; 6] = std::array::from_fn(|_| random.unit());
+            let rows = [
+                [0.0, p, q, r],
+                [-p, 0.0, s, t],
+                [-q, -s, 0.0, u],
+                [-r, -t, -u, 0.0],
+            ];
+            let expected = (p * u - q * t + r * s).signum();
+            assert_eq!(pfaffian_sign(rows.concat(), 4), expected);
         }
         let a = [2.0, 1.0, 0.0, 1.0, 2.0, 1.0, 0.0, 1.0, 2.0];
         let (values, vectors) = symmetric_eigen(&a, 3).expect("it converges");

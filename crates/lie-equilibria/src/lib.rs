@@ -23,10 +23,15 @@ mod dense;
 mod discriminant;
 mod eigenvalues;
 pub mod exact;
+mod family;
+mod field;
 mod follower;
 mod homotopy;
 mod integrals;
+mod low_rank;
+mod low_rank_search;
 mod newton;
+mod place;
 pub mod proof;
 mod random;
 mod scaling;
@@ -38,8 +43,10 @@ mod uncertainty;
 
 pub use branch::{Branch, Change, ChangeKind, Point, Traced, trace};
 pub use homotopy::Paths;
+pub use low_rank::LowRank;
 pub use newton::At;
 pub use num_complex::Complex64 as c64;
+pub use place::Ranks;
 pub use search::{Candidate, Found};
 pub use stability::{Judgement, Linearisation, Reason, Stability};
 pub use system::{Equations, Named, Shape, Sizes, System, shortest};
@@ -71,6 +78,8 @@ pub struct Equilibrium {
     pub family: usize,
     /// Whether the linearisation has a kernel along which no equilibria go on, as far as the numbers tell.
     pub degenerate: bool,
+    /// Whether it is certainly on another leaf than the initial state; `None` where that is open.
+    pub on_other_leaf: Option<bool>,
     /// How often the search found it.
     pub hits: usize,
     /// Whether it is proven to be there.
@@ -114,6 +123,7 @@ impl Equilibrium {
             family: candidate.dimension,
             degenerate: candidate.degenerate,
             hits: candidate.hits,
+            on_other_leaf: at.is_on_other_leaf(&candidate.y),
             presence,
             linearisation,
             judgement,

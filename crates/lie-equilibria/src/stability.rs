@@ -64,6 +64,10 @@ pub enum Reason {
         /// And different from each other and from zero.
         simple: bool,
     },
+    /// All eigenvalues but those along the family have negative real parts.
+    Attracting,
+    /// No eigenvalue has a positive real part, and some beside those along the family are imaginary.
+    NoneRight,
     /// The linearisation is degenerate as far as the numbers tell: a sign that decides changes within their uncertainty.
     Degenerate,
 }
@@ -258,7 +262,7 @@ fn largest(values: &[c64]) -> f64 {
     values.iter().map(|z| z.norm()).fold(0.0, f64::max)
 }
 
-fn signs(values: &[f64]) -> Inertia {
+pub(crate) fn signs(values: &[f64]) -> Inertia {
     let bound = FLAT * values.iter().map(|x| x.abs()).fold(0.0, f64::max);
     let count = |of: &dyn Fn(f64) -> bool| values.iter().filter(|x| of(**x)).count();
     Inertia {

@@ -35,6 +35,8 @@ pub struct System {
     pub levels: Vec<ExprId>,
     /// The entries `(i, j, Pi_ij)`, `i < j`, that are not zero.
     pub bracket: Vec<(usize, usize, ExprId)>,
+    /// Whether Pi satisfies the identity of Jacobi, and there are leaves.
+    pub has_leaves: bool,
     /// First integrals.
     pub integrals: Vec<Named>,
     /// A state that tells the scale, functions of the parameters.

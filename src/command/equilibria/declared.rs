@@ -145,6 +145,7 @@ pub fn system(
         casimirs: functions,
         levels,
         bracket,
+        has_leaves: !model.is_almost_poisson(),
         integrals: quantities,
         state,
     })

@@ -1,6 +1,6 @@
 //! What was found, for programs.
 
-use lie_equilibria::{Equations, Equilibrium, Presence, Reason};
+use lie_equilibria::{Equations, Equilibrium, LowRank, Presence, Reason, c64};
 use lie_in_process::words::number;
 use serde_json::{Value, json};
 
@@ -41,16 +41,34 @@ pub fn leaf(name: &str, equations: &Equations, leaf: &Leaf) -> Value {
         }),
     };
     value["equilibria"] = leaf.equilibria.iter().map(equilibrium).collect();
+    value["lower_rank"] = leaf.low_rank.iter().map(low_rank).collect();
     value
+}
+
+/// A state at rest where the rank of the bracket drops.
+fn low_rank(one: &LowRank) -> Value {
+    json!({
+        "state": numbers(&one.state),
+        "uncertainty": number(one.error),
+        "energy": number(one.energy),
+        "rank": one.rank,
+        "independent_casimirs": one.gradients,
+        "family_dimension": one.family,
+        "degenerate": one.degenerate,
+        "found": one.hits,
+        "eigenvalues": spectrum(&one.eigenvalues),
+        "stability": word(one.judgement.stability),
+        "proven": one.judgement.proven,
+        "reason": reason(&one.judgement.reason),
+    })
+}
+
+fn spectrum(values: &[c64]) -> Vec<Value> {
+    values.iter().map(|z| json!([z.re, z.im])).collect()
 }
 
 fn equilibrium(one: &Equilibrium) -> Value {
     let linear = &one.linearisation;
-    let eigenvalues: Vec<Value> = linear
-        .eigenvalues
-        .iter()
-        .map(|z| json!([z.re, z.im]))
-        .collect();
     let exact = match &one.presence {
         Presence::Rational(state) => state.iter().map(ToString::to_string).collect(),
         _ => Value::Null,
@@ -62,13 +80,14 @@ fn equilibrium(one: &Equilibrium) -> Value {
         "energy": number(one.energy),
         "family_dimension": one.family,
         "degenerate": one.degenerate,
+        "other_leaf": one.on_other_leaf,
         "found": one.hits,
         "existence": match one.presence {
             Presence::Rational(_) => "rational",
             Presence::Enclosed => "enclosed",
             Presence::Numerical => "numerical",
         },
-        "eigenvalues": eigenvalues,
+        "eigenvalues": spectrum(&linear.eigenvalues),
         "zero_eigenvalues": linear.zeros,
         "hessian_signs": [linear.inertia.positive, linear.inertia.negative, linear.inertia.zero],
         "stability": word(one.judgement.stability),
@@ -94,6 +113,8 @@ fn reason(reason: &Reason) -> Value {
             json!({ "kind": "integrals", "energy": number(*energy), "integrals": weights, "held": held })
         }
         Reason::Right => json!({ "kind": "positive real part" }),
+        Reason::Attracting => json!({ "kind": "negative real parts" }),
+        Reason::NoneRight => json!({ "kind": "no positive real part" }),
         Reason::Degenerate => json!({ "kind": "degenerate" }),
         Reason::Imaginary { simple } => json!({ "kind": "imaginary", "simple": simple }),
     }

@@ -2,12 +2,13 @@
 
 mod declared;
 mod json;
+mod low_rank;
 mod picture;
 mod words;
 
 use lie_codegen::structure::Effort;
 use lie_equilibria::exact::Prover;
-use lie_equilibria::{At, Candidate, Equations, Equilibrium, Found, Traced, trace};
+use lie_equilibria::{At, Candidate, Equations, Equilibrium, Found, LowRank, Traced, trace};
 use lie_in_process::request::{self, Parameter, Point, Request, Value};
 use lie_syntax::diagnostic::Kind;
 
@@ -26,6 +27,8 @@ pub struct Leaf {
     pub found: Found,
     /// What is known of each.
     pub equilibria: Vec<Equilibrium>,
+    /// States at rest where the rank of the bracket drops.
+    pub low_rank: Vec<LowRank>,
 }
 
 /// What was followed over a range of a parameter.
@@ -170,7 +173,7 @@ fn start(
     at(values[0])
 }
 
-/// Refuses an initial state on a leaf of lower dimension, which the Casimirs do not describe.
+/// Refuses Casimirs that depend on each other, and an initial state whose leaf they do not describe.
 fn regular(
     spec: &Spec,
     equations: &Equations,
@@ -181,20 +184,36 @@ fn regular(
         equations,
         parameters,
     };
-    let sizes = equations.sizes;
-    let state = equations.leaf(parameters).map(|(_, state)| state);
-    let regular = state.is_some_and(|state| {
-        let y = [state, vec![0.0; sizes.m]].concat();
-        at.is_regular(&y)
-    });
-    if regular || arguments.casimir.len() >= sizes.m && sizes.m > 0 {
+    let (sizes, name) = (equations.sizes, &spec.model.name);
+    // values that are not finite are said of later
+    let Some([own, generic]) = at.ranks() else {
+        return Ok(());
+    };
+    if generic.gradients < sizes.m {
+        let casimirs = equations.system.casimirs.iter();
+        let casimirs: Vec<&str> = casimirs.map(|casimir| casimir.name.as_str()).collect();
+        let text = format!(
+            "at these values of the parameters the gradients of the Casimirs {} of {name} depend on each other in all states, so that their values tell no leaf",
+            casimirs.join(", ")
+        );
+        let message = Message::new(Kind::Domain, text).at_option("SPEC");
+        let help = "give other values of the parameters, or declare Casimirs in `casimirs` that are independent at these";
+        return Err(message.help(help).into());
+    }
+    let all_given = arguments.casimir.len() >= sizes.m && sizes.m > 0;
+    let full = own.bracket == generic.bracket && own.gradients == sizes.m;
+    if full || all_given || !equations.system.has_leaves {
         return Ok(());
     }
-    let text = format!(
-        "the initial state lies on a leaf of {} of less than {} dimensions, where the gradients of the Casimirs depend on each other",
-        spec.model.name,
-        sizes.n - sizes.m
-    );
+    let text = match own.bracket < generic.bracket {
+        true => format!(
+            "the initial state lies on a leaf of {name} of {} dimensions, for the rank of the bracket is {} there and {} generically, and the Casimirs tell leaves of {} dimensions alone",
+            own.bracket, own.bracket, generic.bracket, generic.bracket
+        ),
+        false => format!(
+            "at the initial state of {name} the gradients of the Casimirs depend on each other, and their values do not tell its leaf"
+        ),
+    };
     let message = Message::new(Kind::Domain, text).at_option("--initial");
     let help =
         "give a state on a leaf of full dimension, or the values of all Casimirs with `--casimir`";
@@ -219,7 +238,8 @@ fn leaf(
         message.help("give another initial state with `--initial`")
     };
     let (levels, _) = equations.leaf(parameters).ok_or_else(none)?;
-    let found = at.search(arguments.starts as usize, arguments.seed.into(), true);
+    let (starts, seed) = (arguments.starts as usize, arguments.seed.into());
+    let found = at.search(starts, seed, true);
     let found = found.ok_or_else(none)?;
     let exact = declared::exact(&spec.model, parameters);
     let exact = exact.unwrap_or_default();
@@ -228,6 +248,7 @@ fn leaf(
     Ok(Leaf {
         levels,
         equilibria: found.candidates.iter().filter_map(known).collect(),
+        low_rank: at.low_rank(starts, seed),
         found,
     })
 }

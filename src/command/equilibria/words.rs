@@ -1,11 +1,9 @@
 //! What was found, for people.
 
-use lie_equilibria::{
-    ChangeKind, Equations, Equilibrium, Found, Paths, Presence, Reason, Stability, c64,
-};
+use lie_equilibria::{ChangeKind, Equations, Equilibrium, Paths, Presence, Reason, Stability, c64};
 use lie_in_process::words::counted;
 
-use super::{Leaf, Range};
+use super::{Leaf, Range, low_rank};
 use crate::command::fold::folded;
 
 /// Eigenvalues that differ by less than this part of the largest are shown as one.
@@ -33,7 +31,7 @@ pub fn change(kind: ChangeKind) -> &'static str {
 }
 
 /// A number in seven digits.
-fn digits(value: f64) -> String {
+pub fn digits(value: f64) -> String {
     let value = value + 0.0;
     match value.abs() {
         0.0 => "0".to_owned(),
@@ -57,20 +55,38 @@ pub fn leaf(name: &str, equations: &Equations, leaf: &Leaf) -> String {
     let levels = levels.map(|(casimir, level)| format!("{} = {}", casimir.name, digits(*level)));
     let levels: Vec<String> = levels.collect();
     let mut text = format!(
-        "{name}: relative equilibria on the leaf of {} dimensions{}{}\n",
+        "{name}: relative equilibria on the {} of {} dimensions{}{}{}\n",
+        set(equations),
         n - m,
         if m > 0 { " with " } else { "" },
-        levels.join(", ")
+        levels.join(", "),
+        match system.has_leaves {
+            true => "",
+            false => " of an almost-Poisson bracket, which has no leaves",
+        }
     );
-    text.push_str(&searched(&leaf.found, &leaf.equilibria));
+    text.push_str(&searched(set(equations), leaf));
     for (number, equilibrium) in leaf.equilibria.iter().enumerate() {
         text.push_str(&block(number + 1, equations, equilibrium));
+    }
+    let before = leaf.equilibria.len();
+    for (number, one) in leaf.low_rank.iter().enumerate() {
+        text.push_str(&low_rank::block(before + number + 1, equations, one));
     }
     folded(&text)
 }
 
+/// What the values of Casimirs leave: a leaf, where there are leaves.
+pub fn set(equations: &Equations) -> &'static str {
+    match equations.system.has_leaves {
+        true => "leaf",
+        false => "level set",
+    }
+}
+
 /// How much was searched, and what that means.
-fn searched(found: &Found, equilibria: &[Equilibrium]) -> String {
+fn searched(set: &str, leaf: &Leaf) -> String {
+    let (found, equilibria) = (&leaf.found, &leaf.equilibria);
     let isolated = equilibria.iter().filter(|one| one.family == 0).count();
     let mut what = vec![counted(isolated as u64, "isolated equilibrium")];
     if isolated != 1 {
@@ -83,20 +99,29 @@ fn searched(found: &Found, equilibria: &[Equilibrium]) -> String {
         _ => what.push(format!("{families} families")),
     }
     let mut text = format!(
-        "found: {} from {}, {} of which ended on the leaf\n",
+        "found: {} from {}, {} of which ended on the {set}\n",
         what.join(" and "),
         counted(found.starts as u64, "start"),
         found.converged
     );
     text.push_str(&match found.paths {
         None => "searched, not proven to be all: the equations are no polynomials, have too many complex solutions to follow all, or the initial state is far from the leaf\n".to_owned(),
-        Some(paths) => complete(paths, isolated),
+        Some(paths) => complete(paths, isolated, !leaf.low_rank.is_empty()),
     });
+    let others = equilibria
+        .iter()
+        .filter(|one| one.on_other_leaf == Some(true));
+    match others.count() {
+        0 => {}
+        1 => text.push_str("1 of them is on another leaf with the same values of the Casimirs than the initial state\n"),
+        count => text.push_str(&format!("{count} of them are on other leaves with the same values of the Casimirs than the initial state\n")),
+    }
+    text.push_str(&low_rank::found(&leaf.low_rank));
     text
 }
 
 /// What the paths say of completeness.
-fn complete(paths: Paths, isolated: usize) -> String {
+fn complete(paths: Paths, isolated: usize, drops: bool) -> String {
     let mut parts = vec![format!(
         "{} at isolated solutions, {} of them real",
         paths.isolated, paths.real
@@ -117,6 +142,9 @@ fn complete(paths: Paths, isolated: usize) -> String {
     );
     match (paths.lost, paths.real <= isolated) {
         (0, true) => format!("{ends}: by these numbers no isolated equilibrium is missing\n"),
+        (0, false) if drops => {
+            format!("{ends}: some of them are where the rank of the bracket drops\n")
+        }
         (0, false) => format!("{ends}: some of them are no equilibria on the leaf\n"),
         (lost, _) => format!(
             "{ends}; {lost} were lost, so that an equilibrium may be missing: try another `--seed`\n"
@@ -137,6 +165,10 @@ fn block(number: usize, equations: &Equations, one: &Equilibrium) -> String {
         (1, _) => "a family: one member of a curve of equilibria".to_owned(),
         (d, _) => format!("a family: one member of a set of {d} dimensions"),
     };
+    let elsewhere = match one.on_other_leaf {
+        Some(true) => ", on another leaf than the initial state",
+        _ => "",
+    };
     let pairs = |names: &mut dyn Iterator<Item = &String>, values: &[f64]| -> String {
         let pairs = names.zip(values);
         let pairs: Vec<String> = pairs
@@ -150,7 +182,7 @@ fn block(number: usize, equations: &Equations, one: &Equilibrium) -> String {
         .iter()
         .map(|x| if x.abs() < 1e-13 * size { 0.0 } else { *x })
         .collect();
-    let mut text = format!("\n{number}. {kind}{presence}\n");
+    let mut text = format!("\n{number}. {kind}{elsewhere}{presence}\n");
     text.push_str(&format!(
         "  state: {}\n",
         pairs(&mut system.coordinates.iter(), &state)
@@ -165,7 +197,11 @@ fn block(number: usize, equations: &Equations, one: &Equilibrium) -> String {
     }
     text.push_str(&format!(
         "  eigenvalues: {}\n",
-        eigenvalues(&one.linearisation.eigenvalues, one.linearisation.zeros)
+        eigenvalues(
+            &one.linearisation.eigenvalues,
+            one.linearisation.zeros,
+            set(equations)
+        )
     ));
     let judgement = &one.judgement;
     let word = match (one.family > 0, judgement.stability) {
@@ -179,13 +215,13 @@ fn block(number: usize, equations: &Equations, one: &Equilibrium) -> String {
     };
     text.push_str(&format!(
         "  stability: {word} ({certainty}): {}\n",
-        reason(&judgement.reason, one.family)
+        reason(&judgement.reason, one.family, set(equations))
     ));
     text
 }
 
 /// Eigenvalues in pairs: `±1.5i, ±0.3, 0 twice`.
-pub fn eigenvalues(values: &[c64], zeros: usize) -> String {
+pub fn eigenvalues(values: &[c64], zeros: usize, set: &str) -> String {
     let scale = values.iter().map(|z| z.norm()).fold(0.0, f64::max);
     let is_small = |x: f64| x.abs() <= SAME * scale;
     let mut shown: Vec<(String, usize)> = Vec::new();
@@ -218,19 +254,19 @@ pub fn eigenvalues(values: &[c64], zeros: usize) -> String {
         false => shown.join(", "),
     };
     match zeros {
-        0 => format!("{own} on the leaf"),
-        zeros => format!("{own} on the leaf; 0{} for the Casimirs", times(zeros)),
+        0 => format!("{own} on the {set}"),
+        zeros => format!("{own} on the {set}; 0{} for the Casimirs", times(zeros)),
     }
 }
 
 /// Why.
-pub fn reason(reason: &Reason, family: usize) -> String {
+pub fn reason(reason: &Reason, family: usize, set: &str) -> String {
     match reason {
         Reason::Definite { minimum } => {
             let what = if *minimum { "minimum" } else { "maximum" };
             match family {
-                0 => format!("H has a strict {what} on the leaf"),
-                _ => format!("H has a {what} on the leaf along the family, and is definite across it"),
+                0 => format!("H has a strict {what} on the {set}"),
+                _ => format!("H has a {what} on the {set} along the family, and is definite across it"),
             }
         }
         Reason::Integrals { energy, stationary, held } => {
@@ -243,9 +279,9 @@ pub fn reason(reason: &Reason, family: usize) -> String {
                     format!(" {sign} {} ({name})", digits(weight.abs()))
                 });
                 let sign = if *energy < 0.0 { "-H" } else { "H" };
-                text.push_str(&format!("{sign}{} has a minimum on the leaf", terms.collect::<String>()));
+                text.push_str(&format!("{sign}{} has a minimum on the {set}", terms.collect::<String>()));
             } else {
-                text.push_str("H is definite on the leaf");
+                text.push_str(&format!("H is definite on the {set}"));
             }
             if !held.is_empty() {
                 text.push_str(&format!(" where {} {} held", held.join(", "), if held.len() == 1 { "is" } else { "are" }));
@@ -256,6 +292,13 @@ pub fn reason(reason: &Reason, family: usize) -> String {
             text
         }
         Reason::Right => "an eigenvalue has a positive real part".to_owned(),
+        Reason::Attracting if family == 0 => "all eigenvalues have negative real parts".to_owned(),
+        Reason::Attracting => {
+            "all eigenvalues but those along the family have negative real parts: motion nearby tends to it".to_owned()
+        }
+        Reason::NoneRight => {
+            "no eigenvalue has a positive real part, and some are imaginary or zero: stability is not decided".to_owned()
+        }
         Reason::Degenerate => {
             "the linearisation is degenerate, as far as double precision tells, and decides nothing".to_owned()
         }

@@ -65,6 +65,7 @@ pub fn rigid_body(inertia: [i64; 3], state: [Rational; 3]) -> System {
         }],
         levels: vec![graph.number(level)],
         bracket: cross(&mut graph, 0, 0, 0),
+        has_leaves: true,
         integrals: Vec::new(),
         state: state.iter().map(|x| graph.number(x.clone())).collect(),
         graph,
@@ -100,6 +101,7 @@ pub fn on_se3(hamiltonian: impl FnOnce(&mut Graph) -> ExprId, integral: bool) ->
         casimirs: vec![named("length2", length), named("pitch", pitch)],
         levels: vec![one, spin],
         bracket,
+        has_leaves: true,
         integrals: if integral {
             vec![named("m3", third)]
         } else {
@@ -137,6 +139,7 @@ pub fn canonical(potential: impl FnOnce(&mut Graph, ExprId) -> ExprId) -> System
         casimirs: Vec::new(),
         levels: Vec::new(),
         bracket: vec![(0, 1, one)],
+        has_leaves: true,
         integrals: Vec::new(),
         state: vec![one, one],
         coordinates: ["q", "p"].map(str::to_owned).to_vec(),
