@@ -266,6 +266,51 @@ fn other_brackets() {
     assert!(text.contains("searched, not proven to be all"), "{text}");
 }
 
+/// Numbers that are uncertain are shown with their error, zeros as zeros, and the end of a branch on a threshold as one.
+#[test]
+fn what_is_uncertain_is_shown_so() {
+    let folder = folder();
+    let shown = |hamiltonian: &str| {
+        let path = spec(folder.path(), |spec| {
+            spec.as_object_mut().expect("an object").remove("algebra");
+            spec["poisson"] = json!(["{x, y} = (2*x + 3)*(1 - y/2)"]);
+            spec["state"] = json!(["x", "y"]);
+            spec["hamiltonian"] = hamiltonian.into();
+            spec["initial"] = json!([-1.0, 0.5]);
+            spec.as_object_mut().expect("an object").remove("casimirs");
+        });
+        lie(&format!("equilibria {}", path.display())).ok().stdout
+    };
+    let double = shown("y^2/2 + (x^2 - 2)^3/3");
+    assert!(
+        double.contains("x = 1.4142") && double.contains(", each up to ± "),
+        "{double}"
+    );
+    assert!(!double.contains("x = 1.414214"), "{double}");
+    let simple = shown("y^2/2 + (x^2 - 2)^2/3");
+    assert!(simple.contains("x = 1.414214"), "{simple}");
+    assert!(!simple.contains("each up to"), "{simple}");
+    let zero = shown("x^2/2 + y^2 + x*y");
+    assert!(
+        zero.contains("state: x = 0, y = 0\n  energy: 0\n"),
+        "{zero}"
+    );
+    let path = top(folder.path());
+    let range = |range: &str| {
+        let run = lie(&format!(
+            "equilibria {} --param spin={range}",
+            path.display()
+        ))
+        .ok();
+        run.stdout
+    };
+    let i1_mgl: f64 = 3.0 / 7.0 * 5.0 / 11.0;
+    let threshold = 2.0 * i1_mgl.sqrt();
+    let what = "at a threshold and not decided";
+    assert!(range(&format!("0.5:{threshold}:11")).contains(what));
+    assert!(!range(&format!("0.5:{}:11", threshold - 0.01)).contains(what));
+}
+
 /// What is said of a change of a spec.
 type Case<'a> = (&'a str, &'a dyn Fn(&mut Value));
 

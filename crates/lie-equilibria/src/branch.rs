@@ -30,6 +30,8 @@ pub struct Point {
     pub growth: f64,
     /// Its stability, by numbers.
     pub stability: Stability,
+    /// What changes there, if it is a threshold; then nothing is decided.
+    pub threshold: Option<ChangeKind>,
     /// Which of the values of the grid the parameter is, if it is one.
     pub grid: Option<usize>,
 }

@@ -16,6 +16,8 @@ use crate::tape::Tape;
 
 /// Denominators of rational solutions.
 const DENOMINATOR: f64 = 1e6;
+/// A coordinate is known to this part of its scale.
+const ROUND_OFF: f64 = 1e-13;
 /// A box reaches so many binary digits below the solution.
 const WIDTH: i64 = 90;
 /// Steps of refinement: each has 15 more digits.
@@ -33,7 +35,17 @@ pub enum Proven {
     /// With rational coordinates and multipliers.
     Rational(Vec<Rational>, Shape<Rational>),
     /// The one in a box, with what linearises the motion in all of it.
-    Enclosed(Box<(Balls, Shape<Ball>)>),
+    Enclosed(Box<Enclosed>),
+}
+
+/// A box with exactly one solution.
+pub struct Enclosed {
+    /// What is computed with.
+    pub balls: Balls,
+    /// What linearises the motion in all of the box.
+    pub shape: Shape<Ball>,
+    /// The middle of the box; zero where the box holds zero.
+    pub middle: Vec<f64>,
 }
 
 impl<'a> Prover<'a> {
@@ -46,16 +58,19 @@ impl<'a> Prover<'a> {
         }
     }
 
-    /// Proves that there is a solution near y at exact values of the parameters.
-    pub fn prove(&self, y: &[f64], parameters: &[Rational]) -> Option<Proven> {
-        self.rational(y, parameters)
+    /// Proves that there is a solution near y, which is known to so much, at exact values of the parameters.
+    pub fn prove(&self, y: &[f64], reach: f64, parameters: &[Rational]) -> Option<Proven> {
+        self.rational(y, 0.0, parameters)
             .or_else(|| self.enclosed(y, parameters))
+            .or_else(|| (reach > 0.0).then(|| self.rational(y, reach, parameters))?)
     }
 
-    fn rational(&self, y: &[f64], parameters: &[Rational]) -> Option<Proven> {
+    fn rational(&self, y: &[f64], reach: f64, parameters: &[Rational]) -> Option<Proven> {
         let [first, second] = self.rational.as_ref()?;
         let pairs = y.iter().zip(self.sizes(y, parameters));
-        let exact: Option<Vec<Rational>> = pairs.map(|(y, size)| fraction(*y, size)).collect();
+        let near = |size: f64| (ROUND_OFF * size).max(2.0 * reach);
+        let exact = pairs.map(|(y, size)| fraction(*y, near(size)));
+        let exact: Option<Vec<Rational>> = exact.collect();
         let exact = exact?;
         let inputs = [exact.as_slice(), parameters].concat();
         let linear = self.equations.sizes.linear(first.evaluate(&inputs)?);
@@ -129,7 +144,15 @@ impl<'a> Prover<'a> {
             }
         }
         let shape = sizes.shape(second.evaluate(&[whole.as_slice(), &given].concat())?);
-        Some(Proven::Enclosed(Box::new((balls.clone(), shape))))
+        let sides = whole.iter().map(|side| match side.sign() {
+            Some(_) => side.to_f64(),
+            None => 0.0,
+        });
+        Some(Proven::Enclosed(Box::new(Enclosed {
+            balls: balls.clone(),
+            middle: sides.collect(),
+            shape,
+        })))
     }
 }
 
@@ -166,9 +189,8 @@ fn inverse(slope: &[f64], scales: &[f64], balls: &Balls) -> Option<Vec<Ball>> {
         .collect()
 }
 
-/// The fraction with the smallest denominator near a number, if it is small.
-fn fraction(value: f64, size: f64) -> Option<Rational> {
-    let near = 1e-13 * size.max(f64::MIN_POSITIVE);
+/// The fraction with the smallest denominator so near to a number, if it is small.
+fn fraction(value: f64, near: f64) -> Option<Rational> {
     let (mut rest, mut last, mut now) = (value, (0.0, 1.0), (1.0, 0.0));
     for _ in 0..40 {
         let whole = rest.floor();
@@ -190,10 +212,10 @@ mod tests {
 
     #[test]
     fn fractions_are_recognised() {
-        let of = |n: i64, d: i64| fraction(n as f64 / d as f64, 1.0);
+        let of = |n: i64, d: i64| fraction(n as f64 / d as f64, ROUND_OFF);
         assert_eq!(of(355, 113), Rational::new(355, 113));
         assert_eq!(of(-2, 7), Rational::new(-2, 7));
-        assert_eq!(fraction(3e-17, 1.0), Some(Rational::ZERO));
-        assert_eq!(fraction(2.0_f64.sqrt(), 1.0), None);
+        assert_eq!(fraction(3e-17, ROUND_OFF), Some(Rational::ZERO));
+        assert_eq!(fraction(2.0_f64.sqrt(), ROUND_OFF), None);
     }
 }

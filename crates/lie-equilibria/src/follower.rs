@@ -6,6 +6,7 @@ use crate::curve::Curve;
 use crate::dense::{add, difference, dot, norm};
 use crate::discriminant::discriminant;
 use crate::newton::At;
+use crate::search::distance;
 use crate::stability::{Linearisation, Stability};
 
 /// Steps of a branch in one direction.
@@ -23,8 +24,27 @@ struct Stop {
     tests: [f64; 3],
 }
 
+impl Stop {
+    /// The stability, which is not decided on a change itself.
+    fn sure_beside(&self, other: &Self) -> Stability {
+        let is_on = |k: usize| {
+            let size = other.tests[k].abs();
+            size > NOTHING && self.tests[k].abs() < ZERO * size
+        };
+        match self.point.stability {
+            Stability::Spectral if is_on(1) || is_on(2) => Stability::Undecided,
+            stability => stability,
+        }
+    }
+}
+
+/// A function of the branch below this part of its value beside is zero.
+const ZERO: f64 = 1e-9;
 /// A product of eigenvalues below this part of the one before is on a change.
 const ON: f64 = 1e-3;
+/// A point is at a change within this part of the range, with a state that is so near.
+const AT: f64 = 1e-12;
+const NEAR: f64 = 1e-3;
 /// What bisection alone finds is known to this part of the range.
 const THRESHOLD: f64 = 1e-6;
 
@@ -64,12 +84,30 @@ impl Follower<'_> {
             .for_each(|change| change.stability.reverse());
         branch.points.push(start.point.clone());
         self.follow(start, &mut branch);
+        self.thresholds(&mut branch);
         Some(branch)
+    }
+
+    /// Marks the points that are where something changes, up to what is known of it: their spectra are those of neither side.
+    fn thresholds(&self, branch: &mut Branch) {
+        let range = self.curve.scale[self.curve.scale.len() - 1];
+        for point in &mut branch.points {
+            let here = |change: &&Change| {
+                let off = (change.parameter - point.parameter).abs();
+                off <= change.error.max(AT * range)
+                    && distance(&change.y, &point.y) < NEAR
+                    && change.stability[0] != change.stability[1]
+            };
+            if let Some(change) = branch.changes.iter().find(here) {
+                point.threshold = Some(change.kind);
+                point.stability = Stability::Undecided;
+            }
+        }
     }
 
     /// Everything at a point of the curve.
     fn stop(&self, u: Vec<f64>, tangent: Vec<f64>) -> Option<Stop> {
-        let (y, parameters) = (self.curve.unknowns(&u), self.curve.parameters(&u));
+        let (mut y, parameters) = (self.curve.unknowns(&u), self.curve.parameters(&u));
         let shape = self.curve.equations.shape(&y, &parameters)?;
         let linearisation = Linearisation::new(self.curve.equations.sizes, &shape)?;
         let family = self.curve.family;
@@ -83,12 +121,19 @@ impl Follower<'_> {
             product.unwrap_or(1.0),
             discriminant(q),
         ];
+        let mut energy = shape.energy;
+        let at = At {
+            equations: self.curve.equations,
+            parameters: &parameters,
+        };
+        at.round_zeros(&mut y, &mut energy);
         Some(Stop {
             point: Point {
                 parameter: self.curve.parameter(&u),
-                energy: shape.energy,
+                energy,
                 growth: linearisation.growth(),
                 stability: judgement.stability,
+                threshold: None,
                 grid: None,
                 y,
             },
@@ -205,7 +250,7 @@ impl Follower<'_> {
 
     /// What changes between two stops, within a range of the parameter.
     fn changes(&self, from: &Stop, to: &Stop, branch: &mut Branch, range: [f64; 2]) {
-        let stability = [from.point.stability, to.point.stability];
+        let stability = [from.sure_beside(to), to.sure_beside(from)];
         let signs = |k: usize| from.tests[k] * to.tests[k] < 0.0;
         let differs = stability[0] != stability[1];
         let mut kinds: Vec<(usize, ChangeKind)> = Vec::new();

@@ -74,6 +74,8 @@ pub struct Equilibrium {
     pub multipliers: Vec<f64>,
     /// H.
     pub energy: f64,
+    /// By how much state and multipliers are known at least, where the equilibrium is degenerate and not proven to be there; else 0.
+    pub error: f64,
     /// The dimension of the family, 0 where it is isolated.
     pub family: usize,
     /// Whether the linearisation has a kernel along which no equilibria go on, as far as the numbers tell.
@@ -99,28 +101,49 @@ impl Equilibrium {
         candidate: &Candidate,
     ) -> Option<Self> {
         let equations = at.equations;
-        let shape = equations.shape(&candidate.y, at.parameters)?;
+        let reach = if candidate.degenerate {
+            candidate.reach
+        } else {
+            0.0
+        };
+        let proof = prover.prove(&candidate.y, reach, exact);
+        let (mut y, mut energy, mut error) = (candidate.y.clone(), candidate.energy, 0.0);
+        let presence = match &proof {
+            Some(Proven::Rational(exact, shape)) => {
+                y = exact.iter().map(Rational::to_f64).collect();
+                energy = shape.energy.to_f64();
+                Presence::Rational(exact[..equations.sizes.n].to_vec())
+            }
+            Some(Proven::Enclosed(found)) => {
+                y.clone_from(&found.middle);
+                let sure = found.shape.energy.sign();
+                energy = sure.map_or(0.0, |_| found.shape.energy.to_f64());
+                Presence::Enclosed
+            }
+            None => {
+                at.round_zeros(&mut y, &mut energy);
+                error = reach;
+                Presence::Numerical
+            }
+        };
+        let shape = equations.shape(&y, at.parameters);
+        let shape = shape.or_else(|| equations.shape(&candidate.y, at.parameters))?;
         let linearisation = Linearisation::new(equations.sizes, &shape)?;
-        let mut judgement = linearisation.judge(equations, &shape, candidate.dimension);
-        let mut presence = Presence::Numerical;
-        if let Some(proof) = prover.prove(&candidate.y, exact) {
-            judgement = stability::proven(equations, &proof, judgement, candidate.dimension);
-            presence = match proof {
-                Proven::Rational(state, _) => {
-                    Presence::Rational(state[..equations.sizes.n].to_vec())
-                }
-                Proven::Enclosed(_) => Presence::Enclosed,
-            };
+        let family = candidate.dimension;
+        let mut judgement = linearisation.judge(equations, &shape, family);
+        if let Some(proof) = &proof {
+            judgement = stability::proven(equations, proof, judgement, family);
         }
-        if !judgement.proven && candidate.degenerate {
-            judgement = judgement.undecided();
+        if candidate.degenerate {
+            judgement = judgement.of_degenerate();
         }
-        let (state, multipliers) = candidate.y.split_at(equations.sizes.n);
+        let (state, multipliers) = y.split_at(equations.sizes.n);
         Some(Self {
             state: state.to_vec(),
             multipliers: multipliers.to_vec(),
-            energy: candidate.energy,
-            family: candidate.dimension,
+            energy,
+            error,
+            family,
             degenerate: candidate.degenerate,
             hits: candidate.hits,
             on_other_leaf: at.is_on_other_leaf(&candidate.y),

@@ -222,7 +222,11 @@ impl At<'_> {
         };
         Some(LowRank {
             state,
-            error: settled.error * field.size,
+            // the residual is zero, and not round-off
+            error: match settled.error <= f64::EPSILON {
+                true => 0.0,
+                false => settled.error * field.size,
+            },
             energy: shape.energy,
             rank,
             gradients,

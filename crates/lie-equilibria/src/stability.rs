@@ -100,12 +100,20 @@ pub struct Judgement {
 }
 
 impl Judgement {
-    /// What is left of what numbers say where their uncertainty changes signs.
-    pub fn undecided(self) -> Self {
-        Self {
-            stability: Stability::Undecided,
-            reason: Reason::Degenerate,
-            proven: false,
+    /// What is left at an equilibrium whose linearisation has a kernel, or signs that the uncertainty of numbers changes: a proof of what decides. That
+    /// all eigenvalues are imaginary decides nothing there.
+    pub fn of_degenerate(self) -> Self {
+        match (self.proven, self.stability) {
+            (false, _) => Self {
+                stability: Stability::Undecided,
+                reason: Reason::Degenerate,
+                proven: false,
+            },
+            (true, Stability::Spectral) => Self {
+                stability: Stability::Undecided,
+                ..self
+            },
+            _ => self,
         }
     }
 }
@@ -219,7 +227,7 @@ fn with_proof(
     let sizes = equations.sizes;
     let found = match proof {
         Proven::Rational(_, shape) => facts(&Rationals, sizes, shape),
-        Proven::Enclosed(enclosed) => facts(&enclosed.0, sizes, &enclosed.1),
+        Proven::Enclosed(enclosed) => facts(&enclosed.balls, sizes, &enclosed.shape),
     };
     if let Some(judgement) = decided(found, family) {
         return judgement;

@@ -5,11 +5,14 @@
 //! smallest singular value sigma of F', of a double one about `sqrt(rho)`, of a triple one `rho^(1/3)`.
 
 use crate::dense::{Singular, add, norm};
+use crate::homotopy::multiplier;
 use crate::newton::{At, is_below};
 use crate::stability::Linearisation;
 
 /// The constant c.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
+/// A number below this part of its scale is zero but for round-off.
+const ZERO: f64 = 1e-13;
 /// A piece that is longer than this part of the scale is no uncertainty.
 const LONG: f64 = 1e-2;
 
@@ -31,6 +34,31 @@ impl At<'_> {
             0.0 => 1.0,
             size => size,
         }
+    }
+
+    /// Makes what round-off left of zeros zero: entries of a state, multipliers and H, in parts of their scales.
+    pub(crate) fn round_zeros(self, y: &mut [f64], energy: &mut f64) {
+        let (n, size) = (self.equations.sizes.n, self.size(y));
+        let lambda = multiplier(self, &y[..n], size).max(norm(&y[n..]));
+        for (k, entry) in y.iter_mut().enumerate() {
+            let scale = if k < n { size } else { lambda };
+            if entry.abs() <= ZERO * scale {
+                *entry = 0.0;
+            }
+        }
+        if energy.abs() <= ZERO * self.energy_scale().unwrap_or(0.0) {
+            *energy = 0.0;
+        }
+    }
+
+    /// The scale of H: how much it changes along the scale of states.
+    fn energy_scale(self) -> Option<f64> {
+        let (_, state) = self.equations.leaf(self.parameters)?;
+        let size = self.size(&state);
+        let beside = state.iter().map(|x| x + 0.1 * size);
+        let y: Vec<f64> = beside.chain(vec![0.0; self.equations.sizes.m]).collect();
+        let linear = self.equations.linear(&y, self.parameters)?;
+        Some(norm(&linear.residual[..state.len()]) * size)
     }
 
     /// How far a member of a family of this dimension is uncertain, in the direction in which it is least certain.

@@ -78,6 +78,7 @@ fn equilibrium(one: &Equilibrium) -> Value {
         "exact_state": exact,
         "multipliers": numbers(&one.multipliers),
         "energy": number(one.energy),
+        "uncertainty": number(one.error),
         "family_dimension": one.family,
         "degenerate": one.degenerate,
         "other_leaf": one.on_other_leaf,
@@ -133,6 +134,7 @@ pub fn range(name: &str, equations: &Equations, range: &Range) -> Value {
                 "energy": number(point.energy),
                 "growth": number(point.growth),
                 "stability": word(point.stability),
+                "threshold": point.threshold.map(change),
             })
         });
         let changes = branch.changes.iter().map(|found| {

@@ -3,7 +3,8 @@
 use lie_equilibria::{Equations, LowRank, Stability, c64};
 use lie_in_process::words::counted;
 
-use super::words::{digits, reason, word};
+use super::numbers::{digits, known_to, uncertainty};
+use super::words::{reason, word};
 
 /// A part of an eigenvalue below this part of the largest is round-off.
 const SAME: f64 = 1e-6;
@@ -51,9 +52,14 @@ pub fn block(number: usize, equations: &Equations, one: &LowRank) -> String {
         (false, _) => ", where the gradients of the Casimirs depend on each other".to_owned(),
     };
     let state = equations.system.coordinates.iter().zip(&one.state);
-    let state = state.map(|(name, x)| format!("{name} = {}", digits(*x)));
+    let error = if one.degenerate { one.error } else { 0.0 };
+    let state = state.map(|(name, x)| format!("{name} = {}", known_to(*x, error)));
     let state: Vec<String> = state.collect();
-    let mut text = format!("\n{number}. {kind}{place}\n  state: {}\n", state.join(", "));
+    let mut text = format!(
+        "\n{number}. {kind}{place}\n  state: {}{}\n",
+        state.join(", "),
+        uncertainty(error)
+    );
     text.push_str(&format!("  energy: {}\n", digits(one.energy)));
     if drops {
         text.push_str(&format!(
@@ -70,10 +76,11 @@ pub fn block(number: usize, equations: &Equations, one: &LowRank) -> String {
         (true, Stability::Stable) => "stable as a family",
         _ => word(stability),
     };
-    text.push_str(&format!(
-        "  stability: {word} (numerical): {}\n",
-        reason(why, one.family, "level set")
-    ));
+    let why = reason(why, one.family, "level set");
+    text.push_str(&match stability {
+        Stability::Undecided => format!("  stability: {word}: {why}\n"),
+        _ => format!("  stability: {word} (numerical): {why}\n"),
+    });
     text
 }
 

@@ -3,6 +3,7 @@
 mod declared;
 mod json;
 mod low_rank;
+mod numbers;
 mod picture;
 mod words;
 

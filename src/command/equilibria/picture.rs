@@ -47,6 +47,7 @@ fn panel(title: &str, range: &Range, of: &dyn Fn(&Point) -> f64) -> Panel {
             energy: found.energy,
             growth: 0.0,
             stability: found.stability[0],
+            threshold: None,
             grid: None,
         };
         dots.push((found.parameter, of(&point)));

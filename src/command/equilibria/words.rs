@@ -3,6 +3,7 @@
 use lie_equilibria::{ChangeKind, Equations, Equilibrium, Paths, Presence, Reason, Stability, c64};
 use lie_in_process::words::counted;
 
+use super::numbers::{digits, known_to, uncertainty};
 use super::{Leaf, Range, low_rank};
 use crate::command::fold::folded;
 
@@ -27,23 +28,6 @@ pub fn change(kind: ChangeKind) -> &'static str {
         ChangeKind::Zero => "an eigenvalue passes zero",
         ChangeKind::Collision => "eigenvalues meet",
         ChangeKind::Other => "stability changes",
-    }
-}
-
-/// A number in seven digits.
-pub fn digits(value: f64) -> String {
-    let value = value + 0.0;
-    match value.abs() {
-        0.0 => "0".to_owned(),
-        size if (1e-3..1e6).contains(&size) => {
-            let places = (6 - size.log10().floor() as i32).max(0) as usize;
-            let text = format!("{value:.places$}");
-            match text.contains('.') {
-                true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
-                false => text,
-            }
-        }
-        _ => format!("{value:.6e}"),
     }
 }
 
@@ -172,20 +156,15 @@ fn block(number: usize, equations: &Equations, one: &Equilibrium) -> String {
     let pairs = |names: &mut dyn Iterator<Item = &String>, values: &[f64]| -> String {
         let pairs = names.zip(values);
         let pairs: Vec<String> = pairs
-            .map(|(name, value)| format!("{name} = {}", digits(*value)))
+            .map(|(name, value)| format!("{name} = {}", known_to(*value, one.error)))
             .collect();
         pairs.join(", ")
     };
-    let size = one.state.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-    let state: Vec<f64> = one
-        .state
-        .iter()
-        .map(|x| if x.abs() < 1e-13 * size { 0.0 } else { *x })
-        .collect();
     let mut text = format!("\n{number}. {kind}{elsewhere}{presence}\n");
     text.push_str(&format!(
-        "  state: {}\n",
-        pairs(&mut system.coordinates.iter(), &state)
+        "  state: {}{}\n",
+        pairs(&mut system.coordinates.iter(), &one.state),
+        uncertainty(one.error)
     ));
     text.push_str(&format!("  energy: {}\n", digits(one.energy)));
     if !one.multipliers.is_empty() {
@@ -196,12 +175,16 @@ fn block(number: usize, equations: &Equations, one: &Equilibrium) -> String {
         ));
     }
     text.push_str(&format!(
-        "  eigenvalues: {}\n",
+        "  eigenvalues: {}{}\n",
         eigenvalues(
             &one.linearisation.eigenvalues,
             one.linearisation.zeros,
             set(equations)
-        )
+        ),
+        match one.error > 0.0 {
+            true => ", those near zero uncertain",
+            false => "",
+        }
     ));
     let judgement = &one.judgement;
     let word = match (one.family > 0, judgement.stability) {
@@ -213,10 +196,11 @@ fn block(number: usize, equations: &Equations, one: &Equilibrium) -> String {
     } else {
         "numerical"
     };
-    text.push_str(&format!(
-        "  stability: {word} ({certainty}): {}\n",
-        reason(&judgement.reason, one.family, set(equations))
-    ));
+    let why = reason(&judgement.reason, one.family, set(equations));
+    text.push_str(&match judgement.stability {
+        Stability::Undecided => format!("  stability: {word}: {why}\n"),
+        _ => format!("  stability: {word} ({certainty}): {why}\n"),
+    });
     text
 }
 
@@ -297,7 +281,7 @@ pub fn reason(reason: &Reason, family: usize, set: &str) -> String {
             "all eigenvalues but those along the family have negative real parts: motion nearby tends to it".to_owned()
         }
         Reason::NoneRight => {
-            "no eigenvalue has a positive real part, and some are imaginary or zero: stability is not decided".to_owned()
+            "no eigenvalue has a positive real part, and some are imaginary or zero, which decides nothing".to_owned()
         }
         Reason::Degenerate => {
             "the linearisation is degenerate, as far as double precision tells, and decides nothing".to_owned()
@@ -306,7 +290,7 @@ pub fn reason(reason: &Reason, family: usize, set: &str) -> String {
             "all eigenvalues are imaginary and different, and H is indefinite: nonlinear stability is not decided".to_owned()
         }
         Reason::Imaginary { simple: false } => {
-            "all eigenvalues are imaginary, some of them equal or zero: stability is not decided".to_owned()
+            "all eigenvalues are imaginary, some of them equal or zero, which decides nothing".to_owned()
         }
     }
 }
@@ -348,21 +332,18 @@ pub fn range(name: &str, equations: &Equations, range: &Range) -> String {
         ));
         for end in ends_of(branch) {
             let state = equations.system.coordinates.iter().zip(&end.y);
-            let state: Vec<String> = state
-                .map(|(name, x)| {
-                    format!(
-                        "{name} = {}",
-                        digits(if x.abs() < 1e-13 { 0.0 } else { *x })
-                    )
-                })
-                .collect();
+            let state = state.map(|(name, x)| format!("{name} = {}", digits(*x)));
+            let state: Vec<String> = state.collect();
             text.push_str(&format!(
                 "  at {} = {}: {}, energy {}, {}\n",
                 range.name,
                 digits(end.parameter),
                 state.join(", "),
                 digits(end.energy),
-                word(end.stability)
+                match end.threshold {
+                    None => word(end.stability).to_owned(),
+                    Some(kind) => format!("at a threshold and not decided: {}", change(kind)),
+                }
             ));
         }
         for found in &branch.changes {
