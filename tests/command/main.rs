@@ -35,6 +35,7 @@ mod ensemble;
 mod ensemble_events;
 mod equilibria;
 mod equilibria_of_constraints;
+mod equilibria_scales;
 mod events;
 mod exponents;
 mod families;

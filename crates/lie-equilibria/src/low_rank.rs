@@ -199,6 +199,9 @@ impl At<'_> {
             0 => unit_vectors(n),
             _ => normal.kernel(gradients).to_vec(),
         };
+        if !self.is_at_levels(&y) {
+            return None;
+        }
         let spectrum = Spectrum::new(field, &settled, &tangent);
         let family = settled.family;
         let numerical = |stability, reason| Judgement {
@@ -240,6 +243,17 @@ impl At<'_> {
             at_energy: false,
             eigenvalues: spectrum.values,
         })
+    }
+
+    /// Whether the Casimirs have their values, not beside the scale alone but beside those.
+    fn is_at_levels(self, y: &[f64]) -> bool {
+        let found = || {
+            let (levels, state) = self.equations.leaf(self.parameters)?;
+            let linear = self.equations.linear(y, self.parameters)?;
+            let mut pairs = linear.residual[state.len()..].iter().zip(&levels);
+            Some(pairs.all(|(off, level)| *level == 0.0 || off.abs() <= SAME * level.abs()))
+        };
+        found().unwrap_or(false)
     }
 
     /// The signs of the Hessian of `H - sum_k lambda_k C_k` where H is stationary with multipliers.

@@ -177,13 +177,22 @@ impl At<'_> {
         }
         for _ in 0..30 {
             let linear = self.equations.linear(&y, self.parameters)?;
-            let gradients: Vec<f64> = linear.slope[n * (n + m)..]
-                .chunks(n + m)
-                .flat_map(|row| row[..n].to_vec())
+            // each equation in the scale of its own gradient
+            let rows = linear.slope[n * (n + m)..].chunks(n + m);
+            let sizes = rows.clone().map(|row| match norm(&row[..n]) {
+                0.0 => 1.0,
+                size => size,
+            });
+            let sizes: Vec<f64> = sizes.collect();
+            let gradients: Vec<f64> = rows
+                .zip(&sizes)
+                .flat_map(|(row, size)| row[..n].iter().map(move |x| x / size))
                 .collect();
+            let off = linear.residual[n..].iter().zip(&sizes);
+            let off: Vec<f64> = off.map(|(off, size)| off / size).collect();
             let singular = Singular::new(&gradients, m, n)?;
             let rank = singular.rank(1e-10);
-            let step = singular.shortest(&linear.residual[n..], rank);
+            let step = singular.shortest(&off, rank);
             let done = norm(&step) <= 1e-9 * norm(&y[..n]);
             add(&mut y[..n], -1.0, &step);
             if done {
@@ -194,7 +203,8 @@ impl At<'_> {
                     .collect();
                 let fit = Singular::new(&transposed, n, m)?;
                 let lambda = fit.shortest(&linear.residual[..n], fit.rank(1e-10));
-                y[n..].copy_from_slice(&lambda);
+                let lambda = lambda.iter().zip(&sizes).map(|(x, size)| x / size);
+                y[n..].copy_from_slice(&lambda.collect::<Vec<f64>>());
                 return Some(y);
             }
         }

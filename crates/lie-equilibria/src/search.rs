@@ -13,6 +13,8 @@ use crate::random::Random;
 use crate::scaling::Scaled;
 use crate::stability::Linearisation;
 
+/// A level below this part of the terms of its Casimir is round-off.
+const RESOLVED: f64 = 1e-10;
 /// So many members of a family are told apart by walks; further ones with the same energy and multipliers count as members.
 const WALKS: usize = 12;
 
@@ -77,7 +79,7 @@ impl At<'_> {
             let part = norm(&y[..n]) / size;
             part == 0.0 || (1e-2..1e2).contains(&part)
         });
-        let with_paths = with_paths && near;
+        let with_paths = with_paths && near && self.levels_are_resolved();
         let mut found = Found {
             candidates: Vec::new(),
             starts: 0,
@@ -116,6 +118,16 @@ impl At<'_> {
             .candidates
             .sort_by(|a, b| a.energy.total_cmp(&b.energy));
         Some(found)
+    }
+
+    /// Whether each value of a Casimir that is not zero is more than round-off of the Casimir's terms at the scale of the state.
+    fn levels_are_resolved(self) -> bool {
+        let n = self.equations.sizes.n;
+        let levels = self.equations.leaf(self.parameters);
+        let levels = levels.map(|(levels, _)| levels).unwrap_or_default();
+        let terms = self.references();
+        let mut pairs = levels.iter().zip(&terms[n..]);
+        pairs.all(|(level, terms)| *level == 0.0 || level.abs() > RESOLVED * terms)
     }
 
     /// Adds a solution to those that are known, if it is a new one; whether it is one on the leaf.

@@ -60,6 +60,8 @@ pub struct Equations {
     pub sizes: Sizes,
     /// The system.
     pub system: System,
+    /// The parameter along which branches are followed.
+    pub(crate) varying: Option<usize>,
     /// The residual F, its derivative by y by rows, and the derivative of F by the parameter that varies.
     first: Vec<ExprId>,
     /// The values of [`Shape`].
@@ -186,6 +188,7 @@ impl Equations {
             shape: make(&second)?,
             places: make(&places)?,
             sizes,
+            varying,
             first,
             second,
             system,

@@ -9,7 +9,7 @@ mod words;
 
 use lie_codegen::structure::Effort;
 use lie_equilibria::exact::Prover;
-use lie_equilibria::{At, Candidate, Equations, Equilibrium, Found, LowRank, Traced, trace};
+use lie_equilibria::{At, Candidate, Equations, Equilibrium, Found, LowRank, Paths, Traced, trace};
 use lie_in_process::request::{self, Parameter, Point, Request, Value};
 use lie_syntax::diagnostic::Kind;
 
@@ -87,14 +87,9 @@ pub fn run(arguments: &args::Equilibria) -> Result<u8, Failure> {
                 regular(&spec, &equations, &parameters, arguments)?;
             }
             let (starts, seed) = (arguments.starts as usize, arguments.seed.into());
-            let traced = trace(
-                &equations,
-                &point.parameters,
-                varying,
-                &values,
-                starts,
-                seed,
-            );
+            let scaled = equations.at_level(&point.parameters);
+            let equations = scaled.as_ref().unwrap_or(&equations);
+            let traced = trace(equations, &point.parameters, varying, &values, starts, seed);
             let range = Range {
                 name,
                 values,
@@ -103,12 +98,12 @@ pub fn run(arguments: &args::Equilibria) -> Result<u8, Failure> {
             match arguments.json {
                 true => print(&format!(
                     "{:#}\n",
-                    json::range(&spec.model.name, &equations, &range)
+                    json::range(&spec.model.name, equations, &range)
                 ))?,
-                false => print(&words::range(&spec.model.name, &equations, &range))?,
+                false => print(&words::range(&spec.model.name, equations, &range))?,
             }
             if let (Some(destination), Some(path)) = (destination, plot) {
-                let picture = picture::svg(&spec.model.name, &equations, &range);
+                let picture = picture::svg(&spec.model.name, equations, &range);
                 let written = destination.replace(picture.as_bytes());
                 written.map_err(|error| unwritable(path, &error))?;
             }
@@ -229,6 +224,9 @@ fn leaf(
 ) -> Result<Leaf, Failure> {
     let parameters = &point.parameters;
     regular(spec, equations, parameters, arguments)?;
+    // values of Casimirs that are far from those of the initial state have a scale of their own
+    let scaled = equations.at_level(parameters);
+    let equations = scaled.as_ref().unwrap_or(equations);
     let at = At {
         equations,
         parameters,
@@ -241,14 +239,38 @@ fn leaf(
     let (levels, _) = equations.leaf(parameters).ok_or_else(none)?;
     let (starts, seed) = (arguments.starts as usize, arguments.seed.into());
     let found = at.search(starts, seed, true);
-    let found = found.ok_or_else(none)?;
+    let mut found = found.ok_or_else(none)?;
     let exact = declared::exact(&spec.model, parameters);
     let exact = exact.unwrap_or_default();
     let prover = Prover::new(equations);
     let known = |candidate: &Candidate| Equilibrium::new(&prover, at, &exact, candidate);
+    let beyond = equations.beyond(parameters, &found.candidates, starts, seed);
+    let own = found.candidates.iter();
+    let own = own.filter(|candidate| {
+        let mut scales = beyond.iter();
+        !scales.any(|scale| scale.replaces(parameters, candidate))
+    });
+    let mut equilibria: Vec<Equilibrium> = own.filter_map(known).collect();
+    for scale in &beyond {
+        let prover = Prover::new(&scale.equations);
+        let at = At {
+            equations: &scale.equations,
+            parameters,
+        };
+        let known = |candidate: &Candidate| Equilibrium::new(&prover, at, &exact, candidate);
+        equilibria.extend(scale.candidates.iter().filter_map(known));
+        found.starts += scale.starts[0];
+        found.converged += scale.starts[1];
+        // paths tell solutions of their own scale
+        let real = |paths: &Option<Paths>| paths.map_or(0, |paths| paths.real);
+        if real(&scale.paths) > real(&found.paths) {
+            found.paths = scale.paths;
+        }
+    }
+    equilibria.sort_by(|a, b| a.energy.total_cmp(&b.energy));
     Ok(Leaf {
         levels,
-        equilibria: found.candidates.iter().filter_map(known).collect(),
+        equilibria,
         low_rank: at.low_rank(starts, seed),
         found,
     })

@@ -89,8 +89,11 @@ fn searched(set: &str, leaf: &Leaf) -> String {
         found.converged
     );
     text.push_str(&match found.paths {
-        None => "searched, not proven to be all: the equations are no polynomials, have too many complex solutions to follow all, or the initial state is far from the leaf\n".to_owned(),
-        Some(paths) => complete(paths, isolated, !leaf.low_rank.is_empty()),
+        None => "searched, not proven to be all: the equations are no polynomials, have too many complex solutions to follow all, or the scale of the initial state is not that of the leaf\n".to_owned(),
+        Some(paths) => {
+            let sure = equilibria.iter().filter(|one| one.family == 0 && !one.degenerate);
+            complete(paths, [isolated, sure.count()], !leaf.low_rank.is_empty())
+        }
     });
     let others = equilibria
         .iter()
@@ -105,7 +108,7 @@ fn searched(set: &str, leaf: &Leaf) -> String {
 }
 
 /// What the paths say of completeness.
-fn complete(paths: Paths, isolated: usize, drops: bool) -> String {
+fn complete(paths: Paths, [isolated, sure]: [usize; 2], drops: bool) -> String {
     let mut parts = vec![format!(
         "{} at isolated solutions, {} of them real",
         paths.isolated, paths.real
@@ -125,6 +128,12 @@ fn complete(paths: Paths, isolated: usize, drops: bool) -> String {
         parts.join(", ")
     );
     match (paths.lost, paths.real <= isolated) {
+        (0, true) if sure > paths.real => format!(
+            "{ends}: some equilibria are at the end of none, since their scales differ, and others may be missing\n"
+        ),
+        (0, true) if paths.all > 0 && paths.infinite == paths.all => format!(
+            "{ends}: by these numbers there is none within a million times the scale of the state\n"
+        ),
         (0, true) => format!("{ends}: by these numbers no isolated equilibrium is missing\n"),
         (0, false) if drops => {
             format!("{ends}: some of them are where the rank of the bracket drops\n")
