@@ -121,3 +121,49 @@ fn nothing_is_complete_where_scales_differ() {
         assert!(!text.contains(complete), "{options}: {text}");
     }
 }
+
+/// Branches over the first moment at any level: each axis changes its stability where the moment passes 2/3 and 1, and on the middle axis i the
+/// rate is `|m| sqrt((I_i - I_j) (I_k - I_i)/(I_j I_k))/I_i`.
+#[test]
+fn branches_are_followed_at_the_scale_of_the_level() {
+    for level in ["1", "1e16", "1e-16"] {
+        let call =
+            format!("specs/so3_free_rigid_body.json --casimir norm2={level} --param I1=0.5:2.5:21");
+        let all = found(&call);
+        let size = level.parse::<f64>().expect("a number").sqrt();
+        let branches = all["branches"].as_array().expect("a list").iter();
+        let axes: Vec<&Value> = branches
+            .filter(|one| one["family_dimension"] == 0)
+            .collect();
+        assert_eq!(axes.len(), 6, "{level}");
+        let mut changes = 0;
+        for branch in axes {
+            let points = branch["points"].as_array().expect("a list");
+            assert_eq!(points.len(), 21, "{level}");
+            for point in points.iter().filter(|point| point["threshold"].is_null()) {
+                let state = numbers(&point["state"]);
+                let i = (0..3)
+                    .find(|i| state[*i].abs() > 0.5 * size)
+                    .expect("an axis");
+                assert!(
+                    (state[i].abs() / size - 1.0).abs() < 1e-12,
+                    "{level}: {point}"
+                );
+                let moments = [point["value"].as_f64().expect("a number"), 1.0, 2.0 / 3.0];
+                let [j, k] = [(i + 1) % 3, (i + 2) % 3].map(|k| moments[k]);
+                let square = (moments[i] - j) * (k - moments[i]) / (j * k);
+                let rate = square.max(0.0).sqrt() / moments[i];
+                let growth = point["growth"].as_f64().expect("a number") / size;
+                assert!((growth - rate).abs() < 1e-7, "{level}: {point} {rate}");
+            }
+            for change in branch["changes"].as_array().expect("a list") {
+                let at = change["value"].as_f64().expect("a number");
+                let error = change["error"].as_f64().expect("a number");
+                let off = (at - 1.0).abs().min((at - 2.0 / 3.0).abs());
+                assert!(off <= error && error < 1e-9, "{level}: {change}");
+                changes += 1;
+            }
+        }
+        assert_eq!(changes, 8, "{level}");
+    }
+}

@@ -10,6 +10,7 @@ use crate::dense::{add, norm};
 use crate::family::Solutions as _;
 use crate::follower::Follower;
 use crate::newton::At;
+use crate::scaling::Scaled;
 use crate::search::{close, distance};
 use crate::stability::Stability;
 use crate::system::Equations;
@@ -89,8 +90,32 @@ pub struct Traced {
     /// Starts of each search.
     pub starts: usize,
 }
-/// Follows all branches over a grid of values of a parameter; `base` has the values of the others.
+/// Follows all branches over a grid of values of a parameter; `base` has the values of the others. Where states, H or Casimirs are far from 1
+/// at the first value, it is done in units in which they are about 1.
 pub fn trace(
+    equations: &Equations,
+    base: &[f64],
+    varying: usize,
+    grid: &[f64],
+    starts: usize,
+    seed: u64,
+) -> Traced {
+    let mut parameters = base.to_vec();
+    parameters[varying] = grid[0];
+    let first = At {
+        equations,
+        parameters: &parameters,
+    };
+    let Some(scaled) = Scaled::new(first) else {
+        return trace_as_given(equations, base, varying, grid, starts, seed);
+    };
+    let mut traced = trace_as_given(&scaled.equations, base, varying, grid, starts, seed);
+    let branches = traced.branches.iter_mut();
+    branches.for_each(|branch| scaled.back_branch(branch));
+    traced
+}
+
+fn trace_as_given(
     equations: &Equations,
     base: &[f64],
     varying: usize,

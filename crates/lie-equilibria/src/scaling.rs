@@ -7,6 +7,7 @@
 use lie_symbolic::exact::Rational;
 use lie_symbolic::symbolic::Symbol;
 
+use crate::branch::Branch;
 use crate::dense::norm;
 use crate::newton::At;
 use crate::search::Candidate;
@@ -57,8 +58,10 @@ impl Scaled {
             return None;
         }
         Some(Self {
-            equations: Equations::new(system(&equations.system, state, energy, &casimirs)?, None)
-                .ok()?,
+            equations: {
+                let scaled = system(&equations.system, state, energy, &casimirs)?;
+                Equations::new(scaled, equations.varying).ok()?
+            },
             state: f64::from(state).exp2(),
             energy: f64::from(energy).exp2(),
             multipliers: casimirs
@@ -68,14 +71,30 @@ impl Scaled {
         })
     }
 
-    /// What a candidate is in the unknowns that were given.
-    pub fn back(&self, candidate: &mut Candidate) {
-        let n = candidate.y.len() - self.multipliers.len();
-        let (x, lambda) = candidate.y.split_at_mut(n);
+    /// Unknowns and H as they were given.
+    fn unscale(&self, y: &mut [f64], energy: &mut f64) {
+        let n = y.len() - self.multipliers.len();
+        let (x, lambda) = y.split_at_mut(n);
         x.iter_mut().for_each(|x| *x *= self.state);
         let pairs = lambda.iter_mut().zip(&self.multipliers);
         pairs.for_each(|(lambda, factor)| *lambda *= factor);
-        candidate.energy *= self.energy;
+        *energy *= self.energy;
+    }
+
+    /// What branches are in the unknowns that were given. Rates are those of `Pi W`, with W in parts of `h/s^2`.
+    pub fn back_branch(&self, branch: &mut Branch) {
+        for point in &mut branch.points {
+            self.unscale(&mut point.y, &mut point.energy);
+            point.growth *= self.energy / (self.state * self.state);
+        }
+        for change in &mut branch.changes {
+            self.unscale(&mut change.y, &mut change.energy);
+        }
+    }
+
+    /// What a candidate is in the unknowns that were given.
+    pub fn back(&self, candidate: &mut Candidate) {
+        self.unscale(&mut candidate.y, &mut candidate.energy);
         candidate.reach *= self.state;
     }
 }
@@ -108,6 +127,8 @@ fn system(given: &System, state: i32, energy: i32, casimirs: &[i32]) -> Option<S
     for value in &mut scaled.state {
         *value = graph.scale(*value, &down);
     }
-    scaled.integrals.clear();
+    for integral in &mut scaled.integrals {
+        integral.value = graph.substitute(&[integral.value], &replace)[0];
+    }
     Some(scaled)
 }
