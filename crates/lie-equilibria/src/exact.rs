@@ -18,6 +18,8 @@ use crate::tape::Tape;
 const DENOMINATOR: f64 = 1e6;
 /// A coordinate is known to this part of its scale.
 const ROUND_OFF: f64 = 1e-13;
+/// A degenerate equilibrium is within this part of its size of where it is found.
+const FLAT: f64 = 5e-4;
 /// A box reaches so many binary digits below the solution.
 const WIDTH: i64 = 90;
 /// Steps of refinement: each has 15 more digits.
@@ -63,6 +65,11 @@ impl<'a> Prover<'a> {
         self.rational(y, 0.0, parameters)
             .or_else(|| self.enclosed(y, parameters))
             .or_else(|| (reach > 0.0).then(|| self.rational(y, reach, parameters))?)
+            .or_else(|| {
+                // flat to the fourth order or more, it is known to a fourth of the digits
+                let far = FLAT * norm(&y[..self.equations.sizes.n]);
+                (reach > 0.0).then(|| self.rational(y, far, parameters))?
+            })
     }
 
     fn rational(&self, y: &[f64], reach: f64, parameters: &[Rational]) -> Option<Proven> {

@@ -10,6 +10,7 @@ use crate::arithmetic::Floats;
 use crate::dense::{Singular, add, norm, solve};
 use crate::family::Solutions;
 use crate::newton::{At, RANK};
+use crate::random::Random;
 use crate::tape::Tape;
 
 /// Steps far from a solution: those of a double one are halvings.
@@ -18,6 +19,8 @@ const MOST: usize = 120;
 const LAST: usize = 8;
 /// A residual of round-off.
 const SOLVED: f64 = 1e-12;
+/// States beside one are so far, in parts of it.
+const BESIDE: f64 = 1e-2;
 /// Products of entries of Pi and of slopes beyond which no equations are written down.
 const TERMS: usize = 20_000;
 
@@ -141,6 +144,22 @@ impl<'a> Field<'a> {
         y.resize(n + m, 0.0);
         let shape = self.at.equations.shape(&y, self.at.parameters)?;
         Some(Singular::new(&shape.bracket, n, n)?.values)
+    }
+
+    /// Whether the rank is higher beside a state: a singular value that dies out like `exp(-x)` is as small there, and no zero.
+    pub fn rank_returns(&self, z: &[f64], rank: usize) -> bool {
+        let own = self.singular(z).map(|values| values[rank]);
+        let mut random = Random::new(11);
+        let mut beside = (0..z.len() + 2).filter_map(|_| {
+            let mut other = z.to_vec();
+            add(
+                &mut other,
+                BESIDE * norm(z).max(1.0),
+                &random.direction(z.len()),
+            );
+            self.singular(&other).map(|values| values[rank])
+        });
+        own.is_some_and(|own| beside.any(|value| own <= 1e-2 * value))
     }
 
     /// The eigenvalues' matrix: the slope of the motion in units of the time.

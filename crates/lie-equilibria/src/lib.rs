@@ -95,7 +95,41 @@ pub struct Equilibrium {
     pub judgement: Judgement,
 }
 
+/// Degenerate equilibria closer than this part of the scale, at the same energy, are one.
+const NEAR: f64 = 1e-3;
+
 impl Equilibrium {
+    /// The same list where each degenerate equilibrium stands once: what is flat to the third order or more is found as several points, of which
+    /// a rational one that is proven to be there stands for all.
+    pub fn merged(all: Vec<Self>) -> Vec<Self> {
+        let (mut sure, rest): (Vec<Self>, Vec<Self>) = all
+            .into_iter()
+            .partition(|one| one.presence != Presence::Numerical);
+        let mut kept: Vec<Self> = Vec::new();
+        for one in sure.drain(..).chain(rest) {
+            let twin = |other: &&mut Self| {
+                let apart = dense::norm(&dense::difference(&one.state, &other.state));
+                let size = dense::norm(&one.state).max(dense::norm(&other.state));
+                one.degenerate
+                    && other.degenerate
+                    && apart <= (NEAR * size).max(one.error)
+                    && search::close(one.energy, other.energy)
+            };
+            match kept.iter_mut().find(twin) {
+                Some(other) => {
+                    let apart = dense::norm(&dense::difference(&one.state, &other.state));
+                    other.hits += one.hits;
+                    if other.presence == Presence::Numerical {
+                        other.error = other.error.max(apart);
+                    }
+                }
+                None => kept.push(one),
+            }
+        }
+        kept.sort_by(|a, b| a.energy.total_cmp(&b.energy));
+        kept
+    }
+
     /// What is known of a solution at values of the parameters, and at the exact ones that they stand for.
     pub fn new(
         prover: &Prover<'_>,

@@ -57,6 +57,8 @@ pub struct LowRank {
     pub judgement: Judgement,
     /// How many eigenvalues have a positive, a negative and no real part.
     pub(crate) sides: [usize; 3],
+    /// Whether families lead through it.
+    pub(crate) crosses: bool,
     /// How many eigenvalues are zero.
     pub(crate) resting: usize,
     /// The smallest real part that has a sign, or imaginary part, in parts of what is usual.
@@ -69,7 +71,9 @@ impl LowRank {
     /// Whether it is far from where its family changes.
     pub(crate) fn is_clear(&self) -> bool {
         match (self.family, self.degenerate) {
-            (_, true) => self.error <= SAME * norm(&self.state).max(SAME),
+            (1.., true) => false,
+            (0, true) if self.crosses && self.judgement.stability != Stability::Stable => false,
+            (0, true) => self.error <= SAME * norm(&self.state).max(SAME),
             _ => self.gap > CLEAR && self.resting == self.family,
         }
     }
@@ -81,6 +85,7 @@ struct Settled {
     linear: Linear,
     family: usize,
     kernel: usize,
+    crosses: bool,
     error: f64,
 }
 
@@ -122,16 +127,24 @@ impl Settled {
             let mut both = [stride, -stride].into_iter();
             both.any(|stride| field.goes_on(&z, direction, directions.len(), stride))
         };
-        let (family, kernel) = (directions.iter().filter(goes_on).count(), directions.len());
+        let kernel = directions.len();
+        // where families cross the kernel is larger than beside
+        let leads_on = |direction: &Vec<f64>| {
+            let mut both = [stride, -stride].into_iter();
+            both.any(|stride| (1..kernel).any(|less| field.goes_on(&z, direction, less, stride)))
+        };
+        let family = directions.iter().filter(goes_on).count();
         let error = match off {
             0.0 => f64::EPSILON,
             _ => field.reach(&z, family)?.min(most).max(off),
         };
+        let crosses = family < kernel && directions.iter().any(leads_on);
         Some(Self {
             z,
             linear,
             family,
             kernel,
+            crosses,
             error,
         })
     }
@@ -199,7 +212,8 @@ impl At<'_> {
             0 => unit_vectors(n),
             _ => normal.kernel(gradients).to_vec(),
         };
-        if !self.is_at_levels(&y) {
+        let drops = rank >= *generic || field.rank_returns(&settled.z, rank);
+        if !self.is_at_levels(&y) || !drops {
             return None;
         }
         let spectrum = Spectrum::new(field, &settled, &tangent);
@@ -235,6 +249,7 @@ impl At<'_> {
             gradients,
             family,
             degenerate: family < settled.kernel,
+            crosses: settled.crosses,
             hits: 1,
             judgement,
             sides: spectrum.sides,

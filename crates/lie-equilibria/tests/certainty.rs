@@ -9,8 +9,8 @@ use lie_equilibria::{
     At, ChangeKind, Equations, Equilibrium, Point, Presence, Reason, Stability, System, trace,
 };
 use lie_symbolic::exact::Rational;
-use lie_symbolic::symbolic::{ExprId, Graph};
-use systems::{canonical, lagrange_top, number};
+use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
+use systems::{canonical, lagrange_top, number, rigid_body};
 
 fn all(system: System) -> Vec<Equilibrium> {
     let equations = Equations::new(system, None).expect("expressions");
@@ -92,6 +92,32 @@ fn degenerate_rational_equilibria_are_proven() {
     );
 }
 
+/// On the sphere `x^3 + y^2/2 + z` is flat to the fourth order along y at (0, 0, 1): the points that are found there are one, the rational one.
+#[test]
+fn a_flat_equilibrium_counts_once() {
+    let state = [number(0, 1), number(3, 5), number(4, 5)];
+    let mut system = rigid_body([1, 1, 1], state);
+    let graph = &mut system.graph;
+    let [x, y, z] = [0, 1, 2].map(|i| graph.symbol(Symbol::Coordinate(i)));
+    let (xx, yy) = (graph.mul(x, x), graph.mul(y, y));
+    let cube = graph.mul(xx, x);
+    let terms = [(cube, number(1, 1)), (yy, number(1, 2)), (z, number(1, 1))];
+    system.hamiltonian = graph.linear(&terms);
+    let found = all(system);
+    let near = |one: &&Equilibrium| one.degenerate && one.state[2] > 0.9;
+    assert!(
+        found.iter().filter(near).count() > 1,
+        "the control: several are found"
+    );
+    let hits: usize = found.iter().filter(near).map(|one| one.hits).sum();
+    let merged = Equilibrium::merged(found.clone());
+    let flat: Vec<&Equilibrium> = merged.iter().filter(near).collect();
+    assert_eq!(flat.len(), 1, "{flat:#?}");
+    assert_eq!((&flat[0].state, flat[0].hits), (&vec![0.0, 0.0, 1.0], hits));
+    let others = |all: &[Equilibrium]| all.iter().filter(|one| !one.degenerate).count();
+    assert_eq!(others(&merged), others(&found));
+}
+
 /// Zeros are zeros, and small numbers stay: `q^2/2 - q/10^9` is least at 10^-9.
 #[test]
 fn round_off_is_no_state() {
@@ -128,7 +154,7 @@ fn an_end_on_a_threshold_is_said_to_be() {
         let points: Vec<&Point> = upright.flat_map(|branch| &branch.points).collect();
         for point in &points {
             let (stability, threshold) = match point.parameter {
-                spin if spin == 2.0 => (Stability::Undecided, Some(ChangeKind::Collision)),
+                2.0 => (Stability::Undecided, Some(ChangeKind::Collision)),
                 spin if spin < 2.0 => (Stability::Unstable, None),
                 _ => (Stability::Stable, None),
             };

@@ -3,7 +3,7 @@
 use lie_equilibria::exact::Prover;
 use lie_equilibria::{At, Equations, Equilibrium, LowRank, Stability, System};
 use lie_symbolic::exact::Rational;
-use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
+use lie_symbolic::symbolic::{Elementary, ExprId, Graph, Symbol};
 
 fn number(n: i64, d: i64) -> Rational {
     Rational::new(n, d).expect("a fraction")
@@ -134,4 +134,26 @@ fn a_line_of_lower_rank_divides_the_plane() {
             assert_eq!(stable, one.state[1] < 0.0, "{one:?}");
         }
     }
+}
+
+/// `{x, y} = exp(-2 x)` has the rank 2 everywhere, though far out it is below round-off. With `{x, y} = x` the rank drops on the line x = 0.
+#[test]
+fn a_bracket_that_dies_out_keeps_its_rank() {
+    let of = |bracket: fn(&mut Graph, [ExprId; 2]) -> ExprId| {
+        let state = [number(1, 1), number(1, 2)];
+        let one = [1, 1, 0].map(|k| number(k, 1));
+        all(plane(
+            bracket,
+            |graph, both| form(graph, both, one),
+            state,
+            true,
+        ))
+    };
+    let (regular, found) = of(|graph, [x, _]| {
+        let double = graph.scale(x, &number(-2, 1));
+        graph.call(Elementary::Exp, &[double])
+    });
+    assert_eq!((regular.len(), found.len()), (1, 0), "{found:#?}");
+    let (_, found) = of(|_, [x, _]| x);
+    assert!(found.iter().any(|one| one.family == 1), "{found:#?}");
 }

@@ -267,10 +267,9 @@ fn leaf(
             found.paths = scale.paths;
         }
     }
-    equilibria.sort_by(|a, b| a.energy.total_cmp(&b.energy));
     Ok(Leaf {
         levels,
-        equilibria,
+        equilibria: Equilibrium::merged(equilibria),
         low_rank: at.low_rank(starts, seed),
         found,
     })
