@@ -1,5 +1,8 @@
 //! Writes rows as they come, in constant memory: csv, json, jsonl, npy; to a file or to stdout.
 
+#![forbid(unsafe_code)]
+#![warn(missing_docs)]
+
 mod destination;
 mod form;
 mod identity;

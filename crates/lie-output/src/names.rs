@@ -26,6 +26,11 @@ impl Names {
         self.ends.last().copied().unwrap_or(0)
     }
 
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
     /// Adds a name.
     pub fn push(&mut self, name: impl Into<String>) {
         self.ends.push(self.len().saturating_add(1));
