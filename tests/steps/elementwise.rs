@@ -122,6 +122,19 @@ fn the_casimir_is_kept() {
     assert!(control > 1e-9, "{control:e}");
 }
 
+/// Logarithms of what has no square among the numbers have their value.
+#[test]
+fn small_numbers_have_their_logarithm() {
+    let bounded = Bounded::new();
+    let system = bounded.system().expect("constants");
+    let mut values = Vector::zeros();
+    for s in [1e-170, -1e-170, 1e-300] {
+        system.canonical(&Vector::new(0.1, s, 0.5), &mut values);
+        let off = values[1] / f64::ln(f64::abs(s)) - 1.0;
+        assert!(off.abs() < 1e-15, "{s:e}: {}", values[1]);
+    }
+}
+
 /// A step that would pass a zero of an `a_i`, or go round through infinity, is refused: the slopes have the same sign there.
 #[test]
 fn no_side_is_left() {

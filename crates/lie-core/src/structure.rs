@@ -186,7 +186,8 @@ pub trait MatrixGroup<S: Scalar>: LiePoisson<S> {
 pub trait CanonicalPoisson<S: Scalar>: Poisson<S> {
     /// The coordinates: `out = w(mu)`.
     fn canonical(&self, mu: &Self::State, out: &mut Self::State);
-    /// The side of mu: `out_i > 0` exactly where no zero or pole of `dw_i/dmu_i` lies between mu and xi, a second state.
+    /// The side of mu: `out_i > 0` where, as far as is known, no zero or pole of what w depends on lies between mu and xi, a second state. It is
+    /// exact where each coordinate of w is a function of one of mu.
     fn canonical_sides(&self, mu: &Self::State, xi: &Self::State, out: &mut Self::State);
     /// What moves w by xi: `out = (dw/dmu)^-1 xi`.
     fn canonical_pull(&self, mu: &Self::State, xi: &Self::State, out: &mut Self::State);

@@ -3,9 +3,9 @@
 use super::coadjoint::xi;
 use super::field::mu;
 use super::{Block, Kernel, Source};
-use crate::structure::conjugate::{Change, Form};
 use crate::structure::elementwise::Side;
-use lie_symbolic::symbolic::{Elementary, ExprId, Function, Graph, Symbol};
+use lie_symbolic::exact::Rational;
+use lie_symbolic::symbolic::{Elementary, ExprId, Function, Graph, Node, Symbol};
 
 /// `canonical`, `canonical_sides`, `canonical_pull`, `canonical_field` and `canonical_jacobian`.
 ///
@@ -22,7 +22,7 @@ pub(super) fn kernels(source: &mut Source) -> Option<Vec<Kernel>> {
     for change in changes {
         let graph = &mut source.graph;
         let i = change.coordinate;
-        values[i] = value(graph, &change);
+        values[i] = with_sizes(graph, change.value);
         sides[i] = side(graph, &change.sides, &moved);
         let mut terms = vec![graph.mul(change.slope, field[i])];
         let mut beside = vec![moved[i]];
@@ -72,15 +72,43 @@ pub(super) fn kernels(source: &mut Source) -> Option<Vec<Kernel>> {
     Some(kernels)
 }
 
-/// `w_i`, a logarithm without the square of what it is of, which may be too small for a number.
-fn value(graph: &mut Graph, change: &Change) -> ExprId {
-    if !matches!(change.form, Form::Logarithm(_)) {
-        return change.value;
+/// An expression with `2 log |g|` for `log g^2`, whose square may be too small or too large for a number.
+fn with_sizes(graph: &mut Graph, id: ExprId) -> ExprId {
+    match graph.node(id).clone() {
+        Node::Sum { constant, terms } => {
+            let terms = terms.iter();
+            let mut terms: Vec<(ExprId, Rational)> = terms
+                .map(|(term, scale)| (with_sizes(graph, *term), scale.clone()))
+                .collect();
+            let one = graph.integer(1);
+            terms.push((one, constant));
+            graph.linear(&terms)
+        }
+        Node::Product(factors) => {
+            let factors = factors.iter();
+            let factors: Vec<(ExprId, Rational)> = factors
+                .map(|(base, exponent)| (with_sizes(graph, *base), exponent.clone()))
+                .collect();
+            graph.power_product(&factors)
+        }
+        Node::Call(Function::Elementary(Elementary::Log), arguments) => {
+            let Node::Product(factors) = graph.node(arguments[0]).clone() else {
+                return id;
+            };
+            let two = Rational::from(2);
+            let [(base, exponent)] = &factors[..] else {
+                return id;
+            };
+            if *exponent != two {
+                return id;
+            }
+            let negative = graph.neg(*base);
+            let size = graph.call(Function::Below, &[*base, negative, *base]);
+            let logarithm = graph.call(Elementary::Log, &[size]);
+            graph.scale(logarithm, &two)
+        }
+        _ => id,
     }
-    let speed = graph.pow(change.slope, &(-1).into());
-    let size = graph.neg(speed);
-    let size = graph.call(Function::Below, &[speed, size, speed]);
-    graph.call(Elementary::Log, &[size])
 }
 
 /// What is positive where two states, that of the coordinates and another one, are on the same side of all zeros and poles.

@@ -109,12 +109,17 @@ pub fn class(model: &Model) -> Option<Class> {
         if found.all(Speed::is_coordinate) {
             return Some(Class::LogCanonical);
         }
-        // what else is a pair is named below
+        let others = found.closed();
+        let texts = others.map(|closed| graph.display(closed.integral, &name));
+        let class = Class::Elementwise(texts.collect());
+        // one entry may be that of a pair
         if found.is_affine() || matrix.entries.len() > 1 {
-            let others = found.closed();
-            let texts = others.map(|closed| graph.display(closed.integral, &name));
-            return Some(Class::Elementwise(texts.collect()));
+            return Some(class);
         }
+        let mut own = graph.clone();
+        let integrals = conjugate(model, &mut own).map(|found| found.integrals(&own, model));
+        let integrals = integrals.filter(|integrals| !integrals.is_empty());
+        return Some(integrals.map_or(class, Class::Conjugate));
     }
     let positions = magnetic(&graph, matrix).map(Class::Magnetic);
     let affine = || {

@@ -8,7 +8,7 @@ pub(super) mod integral;
 pub(super) mod inverse;
 
 use super::Structure;
-use super::elementwise::{Elementwise, Side, Speed, elementwise, half, vanish};
+use super::elementwise::{Elementwise, Side, Speed, elementwise, factors, half, vanish};
 use crate::model::{Bracket, Model, PoissonMatrix};
 use lie_symbolic::exact::{Budget, Fraction, Rational};
 use lie_symbolic::symbolic::{Elementary, ExprId, Graph, Node, Symbol};
@@ -74,11 +74,8 @@ fn of_matrix(model: &Model, matrix: &PoissonMatrix, graph: &mut Graph) -> Option
         if !form.as_ref().is_some_and(Elementwise::is_affine)
             && let Some((mut change, bracket)) = single_pair(model, matrix, block, &mut own)
         {
-            // more than the sign of B, where that depends on one coordinate
-            if let Some(Speed::Other(closed)) =
-                form.map(|form| form.speeds[change.coordinate].clone())
-            {
-                change.sides = closed.sides;
+            for speed in form.iter().flat_map(Elementwise::closed) {
+                change.sides.extend(speed.sides.iter().cloned());
             }
             changes.push(change);
             brackets.push(bracket);
@@ -142,7 +139,8 @@ fn single_pair(
     }
     let [constant, density] = apart(graph, entry);
     let change = pair(model, graph, [i, j], density);
-    let change = change.or_else(|| pair(model, graph, [j, i], density))?;
+    let mut change = change.or_else(|| pair(model, graph, [j, i], density))?;
+    change.sides.extend(borders(graph, entry));
     Some((change, (i, j, constant)))
 }
 
@@ -195,6 +193,15 @@ fn pair(model: &Model, graph: &mut Graph, [x, y]: [usize; 2], density: ExprId) -
         beside,
         sides: vec![Side::Sign(slope)],
     })
+}
+
+/// What keeps its sign where no factor of an entry vanishes, or is infinite, whatever the power.
+fn borders(graph: &mut Graph, entry: ExprId) -> Vec<Side> {
+    let normal = graph.normal(entry);
+    let (_, product) = graph.coefficient(normal);
+    let mut all = factors(graph, product);
+    all.retain(|(base, _)| !graph.coordinates(*base).is_empty());
+    all.into_iter().map(|(base, _)| Side::Sign(base)).collect()
 }
 
 impl Change {

@@ -165,7 +165,7 @@ fn those_of_a_class_of_brackets() {
     let root = r#"["{y, z} = z/(2*sqrt(x))", "{x, y} = sqrt(x)"]"#;
     assert_eq!(texts(&general(root, &[])), ["C1 = sqrt(x)*z"]);
     assert_eq!(texts(&general(r#"["{x, y} = sqrt(2)"]"#, &[])), ["C1 = z"]);
-    // a function times a Jacobian bracket, and one whose function is not made of factors
+    // a function times a Jacobian bracket, and one whose Casimir has no such integral
     let multiple = r#"["{y, z} = (1 + x)*x", "{z, x} = (1 + x)*y^2", "{x, y} = (1 + x)*z"]"#;
     let multiple = general(multiple, &[]);
     assert!(
@@ -173,7 +173,9 @@ fn those_of_a_class_of_brackets() {
         "{:?}",
         texts(&multiple)
     );
-    let other = r#"["{y, z} = exp(x)*x", "{z, x} = exp(x)*y", "{x, y} = exp(x)*z"]"#;
+    let times = r#"["{y, z} = exp(x)*x", "{z, x} = exp(x)*y", "{x, y} = exp(x)*z"]"#;
+    assert_eq!(texts(&general(times, &[])), ["C1 = x^2/2 + y^2/2 + z^2/2"]);
+    let other = r#"["{y, z} = y*exp(x*y)", "{z, x} = x*exp(x*y)", "{x, y} = 2*z"]"#;
     let other = general(other, &[]);
     assert!(texts(&other).is_empty() && matches!(other.search, Search::None(_)));
 }

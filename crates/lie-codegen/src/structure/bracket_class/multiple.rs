@@ -36,8 +36,9 @@ pub(in crate::structure) fn casimir(
     }
     let rows = matrix.rows(graph);
     let w = [rows[1][2], rows[2][0], rows[0][1]];
-    let casimir = of_polynomials(model, &w, graph).or_else(|| {
-        let without = without_functions(&w, graph)?;
+    let along = without_factors(&w, graph);
+    let casimir = of_polynomials(model, &along, graph).or_else(|| {
+        let without = without_functions(&along, graph)?;
         gradient_of(model, &without, graph)
     })?;
     let slopes: Vec<ExprId> = (0..3)
@@ -76,6 +77,26 @@ fn of_polynomials(model: &Model, w: &[ExprId; 3], graph: &mut Graph) -> Option<E
         }
     }
     space.potential(&integrable, graph)
+}
+
+/// The entries without the sums that all of them have as a factor as they stand.
+fn without_factors(w: &[ExprId; 3], graph: &mut Graph) -> [ExprId; 3] {
+    let mut common: Option<Vec<(ExprId, Rational)>> = None;
+    for entry in w.iter().filter(|entry| !graph.is_zero(**entry)) {
+        let (_, product) = graph.coefficient(*entry);
+        let mut own = factors(graph, product);
+        own.retain(|(base, _)| matches!(graph.node(*base), Node::Sum { .. }));
+        if let Some(common) = &common {
+            own.retain(|factor| common.contains(factor));
+        }
+        common = Some(own);
+    }
+    let mut common = common.unwrap_or_default();
+    for (_, exponent) in &mut common {
+        *exponent = -&*exponent;
+    }
+    let inverse = graph.power_product(&common);
+    w.map(|entry| graph.mul(entry, inverse))
 }
 
 /// The entries without the functions that are factors of every term of all of them.

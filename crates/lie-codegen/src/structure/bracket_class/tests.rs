@@ -24,6 +24,8 @@ fn each_class_is_found() {
         of("x y", &["{x, y} = (1 + x)*y"]),
         Class::Elementwise(Vec::new())
     );
+    let one = of("x y", &["{x, y} = (1 + x^2)*y"]);
+    assert_eq!(one, Class::Elementwise(vec!["atan(x)".to_owned()]));
     let field = ["{x, z} = 1", "{y, u} = 1", "{z, u} = 1 + cos(x)*y"];
     assert_eq!(of("x y z u", &field), Class::Magnetic(vec![0, 1]));
     // the positions come last
@@ -123,6 +125,7 @@ fn any_common_factor_is_taken_out() {
         "sqrt(2 + z + x^2)",
         "(1 + x*y*z)^3",
         "(exp(x) + z)",
+        "(1 + x + 2*y + z)^6",
     ] {
         let pairs = ["{x, y}", "{y, z}", "{z, x}"];
         let brackets = pairs.iter().zip(gradient);

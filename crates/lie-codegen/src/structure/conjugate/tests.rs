@@ -204,22 +204,36 @@ fn integrals_are_over_the_coordinate_that_has_one() {
     assert_eq!(changed(&["{x, y} = 1/(exp(y^2) + exp(x^2))"]), None);
 }
 
-/// B has the same sign behind both of its zeros, which are two sides.
+/// Zeros and poles of a pair's bracket are borders in either coordinate, also where its sign is the same behind them.
 #[test]
-fn both_zeros_of_a_density_are_borders() {
-    let model = model(&["x", "y", "u"], &["{x, y} = 1/(y^2 - 1)".to_owned()]);
-    let (found, graph) = found(&model).expect("coordinates");
-    let sides = |y: f64| -> Vec<bool> {
-        let sides = found.changes[0].sides.iter();
-        let signs = sides.map(|side| match side {
-            Side::Sign(value) => graph.evaluate(*value, &|_| y) > 0.0,
-            Side::Turn(_) => panic!("no angle"),
-        });
-        signs.collect()
+fn every_zero_of_a_density_is_a_border() {
+    let is_beside = |bracket: &str, from: [f64; 2], to: [f64; 2]| {
+        let model = model(&["x", "y", "u"], &[format!("{{x, y}} = {bracket}")]);
+        let (found, graph) = found(&model).expect("coordinates");
+        let at = |value: ExprId, state: [f64; 2]| {
+            graph.evaluate(value, &|symbol| match symbol {
+                Symbol::Coordinate(k) => state[k],
+                _ => 1.0,
+            })
+        };
+        let mut sides = found.changes.iter().flat_map(|change| &change.sides);
+        sides.all(|side| match side {
+            Side::Sign(value) => at(*value, from) * at(*value, to) > 0.0,
+            Side::Turn(angle) => (at(*angle, from) - at(*angle, to)).abs() < 3.0,
+        })
     };
-    assert_eq!(sides(1.5), sides(3.0));
-    assert_ne!(sides(1.5), sides(-1.5));
-    assert_ne!(sides(1.5), sides(0.5));
+    for (bracket, from, within, beyond) in [
+        ("1/(y^2 - 1)", [0.1, 1.5], [-0.3, 3.0], [0.1, -1.5]),
+        ("1/(y^2 - 1)", [0.1, 1.5], [-0.3, 1.2], [0.1, 0.5]),
+        ("x^2", [1.0, 1.0], [0.2, -3.0], [-1.0, 1.0]),
+        ("sin(x)/(1 + y^2)", [1.0, 1.0], [2.0, -1.0], [-0.2, 1.0]),
+        ("x^2/(x^2 + y^2)", [1.0, 1.0], [0.1, -1.0], [-0.5, 1.0]),
+        ("cos(2*y)^2", [1.0, 0.1], [-1.0, -0.2], [1.0, 1.6]),
+        ("cos(2*y)^2", [1.0, 0.1], [-1.0, 0.5], [1.0, 3.2]),
+    ] {
+        assert!(is_beside(bracket, from, within), "{bracket}: {within:?}");
+        assert!(!is_beside(bracket, from, beyond), "{bracket}: {beyond:?}");
+    }
 }
 
 #[test]

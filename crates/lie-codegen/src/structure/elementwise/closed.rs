@@ -34,8 +34,8 @@ pub(super) fn closed(graph: &mut Graph, speed: ExprId, i: usize) -> Option<Close
         return None;
     }
     let x = graph.symbol(Symbol::Coordinate(i));
-    if let Some((above, below)) = rational(graph, speed) {
-        let (value, sides) = integral(&above, &below, x, graph)?;
+    if let Some((numerator, denominator)) = rational(graph, speed) {
+        let (value, sides) = integral(&denominator, &numerator, x, graph)?;
         return Some(Closed {
             speed,
             integral: value,
@@ -64,20 +64,20 @@ pub(super) fn closed(graph: &mut Graph, speed: ExprId, i: usize) -> Option<Close
     })
 }
 
-/// The denominator and the numerator of a rational function of one variable with numbers as coefficients, for `int dx/a`.
+/// The numerator and the denominator of a rational function of one variable with numbers as coefficients.
 fn rational(graph: &mut Graph, speed: ExprId) -> Option<(Coefficients, Coefficients)> {
     let variable = graph.symbol(Symbol::Parameter(0));
     let there = graph.substitute(&[speed], &|symbol| {
         matches!(symbol, Symbol::Coordinate(_)).then_some(variable)
     })[0];
     let fraction: Fraction = graph.fraction(there, None)?;
-    let mut above = vec![Rational::ONE];
+    let mut below = vec![Rational::ONE];
     for (factor, power) in fraction.denominator() {
         for _ in 0..power {
-            above = times(&above, &coefficients(factor));
+            below = times(&below, &coefficients(factor));
         }
     }
-    Some((above, coefficients(fraction.numerator())))
+    Some((coefficients(fraction.numerator()), below))
 }
 
 fn coefficients(polynomial: &Polynomial) -> Coefficients {
@@ -171,7 +171,7 @@ fn of_power(
     e: &Rational,
     i: usize,
 ) -> Option<(ExprId, Vec<Side>)> {
-    let (_, polynomial) = rational(graph, base).filter(|(below, _)| below.len() == 1)?;
+    let (polynomial, _) = rational(graph, base).filter(|(_, below)| below.len() == 1)?;
     if let Some(slope) = slope_of(graph, base, i) {
         let above = &Rational::ONE - e;
         let power = graph.pow(base, &above);
@@ -181,8 +181,11 @@ fn of_power(
     let [c, b, a] = &polynomial[..] else {
         return None;
     };
-    // w = 4 a c - b^2
+    // w = 4 a c - b^2, without which the polynomial is a square
     let width = &(&(a * c) * &Rational::from(4)) - &(b * b);
+    if width.is_zero() {
+        return None;
+    }
     let slope = graph.derivative(base, Symbol::Coordinate(i));
     let sides = match (a.is_negative(), width.is_negative()) {
         (false, false) => Vec::new(),
@@ -197,7 +200,7 @@ fn of_power(
     if *e == &half() + &Rational::ONE {
         let ratio = graph.div(slope, along);
         let factor = &Rational::from(2) / &width;
-        return (!width.is_zero()).then(|| (graph.scale(ratio, &factor), sides));
+        return Some((graph.scale(ratio, &factor), sides));
     }
     if *e != half() {
         return None;
@@ -209,11 +212,15 @@ fn of_power(
             let inside = graph.div(slope, size);
             graph.call(Elementary::Asinh, &[inside])
         }
+        // the sign of u times acosh |u|, where no digits are lost
         (false, true) => {
-            let product = graph.mul(lead, along);
-            let twice = graph.scale(product, &Rational::from(2));
-            let inside = graph.add(slope, twice);
-            logarithm(graph, inside)
+            let u = graph.div(slope, size);
+            let square = graph.pow(u, &Rational::from(-2));
+            let one = graph.integer(1);
+            let rest = graph.sub(one, square);
+            let root = graph.pow(rest, &half());
+            let inside = graph.mul(u, root);
+            graph.call(Elementary::Asinh, &[inside])
         }
         (true, _) => {
             let inside = graph.div(slope, size);
