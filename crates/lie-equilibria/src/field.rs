@@ -7,7 +7,8 @@
 use lie_symbolic::symbolic::{ExprId, Symbol};
 
 use crate::arithmetic::Floats;
-use crate::dense::{Singular, add, norm, solve};
+use crate::dense::{Singular, add, norm};
+use crate::descent::{End, Linearised, descend};
 use crate::family::Solutions;
 use crate::newton::{At, RANK};
 use crate::random::Random;
@@ -44,6 +45,15 @@ pub struct Linear {
     pub value: Vec<f64>,
     /// The slopes.
     pub slope: Vec<f64>,
+}
+
+impl Linearised for Linear {
+    fn value(&self) -> &[f64] {
+        &self.value
+    }
+    fn slope(&self) -> &[f64] {
+        &self.slope
+    }
 }
 
 impl<'a> Field<'a> {
@@ -182,45 +192,11 @@ impl<'a> Field<'a> {
 
     /// Steps of Levenberg and Marquardt.
     fn approach(&self, z: &[f64]) -> Option<Vec<f64>> {
-        let n = z.len();
-        let (mut z, mut damping) = (z.to_vec(), 0.1);
-        let mut linear = self.linear(&z)?;
-        for _ in 0..MOST {
-            let size = norm(&linear.value);
-            if size <= 0.1 * SOLVED {
-                break;
-            }
-            let (mut matrix, mut right) = (vec![0.0; n * n], vec![0.0; n]);
-            for (row, value) in linear.slope.chunks(n).zip(&linear.value) {
-                for i in 0..n {
-                    right[i] -= row[i] * value;
-                    (0..n).for_each(|j| matrix[i * n + j] += row[i] * row[j]);
-                }
-            }
-            loop {
-                let mut damped = matrix.clone();
-                let more = (damping * size).powi(2) + 1e-30;
-                (0..n).for_each(|i| damped[i * n + i] += more);
-                let trial = solve(&damped, right.clone()).map(|step| {
-                    let mut trial = z.clone();
-                    add(&mut trial, 1.0, &step);
-                    trial
-                });
-                let there = trial.as_ref().and_then(|trial| self.linear(trial));
-                if let (Some(trial), Some(there)) = (trial, there)
-                    && norm(&there.value) < (1.0 - 1e-4) * size
-                {
-                    (z, linear) = (trial, there);
-                    damping = (0.2 * damping).max(1e-4);
-                    break;
-                }
-                damping *= 5.0;
-                if damping > 1e9 {
-                    return (size <= SOLVED).then_some(z);
-                }
-            }
+        let is_solved = |_: &[f64], linear: &Linear| norm(&linear.value) <= 0.1 * SOLVED;
+        match descend(z, MOST, |z| self.linear(z), is_solved, |_| 1e-30)? {
+            End::Solved(z) | End::Spent(z) => Some(z),
+            End::Stuck(z, size) => (size <= SOLVED).then_some(z),
         }
-        Some(z)
     }
 
     /// How far a member of a family of this dimension is uncertain: as far as the equations are round-off.

@@ -20,6 +20,7 @@ mod branch;
 mod crossing;
 mod curve;
 mod dense;
+mod descent;
 mod discriminant;
 mod eigenvalues;
 pub mod exact;

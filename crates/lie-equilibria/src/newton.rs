@@ -8,8 +8,9 @@
 //! doi:10.1007/978-3-7091-6217-0_18.
 
 use crate::dense::{Singular, add, dot, norm, solve};
+use crate::descent::{End, Linearised, descend};
 use crate::homotopy::multiplier;
-use crate::system::Equations;
+use crate::system::{Equations, Linear};
 
 /// A singular value below this part of the largest counts as zero at a solution.
 pub const RANK: f64 = 1e-7;
@@ -33,6 +34,15 @@ pub fn is_below(values: &[f64], part: f64, sizes: &[f64]) -> bool {
     pairs.all(|(value, size)| value.abs() <= part * size)
 }
 
+impl Linearised for Linear<f64> {
+    fn value(&self) -> &[f64] {
+        &self.residual
+    }
+    fn slope(&self) -> &[f64] {
+        &self.slope
+    }
+}
+
 impl At<'_> {
     /// A solution near y; `None` where the iteration ends at none.
     pub fn solve(self, y: &[f64]) -> Option<Vec<f64>> {
@@ -42,50 +52,17 @@ impl At<'_> {
 
     /// Steps that make `|F|` smaller.
     fn approach(self, y: &[f64]) -> Option<Vec<f64>> {
-        let n = self.equations.unknowns();
-        let (mut y, mut damping) = (y.to_vec(), 0.1);
-        let mut linear = self.equations.linear(&y, self.parameters)?;
         let references = self.references();
-        for _ in 0..MOST {
-            let size = norm(&linear.residual);
-            if size <= 1e-10 * self.scale(&linear.slope, &y)
+        let is_solved = |y: &[f64], linear: &Linear<f64>| {
+            norm(&linear.residual) <= 1e-10 * self.scale(&linear.slope, y)
                 || is_below(&linear.residual, 1e-14, &references)
-            {
-                return Some(y);
-            }
-            let (mut matrix, mut right) = (vec![0.0; n * n], vec![0.0; n]);
-            for (row, value) in linear.slope.chunks(n).zip(&linear.residual) {
-                for i in 0..n {
-                    right[i] -= row[i] * value;
-                    for j in 0..n {
-                        matrix[i * n + j] += row[i] * row[j];
-                    }
-                }
-            }
-            loop {
-                let mut damped = matrix.clone();
-                let more = (damping * size).powi(2) + 1e-15 * matrix[0].abs();
-                (0..n).for_each(|i| damped[i * n + i] += more);
-                let step = solve(&damped, right.clone());
-                let trial: Option<Vec<f64>> =
-                    step.map(|step| y.iter().zip(&step).map(|(y, d)| y + d).collect());
-                let at = trial
-                    .as_ref()
-                    .and_then(|trial| self.equations.linear(trial, self.parameters));
-                if let (Some(trial), Some(at)) = (trial, at)
-                    && norm(&at.residual) < (1.0 - 1e-4) * size
-                {
-                    (y, linear) = (trial, at);
-                    damping = (0.2 * damping).max(1e-4);
-                    break;
-                }
-                damping *= 5.0;
-                if damping > 1e9 {
-                    return None;
-                }
-            }
+        };
+        let linear_at = |y: &[f64]| self.equations.linear(y, self.parameters);
+        let least = |matrix: &[f64]| 1e-15 * matrix[0].abs();
+        match descend(y, MOST, linear_at, is_solved, least)? {
+            End::Solved(y) => Some(y),
+            End::Stuck(..) | End::Spent(_) => None,
         }
-        None
     }
 
     /// The shortest steps to round-off.
