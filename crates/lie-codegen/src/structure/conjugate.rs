@@ -8,10 +8,10 @@ pub(super) mod integral;
 pub(super) mod inverse;
 
 use super::Structure;
-use super::elementwise::{Elementwise, Side, Speed, elementwise, factors, half, vanish};
+use super::elementwise::{Elementwise, Side, Speed, elementwise, factors, logarithm, vanish};
 use crate::model::{Bracket, Model, PoissonMatrix};
 use lie_symbolic::exact::{Budget, Fraction, Rational};
-use lie_symbolic::symbolic::{Elementary, ExprId, Graph, Node, Symbol};
+use lie_symbolic::symbolic::{ExprId, Graph, Symbol};
 
 /// Work allowed for the proof that an integral is one.
 const WORK: u64 = 500_000;
@@ -152,10 +152,8 @@ fn integrals(form: &Elementwise, graph: &mut Graph) -> Vec<Change> {
         let along = speed.at(i, graph);
         let (form, value, sides) = match speed {
             Speed::Affine(coefficients) => {
-                let square = graph.mul(along, along);
-                let logarithm = graph.call(Elementary::Log, &[square]);
                 let form = Form::Logarithm(coefficients.clone());
-                let value = graph.scale(logarithm, &half());
+                let value = logarithm(graph, along);
                 (form, value, vec![Side::Sign(along)])
             }
             Speed::Other(closed) => (Form::Elementwise, closed.integral, closed.sides.clone()),
@@ -227,12 +225,9 @@ impl Change {
 fn apart(graph: &mut Graph, entry: ExprId) -> [ExprId; 2] {
     let normal = graph.normal(entry);
     let (number, product) = graph.coefficient(normal);
-    let factors = match graph.node(product).clone() {
-        Node::Product(factors) => factors.to_vec(),
-        _ => vec![(product, Rational::ONE)],
-    };
     let varies = |(base, _): &(ExprId, Rational)| !graph.coordinates(*base).is_empty();
-    let (mut varying, fixed): (Vec<_>, Vec<_>) = factors.into_iter().partition(varies);
+    let (mut varying, fixed): (Vec<_>, Vec<_>) =
+        factors(graph, product).into_iter().partition(varies);
     for (_, exponent) in &mut varying {
         *exponent = &*exponent * &Rational::from(-1);
     }

@@ -11,7 +11,7 @@ mod closed;
 mod partial_fractions;
 
 pub use closed::{Closed, Side};
-pub(super) use partial_fractions::half;
+pub(super) use partial_fractions::{half, logarithm};
 
 use super::found::additive;
 use crate::model::{Model, PoissonMatrix};

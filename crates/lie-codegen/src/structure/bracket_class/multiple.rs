@@ -81,11 +81,38 @@ fn of_polynomials(model: &Model, w: &[ExprId; 3], graph: &mut Graph) -> Option<E
 
 /// The entries without the sums that all of them have as a factor as they stand.
 fn without_factors(w: &[ExprId; 3], graph: &mut Graph) -> [ExprId; 3] {
+    let entries = w.iter().copied().filter(|entry| !graph.is_zero(*entry));
+    let entries: Vec<ExprId> = entries.collect();
+    let is_sum = |node: &Node| matches!(node, Node::Sum { .. });
+    let inverse = inverse_of_common(&entries, is_sum, graph);
+    w.map(|entry| graph.mul(entry, inverse))
+}
+
+/// The entries without the functions that are factors of every term of all of them.
+fn without_functions(w: &[ExprId; 3], graph: &mut Graph) -> Option<[ExprId; 3]> {
+    let mut all = Vec::new();
+    for entry in w {
+        let (constant, terms) = additive::collected(graph, *entry)?;
+        if !constant.is_zero() {
+            return None;
+        }
+        all.extend(terms);
+    }
+    let is_call = |node: &Node| matches!(node, Node::Call(..));
+    let inverse = inverse_of_common(&all, is_call, graph);
+    Some(w.map(|entry| {
+        let product = graph.mul(entry, inverse);
+        graph.normal(product)
+    }))
+}
+
+/// 1 over the factors of such a kind that all of these have, with the same exponents.
+fn inverse_of_common(all: &[ExprId], kind: fn(&Node) -> bool, graph: &mut Graph) -> ExprId {
     let mut common: Option<Vec<(ExprId, Rational)>> = None;
-    for entry in w.iter().filter(|entry| !graph.is_zero(**entry)) {
-        let (_, product) = graph.coefficient(*entry);
+    for one in all {
+        let (_, product) = graph.coefficient(*one);
         let mut own = factors(graph, product);
-        own.retain(|(base, _)| matches!(graph.node(*base), Node::Sum { .. }));
+        own.retain(|(base, _)| kind(graph.node(*base)));
         if let Some(common) = &common {
             own.retain(|factor| common.contains(factor));
         }
@@ -95,37 +122,7 @@ fn without_factors(w: &[ExprId; 3], graph: &mut Graph) -> [ExprId; 3] {
     for (_, exponent) in &mut common {
         *exponent = -&*exponent;
     }
-    let inverse = graph.power_product(&common);
-    w.map(|entry| graph.mul(entry, inverse))
-}
-
-/// The entries without the functions that are factors of every term of all of them.
-fn without_functions(w: &[ExprId; 3], graph: &mut Graph) -> Option<[ExprId; 3]> {
-    let mut common: Option<Vec<(ExprId, Rational)>> = None;
-    for entry in w {
-        let (constant, terms) = additive::collected(graph, *entry)?;
-        if !constant.is_zero() {
-            return None;
-        }
-        for term in terms {
-            let (_, product) = graph.coefficient(term);
-            let mut factors = factors(graph, product);
-            factors.retain(|(base, _)| matches!(graph.node(*base), Node::Call(..)));
-            if let Some(common) = &common {
-                factors.retain(|factor| common.contains(factor));
-            }
-            common = Some(factors);
-        }
-    }
-    let mut common = common.filter(|common| !common.is_empty())?;
-    for (_, exponent) in &mut common {
-        *exponent = -&*exponent;
-    }
-    let inverse = graph.power_product(&common);
-    Some(w.map(|entry| {
-        let product = graph.mul(entry, inverse);
-        graph.normal(product)
-    }))
+    graph.power_product(&common)
 }
 
 /// Rational functions of the parameters, and behind them of three coordinates.

@@ -1,5 +1,6 @@
 //! Integrals over one coordinate in closed form: of sums of powers, exponentials and sines.
 
+use crate::structure::elementwise::factors;
 use crate::structure::found::additive;
 use lie_symbolic::exact::Rational;
 use lie_symbolic::symbolic::{Elementary, ExprId, Function, Graph, Node, Symbol};
@@ -22,10 +23,7 @@ pub(in crate::structure) fn integral(graph: &mut Graph, value: ExprId, i: usize)
 
 fn of_term(graph: &mut Graph, term: ExprId, i: usize) -> Option<ExprId> {
     let (number, product) = graph.coefficient(term);
-    let factors = match graph.node(product).clone() {
-        Node::Product(factors) => factors.to_vec(),
-        _ => vec![(product, Rational::ONE)],
-    };
+    let factors = factors(graph, product);
     let varies = |graph: &Graph, base: ExprId| graph.coordinates(base).contains(&i);
     let (varying, rest): (Vec<_>, Vec<_>) = factors
         .into_iter()

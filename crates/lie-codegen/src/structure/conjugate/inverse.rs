@@ -1,7 +1,7 @@
 //! The inverse of an integral over a coordinate, where that has a closed form: y of `Y(x, y)`.
 
 use super::integral::slope_of;
-use crate::structure::elementwise::half;
+use crate::structure::elementwise::{factors, half};
 use crate::structure::found::additive;
 use lie_symbolic::exact::Rational;
 use lie_symbolic::symbolic::{Elementary, ExprId, Function, Graph, Node, Symbol};
@@ -81,10 +81,7 @@ pub(in crate::structure) fn inverse(
 /// The factor of a term that depends on the coordinate, and the rest of it; none where there are several.
 fn apart(graph: &mut Graph, term: ExprId, i: usize) -> Option<(Option<Factor>, ExprId)> {
     let (number, product) = graph.coefficient(term);
-    let factors = match graph.node(product).clone() {
-        Node::Product(factors) => factors.to_vec(),
-        _ => vec![(product, Rational::ONE)],
-    };
+    let factors = factors(graph, product);
     let varies = |(base, _): &(ExprId, Rational)| graph.coordinates(*base).contains(&i);
     let (varying, rest): (Vec<_>, Vec<_>) = factors.into_iter().partition(varies);
     let rest = graph.power_product(&rest);

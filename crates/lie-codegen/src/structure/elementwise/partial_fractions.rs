@@ -348,7 +348,7 @@ pub(in crate::structure) fn half() -> Rational {
 }
 
 /// `log |value|`, as half the logarithm of the square.
-pub(super) fn logarithm(graph: &mut Graph, value: ExprId) -> ExprId {
+pub(in crate::structure) fn logarithm(graph: &mut Graph, value: ExprId) -> ExprId {
     let square = graph.pow(value, &Rational::from(2));
     let logarithm = graph.call(Elementary::Log, &[square]);
     graph.scale(logarithm, &half())
