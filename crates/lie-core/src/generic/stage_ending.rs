@@ -2,7 +2,7 @@
 
 use crate::newton::NewtonOptions;
 use crate::newton::rest::{STAGNATION, dropped, left};
-use crate::scalar::{Mask, Scalar};
+use crate::scalar::Scalar;
 
 /// A rate that was seen in another step is not trusted below this.
 const TRUSTED: f64 = 1.0 / 16.0;
@@ -46,26 +46,21 @@ impl<S: Scalar> Ending<S> {
     }
 }
 
-/// The lanes in which eight numbers are all below a bound.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn are_below<S: Scalar>(numbers: S::Wide, bound: S) -> S::Mask {
-    if S::LANES == 1 {
-        return S::Mask::splat(numbers.less_equal(bound.widen()).all());
-    }
-    let all = S::Mask::splat(true);
-    let numbers = S::scatter(numbers).into_iter();
-    numbers.fold(all, |below, number| below & number.less_equal(bound))
-}
-
 /// The largest of eight numbers.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn most<S: Scalar>(wide: S::Wide) -> S {
+    let [most, ..] = S::scatter(most_everywhere::<S>(wide));
+    most
+}
+
+/// The same in all places.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(super) fn most_everywhere<S: Scalar>(wide: S::Wide) -> S::Wide {
     if S::LANES == 1 {
         let pairs = wide.max(S::exchange::<1>(wide));
         let fours = pairs.max(S::exchange::<2>(pairs));
-        let [most, ..] = S::scatter(fours.max(S::exchange::<4>(fours)));
-        return most;
+        return fours.max(S::exchange::<4>(fours));
     }
     let [a, b, c, d, e, f, g, h] = S::scatter(wide);
-    S::max(S::max(a.max(b), c.max(d)), S::max(e.max(f), g.max(h)))
+    S::max(S::max(a.max(b), c.max(d)), S::max(e.max(f), g.max(h))).widen()
 }

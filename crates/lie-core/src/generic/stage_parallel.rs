@@ -13,7 +13,7 @@ use core::ops::Range;
 
 #[cfg(feature = "std")]
 use self::program::StageProgram;
-use self::program::{AHEAD, PER_UNIT, PER_WEIGHT, RATIOS, StageSlopes, TABLE, WEIGHTS};
+use self::program::{AHEAD, PER_STEP, PER_UNIT, PER_WEIGHT, RATIOS, StageSlopes, TABLE, WEIGHTS};
 use super::diagonals::diagonals;
 use super::stage_ending::most;
 use super::stage_work::{At, Rule, Work};
@@ -47,21 +47,24 @@ pub struct StageParallel<S: Scalar, V> {
     /// How many there are.
     stages: usize,
     /// By their [places](program): `a_ij/b_j`, the matrix that continues the polynomial of a step, `h b_i` in place i and 0 in the places
-    /// without a stage, `1/|h b_i|` likewise, so that places without a stage do not count, and one over the unit of the momenta.
+    /// without a stage, `1/|h b_i|` likewise, so that places without a stage do not count, one over the unit of the momenta, and `1/|h|`.
     table: [S::Wide; TABLE],
     /// Weights and inverse weights of a step of length 1.
     unit: [S::Wide; 2],
     /// The coefficients in Legendre polynomials, once they were asked for.
     legendre: Option<[S::Wide; 8]>,
     step: S,
-    /// `1/|h|`
-    per_step: S,
     /// y, the same in all places.
     base: V,
     work: Work<V>,
     /// What iterates in place of the kernels of the system.
     #[cfg(feature = "std")]
     program: Option<Box<dyn StageProgram<S::Wide>>>,
+    /// Whether the last look of that program told the end of the step.
+    #[cfg(feature = "std")]
+    is_ended: bool,
+    /// The size of the slopes of the step to come, where it is known.
+    known_size: Option<S>,
     /// The entries that carry the time, where there are any.
     clock: Option<Clock>,
     /// The entries in a unit of their own, where there are any, and one over that unit.
@@ -102,6 +105,7 @@ impl<S: Scalar, V: State<S::Wide>> StageParallel<S, V> {
         table[AHEAD].copy_from_slice(&ahead);
         let unit = length::weights::<S>(stages, S::one());
         [table[WEIGHTS], table[PER_WEIGHT]] = length::weights::<S>(stages, h);
+        table[PER_STEP] = (S::one() / h.abs()).widen();
         Self {
             stages,
             table,
@@ -109,8 +113,10 @@ impl<S: Scalar, V: State<S::Wide>> StageParallel<S, V> {
             legendre: None,
             #[cfg(feature = "std")]
             program: None,
+            #[cfg(feature = "std")]
+            is_ended: false,
+            known_size: None,
             step: h,
-            per_step: S::one() / h.abs(),
             base: zero.clone(),
             work: Work {
                 increments: zero.clone(),
@@ -219,7 +225,9 @@ impl<S: Scalar, V: State<S::Wide>> StageParallel<S, V> {
     pub fn go_on(&mut self) {
         #[cfg(feature = "std")]
         if let Some(program) = &mut self.program {
-            program.go_on(&self.table, self.work.both());
+            let base = self.base.as_slice();
+            let [size, ..] = S::scatter(program.go_on(&self.table, base, self.work.both()));
+            self.known_size = Some(size);
             return self.work.exchange();
         }
         program::go_on::<S>(
@@ -255,13 +263,15 @@ impl<S: Scalar, V: State<S::Wide>> StageParallel<S, V> {
         (quiet as u32).min(self.most_iterations)
     }
 
-    /// Iterates once; the changes of the slopes. The lanes that have ended keep their increments.
+    /// Iterates once; the largest change of the slopes at a stage. The lanes that have ended keep their increments.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn look(&mut self, work: &mut Work<V>, ended: S::Mask, field: &mut impl Rule<S, V>) -> S::Wide {
+    fn look(&mut self, work: &mut Work<V>, ended: S::Mask, field: &mut impl Rule<S, V>) -> S {
         #[cfg(feature = "std")]
         if let Some(program) = &mut self.program {
             let change = program.look(&self.table, self.base.as_slice(), work.both());
             work.exchange();
+            self.is_ended = true;
+            let [change, ..] = S::scatter(change);
             return change;
         }
         work.evaluate::<S>(self.stages, &self.table, &self.base, field);
@@ -270,7 +280,7 @@ impl<S: Scalar, V: State<S::Wide>> StageParallel<S, V> {
         }
         let momenta = self.momenta.as_ref();
         let momenta = momenta.map(|(entries, per_unit)| (entries.clone(), per_unit.widen()));
-        work.replace::<S>(ended, momenta) * self.table[PER_WEIGHT]
+        most::<S>(work.replace::<S>(ended, momenta) * self.table[PER_WEIGHT])
     }
 
     /// Iterates so many times without a look at the changes.
@@ -278,7 +288,10 @@ impl<S: Scalar, V: State<S::Wide>> StageParallel<S, V> {
     fn blind(&mut self, work: &mut Work<V>, count: u32, field: &mut impl Rule<S, V>) {
         #[cfg(feature = "std")]
         if let Some(program) = &mut self.program {
-            program.iterate(count, &self.table, self.base.as_slice(), work.both());
+            if count > 0 {
+                program.iterate(count, &self.table, self.base.as_slice(), work.both());
+                self.is_ended = false;
+            }
             if count % 2 == 1 {
                 work.exchange();
             }
@@ -292,13 +305,13 @@ impl<S: Scalar, V: State<S::Wide>> StageParallel<S, V> {
 
     /// What is reported of an iteration; the next one expects nothing in the lanes that have not converged.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn end(&mut self, iterations: u32, change: S::Wide, converged: S::Mask) -> Iterated<S> {
+    fn end(&mut self, iterations: u32, change: S, converged: S::Mask) -> Iterated<S> {
         if !converged.all() {
             self.forget(!converged);
         }
         Iterated {
             iterations,
-            residual: largest(most::<S>(change) * self.step.abs()),
+            residual: largest(change * self.step.abs()),
             converged,
         }
     }
@@ -311,25 +324,29 @@ impl<S: Scalar, V: State<S::Wide>> StageParallel<S, V> {
         self.age = S::select(lanes, S::from_f64(FRESH), self.age);
     }
 
-    /// The size of the slopes against which changes are measured: that of the base over h, or of the slopes themselves.
+    /// The size of the slopes against which changes are measured.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn size(&self) -> S {
-        let sum = |entries: &[S::Wide]| {
-            let counted = entries.iter().enumerate();
-            let counted = counted.filter(|(i, _)| !holds(self.clock, *i));
-            counted.fold(S::Wide::zero(), |sum, (i, y)| {
-                sum + y.magnitude() * self.per_unit(i).widen()
-            })
-        };
-        let bases = sum(self.base.as_slice());
-        let increments = sum(self.work.increments.as_slice());
-        let [base, ..] = S::scatter(bases);
-        (base * self.per_step).max(most::<S>(increments * self.table[PER_WEIGHT]))
+    fn size(&mut self) -> S {
+        if let Some(known) = self.known_size.take() {
+            return known;
+        }
+        let momenta = self.momenta.as_ref().map(|(entries, _)| entries);
+        let entries = [self.base.as_slice(), self.work.increments.as_slice()];
+        let [size, ..] = S::scatter(program::size::<S>(
+            (self.clock, momenta),
+            entries,
+            &self.table,
+        ));
+        size
     }
 
     /// Moves the base to the end of the step.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn advance(&mut self) {
+        #[cfg(feature = "std")]
+        if let Some(program) = self.program.as_ref().filter(|_| self.is_ended) {
+            return self.base.as_mut_slice().copy_from_slice(program.end());
+        }
         let increments = self.work.increments.as_slice();
         program::advance::<S>(self.base.as_mut_slice(), increments);
     }

@@ -10,7 +10,6 @@ use lie_core::generic::{At, LinearLift, STAGE_TABLE, StageProgram, StageSlopes, 
 use lie_core::methods::{Hopf, Quaternion, Representation, Unitary};
 use lie_runtime::{Poisson, Scalar, State, Widen};
 use std::fmt;
-use std::ops::Range;
 use std::sync::Arc;
 
 /// The arguments of the codes.
@@ -24,8 +23,9 @@ const LABELS: u8 = 3;
 pub(crate) struct StageCodes {
     /// The next increments alone.
     iterate: Arc<[Code]>,
-    /// The same with the changes.
+    /// The same with the largest change and the end of the step.
     look: Arc<[Code]>,
+    /// The increments to start from, with the size of their slopes.
     go_on: Arc<[Code]>,
 }
 
@@ -41,7 +41,6 @@ enum What {
 struct Iteration<V> {
     zero: V,
     step: StageStep,
-    momenta: Option<Range<usize>>,
 }
 
 impl<V: State<Recorded>> Iteration<V> {
@@ -54,19 +53,23 @@ impl<V: State<Recorded>> Iteration<V> {
             all
         };
         let table = source_numbers(STAGE_TABLE, |place| Source::Argument(TABLE, place));
-        let increments = argument(INCREMENTS);
-        if let What::GoOn = what {
-            let next = self.step.go_on::<Recorded, V>(increments, &table);
-            return [next.as_slice().to_vec(), Vec::new()];
-        }
-        let momenta = self.momenta.clone();
-        let given = (&argument(BASE), increments);
-        let (next, change) = self.step.look::<Recorded, V>(given, &table, momenta, field);
-        let changes = match what {
-            What::Look => vec![change],
-            _ => Vec::new(),
+        let given = (&argument(BASE), argument(INCREMENTS));
+        let (next, told) = match what {
+            What::GoOn => {
+                let (next, size) = self.step.go_on::<Recorded, V>(given, &table);
+                (next, vec![size])
+            }
+            What::Iterate | What::Look => {
+                let look = self.step.look::<Recorded, V>(given, &table, field);
+                let told = [&[look.change], look.end.as_slice()].concat();
+                (look.increments, told)
+            }
         };
-        [next.as_slice().to_vec(), changes]
+        let told = match what {
+            What::Iterate => Vec::new(),
+            What::Look | What::GoOn => told,
+        };
+        [next.as_slice().to_vec(), told]
     }
 }
 
@@ -84,8 +87,8 @@ where
         step: StageStep {
             stages,
             clock: L::clock(system),
+            momenta: L::momenta(system),
         },
-        momenta: L::momenta(system),
     };
     iteration.write(what, |at, slopes| {
         L::flow(system, &labels, at.points, slopes);
@@ -98,8 +101,8 @@ fn of_field(system: &Dynamic<Recorded>, stages: usize, what: What) -> [Vec<Recor
         step: StageStep {
             stages,
             clock: system.clock(),
+            momenta: None,
         },
-        momenta: None,
     };
     iteration.write(what, |at, slopes| system.vector_field(at.points, slopes))
 }
@@ -114,9 +117,9 @@ impl StageCodes {
             StageSlopes::Unitary => of_lift::<Unitary>,
         };
         let codes = |what| -> Option<Arc<[Code]>> {
-            let ([vector, changes], written): ([Vec<Recorded>; 2], Written) =
+            let ([vector, told], written): ([Vec<Recorded>; 2], Written) =
                 written(|| Some(of(&recording(compiled), stages, what)))?;
-            Some(Arc::from(written.codes(&vector, &changes)))
+            Some(Arc::from(written.codes(&vector, &told)))
         };
         Some(Self {
             iterate: codes(What::Iterate)?,
@@ -133,6 +136,8 @@ struct Stages<W: Scalar> {
     look: Ready<W>,
     go_on: Ready<W>,
     labels: Vec<W>,
+    /// What the last look told: the largest change, and the end of the step.
+    told: Vec<W>,
 }
 
 impl<W: Scalar> fmt::Debug for Stages<W> {
@@ -163,6 +168,7 @@ impl<S: Scalar> Dynamic<S> {
             look: ready(&codes.look)?,
             go_on: ready(&codes.go_on)?,
             labels: Vec::new(),
+            told: Vec::new(),
             system,
         }))
     }
@@ -180,17 +186,23 @@ impl<W: Scalar> StageProgram<W> for Stages<W> {
         let Ready { machine, of_step } = &self.look;
         let arguments: [&[W]; ARGUMENTS] = [base, from, table, &self.labels];
         let frame = self.system.values.frame(arguments, of_step, &[]);
-        let mut change = [W::zero()];
-        machine.run(1, &frame, [to, &mut change]);
-        let [change] = change;
-        change
+        self.told.resize(1 + base.len(), W::zero());
+        machine.run(1, &frame, [to, &mut self.told]);
+        self.told[0]
     }
 
-    fn go_on(&mut self, table: &[W], [from, to]: [&mut [W]; 2]) {
+    fn end(&self) -> &[W] {
+        &self.told[1..]
+    }
+
+    fn go_on(&mut self, table: &[W], base: &[W], [from, to]: [&mut [W]; 2]) -> W {
         let Ready { machine, of_step } = &self.go_on;
-        let arguments: [&[W]; ARGUMENTS] = [&[], from, table, &[]];
+        let arguments: [&[W]; ARGUMENTS] = [base, from, table, &[]];
         let frame = self.system.values.frame(arguments, of_step, &[]);
-        machine.run(1, &frame, [to, &mut []]);
+        let mut size = [W::zero()];
+        machine.run(1, &frame, [to, &mut size]);
+        let [size] = size;
+        size
     }
 
     fn set_labels(&mut self, labels: &[W]) {

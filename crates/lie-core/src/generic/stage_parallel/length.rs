@@ -1,7 +1,7 @@
 //! The length of the steps.
 
 use super::StageParallel;
-use super::program::{PER_WEIGHT, WEIGHTS};
+use super::program::{PER_STEP, PER_WEIGHT, WEIGHTS};
 use crate::generic::tableau::gauss_weight;
 use crate::scalar::Scalar;
 use crate::state::State;
@@ -29,9 +29,11 @@ impl<S: Scalar, V: State<S::Wide>> StageParallel<S, V> {
             *increments *= longer;
         }
         self.step = h;
-        self.per_step = S::one() / h.abs();
+        let per_step = (S::one() / h.abs()).widen();
         let [weights, per_weights] = self.unit;
         self.table[WEIGHTS] = weights * h.widen();
-        self.table[PER_WEIGHT] = per_weights * self.per_step.widen();
+        self.table[PER_WEIGHT] = per_weights * per_step;
+        self.table[PER_STEP] = per_step;
+        self.known_size = None;
     }
 }

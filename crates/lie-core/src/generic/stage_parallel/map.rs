@@ -1,7 +1,6 @@
 //! The iteration until the map of a step has converged, and not its state alone.
 
 use super::{BEYOND, Iterated, StageParallel};
-use crate::generic::stage_ending::{are_below, most};
 use crate::generic::stage_work::Rule;
 use crate::newton::rest::{REVIEW, Reviews, STAGNATION, dropped, is_quick};
 use crate::scalar::{Mask, Scalar};
@@ -28,7 +27,7 @@ impl<S: Scalar, V: State<S::Wide>> StageParallel<S, V> {
         let never = S::from_f64(f64::MAX);
         let (mut reviews, mut due) = (Reviews::new(), never);
         let (mut iterations, mut mark) = (0, S::from_f64(f64::MAX));
-        let [mut first, mut before, mut change] = [S::Wide::zero(); 3];
+        let [mut first, mut before, mut change] = [S::zero(); 3];
         let [mut left, mut rate] = [S::one(); 2];
         while iterations < self.most_iterations && !ended.all() {
             let earlier = before;
@@ -38,15 +37,13 @@ impl<S: Scalar, V: State<S::Wide>> StageParallel<S, V> {
             let count = S::from_f64(f64::from(iterations));
             let open = (self.quiet.less(count) | count.less_equal(S::one())) & !ended;
             left *= rate;
-            let new = are_below::<S>(change, bound) & open & !settled;
+            let new = change.less_equal(bound) & open & !settled;
             if new.any() {
                 if iterations > 1 {
-                    let [size, before, earlier] = [change, before, earlier].map(most::<S>);
-                    let shrunk = [most::<S>(first), size];
-                    quick = quick | (new & is_quick(shrunk, iterations));
-                    let last = self.seen(new, count, [size, before, earlier]);
+                    quick = quick | (new & is_quick([first, change], iterations));
+                    let last = self.seen(new, count, [change, before, earlier]);
                     rate = S::select(new, last, rate);
-                    left = S::select(new, size / most::<S>(first), left);
+                    left = S::select(new, change / first, left);
                 }
                 settled = settled | new;
             }
@@ -59,22 +56,19 @@ impl<S: Scalar, V: State<S::Wide>> StageParallel<S, V> {
             converged = converged | done;
             ended = ended | done;
             if (enough & !ended).any() {
-                let [first, earlier, before, size] =
-                    [first, earlier, before, change].map(most::<S>);
-                let calm = size.less_equal(unit * S::from_f64(CALM))
-                    & (is_quick([first, size], iterations) | size.less_equal(S::zero()));
-                let still = third & dropped(first, [earlier, before, size], unit, iterations);
+                let calm = change.less_equal(unit * S::from_f64(CALM))
+                    & (is_quick([first, change], iterations) | change.less_equal(S::zero()));
+                let still = third & dropped(first, [earlier, before, change], unit, iterations);
                 let ready = enough & !ended & (calm | still | due.less_equal(count));
                 self.taken = S::select(ready, count, self.taken);
                 converged = converged | ready;
                 ended = ended | ready;
             }
             if iterations.is_multiple_of(REVIEW) {
-                let size = most::<S>(change);
                 let active = open & !settled;
-                ended = ended | (active & !size.less(mark * S::ratio(1.0, 2.0)));
-                mark = S::select(active, size, mark);
-                let [resting, _] = reviews.take(enough & !ended, size, unit);
+                ended = ended | (active & !change.less(mark * S::ratio(1.0, 2.0)));
+                mark = S::select(active, change, mark);
+                let [resting, _] = reviews.take(enough & !ended, change, unit);
                 let late = count + S::from_f64(BEYOND);
                 due = S::select(resting & !due.less(never), late, due);
             }

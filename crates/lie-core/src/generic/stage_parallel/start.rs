@@ -21,6 +21,7 @@ impl<S: Scalar, V: State<S::Wide>> StageParallel<S, V> {
             let entry = |i: usize| S::select(mask, weights[i] * slope, old[i]);
             *increments = S::gather(from_fn(entry));
         }
+        self.known_size = None;
         self.forget(mask);
     }
 

@@ -1,7 +1,7 @@
 //! The iteration until the state has converged.
 
 use super::{BEYOND, FRESH, Iterated, StageParallel};
-use crate::generic::stage_ending::{Ending, are_below, most};
+use crate::generic::stage_ending::Ending;
 use crate::generic::stage_work::Rule;
 use crate::newton::rest::{REVIEW, Reviews};
 use crate::scalar::{Mask, Scalar};
@@ -34,7 +34,7 @@ impl<S: Scalar, V: State<S::Wide>> StageParallel<S, V> {
         let mut closing = S::Mask::splat(false);
         self.blind(&mut work, quiet - done, &mut field);
         let mut iterations = quiet;
-        let [mut before, mut change] = [S::Wide::zero(); 2];
+        let [mut before, mut change] = [S::zero(); 2];
         while iterations < self.most_iterations && !ended.all() {
             let earlier = before;
             before = change;
@@ -52,14 +52,13 @@ impl<S: Scalar, V: State<S::Wide>> StageParallel<S, V> {
             let first = looks.less_equal(S::one());
             let mut early = first;
             let bound = S::select(first, ending.at_once, ending.bound);
-            let mut reached = are_below::<S>(change, bound) & open;
+            let mut reached = change.less_equal(bound) & open;
             let doubtful = reached & !first;
             if doubtful.any() {
-                let [earlier, before, size] = [earlier, before, change].map(most::<S>);
                 let earlier = S::select(looks.less(S::ratio(3.0, 1.0)), never, earlier);
-                let changes = [earlier, before, size];
+                let changes = [earlier, before, change];
                 let [small, dropped] = ending.reached(self.first, changes, iterations);
-                let rate = size / before;
+                let rate = change / before;
                 self.rate = S::select(doubtful & small & rate.finite(), rate, self.rate);
                 reached = reached & (first | small | dropped);
                 early = early | (!small & looks.less_equal(S::ratio(3.0, 1.0)));
@@ -84,8 +83,7 @@ impl<S: Scalar, V: State<S::Wide>> StageParallel<S, V> {
                 ended = ended | (reached & !slow);
             }
             if iterations.is_multiple_of(REVIEW) {
-                let size = most::<S>(change);
-                let [resting, failing] = reviews.take(open & !ended, size, ending.unit);
+                let [resting, failing] = reviews.take(open & !ended, change, ending.unit);
                 due = S::select(resting & !due.less(never), count + S::from_f64(BEYOND), due);
                 ended = ended | failing;
             }
@@ -118,8 +116,8 @@ impl<S: Scalar, V: State<S::Wide>> StageParallel<S, V> {
     }
 
     /// Takes the first change of a step in some lanes.
-    fn begun(&mut self, lanes: S::Mask, change: S::Wide) {
-        self.first = S::select(lanes, most::<S>(change), self.first);
+    fn begun(&mut self, lanes: S::Mask, change: S) {
+        self.first = S::select(lanes, change, self.first);
         self.age = S::select(lanes, S::zero(), self.age);
     }
 
