@@ -155,6 +155,7 @@ impl<S: Scalar, P: Poisson<S>> Method<S, P> for Forgotten<'_, P, S> {
 impl<S: Scalar, V: State<S>> Stepper<S> for ForgottenStepper<'_, V, S> {
     type State = V;
 
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn step<K: FactorSink<V>>(
         &mut self,
         mu: &mut V,

@@ -83,12 +83,6 @@ pub(super) struct Course<'r, S: Scalar, P: Poisson<S>> {
 }
 
 impl<'r, S: Scalar, P: Poisson<S>> Course<'r, S, P> {
-    /// Divides steps where need be.
-    pub(super) fn dividing(mut self, divides: bool) -> Self {
-        self.divides = divides;
-        self
-    }
-
     /// Has steps follow the motion.
     pub(super) fn following(mut self, density: Density) -> Self {
         self.follows = density == Density::Reversible;
@@ -266,9 +260,12 @@ impl<'r, S: Scalar, P: Poisson<S>> Course<'r, S, P> {
                     let first = (&mut stepper, &mut made);
                     self.look_ahead(system, joints.as_mut(), events, mu, first, observer)?
                 }
-                _ => Ahead::nothing(),
+                _ => None,
             };
-            while let Some((row, is_kept)) = self.due(rows, curve, ahead.stop()) {
+            let stop = ahead.as_ref().and_then(Ahead::stop);
+            while !(curve.is_none() && rows.begin_after(self.index))
+                && let Some((row, is_kept)) = self.due(rows, curve, stop)
+            {
                 let looked = match row.place {
                     _ if !is_kept => {
                         let states = (&**mu, &mut **between);
@@ -289,16 +286,21 @@ impl<'r, S: Scalar, P: Poisson<S>> Course<'r, S, P> {
                     return Ok(Left::Over(Status::Stopped));
                 }
             }
-            if let Some(last) = ahead.take_stop(system, observer) {
+            if let Some(last) = ahead
+                .as_mut()
+                .and_then(|ahead| ahead.take_stop(system, observer))
+            {
                 return self.stop_at(system, joints.as_mut(), last, (mu, between), observer);
             }
             if self.index == self.grid.steps() {
-                ahead.tell(system, observer);
+                ahead
+                    .iter_mut()
+                    .for_each(|ahead| ahead.tell(system, observer));
                 return Ok(Left::Over(Status::Finished));
             }
             let begins = |guard: &mut Guard<'_, S, P>| guard.begins(mu, self.index);
             let mut watched = self.done == 0 && guard.as_mut().is_some_and(begins);
-            if self.done == 0 {
+            if self.done == 0 && (joints.is_some() || observer.held().is_some()) {
                 let times = [self.index, self.index + 1].map(|index| self.grid.time(index));
                 let times = times.into();
                 let joint = joints
@@ -326,14 +328,16 @@ impl<'r, S: Scalar, P: Poisson<S>> Course<'r, S, P> {
                 };
                 match stepped {
                     Ok(report) => {
-                        set_time(system, mu, self.next_time());
+                        if system.clock().is_some() {
+                            set_time(system, mu, self.next_time());
+                        }
                         self.arrived(system, mu, report)?;
                         iterations = report.iterations;
                     }
                     Err(failure) => return self.divided(system, failure, mu, guard.as_mut()),
                 }
                 self.done += 1;
-                slow |= self.method.fixed_point() && self.divides && self.is_slow();
+                slow |= self.divides && self.method.fixed_point() && self.is_slow();
                 if slow && self.done < self.parts {
                     self.done *= 2;
                     self.change(Change::Parts(2 * self.parts), None);
@@ -365,7 +369,9 @@ impl<'r, S: Scalar, P: Poisson<S>> Course<'r, S, P> {
                     }
                 }
             }
-            ahead.tell(system, observer);
+            ahead
+                .iter_mut()
+                .for_each(|ahead| ahead.tell(system, observer));
             self.index += 1;
             if let Some(growth) = &mut growth {
                 let size = S::from_f64(self.steer(growth, system, mu)?);

@@ -164,6 +164,7 @@ struct Behind<'a, S: Scalar, P: Poisson<S>> {
 
 impl<S: Scalar, P: Poisson<S>> KeptStepper<'_, S, P> {
     /// See [`Stepper::step`](crate::methods::Stepper::step).
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn step<K: FactorSink<P::State>>(
         &mut self,
         mu: &mut P::State,

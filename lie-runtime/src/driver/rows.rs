@@ -146,6 +146,12 @@ impl Rows {
         self.peeked.as_ref()?.as_ref()
     }
 
+    /// Whether the next row is known, and belongs to a later grid point.
+    #[inline(always)]
+    pub(super) fn begin_after(&self, index: u64) -> bool {
+        matches!(&self.peeked, Some(Some(row)) if index < row.place.index())
+    }
+
     /// The next row, if it is one like that.
     pub(super) fn next_if(&mut self, is_one: impl FnOnce(&Row) -> bool) -> Option<Row> {
         self.peek().is_some_and(is_one).then(|| self.next())?

@@ -55,6 +55,12 @@ impl<S: Scalar, P: Poisson<S>> Course<'_, S, P> {
         }
     }
 
+    /// Divides steps where need be.
+    pub(super) fn dividing(mut self, divides: bool) -> Self {
+        self.divides = divides;
+        self
+    }
+
     /// Whether to divide all steps that are left costs less than some that need Jacobians.
     pub(super) fn divides_rather(&self, slow: u64) -> bool {
         let left = (self.grid.steps() - self.index).saturating_mul(u64::from(self.parts));

@@ -6,6 +6,7 @@ use super::{
 };
 use crate::scalar::Scalar;
 use crate::state::State;
+use core::mem::ManuallyDrop;
 
 /// What a step shows of its motion on the group, as values.
 #[derive(Clone, Debug)]
@@ -124,7 +125,9 @@ pub trait AnyStepper<S, V> {
 
 impl<S: Scalar, V: State<S>, T: Stepper<S, State = V>> AnyStepper<S, V> for T {
     fn step(&mut self, mu: &mut V) -> Result<StepReport, StepFailure> {
-        Stepper::step(self, mu, &mut Motions::unasked())
+        // it stays empty: there is nothing to be dropped behind every step
+        let mut motions = ManuallyDrop::new(Motions::unasked());
+        Stepper::step(self, mu, &mut *motions)
     }
 
     fn step_with_motions(

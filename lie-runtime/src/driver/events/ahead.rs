@@ -21,11 +21,6 @@ pub(in crate::driver) struct Ahead<V> {
 }
 
 impl<V> Ahead<V> {
-    /// Nothing.
-    pub(in crate::driver) fn nothing() -> Self {
-        Self { events: Vec::new() }
-    }
-
     /// When the run stops, if it does.
     pub(in crate::driver) fn stop(&self) -> Option<f64> {
         let last = self.events.last().filter(|event| event.stops);
@@ -72,7 +67,8 @@ impl<S: Scalar, P: Poisson<S>> Course<'_, S, P> {
         }
     }
 
-    /// Looks at the step that begins here. Where it is one alone that shows no motion on the group, it is made for that.
+    /// Looks at the step that begins here, if there is one that can be made. Where it is one alone that shows no motion on the group, it is
+    /// made for that.
     pub(in crate::driver) fn look_ahead<'s>(
         &mut self,
         system: &'s P,
@@ -81,9 +77,9 @@ impl<S: Scalar, P: Poisson<S>> Course<'_, S, P> {
         mu: &P::State,
         (stepper, made): (&mut KeptStepper<'s, S, P>, &mut Made<P::State>),
         observer: &dyn Observer<S, P>,
-    ) -> Result<Ahead<P::State>, IntegrateError> {
+    ) -> Result<Option<Ahead<P::State>>, IntegrateError> {
         let Some(time) = self.ahead() else {
-            return Ok(Ahead::nothing());
+            return Ok(None);
         };
         let piece = (self.grid.time(self.index), time);
         let held = observer
@@ -106,20 +102,20 @@ impl<S: Scalar, P: Poisson<S>> Course<'_, S, P> {
                 end.copy_from(state);
                 set_time(system, &mut end, time);
             }
-            Some(Err(_)) => return Ok(Ahead::nothing()),
+            Some(Err(_)) => return Ok(None),
             None => {
                 let stats = self.stats;
                 let joints = joints.as_deref_mut();
                 let reached = self.off_grid(system, joints, time, &mut end, &mut held.clone());
                 self.stats = stats;
                 if reached.is_err() {
-                    return Ok(Ahead::nothing());
+                    return Ok(None);
                 }
             }
         }
-        Ok(Ahead {
+        Ok(Some(Ahead {
             events: self.events_until(system, joints, events, (mu, (time, &end)), held),
-        })
+        }))
     }
 
     /// The last row of a run that stops at an event.
