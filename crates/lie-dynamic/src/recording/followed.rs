@@ -19,6 +19,8 @@ const LONGEST_REST: u32 = 32;
 pub(super) struct Followed<'a, S: Scalar> {
     pub system: &'a Dynamic<S>,
     pub h: [S; 1],
+    /// How many numbers a state has.
+    size: usize,
     tree: Arc<Tree>,
     /// Each part is made ready when it is reached; `None` where the engine makes no machine.
     ready: Vec<OnceCell<Option<Ready<S>>>>,
@@ -47,6 +49,7 @@ impl<'a, S: Scalar> Followed<'a, S> {
         Self {
             system,
             h: [h],
+            size,
             tree: Arc::default(),
             ready: Vec::new(),
             between: Vec::new(),
@@ -71,7 +74,7 @@ impl<'a, S: Scalar> Followed<'a, S> {
     }
 
     fn places(&self) -> Range<usize> {
-        self.system.values.compiled.plan.dimension()..self.last.len() - REPORTED
+        self.size..self.last.len() - REPORTED
     }
 
     /// What the stepper of a method would remember.
@@ -113,6 +116,7 @@ impl<'a, S: Scalar> Followed<'a, S> {
     }
 
     /// Counts a step; whether none is tried.
+    #[inline]
     pub fn rests(&mut self) -> bool {
         let rests = self.resting > 0;
         self.resting = self.resting.saturating_sub(1);
@@ -120,6 +124,7 @@ impl<'a, S: Scalar> Followed<'a, S> {
     }
 
     /// Makes a step by the trace that is for it, none if there is no such one. Where that is due `take` takes another one of the step.
+    #[inline]
     pub fn step(
         &mut self,
         known: &Traces,
@@ -152,6 +157,7 @@ impl<'a, S: Scalar> Followed<'a, S> {
         None
     }
 
+    #[inline]
     fn follow(&mut self, mu: &mut [S]) -> Option<StepReport> {
         let (places, tree) = (self.places(), &self.tree);
         let mut part = tree.parts.first()?;
@@ -203,10 +209,11 @@ impl<'a, S: Scalar> Followed<'a, S> {
 }
 
 /// The report of a step that gave these numbers, by a trace that made at most so much.
+#[inline]
 fn reported<S: Scalar>(most: &StepReport, numbers: &[S]) -> StepReport {
     // of the lane that misses least
-    let fewer = |number: S| (-largest(-number)) as u32;
-    let [all, plain, factored] = [1, 2, 3].map(|what| fewer(numbers[what]));
+    let fewer = |what: usize| (-largest(-numbers[what])) as u32;
+    let (all, plain, factored) = (fewer(1), fewer(2), fewer(3));
     StepReport {
         residual: largest(numbers[0]),
         iterations: most.iterations.saturating_sub(all),

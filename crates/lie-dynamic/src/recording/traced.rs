@@ -38,6 +38,8 @@ impl AnyMethod<f64, Dynamic<f64>> for TracedMethod {
         self.claims
     }
 
+    // for steps to be compiled where the method is asked for, which is optimised more
+    #[inline]
     fn any_stepper<'a>(
         &self,
         system: &'a Dynamic<f64>,
@@ -108,6 +110,7 @@ impl<'a> TracedStepper<'a> {
     }
 
     /// Has the memory where traces take it from.
+    #[inline]
     fn remember(&mut self) {
         if self.is_ahead {
             let mut places = self.followed.memory_mut().iter_mut();
@@ -145,6 +148,7 @@ impl<'a> TracedStepper<'a> {
     }
 
     /// A step by a trace, if there is one for it.
+    #[inline]
     fn by_trace(&mut self, mu: &mut [f64]) -> Option<StepReport> {
         if self.followed.rests() {
             return None;

@@ -36,6 +36,8 @@ impl AnyMethod<Wide, Dynamic<Wide>> for TracedInLanes {
         self.alone.claims()
     }
 
+    // for steps to be compiled where the method is asked for, which is optimised more
+    #[inline]
     fn any_stepper<'a>(
         &self,
         system: &'a Dynamic<Wide>,
@@ -84,6 +86,7 @@ impl TracedLanes<'_> {
     }
 
     /// Has the memory of all where traces take it from.
+    #[inline]
     fn remember(&mut self) {
         if !self.are_ahead {
             return;
@@ -112,6 +115,7 @@ impl TracedLanes<'_> {
     }
 
     /// A step of all by a trace, if there is one for it.
+    #[inline]
     fn by_trace(&mut self, mu: &mut [Wide]) -> Option<StepReport> {
         if self.followed.rests() {
             return None;
