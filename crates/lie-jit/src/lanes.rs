@@ -84,10 +84,7 @@ impl Machine<Wide> for Lanes {
                 self.run(code, &frame.with_second(from), [to, &mut []]);
             });
         };
-        // each is read and written
-        let lengths = &self.lengths[code];
-        lengths.check(&frame.with_second(one), &[&mut *other, &mut []]);
-        lengths.check(&frame.with_second(other), &[&mut *one, &mut []]);
+        self.lengths[code].check_in_turns(frame, SECOND, [&*one, &*other]);
         let mut table = frame.slices().map(|slice| slice.as_ptr().cast::<f64>());
         table[SECOND] = one.as_mut_ptr().cast::<f64>().cast_const();
         let vector = other.as_mut_ptr().cast::<f64>();

@@ -172,15 +172,18 @@ impl Entry {
         let mut vector = vector.as_mut_ptr().cast::<f64>();
         let mut matrix = matrix.as_mut_ptr().cast::<f64>();
         let lanes = size_of::<S>() / size_of::<f64>();
-        for first in (0..lanes).step_by(self.at_once) {
-            if first > 0 {
-                table = table.map(|slice| slice.wrapping_add(self.at_once));
-                vector = vector.wrapping_add(self.at_once);
-                matrix = matrix.wrapping_add(self.at_once);
-            }
+        let mut done = 0;
+        loop {
             // SAFETY: every slice is as long as the code needs, what is written is borrowed for writing, and a number is
             // its lanes one behind the other, of which the function takes so many from the first on; they divide the lanes.
             unsafe { (self.function)(table.as_ptr(), vector, matrix) }
+            done += self.at_once;
+            if done >= lanes {
+                return;
+            }
+            table = table.map(|slice| slice.wrapping_add(self.at_once));
+            vector = vector.wrapping_add(self.at_once);
+            matrix = matrix.wrapping_add(self.at_once);
         }
     }
 }

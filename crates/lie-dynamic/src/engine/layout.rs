@@ -68,6 +68,32 @@ impl Lengths {
         }
     }
 
+    /// Compares them with what a code is called with of which one slice takes turns with the vector that it gives: each of both is read
+    /// and written.
+    ///
+    /// # Panics
+    /// A slice is shorter than the code needs, or it gives a matrix.
+    #[inline]
+    pub fn check_in_turns<S>(&self, frame: &Frame<'_, S>, turning: usize, both: [&[S]; 2]) {
+        let slices = frame.slices();
+        let shorter = both[0].len().min(both[1].len());
+        for (slice, least) in &self.inputs {
+            let length = match *slice == turning {
+                true => shorter,
+                false => slices[*slice].len(),
+            };
+            assert!(length >= *least, "a slice is too short for its code");
+        }
+        assert!(
+            shorter >= self.outputs[0],
+            "a target is too short for its code"
+        );
+        assert!(
+            self.outputs[1] == 0,
+            "a code that is repeated has no matrix"
+        );
+    }
+
     /// Compares them with what a code is called with.
     ///
     /// # Panics
