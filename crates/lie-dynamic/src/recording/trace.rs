@@ -15,6 +15,7 @@ use lie_runtime::newton::NewtonOptions;
 #[cfg(doc)]
 use lie_runtime::scalar::Counted;
 use std::cell::Cell;
+use std::sync::OnceLock;
 
 /// How many numbers a report has: a residual, and by how much less than its own of each thing that is [counted](Counted).
 pub(super) const REPORTED: usize = 4;
@@ -28,6 +29,8 @@ pub(crate) struct Trace {
     /// The state at the end, the memory of the stepper, and [what it reports](REPORTED).
     pub(super) gives: Vec<Register>,
     pub(super) report: StepReport,
+    /// What crosses each of the things that were asked, once it was wanted.
+    pub(super) crossings: Box<[OnceLock<Vec<Register>>]>,
 }
 
 /// What became of a trace.
@@ -92,6 +95,7 @@ impl Trace {
         };
         Taken::Trace(Box::new(Self {
             gives: gives.into_iter().map(|number| number.register).collect(),
+            crossings: guards.iter().map(|_| OnceLock::new()).collect(),
             guards,
             written,
             report,

@@ -6,6 +6,7 @@ use super::trace::Trace;
 use crate::code::{Code, Register, Source};
 use lie_runtime::methods::StepReport;
 use std::collections::BTreeSet;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// The argument that has what parts have given to later ones.
@@ -26,6 +27,19 @@ pub(super) struct Part {
     /// are not told apart are the expected ones, and the one by which it goes on.
     pub codes: Arc<[Code]>,
     pub next: Next,
+    origin: Origin,
+}
+
+/// What a part is made of: the same has the same codes in every tree of these traces.
+#[derive(Debug, PartialEq)]
+struct Origin {
+    /// The trace, by its number.
+    trace: usize,
+    /// What is asked of it within the part.
+    asked: Range<usize>,
+    /// What parts before give, and what this one gives to others, or as the end of the step.
+    given: Vec<Register>,
+    gives: Vec<Register>,
 }
 
 /// What comes after a part.
@@ -44,10 +58,10 @@ pub(super) enum Next {
 }
 
 impl Tree {
-    /// Of traces that part from one another, with the codes of a tree of some of them where they are the same.
+    /// Of traces that part from one another, with the codes of a tree of the first of them where they are the same.
     pub fn new(traces: &[Arc<Trace>], before: &Self) -> Self {
         let mut tree = Self::default();
-        let all: Vec<&Trace> = traces.iter().map(Arc::as_ref).collect();
+        let all: Vec<(usize, &Trace)> = traces.iter().map(Arc::as_ref).enumerate().collect();
         tree.grow(&all, 0, &[], before);
         tree
     }
@@ -55,73 +69,85 @@ impl Tree {
     /// Adds what these traces do from one of the things on that are asked, given numbers of parts before; its place.
     fn grow(
         &mut self,
-        traces: &[&Trace],
+        traces: &[(usize, &Trace)],
         asked: usize,
         given: &[Register],
         before: &Self,
     ) -> usize {
-        let [first, others @ ..] = traces else {
+        let [(number, first), others @ ..] = traces else {
             unreachable!("every answer is that of a trace");
         };
         let place = self.parts.len();
-        let parting = others.iter().filter_map(|other| first.parting(other)).min();
-        let conditions = &first.guards[asked..parting.unwrap_or(first.guards.len())];
+        let partings = others.iter().filter_map(|(_, other)| first.parting(other));
+        let parting = partings.min();
+        let mut origin = Origin {
+            trace: *number,
+            asked: asked..parting.unwrap_or(first.guards.len()),
+            given: given.to_vec(),
+            gives: first.gives.clone(),
+        };
         let Some(parting) = parting else {
-            self.push(first, conditions, given, (&first.gives, None), before);
+            self.push(first, origin, before);
             return place;
         };
-        let question = first.guards[parting];
-        let crossing = traces.iter().flat_map(|trace| trace.crossing(parting));
-        let gives: BTreeSet<Register> = crossing.filter(|new| !given.contains(new)).collect();
-        let gives: Vec<Register> = gives.into_iter().collect();
-        self.push(first, conditions, given, (&gives, Some(question)), before);
-        let all = [given, &gives].concat();
+        let crossing = traces.iter().flat_map(|(_, trace)| trace.crossing(parting));
+        let gives: BTreeSet<Register> = crossing.copied().collect();
+        let gives = gives.into_iter().filter(|new| !given.contains(new));
+        origin.gives = gives.collect();
+        let all = [given, &origin.gives].concat();
+        self.push(first, origin, before);
         self.between = self.between.max(all.len());
         let parts = [false, true].map(|answer| {
             let such = traces.iter().copied();
-            let such: Vec<&Trace> = such
-                .filter(|trace| trace.guards[parting].expected == answer)
+            let such: Vec<(usize, &Trace)> = such
+                .filter(|(_, trace)| trace.guards[parting].expected == answer)
                 .collect();
             self.grow(&such, parting + 1, &all, before)
         });
         self.parts[place].next = Next::Question {
             from: given.len(),
-            every: question.every,
+            every: first.guards[parting].every,
             parts,
         };
         place
     }
 
-    fn push(
-        &mut self,
-        trace: &Trace,
-        conditions: &[Guard],
-        given: &[Register],
-        (gives, question): (&[Register], Option<Guard>),
-        before: &Self,
-    ) {
-        let sources = (0..).zip(given);
-        let sources = sources.map(|(place, number)| (*number, Source::Argument(BETWEEN, place)));
-        let sources: Vec<(Register, Source)> = sources.collect();
-        let conditions = conditions.iter().filter(|guard| guard.is_condition);
-        let conditions: Vec<Guard> = conditions.copied().collect();
-        let asked = question.map(|question| question.register);
-        let codes = trace.written.part(&sources, gives, &conditions, asked);
-        let mut known = before.parts.iter().map(|part| &part.codes);
-        let known = known.find(|known| known[..] == codes).cloned();
+    fn push(&mut self, trace: &Trace, origin: Origin, before: &Self) {
+        let known = before.parts.iter().find(|part| part.origin == origin);
+        let codes = match known {
+            Some(known) => Arc::clone(&known.codes),
+            None => Arc::from(trace.part(&origin)),
+        };
         self.parts.push(Part {
-            codes: known.unwrap_or_else(|| Arc::from(codes)),
+            codes,
             next: Next::End(trace.report),
+            origin,
         });
     }
 }
 
 impl Trace {
+    /// The codes of a part of it.
+    fn part(&self, origin: &Origin) -> [Code; 2] {
+        let sources = (0..).zip(&origin.given);
+        let sources = sources.map(|(place, number)| (*number, Source::Argument(BETWEEN, place)));
+        let sources: Vec<(Register, Source)> = sources.collect();
+        let conditions = self.guards[origin.asked.clone()].iter();
+        let conditions = conditions.filter(|guard| guard.is_condition);
+        let conditions: Vec<Guard> = conditions.copied().collect();
+        let question = self.guards.get(origin.asked.end);
+        let asked = question.map(|question| question.register);
+        self.written
+            .part(&sources, &origin.gives, &conditions, asked)
+    }
+
     /// The numbers that were there when something was asked, and are needed after it.
-    fn crossing(&self, asked: usize) -> Vec<Register> {
-        let later = &self.guards[asked + 1..];
-        let later = later.iter().map(|guard| guard.register);
-        let wanted: Vec<Register> = self.gives.iter().copied().chain(later).collect();
-        self.written.crossing(self.guards[asked].at, &wanted)
+    fn crossing(&self, asked: usize) -> &[Register] {
+        self.crossings[asked].get_or_init(|| {
+            let later = &self.guards[asked + 1..];
+            let later = later.iter().map(|guard| guard.register);
+            let wanted: Vec<Register> = self.gives.iter().copied().chain(later).collect();
+            self.written.crossing(self.guards[asked].at, &wanted)
+        })
     }
 }
