@@ -199,6 +199,10 @@ impl<S: Scalar, P: Poisson<S>, C: Crew<S, P::State>> Relay<S, P::State> for Memb
 }
 
 /// The lanes of a mask.
-fn lanes(bits: u64) -> impl Iterator<Item = usize> {
-    (0..64).filter(move |lane| bits >> lane & 1 == 1)
+fn lanes(mut bits: u64) -> impl Iterator<Item = usize> {
+    core::iter::from_fn(move || {
+        let lane = bits.trailing_zeros();
+        bits &= bits.wrapping_sub(1);
+        (lane < u64::BITS).then_some(lane as usize)
+    })
 }

@@ -111,6 +111,7 @@ pub mod moser_veselov;
 pub mod ninomiya_victoir;
 pub mod orbit_energy;
 pub mod projection;
+mod radius;
 mod realized;
 pub mod rk4;
 pub mod rkmk;

@@ -3,7 +3,8 @@
 //! In this unit no coefficient overflows or vanishes because of its order, whatever the rates of the system are. Powers of two
 //! are exact: the unit changes no digit of the solution.
 
-use super::development::{Pace, Radius, Rows};
+use super::development::{Pace, Rows};
+use super::radius::Radius;
 use super::rough_log::{binary_log, power_of_two, rounded};
 use crate::clock::{Clock, norm};
 use crate::scalar::{Mask, Scalar, largest};
@@ -104,13 +105,21 @@ impl<S: Scalar> TimeUnit<S> {
     ) -> S::Mask {
         self.trials += 1;
         let mut again = 0;
-        for lane in (0..S::LANES).filter(|lane| lanes.lane(*lane)) {
+        let active = || (0..S::LANES).filter(|lane| lanes.lane(*lane));
+        let steps = step * self.inverse;
+        let mut radii = [Radius::Infinite; MOST_LANES];
+        for rows in series {
+            let usual = pace.usual::<S, V>(rows, clock);
+            for lane in active() {
+                let step = steps.lane(lane).to_f64().abs();
+                let radius = usual.radius(lane);
+                let radius = radius.unwrap_or_else(|| pace.radius(rows, lane, step, clock));
+                radii[lane] = radii[lane].smaller(radius);
+            }
+        }
+        for lane in active() {
             let unit = self.exponents[lane].unwrap_or(0);
-            let step = (step * self.inverse).lane(lane).to_f64().abs();
-            let radius = series
-                .iter()
-                .map(|rows| pace.radius(rows, lane, step, clock))
-                .fold(Radius::Infinite, Radius::smaller);
+            let radius = radii[lane];
             let (shift, wanted) = match radius {
                 Radius::Infinite => (0, false),
                 Radius::Log(log) => (rounded(log), rounded(log).abs() > FARTHEST),
