@@ -24,7 +24,7 @@ pub fn identity() -> &'static str {
     static IDENTITY: OnceLock<String> = OnceLock::new();
     IDENTITY.get_or_init(|| {
         let key = files().into_iter().fold(Key::new(), |key, (path, text)| {
-            key.update(&path.to_string_lossy()).update(text)
+            key.update(&path.to_string_lossy()).long(text)
         });
         format!("{}-{}", env!("CARGO_PKG_VERSION"), key.hex())
     })
