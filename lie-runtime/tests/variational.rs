@@ -13,7 +13,7 @@ use lie_runtime::prelude::*;
 use lie_runtime::{Equation, Implicit, Unknown};
 use nalgebra::{SMatrix, SVector};
 use systems::quartic_lagrangian::{BODY, LINE, QuarticBody, QuarticLine};
-use systems::{daily, distance, jacobian_against_differences, state, steps};
+use systems::{distance, jacobian_against_differences, state, steps};
 
 /// `l'(xi)` at `xi = (0.9, 1.1)` of the system on aff(1).
 const LINE_START: [f64; 2] = [13.0 / 6.0, 2.4648];
@@ -79,7 +79,7 @@ where
         let mut first = variational.stepper(&system, h, &newton);
         let mut second = hamiltonian.stepper(&system, h, &newton);
         let (mut a, mut b) = (SVector::from(BODY), SVector::from(BODY));
-        for step in 1..=daily(500, 2000) {
+        for step in 1..=2000 {
             let mut once = a;
             second.step(&mut once, &mut ()).expect("a step");
             first.step(&mut a, &mut ()).expect("a step");

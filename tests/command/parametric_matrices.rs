@@ -86,7 +86,7 @@ fn runs_are_those_of_the_numbers() {
         ("stretched", stretched),
     ] {
         let parametric = written(folder.path(), &format!("{name}.json"), &make("3/2", false));
-        for k in ["1/3", "-3/4"] {
+        for k in ["3/2", "1/3", "-3/4", "5/2"] {
             let numbers = written(folder.path(), "numbers.json", &make(k, true));
             for method in METHODS {
                 let found = states(&parametric, &format!("{method} --param k={k}"));
