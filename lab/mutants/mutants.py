@@ -27,7 +27,7 @@ from methods import METHODS
 
 ROOT = Path(__file__).resolve().parents[2]
 # crates whose tests hold what the runtime, the compiler and the command do
-PACKAGES = ["lie-core", "lie-runtime", "runtime-tests", "lie-program", "lie-measure", "lie-syntax", "lie-symbolic", "lie-codegen",
+PACKAGES = ["lie-core", "lie-runtime", "runtime-tests", "unit-tests", "lie-program", "lie-measure", "lie-syntax", "lie-symbolic", "lie-codegen",
             "lie-judge", "lie-dynamic", "lie-dense", "lie-in-process", "lie-plot", "lie-poisson"]
 LEFT_OUT = re.compile(r"(^|/)(tests?|benches|examples)(/|\.rs$)|_tests\.rs$|^(lab|lie-python|crates/lie-wasm)/|build\.rs$|^crates/(spec-systems|no-std-check)/")
 MODULE = """

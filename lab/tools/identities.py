@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The verdicts of the prover on random identities, against mpmath: shares no code with the compiler.
 
-    LIE_IDENTITIES=10000 LIE_IDENTITIES_SHOWN=1 cargo test -p lie-symbolic --lib no_verdict -- --nocapture > verdicts.txt
+    LIE_IDENTITIES=10000 LIE_IDENTITIES_SHOWN=1 cargo test -p unit-tests --test unit_symbolic no_verdict -- --nocapture > verdicts.txt
     python lab/tools/identities.py verdicts.txt
 
 Each line of the file is `verdict|value|change|expression`. The expression is evaluated with 75 digits (400, where
