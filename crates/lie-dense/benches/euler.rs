@@ -4,17 +4,21 @@
 //! one line of JSON each for N = 32, 64, 128, and writes the states after the steps to `ours_N_….bin`. With `--long` behind the
 //! folder: spectrum and energy over 10,000 steps instead.
 
-use faer::linalg::matmul::{matmul, triangular};
-use faer::{Accum, Mat, MatMut, MatRef, Par, c64};
+#[path = "../src/triangle.rs"]
+mod triangle;
+
 use lie_dense::{MatrixFlow, SkewHermitian, SpectrumMonitor, SphereEuler, StreamMap, spectrum};
 use lie_runtime::diagnostics::DriftMonitor;
 use lie_runtime::driver::{Options, Save, solve_observed};
 use lie_runtime::methods::{Isospectral2, Method, StepReport, Stepper};
 use lie_runtime::newton::NewtonOptions;
 use lie_runtime::{Scalar, State};
+use nalgebra::Complex;
+use ndarray::linalg::general_mat_mul;
+use ndarray::{Array2, LinalgScalar, ShapeBuilder};
 use rustix::time::{ClockId, clock_gettime};
 use std::path::Path;
-use triangular::BlockStructure::{Rectangular, TriangularLower};
+use triangle::lower_product;
 
 const STEPS: usize = 100;
 
@@ -34,75 +38,34 @@ fn shortest(count: usize, mut call: impl FnMut()) -> f64 {
     times.fold(f64::INFINITY, f64::min)
 }
 
-/// The matrix products of an iteration alone: three, and three of which the lower triangle is computed.
-fn products(size: usize) -> f64 {
-    let stride = size + 8;
-    let entries = |seed: f64| -> Vec<f64> {
-        (0..stride * size)
-            .map(|k| (k as f64 * seed).sin())
-            .collect()
+/// The shortest time of so many products, each with one of which the lower triangle is computed.
+fn products_of<A: LinalgScalar>(size: usize, count: usize, entry: impl Fn(f64) -> A) -> f64 {
+    // the rows of a column are side by side, as in the step
+    let matrix = |seed: f64| -> Array2<A> {
+        let shape = (size, size).f();
+        Array2::from_shape_fn(shape, |(i, j)| entry(seed * (i * 31 + j * 17 + 1) as f64))
     };
-    let left = [0.1, 0.2, 0.3].map(entries);
-    let right = [0.4, 0.5, 0.6].map(entries);
-    let mut out = [0.7, 0.8, 0.9].map(entries);
-    fn get(entries: &[f64], size: usize) -> MatRef<'_, f64> {
-        MatRef::from_column_major_slice_with_stride(entries, size, size, size + 8)
-    }
+    let mut all: Vec<[Array2<A>; 3]> = (0..count)
+        .map(|k| [0.1, 0.4, 0.7].map(|seed| matrix(seed + 0.1 * k as f64)))
+        .collect();
     shortest(200, || {
-        for ((out, left), right) in out.iter_mut().zip(&left).zip(&right) {
-            let out = MatMut::from_column_major_slice_with_stride_mut(out, size, size, stride);
-            matmul(
-                out,
-                Accum::Replace,
-                get(left, size),
-                get(right, size),
-                1.0,
-                Par::Seq,
-            );
+        for [left, right, out] in &mut all {
+            general_mat_mul(A::one(), left, right, A::zero(), out);
         }
-        for ((out, left), right) in out.iter_mut().zip(&left).zip(&right) {
-            let out = MatMut::from_column_major_slice_with_stride_mut(out, size, size, stride);
-            let (left, right) = (get(left, size), get(right, size));
-            triangular::matmul(
-                out,
-                TriangularLower,
-                Accum::Replace,
-                left,
-                Rectangular,
-                right,
-                Rectangular,
-                1.0,
-                Par::Seq,
-            );
+        for [left, right, out] in &mut all {
+            lower_product(left.view(), right.view(), out.view_mut());
         }
     })
 }
 
+/// The matrix products of an iteration alone: three, and three of which the lower triangle is computed.
+fn products(size: usize) -> f64 {
+    products_of(size, 3, f64::sin)
+}
+
 /// The same by complex products: one, and one of which the lower triangle is computed.
 fn complex_products(size: usize) -> f64 {
-    let entry = |row: usize, column: usize| {
-        let angle = (row * 31 + column * 17) as f64;
-        c64::new((0.1 * angle).sin(), (0.3 * angle).cos())
-    };
-    let one = c64::new(1.0, 0.0);
-    let left = Mat::from_fn(size, size, entry);
-    let right = Mat::from_fn(size, size, |row, column| entry(column, row + 1));
-    let mut out = Mat::<c64>::zeros(size, size);
-    shortest(200, || {
-        let (left, right) = (left.as_ref(), right.as_ref());
-        matmul(out.as_mut(), Accum::Replace, left, right, one, Par::Seq);
-        triangular::matmul(
-            out.as_mut(),
-            TriangularLower,
-            Accum::Replace,
-            left,
-            Rectangular,
-            right,
-            Rectangular,
-            one,
-            Par::Seq,
-        );
-    })
+    products_of(size, 1, |angle| Complex::new(angle.sin(), angle.cos()))
 }
 
 fn numbers(path: &Path) -> Vec<f64> {

@@ -36,8 +36,8 @@
 //!
 //! # Same input, same bits
 //!
-//! Within one build on one processor. The matrix products are those of the library faer, which chooses its kernels by the
-//! processor at run time: another processor may round differently. It packs its arguments into memory of its own; besides
+//! Within one build on one processor. The matrix products are those of the library matrixmultiply, which chooses its kernels by
+//! the processor at run time: another processor may round differently. It packs its arguments into memory of its own; besides
 //! this a step allocates nothing.
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
@@ -52,6 +52,7 @@ mod spectrum;
 mod sphere;
 mod stream;
 mod system;
+mod triangle;
 
 pub use isospectral::IsospectralStepper;
 pub use skew::{ShapeError, SkewHermitian};

@@ -6,8 +6,8 @@
 )]
 
 use crate::skew::{SkewHermitian, imaginary_start, real_start};
-use faer::{MatMut, MatRef};
 use lie_runtime::State;
+use ndarray::{ArrayView2, ArrayViewMut2, ShapeBuilder};
 
 /// Columns are farther apart than rows are many: a distance of a power of two would put a row into few lines of the cache.
 const PADDING: usize = 8;
@@ -33,22 +33,20 @@ impl Plane {
         }
     }
 
-    pub(crate) fn get(&self) -> MatRef<'_, f64> {
-        MatRef::from_column_major_slice_with_stride(
-            &self.entries[..self.stride * self.size],
-            self.size,
-            self.size,
-            self.stride,
-        )
+    pub(crate) fn view(&self) -> ArrayView2<'_, f64> {
+        let shape = (self.size, self.size).strides((1, self.stride));
+        match ArrayView2::from_shape(shape, &self.entries) {
+            Ok(view) => view,
+            Err(error) => unreachable!("there are as many entries: {error}"),
+        }
     }
 
-    pub(crate) fn get_mut(&mut self) -> MatMut<'_, f64> {
-        MatMut::from_column_major_slice_with_stride_mut(
-            &mut self.entries[..self.stride * self.size],
-            self.size,
-            self.size,
-            self.stride,
-        )
+    pub(crate) fn view_mut(&mut self) -> ArrayViewMut2<'_, f64> {
+        let shape = (self.size, self.size).strides((1, self.stride));
+        match ArrayViewMut2::from_shape(shape, &mut self.entries) {
+            Ok(view) => view,
+            Err(error) => unreachable!("there are as many entries: {error}"),
+        }
     }
 
     /// A square, columns first; beyond the matrix it is of no meaning.

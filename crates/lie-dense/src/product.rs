@@ -6,15 +6,14 @@
 //! X P = (X1 A - X2 S) + i ((X1 + X2)(A + S) - X1 A - X2 S)
 //! ```
 //!
-//! The products are faer's, which chooses its kernels by the processor.
+//! The real products are those of ndarray, by the library matrixmultiply, which chooses its kernels by the processor.
 
 use crate::plane::{Plane, Tile, block, block_mut, load, scaled, store, tiles, transposed, zipped};
 use crate::skew::{SkewHermitian, places};
-use faer::linalg::matmul::{matmul, triangular};
-use faer::{Accum, Par};
+use crate::triangle::lower_product;
 use lie_runtime::State;
+use ndarray::linalg::general_mat_mul;
 use pulp::{Arch, NullaryFnOnce};
-use triangular::BlockStructure::{Rectangular, TriangularLower};
 
 /// Three real matrices: of a skew-Hermitian one `A + i S` they are A, S, A + S; of any `X1 + i X2` X1, X2, X1 + X2.
 #[derive(Clone, Debug)]
@@ -66,8 +65,7 @@ impl Planes {
             (&mut self.imaginary, &left.imaginary, &right.imaginary),
             (&mut self.sum, &left.sum, &right.sum),
         ] {
-            let (left, right) = (left.get(), right.get());
-            matmul(out.get_mut(), Accum::Replace, left, right, 1.0, Par::Seq);
+            general_mat_mul(1.0, &left.view(), &right.view(), 0.0, &mut out.view_mut());
         }
         widest(Combine(self, change));
     }
@@ -102,24 +100,14 @@ impl Planes {
         [re, im]
     }
 
-    /// The three products of `left right` below and on the diagonal, for [`Planes::skew_entries`].
+    /// The three products of `left right` below and on the diagonal, for [`Planes::advance`].
     pub(crate) fn multiply_below(&mut self, left: &Self, right: &Self) {
         for (out, left, right) in [
             (&mut self.real, &left.real, &right.real),
             (&mut self.imaginary, &left.imaginary, &right.imaginary),
             (&mut self.sum, &left.sum, &right.sum),
         ] {
-            triangular::matmul(
-                out.get_mut(),
-                TriangularLower,
-                Accum::Replace,
-                left.get(),
-                Rectangular,
-                right.get(),
-                Rectangular,
-                1.0,
-                Par::Seq,
-            );
+            lower_product(left.view(), right.view(), out.view_mut());
         }
     }
 

@@ -4,21 +4,24 @@ use crate::skew::SkewHermitian;
 use crate::stream::StreamMap;
 use crate::system::MatrixFlow;
 use core::ops::ControlFlow;
-use faer::{Mat, Side, c64};
+use lie_runtime::State;
 use lie_runtime::driver::{Observer, Progress};
+use nalgebra::{Complex, DMatrix};
 
 /// The eigenvalues of the Hermitian matrix `-i W`, in increasing order; not numbers where W is not finite.
 ///
 /// They determine every Casimir of u(N), `tr (-i W)^k` for all k.
 pub fn spectrum(w: &SkewHermitian) -> Vec<f64> {
-    let matrix = Mat::from_fn(w.size(), w.size(), |row, column| {
-        let (re, im) = w.entry(row, column);
-        c64::new(im, -re)
-    });
-    match matrix.self_adjoint_eigenvalues(Side::Lower) {
-        Ok(values) => values,
-        Err(_) => vec![f64::NAN; w.size()],
+    if !w.as_slice().iter().all(|entry| entry.is_finite()) {
+        return vec![f64::NAN; w.size()];
     }
+    let matrix = DMatrix::from_fn(w.size(), w.size(), |row, column| {
+        let (re, im) = w.entry(row, column);
+        Complex::new(im, -re)
+    });
+    let mut values = matrix.symmetric_eigenvalues().as_slice().to_vec();
+    values.sort_by(f64::total_cmp);
+    values
 }
 
 /// An observer that compares the spectrum of each saved state with that of the first.
