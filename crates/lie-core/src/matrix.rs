@@ -40,11 +40,11 @@ impl<S: Scalar, const N: usize> SquareMatrix<S> for SMatrix<S, N, N> {
     }
     #[inline(always)]
     fn get(&self, row: usize, column: usize) -> S {
-        self[(row, column)]
+        self.data.0[column][row]
     }
     #[inline(always)]
     fn set(&mut self, row: usize, column: usize, value: S) {
-        self[(row, column)] = value;
+        self.data.0[column][row] = value;
     }
 }
 

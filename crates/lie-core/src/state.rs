@@ -196,8 +196,21 @@ macro_rules! one_part {
     };
 }
 
+/// As `SVector::as_slice`, without its calls in crates that are not optimised.
 #[cfg(any(feature = "nalgebra", test))]
-one_part!(SVector<S, N>, [const N: usize], SVector::as_slice, SVector::as_mut_slice, |state: &mut Self| *state, |to: &mut Self, from: &mut Self| *to = *from);
+#[inline(always)]
+fn column<S, const N: usize>(state: &SVector<S, N>) -> &[S] {
+    &state.data.0[0]
+}
+
+#[cfg(any(feature = "nalgebra", test))]
+#[inline(always)]
+fn column_mut<S, const N: usize>(state: &mut SVector<S, N>) -> &mut [S] {
+    &mut state.data.0[0]
+}
+
+#[cfg(any(feature = "nalgebra", test))]
+one_part!(SVector<S, N>, [const N: usize], column, column_mut, |state: &mut Self| *state, |to: &mut Self, from: &mut Self| *to = *from);
 one_part!([S; N], [const N: usize], <[S; N]>::as_slice, <[S; N]>::as_mut_slice, |state: &mut Self| *state, |to: &mut Self, from: &mut Self| *to = *from);
 #[cfg(feature = "std")]
 one_part!(

@@ -34,10 +34,12 @@ macro_rules! facts {
             names[index]
         }
         fn zero_state(&self) -> Self::State {
-            Self::State::repeat(<$scalar as lie_runtime::Scalar>::zero())
+            let zero = <$scalar as lie_runtime::Scalar>::zero();
+            Self::State::from_array_storage(nalgebra::ArrayStorage([[zero; _]; _]))
         }
         fn zero_jacobian(&self) -> Self::Jacobian {
-            Self::Jacobian::repeat(<$scalar as lie_runtime::Scalar>::zero())
+            let zero = <$scalar as lie_runtime::Scalar>::zero();
+            Self::Jacobian::from_array_storage(nalgebra::ArrayStorage([[zero; _]; _]))
         }
     };
 }

@@ -8,11 +8,11 @@ macro_rules! double {
     (program $name:ident) => { elementary::$name };
     (angle $name:ident) => { elementary::one::$name };
     ($($variant:ident $name:ident $single:ident $from:ident $what:literal $facts:tt)+) => {
-        $(#[inline]
+        $(#[cfg_attr(not(debug_assertions), inline)]
         fn $name(self) -> Self {
             double!($from $name)(self)
         })+
-        #[inline]
+        #[cfg_attr(not(debug_assertions), inline)]
         fn sin_cos(self) -> (Self, Self) {
             elementary::one::sin_cos(self)
         }
@@ -22,7 +22,7 @@ macro_rules! double {
 /// The elementary functions in single precision.
 macro_rules! single {
     ($($variant:ident $name:ident $single:ident $from:ident $what:literal $facts:tt)+) => {
-        $(#[inline]
+        $(#[cfg_attr(not(debug_assertions), inline)]
         fn $name(self) -> Self {
             libm::$single(self)
         })+
@@ -109,7 +109,7 @@ macro_rules! float_scalar {
                 $abs(self)
             }
             /// Without the sign, bits are ordered like the numbers, and what is not a number comes last.
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn largest_magnitude(numbers: &[Self]) -> Self {
                 let largest = numbers.iter().fold(0, |largest, number| {
                     Ord::max(largest, number.to_bits() << 1)
@@ -121,11 +121,11 @@ macro_rules! float_scalar {
                 $sqrt(self)
             }
             crate::elementary_functions!($functions);
-            #[inline]
+            #[cfg_attr(not(debug_assertions), inline)]
             fn atan2(self, x: Self) -> Self {
                 $atan2(self, x)
             }
-            #[inline]
+            #[cfg_attr(not(debug_assertions), inline)]
             fn powf(self, exponent: Self) -> Self {
                 $pow(self, exponent)
             }

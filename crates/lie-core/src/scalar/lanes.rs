@@ -2,7 +2,10 @@
 //!
 //! Arithmetic and square roots are the vector's, which round like the scalar ones. Elementary functions that are programs are done in
 //! all lanes at once, the others lane by lane, because the vector's own differ in the last bits.
+//!
+//! In the development profile they are calls: inlined into a crate without optimisation, an operation on eight numbers is some thirty calls.
 
+mod exchange;
 mod primitive;
 
 use super::{Mask, Scalar, elementary};
@@ -15,13 +18,13 @@ macro_rules! lane_operator {
     ($name:ident, $($trait:ident $method:ident $assign_trait:ident $assign:ident),*) => {$(
         impl $trait for $name {
             type Output = Self;
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn $method(self, other: Self) -> Self {
                 Self($trait::$method(self.0, other.0))
             }
         }
         impl $assign_trait for $name {
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn $assign(&mut self, other: Self) {
                 *self = $trait::$method(*self, other);
             }
@@ -32,7 +35,7 @@ macro_rules! lane_operator {
 /// Elementary functions lane by lane.
 macro_rules! by_lanes {
     ($name:ident) => {
-        #[inline]
+        #[cfg_attr(not(debug_assertions), inline)]
         fn $name(self) -> Self {
             self.map(<Self::Lane as Scalar>::$name)
         }
@@ -48,7 +51,7 @@ macro_rules! at_once {
         by_lanes!($name);
     };
     (program $name:ident) => {
-        #[inline]
+        #[cfg_attr(not(debug_assertions), inline)]
         fn $name(self) -> Self {
             elementary::$name(self)
         }
@@ -57,7 +60,7 @@ macro_rules! at_once {
         at_once!(angle $name -> Self);
     };
     (angle $name:ident -> $result:ty) => {
-        #[inline]
+        #[cfg_attr(not(debug_assertions), inline)]
         fn $name(self) -> $result {
             if elementary::is_small(self).all() {
                 elementary::small::$name(self)
@@ -87,13 +90,13 @@ macro_rules! lanes {
 
         impl $name {
             /// The number of every lane.
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             pub fn new(lanes: [$lane; $count]) -> Self {
                 Self(<$vector>::new(lanes))
             }
 
             /// All lanes in order.
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             pub fn to_array(self) -> [$lane; $count] {
                 self.0.to_array()
             }
@@ -118,7 +121,7 @@ macro_rules! lanes {
 
         impl Neg for $name {
             type Output = Self;
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn neg(self) -> Self {
                 Self(-self.0)
             }
@@ -133,92 +136,92 @@ macro_rules! lanes {
             type Wide = super::Pack<Self>;
             const LANES: usize = $count;
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn zero() -> Self {
                 Self::splat(0.0)
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn one() -> Self {
                 Self::splat(1.0)
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn ratio(numerator: f64, denominator: f64) -> Self {
                 Self::splat(<$lane>::ratio(numerator, denominator))
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn constant(high: f64, low: f64) -> Self {
                 Self::splat(<$lane>::constant(high, low))
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn from_f64(value: f64) -> Self {
                 Self::splat(<$lane>::from_f64(value))
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn epsilon() -> Self {
                 Self::splat(<$lane>::EPSILON)
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn splat(lane: $lane) -> Self {
                 Self(<$vector>::splat(lane))
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn lane(self, index: usize) -> $lane {
                 self.to_array()[index]
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn with_lane(self, index: usize, lane: $lane) -> Self {
                 let mut lanes = self.to_array();
                 lanes[index] = lane;
                 Self::new(lanes)
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn to_f64(self) -> f64 {
                 f64::from(self.lane(0))
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn gather(numbers: [Self; 8]) -> Self::Wide {
                 super::Pack(numbers)
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn scatter(wide: Self::Wide) -> [Self; 8] {
                 wide.0
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn abs(self) -> Self {
                 Self(self.0.abs())
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn sqrt(self) -> Self {
                 Self(self.0.sqrt())
             }
             crate::elementary_functions!($functions);
-            #[inline]
+            #[cfg_attr(not(debug_assertions), inline)]
             fn atan2(self, x: Self) -> Self {
                 self.zip(x, <$lane as Scalar>::atan2)
             }
-            #[inline]
+            #[cfg_attr(not(debug_assertions), inline)]
             fn powf(self, exponent: Self) -> Self {
                 self.zip(exponent, <$lane as Scalar>::powf)
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn max(self, other: Self) -> Self {
                 let second = self.0.simd_lt(other.0) | other.0.is_nan();
                 Self(second.select(other.0, self.0))
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn less(self, other: Self) -> $mask {
                 $mask(self.0.simd_lt(other.0))
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn less_equal(self, other: Self) -> $mask {
                 $mask(self.0.simd_le(other.0))
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn finite(self) -> $mask {
                 // inf - inf and nan - nan are not numbers, and so not equal to 0
                 $mask((self.0 - self.0).simd_eq(<$vector>::splat(0.0)))
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn select(mask: $mask, yes: Self, no: Self) -> Self {
                 Self(mask.0.select(yes.0, no.0))
             }
@@ -238,7 +241,7 @@ macro_rules! lanes {
 
         impl BitAnd for $mask {
             type Output = Self;
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn bitand(self, other: Self) -> Self {
                 Self(self.0 & other.0)
             }
@@ -246,7 +249,7 @@ macro_rules! lanes {
 
         impl BitOr for $mask {
             type Output = Self;
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn bitor(self, other: Self) -> Self {
                 Self(self.0 | other.0)
             }
@@ -254,32 +257,32 @@ macro_rules! lanes {
 
         impl Not for $mask {
             type Output = Self;
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn not(self) -> Self {
                 Self(!self.0)
             }
         }
 
         impl Mask for $mask {
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn splat(value: bool) -> Self {
                 Self::from_bits(if value { u64::MAX } else { 0 })
             }
-            #[inline]
+            #[cfg_attr(not(debug_assertions), inline)]
             fn from_bits(bits: u64) -> Self {
                 Self(<$vector>::new(core::array::from_fn(|index| {
                     <$lane>::from_bits(if bits >> index & 1 == 1 { <$bits>::MAX } else { 0 })
                 })))
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn bits(self) -> u64 {
                 u64::from(self.0.to_bitmask())
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn all(self) -> bool {
                 self.0.all()
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn any(self) -> bool {
                 self.0.any()
             }
@@ -299,23 +302,6 @@ lanes!(
     /// Eight f32 in lanes: one AVX register or two of SSE2.
     F32x8, Mask32x8, wide::f32x8, f32, u32, 8, by_lanes
 );
-
-impl F64x8 {
-    /// The lanes with places i and i xor D exchanged.
-    #[inline(always)]
-    pub(super) fn exchange<const D: usize>(self) -> Self {
-        Self(super::registers::exchange::<D>(self.0))
-    }
-}
-
-impl F32x8 {
-    /// The lanes with places i and i xor D exchanged.
-    #[inline(always)]
-    pub(super) fn exchange<const D: usize>(self) -> Self {
-        let lanes = self.to_array();
-        Self::new(core::array::from_fn(|i| lanes[i ^ D]))
-    }
-}
 
 #[cfg(test)]
 mod tests {
