@@ -107,6 +107,7 @@ impl Pace {
     }
 
     /// How far a series with this radius is used, not a number if a coefficient is not finite.
+    #[inline]
     pub(super) fn used(&self, radius: Radius) -> f64 {
         match (self.part, radius) {
             (None, _) | (_, Radius::Infinite) => f64::INFINITY,

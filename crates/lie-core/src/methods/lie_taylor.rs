@@ -33,7 +33,7 @@ use super::projection::Projection;
 use super::series_stepper::{Developed, Development, SeriesStepper};
 use super::stepper::{FactorSink, Method, Retraction};
 use super::time_unit::TimeUnit;
-use crate::clock::Clock;
+use crate::clock::{Clock, norm};
 use crate::generic::{Scratch, coadjoint_action_in};
 use crate::newton::NewtonOptions;
 use crate::poisson::{LiePoisson, Poisson, Widen};
@@ -248,8 +248,8 @@ where
         copy_lanes(&mut self.rows[0], mu, lanes, lanes.all());
         let mut carry = self.recurrence.begin(mu, &mut self.field);
         let clock = self.clock();
-        self.unit
-            .begin(&self.pace, clock, [mu, &self.field], step, lanes);
+        let slope = || norm(clock, &self.field);
+        self.unit.begin(&self.pace, clock, (mu, slope), step, lanes);
         let mut open = lanes;
         loop {
             let all = open.all();

@@ -2,6 +2,7 @@
 
 use super::development::{Pace, Rows};
 use super::rough_log::binary_log;
+use super::time_unit::{MOST_LANES, each};
 use crate::clock::{Clock, holds};
 use crate::scalar::{Mask, Scalar};
 use crate::state::State;
@@ -19,6 +20,7 @@ pub(super) enum Radius {
 
 impl Radius {
     /// The smaller one, and one that is not known before all others.
+    #[inline(always)]
     pub(super) fn smaller(self, other: Self) -> Self {
         match (self, other) {
             (Self::Infinite, _) => other,
@@ -36,34 +38,26 @@ impl Pace {
         &self,
         rows: &Rows<V>,
         clock: Option<Clock>,
-    ) -> Usual<S> {
-        let none = Usual {
-            sizes: [S::zero(); 3],
-            order: self.order,
-            lanes: S::Mask::splat(false),
-        };
+    ) -> Usual {
         if self.part.is_none() || self.beside.is_some() || self.order < 2 {
-            return none;
+            return Usual::default();
         }
-        let rows = [0, self.order, self.order - 1].map(|k| &rows[k]);
+        let rows = [&rows[0], &rows[self.order], &rows[self.order - 1]];
         let finite = rows[1].finite() & rows[2].finite();
-        let [first, last, before] = rows.map(V::as_slice);
-        let begin = Usual {
-            lanes: finite,
-            ..none
-        };
-        (0..first.len())
-            .filter(|i| !holds(clock, *i))
-            .fold(begin, |usual, i| {
-                let [state, last, before] = [first[i], last[i], before[i]].map(S::abs);
-                let moves = S::zero().less(last) | S::zero().less(before);
-                let [a, b, c] = usual.sizes;
-                Usual {
-                    sizes: [a.max(state), b.max(last), c.max(before)],
-                    lanes: usual.lanes & moves,
-                    ..usual
-                }
-            })
+        let rows = [rows[0].as_slice(), rows[1].as_slice(), rows[2].as_slice()];
+        let (mut state, mut last, mut before) = (S::zero(), S::zero(), S::zero());
+        let mut lanes = finite;
+        for i in (0..rows[0].len()).filter(|i| !holds(clock, *i)) {
+            let (newest, older) = (rows[1][i].abs(), rows[2][i].abs());
+            lanes = lanes & (S::zero().less(newest) | S::zero().less(older));
+            state = state.max(rows[0][i].abs());
+            (last, before) = (last.max(newest), before.max(older));
+        }
+        Usual {
+            sizes: [each(state), each(last), each(before)],
+            order: self.order,
+            lanes: lanes.bits(),
+        }
     }
 
     /// The radius of convergence in one lane, estimated by `(|mu_0|/|mu_k|)^(1/k)` for the last two orders, in the maximum
@@ -123,22 +117,22 @@ impl Pace {
 
 /// The coefficients of the state and of the last two orders in the maximum norm, in lanes where these are finite and every coordinate
 /// that does not carry the time has one of one of both orders.
-pub(super) struct Usual<S: Scalar> {
-    sizes: [S; 3],
+#[derive(Default)]
+pub(super) struct Usual {
+    sizes: [[f64; MOST_LANES]; 3],
     order: usize,
-    lanes: S::Mask,
+    lanes: u64,
 }
 
-impl<S: Scalar> Usual<S> {
+impl Usual {
     /// The same as [`Pace::radius`] in a lane; none where something is special.
     #[inline(always)]
     pub(super) fn radius(&self, lane: usize) -> Option<Radius> {
-        if !self.lanes.lane(lane) {
+        if self.lanes >> lane & 1 == 0 {
             return None;
         }
-        let [state, last, before] = self.sizes;
-        let log = |size: S| binary_log(size.lane(lane).to_f64());
-        Some(by_logs(log(state)?, [log(last), log(before)], self.order))
+        let log = |size: usize| binary_log(self.sizes[size][lane]);
+        Some(by_logs(log(0)?, [log(1), log(2)], self.order))
     }
 }
 

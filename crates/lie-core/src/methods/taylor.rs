@@ -33,7 +33,7 @@ use super::projection::Projection;
 use super::series_stepper::{Developed, Development, SeriesStepper};
 use super::stepper::{FactorSink, Method, RungeKutta, Stage};
 use super::time_unit::TimeUnit;
-use crate::clock::Clock;
+use crate::clock::{Clock, norm};
 use crate::generic::gauss_tableau;
 use crate::newton::NewtonOptions;
 use crate::recurrence::{MOST_ORDERS, Recurrence, Series};
@@ -122,15 +122,18 @@ impl<S: Scalar, P: Series<S>> Development<S> for TaylorDevelopment<'_, S, P> {
             return Developed::broken();
         };
         copy_lanes(&mut self.rows[0], mu, lanes, lanes.all());
-        let mut carry = self.recurrence.begin(mu, &mut field);
         let (last, clock) = (self.pace.order, self.clock());
-        self.unit
-            .begin(&self.pace, clock, [mu, &field], step, lanes);
+        let slope = || {
+            self.recurrence.begin(mu, &mut field);
+            norm(clock, &field)
+        };
+        self.unit.begin(&self.pace, clock, (mu, slope), step, lanes);
         let mut open = lanes;
         loop {
             let (unit, all) = (self.unit.length, open.all());
             let rows = &mut self.rows;
             if !self.recurrence.develop(mu, unit, last, rows, open) {
+                let mut carry = self.recurrence.begin(mu, &mut field);
                 for k in 1..last {
                     multiply(&field, self.inverses[k] * unit, &mut coefficient);
                     carry = self.recurrence.advance(k, carry, &coefficient, &mut field);
@@ -145,7 +148,6 @@ impl<S: Scalar, P: Series<S>> Development<S> for TaylorDevelopment<'_, S, P> {
             if !open.any() {
                 break;
             }
-            carry = self.recurrence.begin(mu, &mut field);
         }
         self.scratch = Some((field, coefficient));
         self.joints.end(

@@ -10,8 +10,8 @@ use crate::clock::{Clock, norm};
 use crate::scalar::{Mask, Scalar, largest};
 use crate::state::State;
 
-/// More lanes than any scalar has.
-pub(super) const MOST_LANES: usize = 16;
+/// No scalar has more lanes.
+pub(super) const MOST_LANES: usize = 8;
 /// How far the unit may be from the radius, as a power of two: order 40 then has a factor of 2^160 at most.
 const FARTHEST: i64 = 4;
 /// Units that are tried for one series.
@@ -63,28 +63,30 @@ impl<S: Scalar> TimeUnit<S> {
         self.inverse = self.inverse.with_lane(lane, power(-exponent));
     }
 
-    /// Before a series from a state with this field, for a step of the grid: the unit of the series before, or else a guess.
+    /// Before a series from a state, for a step of the grid: the unit of the series before, or else a guess by the norm of the field, which
+    /// is asked for then.
     pub(super) fn begin<V: State<S>>(
         &mut self,
         pace: &Pace,
         clock: Option<Clock>,
-        [mu, field]: [&V; 2],
+        (mu, slope): (&V, impl FnOnce() -> S),
         step: S,
         lanes: S::Mask,
     ) {
         self.trials = 0;
-        let of_lane = |x: S, lane: usize| binary_log(x.lane(lane).to_f64().abs());
-        for lane in 0..S::LANES {
-            self.finite[lane] = 0;
-            if !lanes.lane(lane) || self.exponents[lane].is_some() {
-                continue;
-            }
+        self.finite = [0; MOST_LANES];
+        let guessed = |lane: &usize| self.exponents[*lane].is_none();
+        let guessed = places(lanes).filter(guessed);
+        let guessed = guessed.fold(0_u64, |all, lane| all | 1 << lane);
+        if guessed == 0 {
+            return;
+        }
+        let (step, state, slope) = (each(step), each(norm(clock, mu)), each(slope()));
+        for lane in places(S::Mask::from_bits(guessed)) {
+            let of_lane = |sizes: &[f64; MOST_LANES]| binary_log(sizes[lane].abs());
             // what is too large for the unit is found more surely than what is too small
-            let step = of_lane(step, lane).unwrap_or(0);
-            let (state, slope) = (
-                of_lane(norm(clock, mu), lane),
-                of_lane(norm(clock, field), lane),
-            );
+            let step = of_lane(&step).unwrap_or(0);
+            let (state, slope) = (of_lane(&state), of_lane(&slope));
             let guess = match (state, slope) {
                 (Some(state), Some(slope)) if pace.is_adaptive() => rounded(state - slope),
                 _ => rounded(step),
@@ -105,19 +107,19 @@ impl<S: Scalar> TimeUnit<S> {
     ) -> S::Mask {
         self.trials += 1;
         let mut again = 0;
-        let active = || (0..S::LANES).filter(|lane| lanes.lane(*lane));
-        let steps = step * self.inverse;
+        let steps = each(step * self.inverse);
         let mut radii = [Radius::Infinite; MOST_LANES];
         for rows in series {
             let usual = pace.usual::<S, V>(rows, clock);
-            for lane in active() {
-                let step = steps.lane(lane).to_f64().abs();
+            for lane in places(lanes) {
+                let step = steps[lane].abs();
                 let radius = usual.radius(lane);
                 let radius = radius.unwrap_or_else(|| pace.radius(rows, lane, step, clock));
                 radii[lane] = radii[lane].smaller(radius);
             }
         }
-        for lane in active() {
+        let (mut reaches, mut shifts) = ([0.0; MOST_LANES], [0; MOST_LANES]);
+        for lane in places(lanes) {
             let unit = self.exponents[lane].unwrap_or(0);
             let radius = radii[lane];
             let (shift, wanted) = match radius {
@@ -129,13 +131,36 @@ impl<S: Scalar> TimeUnit<S> {
                     (rounded(log).min(-FARTHEST), more)
                 }
             };
-            let reach = S::Lane::from_f64(pace.used(radius)) * self.length.lane(lane);
-            self.reach = self.reach.with_lane(lane, reach);
+            reaches[lane] = pace.used(radius);
             if wanted && self.trials < TRIALS {
-                self.set(lane, unit + shift as i32);
                 again |= 1 << lane;
+                shifts[lane] = unit + shift as i32;
             }
         }
-        S::Mask::from_bits(again)
+        let reach = S::from_lanes(|lane| S::Lane::from_f64(reaches[lane])) * self.length;
+        self.reach = S::select(lanes, reach, self.reach);
+        let again = S::Mask::from_bits(again);
+        places(again).for_each(|lane| self.set(lane, shifts[lane]));
+        again
     }
+}
+
+/// The lanes of a mask.
+#[inline(always)]
+fn places<M: Mask>(lanes: M) -> impl Iterator<Item = usize> {
+    let mut bits = lanes.bits();
+    core::iter::from_fn(move || {
+        let lane = bits.trailing_zeros();
+        bits &= bits.wrapping_sub(1);
+        (lane < u64::BITS).then_some(lane as usize)
+    })
+}
+
+/// The number of each lane, and 0 beyond them.
+#[inline(always)]
+pub(super) fn each<S: Scalar>(x: S) -> [f64; MOST_LANES] {
+    core::array::from_fn(|lane| match lane < S::LANES {
+        true => x.lane(lane).to_f64(),
+        false => 0.0,
+    })
 }

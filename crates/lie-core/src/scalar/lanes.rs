@@ -174,6 +174,10 @@ macro_rules! lanes {
                 lanes[index] = lane;
                 Self::new(lanes)
             }
+            #[inline(always)]
+            fn from_lanes(number: impl FnMut(usize) -> $lane) -> Self {
+                Self::new(core::array::from_fn(number))
+            }
             #[cfg_attr(not(debug_assertions), inline(always))]
             fn to_f64(self) -> f64 {
                 f64::from(self.lane(0))

@@ -126,6 +126,11 @@ pub trait Scalar:
     /// A copy with another number in one lane; `index` must be below [`Scalar::LANES`].
     #[must_use]
     fn with_lane(self, index: usize, lane: Self::Lane) -> Self;
+    /// The number of each lane by its place.
+    fn from_lanes(mut number: impl FnMut(usize) -> Self::Lane) -> Self {
+        let lanes = 0..Self::LANES;
+        lanes.fold(Self::zero(), |all, lane| all.with_lane(lane, number(lane)))
+    }
     /// The number in lane 0 (of a dual number its value).
     fn to_f64(self) -> f64;
 
