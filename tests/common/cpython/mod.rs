@@ -1,7 +1,7 @@
 //! Codes run by CPython, as an engine for systems made at run time: each code is a function in Python's own arithmetic.
 //!
-//! A process of `python3` is given the functions, and then the numbers of each call, as the digits of their bits. Elementary functions
-//! are those of the numeric core, which the process asks for.
+//! A process of `python3` is given the functions, and then the numbers of each call. Elementary functions are those of the numeric core,
+//! which the process asks for.
 
 use lie_dynamic::{
     BINARY, Bitwise, Code, Engine, Frame, Instruction, Interpreted, Lengths, Machine, Number,
@@ -9,9 +9,9 @@ use lie_dynamic::{
 };
 use std::borrow::Cow;
 use std::fmt::Write as _;
-use std::io::{BufRead as _, BufReader, Write as _};
+use std::io::{BufReader, Read as _, Write as _};
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, LazyLock, Mutex};
 
 /// What serves calls in the process.
 const SERVE: &str = include_str!("serve.py");
@@ -22,12 +22,14 @@ pub struct CPython;
 
 /// Whether there is one, which is told where not.
 pub fn there_is_cpython() -> bool {
-    let asked = Command::new("python3").arg("--version").output();
-    let there = asked.is_ok_and(|output| output.status.success());
-    if !there {
+    static THERE: LazyLock<bool> = LazyLock::new(|| {
+        let asked = Command::new("python3").arg("--version").output();
+        asked.is_ok_and(|output| output.status.success())
+    });
+    if !*THERE {
         eprintln!("skipped: no python3");
     }
-    there
+    *THERE
 }
 
 impl Engine for CPython {
@@ -50,6 +52,35 @@ struct Talk {
     says: BufReader<ChildStdout>,
 }
 
+impl Talk {
+    /// Sends words, and numbers behind them.
+    fn send(&mut self, words: &[u32], numbers: &[&[f64]]) {
+        let mut message = Vec::new();
+        for word in words {
+            message.extend_from_slice(&word.to_ne_bytes());
+        }
+        for number in numbers.iter().copied().flatten() {
+            message.extend_from_slice(&number.to_ne_bytes());
+        }
+        self.asks.write_all(&message).unwrap();
+    }
+
+    /// What is said: a name and numbers.
+    fn hear(&mut self) -> (String, Vec<f64>) {
+        let [length, count] = [(); 2].map(|()| {
+            let mut word = [0; 4];
+            self.says.read_exact(&mut word).unwrap();
+            u32::from_ne_bytes(word) as usize
+        });
+        let mut bytes = vec![0; length + 8 * count];
+        self.says.read_exact(&mut bytes).unwrap();
+        let numbers = bytes.split_off(length);
+        let (numbers, _) = numbers.as_chunks();
+        let numbers = numbers.iter().map(|bytes| f64::from_ne_bytes(*bytes));
+        (String::from_utf8(bytes).unwrap(), numbers.collect())
+    }
+}
+
 /// A process with the functions of some codes.
 struct Process {
     codes: Arc<[Code]>,
@@ -65,15 +96,17 @@ impl Process {
             .stdout(Stdio::piped())
             .spawn()
             .unwrap();
-        let mut asks = child.stdin.take().unwrap();
+        let asks = child.stdin.take().unwrap();
         let says = BufReader::new(child.stdout.take().unwrap());
         let expanded: Vec<_> = codes.iter().map(Code::expanded).collect();
         let functions: String = (0..).zip(&expanded).map(function).collect();
-        write!(asks, "{}\n{functions}", functions.lines().count()).unwrap();
+        let mut talk = Talk { child, asks, says };
+        talk.send(&[functions.len() as u32], &[]);
+        talk.asks.write_all(functions.as_bytes()).unwrap();
         Self {
             codes: Arc::clone(codes),
             lengths: codes.iter().map(Lengths::new).collect(),
-            talk: Mutex::new(Talk { child, asks, says }),
+            talk: Mutex::new(talk),
         }
     }
 }
@@ -141,14 +174,14 @@ fn function((position, code): (usize, &Cow<'_, Code>)) -> String {
                 format!("bits((word(r{a}) {what} {}) % 2**64)", places.abs())
             }
             Instruction::Rare(function, a, b, c) => {
-                let beyond = format!("asked('{}', r{a})[0]", function.name());
+                let beyond = format!("asked(b'{}', r{a})[0]", function.name());
                 format!("r{c} if r{b} >= 0.0 else {beyond}")
             }
-            Instruction::Power(a, b) => format!("asked('powf', r{a}, r{b})[0]"),
-            Instruction::Atan2(a, b) => format!("asked('atan2', r{a}, r{b})[0]"),
-            Instruction::Call(function, a) => format!("asked('{}', r{a})[0]", function.name()),
-            Instruction::Stumpff(count, a) => format!("asked('stumpff {count}', r{a})"),
-            Instruction::Phi(count, a) => format!("asked('phi {count}', r{a})"),
+            Instruction::Power(a, b) => format!("asked(b'powf', r{a}, r{b})[0]"),
+            Instruction::Atan2(a, b) => format!("asked(b'atan2', r{a}, r{b})[0]"),
+            Instruction::Call(function, a) => format!("asked(b'{}', r{a})[0]", function.name()),
+            Instruction::Stumpff(count, a) => format!("asked(b'stumpff {count}', r{a})"),
+            Instruction::Phi(count, a) => format!("asked(b'phi {count}', r{a})"),
         };
         let width = instruction.width() as usize;
         let places: String = (next..next + width).map(|k| format!("r{k}, ")).collect();
@@ -166,20 +199,6 @@ fn function((position, code): (usize, &Cow<'_, Code>)) -> String {
         .map(|store| format!("r{}, ", store.register));
     let _ = writeln!(text, " return [{}]", stored.collect::<String>());
     text
-}
-
-/// Numbers as the digits of their bits.
-fn digits(numbers: &[f64]) -> String {
-    let words: Vec<String> = numbers.iter().map(|x| x.to_bits().to_string()).collect();
-    words.join(" ")
-}
-
-/// Numbers from the digits of their bits.
-fn numbers(text: &str) -> Vec<f64> {
-    let words = text.split_whitespace();
-    words
-        .map(|word| f64::from_bits(word.parse().unwrap()))
-        .collect()
 }
 
 /// What an elementary function of the numeric core gives.
@@ -205,19 +224,17 @@ impl Machine<f64> for Process {
     fn run(&self, code: usize, frame: &Frame<'_, f64>, mut targets: Targets<'_, f64>) {
         self.lengths[code].check(frame, &targets);
         let mut talk = self.talk.lock().unwrap();
-        let slices = frame.slices().map(digits);
-        writeln!(talk.asks, "{code};{}", slices.join(";")).unwrap();
+        let slices = frame.slices();
+        let counts = slices.iter().map(|slice| slice.len() as u32);
+        let words: Vec<u32> = std::iter::once(code as u32).chain(counts).collect();
+        talk.send(&words, slices);
         let stored = loop {
-            let mut line = String::new();
-            talk.says.read_line(&mut line).unwrap();
-            match line.trim_end().split_once(';') {
-                Some(("stored", values)) => break numbers(values),
-                Some((name, values)) => {
-                    let answer = answer(name, &numbers(values));
-                    writeln!(talk.asks, "{}", digits(&answer)).unwrap();
-                }
-                None => panic!("CPython ended in code {code}"),
+            let (name, values) = talk.hear();
+            if name.is_empty() {
+                break values;
             }
+            let answer = answer(&name, &values);
+            talk.send(&[answer.len() as u32], &[&answer]);
         };
         let of = &self.codes[code];
         for (target, clear) in targets.iter_mut().zip(of.clear) {

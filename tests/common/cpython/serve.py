@@ -1,6 +1,10 @@
 import math
 import struct
 import sys
+from array import array
+
+# words of four bytes, then numbers of eight, as the machine has them
+heard, said = sys.stdin.buffer, sys.stdout.buffer
 
 
 def bits(word):
@@ -11,22 +15,23 @@ def word(number):
     return struct.unpack("<Q", struct.pack("<d", number))[0]
 
 
-def digits(numbers):
-    return " ".join(str(word(x)) for x in numbers)
+def words(count):
+    return struct.unpack(f"={count}I", heard.read(4 * count))
 
 
-def numbers(text):
-    return [bits(int(word)) for word in text.split()]
+def numbers(count):
+    return array("d", heard.read(8 * count)).tolist()
 
 
 def say(name, values):
-    sys.stdout.write(f"{name};{digits(values)}\n")
-    sys.stdout.flush()
+    said.write(struct.pack("=2I", len(name), len(values)) + name + array("d", values).tobytes())
+    said.flush()
 
 
 def asked(name, *at):
     say(name, at)
-    return numbers(sys.stdin.readline())
+    (count,) = words(1)
+    return numbers(count)
 
 
 # Python raises where IEEE 754 has a value
@@ -42,8 +47,9 @@ def root(a):
     return math.sqrt(a) if a >= 0.0 else math.nan
 
 
-count = int(sys.stdin.readline())
-exec("".join(sys.stdin.readline() for _ in range(count)))
-for line in sys.stdin:
-    code, *slices = line.split(";")
-    say("stored", globals()[f"code_{code}"]([numbers(text) for text in slices]))
+(length,) = words(1)
+exec(heard.read(length))
+while True:
+    code, *counts = words(9)
+    # of what is stored no name is said
+    say(b"", globals()[f"code_{code}"]([numbers(count) for count in counts]))

@@ -73,7 +73,9 @@ fn laid_out(frame: &Frame<'_, f64>, targets: &Targets<'_, f64>) -> (Vec<u8>, [us
     let begin = slices.len() * 8;
     let mut add = |slice: &[f64]| {
         let address = begin + numbers.len();
-        numbers.extend(slice.iter().flat_map(|number| number.to_le_bytes()));
+        for number in slice {
+            numbers.extend_from_slice(&number.to_le_bytes());
+        }
         address
     };
     for slice in slices {
@@ -81,7 +83,7 @@ fn laid_out(frame: &Frame<'_, f64>, targets: &Targets<'_, f64>) -> (Vec<u8>, [us
     }
     let places = [add(targets[0]), add(targets[1])];
     table.resize(begin, 0);
-    table.extend(numbers);
+    table.append(&mut numbers);
     (table, places)
 }
 
