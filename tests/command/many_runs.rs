@@ -136,6 +136,18 @@ fn an_array_has_the_numbers_of_the_runs() {
     };
     assert_eq!(of(&states), of(&text));
     assert_eq!(csv(&of(&text)).1.len(), 22);
+    // a state at which H is not finite stands in its row
+    let pole = r#"{"format": 1, "name": "Pole", "algebra": "so(3)", "state": ["x", "y", "z"], "hamiltonian": "1/(x - 1/2) + y^2"}"#;
+    let spec = folder.path().join("pole.json");
+    std::fs::write(&spec, pole).expect("written");
+    let call = |path: &std::path::Path| {
+        let [spec, path] = [&spec, path].map(|path| path.display().to_string());
+        lie(&format!(
+            "run {spec} --until 1 --step 0.1 --initial-file {path}"
+        ))
+    };
+    call(&states).error("domain", &format!("{}, row 1", states.display()));
+    call(&text).error("domain", &format!("{}:2:1", text.display()));
 }
 
 #[test]

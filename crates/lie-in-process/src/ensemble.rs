@@ -65,7 +65,8 @@ impl Cast {
                 .map(|member| of(member / each).clone())
                 .collect(),
         };
-        let starts = (first..=last).flat_map(|start| {
+        let mut starts = Vec::with_capacity(some.len());
+        for start in first..=last {
             let whole = start * each..(start + 1) * each;
             let own = some.start.max(whole.start)..some.end.min(whole.end);
             let from = &self.starts[start];
@@ -79,9 +80,9 @@ impl Cast {
                 None => from.clone(),
                 Some(within) => within.state(from, (member - whole.start) as u64),
             };
-            own.map(state).collect::<Vec<_>>()
-        });
-        (parameters, starts.collect())
+            starts.extend(own.map(state));
+        }
+        (parameters, starts)
     }
 }
 

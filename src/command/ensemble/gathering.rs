@@ -82,8 +82,9 @@ impl Gathering {
             }
             let places = &self.taking.places;
             if let Some(width) = member.states.len().checked_div(rows) {
-                let states = member.states.chunks_exact(width);
-                numbers.extend(states.flat_map(|state| places.iter().map(|&place| state[place])));
+                for state in member.states.chunks_exact(width) {
+                    numbers.extend(places.iter().map(|&place| state[place]));
+                }
             }
             numbers.extend(std::iter::repeat_n(
                 f64::NAN,

@@ -1,11 +1,14 @@
 //! The domain: the Hamiltonian, its gradient and the Casimirs must be finite where a run begins.
 
+mod sizes;
+
 use super::velocity::velocity;
 use super::{attitude, retraction};
 use crate::model::{Bracket, Energy, Model, QuantityKind, Retraction};
 use lie_symbolic::exact::Rational;
 use lie_symbolic::symbolic::{ExprId, Graph, Node, Symbol};
 use lie_syntax::diagnostic::{Diagnostic, Kind, Origin};
+use std::sync::OnceLock;
 
 /// A group element within this of the group is one, written with few digits.
 const OFF_THE_GROUP: f64 = 1e-4;
@@ -61,6 +64,8 @@ pub struct Domain {
     retraction: Option<retraction::Identities>,
     /// The default parameters.
     defaults: Vec<f64>,
+    /// Up to which size of the entries all is finite, at the first parameters that were asked for.
+    certain: OnceLock<(Vec<f64>, Option<f64>)>,
 }
 
 impl Domain {
@@ -81,6 +86,7 @@ impl Domain {
         let varies = retraction.flat_map(Retraction::entries).any(varies);
         Self {
             defaults: model.defaults(),
+            certain: OnceLock::new(),
             retraction: varies.then(|| retraction::Identities::of(model)).flatten(),
             attitude_varies: entries.any(|entry| !graph.symbols(*entry).is_empty()),
             parts: graph.dependencies(&roots),
@@ -123,6 +129,9 @@ impl Domain {
         }
         if let Some(fault) = outside_the_group(model, mu) {
             return Some(fault);
+        }
+        if self.is_certain(mu, parameters) {
+            return None;
         }
         let xi = match &model.energy {
             Energy::Legendre(lagrangian, _) => {

@@ -33,12 +33,9 @@ pub fn several(spec: &Spec, request: &Request) -> Result<Several, Vec<Message>> 
         param: fixed,
         ..request.clone()
     };
-    let states = flags.initial_file.take().map(|path| {
+    let states = flags.initial_file.take().and_then(|path| {
         let found = states(spec, &path);
-        found.unwrap_or_else(|message| {
-            mistakes.push(message);
-            States::default()
-        })
+        found.map_err(|message| mistakes.push(message)).ok()
     });
     if !mistakes.is_empty() {
         return Err(mistakes);

@@ -33,8 +33,9 @@ impl Planner<'_> {
         self.holds(&parameters);
         let mut points = Vec::new();
         let before = self.mistakes.len();
-        for (values, place) in &states.all {
-            if let Some(initial) = self.of_file(values, place, &parameters) {
+        for (state, values) in states.all.iter().enumerate() {
+            let place = || states.place(state);
+            if let Some(initial) = self.of_file(values, &place, &parameters) {
                 let parameters = parameters.clone();
                 points.push(Point {
                     parameters,
@@ -65,11 +66,16 @@ impl Planner<'_> {
         }
     }
 
-    fn of_file(&mut self, values: &[f64], place: &Place, parameters: &[f64]) -> Option<Vec<f64>> {
+    fn of_file(
+        &mut self,
+        values: &[f64],
+        place: &dyn Fn() -> Place,
+        parameters: &[f64],
+    ) -> Option<Vec<f64>> {
         let model = &self.spec.model;
         if let Some(wrong) = model.violation(values, parameters) {
             let message = Message::new(Kind::Constraint, wrong.message);
-            let message = message.at_place(place.clone());
+            let message = message.at_place(place());
             self.mistakes.push(message.help(wrong.help));
             return None;
         }
@@ -88,7 +94,7 @@ impl Planner<'_> {
         let Some(state) = state else {
             let given = counted(values.len() as u64, "value");
             let text = format!("{given} for a state of {wanted}");
-            let message = Message::new(Kind::StateLength, text).at_place(place.clone());
+            let message = Message::new(Kind::StateLength, text).at_place(place());
             let names = self.shown().join(", ");
             self.mistakes
                 .push(message.help(format!("give the values of {names}")));
@@ -98,13 +104,13 @@ impl Planner<'_> {
             let Some(text) = not_finite(model, values) else {
                 return Some(state);
             };
-            let message = Message::new(Kind::Domain, text).at_place(place.clone());
+            let message = Message::new(Kind::Domain, text).at_place(place());
             self.mistakes.push(message.help(FINITE));
             return None;
         }
         if let Some(fault) = self.spec.fault(&state, parameters) {
             let text = format!("{} at this initial state", fault.message);
-            let message = Message::new(Kind::Domain, text).at_place(place.clone());
+            let message = Message::new(Kind::Domain, text).at_place(place());
             let help = "start at a state where it is defined, or change the parameters";
             self.mistakes.push(message.help(help));
             return None;

@@ -1,6 +1,7 @@
 //! Initial states from a file: CSV, or an array of NumPy.
 
-use std::path::Path;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use lie_syntax::diagnostic::Kind;
@@ -14,10 +15,28 @@ use crate::spec::Spec;
 use crate::words::counted;
 
 /// Initial states from a file.
-#[derive(Default)]
 pub(super) struct States {
-    /// The numbers of each, and where they stand.
-    pub(super) all: Vec<(Vec<f64>, Place)>,
+    /// The numbers of each.
+    pub(super) all: Vec<Vec<f64>>,
+    places: Places,
+}
+
+/// Where the states stand.
+enum Places {
+    /// In the rows of an array.
+    Rows(PathBuf),
+    /// In a text, each within a line.
+    Lines(Arc<Source>, Vec<Range<usize>>),
+}
+
+impl States {
+    /// Where one of them stands.
+    pub(super) fn place(&self, state: usize) -> Place {
+        match &self.places {
+            Places::Rows(path) => Place::File(format!("{}, row {state}", path.display())),
+            Places::Lines(source, lines) => Place::Text(Arc::clone(source), lines[state].clone()),
+        }
+    }
 }
 
 /// Reads them.
@@ -72,10 +91,10 @@ fn array(bytes: &[u8], path: &Path) -> Result<States, Message> {
             return Err(Message::io(path, text).help(help));
         }
     };
-    let place = |row: usize| Place::File(format!("{}, row {row}", path.display()));
-    let rows = array.values.chunks_exact(width.max(1)).enumerate();
+    let rows = array.values.chunks_exact(width.max(1));
     Ok(States {
-        all: rows.map(|(k, row)| (row.to_vec(), place(k))).collect(),
+        all: rows.map(<[f64]>::to_vec).collect(),
+        places: Places::Rows(path.to_path_buf()),
     })
 }
 
@@ -90,7 +109,7 @@ fn lines(spec: &Spec, text: String, path: &Path) -> Result<States, Message> {
         .map(|i| spec.model.coordinates[i].text.as_str())
         .collect();
     let mut order: Option<Vec<usize>> = None;
-    let mut all = Vec::new();
+    let (mut all, mut places) = (Vec::new(), Vec::new());
     let (mut at, mut first) = (0, true);
     for line in source.text.split_inclusive('\n') {
         let start = at;
@@ -100,7 +119,8 @@ fn lines(spec: &Spec, text: String, path: &Path) -> Result<States, Message> {
             continue;
         }
         let from = start + line.find(content).unwrap_or(0);
-        let place = Place::Text(Arc::clone(&source), from..from + content.len());
+        let range = from..from + content.len();
+        let place = Place::Text(Arc::clone(&source), range.clone());
         let fields: Vec<&str> = content.split(',').map(str::trim).collect();
         let number = constant(fields[0]).is_ok();
         let header = std::mem::take(&mut first) && !number;
@@ -121,9 +141,11 @@ fn lines(spec: &Spec, text: String, path: &Path) -> Result<States, Message> {
             }
             values = order.iter().map(|&k| values[k]).collect();
         }
-        all.push((values, place));
+        all.push(values);
+        places.push(range);
     }
-    Ok(States { all })
+    let places = Places::Lines(source, places);
+    Ok(States { all, places })
 }
 
 /// Where the value of each coordinate stands in a line.

@@ -1,5 +1,5 @@
 use super::*;
-use crate::check::domain::fault;
+use crate::check::domain::{Domain, fault};
 
 #[test]
 fn what_is_not_finite_points_at_the_entry() {
@@ -57,6 +57,53 @@ fn other_states_and_parameters_can_be_asked_for() {
         Some(0)
     );
     assert!(fault(&model, &[1.0, 0.0, 0.0], &[f64::INFINITY]).is_some());
+}
+
+/// What holds up to a size without a look at the state is what a look finds, at the edge of it and beyond.
+#[test]
+fn polynomials_are_certain_up_to_a_size() {
+    let asked = |hamiltonian: &str, states: &[[f64; 3]]| -> Vec<bool> {
+        let hamiltonian = format!("{hamiltonian:?}");
+        let parameters = r#"{"k": 2}"#;
+        let model = model(&so3(&[
+            ("hamiltonian", &hamiltonian),
+            ("parameters", parameters),
+        ]));
+        let domain = Domain::of(&model);
+        let is_fine = |mu: &[f64; 3]| domain.fault(&model, mu, &[2.0]).is_none();
+        states.iter().map(is_fine).collect()
+    };
+    let (small, large) = ([1.0, -2.0, 0.0], [1e60, 0.0, 0.0]);
+    assert_eq!(asked("x^2/k + y^3*z - 4", &[small, large]), [true, true]);
+    // the entries are finite, and H is not
+    assert_eq!(asked("(x*y)^4", &[small, [1e60, 1e60, 0.0]]), [true, false]);
+    assert_eq!(asked("1e300*x^2", &[small, [1e5, 0.0, 0.0]]), [true, false]);
+    let nan = [f64::NAN, 0.0, 0.0];
+    assert_eq!(asked("x^2", &[small, nan]), [true, false]);
+    // no polynomials: each state is looked at
+    assert_eq!(asked("x/z + y", &[[1.0, 1.0, 1.0], small]), [true, false]);
+    assert_eq!(
+        asked("log(x) + y^2", &[small, [-1.0, 0.0, 0.0]]),
+        [true, false]
+    );
+    assert_eq!(asked("x*y^(-2)", &[small, [1.0, 0.0, 2.0]]), [true, false]);
+}
+
+#[test]
+fn what_is_certain_is_so_of_its_parameters() {
+    let model = model(&so3(&[
+        ("hamiltonian", r#""x^2/k""#),
+        ("parameters", r#"{"k": 1}"#),
+    ]));
+    let domain = Domain::of(&model);
+    let is_fine = |k: f64| domain.fault(&model, &[1.0, 2.0, 3.0], &[k]).is_none();
+    assert_eq!(
+        [1.0, 0.0, 2.0, f64::NAN].map(is_fine),
+        [true, false, true, false]
+    );
+    let again = Domain::of(&model);
+    assert!(again.fault(&model, &[1.0, 2.0, 3.0], &[0.0]).is_some());
+    assert!(again.fault(&model, &[1.0, 2.0, 3.0], &[1.0]).is_none());
 }
 
 #[test]
