@@ -162,35 +162,3 @@ impl<S: Scalar> GradientSeries<S> for Drawn {
         Coefficients::new(self)
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::drawn::member::Member;
-    use lie_runtime::Poisson;
-    use lie_runtime::generic::PowerSeries;
-
-    /// The rules give what series through the field do.
-    #[test]
-    fn coefficients_are_those_of_the_field_over_series() {
-        for number in [0, 20, 40, 55, 60, 64, 70] {
-            let member = Member::draw(number);
-            let system = &member.system;
-            let (mut rules, mut plain) = (Series::<f64>::series(system), PowerSeries::new(system));
-            let mut fields: [Vec<f64>; 2] = [system.zero_state(), system.zero_state()];
-            rules.begin(&member.start, &mut fields[0]);
-            plain.begin(&member.start, &mut fields[1]);
-            for k in 1..12 {
-                let size = fields[1]
-                    .iter()
-                    .fold(1e-300_f64, |most, x| most.max(x.abs()));
-                for (one, other) in fields[0].iter().zip(&fields[1]) {
-                    assert!((one - other).abs() < 1e-12 * size, "{number}, order {k}");
-                }
-                let next: Vec<f64> = fields[1].iter().map(|x| x / k as f64).collect();
-                rules.advance(k, (), &next, &mut fields[0]);
-                plain.advance(k, (), &next, &mut fields[1]);
-            }
-        }
-    }
-}

@@ -8,7 +8,7 @@ use lie_runtime::newton::NewtonOptions;
 
 #[allow(dead_code, reason = "what other tests use of it")]
 mod system {
-    include!("../../../lie-runtime/tests/systems/rigid_body.rs");
+    include!("../../../../lie-runtime/tests/systems/rigid_body.rs");
 }
 use system::RigidBody;
 
