@@ -3,7 +3,7 @@
 //! Arithmetic and square roots are the vector's, which round like the scalar ones. Elementary functions that are programs are done in
 //! all lanes at once, the others lane by lane, because the vector's own differ in the last bits.
 //!
-//! In the development profile they are calls: inlined into a crate without optimisation, an operation on eight numbers is some thirty calls.
+//! In the development profile they are calls: inlined into a crate without optimisation, an operation on eight numbers is a dozen calls.
 
 mod exchange;
 mod primitive;
