@@ -18,7 +18,7 @@ struct Part {
 
 impl Domain {
     /// Whether all is finite at a state because its entries are no larger than those at which all is, whatever their signs are.
-    pub(super) fn is_certain(&self, mu: &[f64], parameters: &[f64]) -> bool {
+    pub(in crate::check) fn is_certain(&self, mu: &[f64], parameters: &[f64]) -> bool {
         let certain = || {
             let mut sizes = SIZES.into_iter();
             let size = sizes.find(|size| self.is_finite_up_to(*size, parameters));
