@@ -80,11 +80,7 @@ impl Wiener {
                 let z = self.normal(step, stream.copied().unwrap_or(0), process as u64);
                 scale * z.clamp(-bound, bound)
             };
-            let mut all = S::from_f64(lane(0));
-            for index in 1..S::LANES {
-                all = all.with_lane(index, <S::Lane as Scalar>::from_f64(lane(index)));
-            }
-            *rate = all;
+            *rate = S::from_lanes(|index| S::Lane::from_f64(lane(index)));
         }
     }
 

@@ -147,18 +147,15 @@ impl<P, C> Members<'_, P, C> {
 
     /// The steps of the grids, and 1 where there is no member.
     fn steps<S: Scalar>(&self) -> S {
-        let step = |lane: &Option<Course>| lane.as_ref().map_or(1.0, |course| course.grid.step());
-        let steps = self.lanes.iter().map(step).enumerate();
-        steps.fold(S::one(), |all, (lane, step)| {
-            all.with_lane(lane, S::Lane::from_f64(step))
-        })
+        let step = |course: &Course| course.grid.step();
+        S::from_lanes(|lane| S::Lane::from_f64(self.lanes[lane].as_ref().map_or(1.0, step)))
     }
 }
 
 impl<S: Scalar, P: Poisson<S>, C: Crew<S, P::State>> Relay<S, P::State> for Members<'_, P, C> {
     fn next(&mut self, mu: &mut P::State, arrived: S::Mask, refused: S::Mask) -> Legs<S> {
         let (mut looked, mut refused) = (arrived.bits(), refused.bits());
-        for lane in lanes(looked) {
+        for lane in S::Mask::from_bits(looked).lanes() {
             if let Some(course) = &mut self.lanes[lane] {
                 course.index += 1;
             }
@@ -170,8 +167,10 @@ impl<S: Scalar, P: Poisson<S>, C: Crew<S, P::State>> Relay<S, P::State> for Memb
         }
         let (mut begin, mut anew) = (0, 0);
         loop {
-            lanes(refused).for_each(|lane| self.leave(lane, false));
-            for lane in lanes(looked & !refused) {
+            S::Mask::from_bits(refused)
+                .lanes()
+                .for_each(|lane| self.leave(lane, false));
+            for lane in S::Mask::from_bits(looked & !refused).lanes() {
                 begin |= u64::from(self.goes_on(lane, mu)) << lane;
             }
             if self.crew.stops() {
@@ -196,13 +195,4 @@ impl<S: Scalar, P: Poisson<S>, C: Crew<S, P::State>> Relay<S, P::State> for Memb
             h: self.steps(),
         }
     }
-}
-
-/// The lanes of a mask.
-fn lanes(mut bits: u64) -> impl Iterator<Item = usize> {
-    core::iter::from_fn(move || {
-        let lane = bits.trailing_zeros();
-        bits &= bits.wrapping_sub(1);
-        (lane < u64::BITS).then_some(lane as usize)
-    })
 }

@@ -169,7 +169,7 @@ fn a_lane_gives_the_bits_of_a_run_alone() {
     use crate::scalar::F64x8;
     let arguments: Vec<f64> = lines().map(|(_, x, _)| x).collect();
     for chunk in arguments.windows(8).step_by(3) {
-        let together = (0..8).fold(F64x8::zero(), |all, lane| all.with_lane(lane, chunk[lane]));
+        let together = F64x8::from_lanes(|lane| chunk[lane]);
         let (s, p) = (
             stumpff::<F64x8, 1, 5>(together),
             phi::<F64x8, 1, 4>(together),

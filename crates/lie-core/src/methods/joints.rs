@@ -72,7 +72,7 @@ impl Joints {
     ) -> Developed<S> {
         let (mut reach, mut joint, mut stuck) = (unit.reach, 0, 0);
         if !recurrence.conditions(0).is_empty() {
-            for lane in (0..S::LANES).filter(|lane| lanes.lane(*lane)) {
+            for lane in lanes.lanes() {
                 let step = (step * unit.inverse).lane(lane).to_f64();
                 let limit = (unit.reach * unit.inverse).lane(lane).to_f64();
                 if limit.is_nan() {

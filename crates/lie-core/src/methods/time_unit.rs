@@ -47,8 +47,7 @@ impl<S: Scalar> TimeUnit<S> {
 
     /// Knows nothing of the series before in some lanes.
     pub(super) fn forget(&mut self, lanes: S::Mask) {
-        let forgotten = (0..S::LANES).filter(|lane| lanes.lane(*lane));
-        forgotten.for_each(|lane| self.exponents[lane] = None);
+        lanes.lanes().for_each(|lane| self.exponents[lane] = None);
     }
 
     fn set(&mut self, lane: usize, exponent: i32) {
@@ -76,13 +75,13 @@ impl<S: Scalar> TimeUnit<S> {
         self.trials = 0;
         self.finite = [0; MOST_LANES];
         let guessed = |lane: &usize| self.exponents[*lane].is_none();
-        let guessed = places(lanes).filter(guessed);
+        let guessed = lanes.lanes().filter(guessed);
         let guessed = guessed.fold(0_u64, |all, lane| all | 1 << lane);
         if guessed == 0 {
             return;
         }
         let (step, state, slope) = (each(step), each(norm(clock, mu)), each(slope()));
-        for lane in places(S::Mask::from_bits(guessed)) {
+        for lane in S::Mask::from_bits(guessed).lanes() {
             let of_lane = |sizes: &[f64; MOST_LANES]| binary_log(sizes[lane].abs());
             // what is too large for the unit is found more surely than what is too small
             let step = of_lane(&step).unwrap_or(0);
@@ -111,7 +110,7 @@ impl<S: Scalar> TimeUnit<S> {
         let mut radii = [Radius::Infinite; MOST_LANES];
         for rows in series {
             let usual = pace.usual::<S, V>(rows, clock);
-            for lane in places(lanes) {
+            for lane in lanes.lanes() {
                 let step = steps[lane].abs();
                 let radius = usual.radius(lane);
                 let radius = radius.unwrap_or_else(|| pace.radius(rows, lane, step, clock));
@@ -119,7 +118,7 @@ impl<S: Scalar> TimeUnit<S> {
             }
         }
         let (mut reaches, mut shifts) = ([0.0; MOST_LANES], [0; MOST_LANES]);
-        for lane in places(lanes) {
+        for lane in lanes.lanes() {
             let unit = self.exponents[lane].unwrap_or(0);
             let radius = radii[lane];
             let (shift, wanted) = match radius {
@@ -140,20 +139,9 @@ impl<S: Scalar> TimeUnit<S> {
         let reach = S::from_lanes(|lane| S::Lane::from_f64(reaches[lane])) * self.length;
         self.reach = S::select(lanes, reach, self.reach);
         let again = S::Mask::from_bits(again);
-        places(again).for_each(|lane| self.set(lane, shifts[lane]));
+        again.lanes().for_each(|lane| self.set(lane, shifts[lane]));
         again
     }
-}
-
-/// The lanes of a mask.
-#[inline(always)]
-fn places<M: Mask>(lanes: M) -> impl Iterator<Item = usize> {
-    let mut bits = lanes.bits();
-    core::iter::from_fn(move || {
-        let lane = bits.trailing_zeros();
-        bits &= bits.wrapping_sub(1);
-        (lane < u64::BITS).then_some(lane as usize)
-    })
 }
 
 /// The number of each lane, and 0 beyond them.

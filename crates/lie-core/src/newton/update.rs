@@ -91,7 +91,7 @@ fn redo<S: Scalar, E: Equation<S>>(
     let mut matrix = equation.zero_matrix();
     equation.linearize(unknown, &mut workspace.spare, &mut matrix);
     let mut singular = 0;
-    for lane in (0..S::LANES).filter(|&lane| lanes.lane(lane)) {
+    for lane in lanes.lanes() {
         if !pivoted::solve_lane(&mut matrix, &mut workspace.spare, lane) {
             singular |= 1 << lane;
         }

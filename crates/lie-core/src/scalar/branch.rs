@@ -41,10 +41,8 @@ mod tests {
     #[test]
     fn lanes_are_unwrapped_each_by_itself() {
         type Wide = <f64 as Scalar>::Wide;
-        let lanes = |of: &dyn Fn(usize) -> f64| {
-            (0..Wide::LANES).fold(Wide::zero(), |all, lane| all.with_lane(lane, of(lane)))
-        };
-        let (angle, other) = (lanes(&|k| 0.1 * k as f64), lanes(&|k| 7.0 * k as f64));
+        let angle = Wide::from_lanes(|k| 0.1 * k as f64);
+        let other = Wide::from_lanes(|k| 7.0 * k as f64);
         let found = nearest_branch(angle, other);
         for lane in 0..Wide::LANES {
             let alone = nearest_branch(0.1 * lane as f64, 7.0 * lane as f64);

@@ -33,6 +33,16 @@ pub trait Mask:
     fn lane(self, index: usize) -> bool {
         self.bits() >> index & 1 == 1
     }
+    /// The lanes in which it is true, in their order.
+    #[inline(always)]
+    fn lanes(self) -> impl Iterator<Item = usize> {
+        let mut bits = self.bits();
+        core::iter::from_fn(move || {
+            let lane = bits.trailing_zeros();
+            bits &= bits.wrapping_sub(1);
+            (lane < u64::BITS).then_some(lane as usize)
+        })
+    }
 }
 
 impl Mask for bool {

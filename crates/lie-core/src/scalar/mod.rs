@@ -229,10 +229,7 @@ pub fn frozen<S: Scalar>(number: S) -> S {
     if S::DERIVATIVES == 0 {
         return number;
     }
-    (0..S::LANES).fold(S::zero(), |frozen, index| {
-        let value = number.lane(index).to_f64();
-        frozen.with_lane(index, S::Lane::from_f64(value))
-    })
+    S::from_lanes(|lane| S::Lane::from_f64(number.lane(lane).to_f64()))
 }
 
 /// The power of two at or below a positive number, lane by lane; of zero 1.

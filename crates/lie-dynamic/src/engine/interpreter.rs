@@ -130,19 +130,16 @@ impl Instruction {
 
 /// The lanes of a number with places i and i xor a distance exchanged.
 fn exchanged<S: Scalar>(number: S, distance: usize) -> S {
-    let lanes = 0..S::LANES;
-    lanes.fold(number, |all, lane| {
-        all.with_lane(lane, number.lane(lane ^ distance))
-    })
+    S::from_lanes(|lane| number.lane(lane ^ distance))
 }
 
 /// Something done with the words of bits of double precision, lane by lane.
 #[inline(never)]
 fn words<S: Scalar>([a, b]: [S; 2], with: impl Fn(u64, u64) -> u64) -> S {
     let word = |x: S, lane: usize| x.lane(lane).to_f64().to_bits();
-    (0..S::LANES).fold(S::zero(), |all, lane| {
+    S::from_lanes(|lane| {
         let word = with(word(a, lane), word(b, lane));
-        all.with_lane(lane, S::Lane::from_f64(f64::from_bits(word)))
+        S::Lane::from_f64(f64::from_bits(word))
     })
 }
 
