@@ -17,7 +17,9 @@ import re
 import shutil
 import sys
 import tempfile
+from concurrent.futures import ProcessPoolExecutor
 from html.parser import HTMLParser
+from itertools import repeat
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
@@ -56,6 +58,17 @@ def run(page: Path, update: bool) -> int:
     if update:
         page.write_text("".join([*pieces, text[position:]]), encoding="utf-8")
     return wrong
+
+
+def run_apart(page: Path, update: bool) -> int:
+    """`run` in a folder of its own."""
+    with tempfile.TemporaryDirectory() as folder:
+        shutil.copytree(ROOT / "specs", Path(folder) / "specs")
+        os.chdir(folder)
+        try:
+            return run(page, update)
+        finally:
+            os.chdir(ROOT)
 
 
 class Page(HTMLParser):
@@ -109,17 +122,11 @@ def main() -> None:
         raise SystemExit(f"no pages in {PAGES}")
     pages = [PAGES / name for name in names] or [*OTHERS, *book]
     pages = [page.resolve() for page in pages]
-    wrong = blocks = 0
-    for page in pages:
-        count = len(BLOCK.findall(page.read_text(encoding="utf-8")))
-        if not count:
-            continue
-        with tempfile.TemporaryDirectory() as folder:
-            shutil.copytree(ROOT / "specs", Path(folder) / "specs")
-            os.chdir(folder)
-            wrong += run(page, "--update" in sys.argv)
-            os.chdir(ROOT)
-        blocks += count
+    counts = [len(BLOCK.findall(page.read_text(encoding="utf-8"))) for page in pages]
+    with_blocks = [page for page, count in zip(pages, counts) if count]
+    with ProcessPoolExecutor() as pool:
+        wrong = sum(pool.map(run_apart, with_blocks, repeat("--update" in sys.argv)))
+    blocks = sum(counts)
     print(f"{blocks} blocks of Python, {wrong} wrong")
     if wrong or not blocks:
         raise SystemExit(1)
