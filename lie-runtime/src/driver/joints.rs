@@ -71,36 +71,42 @@ impl<S: Scalar, P: Poisson<S>> Joints<S, P> {
                 }
                 if from * to < 0.0 {
                     let mut scratch = vec![S::zero(); before.len()];
-                    let negative = |time: f64| {
+                    let mut negative = |time: f64| {
                         at(time, &mut scratch);
                         of(&scratch) < 0.0
                     };
-                    times.push(crossing((start, end), from < 0.0, negative));
+                    times.push(crossing((start, end), from < 0.0, &mut negative));
                 }
             }
         }
-        let least = SLIVER * (end - start).abs();
-        let at_start = times.iter().any(|time| (time - start).abs() <= least);
-        let at_end = times.iter().any(|time| (time - end).abs() <= least);
-        times.retain(|time| (time - start).abs() > least && (time - end).abs() > least);
-        if times.is_empty() && !at_start && !at_end {
-            return &self.pieces;
-        }
-        times.sort_by(|a, b| (a - start).abs().total_cmp(&(b - start).abs()));
-        times.dedup_by(|b, a| (*a - *b).abs() <= least);
-        let beside = |time: f64| {
-            let size = time.abs().max((end - start).abs());
-            (BESIDE * largest(S::epsilon()) * size).copysign(end - start)
-        };
-        let mut from = start + if at_start { beside(start) } else { 0.0 };
-        for time in times {
-            self.pieces.push((from, time - beside(time)));
-            from = time + beside(time);
-        }
-        let to = end - if at_end { beside(end) } else { 0.0 };
-        self.pieces.push((from, to));
+        let unit = largest(S::epsilon());
+        cut((start, end), times, unit, &mut self.pieces);
         &self.pieces
     }
+}
+
+/// Adds the pieces of a step with joints at these times, and this unit of round-off; none where it has no joint.
+fn cut((start, end): Piece, mut times: Vec<f64>, unit: f64, pieces: &mut Vec<Piece>) {
+    let least = SLIVER * (end - start).abs();
+    let at_start = times.iter().any(|time| (time - start).abs() <= least);
+    let at_end = times.iter().any(|time| (time - end).abs() <= least);
+    times.retain(|time| (time - start).abs() > least && (time - end).abs() > least);
+    if times.is_empty() && !at_start && !at_end {
+        return;
+    }
+    times.sort_by(|a, b| (a - start).abs().total_cmp(&(b - start).abs()));
+    times.dedup_by(|b, a| (*a - *b).abs() <= least);
+    let beside = |time: f64| {
+        let size = time.abs().max((end - start).abs());
+        (BESIDE * unit * size).copysign(end - start)
+    };
+    let mut from = start + if at_start { beside(start) } else { 0.0 };
+    for time in times {
+        pieces.push((from, time - beside(time)));
+        from = time + beside(time);
+    }
+    let to = end - if at_end { beside(end) } else { 0.0 };
+    pieces.push((from, to));
 }
 
 impl<S: Scalar, P: Poisson<S>> Course<'_, S, P> {
@@ -158,7 +164,7 @@ pub(super) fn cross<S: Scalar, P: Poisson<S>>(system: &P, mu: &mut P::State, tim
 }
 
 /// Where a function changes its sign between two times: the last number on the side of the start.
-fn crossing((start, end): Piece, side: bool, mut negative: impl FnMut(f64) -> bool) -> f64 {
+fn crossing((start, end): Piece, side: bool, negative: &mut dyn FnMut(f64) -> bool) -> f64 {
     let (mut here, mut there) = (start, end);
     for _ in 0..HALVINGS {
         let middle = here + 0.5 * (there - here);

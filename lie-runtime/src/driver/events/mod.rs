@@ -11,6 +11,7 @@
 
 mod ahead;
 mod quintic;
+mod samples;
 mod zero;
 
 use super::course::Course;
@@ -142,6 +143,15 @@ fn norm<S: Scalar, P: Poisson<S>>(system: &P, vector: &P::State) -> f64 {
     largest(system.norm(vector))
 }
 
+/// Adds events to others that are in the order of a run in this direction, each behind those at its time.
+fn insert<V>(found: &mut Vec<Event<V>>, others: Vec<Event<V>>, direction: f64) {
+    let at = |event: &Event<V>| event.time * direction;
+    for event in others {
+        let is_before = |other: &Event<V>| at(other).total_cmp(&at(&event)).is_le();
+        found.insert(found.partition_point(is_before), event);
+    }
+}
+
 /// Leaves out what is behind the first event that ends the run, which becomes the last one. What happens at its time happens, in whatever
 /// order it was declared, though the run ends by one event alone.
 fn end_at_stop<V>(found: &mut Vec<Event<V>>, span: f64) {
@@ -194,6 +204,7 @@ impl<S: Scalar, P: Poisson<S>> Course<'_, S, P> {
             let made = course.off_grid(system, joints, to, &mut there, &mut ahead);
             made.is_ok().then_some(there)
         };
+        let span = (end.0 - time).signum();
         let mut found = Vec::new();
         let mut from = start;
         for change in changes {
@@ -202,7 +213,8 @@ impl<S: Scalar, P: Poisson<S>> Course<'_, S, P> {
                 continue;
             };
             let before = Knot::at(system, change, &there);
-            found.extend(self.events_between(system, &events.rules, (&from, &before), &mut reach));
+            let passed = self.events_between(system, &events.rules, (&from, &before), &mut reach);
+            insert(&mut found, passed, span);
             let mut there = before.mu;
             set_time(system, &mut there, change);
             held.hold(
@@ -213,9 +225,8 @@ impl<S: Scalar, P: Poisson<S>> Course<'_, S, P> {
             );
             from = Knot::at(system, change, &there);
         }
-        found.extend(self.events_between(system, &events.rules, (&from, &finish), &mut reach));
-        let span = (end.0 - time).signum();
-        found.sort_by(|a, b| (a.time * span).total_cmp(&(b.time * span)));
+        let passed = self.events_between(system, &events.rules, (&from, &finish), &mut reach);
+        insert(&mut found, passed, span);
         end_at_stop(&mut found, span);
         events.last = Some(finish);
         self.stats = stats;
@@ -334,8 +345,8 @@ impl<S: Scalar, P: Poisson<S>> Course<'_, S, P> {
             width *= 16.0;
         };
         let size = from.0.abs().max(to.0.abs());
-        let value = |time: f64| of(self, time).map(|(_, value)| value);
-        let (time, change) = zero(from, to, 2.0 * f64::EPSILON * size, value)?;
+        let mut value = |time: f64| of(self, time).map(|(_, value)| value);
+        let (time, change) = zero(from, to, 2.0 * f64::EPSILON * size, &mut value)?;
         if change > JUMP * (from.1 - to.1).abs() {
             return None;
         }

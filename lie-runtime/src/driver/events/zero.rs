@@ -12,7 +12,7 @@ pub(super) fn zero(
     from: (f64, f64),
     to: (f64, f64),
     close: f64,
-    mut of: impl FnMut(f64) -> Option<f64>,
+    of: &mut dyn FnMut(f64) -> Option<f64>,
 ) -> Option<(f64, f64)> {
     // the last place, the one with another sign, and below the one before
     let (mut a, mut b) = (to, from);
@@ -66,11 +66,11 @@ mod tests {
         ];
         for (f, expected) in functions {
             let mut count = 0;
-            let of = |x: f64| {
+            let mut of = |x: f64| {
                 count += 1;
                 Some(f(x))
             };
-            let (found, _) = zero((1.0, f(1.0)), (2.0, f(2.0)), f64::EPSILON, of).unwrap();
+            let (found, _) = zero((1.0, f(1.0)), (2.0, f(2.0)), f64::EPSILON, &mut of).unwrap();
             // a zero of order nine is a zero to round-off over a wide stretch
             let wide = if f(expected + 1e-6) < 1e-50 {
                 1e-6
@@ -80,11 +80,11 @@ mod tests {
             assert!((found - expected).abs() <= wide, "{found} {expected}");
             assert!(count <= 70, "{count}");
         }
-        assert_eq!(zero((0.0, -1.0), (1.0, 1.0), 1e-9, |_| None), None);
+        assert_eq!(zero((0.0, -1.0), (1.0, 1.0), 1e-9, &mut |_| None), None);
         // met at once, it is no jump
-        let met = zero((0.0, -0.5), (1.0, 0.5), 1e-9, |x| Some(x - 0.5));
+        let met = zero((0.0, -0.5), (1.0, 0.5), 1e-9, &mut |x| Some(x - 0.5));
         assert_eq!(met, Some((0.5, 0.0)));
-        let jump = zero((0.0, -1.0), (1.0, 1.0), 1e-9, |x| {
+        let jump = zero((0.0, -1.0), (1.0, 1.0), 1e-9, &mut |x| {
             Some(if x < 0.3 { -1.0 } else { 1.0 })
         });
         assert!(jump.unwrap().1 == 2.0);
