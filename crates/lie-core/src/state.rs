@@ -118,6 +118,11 @@ pub trait Unknown<S: Scalar>: Clone {
     }
 }
 
+/// So many copies of a value: compiled for each type of it, where `from_fn` with a closure is compiled for each function it stands in.
+pub(crate) fn copies<T: Clone, const COUNT: usize>(value: &T) -> [T; COUNT] {
+    core::array::from_fn(|_| value.clone())
+}
+
 /// A point of g*, or an element of g in the dual basis: one contiguous vector.
 ///
 /// Implemented for `nalgebra::SVector`, for arrays, and with the feature `std` for `Vec`.

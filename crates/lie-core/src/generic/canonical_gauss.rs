@@ -4,7 +4,7 @@ use super::tableau::{gauss_ratio, gauss_weight};
 use crate::equation::Equation;
 use crate::matrix::SquareMatrix;
 use crate::scalar::{Mask, Scalar};
-use crate::state::{Stages, State};
+use crate::state::{Stages, State, copies};
 use crate::structure::CanonicalPoisson;
 
 /// Gauss collocation with one stage less than `STAGES` in coordinates w in which the Poisson matrix is constant.
@@ -50,7 +50,7 @@ impl<'a, S: Scalar, P: CanonicalPoisson<S>, const STAGES: usize> CanonicalGauss<
             weights: core::array::from_fn(|i| core::array::from_fn(|j| weight(i, j))),
             base: zero.clone(),
             start: zero.clone(),
-            fields: core::array::from_fn(|_| zero.clone()),
+            fields: copies(&zero),
             change: zero.clone(),
             pulled: zero,
             jacobian: system.zero_jacobian(),

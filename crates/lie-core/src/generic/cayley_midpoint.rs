@@ -10,7 +10,7 @@ use crate::matrix::SquareMatrix;
 use crate::methods::Retraction;
 use crate::poisson::CayleyPoisson;
 use crate::scalar::{Mask as _, Scalar};
-use crate::state::State;
+use crate::state::{State, copies};
 use crate::structure::Spectrum;
 
 /// The method `mu1 = Ad*_(cay xi) mu` of a generating function S, for an algebra with a triple-closed
@@ -65,7 +65,7 @@ where
             base: zero.clone(),
             direction: zero.clone(),
             hessian: system.zero_jacobian(),
-            columns: core::array::from_fn(|_| zero.clone()),
+            columns: copies(&zero),
             forced: Acting::of(system, || (zero.clone(), system.zero_jacobian())),
         }
     }

@@ -12,7 +12,7 @@ use crate::matrix::SquareMatrix;
 use crate::methods::Retraction;
 use crate::poisson::CayleyPoisson;
 use crate::scalar::Scalar;
-use crate::state::State;
+use crate::state::{State, copies};
 
 /// The discrete Euler–Poincaré step `(dcay_x^-1)* l_d'(x) = mu`, `mu1 = Ad*_(cay x) mu`, for an algebra with a
 /// triple-closed representation.
@@ -72,7 +72,7 @@ where
             weight: system.zero_jacobian(),
             momentum: zero.clone(),
             curvature: system.zero_jacobian(),
-            columns: core::array::from_fn(|_| zero.clone()),
+            columns: copies(&zero),
         }
     }
 }

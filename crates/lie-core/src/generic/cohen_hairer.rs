@@ -10,7 +10,7 @@ use crate::equation::Equation;
 use crate::matrix::SquareMatrix;
 use crate::poisson::Poisson;
 use crate::scalar::{Mask as _, Scalar};
-use crate::state::{Stages, State};
+use crate::state::{Stages, State, copies};
 
 /// The method of Cohen and Hairer for any Poisson system.
 ///
@@ -77,7 +77,7 @@ impl<'a, S: Scalar, P: Poisson<S>, const STAGES: usize> CohenHairerStep<'a, S, P
             base: zero.clone(),
             point: zero.clone(),
             field: zero.clone(),
-            gradients: core::array::from_fn(|_| zero.clone()),
+            gradients: copies(&zero),
             poisson_matrix: system.zero_jacobian(),
             hessian: system.zero_jacobian(),
             beside: Acting::of(system, || Beside::new(system)),

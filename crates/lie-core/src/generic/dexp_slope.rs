@@ -5,7 +5,7 @@ use super::series::{Scratch, dexp_dual_in};
 use crate::matrix::SquareMatrix;
 use crate::poisson::LiePoisson;
 use crate::scalar::{Mask, Scalar};
-use crate::state::State;
+use crate::state::{State, copies};
 
 /// Terms of the series whose derivative is taken. Beyond them Newton's matrix is only approximate.
 const TERMS: usize = 24;
@@ -31,7 +31,7 @@ impl<S: Scalar, V: State<S>, M: SquareMatrix<S>> DexpSlope<V, M, S> {
     pub(super) fn new(zero: &V, matrix: M) -> Self {
         Self {
             scratch: Scratch::new(zero),
-            terms: core::array::from_fn(|_| zero.clone()),
+            terms: copies(zero),
             derivative: zero.clone(),
             first: zero.clone(),
             second: zero.clone(),

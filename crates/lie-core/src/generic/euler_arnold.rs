@@ -8,7 +8,7 @@ use crate::clock::Clock;
 use crate::equation::Equation;
 use crate::matrix::SquareMatrix;
 use crate::scalar::Scalar;
-use crate::state::State;
+use crate::state::{State, copies};
 use crate::structure::CotangentPoisson;
 
 /// Which half of a step: they are adjoint to each other.
@@ -80,7 +80,7 @@ impl<'a, S: Scalar, P: CotangentPoisson<S>> EulerArnoldHalf<'a, S, P> {
             slope: Acting::of(system, || system.zero_jacobian()),
             series: DexpSlope::new(&zero, system.zero_jacobian()),
             sum: zero.clone(),
-            columns: core::array::from_fn(|_| zero.clone()),
+            columns: copies(&zero),
         }
     }
 

@@ -12,7 +12,7 @@ use crate::matrix::SquareMatrix;
 use crate::methods::Retraction;
 use crate::poisson::LiePoisson;
 use crate::scalar::Scalar;
-use crate::state::State;
+use crate::state::{State, copies};
 
 /// The method `mu1 = Ad*_(exp xi) mu` of a generating function S, for any Lie algebra.
 ///
@@ -67,7 +67,7 @@ where
             sum: zero.clone(),
             series: DexpSlope::new(&zero, system.zero_jacobian()),
             hessian: system.zero_jacobian(),
-            columns: core::array::from_fn(|_| zero.clone()),
+            columns: copies(&zero),
             force: Acting::of(system, || MidpointForce::new(system)),
         }
     }

@@ -12,7 +12,7 @@ use crate::matrix::SquareMatrix;
 use crate::methods::Retraction;
 use crate::poisson::LiePoisson;
 use crate::scalar::Scalar;
-use crate::state::State;
+use crate::state::{State, copies};
 
 /// The discrete Euler–Poincaré step `(dexp_x^-1)* l_d'(x) = mu`, `mu1 = Ad*_(exp x) mu`, for any Lie algebra.
 ///
@@ -71,7 +71,7 @@ where
             weight: system.zero_jacobian(),
             series: DexpSlope::new(&zero, system.zero_jacobian()),
             curvature: system.zero_jacobian(),
-            columns: core::array::from_fn(|_| zero.clone()),
+            columns: copies(&zero),
         }
     }
 

@@ -6,7 +6,7 @@ use super::stage_momenta::StageMap;
 use super::tableau::Tableau;
 use crate::matrix::{SquareMatrix, StageMatrix};
 use crate::scalar::{Mask as _, Scalar};
-use crate::state::{Stages, State};
+use crate::state::{Stages, State, copies};
 use crate::structure::{Entry, MatrixPoisson, Representation, Spectrum};
 
 /// The stages of a Gauss method on `T*V`, V the space of a representation `rho`, reduced to g*.
@@ -54,8 +54,8 @@ pub struct MatrixStages<S, M, const STAGES: usize> {
 
 impl<S: Scalar, M: SquareMatrix<S>, const STAGES: usize> MatrixStages<S, M, STAGES> {
     fn with_zero(zero: &M, tableau: &Tableau<S, STAGES>) -> Self {
-        let blocks = || core::array::from_fn(|_| zero.clone());
-        let square = || StageMatrix(core::array::from_fn(|_| blocks()));
+        let blocks = || copies(zero);
+        let square = || StageMatrix(copies(&blocks()));
         Self {
             tableau: *tableau,
             momentum: zero.clone(),

@@ -5,7 +5,7 @@ use super::series::{Scratch, coadjoint_action_in};
 use crate::matrix::SquareMatrix;
 use crate::poisson::LiePoisson;
 use crate::scalar::Scalar;
-use crate::state::State;
+use crate::state::{State, copies};
 
 /// The force `F(p)` at the midpoint, half of it carried to the beginning of the step and half to its end by half of the motion:
 /// `(h/2) exp(-ad*_xi/2) F` and `(h/2) exp(ad*_xi/2) F`, the discrete Lagrange–d'Alembert principle.
@@ -41,7 +41,7 @@ impl<V, M> MidpointForce<V, M> {
             force: zero.clone(),
             slopes: system.zero_jacobian(),
             scratch: Scratch::new(&zero),
-            columns: core::array::from_fn(|_| zero.clone()),
+            columns: copies(&zero),
         }
     }
 

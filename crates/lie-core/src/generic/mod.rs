@@ -32,12 +32,11 @@ macro_rules! unknown_of_stages {
         type Matrix = $crate::StageMatrix<P::Jacobian, STAGES>;
 
         fn zero_unknown(&self) -> Self::Unknown {
-            $crate::Stages(core::array::from_fn(|_| self.system.zero_state()))
+            $crate::Stages($crate::state::copies(&self.system.zero_state()))
         }
         fn zero_matrix(&self) -> Self::Matrix {
-            $crate::StageMatrix(core::array::from_fn(|_| {
-                core::array::from_fn(|_| self.system.zero_jacobian())
-            }))
+            let row = $crate::state::copies(&self.system.zero_jacobian());
+            $crate::StageMatrix($crate::state::copies(&row))
         }
         #[inline(always)]
         fn clock(&self) -> Option<$crate::Clock> {

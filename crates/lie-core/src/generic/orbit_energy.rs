@@ -10,7 +10,7 @@ use crate::matrix::SquareMatrix;
 use crate::methods::Retraction;
 use crate::poisson::Poisson;
 use crate::scalar::{Mask, Scalar};
-use crate::state::State;
+use crate::state::{State, copies};
 
 /// Motion along a discrete gradient: on the coadjoint orbit for any Lie algebra, on the symplectic leaf for any Poisson matrix
 /// ([`FrozenStep`]).
@@ -68,7 +68,7 @@ where
             spare: zero.clone(),
             motion: M::new(system),
             derivative: system.zero_jacobian(),
-            columns: core::array::from_fn(|_| zero.clone()),
+            columns: copies(&zero),
             beside: Acting::of(system, || OrbitBeside::new(system)),
         }
     }

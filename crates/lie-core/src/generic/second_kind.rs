@@ -8,7 +8,7 @@ use crate::matrix::SquareMatrix;
 use crate::methods::Retraction;
 use crate::poisson::{LiePoisson, Lift, Poisson};
 use crate::scalar::{Dual, Scalar};
-use crate::state::State;
+use crate::state::{State, copies};
 
 /// How momenta move along the elements of the basis.
 pub trait Actions<S: Scalar, P: LiePoisson<S>> {
@@ -108,7 +108,7 @@ where
             xi: zero.clone(),
             hessian: system.zero_jacobian(),
             tangents: system.zero_jacobian(),
-            columns: core::array::from_fn(|_| zero.clone()),
+            columns: copies(&zero),
         }
     }
 

@@ -10,7 +10,7 @@ use crate::matrix::{SquareMatrix, StageMatrix};
 use crate::methods::Retraction;
 use crate::poisson::LiePoisson;
 use crate::scalar::{Mask as _, Scalar};
-use crate::state::{Stages, State};
+use crate::state::{Stages, State, copies};
 use crate::structure::MatrixPoisson;
 
 /// The momenta `M_i` of the stages of a Gauss method on a space over g*, on which elements of the algebra
@@ -95,7 +95,7 @@ where
     pub fn new(system: &'a P, h: S) -> Self {
         let zero = system.zero_state();
         let tableau = gauss_tableau::<S, STAGES>();
-        let stages = || Stages(core::array::from_fn(|_| zero.clone()));
+        let stages = || Stages(copies(&zero));
         Self {
             system,
             step: h,
@@ -107,9 +107,7 @@ where
             field: zero.clone(),
             x: stages(),
             momenta: stages(),
-            slopes: StageMatrix(core::array::from_fn(|_| {
-                core::array::from_fn(|_| system.zero_jacobian())
-            })),
+            slopes: StageMatrix(copies(&copies(&system.zero_jacobian()))),
             hessian: system.zero_jacobian(),
         }
     }

@@ -31,7 +31,7 @@ use crate::clock::holds;
 use crate::newton::{FailureReason, NewtonOptions};
 use crate::poisson::Poisson;
 use crate::scalar::{Mask, Scalar};
-use crate::state::{State, Unknown};
+use crate::state::{State, Unknown, copies};
 use progress::Progress;
 use tableau::{A, ERROR};
 
@@ -86,7 +86,7 @@ impl<S: Scalar, P: Poisson<S>> Method<S, P> for Dopri5 {
             proposal: S::zero(),
             known: S::Mask::splat(false),
             log_error_before: S::from_f64(LEAST_LOG_ERROR),
-            slopes: core::array::from_fn(|_| zero.clone()),
+            slopes: copies(&zero),
             current: zero.clone(),
             point: zero,
             projection: None,

@@ -37,7 +37,7 @@ use super::stepper::{FactorSink, Method, Retraction, StepFailure, StepReport, St
 use crate::generic::{EulerArnoldHalf, Half};
 use crate::newton::NewtonOptions;
 use crate::scalar::{Mask, Scalar};
-use crate::state::{State, Unknown};
+use crate::state::{State, Unknown, copies};
 use crate::structure::CotangentPoisson;
 
 /// The symplectic method on `T*G`, order 2; see the [module's text](self).
@@ -66,7 +66,7 @@ impl<S: Scalar, P: CotangentPoisson<S>> Method<S, P> for EulerArnold2 {
         EulerArnoldStepper {
             half: ImplicitStepper::new(equation, system.zero_state(), newton),
             next: system.zero_state(),
-            factors: core::array::from_fn(|_| system.zero_state()),
+            factors: copies(&system.zero_state()),
         }
     }
 }

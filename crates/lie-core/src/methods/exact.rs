@@ -24,7 +24,7 @@ use crate::generic::{FreeBody, Words, coadjoint_action, gauss_tableau, principal
 use crate::matrix::SquareMatrix as _;
 use crate::newton::NewtonOptions;
 use crate::scalar::{Mask, Scalar};
-use crate::state::{State, Unknown as _};
+use crate::state::{State, Unknown as _, copies};
 use crate::structure::{IntegrablePoisson, Motion};
 
 /// The exact flow; see the [module's text](self).
@@ -81,10 +81,10 @@ impl<'a, S: Scalar, P: IntegrablePoisson<S>> ExactStepper<'a, S, P> {
         let mut stepper = Self {
             system,
             step: h,
-            axes: core::array::from_fn(|_| zero.clone()),
+            axes: copies(&zero),
             rates: zero.clone(),
             place: zero.clone(),
-            constants: core::array::from_fn(|_| zero.clone()),
+            constants: copies(&zero),
             end: zero.clone(),
             follows: S::Mask::splat(false),
             next: zero,

@@ -88,7 +88,7 @@ impl<S: Scalar, E: Equation<S>> ImplicitStepper<S, E> {
             self.remember(scale, predicted, attempts.predictable());
             return Ok(StepReport::implicit(report));
         }
-        let outcome = self.refuse(mu, solved, [finite, charted, resolved]);
+        let outcome = refuse(mu, &self.next, solved, [finite, charted, resolved]);
         self.remember(scale, predicted, attempts.predictable());
         if let Err(failure) = &outcome {
             self.predictor.forget(S::Mask::from_bits(failure.lanes));
@@ -119,45 +119,45 @@ impl<S: Scalar, E: Equation<S>> ImplicitStepper<S, E> {
             self.predictor.rest(far);
         }
     }
+}
 
-    /// Takes over the step in the lanes where nothing is against it, and says what is in the others.
-    #[cold]
-    #[inline(never)]
-    fn refuse(
-        &mut self,
-        mu: &mut E::State,
-        solved: Result<NewtonReport, Failure>,
-        [finite, charted, resolved]: [S::Mask; 3],
-    ) -> Result<StepReport, StepFailure> {
-        let (report, mut failure) = match solved {
-            Ok(report) => (StepReport::implicit(&report), None),
-            Err(failure) => {
-                let failure = StepFailure::of_solver(&failure);
-                (failure.report, Some(failure))
-            }
-        };
-        let good = !S::Mask::from_bits(failure.map_or(0, |failure| failure.lanes));
-        mu.assign_where(good & finite & charted & resolved, &self.next);
-        for (bad, reason) in [
-            (good & !finite, FailureReason::NotFinite),
-            (good & finite & !charted, FailureReason::OutsideChart),
-            (
-                good & finite & charted & !resolved,
-                FailureReason::Unresolved,
-            ),
-        ] {
-            if bad.any() {
-                let lanes = bad.bits();
-                let first = StepFailure {
-                    reason,
-                    lanes: 0,
-                    report,
-                };
-                failure.get_or_insert(first).lanes |= lanes;
-            }
+/// Takes over the step in the lanes where nothing is against it, and says what is in the others. It does not depend on the equation.
+#[cold]
+#[inline(never)]
+fn refuse<S: Scalar, V: State<S>>(
+    mu: &mut V,
+    next: &V,
+    solved: Result<NewtonReport, Failure>,
+    [finite, charted, resolved]: [S::Mask; 3],
+) -> Result<StepReport, StepFailure> {
+    let (report, mut failure) = match solved {
+        Ok(report) => (StepReport::implicit(&report), None),
+        Err(failure) => {
+            let failure = StepFailure::of_solver(&failure);
+            (failure.report, Some(failure))
         }
-        failure.map_or(Ok(report), Err)
+    };
+    let good = !S::Mask::from_bits(failure.map_or(0, |failure| failure.lanes));
+    mu.assign_where(good & finite & charted & resolved, next);
+    for (bad, reason) in [
+        (good & !finite, FailureReason::NotFinite),
+        (good & finite & !charted, FailureReason::OutsideChart),
+        (
+            good & finite & charted & !resolved,
+            FailureReason::Unresolved,
+        ),
+    ] {
+        if bad.any() {
+            let lanes = bad.bits();
+            let first = StepFailure {
+                reason,
+                lanes: 0,
+                report,
+            };
+            failure.get_or_insert(first).lanes |= lanes;
+        }
     }
+    failure.map_or(Ok(report), Err)
 }
 
 impl<S: Scalar, E: Equation<S>> Stepper<S> for ImplicitStepper<S, E> {

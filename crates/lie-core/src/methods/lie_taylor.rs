@@ -39,7 +39,7 @@ use crate::newton::NewtonOptions;
 use crate::poisson::{LiePoisson, Poisson, Widen};
 use crate::recurrence::{GradientRecurrence, GradientSeries, Recurrence};
 use crate::scalar::{Mask, Scalar};
-use crate::state::State;
+use crate::state::{State, copies};
 
 /// The largest order.
 pub const MOST: usize = 16;
@@ -122,12 +122,12 @@ where
             pace,
             recurrence: system.gradient_series(),
             inverses: core::array::from_fn(|k| S::ratio(1.0, k.max(1) as f64)),
-            rows: core::array::from_fn(|_| zero.clone()),
-            increments: core::array::from_fn(|_| zero.clone()),
-            nested: core::array::from_fn(|_| core::array::from_fn(|_| wide_zero.clone())),
-            widened: core::array::from_fn(|_| wide_zero.clone()),
+            rows: copies(&zero),
+            increments: copies(&zero),
+            nested: copies(&copies(&wide_zero)),
+            widened: copies(&wide_zero),
             bracket: wide_zero.clone(),
-            sums: core::array::from_fn(|_| wide_zero.clone()),
+            sums: copies(&wide_zero),
             wide,
             field: zero.clone(),
             coefficient: zero.clone(),

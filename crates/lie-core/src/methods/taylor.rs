@@ -38,6 +38,7 @@ use crate::generic::gauss_tableau;
 use crate::newton::NewtonOptions;
 use crate::recurrence::{MOST_ORDERS, Recurrence, Series};
 use crate::scalar::{Mask, Scalar};
+use crate::state::copies;
 
 /// Nodes at which velocities are given to whoever follows the group element.
 const NODES: usize = 8;
@@ -77,7 +78,7 @@ impl<S: Scalar, P: Series<S>> Method<S, P> for Taylor {
             .of(system),
             recurrence: system.series(),
             inverses: core::array::from_fn(|k| S::ratio(1.0, k.max(1) as f64)),
-            rows: core::array::from_fn(|_| zero.clone()),
+            rows: copies(&zero),
             scratch: Some((zero.clone(), zero.clone())),
             unit: TimeUnit::new(),
             joints: Joints::new(),

@@ -2,7 +2,7 @@
 
 use crate::clock::{Clock, holds};
 use crate::scalar::{Mask, Scalar};
-use crate::state::Unknown;
+use crate::state::{Unknown, copies};
 
 /// The polynomial goes through so many unknowns.
 const VALUES: usize = 12;
@@ -40,7 +40,7 @@ impl<S: Scalar, U: Unknown<S>> Predictor<S, U> {
     /// For unknowns of this shape.
     pub(crate) fn new(zero: &U) -> Self {
         Self {
-            differences: core::array::from_fn(|_| zero.clone()),
+            differences: copies(zero),
             next: zero.clone(),
             age: S::zero(),
         }

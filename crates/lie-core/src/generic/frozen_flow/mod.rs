@@ -9,7 +9,7 @@ use super::tableau::{MOST_STAGES, gauss_legendre, gauss_ratio, gauss_weight};
 use crate::matrix::SquareMatrix;
 use crate::poisson::Poisson;
 use crate::scalar::{Mask as _, Scalar};
-use crate::state::State;
+use crate::state::{State, copies};
 pub(super) use motion::jacobian_cost;
 use reached::{LAST, RESOLVED, Reached};
 use tangent::Tangent;
@@ -86,9 +86,9 @@ impl<S: Scalar, V: State<S>, M: SquareMatrix<S>> FrozenFlow<S, V, M> {
             last: core::array::from_fn(|k| {
                 core::array::from_fn(|j| gauss_legendre(NODES, NODES - LAST + k, j))
             }),
-            increments: core::array::from_fn(|_| zero.clone()),
+            increments: copies(&zero),
             warm: S::Mask::splat(false),
-            approached: core::array::from_fn(|_| zero.clone()),
+            approached: copies(&zero),
             approaching: false,
             near: S::Mask::splat(false),
             parts: S::one(),

@@ -5,7 +5,7 @@ use super::{FrozenFlow, MOST_SWEEPS, NODES};
 use crate::matrix::SquareMatrix;
 use crate::poisson::Poisson;
 use crate::scalar::{Mask as _, Scalar};
-use crate::state::State;
+use crate::state::{State, copies};
 
 /// Sweeps end where they change a derivative by no more than that part of it: an error e of a Jacobian leaves e times the last update of
 /// Newton's iteration, which is below the root of round-off.
@@ -34,7 +34,7 @@ impl<V: Clone, M: Clone> Tangent<V, M> {
             of_start: matrix.clone(),
             of_mean: matrix.clone(),
             at_nodes: core::array::from_fn(|_| (matrix.clone(), matrix.clone())),
-            changes: core::array::from_fn(|_| zero.clone()),
+            changes: copies(zero),
             at: zero.clone(),
             field: zero.clone(),
         }

@@ -2,7 +2,7 @@
 
 use crate::poisson::LiePoisson;
 use crate::scalar::{Mask, Scalar};
-use crate::state::State;
+use crate::state::{State, copies};
 
 /// More terms than the series of a path within one step needs: `|ad_theta|` up to 10.
 const TERMS: usize = 48;
@@ -27,7 +27,7 @@ pub(super) struct BodyVelocity<S, V> {
 impl<S: Scalar, V: State<S>> BodyVelocity<S, V> {
     pub(super) fn new(zero: &V) -> Self {
         Self {
-            powers: core::array::from_fn(|_| zero.clone()),
+            powers: copies(zero),
             coefficients: [S::zero(); TERMS],
             last: 0,
             xi: zero.clone(),

@@ -10,7 +10,7 @@ use crate::methods::Retraction;
 use crate::newton::exchanging;
 use crate::poisson::CayleyPoisson;
 use crate::scalar::Scalar;
-use crate::state::State;
+use crate::state::{State, copies};
 use crate::structure::CotangentPoisson;
 
 /// The path `g cay(theta(t/h))` of a step with the momenta at its nodes, see [`super::GalerkinCayley`].
@@ -291,9 +291,9 @@ where
             start: zero.clone(),
             middle: zero.clone(),
             pushed: zero.clone(),
-            end: core::array::from_fn(|_| zero.clone()),
-            matrices: core::array::from_fn(|_| system.zero_jacobian()),
-            columns: core::array::from_fn(|_| zero.clone()),
+            end: copies(&zero),
+            matrices: copies(&system.zero_jacobian()),
+            columns: copies(&zero),
         }
     }
 

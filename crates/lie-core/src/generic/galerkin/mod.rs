@@ -18,7 +18,7 @@ use crate::methods::Retraction;
 use crate::newton::exchanging;
 use crate::poisson::{Lift, Poisson};
 use crate::scalar::{Dual, Scalar};
-use crate::state::{Stages, State};
+use crate::state::{Stages, State, copies};
 use path::Path;
 
 /// One step along the path of degree s that makes the quadrature of the action stationary.
@@ -82,14 +82,14 @@ where
             weight: system.zero_jacobian(),
             inverse_stiffness,
             lifted_path: Path::new(&lifted_zero, Dual::constant_of(h)),
-            lifted_controls: Stages(core::array::from_fn(|_| lifted_zero.clone())),
-            lifted_defects: Stages(core::array::from_fn(|_| lifted_zero.clone())),
+            lifted_controls: Stages(copies(&lifted_zero)),
+            lifted_defects: Stages(copies(&lifted_zero)),
             lifted_base: lifted_zero,
             path,
             lifted,
-            columns: core::array::from_fn(|_| zero.clone()),
-            defects: Stages(core::array::from_fn(|_| zero.clone())),
-            moved: Stages(core::array::from_fn(|_| zero.clone())),
+            columns: copies(&zero),
+            defects: Stages(copies(&zero)),
+            moved: Stages(copies(&zero)),
         }
     }
 

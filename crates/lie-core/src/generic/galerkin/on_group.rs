@@ -9,7 +9,7 @@ use crate::matrix::{SquareMatrix, StageMatrix};
 use crate::methods::{Cayley, Exp, Retraction};
 use crate::poisson::{Lift, Poisson};
 use crate::scalar::{Dual, Scalar};
-use crate::state::{Stages, State};
+use crate::state::{Stages, State, copies};
 use crate::structure::CotangentPoisson;
 
 /// One step along the path of degree s for which the sum of action and work of the forces is stationary, the discrete
@@ -98,7 +98,7 @@ where
             lifted_path: NodePath::new(&lifted, Dual::constant_of(h)),
             lifted_base: lifted.zero_state(),
             lifted,
-            columns: core::array::from_fn(|_| zero.clone()),
+            columns: copies(&zero),
         }
     }
 
@@ -149,14 +149,13 @@ where
     type Matrix = StageMatrix<StageMatrix<P::MomentumMatrix, 2>, STAGES>;
 
     fn zero_unknown(&self) -> Self::Unknown {
-        let zero = || self.system.zero_momentum();
-        Stages(core::array::from_fn(|_| Stages([zero(), zero()])))
+        let zero = copies(&self.system.zero_momentum());
+        Stages(copies(&Stages(zero)))
     }
 
     fn zero_matrix(&self) -> Self::Matrix {
-        let zero = || core::array::from_fn(|_| self.system.zero_momentum_matrix());
-        let block = || StageMatrix([zero(), zero()]);
-        StageMatrix(core::array::from_fn(|_| core::array::from_fn(|_| block())))
+        let block = StageMatrix(copies(&copies(&self.system.zero_momentum_matrix())));
+        StageMatrix(copies(&copies(&block)))
     }
 
     fn set_base(&mut self, mu: &P::State) {

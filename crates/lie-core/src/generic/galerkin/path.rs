@@ -5,7 +5,7 @@ use crate::generic::series::{Scratch, dexp_dual_in};
 use crate::generic::tableau::gauss_tableau;
 use crate::lagrangian::LagrangianPoisson;
 use crate::scalar::Scalar;
-use crate::state::{Stages, State};
+use crate::state::{Stages, State, copies};
 
 /// The path of a step over some scalar.
 pub(super) struct Path<S, V, const STAGES: usize> {
@@ -34,7 +34,7 @@ impl<S: Scalar, V: State<S>, const STAGES: usize> Path<S, V, STAGES> {
             weights: tableau.b,
             body: BodyVelocity::new(zero),
             scratch: Scratch::new(zero),
-            columns: core::array::from_fn(|_| zero.clone()),
+            columns: copies(zero),
         }
     }
 

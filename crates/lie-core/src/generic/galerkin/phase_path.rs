@@ -5,7 +5,7 @@ use super::node_path::Node;
 use crate::generic::series::{Scratch, coadjoint_action_in, dexp_dual_in};
 use crate::generic::tableau::{Tableau, gauss_tableau};
 use crate::scalar::Scalar;
-use crate::state::State;
+use crate::state::{State, copies};
 use crate::structure::CotangentPoisson;
 
 /// The path `exp(theta(t/h))` of a step with the momenta at its nodes, see [`super::GalerkinOnGroup`].
@@ -32,7 +32,7 @@ impl<S: Scalar, V: State<S>, const STAGES: usize> PhasePath<S, V, STAGES> {
             end: zero.clone(),
             body: BodyVelocity::new(zero),
             scratch: Scratch::new(zero),
-            columns: core::array::from_fn(|_| zero.clone()),
+            columns: copies(zero),
         }
     }
 
