@@ -1,10 +1,94 @@
 //! Equations of implicit methods, generated against generic ones.
 
-use lie_runtime::methods::{Cayley, Exp, Gauss4, Gauss6, ImplicitMidpoint, LieMidpoint};
+use lie_runtime::methods::{
+    Cayley, Exp, Gauss4, Gauss6, ImplicitMidpoint, LieMidpoint, Retraction,
+};
 use lie_runtime::{CayleyPoisson, Equation, Implicit, LiePoisson, Scalar, State, Unknown, generic};
 
-use crate::errors::{Errors, entries, unknown_entries};
+use crate::errors::{Errors, entries, nudged, unknown_entries};
 use crate::systems::Random;
+
+/// An equation as lists of numbers, so that what compares two of them is compiled once.
+trait ErasedEquation {
+    fn set_base(&mut self, base: &[f64]);
+    fn initial_guess(&mut self) -> Vec<f64>;
+    fn residual(&mut self, unknown: &[f64]) -> Vec<f64>;
+    /// The residual, and the Jacobian row after row.
+    fn linearize(&mut self, unknown: &[f64]) -> [Vec<f64>; 2];
+    /// What the last Jacobian makes of the last residual; none where a pivot is near 0.
+    fn correction(&mut self) -> Option<Vec<f64>>;
+    /// The state at the end.
+    fn result(&mut self, base: &[f64], unknown: &[f64]) -> Vec<f64>;
+    /// The element of the group, where it is told by one vector.
+    fn group_factor(&mut self, unknown: &[f64]) -> Option<(Retraction, Vec<f64>)>;
+}
+
+/// An equation with a place for each of its results.
+struct Buffered<'e, E: Equation<f64>> {
+    equation: &'e mut E,
+    state: E::State,
+    unknown: E::Unknown,
+    residual: E::Unknown,
+    matrix: E::Matrix,
+}
+
+impl<'e, E: Equation<f64>> Buffered<'e, E> {
+    fn new(equation: &'e mut E, state: &E::State) -> Self {
+        Self {
+            state: state.clone(),
+            unknown: equation.zero_unknown(),
+            residual: equation.zero_unknown(),
+            matrix: equation.zero_matrix(),
+            equation,
+        }
+    }
+
+    fn set_unknown(&mut self, unknown: &[f64]) {
+        for (index, entry) in unknown.iter().enumerate() {
+            self.unknown.set_entry(index, *entry);
+        }
+    }
+}
+
+impl<E: Equation<f64>> ErasedEquation for Buffered<'_, E> {
+    fn set_base(&mut self, base: &[f64]) {
+        self.state.as_mut_slice().copy_from_slice(base);
+        self.equation.set_base(&self.state);
+    }
+    fn initial_guess(&mut self) -> Vec<f64> {
+        self.equation.initial_guess(&mut self.unknown);
+        unknown_entries(&self.unknown)
+    }
+    fn residual(&mut self, unknown: &[f64]) -> Vec<f64> {
+        self.set_unknown(unknown);
+        self.equation.residual(&self.unknown, &mut self.residual);
+        unknown_entries(&self.residual)
+    }
+    fn linearize(&mut self, unknown: &[f64]) -> [Vec<f64>; 2] {
+        self.set_unknown(unknown);
+        self.equation
+            .linearize(&self.unknown, &mut self.residual, &mut self.matrix);
+        [unknown_entries(&self.residual), entries(&self.matrix)]
+    }
+    fn correction(&mut self) -> Option<Vec<f64>> {
+        if !self.equation.factor(&mut self.matrix) {
+            return None;
+        }
+        self.equation.solve(&self.matrix, &mut self.residual);
+        Some(unknown_entries(&self.residual))
+    }
+    fn result(&mut self, base: &[f64], unknown: &[f64]) -> Vec<f64> {
+        self.set_unknown(unknown);
+        self.state.as_mut_slice().copy_from_slice(base);
+        self.equation.result(&self.unknown, &mut self.state);
+        self.state.as_slice().to_vec()
+    }
+    fn group_factor(&mut self, unknown: &[f64]) -> Option<(Retraction, Vec<f64>)> {
+        self.set_unknown(unknown);
+        let retraction = self.equation.group_factor(&self.unknown, &mut self.state)?;
+        Some((retraction, self.state.as_slice().to_vec()))
+    }
+}
 
 /// An equation against its generic form: start, residual, Jacobian, correction, result.
 pub fn equation<F, G>(
@@ -18,108 +102,82 @@ pub fn equation<F, G>(
     F: Equation<f64>,
     G: Equation<f64, State = F::State>,
 {
+    let (mut fused, mut reference) = (Buffered::new(fused, mu), Buffered::new(reference, mu));
+    let both: [&mut dyn ErasedEquation; 2] = [&mut fused, &mut reference];
+    compare(name, both, mu.as_slice(), random, errors);
+}
+
+fn compare(
+    name: &str,
+    [fused, reference]: [&mut dyn ErasedEquation; 2],
+    mu: &[f64],
+    random: &mut Random,
+    errors: &mut Errors,
+) {
     fused.set_base(mu);
-    let mut base = mu.clone();
-    base.as_mut_slice()
-        .iter_mut()
-        .for_each(|x| *x *= 1.0 + errors.nudge);
-    reference.set_base(&base);
-    let (mut unknown, mut other) = (fused.zero_unknown(), reference.zero_unknown());
-    fused.initial_guess(&mut unknown);
-    reference.initial_guess(&mut other);
-    errors.compare(
-        &format!("{name}, initial_guess"),
-        &unknown_entries(&unknown),
-        &unknown_entries(&other),
-    );
+    reference.set_base(&nudged(mu, errors));
+    let (mut unknown, mut other) = (fused.initial_guess(), reference.initial_guess());
+    errors.compare(&format!("{name}, initial_guess"), &unknown, &other);
     // off the solution, as in the first iterations
     for index in 0..unknown.len() {
-        let entry = other.entry(index) + 0.05 * random.number();
-        unknown.set_entry(index, entry);
-        other.set_entry(index, entry * (1.0 + errors.nudge));
+        let entry = other[index] + 0.05 * random.number();
+        unknown[index] = entry;
+        other[index] = entry * (1.0 + errors.nudge);
     }
-    let (mut residual, mut expected) = (fused.zero_unknown(), reference.zero_unknown());
-    let (mut left, mut right) = (fused.zero_matrix(), reference.zero_matrix());
-    fused.linearize(&unknown, &mut residual, &mut left);
-    let iterated = iterated(&left, unknown.len());
+    let size = unknown.len();
+    let [residual_of_linearize, left] = fused.linearize(&unknown);
+    // the unknowns that the iteration finds: the others have an empty row
+    let row = |i: &usize| left[i * size..][..size].iter().any(|entry| *entry != 0.0);
+    let iterated: Vec<usize> = (0..size).filter(row).collect();
     // The fused equation knows the unknowns that its iteration leaves out: first those with a formula in the state, then
     // those that need the others. Their residuals in the generic one are `u - formula`, or small multiples of the step beside that
     // where few of them depend on each other.
     for _ in 0..60 {
-        reference.residual(&other, &mut expected);
-        for index in (0..other.len()).filter(|index| !iterated.contains(index)) {
-            other.set_entry(index, other.entry(index) - expected.entry(index));
+        let residual = reference.residual(&other);
+        for index in (0..size).filter(|index| !iterated.contains(index)) {
+            other[index] -= residual[index];
         }
     }
-    let of = |entries: Vec<f64>| -> Vec<f64> { iterated.iter().map(|i| entries[*i]).collect() };
-    reference.residual(&other, &mut expected);
-    let expected_entries = of(unknown_entries(&expected));
-    let found = of(unknown_entries(&residual));
+    let of = |entries: &[f64]| -> Vec<f64> { iterated.iter().map(|i| entries[*i]).collect() };
+    let expected = of(&reference.residual(&other));
     errors.compare(
         &format!("{name}, residual of linearize"),
-        &found,
-        &expected_entries,
+        &of(&residual_of_linearize),
+        &expected,
     );
-    fused.residual(&unknown, &mut residual);
-    let found = of(unknown_entries(&residual));
-    errors.compare(&format!("{name}, residual"), &found, &expected_entries);
-    for index in (0..unknown.len()).filter(|index| !iterated.contains(index)) {
-        assert_eq!(
-            residual.entry(index),
-            0.0,
-            "{name}: what is left out never moves"
-        );
+    let residual = fused.residual(&unknown);
+    errors.compare(&format!("{name}, residual"), &of(&residual), &expected);
+    for index in (0..size).filter(|index| !iterated.contains(index)) {
+        assert_eq!(residual[index], 0.0, "{name}: what is left out never moves");
     }
-    reference.linearize(&other, &mut expected, &mut right);
+    let [_, right] = reference.linearize(&other);
     let block = |matrix: &[f64]| -> Vec<f64> {
-        let n = unknown.len();
-        let entries = iterated
-            .iter()
-            .flat_map(|i| iterated.iter().map(move |j| i * n + j));
+        let rows = iterated.iter();
+        let entries = rows.flat_map(|i| iterated.iter().map(move |j| i * size + j));
         entries.map(|place| matrix[place]).collect()
     };
-    errors.compare(
-        &format!("{name}, Jacobian"),
-        &block(&entries(&left)),
-        &block(&entries(&right)),
-    );
-    assert!(
-        fused.factor(&mut left) && reference.factor(&mut right),
-        "{name}: the pivots are near 1"
-    );
-    fused.solve(&left, &mut residual);
-    reference.solve(&right, &mut expected);
+    errors.compare(&format!("{name}, Jacobian"), &block(&left), &block(&right));
+    let corrections = [fused.correction(), reference.correction()];
+    let [Some(correction), Some(expected)] = corrections else {
+        panic!("{name}: the pivots are near 1");
+    };
     errors.compare(
         &format!("{name}, correction"),
-        &of(unknown_entries(&residual)),
-        &of(unknown_entries(&expected)),
+        &of(&correction),
+        &of(&expected),
     );
-    let (mut end, mut expected) = (mu.clone(), mu.clone());
-    fused.result(&unknown, &mut end);
-    reference.result(&other, &mut expected);
     errors.compare(
         &format!("{name}, result"),
-        end.as_slice(),
-        expected.as_slice(),
+        &fused.result(mu, &unknown),
+        &reference.result(mu, &other),
     );
-    let factors = (
-        fused.group_factor(&unknown, &mut end),
-        reference.group_factor(&other, &mut expected),
-    );
-    assert_eq!(factors.0, factors.1, "{name}");
-    if factors.0.is_some() {
-        errors.compare(
-            &format!("{name}, group factor"),
-            end.as_slice(),
-            expected.as_slice(),
-        );
+    let factors = [fused.group_factor(&unknown), reference.group_factor(&other)];
+    let retractions = factors.each_ref();
+    let [one, other] = retractions.map(|factor| factor.as_ref().map(|(retraction, _)| *retraction));
+    assert_eq!(one, other, "{name}");
+    if let [Some((_, found)), Some((_, expected))] = &factors {
+        errors.compare(&format!("{name}, group factor"), found, expected);
     }
-}
-
-/// The unknowns that the iteration finds: the others have an empty row.
-fn iterated<M: lie_runtime::SquareMatrix<f64>>(matrix: &M, size: usize) -> Vec<usize> {
-    let row = |i: &usize| (0..size).any(|j| matrix.get(*i, j) != 0.0);
-    (0..size).filter(row).collect()
 }
 
 /// What every system has.

@@ -64,10 +64,13 @@ impl Errors {
 /// All entries, row after row.
 pub fn entries<M: SquareMatrix<f64>>(matrix: &M) -> Vec<f64> {
     let size = matrix.dimension();
-    let places = (0..size).flat_map(|row| (0..size).map(move |column| (row, column)));
-    places
-        .map(|(row, column)| matrix.get(row, column))
-        .collect()
+    let mut entries = Vec::with_capacity(size * size);
+    for row in 0..size {
+        for column in 0..size {
+            entries.push(matrix.get(row, column));
+        }
+    }
+    entries
 }
 
 pub fn unknown_entries<U: Unknown<f64>>(unknown: &U) -> Vec<f64> {
