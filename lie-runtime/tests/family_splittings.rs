@@ -1,5 +1,8 @@
 //! Splittings of families: their order and what they keep, and the flows of their pieces.
 
+use crate::families::{
+    DisorderedChain, DisorderedLattice, HeisenbergChain, Lattice, MeanFieldPieces,
+};
 use crate::sites;
 
 use lie_runtime::family::{Family, Pieces, unit_spheres};
@@ -8,13 +11,8 @@ use lie_runtime::prelude::*;
 use lie_runtime::{FoundPoisson, PieceFlows};
 use sites::{by_component, end, largest_difference};
 
-lie_poisson! { pub spec = "../../tests/data/families/disordered_chain.json"; }
-lie_poisson! { pub spec = "../../tests/data/families/disordered_lattice.json"; }
 lie_poisson! { pub spec = "../../tests/data/families/fput_chain.json"; }
-lie_poisson! { pub spec = "../../tests/data/families/heisenberg_chain.json"; }
-lie_poisson! { pub spec = "../../tests/data/families/lattice.json"; }
 lie_poisson! { pub spec = "../../tests/data/families/xxz_chain.json"; }
-lie_poisson! { pub spec = "../../tests/data/families/mean_field_pieces.json"; }
 lie_poisson! { pub spec = "../../tests/data/families/toda_ring.json"; }
 
 lie_poisson! {

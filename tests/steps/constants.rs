@@ -1,6 +1,7 @@
 //! Irrational constants in defaults, in the Hamiltonian and in the initial state.
 
 use lie_runtime::prelude::*;
+use spec_systems::se3_heavy_top::HeavyTop;
 
 lie_poisson! { spec = "tests/data/declarations/pass/irrational_constants.json"; }
 
@@ -63,8 +64,6 @@ fn constants_have_their_values() {
     system.gradient(&mu, &mut gradient);
     near(gradient[1], factor);
 }
-
-lie_poisson! { spec = "specs/se3_heavy_top.json"; }
 
 /// Whether the parts of the derivative of `m.g` along the field cancel exactly, read off at sums of unit vectors.
 fn is_kept<S: Scalar>(field: impl Fn(&[usize]) -> [S; 6]) -> bool {

@@ -7,9 +7,8 @@ use lie_program::listen::listen;
 use lie_program::protocol::{Message, Start};
 use lie_runtime::methods::{Facts, ImplicitMidpoint, Method, Preserves, Rk4};
 use lie_runtime::prelude::*;
+use spec_systems::so3_nonpolynomial::{NonpolynomialSpin, NonpolynomialSpinSystem};
 use std::io::Write as _;
-
-lie_poisson! { pub spec = "specs/so3_nonpolynomial.json"; }
 
 lie_poisson! {
     system Canonical;
