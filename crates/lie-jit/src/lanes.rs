@@ -1,11 +1,12 @@
 //! Codes over lanes.
 
+use crate::chain::{self, Parts};
 use crate::columns::ColumnKernels;
 use crate::make::{Purpose, make};
 use crate::memory::{Memory, Repeated};
 use crate::registers::Registers;
 use crate::{Entry, Others, SameCodes};
-use lie_dynamic::{Code, Frame, Interpreter, Lengths, Machine, Targets, in_turns};
+use lie_dynamic::{Chain, Code, Frame, Interpreter, Lengths, Machine, Targets, in_turns};
 use lie_runtime::Scalar;
 use std::sync::{Arc, OnceLock};
 
@@ -31,6 +32,7 @@ pub struct Lanes {
     registers: Registers,
     column_kernels: ColumnKernels,
     others: Others<Self>,
+    parts: Arc<Parts>,
     interpreted: Interpreter,
 }
 
@@ -44,6 +46,7 @@ impl Lanes {
             registers,
             column_kernels: ColumnKernels::new(codes.len()),
             others: Others::default(),
+            parts: Arc::default(),
             interpreted: Interpreter::new(Arc::clone(codes)),
         }
     }
@@ -108,6 +111,10 @@ impl Machine<Wide> for Lanes {
     fn compile(&self, codes: &Arc<[Code]>) -> Option<Arc<dyn Machine<Wide>>> {
         let make = || Some(Self::new(codes, self.registers));
         Some(self.others.get(&SameCodes(Arc::clone(codes)), make)?)
+    }
+
+    fn chain(&self, parts: usize, between: usize) -> Option<Box<dyn Chain<Wide>>> {
+        chain::linked(self.registers, &self.parts, parts, between)
     }
 
     fn run_columns(

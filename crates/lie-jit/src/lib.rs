@@ -17,10 +17,17 @@ mod make;
 mod memory;
 mod registers;
 
+#[cfg(all(unix, target_arch = "x86_64"))]
+use assembler::chain;
+#[cfg(not(all(unix, target_arch = "x86_64")))]
+use cranelift::chain;
+
+use chain::Parts;
 use columns::ColumnKernels;
 use lanes::{Lanes, Wide};
 use lie_dynamic::{
-    Cache, Code, Engine, Frame, Interpreted, Lengths, Machine, SLICES, Targets, place_by_place,
+    Cache, Chain, Code, Engine, Frame, Interpreted, Lengths, Machine, SLICES, Targets,
+    place_by_place,
 };
 use lie_runtime::Scalar;
 use make::Purpose;
@@ -98,6 +105,7 @@ struct Compiled {
     wide: OnceLock<Arc<Lanes>>,
     column_kernels: ColumnKernels,
     others: Others<Self>,
+    parts: Arc<Parts>,
     _memory: Memory,
 }
 
@@ -141,6 +149,7 @@ impl Compiled {
             wide: OnceLock::new(),
             column_kernels: ColumnKernels::new(codes.len()),
             others: Others::default(),
+            parts: Arc::default(),
             _memory: made.memory,
         })
     }
@@ -236,6 +245,10 @@ impl Machine<f64> for Compiled {
     fn compile(&self, codes: &Arc<[Code]>) -> Option<Arc<dyn Machine<f64>>> {
         let make = || Self::new(codes, Interpreted.machine(codes), self.registers);
         Some(self.others.get(&SameCodes(Arc::clone(codes)), make)?)
+    }
+
+    fn chain(&self, parts: usize, between: usize) -> Option<Box<dyn Chain<f64>>> {
+        chain::linked(self.registers, &self.parts, parts, between)
     }
 
     fn wide(&self) -> Option<Arc<dyn Machine<Wide>>> {

@@ -47,6 +47,16 @@ impl Lengths {
         lengths
     }
 
+    /// The slices that are read, each with its least length.
+    pub fn inputs(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        self.inputs.iter().copied()
+    }
+
+    /// The least lengths of the vector and the matrix.
+    pub fn outputs(&self) -> [usize; 2] {
+        self.outputs
+    }
+
     /// Compares them with what a code is called with over columns: each has at least the places of the first target.
     ///
     /// # Panics

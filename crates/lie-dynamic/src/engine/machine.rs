@@ -1,5 +1,6 @@
 //! What runs code, and what it runs on.
 
+use super::chain::Chain;
 use crate::code::Code;
 use lie_runtime::Scalar;
 use smallvec::SmallVec;
@@ -58,8 +59,9 @@ impl<'a, S> Frame<'a, S> {
         self.with(1, second)
     }
 
+    /// The same with another slice at a place.
     #[inline]
-    fn with<'b>(&self, place: usize, argument: &'b [S]) -> Frame<'b, S>
+    pub(super) fn with<'b>(&self, place: usize, argument: &'b [S]) -> Frame<'b, S>
     where
         'a: 'b,
     {
@@ -125,6 +127,12 @@ pub trait Machine<S>: Send + Sync {
     /// A machine of the same engine for other codes, made once for each set of them; none where the engine cannot make one, or
     /// nothing better than the interpreter.
     fn compile(&self, _codes: &Arc<[Code]>) -> Option<Arc<dyn Machine<S>>> {
+        None
+    }
+
+    /// So many parts of a step, none of them added yet, with so many numbers that are given to later ones; none where the engine has
+    /// nothing better than a call of each.
+    fn chain(&self, _parts: usize, _between: usize) -> Option<Box<dyn Chain<S>>> {
         None
     }
 

@@ -1,14 +1,14 @@
 //! Steps that are run by traces, and what these carry from step to step.
 
-use super::Ready;
+use super::ready::run_of_step;
 use super::trace::{REPORTED, Taken};
 use super::traces::Traces;
-use super::tree::{Next, Tree};
+use super::tree::Tree;
+use crate::engine::{Chain, Machine, Separate, Stop};
 use crate::system::Dynamic;
 use lie_runtime::Scalar;
 use lie_runtime::methods::StepReport;
 use lie_runtime::scalar::{Mask, largest};
-use std::cell::OnceCell;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -22,10 +22,10 @@ pub(super) struct Followed<'a, S: Scalar> {
     /// How many numbers a state has.
     size: usize,
     tree: Arc<Tree>,
-    /// Each part is made ready when it is reached; `None` where the engine makes no machine.
-    ready: Vec<OnceCell<Option<Ready<S>>>>,
-    /// What the parts of a step have given to later ones.
-    between: Vec<S>,
+    /// The parts of the tree, each added when it is reached; none where there are none.
+    chain: Option<Box<dyn Chain<S>>>,
+    /// Of each part that was added what computes its constants of the step size, if it has any.
+    of_step: Vec<Option<Arc<dyn Machine<S>>>>,
     /// For how many steps none is tried after one that none was for, and how many of them are left.
     rest: u32,
     resting: u32,
@@ -51,8 +51,8 @@ impl<'a, S: Scalar> Followed<'a, S> {
             h: [h],
             size,
             tree: Arc::default(),
-            ready: Vec::new(),
-            between: Vec::new(),
+            chain: None,
+            of_step: Vec::new(),
             rest: 0,
             resting: 0,
             is_long: false,
@@ -66,9 +66,12 @@ impl<'a, S: Scalar> Followed<'a, S> {
     /// Makes the steps to come of size h: what of a part depends on that alone is computed again.
     pub fn set_step(&mut self, h: S) {
         self.h = [h];
-        for part in &mut self.ready {
-            if let Some(Some(ready)) = part.get_mut() {
-                ready.set_step(self.system, h);
+        let Some(chain) = &mut self.chain else {
+            return;
+        };
+        for (part, machine) in self.of_step.iter().enumerate() {
+            if let Some(machine) = machine {
+                run_of_step(machine.as_ref(), self.system, h, chain.of_step(part));
             }
         }
     }
@@ -94,8 +97,12 @@ impl<'a, S: Scalar> Followed<'a, S> {
         if Arc::ptr_eq(&tree, &self.tree) {
             return;
         }
-        self.ready = tree.parts.iter().map(|_| OnceCell::new()).collect();
-        self.between.resize(tree.between, S::zero());
+        let (parts, machine) = (tree.parts.len(), &self.system.values.machine);
+        let apart =
+            || -> Box<dyn Chain<S>> { Box::new(Separate::new(machine, parts, tree.between)) };
+        let chain = machine.chain(parts, tree.between);
+        self.chain = (parts > 0).then(|| chain.unwrap_or_else(apart));
+        self.of_step = vec![None; parts];
         self.tree = tree;
         (self.rest, self.resting) = (0, 0);
     }
@@ -142,7 +149,7 @@ impl<'a, S: Scalar> Followed<'a, S> {
             self.steps += 1;
             return made;
         }
-        if !self.ready.is_empty() {
+        if self.chain.is_some() {
             // one alone costs a part of a step
             self.resting = self.rest;
             self.rest = (2 * self.rest + 1).min(LONGEST_REST);
@@ -159,52 +166,55 @@ impl<'a, S: Scalar> Followed<'a, S> {
 
     #[inline]
     fn follow(&mut self, mu: &mut [S]) -> Option<StepReport> {
-        let (places, tree) = (self.places(), &self.tree);
-        let mut part = tree.parts.first()?;
-        let mut ready = self.ready.first()?;
-        loop {
-            let [h] = self.h;
-            let made = ready.get_or_init(|| Ready::new(self.system, &part.codes, h, false));
-            let (ready_part, memory) = (made.as_ref()?, &self.last[places.clone()]);
-            let (before, to) = match part.next {
-                Next::End(_) => (&self.between[..], &mut self.results[..]),
-                Next::Question { from, .. } => {
-                    let (before, to) = self.between.split_at_mut(from);
-                    (&*before, to)
+        let places = self.places();
+        let mut from = 0;
+        let end = loop {
+            let arguments = [&*mu, &self.last[places.clone()], &[], &[]];
+            let frame = self.system.values.frame(arguments, &[], &self.h);
+            let chain = self.chain.as_mut()?;
+            match chain.follow(from, &frame, &mut self.results) {
+                Stop::Done(part) => break part,
+                Stop::Missed(_) => {
+                    let expected = S::ratio(1.0, 2.0).less(chain.answers());
+                    self.missed = (!expected).bits().trailing_zeros() as usize;
+                    return None;
                 }
-            };
-            let arguments = [&*mu, memory, before, &[]];
-            let values = &self.system.values;
-            let frame = values.frame(arguments, &ready_part.of_step, &self.h);
-            let mut answers = [S::zero(); 2];
-            ready_part.machine.run(1, &frame, [to, &mut answers]);
-            let [expected, asked] = answers.map(|answer| S::ratio(1.0, 2.0).less(answer));
-            if !expected.all() {
-                self.missed = (!expected).bits().trailing_zeros() as usize;
-                return None;
-            }
-            match &part.next {
-                Next::Question { every, parts, .. } => {
-                    let is = if *every { asked.all() } else { asked.any() };
-                    let place = parts[usize::from(is)];
-                    (part, ready) = (&tree.parts[place], &self.ready[place]);
-                }
-                Next::End(most) => {
-                    std::mem::swap(&mut self.last, &mut self.results);
-                    mu.copy_from_slice(&self.last[..mu.len()]);
-                    let report = reported(most, &self.last[places.end..]);
-                    self.is_long = report.iterations < most.iterations;
-                    if self.is_long {
-                        let fewer = self.last[places.end + 1];
-                        let of_lane = |lane: &usize| fewer.lane(*lane).to_f64();
-                        let lanes = 0..S::LANES;
-                        let slowest = lanes.min_by(|a, b| of_lane(a).total_cmp(&of_lane(b)));
-                        self.missed = slowest.unwrap_or(0);
-                    }
-                    return Some(report);
+                Stop::Unknown(part) => {
+                    self.add(part)?;
+                    from = part;
                 }
             }
+        };
+        std::mem::swap(&mut self.last, &mut self.results);
+        mu.copy_from_slice(&self.last[..mu.len()]);
+        let most = &self.tree.parts[end].report;
+        let report = reported(most, &self.last[places.end..]);
+        self.is_long = report.iterations < most.iterations;
+        if self.is_long {
+            let fewer = self.last[places.end + 1];
+            let of_lane = |lane: &usize| fewer.lane(*lane).to_f64();
+            let lanes = 0..S::LANES;
+            let slowest = lanes.min_by(|a, b| of_lane(a).total_cmp(&of_lane(b)));
+            self.missed = slowest.unwrap_or(0);
         }
+        Some(report)
+    }
+
+    /// Adds a part to the chain; none where the engine has no program for it.
+    #[cold]
+    fn add(&mut self, place: usize) -> Option<()> {
+        let part = &self.tree.parts[place];
+        let chain = self.chain.as_mut()?;
+        if !chain.add(place, &part.codes.body, part.next) {
+            return None;
+        }
+        let of_step = chain.of_step(place);
+        if !of_step.is_empty() {
+            let machine = self.system.values.machine.compile(&part.codes.of_step)?;
+            run_of_step(machine.as_ref(), self.system, self.h[0], of_step);
+            self.of_step[place] = Some(machine);
+        }
+        Some(())
     }
 }
 

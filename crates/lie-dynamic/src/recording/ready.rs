@@ -27,10 +27,20 @@ impl<S: Scalar> Ready<S> {
 
     /// Computes the results of the first code, which reads the step size.
     pub fn set_step(&mut self, system: &Dynamic<S>, h: S) {
-        if !self.of_step.is_empty() {
-            let scalars = [h];
-            let frame = system.values.frame([&[]; ARGUMENTS], &[], &scalars);
-            self.machine.run(0, &frame, [&mut self.of_step, &mut []]);
-        }
+        run_of_step(self.machine.as_ref(), system, h, &mut self.of_step);
+    }
+}
+
+/// Runs the first code of a machine, which reads the step size and gives constants of it; where it gives any.
+pub(super) fn run_of_step<S: Scalar>(
+    machine: &dyn Machine<S>,
+    system: &Dynamic<S>,
+    h: S,
+    to: &mut [S],
+) {
+    if !to.is_empty() {
+        let scalars = [h];
+        let frame = system.values.frame([&[]; ARGUMENTS], &[], &scalars);
+        machine.run(0, &frame, [to, &mut []]);
     }
 }

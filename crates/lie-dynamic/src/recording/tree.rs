@@ -4,13 +4,11 @@
 use super::record::Guard;
 use super::trace::Trace;
 use crate::code::{Code, Register, Source};
+use crate::engine::{BETWEEN, Next};
 use lie_runtime::methods::StepReport;
 use std::collections::BTreeSet;
 use std::ops::Range;
 use std::sync::Arc;
-
-/// The argument that has what parts have given to later ones.
-const BETWEEN: u8 = 2;
 
 /// Parts of steps, the first one first.
 #[derive(Debug, Default)]
@@ -23,11 +21,21 @@ pub(super) struct Tree {
 /// What some steps do between two things that are asked.
 #[derive(Debug)]
 pub(super) struct Part {
-    /// The second computes, as a vector, what the parts after it need, or what the step gives; as a matrix whether all answers that
-    /// are not told apart are the expected ones, and the one by which it goes on.
-    pub codes: Arc<[Code]>,
+    pub codes: PartCodes,
     pub next: Next,
+    /// What a step that ends here made, at most.
+    pub report: StepReport,
     origin: Origin,
+}
+
+/// The codes of a part, each an engine's only one.
+#[derive(Clone, Debug)]
+pub(super) struct PartCodes {
+    /// What depends on the step size alone.
+    pub of_step: Arc<[Code]>,
+    /// As a vector, what the parts after it need, or what the step gives; as a matrix whether all answers that are not told apart are the
+    /// expected ones, and the one by which it goes on.
+    pub body: Arc<[Code]>,
 }
 
 /// What a part is made of: the same has the same codes in every tree of these traces.
@@ -40,21 +48,6 @@ struct Origin {
     /// What parts before give, and what this one gives to others, or as the end of the step.
     given: Vec<Register>,
     gives: Vec<Register>,
-}
-
-/// What comes after a part.
-#[derive(Debug)]
-pub(super) enum Next {
-    /// Nothing: the step made so much, at most.
-    End(StepReport),
-    /// What was given stands from one of the numbers [between](Tree::between) parts on.
-    Question {
-        from: usize,
-        /// Whether it is asked of every lane, or of any.
-        every: bool,
-        /// Where it goes on if the answer is no, and if it is yes.
-        parts: [usize; 2],
-    },
 }
 
 impl Tree {
@@ -115,12 +108,13 @@ impl Tree {
     fn push(&mut self, trace: &Trace, origin: Origin, before: &Self) {
         let known = before.parts.iter().find(|part| part.origin == origin);
         let codes = match known {
-            Some(known) => Arc::clone(&known.codes),
-            None => Arc::from(trace.part(&origin)),
+            Some(known) => known.codes.clone(),
+            None => trace.part(&origin),
         };
         self.parts.push(Part {
             codes,
-            next: Next::End(trace.report),
+            next: Next::End,
+            report: trace.report,
             origin,
         });
     }
@@ -128,17 +122,20 @@ impl Tree {
 
 impl Trace {
     /// The codes of a part of it.
-    fn part(&self, origin: &Origin) -> [Code; 2] {
+    fn part(&self, origin: &Origin) -> PartCodes {
         let sources = (0..).zip(&origin.given);
-        let sources = sources.map(|(place, number)| (*number, Source::Argument(BETWEEN, place)));
+        let sources =
+            sources.map(|(place, number)| (*number, Source::Argument(BETWEEN as u8, place)));
         let sources: Vec<(Register, Source)> = sources.collect();
         let conditions = self.guards[origin.asked.clone()].iter();
         let conditions = conditions.filter(|guard| guard.is_condition);
         let conditions: Vec<Guard> = conditions.copied().collect();
         let question = self.guards.get(origin.asked.end);
         let asked = question.map(|question| question.register);
-        self.written
-            .part(&sources, &origin.gives, &conditions, asked)
+        let written = &self.written;
+        let codes = written.part(&sources, &origin.gives, &conditions, asked);
+        let [of_step, body] = codes.map(|code| Arc::from([code]));
+        PartCodes { of_step, body }
     }
 
     /// The numbers that were there when something was asked, and are needed after it.

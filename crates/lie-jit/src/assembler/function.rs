@@ -1,10 +1,12 @@
 //! A program as a function: where its slices are, its frame, its loop along columns, the functions that it calls.
 
 mod body;
+mod part;
 
 use super::asides::Aside;
 use super::encoding::{Bytes, General, Memory};
 use super::operation::{Columns, Layout, Operand, Operation, Place, Program, Vector};
+use part::BASES_OF_A_PART;
 
 /// Larger frames are not made.
 const LARGEST_FRAME: u32 = 1 << 18;
@@ -12,7 +14,7 @@ const LARGEST_FRAME: u32 = 1 << 18;
 const PAGE: u32 = 4096;
 
 /// Arguments of a function: the table of slices; the vector and the matrix, or of columns the tables of those that are read and
-/// written; of columns how many bytes each has, of a code that is repeated how often.
+/// written; of columns how many bytes each has, of a code that is repeated how often, of a part of a step its record.
 pub(super) const ARGUMENTS: [General; 4] = [General::Rdi, General::Rsi, General::Rdx, General::Rcx];
 const TABLE: General = ARGUMENTS[0];
 /// Where slices begin. The last one may have that of the table.
@@ -25,8 +27,8 @@ const BASES: [General; 7] = [
     General::R11,
     TABLE,
 ];
-/// The same in a loop.
-const BASES_IN_A_LOOP: [General; 7] = [
+/// The same where registers of the caller are [kept](KEPT), as in a loop.
+const BASES_BESIDE: [General; 7] = [
     General::R8,
     General::R9,
     General::R10,
@@ -41,7 +43,7 @@ pub(super) const FIRST: Vector = Vector(0);
 const ALONG: General = General::Rbx;
 /// Where a column begins.
 const COLUMN: General = General::Rax;
-/// What a function with a loop gives back as it was.
+/// What a function that uses more than the others gives back as it was.
 const KEPT: [General; 4] = [General::Rbx, General::R12, General::R13, General::R14];
 
 pub struct Writer<'a> {
@@ -51,6 +53,8 @@ pub struct Writer<'a> {
     /// The slices that are read, each with the register of its beginning.
     bases: Vec<(u8, General)>,
     calls: bool,
+    /// Whether registers of the caller are used, and kept.
+    keeps: bool,
     /// Bytes of the frame.
     frame: u32,
     /// What is seldom done, behind the end.
@@ -60,13 +64,19 @@ pub struct Writer<'a> {
 /// The bytes of a function with its constants; none where it has more slices or a larger frame than registers and stack are for.
 pub fn function(program: &Program, layout: Layout) -> Option<Vec<u8>> {
     let mut writer = Writer::new(program, layout)?;
+    if let Some(part) = layout.part {
+        writer.begin_part(part);
+    }
     writer.begin();
     match (layout.columns, layout.turns) {
         (None, None) => writer.body()?,
         (None, Some(slice)) => writer.in_turns(slice)?,
         (Some(columns), _) => writer.along(columns)?,
     }
-    writer.end();
+    match layout.part {
+        Some(part) => writer.end_part(part),
+        None => writer.end(),
+    }
     writer.asides()?;
     writer.with_constants()
 }
@@ -92,10 +102,12 @@ impl<'a> Writer<'a> {
         let mut operations = program.operations.iter();
         let calls = operations
             .any(|operation| matches!(operation, Operation::Call { .. } | Operation::Rare { .. }));
-        let pool = match layout.has_loop() {
-            false => BASES,
-            true => BASES_IN_A_LOOP,
+        let few = match layout.part {
+            None => &BASES[..],
+            Some(_) => &BASES_OF_A_PART[..],
         };
+        let keeps = layout.has_loop() || slices.len() > few.len();
+        let pool = if keeps { &BASES_BESIDE[..] } else { few };
         if slices.len() > pool.len() {
             return None;
         }
@@ -108,17 +120,18 @@ impl<'a> Writer<'a> {
         let frame = frame.next_multiple_of(64);
         (frame <= LARGEST_FRAME).then_some(Self {
             bytes: Bytes::default(),
-            bases: slices.into_iter().zip(pool).collect(),
+            bases: slices.into_iter().zip(pool.iter().copied()).collect(),
             program,
             layout,
             calls,
+            keeps,
             frame,
             asides: Vec::new(),
         })
     }
 
     fn has_frame(&self) -> bool {
-        self.frame > 0 || self.layout.has_loop()
+        self.frame > 0 || self.keeps
     }
 
     fn begin(&mut self) {
@@ -129,7 +142,7 @@ impl<'a> Writer<'a> {
         let bytes = &mut self.bytes;
         bytes.push(General::Rbp);
         bytes.copy_word(General::Rbp, General::Rsp);
-        if self.layout.has_loop() {
+        if self.keeps {
             KEPT.into_iter().for_each(|register| bytes.push(register));
         }
         bytes.align(General::Rsp);
@@ -161,16 +174,24 @@ impl<'a> Writer<'a> {
 
     pub(super) fn load_bases(&mut self) {
         for (slice, base) in &self.bases {
-            let from = Memory::At(TABLE, 8 * i32::from(*slice));
+            let from = match self.layout.part {
+                Some(_) if *slice == part::OF_STEP => part::CONSTANTS_OF_STEP,
+                _ => Memory::At(TABLE, 8 * i32::from(*slice)),
+            };
             self.bytes.load_word(*base, from);
         }
     }
 
     fn end(&mut self) {
         self.bytes.clear_upper_halves();
+        self.leave_frame();
+        self.bytes.return_();
+    }
+
+    fn leave_frame(&mut self) {
         if self.has_frame() {
             let bytes = &mut self.bytes;
-            if self.layout.has_loop() {
+            if self.keeps {
                 let kept = 8 * KEPT.len() as u8;
                 bytes.address_below(General::Rsp, General::Rbp, kept);
                 KEPT.into_iter()
@@ -181,7 +202,6 @@ impl<'a> Writer<'a> {
             }
             bytes.pop(General::Rbp);
         }
-        self.bytes.return_();
     }
 
     /// The loop along columns, which have something in them.

@@ -47,6 +47,16 @@ impl Bytes {
         self.word(0x89, from, to);
     }
 
+    /// `to = to & [with]`
+    pub fn and_word(&mut self, to: General, with: Memory) {
+        self.word(0x23, to, with);
+    }
+
+    /// `to = to | [with]`
+    pub fn or_word(&mut self, to: General, with: Memory) {
+        self.word(0x0B, to, with);
+    }
+
     fn word(&mut self, code: u8, register: General, memory: Memory) {
         let (x, b) = high_bits(Read::Whole(memory));
         self.extend([0x48 | register.high() << 2 | x << 1 | b, code]);
@@ -143,6 +153,24 @@ impl Bytes {
         self.extend([0x0F, 0x82]);
         let distance = to as i64 - (self.all.len() as i64 + 4);
         self.extend((distance as i32).to_le_bytes());
+    }
+
+    /// Jumps where a register is 0, to where the bytes [land](Self::land) later; the place of the distance.
+    pub fn jump_if_zero(&mut self, register: General) -> usize {
+        let high = register.high();
+        self.extend([
+            0x48 | high << 2 | high,
+            0x85,
+            0xC0 | register.low() << 3 | register.low(),
+        ]);
+        self.extend([0x0F, 0x84, 0, 0, 0, 0]);
+        self.all.len() - 4
+    }
+
+    /// Goes to an address.
+    pub fn jump(&mut self, at: General) {
+        self.extend((at.high() == 1).then_some(0x41));
+        self.extend([0xFF, 0xE0 | at.low()]);
     }
 
     /// `to = base - bytes`, for the end of a function.

@@ -1,5 +1,6 @@
 //! Functions by the assembler.
 
+use super::chain::End;
 use super::{Layout, Pages, Width, assemble};
 use crate::lanes::LANES;
 use crate::make::{Functions, Made, Purpose, with_all_lanes};
@@ -56,6 +57,19 @@ fn all_lanes(code: &Code, width: Width, layout: impl FnOnce(Layout) -> Layout) -
         place: 0,
         at_once: LANES,
     })
+}
+
+/// A part of a step over one number, or over all lanes; none where it is not for the assembler.
+pub fn part(code: &Code, lanes: usize, end: End, registers: Registers) -> Option<(Memory, Place)> {
+    let width = width(registers)?;
+    let bytes = match lanes {
+        1 => assemble(code, Layout::NUMBER.part(lanes, end))?,
+        _ => {
+            let layout = Layout::lanes(width, width.lanes()).part(lanes, end);
+            assemble(&with_all_lanes(code, width.lanes()), layout)?
+        }
+    };
+    Some((Memory(Pages::new(&bytes)?), 0))
 }
 
 /// The functions of codes over numbers, as far as they are for the assembler.

@@ -4,13 +4,15 @@
 //! result from the code alone and refuses what does anything else, [`function`] adds the frame and the loop, and [`encoding`] and
 //! [`general`] have the bytes of the instructions. Operations stay in their order, and none is contracted to a fused multiply-add: the bits
 //! are those of the interpreter. Elementary functions that are programs stand written out in the code, and a call for the few arguments that
-//! they are not for behind the end of the function ([`asides`]); the others are called lane by lane ([`calls`]).
+//! they are not for behind the end of the function ([`asides`]); the others are called lane by lane ([`calls`]). Parts of a step jump one into another
+//! ([`chain`]).
 //!
 //! The time is proportional to the length of a code.
 
 mod allocation;
 mod asides;
 mod calls;
+pub mod chain;
 mod check;
 mod encoding;
 mod function;

@@ -1,5 +1,6 @@
 //! What machine code does, one operation after the other, over registers that exist and places in memory.
 
+use super::chain::End;
 use lie_dynamic::{Binary, Bitwise, Instruction, Register, Unary};
 use lie_runtime::Elementary;
 
@@ -58,6 +59,16 @@ pub struct Layout {
     pub columns: Option<Columns>,
     /// The slice that takes turns with the vector, where the code is done again and again.
     pub turns: Option<u8>,
+    /// How it ends where it is a part of a step.
+    pub part: Option<PartOf>,
+}
+
+/// How a part of a step ends.
+#[derive(Clone, Copy, Debug)]
+pub struct PartOf {
+    pub end: End,
+    /// How many numbers an answer has, one behind the other.
+    pub lanes: usize,
 }
 
 /// How columns are gone along.
@@ -76,6 +87,7 @@ impl Layout {
         stride: 8,
         columns: None,
         turns: None,
+        part: None,
     };
 
     /// Neighbours of so many lanes.
@@ -85,6 +97,15 @@ impl Layout {
             stride: 8 * lanes as u32,
             columns: None,
             turns: None,
+            part: None,
+        }
+    }
+
+    /// The same as a part of a step, whose answers have so many lanes.
+    pub const fn part(self, lanes: usize, end: End) -> Self {
+        Self {
+            part: Some(PartOf { end, lanes }),
+            ..self
         }
     }
 
@@ -106,6 +127,7 @@ impl Layout {
                 single: true,
             }),
             turns: None,
+            part: None,
         }
     }
 

@@ -1,6 +1,7 @@
 //! From a code to Cranelift's intermediate form.
 
 mod calls;
+pub mod chain;
 mod columns;
 mod functions;
 pub mod making;

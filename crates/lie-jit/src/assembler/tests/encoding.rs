@@ -357,6 +357,10 @@ fn general(lines: &mut Lines) {
             lines.add(format!("mov {at}, {text}"), |bytes| {
                 bytes.store_word(place, register);
             });
+            lines.add(format!("and {text}, {at}; or {text}, {at}"), |bytes| {
+                bytes.and_word(register, place);
+                bytes.or_word(register, place);
+            });
         }
         lines.add(format!("mov {text}, rdx; mov rdx, {text}"), |bytes| {
             bytes.copy_word(register, other);
@@ -391,6 +395,11 @@ fn general(lines: &mut Lines) {
             bytes.zero(register)
         });
         lines.add(format!("call {text}"), |bytes| bytes.call(register));
+        lines.add(format!("jmp {text}"), |bytes| bytes.jump(register));
+        let line = format!("test {text}, {text}; {{disp32}} je .+6");
+        lines.add(line, |bytes| {
+            bytes.jump_if_zero(register);
+        });
         lines.add(format!("cmp {text}, rdx; cmp rdx, {text}"), |bytes| {
             bytes.compare(register, other);
             bytes.compare(other, register);

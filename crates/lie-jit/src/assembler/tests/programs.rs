@@ -1,9 +1,7 @@
 //! Codes by lot, of all instructions and with more numbers than there are registers: the same bits in all registers, and no changed
 //! program passes the check.
 
-#[path = "../../../../../tests/common/random.rs"]
-mod random;
-
+use super::random::Random;
 use crate::assembler::operation::{
     Arithmetic, Layout, Operand, Operation, Place, Program, Vector, Width,
 };
@@ -14,7 +12,6 @@ use lie_dynamic::{
     Store,
 };
 use lie_runtime::{Elementary, Scalar};
-use random::Random;
 use std::sync::Arc;
 
 type Wide = <f64 as Scalar>::Wide;
@@ -22,7 +19,7 @@ type Wide = <f64 as Scalar>::Wide;
 /// Entries of every slice.
 const ENTRIES: u32 = 12;
 
-fn below(random: &mut Random, end: u32) -> u32 {
+pub fn below(random: &mut Random, end: u32) -> u32 {
     ((random.number() + 1.0) / 2.0 * f64::from(end)) as u32 % end
 }
 
@@ -95,13 +92,13 @@ fn bits(number: f64) -> u64 {
     }
 }
 
-fn lanes<S: Scalar>(numbers: &[S]) -> Vec<u64> {
+pub fn lanes<S: Scalar>(numbers: &[S]) -> Vec<u64> {
     let all = numbers.iter();
     let all = all.flat_map(|x| (0..S::LANES).map(|lane| bits(x.lane(lane).to_f64())));
     all.collect()
 }
 
-fn drawn<S: Scalar>(random: &mut Random, count: usize) -> Vec<S> {
+pub fn drawn<S: Scalar>(random: &mut Random, count: usize) -> Vec<S> {
     let number = |random: &mut Random| {
         let values = random.numbers(S::LANES).into_iter().enumerate();
         values.fold(S::zero(), |x, (lane, value)| {

@@ -1,0 +1,145 @@
+//! Parts of a step, each a code, of which one goes on into another as values decide.
+
+use super::machine::{ARGUMENTS, Frame, Machine};
+use crate::code::Code;
+use lie_runtime::Scalar;
+use lie_runtime::scalar::Mask;
+use std::sync::Arc;
+
+/// The argument that has what parts have given to later ones.
+pub const BETWEEN: usize = 2;
+
+/// What comes after a part of a step. Its code gives as a matrix 1 in the lanes that the part is for and 0 in others, and, where something
+/// is asked, 1 where it holds and 0 elsewhere.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Next {
+    /// Nothing: the vector that it gives is that of the step.
+    End,
+    /// Another part, by an answer. The vector is what later parts are given.
+    Question {
+        /// Where it stands among what parts give to later ones.
+        from: usize,
+        /// Whether it is asked of every lane, or of any.
+        every: bool,
+        /// Where it goes on if the answer is no, and if it is yes.
+        parts: [usize; 2],
+    },
+}
+
+/// Where a step stopped, and at which part.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stop {
+    /// At its end.
+    Done(usize),
+    /// At a part that is not for all of these lanes; [`Chain::answers`] has those that it is for.
+    Missed(usize),
+    /// Before a part that was not added. Those before it are done, so that the step goes on from there.
+    Unknown(usize),
+}
+
+/// Parts of a step that are run one after the other, in one call.
+pub trait Chain<S> {
+    /// Adds a part, whose code is the only one of these; whether the engine has a program for it.
+    ///
+    /// # Panics
+    /// The code gives more to later parts than there are numbers for.
+    fn add(&mut self, part: usize, code: &Arc<[Code]>, next: Next) -> bool;
+
+    /// What a part that was added reads as constants of the step size, to be written.
+    fn of_step(&mut self, part: usize) -> &mut [S];
+
+    /// Goes on from a part, to the end of the step or as far as there are parts. The constants of the step size in the frame, and what
+    /// parts give to later ones, are not read.
+    ///
+    /// # Panics
+    /// A slice is shorter than a part needs.
+    fn follow(&mut self, from: usize, frame: &Frame<'_, S>, to: &mut [S]) -> Stop;
+
+    /// Whether the part at which a step stopped is for a lane: 1, or 0.
+    fn answers(&self) -> S;
+}
+
+/// How many constants of the step size a code reads.
+pub fn constants_of_step(code: &Code) -> usize {
+    let places = code.sources.iter().filter_map(crate::Source::place);
+    let read = places.filter(|(slice, _)| *slice == ARGUMENTS + 1);
+    read.map(|(_, entry)| entry + 1).max().unwrap_or(0)
+}
+
+/// Parts that an engine runs by a call of each.
+pub struct Separate<S> {
+    engine: Arc<dyn Machine<S>>,
+    parts: Vec<Option<Part<S>>>,
+    between: Vec<S>,
+    answers: [S; 2],
+}
+
+struct Part<S> {
+    machine: Arc<dyn Machine<S>>,
+    of_step: Vec<S>,
+    next: Next,
+}
+
+impl<S: Scalar> Separate<S> {
+    /// So many parts by an engine, none of them added, with so many numbers that are given to later ones.
+    pub fn new(engine: &Arc<dyn Machine<S>>, parts: usize, between: usize) -> Self {
+        Self {
+            engine: Arc::clone(engine),
+            parts: (0..parts).map(|_| None).collect(),
+            between: vec![S::zero(); between],
+            answers: [S::zero(); 2],
+        }
+    }
+}
+
+impl<S: Scalar> Chain<S> for Separate<S> {
+    fn add(&mut self, part: usize, code: &Arc<[Code]>, next: Next) -> bool {
+        let machine = self.engine.compile(code);
+        self.parts[part] = machine.map(|machine| Part {
+            machine,
+            of_step: vec![S::zero(); constants_of_step(&code[0])],
+            next,
+        });
+        self.parts[part].is_some()
+    }
+
+    fn of_step(&mut self, part: usize) -> &mut [S] {
+        let part = self.parts[part].as_mut();
+        part.map_or(&mut [], |part| &mut part.of_step)
+    }
+
+    fn follow(&mut self, from: usize, frame: &Frame<'_, S>, to: &mut [S]) -> Stop {
+        let mut place = from;
+        loop {
+            let Some(part) = &self.parts[place] else {
+                return Stop::Unknown(place);
+            };
+            let (before, to) = match part.next {
+                Next::End => (&self.between[..], &mut *to),
+                Next::Question { from, .. } => {
+                    let (before, to) = self.between.split_at_mut(from);
+                    (&*before, to)
+                }
+            };
+            let frame = frame
+                .with(BETWEEN, before)
+                .with(ARGUMENTS + 1, &part.of_step);
+            part.machine.run(0, &frame, [to, &mut self.answers]);
+            let [expected, asked] = self.answers.map(|answer| S::ratio(1.0, 2.0).less(answer));
+            if !expected.all() {
+                return Stop::Missed(place);
+            }
+            match part.next {
+                Next::End => return Stop::Done(place),
+                Next::Question { every, parts, .. } => {
+                    let is = if every { asked.all() } else { asked.any() };
+                    place = parts[usize::from(is)];
+                }
+            }
+        }
+    }
+
+    fn answers(&self) -> S {
+        self.answers[0]
+    }
+}

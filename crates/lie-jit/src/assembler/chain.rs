@@ -1,0 +1,282 @@
+//! Parts of a step that jump one into another: a step is one call.
+//!
+//! Each part is a function of its own, made once for all steppers. What links them, and what they read as constants of the step size, belongs to a
+//! stepper: a record of each part, whose address is handed on with the jump.
+
+use super::making::{self, Memory};
+use crate::SameCodes;
+use crate::registers::Registers;
+use lie_dynamic::{
+    ARGUMENTS, BETWEEN, Cache, Chain, Code, Frame, Lengths, Next, SLICES, Stop, constants_of_step,
+};
+use lie_runtime::Scalar;
+use std::mem::offset_of;
+use std::sync::Arc;
+
+/// The slice that has constants of the step size: the record of a part has its own.
+pub const OF_STEP: u8 = ARGUMENTS as u8 + 1;
+/// Where the table of slices has what the step gives.
+pub const RESULTS: usize = SLICES;
+/// The slice that has what parts give to later ones.
+pub const GIVEN: u8 = BETWEEN as u8;
+
+/// How a part ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum End {
+    /// The step is done.
+    Done,
+    /// With a jump to one of two others: an answer is asked of every lane, or of any. The vector begins so many numbers
+    /// behind the beginning of what is given to later parts.
+    Question { from: u32, every: bool },
+}
+
+/// Reads from a table of the slices in a frame, writes the answers to a place; the vector is none of its arguments, which the
+/// part has from the table.
+type Function =
+    unsafe extern "sysv64" fn(*const *const f64, *mut f64, *mut f64, *const Record) -> Stopped;
+
+/// Why a step stopped, and at which part.
+#[repr(C)]
+struct Stopped {
+    why: u64,
+    part: usize,
+}
+
+/// The step is at its end.
+pub const DONE: u64 = 0;
+/// The part is not for all lanes.
+pub const MISSED: u64 = 1;
+/// The part is not there.
+const UNKNOWN: u64 = 2;
+
+/// What a part is handed.
+#[repr(C)]
+struct Record {
+    part: usize,
+    of_step: *const f64,
+    /// Where it goes on if the answer is no, and if it is yes.
+    links: [Link; 2],
+}
+
+#[derive(Clone, Copy)]
+#[repr(C)]
+struct Link {
+    function: Function,
+    record: *const Record,
+}
+
+/// Where a record has its number, its constants of the step size, and its links by the answer: function and record.
+pub const PART_AT: usize = offset_of!(Record, part);
+pub const OF_STEP_AT: usize = offset_of!(Record, of_step);
+pub const LINKS_AT: [[usize; 2]; 2] = {
+    let links = offset_of!(Record, links);
+    let [function, record] = [offset_of!(Link, function), offset_of!(Link, record)];
+    let second = links + size_of::<Link>();
+    [
+        [links + function, links + record],
+        [second + function, second + record],
+    ]
+};
+
+/// What stands in the place of a part that is not there.
+///
+/// # Safety
+/// The record is one.
+unsafe extern "sysv64" fn unknown(
+    _table: *const *const f64,
+    _vector: *mut f64,
+    _answers: *mut f64,
+    record: *const Record,
+) -> Stopped {
+    // SAFETY: as above
+    let part = unsafe { (*record).part };
+    let why = UNKNOWN;
+    Stopped { why, part }
+}
+
+/// A part that was made.
+pub struct Made {
+    function: Function,
+    _memory: Memory,
+}
+
+/// Parts that were made, for all chains of a machine.
+pub type Parts = Cache<Made, (SameCodes, End)>;
+
+/// So many parts, none of them added, with so many numbers that are given to later ones.
+pub fn linked<S: Scalar>(
+    registers: Registers,
+    made: &Arc<Parts>,
+    parts: usize,
+    between: usize,
+) -> Option<Box<dyn Chain<S>>> {
+    Some(Box::new(Linked::new(registers, made, parts, between)))
+}
+
+/// Parts that jump one into another.
+struct Linked<S> {
+    registers: Registers,
+    made: Arc<Parts>,
+    parts: Vec<Option<Part<S>>>,
+    records: Box<[Record]>,
+    /// The least lengths of the slices in a frame, and of what the step gives.
+    least: [usize; SLICES],
+    results: usize,
+    between: Vec<S>,
+    answers: [S; 2],
+}
+
+struct Part<S> {
+    made: Arc<Made>,
+    of_step: Vec<S>,
+    next: Next,
+}
+
+impl<S: Scalar> Linked<S> {
+    fn new(registers: Registers, made: &Arc<Parts>, parts: usize, between: usize) -> Self {
+        let links = [Link {
+            function: unknown,
+            record: std::ptr::null(),
+        }; 2];
+        let records = (0..parts).map(|part| Record {
+            part,
+            of_step: std::ptr::null(),
+            links,
+        });
+        Self {
+            registers,
+            made: Arc::clone(made),
+            parts: (0..parts).map(|_| None).collect(),
+            records: records.collect(),
+            least: [0; SLICES],
+            results: 0,
+            between: vec![S::zero(); between],
+            answers: [S::zero(); 2],
+        }
+    }
+
+    /// Writes the record of every part that is there.
+    fn link(&mut self) {
+        let start = self.records.as_ptr();
+        let link = |part: usize| Link {
+            function: self.parts[part]
+                .as_ref()
+                .map_or(unknown as Function, |part| part.made.function),
+            record: start.wrapping_add(part),
+        };
+        for (record, part) in self.records.iter_mut().zip(&self.parts) {
+            let Some(part) = part else {
+                continue;
+            };
+            record.of_step = part.of_step.as_ptr().cast::<f64>();
+            if let Next::Question { parts, .. } = part.next {
+                record.links = parts.map(link);
+            }
+        }
+    }
+}
+
+impl<S: Scalar> Chain<S> for Linked<S> {
+    fn add(&mut self, part: usize, code: &Arc<[Code]>, next: Next) -> bool {
+        let [only] = &code[..] else {
+            return false;
+        };
+        let lengths = Lengths::new(only);
+        let [vector, answers] = lengths.outputs();
+        let end = match next {
+            Next::End => End::Done,
+            Next::Question { from, every, .. } => End::Question {
+                from: from as u32,
+                every,
+            },
+        };
+        let (space, asked) = match next {
+            Next::End => (usize::MAX, 1),
+            Next::Question { from, .. } => (self.between.len().saturating_sub(from), 2),
+        };
+        assert!(
+            vector <= space,
+            "there is no place for what a part gives to others"
+        );
+        assert!(
+            answers == asked && only.clear == [None, None],
+            "a part gives answers and nothing else as a matrix"
+        );
+        let make = || {
+            let (memory, place) = making::part(&only.expanded(), S::LANES, end, self.registers)?;
+            // SAFETY: the pointer is that of a function which was made with this signature.
+            let function =
+                unsafe { std::mem::transmute::<*const u8, Function>(memory.pointer(place)) };
+            Some(Made {
+                function,
+                _memory: memory,
+            })
+        };
+        let Some(made) = self.made.get(&(SameCodes(Arc::clone(code)), end), make) else {
+            return false;
+        };
+        for (slice, least) in lengths.inputs() {
+            match slice {
+                BETWEEN => assert!(least <= self.between.len(), "a part reads what none gives"),
+                _ if slice == usize::from(OF_STEP) => {}
+                _ => self.least[slice] = self.least[slice].max(least),
+            }
+        }
+        if next == Next::End {
+            self.results = self.results.max(vector);
+        }
+        self.parts[part] = Some(Part {
+            made,
+            of_step: vec![S::zero(); constants_of_step(only)],
+            next,
+        });
+        self.link();
+        true
+    }
+
+    fn of_step(&mut self, part: usize) -> &mut [S] {
+        let part = self.parts[part].as_mut();
+        part.map_or(&mut [], |part| &mut part.of_step)
+    }
+
+    fn follow(&mut self, from: usize, frame: &Frame<'_, S>, to: &mut [S]) -> Stop {
+        let Some(part) = &self.parts[from] else {
+            return Stop::Unknown(from);
+        };
+        let slices = frame.slices();
+        for (slice, least) in slices.iter().zip(self.least) {
+            assert!(slice.len() >= least, "a slice is too short for a part");
+        }
+        assert!(
+            to.len() >= self.results,
+            "there is no place for what a step gives"
+        );
+        let mut table = [std::ptr::null(); SLICES + 1];
+        for (to, slice) in table.iter_mut().zip(slices) {
+            *to = slice.as_ptr().cast::<f64>();
+        }
+        table[BETWEEN] = self.between.as_mut_ptr().cast::<f64>();
+        table[RESULTS] = to.as_mut_ptr().cast::<f64>();
+        let answers = self.answers.as_mut_ptr().cast::<f64>();
+        // SAFETY: every slice is as long as every part that is there needs, and so is what they give to others, what the step gives, and what
+        // the records have; these are of the parts that they are linked to. What is written is borrowed for writing or owned
+        // here, and a number is its lanes one behind the other, all of which a part does.
+        let stopped = unsafe {
+            (part.made.function)(
+                table.as_ptr(),
+                std::ptr::null_mut(),
+                answers,
+                &raw const self.records[from],
+            )
+        };
+        match stopped.why {
+            DONE => Stop::Done(stopped.part),
+            MISSED => Stop::Missed(stopped.part),
+            _ => Stop::Unknown(stopped.part),
+        }
+    }
+
+    fn answers(&self) -> S {
+        self.answers[0]
+    }
+}
