@@ -4,8 +4,9 @@
 //! `(k + 1) mu_(k+1) = f_k`, and `f_k` follows from `mu_0, …, mu_k`: each operation of the field has a rule for the
 //! coefficients of its result, that of a product being the sum `(u v)_k = sum_j u_j v_(k-j)`.
 
+use crate::clock::{Clock, holds};
 use crate::poisson::Poisson;
-use crate::scalar::Scalar;
+use crate::scalar::{Mask, Scalar};
 use crate::state::State;
 
 /// The largest order that is computed.
@@ -31,22 +32,108 @@ pub trait Recurrence<S: Scalar> {
         coefficient: &Self::State,
         field: &mut Self::State,
     ) -> Self::Carry;
-    /// Writes the coefficients of the orders 1 to `last` of a solution from a state in one, each times the power of a unit of time, in
-    /// some lanes, and keeps those of the conditions; false where the system has no program of all orders, and nothing is done.
+    /// Develops a solution from a state in some lanes, in a unit of time, up to an order, by a program of all orders, and keeps the
+    /// series with its conditions; false where the system has no such program, and nothing is done. `rows` have the series that were
+    /// developed otherwise before, order after order.
     fn develop(
         &mut self,
         _mu: &Self::State,
         _unit: S,
         _last: usize,
-        _rows: &mut [Self::State],
+        _rows: &[Self::State],
         _lanes: S::Mask,
     ) -> bool {
         false
     }
+    /// The series that [`Recurrence::develop`] keeps.
+    fn developed(&self) -> Option<Developed<'_, S>> {
+        None
+    }
+    /// Its [sum](sum_of_series) at a time in its unit.
+    fn sum(&mut self, _time: S, _out: &mut Self::State) {}
     /// The coefficients of an order of the conditions that choose branches, each with its first branch where it is negative,
     /// of the orders since [`Recurrence::begin`].
     fn conditions(&self, _k: usize) -> &[S] {
         &[]
+    }
+}
+
+/// A series that is kept.
+#[derive(Clone, Copy, Debug)]
+pub struct Developed<'a, S: Scalar> {
+    /// The coefficients, one order after the other from 0 on, each times the power of a unit of time. Beyond the last order they are 0,
+    /// for four orders at least.
+    pub coefficients: &'a [S],
+    /// How many an order has.
+    pub size: usize,
+    /// What its radius of convergence follows from, in the lanes that were developed last.
+    pub ends: Ends<S>,
+}
+
+impl<'a, S: Scalar> Developed<'a, S> {
+    /// The coefficients of an order.
+    #[inline(always)]
+    pub fn row(&self, order: usize) -> &'a [S] {
+        &self.coefficients[order * self.size..][..self.size]
+    }
+}
+
+/// The coefficients at both ends of a series, in the maximum norm over the coordinates that do not carry the time.
+#[derive(Clone, Copy, Debug)]
+pub struct Ends<S: Scalar> {
+    /// Those of order 0, of the last order and of the one before.
+    pub sizes: [S; 3],
+    /// The lanes in which the latter two are finite, and one of both is not 0 in every coordinate that does not carry the time.
+    pub lanes: S::Mask,
+}
+
+impl<S: Scalar> Ends<S> {
+    /// By the coefficients of order 0, of the last order and of the one before.
+    #[inline(always)]
+    pub fn of(rows: [&[S]; 3], clock: Option<Clock>) -> Self {
+        let (mut sizes, mut lanes) = ([S::zero(); 3], S::Mask::splat(true));
+        for i in 0..rows[0].len() {
+            let entries = rows.map(|row| row[i]);
+            // what is not finite is no number here
+            for last in &entries[1..] {
+                lanes = lanes & (*last - *last).less_equal(S::zero());
+            }
+            if holds(clock, i) {
+                continue;
+            }
+            let entries = entries.map(S::abs);
+            let [_, last, before] = entries;
+            lanes = lanes & (S::zero().less(last) | S::zero().less(before));
+            for (size, entry) in sizes.iter_mut().zip(entries) {
+                *size = size.max(entry);
+            }
+        }
+        Self { sizes, lanes }
+    }
+}
+
+/// `out = sum_k row(k) t^k` up to an order, the terms of every fourth order in a chain of their own; rows beyond the order are 0, three of
+/// them at least.
+#[inline(always)]
+pub fn sum_of_series<'a, S: Scalar>(
+    row: impl Fn(usize) -> &'a [S],
+    order: usize,
+    t: S,
+    out: &mut [S],
+) {
+    let square = t * t;
+    let fourth = square * square;
+    let last = (order.max(1) - 1) / 4;
+    for (i, out) in out.iter_mut().enumerate() {
+        let mut sums = [S::zero(); 4];
+        for block in (0..=last).rev() {
+            for (r, sum) in sums.iter_mut().enumerate() {
+                *sum = *sum * fourth + row(4 * block + 1 + r)[i];
+            }
+        }
+        let [a, b, c, d] = sums;
+        let terms = (a + t * b) + square * (c + t * d);
+        *out = row(0)[i] + t * terms;
     }
 }
 

@@ -6,8 +6,9 @@
 
 use super::radius::Radius;
 use super::rough_log::{ONE, exp2, log2};
+use crate::clock::Clock;
 use crate::poisson::Poisson;
-use crate::recurrence::MOST_ORDERS;
+use crate::recurrence::{Developed, Ends, MOST_ORDERS, sum_of_series};
 use crate::scalar::{Scalar, largest};
 use crate::state::State;
 
@@ -52,6 +53,36 @@ pub(super) use by_series;
 
 /// The coefficients of a series: rows beyond the order are 0, four of them at least.
 pub(super) type Rows<V> = [V; MOST_ORDERS + 5];
+
+/// A series: its rows, or what a recurrence keeps of it.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Terms<'a, S: Scalar, V> {
+    Rows(&'a Rows<V>),
+    Kept(Developed<'a, S>),
+}
+
+impl<'a, S: Scalar, V: State<S>> Terms<'a, S, V> {
+    /// The coefficients of an order.
+    #[inline(always)]
+    pub(super) fn row(&self, k: usize) -> &'a [S] {
+        match self {
+            Self::Rows(rows) => rows[k].as_slice(),
+            Self::Kept(developed) => developed.row(k),
+        }
+    }
+
+    /// Its coefficients at both ends.
+    #[inline(always)]
+    pub(super) fn ends(&self, order: usize, clock: Option<Clock>) -> Ends<S> {
+        match self {
+            Self::Rows(rows) => {
+                let rows = [0, order, order - 1].map(|k| rows[k].as_slice());
+                Ends::of(rows, clock)
+            }
+            Self::Kept(developed) => developed.ends,
+        }
+    }
+}
 
 /// The order of the series and what decides how far it is used.
 #[derive(Clone, Copy, Debug)]
@@ -135,23 +166,10 @@ pub(super) fn copy_lanes<S: Scalar, V: State<S>>(row: &mut V, from: &V, lanes: S
     }
 }
 
-/// `out = sum_k rows_k t^k`, the terms of every fourth order in a chain of their own.
+/// `out = sum_k rows_k t^k`
 #[inline(always)]
 pub(super) fn sum<S: Scalar, V: State<S>>(rows: &Rows<V>, order: usize, t: S, out: &mut V) {
-    let square = t * t;
-    let fourth = square * square;
-    let last = (order.max(1) - 1) / 4;
-    for (i, out) in out.as_mut_slice().iter_mut().enumerate() {
-        let mut sums = [S::zero(); 4];
-        for block in (0..=last).rev() {
-            for (r, sum) in sums.iter_mut().enumerate() {
-                *sum = *sum * fourth + rows[4 * block + 1 + r].as_slice()[i];
-            }
-        }
-        let [a, b, c, d] = sums;
-        let terms = (a + t * b) + square * (c + t * d);
-        *out = rows[0].as_slice()[i] + t * terms;
-    }
+    sum_of_series(|k| rows[k].as_slice(), order, t, out.as_mut_slice());
 }
 
 #[cfg(test)]

@@ -25,7 +25,7 @@
 //! [doi:10.1080/10586458.2005.10128904](https://doi.org/10.1080/10586458.2005.10128904), for order and step.
 #![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
 
-use super::development::{Pace, Rows, by_series, copy_lanes, multiply, sum};
+use super::development::{Pace, Rows, Terms, by_series, copy_lanes, multiply, sum};
 use super::facts::{Facts, Preserves};
 use super::implicit::clear;
 use super::joints::Joints;
@@ -273,7 +273,7 @@ where
                             .advance(k + 1, carry, &self.coefficient, &mut self.field);
                 }
             }
-            let series = [&self.rows, &self.increments];
+            let series = [&self.rows, &self.increments].map(Terms::Rows);
             open = self.unit.settle(&self.pace, &series, clock, step, open);
             if !open.any() {
                 break;

@@ -1,9 +1,10 @@
 //! The radius of convergence of a Taylor series, by its last terms.
 
-use super::development::{Pace, Rows};
+use super::development::{Pace, Terms};
 use super::rough_log::binary_log;
 use super::time_unit::{MOST_LANES, each};
 use crate::clock::{Clock, holds};
+use crate::recurrence::Ends;
 use crate::scalar::{Mask, Scalar};
 use crate::state::State;
 
@@ -36,25 +37,15 @@ impl Pace {
     #[inline(always)]
     pub(super) fn usual<S: Scalar, V: State<S>>(
         &self,
-        rows: &Rows<V>,
+        terms: &Terms<'_, S, V>,
         clock: Option<Clock>,
     ) -> Usual {
         if self.part.is_none() || self.beside.is_some() || self.order < 2 {
             return Usual::default();
         }
-        let rows = [&rows[0], &rows[self.order], &rows[self.order - 1]];
-        let finite = rows[1].finite() & rows[2].finite();
-        let rows = [rows[0].as_slice(), rows[1].as_slice(), rows[2].as_slice()];
-        let (mut state, mut last, mut before) = (S::zero(), S::zero(), S::zero());
-        let mut lanes = finite;
-        for i in (0..rows[0].len()).filter(|i| !holds(clock, *i)) {
-            let (newest, older) = (rows[1][i].abs(), rows[2][i].abs());
-            lanes = lanes & (S::zero().less(newest) | S::zero().less(older));
-            state = state.max(rows[0][i].abs());
-            (last, before) = (last.max(newest), before.max(older));
-        }
+        let Ends { sizes, lanes } = terms.ends(self.order, clock);
         Usual {
-            sizes: [each(state), each(last), each(before)],
+            sizes: sizes.map(each),
             order: self.order,
             lanes: lanes.bits(),
         }
@@ -67,7 +58,7 @@ impl Pace {
     /// Logarithms are integers, so that another unit of time adds to them and changes nothing else.
     pub(super) fn radius<S: Scalar, V: State<S>>(
         &self,
-        rows: &Rows<V>,
+        terms: &Terms<'_, S, V>,
         lane: usize,
         step: f64,
         clock: Option<Clock>,
@@ -76,7 +67,7 @@ impl Pace {
             return Radius::Infinite;
         }
         let sizes = |k: usize| {
-            let entries = rows[k].as_slice().iter().enumerate();
+            let entries = terms.row(k).iter().enumerate();
             let counted = entries.filter(move |(i, _)| !holds(clock, *i));
             counted.map(move |(_, entry)| entry.lane(lane).to_f64().abs())
         };
@@ -98,7 +89,7 @@ impl Pace {
             // work begins at 0 and may pass it: it is relative to the state too
             let state = sizes(0).fold(0.0, f64::max);
             let sizes = |k: usize| {
-                let entry = rows[k].as_slice()[beside].lane(lane).to_f64().abs();
+                let entry = terms.row(k)[beside].lane(lane).to_f64().abs();
                 core::iter::once(if k == 0 { entry + state } else { entry })
             };
             found = found.smaller(radius_by(self.order.min(finite - 1).max(1), &sizes, step));
@@ -185,7 +176,7 @@ fn radius_by<I: Iterator<Item = f64>>(
 
 #[cfg(test)]
 mod tests {
-    use super::super::development::sum;
+    use super::super::development::{Rows, sum};
     use super::*;
 
     fn rows(coefficient: impl Fn(usize) -> [f64; 2], order: usize) -> Rows<[f64; 2]> {
@@ -193,7 +184,7 @@ mod tests {
     }
 
     fn reach(pace: &Pace, rows: &Rows<[f64; 2]>) -> f64 {
-        pace.used(pace.radius::<f64, _>(rows, 0, 8.0, None))
+        pace.used(pace.radius::<f64, _>(&Terms::Rows(rows), 0, 8.0, None))
     }
 
     #[test]
@@ -245,7 +236,7 @@ mod tests {
             };
             let in_unit = |unit: f64| {
                 let rows = rows(|k| [coefficient(k, unit), 0.0], pace.order);
-                pace.used(pace.radius::<f64, _>(&rows, 0, 8.0 / unit, None)) * unit
+                pace.used(pace.radius::<f64, _>(&Terms::Rows(&rows), 0, 8.0 / unit, None)) * unit
             };
             let expected = in_unit(1.0);
             assert!(
@@ -289,9 +280,10 @@ mod tests {
             let within = |lane: usize| if k <= p { lanes[lane](k) } else { [0.0; 2] };
             core::array::from_fn(|i| F64x8::new(core::array::from_fn(|lane| within(lane)[i])))
         });
-        let usual = pace.usual::<F64x8, _>(&all, clock);
+        let usual = pace.usual::<F64x8, _>(&Terms::Rows(&all), clock);
         for (lane, coefficient) in lanes.iter().enumerate() {
             let alone = rows(coefficient, p);
+            let alone = Terms::Rows(&alone);
             let expected = pace.radius::<f64, _>(&alone, 0, 8.0, clock);
             let found = usual.radius(lane);
             assert_eq!(found.is_some(), lane < 3, "{lane}: {found:?}");
@@ -302,7 +294,7 @@ mod tests {
             let once = pace.usual::<f64, _>(&alone, clock).radius(0);
             assert_eq!(once, found, "{lane}");
         }
-        let fixed = Pace::of_order(p).usual::<F64x8, _>(&all, clock);
+        let fixed = Pace::of_order(p).usual::<F64x8, _>(&Terms::Rows(&all), clock);
         assert_eq!(
             fixed.radius(0),
             None,

@@ -24,7 +24,7 @@
 //! [doi:10.1080/10586458.2005.10128904](https://doi.org/10.1080/10586458.2005.10128904).
 #![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
 
-use super::development::{Pace, Rows, by_series, copy_lanes, multiply, sum};
+use super::development::{Pace, Rows, Terms, by_series, copy_lanes, multiply, sum};
 use super::explicit::direction;
 use super::facts::{Facts, Preserves};
 use super::implicit::clear;
@@ -79,6 +79,7 @@ impl<S: Scalar, P: Series<S>> Method<S, P> for Taylor {
             recurrence: system.series(),
             inverses: core::array::from_fn(|k| S::ratio(1.0, k.max(1) as f64)),
             rows: copies(&zero),
+            is_kept: false,
             scratch: Some((zero.clone(), zero.clone())),
             unit: TimeUnit::new(),
             joints: Joints::new(),
@@ -98,6 +99,8 @@ pub struct TaylorDevelopment<'a, S: Scalar, P: Series<S> + 'a> {
     /// `1/k`
     inverses: [S; MOST_ORDERS + 1],
     rows: Rows<P::State>,
+    /// Whether the recurrence has the series, and not these rows.
+    is_kept: bool,
     /// A coefficient of the field, and one of the state.
     scratch: Option<(P::State, P::State)>,
     unit: TimeUnit<S>,
@@ -122,7 +125,6 @@ impl<S: Scalar, P: Series<S>> Development<S> for TaylorDevelopment<'_, S, P> {
         let Some((mut field, mut coefficient)) = self.scratch.take() else {
             return Developed::broken();
         };
-        copy_lanes(&mut self.rows[0], mu, lanes, lanes.all());
         let (last, clock) = (self.pace.order, self.clock());
         let slope = || {
             self.recurrence.begin(mu, &mut field);
@@ -132,20 +134,22 @@ impl<S: Scalar, P: Series<S>> Development<S> for TaylorDevelopment<'_, S, P> {
         let mut open = lanes;
         loop {
             let (unit, all) = (self.unit.length, open.all());
-            let rows = &mut self.rows;
-            if !self.recurrence.develop(mu, unit, last, rows, open) {
-                let mut carry = self.recurrence.begin(mu, &mut field);
+            let recurrence = &mut self.recurrence;
+            self.is_kept = recurrence.develop(mu, unit, last, &self.rows, open);
+            if !self.is_kept {
+                copy_lanes(&mut self.rows[0], mu, open, all);
+                let mut carry = recurrence.begin(mu, &mut field);
                 for k in 1..last {
                     multiply(&field, self.inverses[k] * unit, &mut coefficient);
-                    carry = self.recurrence.advance(k, carry, &coefficient, &mut field);
+                    carry = recurrence.advance(k, carry, &coefficient, &mut field);
                     copy_lanes(&mut self.rows[k], &coefficient, open, all);
                 }
                 multiply(&field, self.inverses[last] * unit, &mut coefficient);
                 copy_lanes(&mut self.rows[last], &coefficient, open, all);
             }
-            open = self
-                .unit
-                .settle(&self.pace, &[&self.rows], clock, step, open);
+            let kept = self.recurrence.developed().filter(|_| self.is_kept);
+            let terms = kept.map_or(Terms::Rows(&self.rows), Terms::Kept);
+            open = self.unit.settle(&self.pace, &[terms], clock, step, open);
             if !open.any() {
                 break;
             }
@@ -162,7 +166,11 @@ impl<S: Scalar, P: Series<S>> Development<S> for TaylorDevelopment<'_, S, P> {
 
     #[inline(always)]
     fn state(&mut self, time: S, out: &mut P::State) {
-        sum(&self.rows, self.pace.order, time * self.unit.inverse, out);
+        let time = time * self.unit.inverse;
+        match self.is_kept {
+            true => self.recurrence.sum(time, out),
+            false => sum(&self.rows, self.pace.order, time, out),
+        }
     }
 
     fn bring_back(
@@ -183,17 +191,17 @@ impl<S: Scalar, P: Series<S>> Development<S> for TaylorDevelopment<'_, S, P> {
         sink: &mut K,
     ) {
         let tableau = gauss_tableau::<S, NODES>();
-        let Some((point, xi)) = &mut self.scratch else {
+        let Some((mut point, mut xi)) = self.scratch.take() else {
             return;
         };
         let step = to - from;
         for (index, &node) in tableau.c.iter().enumerate() {
-            let time = (from + node * step) * self.unit.inverse;
-            sum(&self.rows, self.pace.order, time, point);
-            direction(self.system, step, point, xi);
-            clear(xi, !lanes);
+            self.state(from + node * step, &mut point);
+            direction(self.system, step, &point, &mut xi);
+            clear(&mut xi, !lanes);
             let count = NODES;
-            sink.push_velocity(RungeKutta::Gauss, Stage { index, count }, xi);
+            sink.push_velocity(RungeKutta::Gauss, Stage { index, count }, &xi);
         }
+        self.scratch = Some((point, xi));
     }
 }

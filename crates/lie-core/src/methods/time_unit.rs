@@ -3,7 +3,7 @@
 //! In this unit no coefficient overflows or vanishes because of its order, whatever the rates of the system are. Powers of two
 //! are exact: the unit changes no digit of the solution.
 
-use super::development::{Pace, Rows};
+use super::development::{Pace, Terms};
 use super::radius::Radius;
 use super::rough_log::{binary_log, power_of_two, rounded};
 use crate::clock::{Clock, norm};
@@ -99,7 +99,7 @@ impl<S: Scalar> TimeUnit<S> {
     pub(super) fn settle<V: State<S>>(
         &mut self,
         pace: &Pace,
-        series: &[&Rows<V>],
+        series: &[Terms<'_, S, V>],
         clock: Option<Clock>,
         step: S,
         lanes: S::Mask,
@@ -108,12 +108,12 @@ impl<S: Scalar> TimeUnit<S> {
         let mut again = 0;
         let steps = each(step * self.inverse);
         let mut radii = [Radius::Infinite; MOST_LANES];
-        for rows in series {
-            let usual = pace.usual::<S, V>(rows, clock);
+        for terms in series {
+            let usual = pace.usual(terms, clock);
             for lane in lanes.lanes() {
                 let step = steps[lane].abs();
                 let radius = usual.radius(lane);
-                let radius = radius.unwrap_or_else(|| pace.radius(rows, lane, step, clock));
+                let radius = radius.unwrap_or_else(|| pace.radius(terms, lane, step, clock));
                 radii[lane] = radii[lane].smaller(radius);
             }
         }

@@ -8,7 +8,7 @@ pub(crate) use values::Values;
 use crate::cache::Cache;
 use crate::code::Code;
 use crate::engine::ARGUMENTS;
-use crate::recording::{SeriesCodes, StageCodes, Step, Traces};
+use crate::recording::{SeriesCodes, SeriesKind, StageCodes, Step, Traces};
 use elimination::Elimination;
 use lie_codegen::methods::{Choice, Gradient};
 use lie_codegen::plan::{Constants, Function, Fused, Generating, Item, Method, Plan, Solver};
@@ -141,8 +141,8 @@ pub(crate) struct Compiled {
     pub steps: Cache<Step, Choice>,
     /// What steps of methods with a solver do, for one number alone or for lanes, by the options of the solver.
     pub traces: Cache<Traces, ((Choice, bool), String)>,
-    /// Taylor series, by their order.
-    pub series: Cache<SeriesCodes, usize>,
+    /// Taylor series.
+    pub series: Cache<SeriesCodes, SeriesKind>,
     /// Iterations over stages side by side, by their slopes and whether they are more than four.
     pub stages: Cache<StageCodes, (StageSlopes, bool)>,
 }

@@ -1,4 +1,5 @@
-//! All orders of a Taylor series as one program: the recurrence of the plan, its sums and what is between.
+//! All orders of a Taylor series as one program: the recurrence of the plan, its sums and what is between. What is asked of a series
+//! that is there, its sum at a time, is another.
 
 use super::record::{Written, written};
 use super::{Countdown, PATIENCE, Ready, Recorded, recording, source_numbers};
@@ -6,55 +7,108 @@ use crate::code::{Code, Source};
 use crate::compiled::Compiled;
 use crate::system::Dynamic;
 use crate::system::series::ByCodes;
-use lie_runtime::Scalar;
+use lie_runtime::recurrence::{Developed, Ends, sum_of_series};
+use lie_runtime::{Poisson, Scalar};
 use std::sync::Arc;
 
 /// Where programs are made quickly, so many series are made before, and one for so many instructions.
 const QUICK: u32 = 64;
 const INSTRUCTIONS: u32 = 16;
 
-/// The program of all orders up to one.
+/// Orders that are 0 behind the last one of a series that is kept.
+const BEYOND: usize = 4;
+
+/// What tells the programs of a system apart: the order of the series, and whether others are developed beside it.
+pub(crate) type SeriesKind = (usize, bool);
+
+/// The programs of a series up to an order.
 #[derive(Debug)]
-pub(crate) struct SeriesCodes(Arc<[Code]>);
+pub(crate) struct SeriesCodes {
+    /// Its coefficients; as a matrix the conditions that choose branches, then what is told of both [ends](Ends).
+    develop: Arc<[Code]>,
+    /// Its sum.
+    sum: Arc<[Code]>,
+}
 
 impl SeriesCodes {
-    fn new(compiled: &Arc<Compiled>, last: usize) -> Option<Self> {
-        let codes = compiled.taylor.as_ref()?;
-        let ([rows, conditions], written): ([Vec<Recorded>; 2], Written) = written(|| {
-            let system = recording(compiled);
-            let mut recurrence = ByCodes::new(&system, codes);
-            let size = compiled.plan.dimension();
-            let mu = source_numbers(size, |place| Source::Argument(0, place));
-            let unit = Recorded::from_source(Source::Argument(1, 0));
-            let mut field = vec![Recorded::zero(); size];
-            let mut rows: Vec<Vec<Recorded>> = Vec::with_capacity(last);
-            recurrence.begin(&mu, &mut field);
-            for k in 1..=last {
-                let factor = Recorded::ratio(1.0, k as f64) * unit;
-                let coefficient: Vec<_> = field.iter().map(|entry| *entry * factor).collect();
-                if k < last {
-                    recurrence.advance(k, &coefficient, &mut field);
-                }
-                rows.push(coefficient);
-            }
-            Some([rows.concat(), recurrence.conditions(0..last).to_vec()])
-        })?;
-        Some(Self(Arc::from(written.codes(&rows, &conditions))))
+    fn new(compiled: &Arc<Compiled>, kind: SeriesKind) -> Option<Self> {
+        Some(Self {
+            develop: develop(compiled, kind)?,
+            sum: sum(compiled.plan.dimension(), kind.0)?,
+        })
     }
 
     fn length(&self) -> usize {
-        self.0[1].instructions.len()
+        self.develop[1].instructions.len()
     }
 }
 
-/// The series of a system by one program, once so many were made that it pays.
+fn codes_of(run: impl FnOnce() -> Option<[Vec<Recorded>; 2]>) -> Option<Arc<[Code]>> {
+    let ([vector, matrix], written): (_, Written) = written(run)?;
+    Some(Arc::from(written.codes(&vector, &matrix)))
+}
+
+fn develop(compiled: &Arc<Compiled>, (last, beside): SeriesKind) -> Option<Arc<[Code]>> {
+    let codes = compiled.taylor.as_ref()?;
+    let size = compiled.plan.dimension();
+    codes_of(|| {
+        let system = recording(compiled);
+        let mut recurrence = ByCodes::new(&system, codes);
+        let mu = source_numbers(size, |place| Source::Argument(0, place));
+        let unit = Recorded::from_source(Source::Argument(1, 0));
+        let mut field = vec![Recorded::zero(); size];
+        recurrence.begin(&mu, &mut field);
+        let mut rows = vec![mu];
+        for k in 1..=last {
+            let factor = Recorded::ratio(1.0, k as f64) * unit;
+            let coefficient: Vec<_> = field.iter().map(|entry| *entry * factor).collect();
+            if k < last {
+                recurrence.advance(k, &coefficient, &mut field);
+            }
+            rows.push(coefficient);
+        }
+        let at_ends = [0, last, last - 1].map(|k| &rows[k][..]);
+        let ends = Ends::of(at_ends, system.clock());
+        let mut told = recurrence.conditions(0..last).to_vec();
+        told.extend(ends.sizes);
+        told.push(ends.lanes.number());
+        let mut rows = rows.concat();
+        if beside {
+            // the others keep theirs
+            let developed = Recorded::<1>::from_source(Source::Argument(1, 1)).mask();
+            let before = source_numbers(rows.len(), |place| Source::Argument(2, place));
+            for (entry, before) in rows.iter_mut().zip(before) {
+                *entry = Scalar::select(developed, *entry, before);
+            }
+        }
+        Some([rows, told])
+    })
+}
+
+fn sum(size: usize, last: usize) -> Option<Arc<[Code]>> {
+    codes_of(|| {
+        let rows = source_numbers((last + 1 + BEYOND) * size, |place| {
+            Source::Argument(0, place)
+        });
+        let time = Recorded::from_source(Source::Argument(1, 0));
+        let mut out = vec![Recorded::zero(); size];
+        sum_of_series(|k| &rows[k * size..][..size], last, time, &mut out);
+        Some([out, Vec::new()])
+    })
+}
+
+/// The series of a system by programs, once so many were made that it pays.
 pub(crate) struct Development<'a, S: Scalar> {
     system: &'a Dynamic<S>,
     wait: Countdown,
-    /// The order that the program is for.
+    /// The order that the programs are for.
     last: usize,
-    ready: Option<Ready<S>>,
+    ready: Option<[Ready<S>; 2]>,
+    /// The series, and the one before.
     coefficients: Vec<S>,
+    before: Vec<S>,
+    /// Conditions, and what is told of both ends.
+    told: Vec<S>,
 }
 
 impl<'a, S: Scalar> Development<'a, S> {
@@ -77,26 +131,34 @@ impl<'a, S: Scalar> Development<'a, S> {
             last: 0,
             ready: None,
             coefficients: Vec::new(),
+            before: Vec::new(),
+            told: Vec::new(),
         })
+    }
+
+    fn size(&self) -> usize {
+        self.system.values.compiled.plan.dimension()
     }
 
     fn codes(&self, last: usize) -> Option<Arc<SeriesCodes>> {
         let compiled = &self.system.values.compiled;
+        let kind = (last, S::LANES > 1);
         compiled
             .series
-            .get(&last, || SeriesCodes::new(compiled, last))
+            .get(&kind, || SeriesCodes::new(compiled, kind))
     }
 
-    /// The coefficients of the orders from 1 on, one order after the other; none where it is not run as a program.
-    pub fn run(&mut self, mu: &[S], unit: S, last: usize, conditions: &mut [S]) -> Option<&[S]> {
+    /// Develops in some lanes; false where it is not run as a program. `rows` have the series before the first one by a program.
+    pub fn run(&mut self, mu: &[S], unit: S, last: usize, rows: &[Vec<S>], lanes: S::Mask) -> bool {
         if last != self.last {
             self.last = last;
             self.ready = None;
-            let known = self.system.values.compiled.series.cached(&last);
-            let there =
-                known.is_some_and(|codes| self.system.values.machine.has_compiled(&codes.0));
+            let kind = (last, S::LANES > 1);
+            let known = self.system.values.compiled.series.cached(&kind);
+            let machine = &self.system.values.machine;
+            let there = known.is_some_and(|codes| machine.has_compiled(&codes.develop));
             if self.wait.left == 0 || there {
-                self.compile();
+                self.compile(rows);
             }
         }
         if self.wait.left > 0 && self.ready.is_none() {
@@ -104,25 +166,65 @@ impl<'a, S: Scalar> Development<'a, S> {
             let over = wait.is_over(|| self.codes(last).map_or(0, |codes| codes.length()));
             self.wait = wait;
             if over {
-                self.compile();
+                self.compile(rows);
             }
         }
-        let ready = self.ready.as_ref()?;
-        let unit = [unit];
-        let frame = [mu, &unit, &[], &[]];
-        let frame = self.system.values.frame(frame, &ready.of_step, &[]);
-        let targets = [&mut self.coefficients[..], conditions];
-        ready.machine.run(1, &frame, targets);
-        Some(&self.coefficients)
+        let Some([Ready { machine, of_step }, _]) = &self.ready else {
+            return false;
+        };
+        std::mem::swap(&mut self.coefficients, &mut self.before);
+        let given = [unit, S::select(lanes, S::one(), S::zero())];
+        let arguments = [mu, &given, &self.before, &[]];
+        let frame = self.system.values.frame(arguments, of_step, &[]);
+        machine.run(1, &frame, [&mut self.coefficients, &mut self.told]);
+        true
     }
 
+    /// The series that is kept.
+    pub fn developed(&self) -> Option<Developed<'_, S>> {
+        let (_, ends) = self
+            .told
+            .split_at_checked(self.told.len().checked_sub(4)?)?;
+        let [state, last, before, lanes] = *<&[S; 4]>::try_from(ends).ok()?;
+        Some(Developed {
+            coefficients: &self.coefficients,
+            size: self.size(),
+            ends: Ends {
+                sizes: [state, last, before],
+                lanes: S::ratio(1.0, 2.0).less(lanes),
+            },
+        })
+    }
+
+    /// The conditions along it, one order after the other.
+    pub fn conditions(&self) -> &[S] {
+        &self.told[..self.told.len().saturating_sub(4)]
+    }
+
+    /// Its sum at a time.
+    pub fn sum(&self, time: S, out: &mut [S]) {
+        if let Some([_, Ready { machine, of_step }]) = &self.ready {
+            let arguments = [&self.coefficients, &[time][..], &[], &[]];
+            let frame = self.system.values.frame(arguments, of_step, &[]);
+            machine.run(1, &frame, [out, &mut []]);
+        }
+    }
+
+    /// From the rows of the series before.
     #[cold]
-    fn compile(&mut self) {
+    fn compile(&mut self, rows: &[Vec<S>]) {
         let Some(codes) = self.codes(self.last) else {
             return;
         };
-        self.ready = Ready::new(self.system, &codes.0, S::zero(), false);
-        let size = self.system.values.compiled.plan.dimension();
-        self.coefficients = vec![S::zero(); size * self.last];
+        let ready = |codes| Ready::new(self.system, codes, S::zero(), false);
+        self.ready = ready(&codes.develop).and_then(|one| Some([one, ready(&codes.sum)?]));
+        let orders = self.last + 1;
+        self.coefficients = rows[..orders].concat();
+        let all = (orders + BEYOND) * self.size();
+        self.coefficients.resize(all, S::zero());
+        self.before = self.coefficients.clone();
+        let codes = self.system.values.compiled.taylor.as_ref();
+        let conditions = codes.map_or(0, |codes| codes.conditions());
+        self.told = vec![S::zero(); self.last * conditions + 4];
     }
 }

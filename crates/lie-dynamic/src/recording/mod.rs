@@ -35,7 +35,7 @@ use recorded::Inlined;
 use std::rc::Rc;
 use std::sync::Arc;
 
-pub(crate) use development::{Development, SeriesCodes};
+pub(crate) use development::{Development, SeriesCodes, SeriesKind};
 pub(crate) use program::program;
 pub(crate) use recorded::Recorded;
 pub(crate) use stages::StageCodes;

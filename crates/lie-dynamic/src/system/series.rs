@@ -7,8 +7,7 @@ use crate::recording::Development;
 use crate::system::Dynamic;
 use lie_codegen::plan;
 use lie_core::generic::PowerSeries;
-use lie_runtime::recurrence::MOST_ORDERS;
-use lie_runtime::scalar::Mask;
+use lie_runtime::recurrence::{Developed, MOST_ORDERS};
 use lie_runtime::{GradientRecurrence, GradientSeries, Poisson, Recurrence, Scalar, Series};
 use std::ops::Range;
 
@@ -35,6 +34,11 @@ impl Codes {
             pairs: recurrence.pairs,
             kept: recurrence.kept,
         }
+    }
+
+    /// How many conditions choose branches.
+    pub(crate) fn conditions(&self) -> usize {
+        self.conditions
     }
 
     fn entries(&self) -> usize {
@@ -159,6 +163,8 @@ impl<'a, S: Scalar> ByCodes<'a, S> {
 pub struct Coefficients<'a, S: Scalar> {
     by_codes: Option<ByCodes<'a, S>>,
     whole: Option<Development<'a, S>>,
+    /// Whether that has developed the last series.
+    is_kept: bool,
     power: Option<PowerSeries<S, Dynamic<S>>>,
 }
 
@@ -167,6 +173,7 @@ impl<'a, S: Scalar> Coefficients<'a, S> {
         Self {
             by_codes: codes.map(|codes| ByCodes::new(system, codes)),
             whole: None,
+            is_kept: false,
             power: codes.is_none().then(|| PowerSeries::new(system)),
         }
     }
@@ -197,34 +204,33 @@ impl<S: Scalar> Recurrence<S> for Coefficients<'_, S> {
         mu: &Vec<S>,
         unit: S,
         last: usize,
-        rows: &mut [Vec<S>],
+        rows: &[Vec<S>],
         lanes: S::Mask,
     ) -> bool {
-        let (Some(whole), Some(by_codes)) = (&mut self.whole, &mut self.by_codes) else {
-            return false;
-        };
-        let count = by_codes.codes.conditions;
-        let conditions = &mut by_codes.conditions[..last * count];
-        let Some(coefficients) = whole.run(mu, unit, last, conditions) else {
-            return false;
-        };
-        let all = lanes.all();
-        let found = coefficients.chunks_exact(mu.len());
-        for (row, coefficient) in rows[1..].iter_mut().zip(found) {
-            if all {
-                row.copy_from_slice(coefficient);
-                continue;
-            }
-            for (mine, theirs) in row.iter_mut().zip(coefficient) {
-                *mine = S::select(lanes, *theirs, *mine);
-            }
+        let whole = self.whole.as_mut();
+        self.is_kept = whole.is_some_and(|whole| whole.run(mu, unit, last, rows, lanes));
+        self.is_kept
+    }
+
+    fn developed(&self) -> Option<Developed<'_, S>> {
+        self.whole.as_ref()?.developed()
+    }
+
+    fn sum(&mut self, time: S, out: &mut Vec<S>) {
+        if let Some(whole) = &self.whole {
+            whole.sum(time, out);
         }
-        true
     }
 
     fn conditions(&self, k: usize) -> &[S] {
-        let by_codes = self.by_codes.as_ref();
-        by_codes.map_or(&[], |by_codes| by_codes.conditions(k..k + 1))
+        match (&self.by_codes, &self.whole) {
+            (Some(by_codes), Some(whole)) if self.is_kept => {
+                let count = by_codes.codes.conditions;
+                &whole.conditions()[k * count..][..count]
+            }
+            (Some(by_codes), _) => by_codes.conditions(k..k + 1),
+            (None, _) => &[],
+        }
     }
 }
 
