@@ -9,12 +9,14 @@ use lie_runtime::scalar::Counted;
 use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
 
-/// A longer step is not made one program: compiling it takes long, and calls cost little beside its arithmetic.
-const LONGEST: usize = 20_000;
+/// A longer step is not made one program at first: compiling it takes long, and calls cost little beside its arithmetic.
+pub(super) const LONGEST: usize = 20_000;
 
 /// What is written down. Numbers go by their order of coming into being.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Record {
+    /// More instructions are not written down.
+    longest: usize,
     /// For each number its source, or none of a result.
     sources: Vec<Option<Source>>,
     known: HashMap<(u8, u64, u64), Register>,
@@ -48,6 +50,24 @@ pub(super) struct Guard {
     /// asked of any and is true: lanes have the bits that they have beside any others, so that each may go the way that one of the
     /// others would have to go.
     pub is_condition: bool,
+}
+
+impl Default for Record {
+    fn default() -> Self {
+        Self {
+            longest: LONGEST,
+            sources: Vec::new(),
+            known: HashMap::new(),
+            instructions: Vec::new(),
+            done: HashMap::new(),
+            asked: Vec::new(),
+            branched: false,
+            missing: Default::default(),
+            guards: None,
+            single: false,
+            answers: HashMap::new(),
+        }
+    }
 }
 
 thread_local! {
@@ -120,11 +140,15 @@ impl Record {
 
     /// The first number that the instruction gives.
     pub fn push(&mut self, instruction: Instruction) -> Register {
-        self.branched |= self.instructions.len() == LONGEST;
+        self.branched |= self.is_full();
         match self.branched {
             true => 0,
             false => self.write(instruction),
         }
+    }
+
+    fn is_full(&self) -> bool {
+        self.instructions.len() == self.longest
     }
 
     fn write(&mut self, instruction: Instruction) -> Register {
@@ -302,21 +326,38 @@ pub(crate) struct Written(Record);
 
 /// Writes down what is done in `run`. None where it gives none, or where values decide what is done.
 pub(crate) fn written<T>(run: impl FnOnce() -> Option<T>) -> Option<(T, Written)> {
-    written_in(Record::default(), run)
+    written_in(Record::default(), run).ok()
+}
+
+/// Why nothing was written down.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Unwritten {
+    /// There are more instructions than were asked for.
+    TooLong,
+    /// Nothing was given, or something else decides what is done.
+    Undecided,
 }
 
 /// Writes down what is done in `run` for the values that its numbers have, with what is asked of them: for one number alone, or for
-/// lanes.
-pub(crate) fn followed<T>(single: bool, run: impl FnOnce() -> Option<T>) -> Option<(T, Written)> {
+/// lanes; so many instructions at most.
+pub(crate) fn followed<T>(
+    single: bool,
+    longest: usize,
+    run: impl FnOnce() -> Option<T>,
+) -> Result<(T, Written), Unwritten> {
     let record = Record {
         guards: Some(Vec::new()),
         single,
+        longest,
         ..Record::default()
     };
     written_in(record, run)
 }
 
-fn written_in<T>(record: Record, run: impl FnOnce() -> Option<T>) -> Option<(T, Written)> {
+fn written_in<T>(
+    record: Record,
+    run: impl FnOnce() -> Option<T>,
+) -> Result<(T, Written), Unwritten> {
     /// What was there before comes back, whatever happens.
     struct Before(Record);
     impl Drop for Before {
@@ -330,7 +371,11 @@ fn written_in<T>(record: Record, run: impl FnOnce() -> Option<T>) -> Option<(T, 
     drop(before);
     // nothing is written down any more
     (record.done, record.answers) = Default::default();
-    (!record.branched).then_some((given?, Written(record)))
+    match given {
+        _ if record.branched && record.is_full() => Err(Unwritten::TooLong),
+        Some(given) if !record.branched => Ok((given, Written(record))),
+        _ => Err(Unwritten::Undecided),
+    }
 }
 
 impl Written {

@@ -2,7 +2,7 @@
 //! it starts from a prediction. A trace is what one step did, with what was asked meanwhile; those that there are make one tree of programs,
 //! which is run for the next steps. Where a step has an answer that is in no trace the method makes it, and another trace may be taken.
 
-use super::record::{Guard, Written, followed, with_record};
+use super::record::{Guard, Unwritten, Written, followed, with_record};
 use super::recorded::reported;
 use super::{Recorded, following};
 use crate::code::{Register, Source};
@@ -38,19 +38,21 @@ pub(crate) enum Taken {
     Trace(Box<Trace>),
     /// The step failed.
     Failed,
-    /// It is too long, or not all that decides what it does is written down.
+    /// It has more instructions than were asked for.
+    TooLong,
+    /// Not all that decides what it does is written down.
     Refused,
 }
 
 impl Trace {
-    /// Of a step from a state, with this memory; for one number alone, or for lanes.
+    /// Of a step from a state, with this memory; for one number alone, or for lanes; with so many instructions at most.
     pub fn take(
         choice: &Choice,
         system: &Dynamic<f64>,
         h: f64,
         newton: &NewtonOptions,
         [mu, memory]: [&[f64]; 2],
-        single: bool,
+        (single, longest): (bool, usize),
     ) -> Taken {
         let Some(method) = implicit::<Recorded<8>>(choice) else {
             return Taken::Refused;
@@ -63,7 +65,7 @@ impl Trace {
                 .collect()
         };
         let failed = Cell::new(false);
-        let taken = followed(single, || {
+        let taken = followed(single, longest, || {
             let recording = following(system);
             let h = Recorded::of_value(Source::Step, h);
             let mut stepper = method.any_stepper(&recording, h, newton);
@@ -87,11 +89,11 @@ impl Trace {
             let guards = with_record(|record| record.take_guards());
             Some((mu, guards, report))
         });
-        let Some(((gives, guards, report), written)) = taken else {
-            return match failed.get() {
-                true => Taken::Failed,
-                false => Taken::Refused,
-            };
+        let ((gives, guards, report), written) = match taken {
+            Ok(taken) => taken,
+            Err(_) if failed.get() => return Taken::Failed,
+            Err(Unwritten::TooLong) => return Taken::TooLong,
+            Err(Unwritten::Undecided) => return Taken::Refused,
         };
         Taken::Trace(Box::new(Self {
             gives: gives.into_iter().map(|number| number.register).collect(),

@@ -156,16 +156,18 @@ impl<'a> TracedStepper<'a> {
         self.remember();
         let Self { choice, newton, .. } = self;
         self.followed.step(&self.known, mu, |followed, mu| {
-            let ([h], memory) = (followed.h, followed.memory());
-            Trace::take(choice, followed.system, h, newton, [mu, memory], true)
+            let ([h], from) = (followed.h, [mu, followed.memory()]);
+            let wanted = (true, self.known.longest());
+            Trace::take(choice, followed.system, h, newton, from, wanted)
         })
     }
 
-    /// A trace for lanes of the step of this system from a state with this memory.
-    pub fn trace_for_lanes(&self, state: &[f64], memory: &[f64]) -> Taken {
+    /// A trace for lanes of the step of this system from a state with this memory, with so many instructions at most.
+    pub fn trace_for_lanes(&self, state: &[f64], memory: &[f64], longest: usize) -> Taken {
         let ([h], system) = (self.followed.h, self.followed.system);
         let from = [state, memory];
-        Trace::take(&self.choice, system, h, &self.newton, from, false)
+        let wanted = (false, longest);
+        Trace::take(&self.choice, system, h, &self.newton, from, wanted)
     }
 }
 

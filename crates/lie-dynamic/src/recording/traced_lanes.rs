@@ -121,14 +121,14 @@ impl TracedLanes<'_> {
             return None;
         }
         self.remember();
-        let members = &self.members;
+        let (members, longest) = (&self.members, self.known.longest());
         self.followed.step(&self.known, mu, |followed, mu| {
             let lane = followed.missed();
             let of_lane = |numbers: &[Wide]| -> Vec<f64> {
                 numbers.iter().map(|number| number.lane(lane)).collect()
             };
             let member = members.get(lane).unwrap_or(&members[0]);
-            member.trace_for_lanes(&of_lane(mu), &of_lane(followed.memory()))
+            member.trace_for_lanes(&of_lane(mu), &of_lane(followed.memory()), longest)
         })
     }
 

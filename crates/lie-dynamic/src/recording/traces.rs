@@ -1,6 +1,7 @@
 //! The traces of a method that there are by now, and when another one is taken.
 
 use super::PATIENCE;
+use super::record::LONGEST;
 use super::trace::{Taken, Trace};
 use super::tree::Tree;
 use crate::system::Dynamic;
@@ -16,6 +17,9 @@ const MOST: usize = 24;
 /// cost as much as a few hundred steps kernel by kernel lose.
 const FIRST: u32 = 16;
 const LONGER: u32 = 16;
+/// Where programs are made quickly, a step that has more instructions than others may have is tried once more, with so many at most,
+/// after as many steps as that takes.
+const LONGEST_AT_LAST: usize = 100_000;
 /// So many sets of options of a solver have traces: more are not kept for the life of a declaration.
 const OPTIONS: usize = 16;
 /// After so many that could not be written down no more are taken.
@@ -48,11 +52,23 @@ struct Waiting {
     longest: u32,
     /// Those that could not be written down.
     refused: u32,
+    /// How many instructions a trace may have, and at last.
+    instructions: [usize; 2],
+}
+
+impl Waiting {
+    /// Whether the next one may have more instructions than those before; it is waited for longest then.
+    fn allows_more(&mut self) -> bool {
+        let [now, at_last] = self.instructions;
+        self.instructions[0] = at_last;
+        self.patience = self.longest;
+        now < at_last
+    }
 }
 
 impl Traces {
-    /// None yet; the first is waited for so many steps.
-    fn new(patience: u32) -> Self {
+    /// None yet; the first is waited for so many steps, and may have so many instructions at last.
+    fn new((patience, instructions): (u32, usize)) -> Self {
         Self {
             known: Mutex::default(),
             waiting: Mutex::new(Waiting {
@@ -60,6 +76,7 @@ impl Traces {
                 patience,
                 longest: LONGER * patience,
                 refused: 0,
+                instructions: [LONGEST, instructions],
             }),
             open: AtomicBool::new(true),
             steps: AtomicU64::new(0),
@@ -99,11 +116,17 @@ impl Traces {
         due
     }
 
+    /// How many instructions the next one may have.
+    pub fn longest(&self) -> usize {
+        self.waiting().instructions[0]
+    }
+
     /// Adds one, if it is not there. After several that could not be written down no more are taken.
     pub fn add(&self, taken: Taken) {
         let full = match taken {
             Taken::Failed => false,
-            Taken::Refused => {
+            Taken::TooLong if self.waiting().allows_more() => false,
+            Taken::TooLong | Taken::Refused => {
                 let mut waiting = self.waiting();
                 waiting.refused += 1;
                 waiting.refused >= REFUSALS
@@ -156,20 +179,20 @@ impl Traces {
 impl<S: Scalar> Dynamic<S> {
     /// The traces of a method.
     pub(super) fn traces(&self, choice: &Choice, newton: &NewtonOptions) -> Arc<Traces> {
-        let patience = match self.compiles_at_once(None) {
-            true => FIRST,
-            false => PATIENCE,
+        let wait = match self.compiles_at_once(None) {
+            true => (FIRST, LONGEST_AT_LAST),
+            false => (PATIENCE, LONGEST),
         };
         let all = &self.values.compiled.traces;
         // options have numbers, which are no keys
         let kind = (choice.clone(), S::LANES == 1);
         let key = (kind.clone(), format!("{newton:?}"));
         if all.cached(&key).is_none() && all.all_of(|(known, _)| *known == kind).len() >= OPTIONS {
-            let none = Traces::new(patience);
+            let none = Traces::new(wait);
             none.open.store(false, Ordering::Relaxed);
             return Arc::new(none);
         }
-        let made = all.get(&key, || Some(Traces::new(patience)));
+        let made = all.get(&key, || Some(Traces::new(wait)));
         made.unwrap_or_else(|| unreachable!("there are always some"))
     }
 }
