@@ -172,8 +172,10 @@ impl Entry {
     fn call<S: Scalar>(&self, frame: &Frame<'_, S>, targets: Targets<'_, S>) {
         self.lengths.check(frame, &targets);
         let [vector, matrix] = targets;
-        vector[..self.clear[0]].fill(S::zero());
-        matrix[..self.clear[1]].fill(S::zero());
+        if self.clear != [0, 0] {
+            vector[..self.clear[0]].fill(S::zero());
+            matrix[..self.clear[1]].fill(S::zero());
+        }
         let mut table = [std::ptr::null(); SLICES];
         for (to, slice) in table.iter_mut().zip(frame.slices()) {
             *to = slice.as_ptr().cast::<f64>();

@@ -2,7 +2,6 @@
 
 use super::machine::{ARGUMENTS, Frame, SLICES, Targets};
 use crate::code::{Code, Source};
-use smallvec::SmallVec;
 
 impl Source {
     /// The slice of [`Frame::slices`] that it is in, and its entry there; none of a number.
@@ -19,11 +18,17 @@ impl Source {
     }
 }
 
+/// Whether lengths are at least as large as they are to be; all are compared, with one jump.
+#[inline]
+fn are_long(lengths: impl Iterator<Item = (usize, usize)>) -> bool {
+    lengths.fold(true, |all, (length, least)| all & (length >= least))
+}
+
 /// The least lengths of the slices that a code reads and writes.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Lengths {
-    /// The slices that are read, each with its least length.
-    inputs: SmallVec<[(usize, usize); 4]>,
+    /// Those of the slices of a frame, 0 of what is not read.
+    inputs: [usize; SLICES],
     outputs: [usize; 2],
 }
 
@@ -31,12 +36,9 @@ impl Lengths {
     /// Those of a code.
     pub fn new(code: &Code) -> Self {
         let mut lengths = Self::default();
-        let mut inputs = [0; SLICES];
         for (slice, entry) in code.sources.iter().filter_map(Source::place) {
-            inputs[slice] = inputs[slice].max(entry + 1);
+            lengths.inputs[slice] = lengths.inputs[slice].max(entry + 1);
         }
-        let read = inputs.into_iter().enumerate();
-        lengths.inputs = read.filter(|(_, least)| *least > 0).collect();
         for store in &code.stores {
             let least = &mut lengths.outputs[usize::from(store.target)];
             *least = (*least).max(store.entry as usize + 1);
@@ -49,7 +51,8 @@ impl Lengths {
 
     /// The slices that are read, each with its least length.
     pub fn inputs(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
-        self.inputs.iter().copied()
+        let all = self.inputs.iter().copied().enumerate();
+        all.filter(|(_, least)| *least > 0)
     }
 
     /// The least lengths of the vector and the matrix.
@@ -64,18 +67,16 @@ impl Lengths {
     pub fn check_columns<S>(&self, columns: &[&[S]], frame: &Frame<'_, S>, to: &[&mut [S]]) {
         let places = to.first().map_or(0, |to| to.len());
         let columns_long = columns.iter().all(|column| column.len() >= places);
-        let first = self.inputs.first().filter(|(slice, _)| *slice == 0);
-        let read = first.map_or(0, |(_, least)| *least);
-        let enough = columns.len() >= read && to.len() >= self.outputs[0];
+        let enough = columns.len() >= self.inputs[0] && to.len() >= self.outputs[0];
         assert!(enough, "there are too few columns for a code");
         let targets_long = to.iter().all(|to| to.len() >= places);
         assert!(columns_long && targets_long, "a column is too short");
         assert!(self.outputs[1] == 0, "a code over columns has no matrix");
-        let slices = frame.slices();
-        for (slice, least) in self.inputs.iter().filter(|(slice, _)| *slice > 0) {
-            let enough = slices[*slice].len() >= *least;
-            assert!(enough, "a slice is too short for its code");
-        }
+        let others = frame.slices().iter().zip(self.inputs).skip(1);
+        assert!(
+            are_long(others.map(|(slice, least)| (slice.len(), least))),
+            "a slice is too short for its code"
+        );
     }
 
     /// Compares them with what a code is called with of which one slice takes turns with the vector that it gives: each of both is read
@@ -85,15 +86,13 @@ impl Lengths {
     /// A slice is shorter than the code needs, or it gives a matrix.
     #[inline]
     pub fn check_in_turns<S>(&self, frame: &Frame<'_, S>, turning: usize, both: [&[S]; 2]) {
-        let slices = frame.slices();
         let shorter = both[0].len().min(both[1].len());
-        for (slice, least) in &self.inputs {
-            let length = match *slice == turning {
-                true => shorter,
-                false => slices[*slice].len(),
-            };
-            assert!(length >= *least, "a slice is too short for its code");
-        }
+        let mut lengths = frame.slices().map(<[S]>::len);
+        lengths[turning] = shorter;
+        assert!(
+            are_long(lengths.into_iter().zip(self.inputs)),
+            "a slice is too short for its code"
+        );
         assert!(
             shorter >= self.outputs[0],
             "a target is too short for its code"
@@ -110,11 +109,11 @@ impl Lengths {
     /// A slice is shorter than the code needs.
     #[inline]
     pub fn check<S>(&self, frame: &Frame<'_, S>, targets: &Targets<'_, S>) {
-        let slices = frame.slices();
-        for (slice, least) in &self.inputs {
-            let enough = slices[*slice].len() >= *least;
-            assert!(enough, "a slice is too short for its code");
-        }
+        let slices = frame.slices().iter().zip(self.inputs);
+        assert!(
+            are_long(slices.map(|(slice, least)| (slice.len(), least))),
+            "a slice is too short for its code"
+        );
         for (target, least) in targets.iter().zip(self.outputs) {
             assert!(target.len() >= least, "a target is too short for its code");
         }

@@ -244,9 +244,9 @@ impl<S: Scalar> Chain<S> for Linked<S> {
             return Stop::Unknown(from);
         };
         let slices = frame.slices();
-        for (slice, least) in slices.iter().zip(self.least) {
-            assert!(slice.len() >= least, "a slice is too short for a part");
-        }
+        let lengths = slices.iter().zip(self.least);
+        let long = lengths.fold(true, |all, (slice, least)| all & (slice.len() >= least));
+        assert!(long, "a slice is too short for a part");
         assert!(
             to.len() >= self.results,
             "there is no place for what a step gives"
