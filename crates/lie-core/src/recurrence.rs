@@ -5,8 +5,9 @@
 //! coefficients of its result, that of a product being the sum `(u v)_k = sum_j u_j v_(k-j)`.
 
 use crate::clock::{Clock, holds};
+use crate::methods::rough_log::whole;
 use crate::poisson::Poisson;
-use crate::scalar::{Mask, Scalar};
+use crate::scalar::{Mask, Primitive, Scalar};
 use crate::state::State;
 
 /// The largest order that is computed.
@@ -33,12 +34,12 @@ pub trait Recurrence<S: Scalar> {
         field: &mut Self::State,
     ) -> Self::Carry;
     /// Develops a solution from a state in some lanes, in a unit of time, up to an order, by a program of all orders, and keeps the
-    /// series with its conditions; false where the system has no such program, and nothing is done. `rows` have the series that were
-    /// developed otherwise before, order after order.
+    /// series with its conditions; false where the system has no such program, and nothing is done. Beside the unit is the part of the
+    /// [`Reach`]. `rows` have the series that were developed otherwise before, order after order.
     fn develop(
         &mut self,
         _mu: &Self::State,
-        _unit: S,
+        _unit: [S; 2],
         _last: usize,
         _rows: &[Self::State],
         _lanes: S::Mask,
@@ -68,6 +69,8 @@ pub struct Developed<'a, S: Scalar> {
     pub size: usize,
     /// What its radius of convergence follows from, in the lanes that were developed last.
     pub ends: Ends<S>,
+    /// How far it is used, in these lanes.
+    pub reach: Reach<S>,
 }
 
 impl<'a, S: Scalar> Developed<'a, S> {
@@ -109,6 +112,40 @@ impl<S: Scalar> Ends<S> {
             }
         }
         Self { sizes, lanes }
+    }
+}
+
+/// How far a series is used, where nothing is special.
+#[derive(Clone, Copy, Debug)]
+pub struct Reach<S: Scalar> {
+    /// In its unit of time.
+    pub length: S,
+    /// The power of two by which the unit is smaller than the radius of convergence, to the nearest whole number.
+    pub shift: S,
+    /// The lanes in which these are known.
+    pub lanes: S::Mask,
+}
+
+impl<S: Scalar + Primitive> Reach<S> {
+    /// By the ends of a series up to an order of 2 or more, and the part of its radius of convergence that is used: the logarithm of that
+    /// part to base 2 in units of 2^-40.
+    pub fn of(ends: &Ends<S>, order: usize, part: S) -> Self {
+        let number = <S as Primitive>::number;
+        let [scale, last, before] = ends.sizes.map(whole::binary_log);
+        let by_last = whole::quotient(scale - last, order);
+        let by_before = whole::quotient(scale - before, order.max(2) - 1);
+        let log = S::blend(by_last - by_before, by_last, by_before);
+        let [length, below] = whole::exp2(log + part);
+        let mut lanes = ends.lanes & below.abs().less_equal(number(1022.0));
+        for size in ends.sizes {
+            let is_normal = number(f64::MIN_POSITIVE).less_equal(size);
+            lanes = lanes & is_normal & size.less_equal(number(f64::MAX));
+        }
+        Self {
+            length,
+            shift: whole::rounded(log),
+            lanes,
+        }
     }
 }
 

@@ -8,7 +8,7 @@ use super::radius::Radius;
 use super::rough_log::{ONE, exp2, log2};
 use crate::clock::Clock;
 use crate::poisson::Poisson;
-use crate::recurrence::{Developed, Ends, MOST_ORDERS, sum_of_series};
+use crate::recurrence::{Developed, Ends, MOST_ORDERS, Reach, sum_of_series};
 use crate::scalar::{Scalar, largest};
 use crate::state::State;
 
@@ -71,6 +71,15 @@ impl<'a, S: Scalar, V: State<S>> Terms<'a, S, V> {
         }
     }
 
+    /// How far it is used, where that is known beside it.
+    #[inline(always)]
+    pub(super) fn reach(&self) -> Option<Reach<S>> {
+        match self {
+            Self::Rows(_) => None,
+            Self::Kept(developed) => Some(developed.reach),
+        }
+    }
+
     /// Its coefficients at both ends.
     #[inline(always)]
     pub(super) fn ends(&self, order: usize, clock: Option<Clock>) -> Ends<S> {
@@ -130,6 +139,11 @@ impl Pace {
         let works = system.is_forced() || system.is_damped();
         let beside = system.clock().filter(|_| works).map(|clock| clock.momentum);
         Self { beside, ..self }
+    }
+
+    /// Whether the radius follows from the coefficients at both ends where nothing is special.
+    pub(super) fn is_usual(&self) -> bool {
+        self.is_adaptive() && self.beside.is_none() && self.order >= 2
     }
 
     /// Whether the steps follow from the series.

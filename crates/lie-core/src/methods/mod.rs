@@ -115,7 +115,7 @@ mod radius;
 mod realized;
 pub mod rk4;
 pub mod rkmk;
-mod rough_log;
+pub(crate) mod rough_log;
 mod series_stepper;
 pub mod spherical_midpoint;
 pub mod splitting;

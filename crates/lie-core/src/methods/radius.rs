@@ -40,7 +40,7 @@ impl Pace {
         terms: &Terms<'_, S, V>,
         clock: Option<Clock>,
     ) -> Usual {
-        if self.part.is_none() || self.beside.is_some() || self.order < 2 {
+        if !self.is_usual() {
             return Usual::default();
         }
         let Ends { sizes, lanes } = terms.ends(self.order, clock);

@@ -135,7 +135,8 @@ impl<S: Scalar, P: Series<S>> Development<S> for TaylorDevelopment<'_, S, P> {
         loop {
             let (unit, all) = (self.unit.length, open.all());
             let recurrence = &mut self.recurrence;
-            self.is_kept = recurrence.develop(mu, unit, last, &self.rows, open);
+            let part = S::from_f64(self.pace.part.unwrap_or(0) as f64);
+            self.is_kept = recurrence.develop(mu, [unit, part], last, &self.rows, open);
             if !self.is_kept {
                 copy_lanes(&mut self.rows[0], mu, open, all);
                 let mut carry = recurrence.begin(mu, &mut field);

@@ -20,7 +20,9 @@ const TRIALS: u32 = 8;
 /// The unit in each lane, and how far the series is used there.
 #[derive(Clone, Debug)]
 pub(super) struct TimeUnit<S: Scalar> {
-    exponents: [Option<i32>; MOST_LANES],
+    exponents: [i32; MOST_LANES],
+    /// The lanes in which there was a series before.
+    known: u64,
     /// Orders that were finite in the last trial.
     finite: [usize; MOST_LANES],
     trials: u32,
@@ -36,7 +38,8 @@ impl<S: Scalar> TimeUnit<S> {
     pub(super) fn new() -> Self {
         const { assert!(S::LANES <= MOST_LANES) };
         Self {
-            exponents: [None; MOST_LANES],
+            exponents: [0; MOST_LANES],
+            known: 0,
             finite: [0; MOST_LANES],
             trials: 0,
             length: S::one(),
@@ -47,7 +50,7 @@ impl<S: Scalar> TimeUnit<S> {
 
     /// Knows nothing of the series before in some lanes.
     pub(super) fn forget(&mut self, lanes: S::Mask) {
-        lanes.lanes().for_each(|lane| self.exponents[lane] = None);
+        self.known &= !lanes.bits();
     }
 
     fn set(&mut self, lane: usize, exponent: i32) {
@@ -56,7 +59,8 @@ impl<S: Scalar> TimeUnit<S> {
             false => 1000,
         };
         let exponent = exponent.clamp(-most, most);
-        self.exponents[lane] = Some(exponent);
+        self.exponents[lane] = exponent;
+        self.known |= 1 << lane;
         let power = |exponent| S::Lane::from_f64(power_of_two(exponent));
         self.length = self.length.with_lane(lane, power(exponent));
         self.inverse = self.inverse.with_lane(lane, power(-exponent));
@@ -74,9 +78,7 @@ impl<S: Scalar> TimeUnit<S> {
     ) {
         self.trials = 0;
         self.finite = [0; MOST_LANES];
-        let guessed = |lane: &usize| self.exponents[*lane].is_none();
-        let guessed = lanes.lanes().filter(guessed);
-        let guessed = guessed.fold(0_u64, |all, lane| all | 1 << lane);
+        let guessed = lanes.bits() & !self.known;
         if guessed == 0 {
             return;
         }
@@ -104,6 +106,16 @@ impl<S: Scalar> TimeUnit<S> {
         step: S,
         lanes: S::Mask,
     ) -> S::Mask {
+        if let [terms] = series
+            && let Some(reach) = terms.reach().filter(|_| pace.is_usual())
+        {
+            // nothing is special in any lane
+            let near = reach.shift.abs().less_equal(S::from_f64(FARTHEST as f64));
+            if (reach.lanes & near | !lanes).all() {
+                self.reach = S::select(lanes, reach.length * self.length, self.reach);
+                return S::Mask::splat(false);
+            }
+        }
         self.trials += 1;
         let mut again = 0;
         let steps = each(step * self.inverse);
@@ -119,7 +131,7 @@ impl<S: Scalar> TimeUnit<S> {
         }
         let (mut reaches, mut shifts) = ([0.0; MOST_LANES], [0; MOST_LANES]);
         for lane in lanes.lanes() {
-            let unit = self.exponents[lane].unwrap_or(0);
+            let unit = self.exponents[lane];
             let radius = radii[lane];
             let (shift, wanted) = match radius {
                 Radius::Infinite => (0, false),

@@ -7,7 +7,7 @@ use crate::code::{Code, Source};
 use crate::compiled::Compiled;
 use crate::system::Dynamic;
 use crate::system::series::ByCodes;
-use lie_runtime::recurrence::{Developed, Ends, sum_of_series};
+use lie_runtime::recurrence::{Developed, Ends, Reach, sum_of_series};
 use lie_runtime::{Poisson, Scalar};
 use std::sync::Arc;
 
@@ -18,13 +18,16 @@ const INSTRUCTIONS: u32 = 16;
 /// Orders that are 0 behind the last one of a series that is kept.
 const BEYOND: usize = 4;
 
+/// How many numbers are told of both [ends](Ends), and of how far it is [used](Reach).
+const TOLD: usize = 7;
+
 /// What tells the programs of a system apart: the order of the series, and whether others are developed beside it.
 pub(crate) type SeriesKind = (usize, bool);
 
 /// The programs of a series up to an order.
 #[derive(Debug)]
 pub(crate) struct SeriesCodes {
-    /// Its coefficients; as a matrix the conditions that choose branches, then what is told of both [ends](Ends).
+    /// Its coefficients; as a matrix the conditions that choose branches, then what is told of it.
     develop: Arc<[Code]>,
     /// Its sum.
     sum: Arc<[Code]>,
@@ -69,13 +72,16 @@ fn develop(compiled: &Arc<Compiled>, (last, beside): SeriesKind) -> Option<Arc<[
         }
         let at_ends = [0, last, last - 1].map(|k| &rows[k][..]);
         let ends = Ends::of(at_ends, system.clock());
+        let part = Recorded::from_source(Source::Argument(1, 1));
+        let reach = Reach::of(&ends, last, part);
         let mut told = recurrence.conditions(0..last).to_vec();
         told.extend(ends.sizes);
-        told.push(ends.lanes.number());
+        told.extend([ends.lanes.number(), reach.length, reach.shift]);
+        told.push(reach.lanes.number());
         let mut rows = rows.concat();
         if beside {
             // the others keep theirs
-            let developed = Recorded::<1>::from_source(Source::Argument(1, 1)).mask();
+            let developed = Recorded::<1>::from_source(Source::Argument(1, 2)).mask();
             let before = source_numbers(rows.len(), |place| Source::Argument(2, place));
             for (entry, before) in rows.iter_mut().zip(before) {
                 *entry = Scalar::select(developed, *entry, before);
@@ -107,7 +113,7 @@ pub(crate) struct Development<'a, S: Scalar> {
     /// The series, and the one before.
     coefficients: Vec<S>,
     before: Vec<S>,
-    /// Conditions, and what is told of both ends.
+    /// Conditions, and what is told.
     told: Vec<S>,
 }
 
@@ -149,7 +155,14 @@ impl<'a, S: Scalar> Development<'a, S> {
     }
 
     /// Develops in some lanes; false where it is not run as a program. `rows` have the series before the first one by a program.
-    pub fn run(&mut self, mu: &[S], unit: S, last: usize, rows: &[Vec<S>], lanes: S::Mask) -> bool {
+    pub fn run(
+        &mut self,
+        mu: &[S],
+        [unit, part]: [S; 2],
+        last: usize,
+        rows: &[Vec<S>],
+        lanes: S::Mask,
+    ) -> bool {
         if last != self.last {
             self.last = last;
             self.ready = None;
@@ -173,7 +186,7 @@ impl<'a, S: Scalar> Development<'a, S> {
             return false;
         };
         std::mem::swap(&mut self.coefficients, &mut self.before);
-        let given = [unit, S::select(lanes, S::one(), S::zero())];
+        let given = [unit, part, S::select(lanes, S::one(), S::zero())];
         let arguments = [mu, &given, &self.before, &[]];
         let frame = self.system.values.frame(arguments, of_step, &[]);
         machine.run(1, &frame, [&mut self.coefficients, &mut self.told]);
@@ -182,23 +195,28 @@ impl<'a, S: Scalar> Development<'a, S> {
 
     /// The series that is kept.
     pub fn developed(&self) -> Option<Developed<'_, S>> {
-        let (_, ends) = self
-            .told
-            .split_at_checked(self.told.len().checked_sub(4)?)?;
-        let [state, last, before, lanes] = *<&[S; 4]>::try_from(ends).ok()?;
+        let [.., state, last, before, lanes, length, shift, known] = self.told[..] else {
+            return None;
+        };
+        let holds = |number| S::ratio(1.0, 2.0).less(number);
         Some(Developed {
             coefficients: &self.coefficients,
             size: self.size(),
             ends: Ends {
                 sizes: [state, last, before],
-                lanes: S::ratio(1.0, 2.0).less(lanes),
+                lanes: holds(lanes),
+            },
+            reach: Reach {
+                length,
+                shift,
+                lanes: holds(known),
             },
         })
     }
 
     /// The conditions along it, one order after the other.
     pub fn conditions(&self) -> &[S] {
-        &self.told[..self.told.len().saturating_sub(4)]
+        &self.told[..self.told.len().saturating_sub(TOLD)]
     }
 
     /// Its sum at a time.
@@ -225,6 +243,6 @@ impl<'a, S: Scalar> Development<'a, S> {
         self.before = self.coefficients.clone();
         let codes = self.system.values.compiled.taylor.as_ref();
         let conditions = codes.map_or(0, |codes| codes.conditions());
-        self.told = vec![S::zero(); self.last * conditions + 4];
+        self.told = vec![S::zero(); self.last * conditions + TOLD];
     }
 }

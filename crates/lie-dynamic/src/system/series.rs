@@ -202,7 +202,7 @@ impl<S: Scalar> Recurrence<S> for Coefficients<'_, S> {
     fn develop(
         &mut self,
         mu: &Vec<S>,
-        unit: S,
+        unit: [S; 2],
         last: usize,
         rows: &[Vec<S>],
         lanes: S::Mask,
