@@ -97,7 +97,29 @@ unsafe extern "sysv64" fn unknown(
 /// A part that was made.
 pub struct Made {
     function: Function,
+    lengths: Lengths,
+    /// How many constants of the step size it reads.
+    of_step: usize,
     _memory: Memory,
+}
+
+impl Made {
+    /// Of the only code of these; none where it is not for the assembler.
+    fn new(code: &[Code], lanes: usize, end: End, registers: Registers) -> Option<Self> {
+        let [code] = code else {
+            return None;
+        };
+        assert!(code.clear == [None, None], "a part clears nothing");
+        let (memory, place) = making::part(&code.expanded(), lanes, end, registers)?;
+        let pointer = memory.pointer(place);
+        Some(Self {
+            // SAFETY: the pointer is that of a function which was made with this signature.
+            function: unsafe { std::mem::transmute::<*const u8, Function>(pointer) },
+            lengths: Lengths::new(code),
+            of_step: constants_of_step(code),
+            _memory: memory,
+        })
+    }
 }
 
 /// Parts that were made, for all chains of a machine.
@@ -178,11 +200,6 @@ impl<S: Scalar> Linked<S> {
 
 impl<S: Scalar> Chain<S> for Linked<S> {
     fn add(&mut self, part: usize, code: &Arc<[Code]>, next: Next) -> bool {
-        let [only] = &code[..] else {
-            return false;
-        };
-        let lengths = Lengths::new(only);
-        let [vector, answers] = lengths.outputs();
         let end = match next {
             Next::End => End::Done,
             Next::Question { from, every, .. } => End::Question {
@@ -190,6 +207,12 @@ impl<S: Scalar> Chain<S> for Linked<S> {
                 every,
             },
         };
+        let make = || Made::new(code, S::LANES, end, self.registers);
+        let Some(made) = self.made.get(&(SameCodes(Arc::clone(code)), end), make) else {
+            return false;
+        };
+        let lengths = &made.lengths;
+        let [vector, answers] = lengths.outputs();
         let (space, asked) = match next {
             Next::End => (usize::MAX, 1),
             Next::Question { from, .. } => (self.between.len().saturating_sub(from), 2),
@@ -199,22 +222,9 @@ impl<S: Scalar> Chain<S> for Linked<S> {
             "there is no place for what a part gives to others"
         );
         assert!(
-            answers == asked && only.clear == [None, None],
+            answers == asked,
             "a part gives answers and nothing else as a matrix"
         );
-        let make = || {
-            let (memory, place) = making::part(&only.expanded(), S::LANES, end, self.registers)?;
-            // SAFETY: the pointer is that of a function which was made with this signature.
-            let function =
-                unsafe { std::mem::transmute::<*const u8, Function>(memory.pointer(place)) };
-            Some(Made {
-                function,
-                _memory: memory,
-            })
-        };
-        let Some(made) = self.made.get(&(SameCodes(Arc::clone(code)), end), make) else {
-            return false;
-        };
         for (slice, least) in lengths.inputs() {
             match slice {
                 BETWEEN => assert!(least <= self.between.len(), "a part reads what none gives"),
@@ -226,8 +236,8 @@ impl<S: Scalar> Chain<S> for Linked<S> {
             self.results = self.results.max(vector);
         }
         self.parts[part] = Some(Part {
+            of_step: vec![S::zero(); made.of_step],
             made,
-            of_step: vec![S::zero(); constants_of_step(only)],
             next,
         });
         self.link();
