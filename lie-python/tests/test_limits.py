@@ -156,7 +156,7 @@ def test_progress_is_told_and_nothing_is_printed(capfd: pytest.CaptureFixture[st
         ("times", lambda progress: body.bench("rk4", t=1, budget=0.01, progress=progress)),
         ("experiments", lambda progress: body.stress("rk4", steps=1000, progress=progress)),
         ("members", lambda progress: body.ensemble(starts, "rk4", h=0.01, t=1, progress=progress)),
-        ("steps", lambda progress: body.run("rk4", h=2e-6, t=5, every=1000, progress=progress)),
+        ("steps", lambda progress: body.run("rk4", h=2e-6, t=25, every=10_000, progress=progress)),
     ]
     for what, run in runs:
         calls, progress = told()
