@@ -208,17 +208,20 @@ impl<'a, S: Scalar> Followed<'a, S> {
     /// Adds a part to the chain; none where the engine has no program for it.
     #[cold]
     fn add(&mut self, place: usize) -> Option<()> {
-        let part = &self.tree.parts[place];
+        let (part, engine) = (&self.tree.parts[place], &self.system.values.machine);
+        let machine = match part.codes.of_step[0].stores.is_empty() {
+            true => None,
+            false => Some(engine.compile(&part.codes.of_step)?),
+        };
         let chain = self.chain.as_mut()?;
         if !chain.add(place, &part.codes.body, part.next) {
             return None;
         }
-        let of_step = chain.of_step(place);
-        if !of_step.is_empty() {
-            let machine = self.system.values.machine.compile(&part.codes.of_step)?;
+        if let Some(machine) = &machine {
+            let of_step = chain.of_step(place);
             run_of_step(machine.as_ref(), self.system, self.h[0], of_step);
-            self.of_step[place] = Some(machine);
         }
+        self.of_step[place] = machine;
         Some(())
     }
 }

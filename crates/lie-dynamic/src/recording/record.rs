@@ -13,10 +13,10 @@ use std::collections::HashMap;
 pub(super) const LONGEST: usize = 20_000;
 
 /// What is written down. Numbers go by their order of coming into being.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Record {
-    /// More instructions are not written down.
-    longest: usize,
+    /// More instructions are not written down; [`LONGEST`] where nothing is said.
+    longest: Option<usize>,
     /// For each number its source, or none of a result.
     sources: Vec<Option<Source>>,
     known: HashMap<(u8, u64, u64), Register>,
@@ -50,24 +50,6 @@ pub(super) struct Guard {
     /// asked of any and is true: lanes have the bits that they have beside any others, so that each may go the way that one of the
     /// others would have to go.
     pub is_condition: bool,
-}
-
-impl Default for Record {
-    fn default() -> Self {
-        Self {
-            longest: LONGEST,
-            sources: Vec::new(),
-            known: HashMap::new(),
-            instructions: Vec::new(),
-            done: HashMap::new(),
-            asked: Vec::new(),
-            branched: false,
-            missing: Default::default(),
-            guards: None,
-            single: false,
-            answers: HashMap::new(),
-        }
-    }
 }
 
 thread_local! {
@@ -148,7 +130,7 @@ impl Record {
     }
 
     fn is_full(&self) -> bool {
-        self.instructions.len() == self.longest
+        self.instructions.len() == self.longest.unwrap_or(LONGEST)
     }
 
     fn write(&mut self, instruction: Instruction) -> Register {
@@ -348,7 +330,7 @@ pub(crate) fn followed<T>(
     let record = Record {
         guards: Some(Vec::new()),
         single,
-        longest,
+        longest: Some(longest),
         ..Record::default()
     };
     written_in(record, run)
