@@ -1,6 +1,10 @@
 //! A code over eight lanes in registers of fewer: each of its registers becomes two, of the lower and of the upper half.
 
 use super::{Code, Instruction, Register, Source, Store};
+use crate::engine::ARGUMENTS;
+
+/// The slice that has the step size and the time.
+const SCALARS: u8 = ARGUMENTS as u8 + 3;
 
 impl Code {
     /// Whether lanes are exchanged, so that all of them have to be there.
@@ -11,9 +15,6 @@ impl Code {
 
     /// The same over half as many lanes, of which there are `lanes` now: entry k of a slice or a target, and register k, are 2k with the
     /// lower half and 2k + 1 with the upper one. Halves that are exchanged take each other's place.
-    ///
-    /// # Panics
-    /// It reads the step size or the time, which have no lanes.
     #[must_use]
     pub fn halved(&self, lanes: u8) -> Self {
         let half = lanes / 2;
@@ -81,9 +82,9 @@ impl Source {
             Self::OfStep(place) => Self::OfStep(2 * place + part),
             Self::Parameter(place) => Self::Parameter(2 * place + part),
             Self::Number(_) => self,
-            Self::Step | Self::Time => {
-                unreachable!("what has lanes that are exchanged has them as arguments")
-            }
+            // by their places in a frame
+            Self::Step => Self::Argument(SCALARS, part),
+            Self::Time => Self::Argument(SCALARS, 2 + part),
         }
     }
 }

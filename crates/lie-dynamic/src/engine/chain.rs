@@ -26,6 +26,22 @@ pub enum Next {
     },
 }
 
+impl Next {
+    /// Compares it with what a chain has: so many parts, and so many numbers that are given to later ones.
+    ///
+    /// # Panics
+    /// The chain has less.
+    pub fn check(&self, parts: usize, between: usize) {
+        if let Self::Question {
+            from, parts: next, ..
+        } = self
+        {
+            let known = next.iter().all(|next| *next < parts) && *from <= between;
+            assert!(known, "a part goes on to one that is in the chain");
+        }
+    }
+}
+
 /// Where a step stopped, and at which part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stop {
@@ -39,17 +55,18 @@ pub enum Stop {
 
 /// Parts of a step that are run one after the other, in one call.
 pub trait Chain<S> {
-    /// Adds a part, whose code is the only one of these; whether the engine has a program for it.
+    /// Adds a part, whose code is the only one of these; whether the engine has a program for it. Where it has none the part is not there.
     ///
     /// # Panics
-    /// The code gives more to later parts than there are numbers for.
+    /// The part goes on to one that the chain does not have, gives more to later ones than there are numbers for, reads what
+    /// none before it gives, or gives another matrix than its answers.
     fn add(&mut self, part: usize, code: &Arc<[Code]>, next: Next) -> bool;
 
     /// What a part that was added reads as constants of the step size, to be written.
     fn of_step(&mut self, part: usize) -> &mut [S];
 
-    /// Goes on from a part, to the end of the step or as far as there are parts. The constants of the step size in the frame, and what
-    /// parts give to later ones, are not read.
+    /// Goes on from a part, to the end of the step or as far as there are parts. The constants of the step size, and what
+    /// parts give to later ones, are not taken from the frame.
     ///
     /// # Panics
     /// A slice is shorter than a part needs.
@@ -94,6 +111,7 @@ impl<S: Scalar> Separate<S> {
 
 impl<S: Scalar> Chain<S> for Separate<S> {
     fn add(&mut self, part: usize, code: &Arc<[Code]>, next: Next) -> bool {
+        next.check(self.parts.len(), self.between.len());
         let machine = self.engine.compile(code);
         self.parts[part] = machine.map(|machine| Part {
             machine,

@@ -21,7 +21,9 @@ pub(super) struct Tree {
 /// What some steps do between two things that are asked.
 #[derive(Debug)]
 pub(super) struct Part {
+    /// What it does.
     pub codes: PartCodes,
+    /// What comes after it.
     pub next: Next,
     /// What a step that ends here made, at most.
     pub report: StepReport,

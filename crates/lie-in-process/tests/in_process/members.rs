@@ -7,9 +7,8 @@ use lie_codegen::structure::Structure;
 use lie_dynamic::{Declared, Engine, Interpreted, Tolerances};
 use lie_in_process::list;
 use lie_in_process::members::{LANES, Member, Members, Watch};
-use lie_jit::Jit;
+use lie_jit::{Jit, Registers};
 use lie_runtime::driver::{Options, Save};
-use lie_runtime::newton::NewtonOptions;
 
 const COUNT: usize = 19;
 const STEP: f64 = 0.1;
@@ -67,10 +66,10 @@ fn alone(members: &Members<'_>) -> Vec<Member> {
 }
 
 /// What is different between members in lanes and alone, by method; the control differs in the last digits of one member's start.
-fn different(name: &str, save: Save, newton: NewtonOptions) -> (usize, Vec<String>) {
+fn different(name: &str, engine: &dyn Engine) -> (usize, Vec<String>) {
     let model = model(name);
     let choices = list::applicable(&model);
-    let declared = Declared::new(plan(&model, &choices), &Jit);
+    let declared = Declared::new(plan(&model, &choices), engine);
     let starts = starts(&declared);
     let (mut compared, mut different) = (0, Vec::new());
     for choice in &choices {
@@ -81,7 +80,7 @@ fn different(name: &str, save: Save, newton: NewtonOptions) -> (usize, Vec<Strin
             parameters: vec![Vec::new()],
             starts: starts.clone(),
             count: COUNT,
-            options: Options::new(STEP).save(save.clone()).newton(newton),
+            options: Options::new(STEP).save(Save::Ends),
             span: (0.0, END),
             held: Default::default(),
             sources: Default::default(),
@@ -106,9 +105,12 @@ fn failures(members: &[Member]) -> Vec<Option<(f64, String)>> {
 }
 
 fn has_the_bits_of_members_alone(name: &str) {
-    let (compared, different) = different(name, Save::Ends, NewtonOptions::default());
-    assert!(compared >= 4, "{name}: {compared}");
-    assert!(different.is_empty(), "{name}: {different:?}");
+    for engine in Registers::ALL.into_iter().filter_map(Jit::with) {
+        let (compared, different) = different(name, &engine);
+        let engine = engine.name();
+        assert!(compared >= 4, "{name}, {engine}: {compared}");
+        assert!(different.is_empty(), "{name}, {engine}: {different:?}");
+    }
 }
 
 #[test]

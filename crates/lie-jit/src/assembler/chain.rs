@@ -27,11 +27,11 @@ pub enum End {
     Done,
     /// With a jump to one of two others: an answer is asked of every lane, or of any. The vector begins so many numbers
     /// behind the beginning of what is given to later parts.
-    Question { from: u32, every: bool },
+    Question { from: usize, every: bool },
 }
 
-/// Reads from a table of the slices in a frame, writes the answers to a place; the vector is none of its arguments, which the
-/// part has from the table.
+/// Reads from a table of the slices in a frame and writes the answers to a place. It takes no notice of the vector, whose place it has from
+/// the table.
 type Function =
     unsafe extern "sysv64" fn(*const *const f64, *mut f64, *mut f64, *const Record) -> Stopped;
 
@@ -140,7 +140,8 @@ struct Linked<S> {
     registers: Registers,
     made: Arc<Parts>,
     parts: Vec<Option<Part<S>>>,
-    records: Box<[Record]>,
+    /// Those that are there jump to others, by pointers into this list, which has all places from the beginning.
+    records: Vec<Record>,
     /// The least lengths of the slices in a frame, and of what the step gives.
     least: [usize; SLICES],
     results: usize,
@@ -155,7 +156,11 @@ struct Part<S> {
 }
 
 impl<S: Scalar> Linked<S> {
+    /// All lanes of a number are one behind the other.
+    const HAS_LANES: () = assert!(size_of::<S>() == S::LANES * size_of::<f64>());
+
     fn new(registers: Registers, made: &Arc<Parts>, parts: usize, between: usize) -> Self {
+        let () = Self::HAS_LANES;
         let links = [Link {
             function: unknown,
             record: std::ptr::null(),
@@ -179,20 +184,22 @@ impl<S: Scalar> Linked<S> {
 
     /// Writes the record of every part that is there.
     fn link(&mut self) {
-        let start = self.records.as_ptr();
-        let link = |part: usize| Link {
-            function: self.parts[part]
-                .as_ref()
-                .map_or(unknown as Function, |part| part.made.function),
-            record: start.wrapping_add(part),
-        };
-        for (record, part) in self.records.iter_mut().zip(&self.parts) {
+        let start = self.records.as_mut_ptr();
+        for (place, part) in self.parts.iter().enumerate() {
             let Some(part) = part else {
                 continue;
             };
+            // SAFETY: there is a record for each part, which nothing else refers to now.
+            let record = unsafe { &mut *start.add(place) };
             record.of_step = part.of_step.as_ptr().cast::<f64>();
             if let Next::Question { parts, .. } = part.next {
-                record.links = parts.map(link);
+                record.links = parts.map(|next| Link {
+                    function: match &self.parts[next] {
+                        Some(next) => next.made.function,
+                        None => unknown,
+                    },
+                    record: start.wrapping_add(next),
+                });
             }
         }
     }
@@ -200,25 +207,22 @@ impl<S: Scalar> Linked<S> {
 
 impl<S: Scalar> Chain<S> for Linked<S> {
     fn add(&mut self, part: usize, code: &Arc<[Code]>, next: Next) -> bool {
-        let end = match next {
-            Next::End => End::Done,
-            Next::Question { from, every, .. } => End::Question {
-                from: from as u32,
-                every,
-            },
+        next.check(self.parts.len(), self.between.len());
+        let (end, from, asked) = match next {
+            Next::End => (End::Done, self.between.len(), 1),
+            Next::Question { from, every, .. } => (End::Question { from, every }, from, 2),
         };
         let make = || Made::new(code, S::LANES, end, self.registers);
-        let Some(made) = self.made.get(&(SameCodes(Arc::clone(code)), end), make) else {
+        let made = self.made.get(&(SameCodes(Arc::clone(code)), end), make);
+        let Some(made) = made else {
+            self.parts[part] = None;
+            self.link();
             return false;
         };
         let lengths = &made.lengths;
         let [vector, answers] = lengths.outputs();
-        let (space, asked) = match next {
-            Next::End => (usize::MAX, 1),
-            Next::Question { from, .. } => (self.between.len().saturating_sub(from), 2),
-        };
         assert!(
-            vector <= space,
+            next == Next::End || vector <= self.between.len() - from,
             "there is no place for what a part gives to others"
         );
         assert!(
@@ -227,7 +231,7 @@ impl<S: Scalar> Chain<S> for Linked<S> {
         );
         for (slice, least) in lengths.inputs() {
             match slice {
-                BETWEEN => assert!(least <= self.between.len(), "a part reads what none gives"),
+                BETWEEN => assert!(least <= from, "a part reads what none before it gives"),
                 _ if slice == usize::from(OF_STEP) => {}
                 _ => self.least[slice] = self.least[slice].max(least),
             }
@@ -276,7 +280,7 @@ impl<S: Scalar> Chain<S> for Linked<S> {
                 table.as_ptr(),
                 std::ptr::null_mut(),
                 answers,
-                &raw const self.records[from],
+                self.records.as_ptr().wrapping_add(from),
             )
         };
         match stopped.why {

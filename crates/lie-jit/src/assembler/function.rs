@@ -65,7 +65,7 @@ pub struct Writer<'a> {
 pub fn function(program: &Program, layout: Layout) -> Option<Vec<u8>> {
     let mut writer = Writer::new(program, layout)?;
     if let Some(part) = layout.part {
-        writer.begin_part(part);
+        writer.begin_part(part)?;
     }
     writer.begin();
     match (layout.columns, layout.turns) {

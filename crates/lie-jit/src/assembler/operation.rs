@@ -66,6 +66,7 @@ pub struct Layout {
 /// How a part of a step ends.
 #[derive(Clone, Copy, Debug)]
 pub struct PartOf {
+    /// What comes after it.
     pub end: End,
     /// How many numbers an answer has, one behind the other.
     pub lanes: usize,

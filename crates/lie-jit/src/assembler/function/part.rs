@@ -25,17 +25,19 @@ const WHICH: General = General::Rdx;
 
 impl Writer<'_> {
     /// Has the vector where the code gives it.
-    pub fn begin_part(&mut self, part: PartOf) {
+    pub fn begin_part(&mut self, part: PartOf) -> Option<()> {
         let at = |slice: usize| Memory::At(TABLE, 8 * slice as i32);
         match part.end {
             End::Done => self.bytes.load_word(VECTOR, at(RESULTS)),
             End::Question { from, .. } => {
                 self.bytes.load_word(VECTOR, at(usize::from(GIVEN)));
                 if from > 0 {
-                    self.bytes.add(VECTOR, 8 * part.lanes as u32 * from);
+                    let distance = 8 * part.lanes * from;
+                    self.bytes.add(VECTOR, u32::try_from(distance).ok()?);
                 }
             }
         }
+        Some(())
     }
 
     /// Leaves where the part is not for all lanes; goes on to the next one, or leaves where there is none.
@@ -55,7 +57,7 @@ impl Writer<'_> {
         self.leave_for(MISSED);
     }
 
-    /// Jumps where an answer is 0, in any lane or in all; the place of the jump, which ends with it. No answer is -0.
+    /// Jumps where an answer is 0: with `every` in any lane, otherwise in all lanes. Returns the place of the jump's distance. No answer is -0.
     fn jump_unless(&mut self, part: PartOf, answer: usize, every: bool) -> usize {
         let lane = |lane: usize| Memory::At(ANSWERS, 8 * (answer * part.lanes + lane) as i32);
         self.bytes.load_word(WHY, lane(0));

@@ -9,6 +9,7 @@ use lie_dynamic::{
 };
 use lie_runtime::{Elementary, Scalar};
 use std::collections::BTreeSet;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
 /// Two parts behind each, so deep; each gives so many numbers to later ones, the last ones so many as the end of a step.
@@ -34,6 +35,8 @@ fn part(random: &mut Random, place: usize, length: u32) -> (Arc<[Code]>, Next) {
         Source::Argument(0, 0),
         Source::Argument(0, 1),
         Source::Argument(1, 0),
+        Source::Step,
+        Source::Time,
     ];
     sources.extend((0..given).map(|entry| Source::Argument(BETWEEN as u8, entry)));
     // more slices than a part has registers of its own for, or few
@@ -127,12 +130,12 @@ fn followed<S: Scalar>(
     let mut added = BTreeSet::new();
     let steps = (0..24).map(|step| {
         let mut random = Random(1000 * seed + step);
-        let [state, memory, system, parameters] =
-            [(); 4].map(|()| drawn::<S>(&mut random, ENTRIES as usize));
+        let [state, memory, system, parameters, scalars] =
+            [(); 5].map(|()| drawn::<S>(&mut random, ENTRIES as usize));
         let frame = Frame::new(
             [&state, &memory, &[], &[]],
             [&system, &[], &parameters],
-            &[],
+            &scalars,
         );
         let mut to = vec![S::zero(); RESULTS as usize];
         let mut from = 0;
@@ -158,12 +161,11 @@ fn followed<S: Scalar>(
 
 fn chains<S: Scalar>(
     machine: &Arc<dyn Machine<S>>,
-    expected: &Arc<dyn Machine<S>>,
     parts: &Parts,
     seed: u64,
 ) -> Vec<(Stop, Vec<u64>)> {
     let by_calls = |parts| {
-        let mut separate = Separate::new(expected, PARTS, BETWEEN_ALL);
+        let mut separate = Separate::new(machine, PARTS, BETWEEN_ALL);
         followed(&mut separate, parts, seed)
     };
     let mut linked = machine
@@ -191,8 +193,8 @@ fn parts_that_are_linked_give_the_bits_of_those_that_are_called() {
             let parts: Parts = (0..PARTS)
                 .map(|place| part(&mut random, place, length))
                 .collect();
-            let one = chains(&machine, &machine, &parts, seed);
-            let eight = chains(&wide, &wide, &parts, seed);
+            let one = chains(&machine, &parts, seed);
+            let eight = chains(&wide, &parts, seed);
             for (stops, found) in stops.iter_mut().zip([one, eight]) {
                 stops.extend(found.into_iter().map(|(stop, _)| match stop {
                     Stop::Done(part) => (true, part),
@@ -206,4 +208,33 @@ fn parts_that_are_linked_give_the_bits_of_those_that_are_called() {
             assert!(done >= least && done < stops.len(), "{stops:?}");
         }
     }
+}
+
+/// What a chain does not have is refused before anything is linked to it.
+#[test]
+fn parts_go_on_to_others_of_their_chain() {
+    let Some(engine) = Registers::widest().and_then(Jit::with) else {
+        return;
+    };
+    let machine = engine.machine(&Arc::from([]));
+    let (code, _) = part(&mut Random(3), 0, 10);
+    let refused = |from, parts| {
+        let question = Next::Question {
+            from,
+            every: true,
+            parts,
+        };
+        let separate: Box<dyn Chain<f64>> = Box::new(Separate::new(&machine, 3, GIVEN));
+        let linked = machine.chain(3, GIVEN).expect("parts are linked here");
+        [separate, linked].map(|mut chain| {
+            let add = || chain.add(0, &code, question);
+            let refused = catch_unwind(AssertUnwindSafe(add)).is_err();
+            let frame = Frame::new([&[]; 4], [&[]; 3], &[]);
+            assert!(!refused || chain.follow(0, &frame, &mut []) == Stop::Unknown(0));
+            refused
+        })
+    };
+    assert_eq!(refused(0, [1, 2]), [false; 2]);
+    assert_eq!(refused(0, [1, 3]), [true; 2]);
+    assert_eq!(refused(GIVEN + 1, [1, 2]), [true; 2]);
 }
