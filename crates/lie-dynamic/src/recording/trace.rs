@@ -38,8 +38,8 @@ pub(crate) enum Taken {
     Trace(Box<Trace>),
     /// The step failed.
     Failed,
-    /// It has more instructions than were asked for.
-    TooLong,
+    /// It has more than so many instructions, which were asked for.
+    TooLong(usize),
     /// Not all that decides what it does is written down.
     Refused,
 }
@@ -92,7 +92,7 @@ impl Trace {
         let ((gives, guards, report), written) = match taken {
             Ok(taken) => taken,
             Err(_) if failed.get() => return Taken::Failed,
-            Err(Unwritten::TooLong) => return Taken::TooLong,
+            Err(Unwritten::TooLong) => return Taken::TooLong(longest),
             Err(Unwritten::Undecided) => return Taken::Refused,
         };
         Taken::Trace(Box::new(Self {

@@ -160,7 +160,7 @@ impl<'a> TracedStepper<'a> {
         let Self { choice, newton, .. } = self;
         self.followed.step(&self.known, mu, |followed, mu| {
             let ([h], from) = (followed.h, [mu, followed.memory()]);
-            let wanted = (true, self.known.longest());
+            let wanted = (true, self.known.instructions());
             Trace::take(choice, followed.system, h, newton, from, wanted)
         })
     }

@@ -121,7 +121,7 @@ impl TracedLanes<'_> {
             return None;
         }
         self.remember();
-        let (members, longest) = (&self.members, self.known.longest());
+        let (members, longest) = (&self.members, self.known.instructions());
         self.followed.step(&self.known, mu, |followed, mu| {
             let lane = followed.missed();
             let of_lane = |numbers: &[Wide]| -> Vec<f64> {

@@ -17,8 +17,9 @@ const MOST: usize = 24;
 /// cost as much as a few hundred steps kernel by kernel lose.
 const FIRST: u32 = 16;
 const LONGER: u32 = 16;
-/// Where programs are made quickly, a step that has more instructions than others may have is tried once more, with so many at most,
-/// after as many steps as that takes.
+/// A step that is too long for others is tried once more, where programs are made quickly, with so many instructions at most. Such a trace
+/// takes the time of a few hundred steps, so that it is waited for as long as others in the end. The assembler takes twice as
+/// many, as codes have over two registers for each number.
 const LONGEST_AT_LAST: usize = 100_000;
 /// So many sets of options of a solver have traces: more are not kept for the life of a declaration.
 const OPTIONS: usize = 16;
@@ -49,7 +50,7 @@ struct Waiting {
     /// Steps that none was for since the last one was taken, and how many are waited for.
     missed: u32,
     patience: u32,
-    longest: u32,
+    most_patience: u32,
     /// Those that could not be written down.
     refused: u32,
     /// How many instructions a trace may have, and at last.
@@ -57,12 +58,14 @@ struct Waiting {
 }
 
 impl Waiting {
-    /// Whether the next one may have more instructions than those before; it is waited for longest then.
-    fn allows_more(&mut self) -> bool {
-        let [now, at_last] = self.instructions;
-        self.instructions[0] = at_last;
-        self.patience = self.longest;
-        now < at_last
+    /// Whether one after that which had more than so many instructions may have more; it is waited for longest then.
+    fn allows_more(&mut self, than: usize) -> bool {
+        let [now, at_last] = &mut self.instructions;
+        if *now < *at_last {
+            *now = *at_last;
+            self.patience = self.most_patience;
+        }
+        than < *at_last
     }
 }
 
@@ -74,7 +77,7 @@ impl Traces {
             waiting: Mutex::new(Waiting {
                 missed: 0,
                 patience,
-                longest: LONGER * patience,
+                most_patience: LONGER * patience,
                 refused: 0,
                 instructions: [LONGEST, instructions],
             }),
@@ -111,13 +114,13 @@ impl Traces {
         let due = waiting.missed > waiting.patience;
         if due {
             waiting.missed = 0;
-            waiting.patience = (2 * waiting.patience).min(waiting.longest);
+            waiting.patience = (2 * waiting.patience).min(waiting.most_patience);
         }
         due
     }
 
     /// How many instructions the next one may have.
-    pub fn longest(&self) -> usize {
+    pub fn instructions(&self) -> usize {
         self.waiting().instructions[0]
     }
 
@@ -125,8 +128,8 @@ impl Traces {
     pub fn add(&self, taken: Taken) {
         let full = match taken {
             Taken::Failed => false,
-            Taken::TooLong if self.waiting().allows_more() => false,
-            Taken::TooLong | Taken::Refused => {
+            Taken::TooLong(instructions) if self.waiting().allows_more(instructions) => false,
+            Taken::TooLong(_) | Taken::Refused => {
                 let mut waiting = self.waiting();
                 waiting.refused += 1;
                 waiting.refused >= REFUSALS
