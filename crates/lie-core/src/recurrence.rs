@@ -34,24 +34,27 @@ pub trait Recurrence<S: Scalar> {
         field: &mut Self::State,
     ) -> Self::Carry;
     /// Develops a solution from a state in some lanes, in a unit of time, up to an order, by a program of all orders, and keeps the
-    /// series with its conditions; false where the system has no such program, and nothing is done. Beside the unit is the part of the
-    /// [`Reach`]. `rows` have the series that were developed otherwise before, order after order.
+    /// series with its conditions; false where the system has no such program, and nothing is done. `part` is that of the [`Reach`]. `rows` have
+    /// the series that were developed otherwise before, order after order.
     fn develop(
         &mut self,
         _mu: &Self::State,
-        _unit: [S; 2],
+        _unit: S,
+        _part: S,
         _last: usize,
         _rows: &[Self::State],
         _lanes: S::Mask,
     ) -> bool {
         false
     }
-    /// The series that [`Recurrence::develop`] keeps.
-    fn developed(&self) -> Option<Developed<'_, S>> {
+    /// The series of the last [`Recurrence::develop`], if it was true.
+    fn kept(&self) -> Option<KeptSeries<'_, S>> {
         None
     }
-    /// Its [sum](sum_of_series) at a time in its unit.
-    fn sum(&mut self, _time: S, _out: &mut Self::State) {}
+    /// The [sum](sum_of_series) of the series that is kept, at a time in its unit; false where none is, and nothing is done.
+    fn sum(&mut self, _time: S, _out: &mut Self::State) -> bool {
+        false
+    }
     /// The coefficients of an order of the conditions that choose branches, each with its first branch where it is negative,
     /// of the orders since [`Recurrence::begin`].
     fn conditions(&self, _k: usize) -> &[S] {
@@ -61,7 +64,7 @@ pub trait Recurrence<S: Scalar> {
 
 /// A series that is kept.
 #[derive(Clone, Copy, Debug)]
-pub struct Developed<'a, S: Scalar> {
+pub struct KeptSeries<'a, S: Scalar> {
     /// The coefficients, one order after the other from 0 on, each times the power of a unit of time. Beyond the last order they are 0,
     /// for four orders at least.
     pub coefficients: &'a [S],
@@ -73,7 +76,7 @@ pub struct Developed<'a, S: Scalar> {
     pub reach: Reach<S>,
 }
 
-impl<'a, S: Scalar> Developed<'a, S> {
+impl<'a, S: Scalar> KeptSeries<'a, S> {
     /// The coefficients of an order.
     #[inline(always)]
     pub fn row(&self, order: usize) -> &'a [S] {

@@ -8,7 +8,7 @@ use super::radius::Radius;
 use super::rough_log::{ONE, exp2, log2};
 use crate::clock::Clock;
 use crate::poisson::Poisson;
-use crate::recurrence::{Developed, Ends, MOST_ORDERS, Reach, sum_of_series};
+use crate::recurrence::{Ends, KeptSeries, MOST_ORDERS, Reach, sum_of_series};
 use crate::scalar::{Scalar, largest};
 use crate::state::State;
 
@@ -58,7 +58,7 @@ pub(super) type Rows<V> = [V; MOST_ORDERS + 5];
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Terms<'a, S: Scalar, V> {
     Rows(&'a Rows<V>),
-    Kept(Developed<'a, S>),
+    Kept(KeptSeries<'a, S>),
 }
 
 impl<'a, S: Scalar, V: State<S>> Terms<'a, S, V> {
@@ -67,7 +67,7 @@ impl<'a, S: Scalar, V: State<S>> Terms<'a, S, V> {
     pub(super) fn row(&self, k: usize) -> &'a [S] {
         match self {
             Self::Rows(rows) => rows[k].as_slice(),
-            Self::Kept(developed) => developed.row(k),
+            Self::Kept(series) => series.row(k),
         }
     }
 
@@ -76,7 +76,7 @@ impl<'a, S: Scalar, V: State<S>> Terms<'a, S, V> {
     pub(super) fn reach(&self) -> Option<Reach<S>> {
         match self {
             Self::Rows(_) => None,
-            Self::Kept(developed) => Some(developed.reach),
+            Self::Kept(series) => Some(series.reach),
         }
     }
 
@@ -88,7 +88,7 @@ impl<'a, S: Scalar, V: State<S>> Terms<'a, S, V> {
                 let rows = [0, order, order - 1].map(|k| rows[k].as_slice());
                 Ends::of(rows, clock)
             }
-            Self::Kept(developed) => developed.ends,
+            Self::Kept(series) => series.ends,
         }
     }
 }

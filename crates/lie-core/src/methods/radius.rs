@@ -253,6 +253,61 @@ mod tests {
         }
     }
 
+    /// How far a series is used, by whole numbers for all lanes and by integers for each: sizes of all normal numbers, most near each other.
+    #[test]
+    fn the_reach_of_lanes_is_that_of_each() {
+        use crate::recurrence::Reach;
+        let mut bits = 2018_u64;
+        let mut drawn = || {
+            bits = bits.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            bits >> 11
+        };
+        let [mut known, mut beyond] = [0; 2];
+        for draw in 0..300_000 {
+            let mut size = || {
+                let near = 1023 + drawn() % 60 - 30;
+                let exponent = if draw % 3 == 0 {
+                    1 + drawn() % 2046
+                } else {
+                    near
+                };
+                f64::from_bits(exponent << 52 | drawn() & ((1 << 52) - 1))
+            };
+            let sizes = [size(), size(), size()];
+            let tolerance = 10_f64.powi(-((drawn() % 17) as i32));
+            let pace = Pace::of_tolerance::<f64>(tolerance, 0.02 + 0.3 * (draw % 4) as f64);
+            let lanes = true;
+            let part = pace.part.expect("of a tolerance") as f64;
+            let found = Reach::of(&Ends { sizes, lanes }, pace.order, part);
+            let usual = Usual {
+                sizes: sizes.map(|size| [size; MOST_LANES]),
+                order: pace.order,
+                lanes: 1,
+            };
+            let radius = usual.radius(0).expect("usual");
+            let Radius::Log(log) = radius else {
+                unreachable!("all sizes are above 0");
+            };
+            let used = pace.used(radius);
+            assert_eq!(found.lanes, used.is_normal(), "{sizes:?} {}", pace.order);
+            if found.lanes {
+                assert_eq!(found.length.to_bits(), used.to_bits(), "{sizes:?}");
+                assert_eq!(found.shift, (log + (1 << 39) >> 40) as f64, "{sizes:?}");
+            }
+            *(if found.lanes { &mut known } else { &mut beyond }) += 1;
+        }
+        assert!(known > 250_000 && beyond > 100, "{known} {beyond}");
+        for special in [0.0, f64::MIN_POSITIVE / 2.0, f64::INFINITY, f64::NAN] {
+            for place in 0..3 {
+                let mut sizes = [1.0; 3];
+                sizes[place] = special;
+                let lanes = true;
+                let found = Reach::of(&Ends { sizes, lanes }, 7, -3e12);
+                assert!(!found.lanes, "{sizes:?}");
+            }
+        }
+    }
+
     /// Where nothing is special, all lanes at once tell what each does by itself; elsewhere they tell nothing.
     #[cfg(feature = "lanes")]
     #[test]

@@ -79,7 +79,6 @@ impl<S: Scalar, P: Series<S>> Method<S, P> for Taylor {
             recurrence: system.series(),
             inverses: core::array::from_fn(|k| S::ratio(1.0, k.max(1) as f64)),
             rows: copies(&zero),
-            is_kept: false,
             scratch: Some((zero.clone(), zero.clone())),
             unit: TimeUnit::new(),
             joints: Joints::new(),
@@ -99,8 +98,6 @@ pub struct TaylorDevelopment<'a, S: Scalar, P: Series<S> + 'a> {
     /// `1/k`
     inverses: [S; MOST_ORDERS + 1],
     rows: Rows<P::State>,
-    /// Whether the recurrence has the series, and not these rows.
-    is_kept: bool,
     /// A coefficient of the field, and one of the state.
     scratch: Option<(P::State, P::State)>,
     unit: TimeUnit<S>,
@@ -136,8 +133,7 @@ impl<S: Scalar, P: Series<S>> Development<S> for TaylorDevelopment<'_, S, P> {
             let (unit, all) = (self.unit.length, open.all());
             let recurrence = &mut self.recurrence;
             let part = S::from_f64(self.pace.part.unwrap_or(0) as f64);
-            self.is_kept = recurrence.develop(mu, [unit, part], last, &self.rows, open);
-            if !self.is_kept {
+            if !recurrence.develop(mu, unit, part, last, &self.rows, open) {
                 copy_lanes(&mut self.rows[0], mu, open, all);
                 let mut carry = recurrence.begin(mu, &mut field);
                 for k in 1..last {
@@ -148,7 +144,7 @@ impl<S: Scalar, P: Series<S>> Development<S> for TaylorDevelopment<'_, S, P> {
                 multiply(&field, self.inverses[last] * unit, &mut coefficient);
                 copy_lanes(&mut self.rows[last], &coefficient, open, all);
             }
-            let kept = self.recurrence.developed().filter(|_| self.is_kept);
+            let kept = self.recurrence.kept();
             let terms = kept.map_or(Terms::Rows(&self.rows), Terms::Kept);
             open = self.unit.settle(&self.pace, &[terms], clock, step, open);
             if !open.any() {
@@ -168,9 +164,8 @@ impl<S: Scalar, P: Series<S>> Development<S> for TaylorDevelopment<'_, S, P> {
     #[inline(always)]
     fn state(&mut self, time: S, out: &mut P::State) {
         let time = time * self.unit.inverse;
-        match self.is_kept {
-            true => self.recurrence.sum(time, out),
-            false => sum(&self.rows, self.pace.order, time, out),
+        if !self.recurrence.sum(time, out) {
+            sum(&self.rows, self.pace.order, time, out);
         }
     }
 

@@ -7,7 +7,7 @@ use crate::code::{Code, Source};
 use crate::compiled::Compiled;
 use crate::system::Dynamic;
 use crate::system::series::ByCodes;
-use lie_runtime::recurrence::{Developed, Ends, Reach, sum_of_series};
+use lie_runtime::recurrence::{Ends, KeptSeries, Reach, sum_of_series};
 use lie_runtime::{Poisson, Scalar};
 use std::sync::Arc;
 
@@ -194,12 +194,12 @@ impl<'a, S: Scalar> Development<'a, S> {
     }
 
     /// The series that is kept.
-    pub fn developed(&self) -> Option<Developed<'_, S>> {
+    pub fn series(&self) -> Option<KeptSeries<'_, S>> {
         let [.., state, last, before, lanes, length, shift, known] = self.told[..] else {
             return None;
         };
         let holds = |number| S::ratio(1.0, 2.0).less(number);
-        Some(Developed {
+        Some(KeptSeries {
             coefficients: &self.coefficients,
             size: self.size(),
             ends: Ends {

@@ -7,7 +7,7 @@ use crate::recording::Development;
 use crate::system::Dynamic;
 use lie_codegen::plan;
 use lie_core::generic::PowerSeries;
-use lie_runtime::recurrence::{Developed, MOST_ORDERS};
+use lie_runtime::recurrence::{KeptSeries, MOST_ORDERS};
 use lie_runtime::{GradientRecurrence, GradientSeries, Poisson, Recurrence, Scalar, Series};
 use std::ops::Range;
 
@@ -202,24 +202,27 @@ impl<S: Scalar> Recurrence<S> for Coefficients<'_, S> {
     fn develop(
         &mut self,
         mu: &Vec<S>,
-        unit: [S; 2],
+        unit: S,
+        part: S,
         last: usize,
         rows: &[Vec<S>],
         lanes: S::Mask,
     ) -> bool {
         let whole = self.whole.as_mut();
-        self.is_kept = whole.is_some_and(|whole| whole.run(mu, unit, last, rows, lanes));
+        self.is_kept = whole.is_some_and(|whole| whole.run(mu, [unit, part], last, rows, lanes));
         self.is_kept
     }
 
-    fn developed(&self) -> Option<Developed<'_, S>> {
-        self.whole.as_ref()?.developed()
+    fn kept(&self) -> Option<KeptSeries<'_, S>> {
+        let whole = self.whole.as_ref().filter(|_| self.is_kept);
+        whole?.series()
     }
 
-    fn sum(&mut self, time: S, out: &mut Vec<S>) {
-        if let Some(whole) = &self.whole {
+    fn sum(&mut self, time: S, out: &mut Vec<S>) -> bool {
+        if let Some(whole) = self.whole.as_ref().filter(|_| self.is_kept) {
             whole.sum(time, out);
         }
+        self.is_kept
     }
 
     fn conditions(&self, k: usize) -> &[S] {
