@@ -102,7 +102,7 @@ impl<S: Scalar> Ends<S> {
             let entries = rows.map(|row| row[i]);
             // what is not finite is no number here
             for last in &entries[1..] {
-                lanes = lanes & (*last - *last).less_equal(S::zero());
+                lanes = lanes & (*last * S::zero()).less_equal(S::zero());
             }
             if holds(clock, i) {
                 continue;

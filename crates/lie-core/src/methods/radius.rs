@@ -292,7 +292,7 @@ mod tests {
             assert_eq!(found.lanes, used.is_normal(), "{sizes:?} {}", pace.order);
             if found.lanes {
                 assert_eq!(found.length.to_bits(), used.to_bits(), "{sizes:?}");
-                assert_eq!(found.shift, (log + (1 << 39) >> 40) as f64, "{sizes:?}");
+                assert_eq!(found.shift, ((log + (1 << 39)) >> 40) as f64, "{sizes:?}");
             }
             *(if found.lanes { &mut known } else { &mut beyond }) += 1;
         }
