@@ -17,9 +17,9 @@ const MOST: usize = 24;
 /// cost as much as a few hundred steps kernel by kernel lose.
 const FIRST: u32 = 16;
 const LONGER: u32 = 16;
-/// A step that is too long for others is tried once more, where programs are made quickly, with so many instructions at most. Such a trace
-/// takes the time of a few hundred steps, so that it is waited for as long as others in the end. The assembler takes twice as
-/// many, as codes have over two registers for each number.
+/// Where steps were too long so often, and programs are made quickly, one is tried once more, with so many instructions at most. Such a
+/// trace takes the time of a few hundred steps, which is about how many were made by then. The assembler takes twice as many, as codes
+/// have over two registers for each number.
 const LONGEST_AT_LAST: usize = 100_000;
 /// So many sets of options of a solver have traces: more are not kept for the life of a declaration.
 const OPTIONS: usize = 16;
@@ -58,14 +58,25 @@ struct Waiting {
 }
 
 impl Waiting {
-    /// Whether one after that which had more than so many instructions may have more; it is waited for longest then.
-    fn allows_more(&mut self, than: usize) -> bool {
-        let [now, at_last] = &mut self.instructions;
-        if *now < *at_last {
-            *now = *at_last;
-            self.patience = self.most_patience;
+    /// Counts one that could not be written down; whether no more are taken.
+    fn refused(&mut self) -> bool {
+        self.refused += 1;
+        self.refused >= REFUSALS
+    }
+
+    /// The same of one that had more than so many instructions. At last one may have more.
+    fn too_long(&mut self, instructions: usize) -> bool {
+        let [now, at_last] = self.instructions;
+        // another thread has found out before
+        if instructions < now || !self.refused() {
+            return false;
         }
-        than < *at_last
+        let more = now < at_last;
+        if more {
+            self.instructions[0] = at_last;
+            self.refused -= 1;
+        }
+        !more
     }
 }
 
@@ -128,12 +139,8 @@ impl Traces {
     pub fn add(&self, taken: Taken) {
         let full = match taken {
             Taken::Failed => false,
-            Taken::TooLong(instructions) if self.waiting().allows_more(instructions) => false,
-            Taken::TooLong(_) | Taken::Refused => {
-                let mut waiting = self.waiting();
-                waiting.refused += 1;
-                waiting.refused >= REFUSALS
-            }
+            Taken::TooLong(instructions) => self.waiting().too_long(instructions),
+            Taken::Refused => self.waiting().refused(),
             Taken::Trace(trace) => self.grow(trace),
         };
         if full {
