@@ -24,9 +24,9 @@ mod system;
 pub use cache::Cache;
 pub use code::{Bitwise, Code, Instruction, Number, Register, Source, Store};
 pub use engine::{
-    ARGUMENTS, AROUND, BETWEEN, BINARY, Binary, Chain, Engine, Frame, Interpreted, Interpreter,
-    Lengths, Machine, Next, SLICES, Separate, Stop, Targets, UNARY, Unary, constants_of_step,
-    in_turns, phi, place_by_place, stumpff,
+    AROUND, BETWEEN, BINARY, Binary, Chain, Engine, Frame, Interpreted, Interpreter, Lengths,
+    Machine, Next, OF_STEP, SLICES, Separate, Stop, Targets, UNARY, Unary, in_turns, phi,
+    place_by_place, stumpff,
 };
 pub use lie_runtime::methods::Tolerances;
 pub use methods::{

@@ -1,5 +1,6 @@
 //! Parts of a step, each a code, of which one goes on into another as values decide.
 
+use super::layout::Lengths;
 use super::machine::{ARGUMENTS, Frame, Machine};
 use crate::code::Code;
 use lie_runtime::Scalar;
@@ -8,6 +9,9 @@ use std::sync::Arc;
 
 /// The argument that has what parts have given to later ones.
 pub const BETWEEN: usize = 2;
+
+/// The slice that has constants of the step size.
+pub const OF_STEP: usize = ARGUMENTS + 1;
 
 /// What comes after a part of a step. Its code gives as a matrix 1 in the lanes that the part is for and 0 in others, and, where something
 /// is asked, 1 where it holds and 0 elsewhere.
@@ -76,13 +80,6 @@ pub trait Chain<S> {
     fn answers(&self) -> S;
 }
 
-/// How many constants of the step size a code reads.
-pub fn constants_of_step(code: &Code) -> usize {
-    let places = code.sources.iter().filter_map(crate::Source::place);
-    let read = places.filter(|(slice, _)| *slice == ARGUMENTS + 1);
-    read.map(|(_, entry)| entry + 1).max().unwrap_or(0)
-}
-
 /// Parts that an engine runs by a call of each.
 pub struct Separate<S> {
     engine: Arc<dyn Machine<S>>,
@@ -115,7 +112,7 @@ impl<S: Scalar> Chain<S> for Separate<S> {
         let machine = self.engine.compile(code);
         self.parts[part] = machine.map(|machine| Part {
             machine,
-            of_step: vec![S::zero(); constants_of_step(&code[0])],
+            of_step: vec![S::zero(); Lengths::new(&code[0]).input(OF_STEP)],
             next,
         });
         self.parts[part].is_some()
@@ -139,9 +136,7 @@ impl<S: Scalar> Chain<S> for Separate<S> {
                     (&*before, to)
                 }
             };
-            let frame = frame
-                .with(BETWEEN, before)
-                .with(ARGUMENTS + 1, &part.of_step);
+            let frame = frame.with(BETWEEN, before).with(OF_STEP, &part.of_step);
             part.machine.run(0, &frame, [to, &mut self.answers]);
             let [expected, asked] = self.answers.map(|answer| S::ratio(1.0, 2.0).less(answer));
             if !expected.all() {

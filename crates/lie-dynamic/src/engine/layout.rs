@@ -49,10 +49,9 @@ impl Lengths {
         lengths
     }
 
-    /// The slices that are read, each with its least length.
-    pub fn inputs(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
-        let all = self.inputs.iter().copied().enumerate();
-        all.filter(|(_, least)| *least > 0)
+    /// The least length of a slice, 0 where it is not read.
+    pub fn input(&self, slice: usize) -> usize {
+        self.inputs[slice]
     }
 
     /// The least lengths of the vector and the matrix.

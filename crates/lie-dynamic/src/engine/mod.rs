@@ -6,7 +6,7 @@ mod interpreter;
 mod layout;
 mod machine;
 
-pub use chain::{BETWEEN, Chain, Next, Separate, Stop, constants_of_step};
+pub use chain::{BETWEEN, Chain, Next, OF_STEP, Separate, Stop};
 pub use elementary::{BINARY, Binary, UNARY, Unary};
 pub use interpreter::{Interpreted, Interpreter, phi, stumpff};
 pub use layout::Lengths;

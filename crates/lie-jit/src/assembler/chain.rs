@@ -6,19 +6,13 @@
 use super::making::{self, Memory};
 use crate::SameCodes;
 use crate::registers::Registers;
-use lie_dynamic::{
-    ARGUMENTS, BETWEEN, Cache, Chain, Code, Frame, Lengths, Next, SLICES, Stop, constants_of_step,
-};
+use lie_dynamic::{BETWEEN, Cache, Chain, Code, Frame, Lengths, Next, OF_STEP, SLICES, Stop};
 use lie_runtime::Scalar;
 use std::mem::offset_of;
 use std::sync::Arc;
 
-/// The slice that has constants of the step size: the record of a part has its own.
-pub const OF_STEP: u8 = ARGUMENTS as u8 + 1;
 /// Where the table of slices has what the step gives.
 pub const RESULTS: usize = SLICES;
-/// The slice that has what parts give to later ones.
-pub const GIVEN: u8 = BETWEEN as u8;
 
 /// How a part ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -98,8 +92,6 @@ unsafe extern "sysv64" fn unknown(
 pub struct Made {
     function: Function,
     lengths: Lengths,
-    /// How many constants of the step size it reads.
-    of_step: usize,
     _memory: Memory,
 }
 
@@ -116,7 +108,6 @@ impl Made {
             // SAFETY: the pointer is that of a function which was made with this signature.
             function: unsafe { std::mem::transmute::<*const u8, Function>(pointer) },
             lengths: Lengths::new(code),
-            of_step: constants_of_step(code),
             _memory: memory,
         })
     }
@@ -229,18 +220,19 @@ impl<S: Scalar> Chain<S> for Linked<S> {
             answers == asked,
             "a part gives answers and nothing else as a matrix"
         );
-        for (slice, least) in lengths.inputs() {
-            match slice {
-                BETWEEN => assert!(least <= from, "a part reads what none before it gives"),
-                _ if slice == usize::from(OF_STEP) => {}
-                _ => self.least[slice] = self.least[slice].max(least),
+        let given = lengths.input(BETWEEN);
+        assert!(given <= from, "a part reads what none before it gives");
+        for (slice, least) in self.least.iter_mut().enumerate() {
+            // the chain has these two
+            if slice != BETWEEN && slice != OF_STEP {
+                *least = lengths.input(slice).max(*least);
             }
         }
         if next == Next::End {
             self.results = self.results.max(vector);
         }
         self.parts[part] = Some(Part {
-            of_step: vec![S::zero(); made.of_step],
+            of_step: vec![S::zero(); made.lengths.input(OF_STEP)],
             made,
             next,
         });

@@ -6,6 +6,7 @@ mod part;
 use super::asides::Aside;
 use super::encoding::{Bytes, General, Memory};
 use super::operation::{Columns, Layout, Operand, Operation, Place, Program, Vector};
+use lie_dynamic::OF_STEP;
 use part::BASES_OF_A_PART;
 
 /// Larger frames are not made.
@@ -175,7 +176,7 @@ impl<'a> Writer<'a> {
     pub(super) fn load_bases(&mut self) {
         for (slice, base) in &self.bases {
             let from = match self.layout.part {
-                Some(_) if *slice == part::OF_STEP => part::CONSTANTS_OF_STEP,
+                Some(_) if usize::from(*slice) == OF_STEP => part::CONSTANTS_OF_STEP,
                 _ => Memory::At(TABLE, 8 * i32::from(*slice)),
             };
             self.bytes.load_word(*base, from);

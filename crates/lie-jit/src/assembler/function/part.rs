@@ -1,9 +1,9 @@
 //! Parts of a step: where what they give goes, and how one goes on into another.
 
 use super::{ARGUMENTS, General, Memory, TABLE, Writer};
-pub use crate::assembler::chain::OF_STEP;
-use crate::assembler::chain::{DONE, End, GIVEN, LINKS_AT, MISSED, OF_STEP_AT, PART_AT, RESULTS};
+use crate::assembler::chain::{DONE, End, LINKS_AT, MISSED, OF_STEP_AT, PART_AT, RESULTS};
 use crate::assembler::operation::PartOf;
+use lie_dynamic::BETWEEN;
 
 /// Where slices begin: the table and the record are handed on.
 pub const BASES_OF_A_PART: [General; 5] = [
@@ -30,7 +30,7 @@ impl Writer<'_> {
         match part.end {
             End::Done => self.bytes.load_word(VECTOR, at(RESULTS)),
             End::Question { from, .. } => {
-                self.bytes.load_word(VECTOR, at(usize::from(GIVEN)));
+                self.bytes.load_word(VECTOR, at(BETWEEN));
                 if from > 0 {
                     let distance = 8 * part.lanes * from;
                     self.bytes.add(VECTOR, u32::try_from(distance).ok()?);
