@@ -107,11 +107,6 @@ impl<'a, S: Scalar> Followed<'a, S> {
         (self.rest, self.resting) = (0, 0);
     }
 
-    /// Whether there are none.
-    pub fn is_empty(&self) -> bool {
-        self.chain.is_none()
-    }
-
     /// The lane of the last step that another trace would be for.
     pub fn missed(&self) -> usize {
         self.missed

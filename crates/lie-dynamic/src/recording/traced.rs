@@ -12,8 +12,7 @@ use lie_runtime::newton::NewtonOptions;
 use std::rc::Rc;
 use std::sync::Arc;
 
-/// So many steps at the beginning of a run are made kernel by kernel where there is no trace yet: one that has no more is not to wait for
-/// traces.
+/// So many steps at the beginning of a run are made kernel by kernel: one that has no more is not to wait for traces.
 const BEGINNING: u32 = 4;
 
 /// A method whose steps are run by traces.
@@ -49,9 +48,7 @@ impl AnyMethod<f64, Dynamic<f64>> for TracedMethod {
     ) -> Box<dyn AnyStepper<f64, Vec<f64>> + 'a> {
         match TracedStepper::new(&self.choice, system, h, newton, &self.apart) {
             Ok(mut stepper) => {
-                if stepper.followed.is_empty() {
-                    stepper.followed.rest(BEGINNING);
-                }
+                stepper.followed.rest(BEGINNING);
                 Box::new(stepper)
             }
             Err(apart) => Box::new(apart),
